@@ -68,7 +68,7 @@ void MotionStates::resize(std::size_t fish) {
 }
 
 void MotorCommands::resize(std::size_t fish) {
-    segment.resize(fish);
+    action.resize(fish);
     phaseRate.resize(fish);
     brake.resize(fish);
     pitch.resize(fish);
@@ -122,7 +122,7 @@ void setFromRecord(MotionStates& states, std::size_t fish, const FishRecord& rec
 }
 
 bool isPlayable(const FishRecord& record) {
-    return record.segment < kActions && record.fromSegment < kActions &&
+    return record.segment < kSegments && record.fromSegment < kSegments &&
            record.warpFrame <= record.warpLength && record.speed <= kFastestUnits &&
            record.speed >= -kFastestUnits && record.orientationHigh >> 30U == 0;
 }

@@ -137,7 +137,7 @@ struct MotionStates {
     // Which of w, x, y, z (0 to 3) is left out; it is >= 0.
     std::vector<std::uint8_t> orientationLargest;
     std::vector<std::uint16_t> phase;
-    std::vector<std::uint8_t> segment;  // Action
+    std::vector<std::uint8_t> segment;  // below kSegments
     // A motion warp goes from a frozen pose of one segment to the first pose of the next (section
     // 4.2).
     std::vector<std::uint16_t> fromPhase;
@@ -157,7 +157,7 @@ struct MotionStates {
 // What the mind asks of the body; the motor's only input. One element for each fish. It changes at
 // decision instants, not every tick.
 struct MotorCommands {
-    std::vector<std::uint8_t> segment;  // Action to play next
+    std::vector<std::uint8_t> action;  // to play next
     // How fast to play that action, in 1/65536 of a cycle in a tick, not negative; a turn that has
     // to play to its end first does so as recorded.
     std::vector<std::int16_t> phaseRate;

@@ -14,8 +14,6 @@
 namespace aquarama::motion {
 namespace {
 
-using Vector = std::array<float, 3>;
-
 // Along the recorded path from one phase to another, up to a cycle later or earlier. The path has
 // two cycles, so neither phase wraps around.
 Travel playedTravel(const SegmentTables& tables, const Playing& playing) {
@@ -28,16 +26,6 @@ Travel playedTravel(const SegmentTables& tables, const Playing& playing) {
             .end = placeAt(playing.to),
             .bodyFromMean = swayAt(tables, static_cast<std::uint32_t>(playing.to) & 0xFFFFU),
             .rate = playing.to - playing.from};
-}
-
-// v + 2w (u x v) + 2 u x (u x v), with u the vector part of q.
-Vector rotated(const Quaternion& q, const Vector& v) {
-    const float x = 2.0F * (q.y * v[2] - q.z * v[1]);
-    const float y = 2.0F * (q.z * v[0] - q.x * v[2]);
-    const float z = 2.0F * (q.x * v[1] - q.y * v[0]);
-    return {(v[0] + q.w * x) + (q.y * z - q.z * y),
-            (v[1] + q.w * y) + (q.z * x - q.x * z),
-            (v[2] + q.w * z) + (q.x * y - q.y * x)};
 }
 
 float bounded(float value, float limit) {
@@ -111,7 +99,7 @@ float speedAfter(const SpeedLoss& loss,
                  float pathAtEnd,
                  std::uint8_t segment,
                  float brake) {
-    constexpr auto kGlide = static_cast<std::uint8_t>(Action::Glide);
+    constexpr std::uint8_t kGlide = firstSegmentOf(Action::Glide);
     const bool glides = segment == kGlide || pathAtEnd == 0.0F;
     const float carried = bounded(v + (pathAtEnd - pathAtStart), kFastest);
     const float target = glides ? 0.0F : pathAtEnd;
@@ -191,7 +179,7 @@ void MotorStep::runReference() const {
     assert(first <= last);
     assert(last <= states->size());
     assert(last <= traits.size());
-    assert(last <= commands->segment.size());
+    assert(last <= commands->action.size());
     const MotorColumns columns = columnsOf(*commands, *states);
     for (std::size_t fish = first; fish < last; ++fish) stepFish(*this, columns, fish);
 }

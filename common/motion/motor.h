@@ -59,8 +59,8 @@ struct MotorStep {
 // lengths a second it then travels.
 [[nodiscard]] std::int16_t recordedPhaseRate(const MotorTables& tables, Action action);
 [[nodiscard]] float recordedSpeedBodyLengths(const MotorTables& tables, Action action);
-// Mean rate of turn as recorded, radians a second, left positive.
-[[nodiscard]] float recordedTurnRate(const MotorTables& tables, Action action);
+// Mean rate of turn of a segment as recorded, radians a second, left positive.
+[[nodiscard]] float recordedTurnRate(const MotorTables& tables, std::uint32_t segment);
 
 // Sine of the pitch by which a fish must be off to begin a slope, and to go on with it. Less is
 // corrected by the fins (MotorCommands::pitch).

@@ -262,7 +262,7 @@ HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
                             Lanes pathAtEnd,
                             IntLanes segment,
                             Lanes brake) {
-    const IntLanes glide = hn::Set(kInts, static_cast<int>(Action::Glide));
+    const IntLanes glide = hn::Set(kInts, firstSegmentOf(Action::Glide));
     const auto glides = hn::Or(hn::RebindMask(kFloats, hn::Eq(segment, glide)),
                                hn::Eq(pathAtEnd, hn::Zero(kFloats)));
     const Lanes carried = bounded(hn::Add(v, hn::Sub(pathAtEnd, pathAtStart)), kFastest);

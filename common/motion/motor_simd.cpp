@@ -83,9 +83,9 @@ HWY_INLINE FishSet setOf(hn::Mask<Ints> mask) {
     return bits[0] | FishSet{bits[1]} << 8U;
 }
 
-// advanceSegment() for a block, as if every fish simply played on; a turn that is no longer
-// commanded plays as recorded. Returns the fish for which that was wrong: those in a motion warp,
-// and those that leave their segment in this tick.
+// advanceSegment() for a block, as if every fish simply played on in its cycle. Returns the fish
+// for which that may be wrong: those that turn or are in a motion warp, and those that leave their
+// segment in this tick.
 HWY_INLINE FishSet playOn(const MotorTables& tables,
                           const MotorColumns& columns,
                           std::size_t first,
@@ -100,17 +100,13 @@ HWY_INLINE FishSet playOn(const MotorTables& tables,
     for (std::size_t lane = 0; lane < count; lane += hn::Lanes(kInts)) {
         const std::size_t fish = first + lane;
         const IntLanes phase = hn::PromoteTo(kInts, hn::LoadU(shorts, columns.phase + fish));
-        const IntLanes asked = hn::PromoteTo(kInts, hn::LoadU(rates, columns.phaseRate + fish));
+        const IntLanes rate = hn::PromoteTo(kInts, hn::LoadU(rates, columns.phaseRate + fish));
         const IntLanes segment = bytesAt(columns.segment + fish);
-        const auto leaves = hn::Ne(segment, bytesAt(columns.wanted + fish));
-        const IntLanes turnRate = hn::GatherIndex(kInts, tables.turnRate.data(), segment);
-        const auto turns = hn::Gt(turnRate, hn::Zero(kInts));
-        const IntLanes rate = hn::IfThenElse(hn::And(turns, leaves), turnRate, asked);
-        const auto ends = hn::Gt(hn::Add(phase, rate), hn::Set(kInts, 0xFFFF));
+        const IntLanes cycle = hn::GatherIndex(kInts, tables.cycle.data(), segment);
+        const auto leaves = hn::Ne(cycle, bytesAt(columns.wanted + fish));
         const auto warps =
             hn::Ne(bytesAt(columns.warpFrame + fish), bytesAt(columns.warpLength + fish));
-        const auto goes = hn::Or(hn::And(turns, ends), hn::AndNot(turns, leaves));
-        restless |= setOf(hn::Or(warps, goes)) << lane;
+        restless |= setOf(hn::Or(warps, leaves)) << lane;
         const IntLanes to = hn::Add(phase, rate);
         hn::Store(phase, kInts, block.from + lane);
         hn::Store(to, kInts, block.to + lane);
@@ -328,7 +324,7 @@ void MotorStep::run() const {
     assert(first <= last);
     assert(last <= states->size());
     assert(last <= traits.size());
-    assert(last <= commands->segment.size());
+    assert(last <= commands->action.size());
     MotorStep vectors = *this;
     vectors.last = last - (last - first) % kWidestLanes;
     HWY_DYNAMIC_DISPATCH(stepVectors)(vectors);

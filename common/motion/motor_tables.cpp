@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "common/base/units.h"
@@ -15,10 +16,10 @@ constexpr std::size_t kCycle = kPhases;
 constexpr double kNoWayBodyLengths = 1e-6;  // a path shorter than this has no direction
 
 // The body frame over two cycles, from the increments (eq. 6 and 7).
-void integrate(const ActionSegment& segment, GaitPath& path) {
+void integrate(const FrameIncrements& increments, GaitPath& path) {
     path.rotation[0] = glm::dquat(1, 0, 0, 0);
     for (std::size_t k = 0; k + 1 < kPathSamples; ++k) {
-        const FrameIncrement& step = segment.increments[k % kCycle];
+        const FrameIncrement& step = increments[k % kCycle];
         const glm::dquat turn(step.rotation);
         path.translation[k + 1] =
             path.translation[k] + path.rotation[k] * glm::dvec3(step.translation);
@@ -45,43 +46,59 @@ glm::dquat meanAt(const GaitPath& path, int phase) {
     return glm::normalize(sum);
 }
 
-// The least rotation that turns the body's x axis along the path at phase k. The path's direction
-// is taken over two phases to either side, or fewer near the ends.
-glm::dquat alongPath(const GaitPath& path, std::size_t k) {
-    const std::size_t reach = std::clamp<std::size_t>(std::min(k, kCycle - k), 1, 2);
-    const std::size_t from = k < reach ? k : k - reach;
-    const std::size_t to = std::min(k + reach, kCycle);
-    const glm::dvec3 way =
-        glm::conjugate(path.rotation[k]) * (path.translation[to] - path.translation[from]);
+// The least rotation that turns the body's x axis into the direction `way`, of any length.
+glm::dquat towards(const glm::dvec3& way) {
     if (way.x < kNoWayBodyLengths) return {1, 0, 0, 0};
     const double length = std::sqrt(glm::dot(way, way));
     return glm::normalize(glm::dquat(1 + way.x / length, 0, -way.z / length, way.y / length));
 }
 
-// A turn that plays to its end is no cycle and has no mean over one. Its mean frame looks along its
-// path, from which the bent body deviates; over the last quarter it changes to the body's own
-// direction, since there the body is straight and the water soon stops the rest of a slip.
-glm::dquat courseAt(const GaitPath& path, std::size_t k) {
-    constexpr std::size_t kLastQuarter = kCycle / 4;
-    const double left =
-        std::min(1.0, static_cast<double>(kCycle - k) / static_cast<double>(kLastQuarter));
-    const double share = left * left * (3 - 2 * left);
-    const glm::dquat straight(1, 0, 0, 0);
-    return path.rotation[k] * glm::normalize(straight * (1 - share) + alongPath(path, k) * share);
+// That along the path at phase k. The path's direction is taken over two phases to either side, or
+// fewer near the ends.
+glm::dquat alongPath(const GaitPath& path, std::size_t k) {
+    const std::size_t reach = std::clamp<std::size_t>(std::min(k, kCycle - k), 1, 2);
+    const std::size_t from = k < reach ? k : k - reach;
+    const std::size_t to = std::min(k + reach, kCycle);
+    return towards(glm::conjugate(path.rotation[k]) *
+                   (path.translation[to] - path.translation[from]));
+}
+
+// From 1 at the border of a turn to 0 a quarter of it away, smoothly; k phases from the border.
+double quarterShare(std::size_t k) {
+    const double left = std::max(0.0, 1 - static_cast<double>(k) / (kPhases / 4.0));
+    return left * left * (3 - 2 * left);
 }
 
 // The cycle-mean frame at each phase, as seen from phase 0.
-std::array<glm::dquat, kCycleSamples> meansOf(const GaitPath& path, bool playsToEnd) {
-    std::array<glm::dquat, kCycleSamples> means{};
+using Means = std::array<glm::dquat, kCycleSamples>;
+
+Means meansOfCycle(const GaitPath& path) {
+    Means means{};
+    for (std::size_t k = 0; k < kCycleSamples; ++k) means[k] = meanAt(path, static_cast<int>(k));
+    return means;
+}
+
+// A turn is no cycle and has no mean over one. Its mean frame looks along its path, from which the
+// bent body deviates; over the last quarter it changes to the direction `after`, in which the fish
+// swims on, and over the first quarter from `before` where the turn begins in a tail beat. Both in
+// the body frame.
+Means meansOfTurn(const GaitPath& path,
+                  const std::optional<glm::dvec3>& before,
+                  const glm::dvec3& after) {
+    Means means{};
     for (std::size_t k = 0; k < kCycleSamples; ++k) {
-        means[k] = playsToEnd ? courseAt(path, k) : meanAt(path, static_cast<int>(k));
+        const double last = quarterShare(kCycle - k);
+        const double first = before ? quarterShare(k) : 0;
+        const glm::dquat mean = towards(before.value_or(after)) * first + towards(after) * last +
+                                alongPath(path, k) * (1 - first - last);
+        means[k] = path.rotation[k] * glm::normalize(mean);
     }
     return means;
 }
 
 // Turns the mean frames of a cycle so that their x axis lies along the path, by one rotation for
 // the whole cycle: the path's mean direction in the mean frame, or for a retreat its opposite.
-void lookAlongPath(const GaitPath& path, std::array<glm::dquat, kCycleSamples>& means) {
+void lookAlongPath(const GaitPath& path, Means& means) {
     glm::dvec3 way{};
     for (std::size_t k = 0; k < kCycle; ++k)
         way += glm::conjugate(means[k]) * (path.translation[k + 1] - path.translation[k]);
@@ -108,11 +125,9 @@ double forwardAt(const GaitPath& path, std::size_t k, bool playsToEnd) {
 
 }  // namespace
 
-GaitPath pathOf(const ActionSegment& segment) {
-    GaitPath path;
-    integrate(segment, path);
-    auto means = meansOf(path, segment.playsToEnd);
-    if (!segment.playsToEnd) lookAlongPath(path, means);
+namespace {
+
+void setMeans(const Means& means, bool playsToEnd, GaitPath& path) {
     for (std::size_t k = 0; k < kCycleSamples; ++k) {
         path.bodyFromMean[k] = glm::conjugate(path.rotation[k]) * means[k];
     }
@@ -120,8 +135,37 @@ GaitPath pathOf(const ActionSegment& segment) {
         const std::size_t now = k % kCycle;
         const glm::dquat turn = glm::conjugate(means[now]) * means[now + 1];
         path.mean[k] = {glm::dvec3(turn.x, turn.y, turn.z) / turn.w,
-                        forwardAt(path, k, segment.playsToEnd)};
+                        forwardAt(path, k, playsToEnd)};
     }
+}
+
+}  // namespace
+
+GaitPath pathOf(const ActionSegment& segment) {
+    GaitPath path;
+    integrate(segment.increments, path);
+    Means means{};
+    if (segment.playsToEnd) {
+        means = meansOfTurn(path, std::nullopt, {1, 0, 0});
+    } else {
+        means = meansOfCycle(path);
+        lookAlongPath(path, means);
+    }
+    setMeans(means, segment.playsToEnd, path);
+    return path;
+}
+
+GaitPath pathOf(const TurnPath& turn, float periodSeconds) {
+    GaitPath path;
+    integrate(turn.increments, path);
+    setMeans(meansOfTurn(path, glm::dvec3(turn.courseBefore), turn.courseAfter), true, path);
+    // The body frame's speed at either end is that within a beat: instead the fish has its mean
+    // speed before the turn, and that with which it swims on after it.
+    const double unit = static_cast<double>(periodSeconds) / kPhases;
+    const double before = static_cast<double>(turn.speedBefore) * unit - path.mean[0].forward;
+    const double after = static_cast<double>(turn.speedAfter) * unit - path.mean[kCycle].forward;
+    for (std::size_t k = 0; k < kCycleSamples; ++k)
+        path.mean[k].forward += before * quarterShare(k) + after * quarterShare(kCycle - k);
     return path;
 }
 
@@ -188,35 +232,35 @@ float squareLoss(float drag) {
 
 // 1 / body length, of an action that swims or turns.
 float swimDragOf(const SpeedResponse& response,
-                 const std::array<SegmentTables, kActions>& segments,
-                 std::size_t action) {
-    const std::size_t gait = indexOf(gaitOf(static_cast<Action>(action)));
+                 const std::array<SegmentTables, kSegments>& segments,
+                 std::uint32_t segment) {
+    const Action action = actionOf(segment);
+    const std::size_t gait = indexOf(gaitOf(action));
     const float drag = response.swimDrag[gait];
-    if (!swims(static_cast<Action>(action))) return drag;
-    const float slower = segments[gait].speedBodyLengths / segments[action].speedBodyLengths;
+    if (!swims(action)) return drag;
+    const float slower = segments[gait].speedBodyLengths / segments[segment].speedBodyLengths;
     return drag * slower * slower;
 }
 
 // With a loss of rate / (ticks a second + rate) in each tick, a braking fish travels as far as with
 // the continuous exp(-rate t).
 SpeedLoss lossOf(const SpeedResponse& response,
-                 const std::array<SegmentTables, kActions>& segments) {
+                 const std::array<SegmentTables, kSegments>& segments) {
     const auto& [slow, medium, fast] = response.swimDrag;
     SpeedLoss loss{.brake = response.brakeRate /
                             (static_cast<float>(kTicksPerSecond) + response.brakeRate)};
     loss.drag.fill(1.0F);
     if (slow + medium + fast > 0.0F) {
-        for (std::size_t action = 0; action < kActions; ++action)
-            loss.drag[action] = squareLoss(swimDragOf(response, segments, action));
+        for (std::uint32_t segment = 0; segment < kSegments; ++segment)
+            loss.drag[segment] = squareLoss(swimDragOf(response, segments, segment));
         loss.drag[indexOf(Action::Retreat)] = squareLoss(response.retreatDrag);
     }
-    loss.drag[indexOf(Action::Glide)] = squareLoss(response.glideDrag);
+    loss.drag[firstSegmentOf(Action::Glide)] = squareLoss(response.glideDrag);
     return loss;
 }
 
-// The tables of one segment, but for its warps.
-void fill(const ActionSegment& segment, SegmentTables& tables) {
-    const GaitPath path = pathOf(segment);
+// The tables of one segment, whose path is given.
+void fill(const ActionSegment& segment, const GaitPath& path, SegmentTables& tables) {
     tables.phaseRate = phaseRateOf(segment);
     tables.playsToEnd = segment.playsToEnd;
     measure(path, static_cast<double>(segment.periodSeconds), tables);
@@ -233,18 +277,40 @@ void fill(const ActionSegment& segment, SegmentTables& tables) {
     tables.bodyFromMean.back() = tables.bodyFromMean.front();
 }
 
-// When turns were recorded, the fish entered them at the mean speed of medium swimming; but the
-// first phase of the recording has the speed that the body frame had within the beat. The first
-// sample is therefore given the mean speed, and the table interpolates over the first cell: so a
-// fish that comes from medium swimming plays the turn as recorded.
-void enterFromMedium(MotorTables& tables) {
-    const SegmentTables& medium = tables.segments[static_cast<std::size_t>(Action::ForwardMedium)];
+// A turn out of a glide was recorded out of medium swimming, at its mean speed; but the first phase
+// of the recording has the speed that the body frame had within the beat. The first sample is
+// therefore given the mean speed, and the table interpolates over the first cell.
+void enterFromMedium(const SegmentTables& medium, SegmentTables& turn) {
     const float speed =
         medium.path.front().translationAndSpeed[3] * static_cast<float>(medium.phaseRate);
-    for (SegmentTables& segment : tables.segments)
-        if (segment.playsToEnd)
-            segment.path.front().translationAndSpeed[3] =
-                speed / static_cast<float>(segment.phaseRate);
+    turn.path.front().translationAndSpeed[3] = speed / static_cast<float>(turn.phaseRate);
+}
+
+// All segments of a turn.
+void fillTurn(const ActionSegment& turn, std::size_t first, MotorTables& tables) {
+    fill(turn, pathOf(turn), tables.segments[first]);
+    enterFromMedium(tables.segments[indexOf(Action::ForwardMedium)], tables.segments[first]);
+    for (std::size_t entry = 0; entry < kTurnEntries; ++entry) {
+        SegmentTables& entered = tables.segments[first + 1 + entry];
+        if (turn.entered.empty())
+            entered = tables.segments[first];
+        else
+            fill(turn, pathOf(turn.entered[entry], turn.periodSeconds), entered);
+    }
+}
+
+// Half-way between the speeds at which a turn was entered; speeds that do not rise give no border
+// that a fish reaches.
+void setEntryBorders(const ActionSegment& turn, MotorTables& tables) {
+    if (turn.entered.empty()) return;
+    for (std::size_t border = 0; border < tables.entryBorders.size(); ++border) {
+        const auto speedOfEntry = [&](std::size_t speed) {
+            return static_cast<double>(turn.entered[speed * kEntryPhases].speedBefore);
+        };
+        const double between = 0.5 * (speedOfEntry(border) + speedOfEntry(border + 1));
+        tables.entryBorders[border] = static_cast<std::int32_t>(
+            roundToEven(between * static_cast<double>(kSpeedUnitsPerBodyLength)));
+    }
 }
 
 }  // namespace
@@ -252,33 +318,37 @@ void enterFromMedium(MotorTables& tables) {
 std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire) {
     auto tables = std::make_shared<MotorTables>();
     std::array<std::int16_t, kActions> phaseRates{};
-    for (std::size_t action = 0; action < kActions; ++action) {
-        fill(repertoire.segments[action], tables->segments[action]);
-        const SegmentTables& made = tables->segments[action];
-        phaseRates[action] = made.phaseRate;
-        tables->turnRate[action] = made.playsToEnd ? made.phaseRate : 0;
+    for (std::size_t i = 0; i < kActions; ++i) {
+        const ActionSegment& segment = repertoire.segments[i];
+        const std::size_t first = firstSegmentOf(static_cast<Action>(i));
+        if (segment.playsToEnd)
+            fillTurn(segment, first, *tables);
+        else
+            fill(segment, pathOf(segment), tables->segments[first]);
+        phaseRates[i] = tables->segments[first].phaseRate;
     }
-    enterFromMedium(*tables);
+    for (std::uint32_t segment = 0; segment < kSegments; ++segment)
+        tables->cycle[segment] = tables->segments[segment].playsToEnd
+                                     ? -1
+                                     : static_cast<std::int32_t>(actionOf(segment));
+    setEntryBorders(repertoire.segments[kFirstTurn], *tables);
     const SegmentTables& climb = tables->segments[indexOf(Action::ClimbMedium)];
     tables->pitchRate = 2.0F * climb.meanHalfTurn[2] * static_cast<float>(climb.phaseRate);
     tables->loss = lossOf(repertoire.response, tables->segments);
-    const WarpPlans plans = planWarps(repertoire, phaseRates);
-    for (std::size_t action = 0; action < kActions; ++action) {
-        tables->segments[action].warpTo = plans[action];
-    }
+    tables->warps = planWarps(repertoire, phaseRates);
     return tables;
 }
 
 std::int16_t recordedPhaseRate(const MotorTables& tables, Action action) {
-    return tables.segments[static_cast<std::size_t>(action)].phaseRate;
+    return tables.segments[firstSegmentOf(action)].phaseRate;
 }
 
 float recordedSpeedBodyLengths(const MotorTables& tables, Action action) {
-    return tables.segments[static_cast<std::size_t>(action)].speedBodyLengths;
+    return tables.segments[firstSegmentOf(action)].speedBodyLengths;
 }
 
-float recordedTurnRate(const MotorTables& tables, Action action) {
-    return tables.segments[static_cast<std::size_t>(action)].turnRate;
+float recordedTurnRate(const MotorTables& tables, std::uint32_t segment) {
+    return tables.segments[segment].turnRate;
 }
 
 namespace {
@@ -362,17 +432,33 @@ float travelFromCell(const Travels& travels, std::size_t cell, std::size_t to) {
     return std::max(travels[cell][to], travels[cell + 1][to]);
 }
 
-// The entry phase whose pose is nearest (phase 0 for a turn), and as many frames as keep each step
-// within `step` (section 4.2).
-WarpPlan planFor(const Travels& travels, std::size_t cell, bool enterAtStart, float step) {
+// The entry phase whose pose is nearest, and as many frames as keep each step within `step`
+// (section 4.2).
+WarpPlan planToCycle(const Travels& travels, std::size_t cell, float step) {
     std::size_t entry = 0;
-    for (std::size_t m = 1; m < kPhases && !enterAtStart; ++m) {
+    for (std::size_t m = 1; m < kPhases; ++m) {
         if (travelFromCell(travels, cell, m) < travelFromCell(travels, cell, entry)) entry = m;
     }
     const float steps = std::sqrt(travelFromCell(travels, cell, entry)) / step;
     const auto frames = static_cast<int>(steps);  // ceil(steps) - 1, but for whole numbers
     return {static_cast<std::uint16_t>(entry << kPhaseCellBits),
             static_cast<std::uint8_t>(std::min(frames, 255))};
+}
+
+// A turn plays from the first frame of the warp on, at its phase rate: the first phase to which all
+// steps are within `step`, or the last one that a warp can reach.
+WarpPlan planToTurn(const Travels& travels, std::size_t cell, float step, std::int16_t rate) {
+    int ticks = 0;
+    float steps = 0;
+    do {
+        ++ticks;
+        // The pose lies between two samples, and travel to it is at most that to the farther.
+        const auto next = static_cast<std::size_t>(ticks * rate) >> kPhaseCellBits;
+        steps = std::sqrt(std::max(travelFromCell(travels, cell, next),
+                                   travelFromCell(travels, cell, next + 1))) /
+                step;
+    } while (steps > static_cast<float>(ticks) && ticks < 256 && (ticks + 1) * rate <= 0xFFFF);
+    return {static_cast<std::uint16_t>(ticks * rate), static_cast<std::uint8_t>(ticks - 1)};
 }
 
 }  // namespace
@@ -385,9 +471,10 @@ WarpPlans planWarps(const Repertoire& repertoire,
     const float step = largestStep(cycles, phaseRates);
     WarpPlans plans;
     const auto plan = [&](std::size_t from, std::size_t to, const Travels& travels) {
-        const bool enterAtStart = repertoire.segments[to].playsToEnd;
+        const bool turns = repertoire.segments[to].playsToEnd;
         for (std::size_t cell = 0; cell < kPhases; ++cell)
-            plans[from][cell][to] = planFor(travels, cell, enterAtStart, step);
+            plans[from][cell][to] = turns ? planToTurn(travels, cell, step, phaseRates[to])
+                                          : planToCycle(travels, cell, step);
     };
     for (std::size_t a = 0; a < kActions; ++a) {
         for (std::size_t b = a; b < kActions; ++b) {

@@ -43,9 +43,11 @@ struct GaitPath {
 
 // Integrates the increments of a segment and takes the mean over one cycle around each phase.
 [[nodiscard]] GaitPath pathOf(const ActionSegment& segment);
+// Of a turn begun in a tail beat. Its speeds at the ends are those of TurnPath.
+[[nodiscard]] GaitPath pathOf(const TurnPath& turn, float periodSeconds);
 
-// What the motor step reads of a species: about 330 kB, of which a steady school touches 36. What
-// is played stays in the processor's cache.
+// What the motor step reads of a species: about 1.2 MB, of which a steady school touches 36 kB.
+// What is played stays in the processor's cache.
 
 inline constexpr unsigned kPhaseCellBits = 10;  // a phase of 16 bits is 6 of cell, 10 of fraction
 inline constexpr float kPhaseCellUnit = 1.0F / 1024.0F;
@@ -65,7 +67,7 @@ struct WarpPlan {
 };
 
 // The tables of one segment. bodyFromMean has one sample more than a cycle, so interpolation never
-// wraps around; warpTo is indexed by phase cell and then by the next action.
+// wraps around.
 struct SegmentTables {
     std::array<PathSample, kPathSamples> path;
     std::array<Quaternion, kCycleSamples> bodyFromMean;
@@ -73,7 +75,6 @@ struct SegmentTables {
     // the mean over a cycle, zero for a turn and the glide. A fish turns so while it warps to a
     // curve.
     std::array<float, 3> meanHalfTurn{};
-    std::array<std::array<WarpPlan, kActions>, kPhases> warpTo;
     // As recorded: body lengths a second; radians a second, left positive; 1/65536 of a cycle in a
     // tick.
     float speedBodyLengths = 0.0F;
@@ -86,32 +87,35 @@ struct SegmentTables {
 struct SpeedLoss {
     // For each squared speed unit, while a segment plays; 1 where no response was measured, so that
     // the speed follows at once.
-    std::array<float, kActions> drag{};
+    std::array<float, kSegments> drag{};
     // The share of its speed that a fish loses with its fins fully spread.
     float brake = 0.0F;
 };
 
+// Which phase a motion warp glides to, and in how many frames (paper, section 4.2): by the action
+// that is left, the cell of its phase and the next action.
+using WarpPlans = std::array<std::array<std::array<WarpPlan, kActions>, kPhases>, kActions>;
+
+// phaseRates: as recorded, 1/65536 of a cycle in a tick. For every pair of actions compares all
+// pairs of phases, about 1.6 million pairs of poses.
+[[nodiscard]] WarpPlans planWarps(const Repertoire& repertoire,
+                                  const std::array<std::int16_t, kActions>& phaseRates);
+
 // All tables of a species. Made by makeMotorTables(), read by every thread of the world.
 class MotorTables {
   public:
-    std::array<SegmentTables, kActions> segments;
-    // The recorded phase rate of the segments that play to their end, 0 for the others: one column
-    // that the vectorised step gathers from.
-    std::array<std::int32_t, kActions> turnRate{};
+    std::array<SegmentTables, kSegments> segments;
+    WarpPlans warps;
+    // The action of a segment that is a cycle, -1 for a turn: one column that the vectorised step
+    // gathers from.
+    std::array<std::int32_t, kSegments> cycle{};
+    // The speeds, in speed units, half-way between those at which turns were entered.
+    std::array<std::int32_t, kEntrySpeeds - 1> entryBorders{};
     SpeedLoss loss;
     // The most that a fish pitches in addition to the played motion, radians in a tick: what it
     // does on the captured loop at the medium gait.
     float pitchRate = 0.0F;
 };
-
-// Which phase a motion warp glides to, and in how many frames (paper, section 4.2).
-
-using WarpPlans = std::array<std::array<std::array<WarpPlan, kActions>, kPhases>, kActions>;
-
-// [from][cell of its phase][to]. phaseRates: as recorded, 1/65536 of a cycle in a tick. For every
-// pair of segments compares all pairs of phases, about 1.6 million pairs of poses.
-[[nodiscard]] WarpPlans planWarps(const Repertoire& repertoire,
-                                  const std::array<std::int16_t, kActions>& phaseRates);
 
 // What a tick does to one fish before it steers: which segment plays, and where that takes the body
 // frame. Shared by the plain and the vectorised step; compiled once for each instruction set.
@@ -149,13 +153,15 @@ inline constexpr std::size_t kWidestLanes = 16;
 struct MotorColumns {
     const std::uint8_t* wanted;
     const std::int16_t* phaseRate;
+    const std::int32_t* speed;
     std::uint16_t *phase, *fromPhase;
     std::uint8_t *segment, *fromSegment, *warpFrame, *warpLength;
 };
 
 [[nodiscard]] inline MotorColumns columnsOf(const MotorCommands& commands, MotionStates& states) {
-    return {commands.segment.data(),
+    return {commands.action.data(),
             commands.phaseRate.data(),
+            states.speed.data(),
             states.phase.data(),
             states.fromPhase.data(),
             states.segment.data(),
@@ -196,13 +202,31 @@ struct Travel {
     return static_cast<float>(phase & 1023U) * kPhaseCellUnit;
 }
 
+// The segment of a turn for fish i: the one that was captured at the nearest speed and phase of the
+// beat, or out of a glide where the fish does not beat its tail.
+[[nodiscard]] inline std::uint8_t entryOf(const MotorTables& tables,
+                                          const MotorColumns& fish,
+                                          std::size_t i,
+                                          Action turn) {
+    if (!swims(actionOf(fish.segment[i]))) return firstSegmentOf(turn);
+    std::size_t entry = 0;
+    for (const std::int32_t border : tables.entryBorders)
+        entry += fish.speed[i] > border ? kEntryPhases : 0;
+    constexpr std::uint32_t kStep = 65536 / kEntryPhases;
+    entry += (fish.phase[i] + kStep / 2) / kStep % kEntryPhases;
+    return static_cast<std::uint8_t>(firstSegmentOf(turn) + 1 + entry);
+}
+
 // Leaves the segment of fish i for the commanded one, by the plan for its phase cell.
 inline void startWarp(const MotorTables& tables, const MotorColumns& fish, std::size_t i) {
-    const WarpPlan plan =
-        tables.segments[fish.segment[i]].warpTo[fish.phase[i] >> kPhaseCellBits][fish.wanted[i]];
+    const auto next = static_cast<Action>(fish.wanted[i]);
+    const std::size_t action = indexOf(actionOf(fish.segment[i]));
+    const WarpPlan plan = tables.warps[action][fish.phase[i] >> kPhaseCellBits][indexOf(next)];
+    const std::uint8_t segment =
+        isTurn(next) ? entryOf(tables, fish, i, next) : firstSegmentOf(next);
     fish.fromSegment[i] = fish.segment[i];
     fish.fromPhase[i] = fish.phase[i];
-    fish.segment[i] = fish.wanted[i];
+    fish.segment[i] = segment;
     fish.phase[i] = plan.entryPhase;
     fish.warpFrame[i] = 0;
     fish.warpLength[i] = plan.frames;
@@ -215,10 +239,15 @@ struct Playing {
     std::int32_t from = 0, to = 0;
 };
 
+// Whether a turn under way is broken off for the commanded action: for a turn to the other side.
+[[nodiscard]] inline bool breaksOff(Action turn, Action wanted) {
+    return isTurn(wanted) && isLeft(wanted) != isLeft(turn);
+}
+
 // Advances segment, phase and warp counter of fish i by a tick. The commanded rate is that of the
-// commanded segment: while a turn plays that is no longer commanded, it plays as recorded. A turn
-// is left at its end only, and by a warp even if the same turn follows; every other segment is left
-// at once. A command for a segment that does not exist starts no warp.
+// commanded action: while a turn plays that is no longer commanded, it plays as recorded. A turn is
+// left at its end, and by a warp even if the same turn follows, or where it is broken off; every
+// other segment is left at once. A command for an action that does not exist starts no warp.
 [[nodiscard]] inline Playing advanceSegment(const MotorTables& tables,
                                             const MotorColumns& fish,
                                             std::size_t i) {
@@ -227,11 +256,14 @@ struct Playing {
         return {};
     }
     const SegmentTables& playing = tables.segments[fish.segment[i]];
-    const bool leaves = fish.wanted[i] != fish.segment[i];
+    const Action action = actionOf(fish.segment[i]);
+    const auto wanted = static_cast<Action>(fish.wanted[i]);
+    const bool leaves = wanted != action;
     const std::int32_t phase = fish.phase[i];
     const std::int32_t rate = leaves ? playing.phaseRate : fish.phaseRate[i];
     const bool mayEnter = fish.wanted[i] < kActions;
-    if (mayEnter && (playing.playsToEnd ? phase + rate > 0xFFFF : leaves)) {
+    const bool ends = phase + rate > 0xFFFF || breaksOff(action, wanted);
+    if (mayEnter && (playing.playsToEnd ? ends : leaves)) {
         startWarp(tables, fish, i);
         return {};
     }
@@ -250,30 +282,87 @@ struct Playing {
     return roundToEven(std::min(std::max(perRate * rate, -kFastest), kFastest));
 }
 
-// The paper does not say what the body frame does during a warp; if it were frozen, the fish would
-// halt. Here its mean frame goes on as in the mean of a cycle of the next segment, straight on
-// before a turn, while the sway changes from that of the last pose to that of the first.
+// v + 2w (u x v) + 2 u x (u x v), with u the vector part of q.
+using Vector = std::array<float, 3>;
+[[nodiscard]] inline Vector rotated(const Quaternion& q, const Vector& v) {
+    const float x = 2.0F * (q.y * v[2] - q.z * v[1]);
+    const float y = 2.0F * (q.z * v[0] - q.x * v[2]);
+    const float z = 2.0F * (q.x * v[1] - q.y * v[0]);
+    return {(v[0] + q.w * x) + (q.y * z - q.z * y),
+            (v[1] + q.w * y) + (q.z * x - q.x * z),
+            (v[2] + q.w * z) + (q.x * y - q.y * x)};
+}
+
+// Where the mean frame gets to in a tick, as seen from where it is; body lengths and speeds as in
+// PathSample.
+struct MeanTravel {
+    Quaternion turn;
+    Vector way{};
+    float speedAtStart = 0.0F, speedAtEnd = 0.0F;
+    std::int32_t rate = 0;
+};
+
+// In a warp to a cycle: as in the mean of one. (The paper does not say what the body frame does
+// during a warp; if it were frozen, the fish would halt.)
+[[nodiscard]] inline MeanTravel cyclingTravel(const SegmentTables& next,
+                                              std::uint32_t phase,
+                                              std::int32_t rate) {
+    const auto played = static_cast<float>(rate);
+    const auto& [x, y, z] = next.meanHalfTurn;
+    const float speed = next.path[phase >> kPhaseCellBits].translationAndSpeed[3];
+    const float way = pathSpeed(speed, played) * kLengthsPerSpeedUnit;
+    return {.turn = normalised({1.0F, x * played, y * played, z * played}),
+            .way = {way, 0.0F, 0.0F},
+            .speedAtStart = speed,
+            .speedAtEnd = speed,
+            .rate = rate};
+}
+
+// In a warp to a turn: as the turn does, between two of its phases. The turn plays from the first
+// frame of the warp on, which ends at the phase that the turn then has.
+[[nodiscard]] inline MeanTravel turningTravel(const SegmentTables& turn,
+                                              std::uint32_t from,
+                                              std::uint32_t to) {
+    const auto placeAt = [&](std::uint32_t phase) {
+        const PathSample* cell = &turn.path[phase >> kPhaseCellBits];
+        return lerp(cell[0], cell[1], fractionOf(phase));
+    };
+    const PathSample start = placeAt(from);
+    const PathSample end = placeAt(to);
+    const Quaternion fromStart = conjugate(normalised(start.rotation * swayAt(turn, from)));
+    const auto& a = start.translationAndSpeed;
+    const auto& b = end.translationAndSpeed;
+    return {.turn = normalised(fromStart * (end.rotation * swayAt(turn, to))),
+            .way = rotated(fromStart, {b[0] - a[0], b[1] - a[1], b[2] - a[2]}),
+            .speedAtStart = a[3],
+            .speedAtEnd = b[3],
+            .rate = static_cast<std::int32_t>(to - from)};
+}
+
+// A tick of a motion warp: the mean frame moves with the next segment, while the sway changes from
+// that of the last pose to that of the first.
 [[nodiscard]] inline Travel warpingTravel(const MotorTables& tables,
                                           const MotorColumns& fish,
                                           std::size_t i) {
     const SegmentTables& next = tables.segments[fish.segment[i]];
     const Quaternion last = swayAt(tables.segments[fish.fromSegment[i]], fish.fromPhase[i]);
     const Quaternion first = swayAt(next, fish.phase[i]);
-    const float steps = 1.0F / static_cast<float>(fish.warpLength[i] + 1);
-    const auto swayAfter = [&](int frames) {
-        return normalised(lerp(last, first, static_cast<float>(frames) * steps));
+    const std::uint32_t frame = fish.warpFrame[i];
+    const std::uint32_t frames = fish.warpLength[i] + 1U;
+    const float steps = 1.0F / static_cast<float>(frames);
+    const auto swayAfter = [&](std::uint32_t done) {
+        return normalised(lerp(last, first, static_cast<float>(done) * steps));
     };
-    const Quaternion sway = swayAfter(fish.warpFrame[i] + 1);
-    const std::int32_t rate = fish.phaseRate[i];
-    const auto played = static_cast<float>(rate);
-    const auto& [x, y, z] = next.meanHalfTurn;
-    const Quaternion turn = normalised({1.0F, x * played, y * played, z * played});
-    const float speed = next.path[fish.phase[i] >> kPhaseCellBits].translationAndSpeed[3];
-    const float way = pathSpeed(speed, played) * kLengthsPerSpeedUnit;
-    return {.start = {conjugate(swayAfter(fish.warpFrame[i])), {0.0F, 0.0F, 0.0F, speed}},
-            .end = {turn * conjugate(sway), {way, 0.0F, 0.0F, speed}},
+    const MeanTravel mean = next.playsToEnd ? turningTravel(next,
+                                                            fish.phase[i] * frame / frames,
+                                                            fish.phase[i] * (frame + 1) / frames)
+                                            : cyclingTravel(next, fish.phase[i], fish.phaseRate[i]);
+    const Quaternion sway = swayAfter(frame + 1);
+    const auto& [x, y, z] = mean.way;
+    return {.start = {conjugate(swayAfter(frame)), {0.0F, 0.0F, 0.0F, mean.speedAtStart}},
+            .end = {mean.turn * conjugate(sway), {x, y, z, mean.speedAtEnd}},
             .bodyFromMean = sway,
-            .rate = rate};
+            .rate = mean.rate};
 }
 
 }  // namespace aquarama::motion

@@ -50,8 +50,8 @@ bool hasJustLeft(const FishRecord& before, const FishRecord& after) {
 
 // Segment, phase and warp weight of the presented fish.
 void pose(const FishRecord& before, const FishRecord& after, float fraction, PresentedFish& fish) {
-    fish.segment = after.segment;
-    fish.fromSegment = after.fromSegment;
+    fish.action = static_cast<std::uint32_t>(actionOf(after.segment));
+    fish.fromAction = static_cast<std::uint32_t>(actionOf(after.fromSegment));
     fish.fromPhase = static_cast<float>(after.fromPhase) * kPhaseUnit;
     fish.phase = static_cast<float>(after.phase) * kPhaseUnit;
     fish.warpWeight = weightOf(after);
@@ -97,8 +97,8 @@ PresentedFish present(const FishRecord& before,
 }
 
 void nodalPose(const Repertoire& repertoire, const PresentedFish& fish, body::NodalPoints& nodes) {
-    const ActionSegment& to = segmentOf(repertoire, fish.segment);
-    const ActionSegment& from = segmentOf(repertoire, fish.fromSegment);
+    const ActionSegment& to = segmentOf(repertoire, fish.action);
+    const ActionSegment& from = segmentOf(repertoire, fish.fromAction);
     const PhaseSample toSample = sampleAt(fish.phase);
     const PhaseSample fromSample = sampleAt(fish.fromPhase);
     for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -18,10 +18,10 @@ struct PresentedFish {
     glm::vec4 rotation{0, 0, 0, 1};  // quaternion (x, y, z, w), body to world
     float phase = 0.0F;              // cycles, [0, 1)
     float fromPhase = 0.0F;
-    // Share of `segment`, the rest is that of `fromSegment`; 1 when no warp is under way.
+    // Share of `action`, the rest is that of `fromAction`; 1 when no warp is under way.
     float warpWeight = 1.0F;
-    std::uint32_t segment = 0;
-    std::uint32_t fromSegment = 0;
+    std::uint32_t action = 0;
+    std::uint32_t fromAction = 0;
     std::uint32_t id = 0;
     float speed = 0.0F;  // body lengths a second
     std::uint32_t padding = 0;

@@ -17,7 +17,7 @@ namespace {
 
 // The head of the file, and the bounds of its numbers.
 constexpr std::string_view kMagic = "AQREP";
-constexpr std::uint16_t kVersion = 4;
+constexpr std::uint16_t kVersion = 5;
 constexpr std::size_t kLongestSpecies = 64;
 constexpr std::size_t kHeadBytes = 11;  // name, version, length of the whole file
 constexpr std::size_t kDigestBytes = 32;
@@ -43,10 +43,8 @@ void readPose(ByteReader& in, Pose& pose) {
     }
 }
 
-void writeSegment(ByteWriter& out, const ActionSegment& segment) {
-    out.float32(segment.periodSeconds);
-    out.unsignedNumber<std::uint8_t>(segment.playsToEnd ? 1 : 0);
-    for (const FrameIncrement& step : segment.increments) {
+void writeIncrements(ByteWriter& out, const FrameIncrements& increments) {
+    for (const FrameIncrement& step : increments) {
         const auto& [rotation, translation] = step;
         for (const float number : {rotation.w,
                                    rotation.x,
@@ -57,6 +55,23 @@ void writeSegment(ByteWriter& out, const ActionSegment& segment) {
                                    translation.z}) {
             out.float32(number);
         }
+    }
+}
+
+// What of a TurnPath precedes its increments.
+std::array<float*, 8> headOf(TurnPath& path) {
+    auto& [before, speedBefore, after, speedAfter, increments] = path;
+    return {
+        &before.x, &before.y, &before.z, &speedBefore, &after.x, &after.y, &after.z, &speedAfter};
+}
+
+void writeSegment(ByteWriter& out, const ActionSegment& segment) {
+    out.float32(segment.periodSeconds);
+    out.unsignedNumber<std::uint8_t>(segment.playsToEnd ? 1 : 0);
+    writeIncrements(out, segment.increments);
+    for (TurnPath path : segment.entered) {
+        for (const float* number : headOf(path)) out.float32(*number);
+        writeIncrements(out, path.increments);
     }
     for (const NodalPose& pose : segment.nodes) writePose(out, pose);
     for (const ControlPointPose& pose : segment.controlPoints) writePose(out, pose);
@@ -76,10 +91,12 @@ FrameIncrement readIncrement(ByteReader& in) {
     return step;
 }
 
-// The size of a segment in the file.
+// The sizes of a segment and of the paths by entry of a turn in the file.
+constexpr std::size_t kIncrementsBytes = kPhases * 7 * sizeof(float);
+constexpr std::size_t kEntriesBytes = kTurnEntries * (8 * sizeof(float) + kIncrementsBytes);
 constexpr std::size_t bytesOfSegment(bool withControlPoints) {
     const std::size_t points = body::kNodalPoints + (withControlPoints ? body::kControlPoints : 0);
-    return sizeof(float) + 1 + kPhases * (7 * sizeof(float) + points * 3 * sizeof(std::int16_t));
+    return sizeof(float) + 1 + kIncrementsBytes + kPhases * points * 3 * sizeof(std::int16_t);
 }
 
 // Written so that a NaN is not in bounds.
@@ -89,6 +106,18 @@ bool inBounds(const FrameIncrement& step) {
     const auto near = [](float t) { return std::abs(t) <= kLongestStepBodyLengths; };
     return std::abs(squared - 1.0F) <= 1e-3F && near(step.translation.x) &&
            near(step.translation.y) && near(step.translation.z);
+}
+
+bool isDirection(const glm::vec3& v) {
+    return std::abs(v.x * v.x + v.y * v.y + v.z * v.z - 1.0F) <= 1e-3F;
+}
+
+bool hasItsCourses(const TurnPath& path) {
+    constexpr float kFastestBodyLengths =
+        static_cast<float>(kFastestUnits) / kSpeedUnitsPerBodyLength;
+    const auto isSpeed = [](float v) { return std::abs(v) <= kFastestBodyLengths; };
+    return isDirection(path.courseBefore) && isDirection(path.courseAfter) &&
+           isSpeed(path.speedBefore) && isSpeed(path.speedAfter);
 }
 
 // The numbers of a response in the order of the file.
@@ -106,7 +135,17 @@ std::optional<std::string> faultOf(const ActionSegment& segment) {
     if (!segment.controlPoints.empty() && segment.controlPoints.size() != kPhases) {
         return "has control points for some phases only";
     }
-    if (!std::ranges::all_of(segment.increments, inBounds)) {
+    if (!segment.entered.empty() && segment.entered.size() != kTurnEntries) {
+        return "has paths for some of its entries only";
+    }
+    if (!std::ranges::all_of(segment.entered, hasItsCourses)) {
+        return "has a course that is no direction, or a speed beyond 16 body lengths a second";
+    }
+    const auto moves = [](const FrameIncrements& steps) {
+        return std::ranges::all_of(steps, inBounds);
+    };
+    if (!moves(segment.increments) ||
+        !std::ranges::all_of(segment.entered, moves, &TurnPath::increments)) {
         return "moves the body frame by more than a body length, or by no rotation, in 1/64 cycle";
     }
     return std::nullopt;
@@ -140,21 +179,45 @@ std::optional<std::string> faultOf(const Repertoire& repertoire) {
     throw Error(source + ": repertoire " + fault + "; capture the species again");
 }
 
-// Bit a: segment a has control points.
-unsigned segmentsWithControlPoints(const Repertoire& repertoire) {
-    unsigned bits = 0;
-    for (unsigned action = 0; action < kCapturedActions; ++action) {
-        if (!repertoire.segments[action].controlPoints.empty()) bits |= 1U << action;
+// What a file has of a segment beyond its poses of nodes. Bit a of 32: segment a has control
+// points; bit kCapturedActions + t: turn t has paths by entry.
+class Contents {
+  public:
+    explicit Contents(std::uint32_t bits) : bits_(bits) {}
+    explicit Contents(const Repertoire& repertoire) {
+        for (unsigned action = 0; action < kCapturedActions; ++action) {
+            const ActionSegment& segment = repertoire.segments[action];
+            if (!segment.controlPoints.empty()) bits_ |= 1U << action;
+            if (!segment.entered.empty()) bits_ |= 1U << entryBit(action);
+        }
     }
-    return bits;
-}
 
-std::size_t bytesOfSegments(unsigned withControlPoints) {
-    std::size_t bytes = 0;
-    for (unsigned action = 0; action < kCapturedActions; ++action) {
-        bytes += bytesOfSegment((withControlPoints >> action & 1U) != 0);
+    [[nodiscard]] std::uint32_t bits() const { return bits_; }
+    [[nodiscard]] bool isPossible() const { return bits_ >> (kCapturedActions + kTurns) == 0; }
+    [[nodiscard]] bool hasControlPoints(unsigned action) const {
+        return (bits_ >> action & 1U) != 0;
     }
-    return bytes;
+    [[nodiscard]] bool hasEntries(unsigned action) const {
+        return action >= kFirstTurn && (bits_ >> entryBit(action) & 1U) != 0;
+    }
+    // Of all segments.
+    [[nodiscard]] std::size_t bytes() const {
+        std::size_t bytes = 0;
+        for (unsigned action = 0; action < kCapturedActions; ++action)
+            bytes +=
+                bytesOfSegment(hasControlPoints(action)) + (hasEntries(action) ? kEntriesBytes : 0);
+        return bytes;
+    }
+
+  private:
+    static constexpr unsigned entryBit(unsigned action) {
+        return kCapturedActions + action - kFirstTurn;
+    }
+    std::uint32_t bits_ = 0;
+};
+
+void readIncrements(ByteReader& in, FrameIncrements& increments) {
+    for (FrameIncrement& step : increments) step = readIncrement(in);
 }
 
 // Reads the content between length and digest, whose digest is known to match: what is wrong now
@@ -164,9 +227,8 @@ Repertoire readContent(ByteReader& in, const std::string& source) {
     repertoire.species = in.characters(in.unsignedNumber<std::uint8_t>());
     repertoire.recordedLengthMetres = in.float32();
     for (float* number : numbersOf(repertoire.response)) *number = in.float32();
-    const unsigned withControlPoints = in.unsignedNumber<std::uint32_t>();
-    if (!in.ok() || withControlPoints >> kCapturedActions != 0 ||
-        in.remaining() != bytesOfSegments(withControlPoints)) {
+    const Contents contents(in.unsignedNumber<std::uint32_t>());
+    if (!in.ok() || !contents.isPossible() || in.remaining() != contents.bytes()) {
         refuse(source, "is not as long as its head says");
     }
     for (unsigned action = 0; action < kCapturedActions; ++action) {
@@ -175,9 +237,14 @@ Repertoire readContent(ByteReader& in, const std::string& source) {
         const auto playsToEnd = in.unsignedNumber<std::uint8_t>();
         if (playsToEnd > 1) refuse(source, "has a mark that is neither 0 nor 1");
         segment.playsToEnd = playsToEnd == 1;
-        for (FrameIncrement& step : segment.increments) step = readIncrement(in);
+        readIncrements(in, segment.increments);
+        segment.entered.resize(contents.hasEntries(action) ? kTurnEntries : 0);
+        for (TurnPath& path : segment.entered) {
+            for (float* number : headOf(path)) *number = in.float32();
+            readIncrements(in, path.increments);
+        }
         for (NodalPose& pose : segment.nodes) readPose(in, pose);
-        segment.controlPoints.resize((withControlPoints >> action & 1U) != 0 ? kPhases : 0);
+        segment.controlPoints.resize(contents.hasControlPoints(action) ? kPhases : 0);
         for (ControlPointPose& pose : segment.controlPoints) readPose(in, pose);
     }
     return repertoire;
@@ -218,19 +285,19 @@ const char* nameOf(Action action) {
 
 std::vector<std::byte> encodeRepertoire(const Repertoire& repertoire) {
     if (const auto fault = faultOf(repertoire)) refuse(repertoire.species, *fault);
-    const unsigned withControlPoints = segmentsWithControlPoints(repertoire);
+    const Contents contents(repertoire);
     ByteWriter out;
     out.characters(kMagic);
     out.unsignedNumber(kVersion);
-    out.unsignedNumber(static_cast<std::uint32_t>(
-        kHeadBytes + 1 + repertoire.species.size() + (1 + kResponses) * sizeof(float) + 4 +
-        bytesOfSegments(withControlPoints) + kDigestBytes));
+    out.unsignedNumber(static_cast<std::uint32_t>(kHeadBytes + 1 + repertoire.species.size() +
+                                                  (1 + kResponses) * sizeof(float) + 4 +
+                                                  contents.bytes() + kDigestBytes));
     out.unsignedNumber(static_cast<std::uint8_t>(repertoire.species.size()));
     out.characters(repertoire.species);
     out.float32(repertoire.recordedLengthMetres);
     SpeedResponse response = repertoire.response;
     for (const float* number : numbersOf(response)) out.float32(*number);
-    out.unsignedNumber(static_cast<std::uint32_t>(withControlPoints));
+    out.unsignedNumber(contents.bits());
     for (std::size_t action = 0; action < kCapturedActions; ++action)
         writeSegment(out, repertoire.segments[action]);
     out.characters(digestOf(out.written()).bytes);

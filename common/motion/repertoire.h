@@ -90,8 +90,8 @@ class ByteReader {
 // Samples of one cycle; phase k is at k / 64 of the period.
 inline constexpr int kPhases = 64;
 
-// The order of the segments in every repertoire: an action is its index there. The numbers are part
-// of files and of the wire. Each gait swims straight on, on four curves and on two slopes.
+// What a fish can be told to do. The numbers are part of files and of the wire. Each gait swims
+// straight on, on four curves and on two slopes.
 enum class Action : std::uint8_t {
     ForwardSlow,
     ForwardMedium,
@@ -151,15 +151,49 @@ inline constexpr int kSwimmingActions = 21;
 [[nodiscard]] constexpr bool isTurn(Action action) {
     return action >= Action::TurnLeftGradual && action <= Action::TurnRightSharp;
 }
+// Of a turn.
+[[nodiscard]] constexpr bool isLeft(Action turn) {
+    return turn <= Action::TurnLeftSharp;
+}
+[[nodiscard]] constexpr bool isSharp(Action action) {
+    return action == Action::TurnLeftSharp || action == Action::TurnRightSharp;
+}
 // The gait of an action that swims; medium for every other.
 [[nodiscard]] constexpr Action gaitOf(Action action) {
     return swims(action) ? static_cast<Action>(indexOf(action) % kForwardGaits)
                          : Action::ForwardMedium;
 }
+// The gait of an action that swims, on whatever way; every other action itself.
+[[nodiscard]] constexpr Action patternOf(Action action) {
+    return swims(action) ? gaitOf(action) : action;
+}
 // A gait on the curve or slope of which `slow` is the action at the slow gait.
 [[nodiscard]] constexpr Action atGait(Action slow, Action gait) {
     return static_cast<Action>(indexOf(slow) + indexOf(gait));
 }
+
+// What a fish plays is a segment. An action has one, but a turn has kTurnSegments: the first begins
+// in the pose of a glide, the others in a tail beat, speed by speed and phase by phase. Their poses
+// are the same, their paths differ. The numbers are part of the wire: those of the first actions,
+// then those of the turns, and last that of the glide.
+inline constexpr int kEntrySpeeds = 5;  // of the gaits, and half-way between them
+inline constexpr int kEntryPhases = 8;  // of the beat, from 0 on, evenly spaced
+inline constexpr int kTurnEntries = kEntrySpeeds * kEntryPhases;
+inline constexpr int kTurnSegments = 1 + kTurnEntries;
+inline constexpr int kTurns = 4;
+inline constexpr int kFirstTurn = static_cast<int>(Action::TurnLeftGradual);
+inline constexpr int kSegments = kFirstTurn + kTurns * kTurnSegments + 1;
+// The first segment of an action, and the action of a segment.
+[[nodiscard]] constexpr std::uint8_t firstSegmentOf(Action action) {
+    const int turns = static_cast<int>(action) - kFirstTurn;
+    return static_cast<std::uint8_t>(turns < 0 ? static_cast<int>(action)
+                                               : kFirstTurn + turns * kTurnSegments);
+}
+[[nodiscard]] constexpr Action actionOf(std::uint32_t segment) {
+    return static_cast<Action>(
+        segment < kFirstTurn ? segment : kFirstTurn + (segment - kFirstTurn) / kTurnSegments);
+}
+static_assert(firstSegmentOf(Action::Glide) == kSegments - 1 && kSegments <= 256);
 
 // The change of the body frame from one phase to the next, in the body frame at its start: B' = B *
 // increment (eq. 6 and 7, corrected: the rotation is one of the body frame, R' = R * rotation).
@@ -176,14 +210,32 @@ using NodalPose = std::array<std::array<std::int16_t, 3>, body::kNodalPoints>;
 // Poses are 16-bit: a position in the body frame, in body lengths, is component * kPoseUnit.
 inline constexpr float kPoseUnit = 1.0F / 32767.0F;
 
+using FrameIncrements = std::array<FrameIncrement, kPhases>;
+
+// A turn as begun in a tail beat. The courses are unit vectors in the body frame at its first and
+// at its last phase; speeds are body lengths a second.
+struct TurnPath {
+    // Of the fish before the turn.
+    glm::vec3 courseBefore{1, 0, 0};
+    float speedBefore = 0.0F;
+    // On which a fish that swims on at the medium gait arrives where the simulated one does.
+    glm::vec3 courseAfter{1, 0, 0};
+    float speedAfter = 0.0F;
+    FrameIncrements increments{};
+};
+
 // One captured cycle of an action, as recorded from a fish of Repertoire::recordedLengthMetres.
 struct ActionSegment {
     // Of one cycle.
     float periodSeconds = 0.0F;
     // A turn is entered at phase 0 and left at its end; all other segments anywhere.
     bool playsToEnd = false;
-    // From phase k to k + 1; the last leads to the end of the cycle.
-    std::array<FrameIncrement, kPhases> increments{};
+    // From phase k to k + 1; the last leads to the end of the cycle. A turn: from the pose of a
+    // glide.
+    FrameIncrements increments{};
+    // Of a turn begun in a tail beat: kTurnEntries, those of the lowest speed first and each speed
+    // by the phase of the beat; or none, if they are all like `increments`.
+    std::vector<TurnPath> entered;
     // Deformation d at phase k (eq. 8).
     std::array<NodalPose, kPhases> nodes{};
     // The surface s at phase k (eq. 9): kPhases poses, or none.
@@ -241,8 +293,8 @@ struct PhaseSample {
 
 // A number beyond the last action gives the last.
 [[nodiscard]] inline const ActionSegment& segmentOf(const Repertoire& repertoire,
-                                                    std::uint32_t segment) {
-    return repertoire.segments[std::min<std::size_t>(segment, kActions - 1)];
+                                                    std::uint32_t action) {
+    return repertoire.segments[std::min<std::size_t>(action, kActions - 1)];
 }
 
 }  // namespace aquarama::motion

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <mutex>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include <unistd.h>
@@ -18,6 +19,7 @@
 #include "common/base/worker_pool.h"
 #include "common/motion/repertoire.h"
 #include "master/capture/compile_segment.h"
+#include "master/capture/measure.h"
 #include "master/capture/speed_response.h"
 #include "master/capture/turn.h"
 
@@ -60,16 +62,17 @@ void ProgressBar::show(double share, const std::string& note) {
 namespace {
 
 // Capture. A species has jobs in two groups. The first simulates what it does steadily: each gait
-// straight on, on two curves and on a loop upwards, and the retreat. The second, the two turns and
-// the speed response, starts from the gaits. Within a group the jobs are independent of one
-// another, so they run in parallel.
+// straight on, on two curves and on a loop upwards, the retreat, and straight on half-way between
+// two gaits. The second, the two turns and the speed response, starts from the gaits. Within a
+// group the jobs are independent of one another, so they run in parallel.
 
 constexpr std::size_t kGaits = motion::kForwardGaits;  // slow, medium, fast
 enum class Way : std::uint8_t { Straight, WideCurve, TightCurve, Loop };
 constexpr std::size_t kWays = 4;
 constexpr std::size_t kRetreatJob =
     kGaits * kWays;  // job i before: gait i % kGaits, way i / kGaits
-constexpr std::size_t kSteadyJobs = kRetreatJob + 1;
+constexpr std::size_t kBetweenJob = kRetreatJob + 1;  // slow and medium; then medium and fast
+constexpr std::size_t kSteadyJobs = kBetweenJob + kGaits - 1;
 constexpr std::size_t kLaterJobs = 3;
 constexpr std::size_t kJobs = kSteadyJobs + kLaterJobs;
 
@@ -82,7 +85,8 @@ constexpr double kLoopLiftRadians = 0.2;
 // The results of one species' jobs. Each job writes its own member only, so no lock is needed.
 struct Swum {
     std::array<std::optional<SteadySwimming>, kSteadyJobs> steady;
-    std::array<RecordedCycle, 2> leftTurn;  // gradual, sharp
+    std::array<RecordedCycle, 2> leftTurn;                // gradual, sharp
+    std::array<std::vector<EnteredTurn>, 2> enteredLeft;  // likewise
     motion::SpeedResponse response;
     std::array<std::string, kJobs> errors;  // of each job
 
@@ -93,9 +97,15 @@ struct Swum {
 
 Order orderOf(const config::Species& species, std::size_t job) {
     if (job == kRetreatJob) return retreatOf(species);
-    const config::Swim& swim = species.swim;
-    Order order{.controller = Controller::ForwardSwim,
-                .gait = *std::array{&swim.slow, &swim.medium, &swim.fast}.at(job % kGaits)};
+    const std::array gaits{&species.swim.slow, &species.swim.medium, &species.swim.fast};
+    if (job >= kBetweenJob) {
+        const config::Gait& slower = *gaits.at(job - kBetweenJob);
+        const config::Gait& faster = *gaits.at(job - kBetweenJob + 1);
+        return {.controller = Controller::ForwardSwim,
+                .gait = {.beatHertz = (slower.beatHertz + faster.beatHertz) / 2,
+                         .gain = (slower.gain + faster.gain) / 2}};
+    }
+    Order order{.controller = Controller::ForwardSwim, .gait = *gaits.at(job % kGaits)};
     switch (static_cast<Way>(job / kGaits)) {
         case Way::Straight:
             break;
@@ -112,6 +122,19 @@ Order orderOf(const config::Species& species, std::size_t job) {
     return order;
 }
 
+// A turn out of a glide, and out of the beats of all speeds, from slow to fast.
+void recordTurn(const config::Species& species, std::size_t sharp, Swum& swum) {
+    const config::Bend& bend = sharp == 1 ? species.turn.sharp : species.turn.gradual;
+    const auto steady = [&](std::size_t job) { return &*swum.steady.at(job); };
+    RecordedCycle& turn = swum.leftTurn.at(sharp);
+    turn = recordTypicalLeftTurn(species, *steady(1), bend);
+    swum.enteredLeft.at(sharp) = recordEnteredTurns(
+        species,
+        {steady(0), steady(kBetweenJob), steady(1), steady(kBetweenJob + 1), steady(2)},
+        bend,
+        turn.periodSeconds);
+}
+
 // Throws Error where the simulation fails. A job of the second group does nothing when one of the
 // first has failed; the error of that one is reported instead.
 void runJob(const config::Species& species, std::size_t job, Swum& swum) {
@@ -125,10 +148,8 @@ void runJob(const config::Species& species, std::size_t job, Swum& swum) {
     const auto steady = [&](std::size_t first) -> const SteadySwimming& {
         return *swum.steady.at(first);
     };
-    if (job == kSteadyJobs)
-        swum.leftTurn[0] = recordTypicalLeftTurn(species, steady(1), species.turn.gradual);
-    else if (job == kSteadyJobs + 1)
-        swum.leftTurn[1] = recordTypicalLeftTurn(species, steady(1), species.turn.sharp);
+    if (job < kSteadyJobs + 2)
+        recordTurn(species, job - kSteadyJobs, swum);
     else
         swum.response = fitResponse(
             swimTransitions(species, {&steady(0), &steady(1), &steady(2)}, steady(kRetreatJob)));
@@ -149,6 +170,35 @@ void compileGait(const Swum& swum, std::size_t gait, motion::Repertoire& reperto
     segment(Action::DiveSlow) = mirroredTopBottom(segment(Action::ClimbSlow));
 }
 
+// The paths of a left turn by its entries; every other phase of the beat is a blend of the recorded
+// ones about it.
+std::vector<motion::TurnPath> pathsOf(const std::vector<EnteredTurn>& turns, const SwimsOn& on) {
+    constexpr std::size_t kRecorded = kRecordedPhases;
+    static_assert(kRecorded * 2 == motion::kEntryPhases);
+    std::vector<motion::TurnPath> paths;
+    for (std::size_t speed = 0; speed < motion::kEntrySpeeds; ++speed) {
+        for (std::size_t i = 0; i < kRecorded; ++i) {
+            const auto recorded = [&](std::size_t phase) {
+                return compileEntered(turns.at(speed * kRecorded + phase % kRecorded), on);
+            };
+            paths.push_back(recorded(i));
+            paths.push_back(blended(recorded(i), recorded(i + 1)));
+        }
+    }
+    return paths;
+}
+
+// Those of the right turn: its mirror image is the left turn half a beat later.
+std::vector<motion::TurnPath> mirroredPaths(const std::vector<motion::TurnPath>& left) {
+    std::vector<motion::TurnPath> right;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        const std::size_t phase = (i + motion::kEntryPhases / 2) % motion::kEntryPhases;
+        const std::size_t speed = i / motion::kEntryPhases;
+        right.push_back(mirroredLeftRight(left[speed * motion::kEntryPhases + phase]));
+    }
+    return right;
+}
+
 // From recordings to a repertoire; right turns are the mirror images of the left ones, the glide is
 // derived from the captured segments. All jobs of the species must have succeeded.
 motion::Repertoire compile(const config::Species& species, const Swum& swum) {
@@ -163,10 +213,18 @@ motion::Repertoire compile(const config::Species& species, const Swum& swum) {
     };
     for (std::size_t gait = 0; gait < kGaits; ++gait) compileGait(swum, gait, repertoire);
     segment(Action::Retreat) = compileForward(swum.steady.at(kRetreatJob)->beat);
-    segment(Action::TurnLeftGradual) = compileLeftTurn(swum.leftTurn[0]);
-    segment(Action::TurnLeftSharp) = compileLeftTurn(swum.leftTurn[1]);
-    segment(Action::TurnRightGradual) = mirroredLeftRight(segment(Action::TurnLeftGradual));
-    segment(Action::TurnRightSharp) = mirroredLeftRight(segment(Action::TurnLeftSharp));
+    const auto medium = indexOf(Action::ForwardMedium);
+    const SwimsOn on{.speed = measure(segment(Action::ForwardMedium)).strideBodyLengths /
+                              static_cast<double>(segment(Action::ForwardMedium).periodSeconds),
+                     .drag = static_cast<double>(swum.response.swimDrag.at(medium))};
+    for (const auto& [left, right, sharp] :
+         {std::tuple{Action::TurnLeftGradual, Action::TurnRightGradual, 0U},
+          std::tuple{Action::TurnLeftSharp, Action::TurnRightSharp, 1U}}) {
+        segment(left) = compileLeftTurn(swum.leftTurn.at(sharp));
+        segment(left).entered = pathsOf(swum.enteredLeft.at(sharp), on);
+        segment(right) = mirroredLeftRight(segment(left));
+        segment(right).entered = mirroredPaths(segment(left).entered);
+    }
     if (species.recordsControlPoints)
         for (int action = 0; action < motion::kCapturedActions; ++action)
             addControlPoints(body, segment(static_cast<Action>(action)));
@@ -282,7 +340,7 @@ namespace {
 
 // Part of every key: raise it when a change of the simulation or of the compilation changes the
 // repertoires.
-constexpr const char* kCaptureVersion = "aquarama capture 7\n";
+constexpr const char* kCaptureVersion = "aquarama capture 8\n";
 constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 5 MB
 
 // SPECIES-DIGEST.aqrep. The digest covers only the parts of the species file that influence motion:

@@ -153,24 +153,33 @@ body::NodalPoints nodesOf(const motion::NodalPose& pose) {
     return nodes;
 }
 
+motion::FrameIncrements incrementsOf(const FrameMotion& motion) {
+    motion::FrameIncrements increments{};
+    for (std::size_t k = 0; k < kCount; ++k)
+        increments.at(k) = {glm::quat(motion.rotation.at(k)), glm::vec3(motion.translation.at(k))};
+    return increments;
+}
+
 motion::ActionSegment segmentOf(const FrameMotion& motion) {
     motion::ActionSegment segment;
     segment.periodSeconds = static_cast<float>(motion.periodSeconds);
     segment.playsToEnd = motion.playsToEnd;
-    for (std::size_t k = 0; k < kCount; ++k) {
-        segment.increments.at(k) = {glm::quat(motion.rotation.at(k)),
-                                    glm::vec3(motion.translation.at(k))};
+    segment.increments = incrementsOf(motion);
+    for (std::size_t k = 0; k < kCount; ++k)
         std::ranges::transform(motion.poses.at(k), segment.nodes.at(k).begin(), quantised);
-    }
     return segment;
+}
+
+void reflect(motion::FrameIncrements& increments, const Mirror& mirror) {
+    for (motion::FrameIncrement& step : increments) {
+        step.rotation = glm::quat(reflected(glm::dquat(step.rotation), mirror));
+        step.translation *= glm::vec3(mirror.signs);
+    }
 }
 
 motion::ActionSegment reflected(const motion::ActionSegment& segment, const Mirror& mirror) {
     motion::ActionSegment image = segment;
-    for (motion::FrameIncrement& step : image.increments) {
-        step.rotation = glm::quat(reflected(glm::dquat(step.rotation), mirror));
-        step.translation *= glm::vec3(mirror.signs);
-    }
+    reflect(image.increments, mirror);
     for (std::size_t k = 0; k < kCount; ++k)
         for (int i = 0; i < body::kNodalPoints; ++i)
             for (std::size_t c = 0; c < 3; ++c)
@@ -197,6 +206,84 @@ motion::ActionSegment compileSlope(const RecordedCycle& recording) {
 
 motion::ActionSegment compileLeftTurn(const RecordedCycle& recording) {
     return segmentOf(fadedIn(planar(frameMotionOf(recording))));
+}
+
+namespace {
+
+// A horizontal way as a direction in the body frame of a pose.
+glm::vec3 directionIn(const NodeVectors& pose, const glm::dvec3& way) {
+    const glm::dvec3 inBody = glm::transpose(frameOf(pose).worldFromBody) * way;
+    return glm::vec3(glm::normalize(glm::dvec3(inBody.x, 0, inBody.z)));
+}
+
+// The rotation about the vertical from a horizontal direction to the body's x axis.
+glm::dquat fromDirection(const glm::dvec3& direction) {
+    return glm::normalize(glm::dquat(1 + direction.x, 0, direction.z, 0));
+}
+
+// The body frame at each phase, as seen from the course before a turn.
+struct SeenFromCourse {
+    std::array<glm::dquat, kCount + 1> rotation{};
+    std::array<glm::dvec3, kCount + 1> translation{};
+};
+SeenFromCourse seenFromCourse(const motion::TurnPath& path) {
+    SeenFromCourse seen;
+    seen.rotation[0] = fromDirection(glm::dvec3(path.courseBefore));
+    for (std::size_t k = 0; k < kCount; ++k) {
+        const motion::FrameIncrement& step = path.increments.at(k);
+        seen.translation.at(k + 1) =
+            seen.translation.at(k) + seen.rotation.at(k) * glm::dvec3(step.translation);
+        seen.rotation.at(k + 1) = glm::normalize(seen.rotation.at(k) * glm::dquat(step.rotation));
+    }
+    return seen;
+}
+
+}  // namespace
+
+motion::TurnPath compileEntered(const EnteredTurn& entered, const SwimsOn& on) {
+    assert(entered.secondsAfter > 0);
+    const std::vector<NodeVectors>& poses = entered.turn.poses;
+    // The law dv/dt = drag p (p - v), integrated: the way is p t + (v(0) - p) (1 - exp(-drag p t))
+    // / (drag p).
+    const double rate = on.drag * on.speed;
+    const double ahead = glm::length(entered.wayAfter) - on.speed * entered.secondsAfter;
+    const double faster = ahead * rate / -std::expm1(-rate * entered.secondsAfter);
+    return {.courseBefore = directionIn(poses.front(), entered.turn.course),
+            .speedBefore = static_cast<float>(entered.speedBefore),
+            .courseAfter = directionIn(poses.back(), entered.wayAfter),
+            .speedAfter = static_cast<float>(std::max(0.0, on.speed + faster)),
+            .increments = incrementsOf(planar(frameMotionOf(entered.turn)))};
+}
+
+motion::TurnPath blended(const motion::TurnPath& a, const motion::TurnPath& b) {
+    const SeenFromCourse first = seenFromCourse(a);
+    const SeenFromCourse second = seenFromCourse(b);
+    const auto mean = [](const glm::vec3& u, const glm::vec3& v) { return glm::normalize(u + v); };
+    motion::TurnPath between{.courseBefore = mean(a.courseBefore, b.courseBefore),
+                             .speedBefore = (a.speedBefore + b.speedBefore) / 2,
+                             .courseAfter = mean(a.courseAfter, b.courseAfter),
+                             .speedAfter = (a.speedAfter + b.speedAfter) / 2,
+                             .increments = {}};
+    const auto rotation = [&](std::size_t k) {
+        return glm::normalize(first.rotation.at(k) + second.rotation.at(k));
+    };
+    const auto place = [&](std::size_t k) {
+        return (first.translation.at(k) + second.translation.at(k)) / 2.0;
+    };
+    for (std::size_t k = 0; k < kCount; ++k) {
+        const glm::dquat back = glm::conjugate(rotation(k));
+        between.increments.at(k) = {glm::quat(glm::normalize(back * rotation(k + 1))),
+                                    glm::vec3(back * (place(k + 1) - place(k)))};
+    }
+    return between;
+}
+
+motion::TurnPath mirroredLeftRight(const motion::TurnPath& path) {
+    motion::TurnPath image = path;
+    image.courseBefore *= glm::vec3(kLeftRight.signs);
+    image.courseAfter *= glm::vec3(kLeftRight.signs);
+    reflect(image.increments, kLeftRight);
+    return image;
 }
 
 motion::ActionSegment mirroredLeftRight(const motion::ActionSegment& segment) {

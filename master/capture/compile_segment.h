@@ -43,6 +43,26 @@ struct RecordedCycle {
 [[nodiscard]] motion::ActionSegment compileSlope(const RecordedCycle& recording);
 [[nodiscard]] motion::ActionSegment compileLeftTurn(const RecordedCycle& recording);
 
+// A left turn begun in a tail beat, for a given time. What follows is measured while the fish swims
+// on at the medium gait: its way from the end of the turn on, in the world, over some beats.
+struct EnteredTurn {
+    RecordedCycle turn;
+    double speedBefore = 0;  // body lengths a second
+    glm::dvec3 wayAfter{1, 0, 0};
+    double secondsAfter = 0;
+};
+// Medium swimming: its speed p, and its SpeedResponse::swimDrag.
+struct SwimsOn {
+    double speed = 0;
+    double drag = 0;
+};
+// By eq. 6 and 7. The speed after the turn is that from which a fish that obeys the law of
+// motion::SpeedResponse swims the measured way.
+[[nodiscard]] motion::TurnPath compileEntered(const EnteredTurn& entered, const SwimsOn& on);
+// The path half-way between two, on one course before the turn.
+[[nodiscard]] motion::TurnPath blended(const motion::TurnPath& a, const motion::TurnPath& b);
+[[nodiscard]] motion::TurnPath mirroredLeftRight(const motion::TurnPath& path);
+
 // A segment with left and right exchanged, or top and bottom: the fish and its muscles have both
 // symmetries, so its motions have them too. Control points are not exchanged: add them afterwards.
 [[nodiscard]] motion::ActionSegment mirroredLeftRight(const motion::ActionSegment& segment);

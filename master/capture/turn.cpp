@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "common/base/log.h"
@@ -117,6 +118,69 @@ std::vector<TurnSpread> surveyTurns(const config::Species& species) {
             table.push_back(spreadOf(recordLeftTurns(species, entry, bend), turn, action));
     }
     return table;
+}
+
+namespace {
+
+constexpr double kBeatsAfter = 5;  // of medium swimming, over which the way after a turn is taken
+
+// The nodal points at the times i * seconds / kPhases from now on, i from 0 to kPhases, linearly
+// between two steps. The swimmer is at most a step short of the last afterwards.
+std::vector<NodeVectors> evenPoses(Swimmer& swimmer, double seconds) {
+    std::vector<NodeVectors> poses;
+    int done = 0;
+    for (int i = 0; i <= motion::kPhases; ++i) {
+        const double steps = seconds * i / motion::kPhases / swimmer.stepSeconds();
+        const int whole = static_cast<int>(steps);
+        swimmer.advance(whole - done);
+        done = whole;
+        Swimmer ahead = swimmer;
+        ahead.advance(1);
+        NodeVectors pose = swimmer.state().positions;
+        for (std::size_t node = 0; node < pose.size(); ++node)
+            pose.at(node) =
+                glm::mix(pose.at(node), ahead.state().positions.at(node), steps - whole);
+        poses.push_back(pose);
+    }
+    return poses;
+}
+
+EnteredTurn recordEntered(const config::Species& species,
+                          const SteadySwimming& entry,
+                          const config::Bend& bend,
+                          int onsetPhase,
+                          double seconds) {
+    Swimmer swimmer = entry.swimmer;
+    swimmer.advance(onsetPhase * entry.stepsPerPhase);
+    swimmer.give({.controller = Controller::LeftTurn, .bend = bend});
+    EnteredTurn entered{.turn = {.periodSeconds = seconds,
+                                 .playsToEnd = true,
+                                 .course = entry.beat.course,
+                                 .poses = {}},
+                        .speedBefore = glm::distance(frameOf(entry.beat.poses.back()).origin,
+                                                     frameOf(entry.beat.poses.front()).origin) /
+                                       entry.beat.periodSeconds,
+                        .secondsAfter = kBeatsAfter / species.swim.medium.beatHertz};
+    entered.turn.poses = evenPoses(swimmer, seconds);
+    swimmer.give({.controller = Controller::ForwardSwim, .gait = species.swim.medium});
+    swimmer.advance(static_cast<int>(std::lround(entered.secondsAfter / swimmer.stepSeconds())));
+    entered.wayAfter =
+        frameOf(swimmer.state().positions).origin - frameOf(entered.turn.poses.back()).origin;
+    return entered;
+}
+
+}  // namespace
+
+std::vector<EnteredTurn> recordEnteredTurns(const config::Species& species,
+                                            const std::vector<const SteadySwimming*>& entries,
+                                            const config::Bend& bend,
+                                            double seconds) {
+    std::vector<EnteredTurn> turns;
+    for (const SteadySwimming* entry : entries)
+        for (int i = 0; i < kRecordedPhases; ++i)
+            turns.push_back(recordEntered(
+                species, *entry, bend, i * motion::kPhases / kRecordedPhases, seconds));
+    return turns;
 }
 
 RecordedCycle recordTypicalLeftTurn(const config::Species& species,

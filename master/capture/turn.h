@@ -43,6 +43,16 @@ struct TurnSpread {
 // Throws as recordTurn() and swimUntilSteady() do.
 [[nodiscard]] std::vector<TurnSpread> surveyTurns(const config::Species& species);
 
+// Left turns with one bend, begun in the steady swimming of each entry: first by entry and then by
+// kRecordedPhases phases of the beat, evenly spaced from 0 on. Each lasts `seconds`; then the fish
+// swims on at the medium gait.
+inline constexpr int kRecordedPhases = 4;
+[[nodiscard]] std::vector<EnteredTurn> recordEnteredTurns(
+    const config::Species& species,
+    const std::vector<const SteadySwimming*>& entries,
+    const config::Bend& bend,
+    double seconds);
+
 // The turn to capture, entered from medium swimming: of the turns begun at kOnsets phases, the one
 // whose angle is nearest to their mean.
 [[nodiscard]] RecordedCycle recordTypicalLeftTurn(const config::Species& species,

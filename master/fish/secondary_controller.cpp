@@ -18,11 +18,14 @@ Gaits gaitsOf(const motion::MotorTables& tables) {
         const auto action = static_cast<motion::Action>(i);
         gaits.phaseRate[i] = motion::recordedPhaseRate(tables, action);
         gaits.speed[i] = motion::recordedSpeedBodyLengths(tables, action);
+        gaits.yawRate[i] = motion::recordedTurnRate(tables, motion::firstSegmentOf(action));
+    }
+    for (std::uint32_t segment = 0; segment < motion::kSegments; ++segment) {
         // A phase is 16 bits: 65536 steps are one cycle.
-        const float secondsOfCycle = 65536.0F / (static_cast<float>(gaits.phaseRate[i]) *
-                                                 static_cast<float>(kTicksPerSecond));
-        gaits.yawRate[i] = motion::recordedTurnRate(tables, action);
-        gaits.turn[i] = gaits.yawRate[i] * secondsOfCycle;
+        const std::int16_t rate = gaits.phaseRate[indexOf(motion::actionOf(segment))];
+        const float secondsOfCycle =
+            65536.0F / (static_cast<float>(rate) * static_cast<float>(kTicksPerSecond));
+        gaits.turn[segment] = motion::recordedTurnRate(tables, segment) * secondsOfCycle;
     }
     return gaits;
 }
@@ -103,8 +106,7 @@ motion::Action otherThan(motion::Action present, std::uint32_t hash) {
                                    Action::TurnRightGradual,
                                    Action::TurnRightSharp,
                                    Action::Glide};
-    const Action pattern = swims(present) ? gaitOf(present) : present;
-    const auto* const found = std::ranges::find(kPatterns, pattern);
+    const auto* const found = std::ranges::find(kPatterns, patternOf(present));
     const auto at = static_cast<std::size_t>(found - kPatterns.begin());
     return kPatterns[(at + 1 + hash % (kPatterns.size() - 1)) % kPatterns.size()];
 }
@@ -256,7 +258,8 @@ motion::Action held(const Gaits& gaits, const Moment& moment) {
 bool serves(const Gaits& gaits, const Moment& moment, motion::Action recommended) {
     if (isSharp(recommended)) return false;
     if (isTurn(recommended))
-        return std::abs(moment.yawError - gaits.turn[indexOf(recommended)]) < kCourseMayDiffer;
+        return std::abs(moment.yawError - gaits.turn[firstSegmentOf(recommended)]) <
+               kCourseMayDiffer;
     if (std::abs(moment.yawError) > kGradualFrom) return false;
     return recommended == motion::Action::Glide
                ? moment.swims > moment.speed
@@ -282,9 +285,9 @@ void startCommands(const Gaits& gaits,
                    motion::MotorCommands& commands,
                    ControllerMemory& memory) {
     assert(first <= last);
-    assert(last <= commands.segment.size());
+    assert(last <= commands.action.size());
     for (std::size_t fish = first; fish < last; ++fish) {
-        commands.segment[fish] = static_cast<std::uint8_t>(motion::Action::ForwardMedium);
+        commands.action[fish] = static_cast<std::uint8_t>(motion::Action::ForwardMedium);
         commands.phaseRate[fish] = gaits.phaseRate[indexOf(motion::Action::ForwardMedium)];
         commands.pitch[fish] = 0;
         commands.yawRate[fish] = 0;
@@ -310,24 +313,22 @@ void SecondaryController::run(std::size_t first, std::size_t last) const {
 }
 
 bool SecondaryController::endsTurn(std::size_t fish) const {
-    const std::size_t playing = states->segment[fish];
-    if (!isTurn(static_cast<motion::Action>(playing)))
-        return false;  // one byte is read of most fish
+    const motion::Action playing = motion::actionOf(states->segment[fish]);
+    if (!isTurn(playing)) return false;  // one byte is read of most fish
     // The motor plays the turn at the commanded rate if the turn is still commanded, else at the
     // recorded rate. The turn ends when the 16-bit phase overflows.
-    const bool goesOn = commands->segment[fish] == playing;
-    const int rate = goesOn ? commands->phaseRate[fish] : gaits->phaseRate[playing];
+    const bool goesOn = static_cast<motion::Action>(commands->action[fish]) == playing;
+    const int rate = goesOn ? commands->phaseRate[fish] : gaits->phaseRate[indexOf(playing)];
     return states->phase[fish] + rate > 0xffff;
 }
 
 void SecondaryController::decide(std::size_t fish) const {
     const Moment moment = momentOf(fish);
     const motion::Action chosen = choose(fish, moment);
-    if (gaitOf(chosen) != gaitOf(moment.present) || swims(chosen) != swims(moment.present))
-        memory->chosenAt[fish] = tick.value;
+    if (patternOf(chosen) != patternOf(moment.present)) memory->chosenAt[fish] = tick.value;
     motion::MotorCommands& to = *commands;
     to.phaseRate[fish] = phaseRateFor(fish, chosen, moment);
-    to.segment[fish] = static_cast<std::uint8_t>(chosen);
+    to.action[fish] = static_cast<std::uint8_t>(chosen);
     to.pitch[fish] = static_cast<std::int16_t>(
         std::clamp(levelFor((*courses)[fish].direction.y,
                             static_cast<float>(to.pitch[fish]) / kUnitsOfPitchSine,
@@ -344,7 +345,7 @@ void SecondaryController::decide(std::size_t fish) const {
 SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) const {
     const Course& course = (*courses)[fish];
     const glm::vec3 heading = view->heading(fish);
-    Moment moment{static_cast<motion::Action>(commands->segment[fish]),
+    Moment moment{static_cast<motion::Action>(commands->action[fish]),
                   place::yawBetween(heading, course.direction),
                   course.direction.y - heading.y,
                   course.speed,
@@ -352,12 +353,13 @@ SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) cons
                   course.urgency,
                   tick.value - memory->chosenAt[fish],
                   course.openToChange};
-    // A turn will be played to its end: what is chosen comes after it.
-    const std::size_t playing = states->segment[fish];
+    // A turn will be played to its end, unless a turn to the other side is chosen: what is chosen
+    // comes after it.
+    const std::uint8_t playing = states->segment[fish];
+    const motion::Action action = motion::actionOf(playing);
     const float toCome = 1 - static_cast<float>(states->phase[fish]) / 65536.0F;
-    moment.yawError -= isTurn(static_cast<motion::Action>(playing))
-                           ? gaits->turn[playing] * toCome
-                           : gaits->yawRate[playing] * kLeadSeconds;
+    moment.yawError -= isTurn(action) ? gaits->turn[playing] * toCome
+                                      : gaits->yawRate[indexOf(action)] * kLeadSeconds;
     return moment;
 }
 
@@ -368,7 +370,7 @@ motion::Action SecondaryController::choose(std::size_t fish, const Moment& momen
     const motion::Action chosen = turnOrSwim(*gaits, moment);
     if (tick.value < memory->heldUntil[fish])
         return moment.isOpen && !isSharp(chosen) ? held(*gaits, moment) : chosen;
-    if (gaitOf(chosen) != gaitOf(moment.present) || moment.since <= memory->patience[fish])
+    if (patternOf(chosen) != patternOf(moment.present) || moment.since <= memory->patience[fish])
         return chosen;
     memory->chosenAt[fish] = tick.value;
     memory->patience[fish] = patienceOf(seed, fish, tick.value);

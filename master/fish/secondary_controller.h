@@ -53,25 +53,18 @@ struct Adaptation {
 
 // The numbers of a repertoire that the controller chooses by.
 
-// The action segments of one species, indexed by Action.
+// The actions of one species, indexed by Action; those of a turn are of its first segment.
 struct Gaits {
     // Phase rate as recorded, in 1/65536 of a cycle per tick.
     std::array<std::int16_t, motion::kActions> phaseRate{};
     // Mean speed, body lengths a second.
     std::array<float, motion::kActions> speed{};
-    // Change of course from start to end of the segment, in radians, left positive.
-    std::array<float, motion::kActions> turn{};
+    // Change of course from start to end of each segment, in radians, left positive.
+    std::array<float, motion::kSegments> turn{};
     // Mean rate of turn, radians a second, left positive.
     std::array<float, motion::kActions> yawRate{};
 };
 [[nodiscard]] Gaits gaitsOf(const motion::MotorTables& tables);
-
-[[nodiscard]] constexpr bool isSharp(motion::Action action) {
-    return action == motion::Action::TurnLeftSharp || action == motion::Action::TurnRightSharp;
-}
-[[nodiscard]] constexpr bool isLeft(motion::Action action) {
-    return action == motion::Action::TurnLeftGradual || action == motion::Action::TurnLeftSharp;
-}
 
 // The controller and its memory.
 

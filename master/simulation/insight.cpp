@@ -30,7 +30,7 @@ std::optional<Insight> insightInto(const world::World& world, std::uint32_t fish
     insight.away = view.shows(fish, fish::kAway);
     insight.mind = world.minds()[fish];
     insight.course = courses[fish];
-    insight.segment = static_cast<motion::Action>(states.segment[fish]);
+    insight.segment = motion::actionOf(states.segment[fish]);
     insight.phase = static_cast<float>(states.phase[fish]) / 65536.0F;
     insight.swims = motion::speedBodyLengths(states, fish);
     if (insight.away) return insight;

@@ -134,7 +134,7 @@ std::uint64_t packed(const motion::MotorCommands& commands, std::size_t fish) {
     const auto bits = [](std::int16_t value) {
         return std::uint64_t{static_cast<std::uint16_t>(value)};
     };
-    return std::uint64_t{commands.segment[fish]} | std::uint64_t{commands.brake[fish]} << 8U |
+    return std::uint64_t{commands.action[fish]} | std::uint64_t{commands.brake[fish]} << 8U |
            bits(commands.phaseRate[fish]) << 16U | bits(commands.pitch[fish]) << 32U |
            bits(commands.yawRate[fish]) << 48U;
 }

@@ -131,6 +131,10 @@ namespace {
 constexpr double kRadiansOfPhase = 2 * std::numbers::pi / 65536;
 constexpr int kInStepPhase = 65536 / 16;
 
+motion::Action patternAt(const motion::MotionStates& states, std::size_t fish) {
+    return patternOf(motion::actionOf(states.segment[fish]));
+}
+
 // Smallest difference of two phases, around the cycle: 16-bit subtraction wraps as phases do.
 int phaseBetween(std::uint16_t a, std::uint16_t b) {
     return std::abs(static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b)));
@@ -190,7 +194,7 @@ Synchrony synchronyOf(const motion::MotionStates& states, std::size_t first, std
         sine += std::sin(states.phase[i] * kRadiansOfPhase);
         cosine += std::cos(states.phase[i] * kRadiansOfPhase);
         for (std::size_t j = i + 1; j < last; ++j) {
-            if (states.segment[i] != states.segment[j]) continue;
+            if (patternAt(states, i) != patternAt(states, j)) continue;
             ++alike;
             if (phaseBetween(states.phase[i], states.phase[j]) < kInStepPhase) ++inStep;
         }

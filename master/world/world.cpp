@@ -356,7 +356,7 @@ void World::performEvents() {
 // Folds in all that decides how the world goes on and is no function of seed, scene and tick.
 std::uint64_t World::hash() const {
     std::uint64_t hash = foldedOne(motion::hashOf(states_) ^ minds_.hash(), tick_.value);
-    hash = folded(hash, commands_.segment);
+    hash = folded(hash, commands_.action);
     hash = folded(hash, commands_.phaseRate);
     hash = folded(hash, commands_.pitch);
     hash = folded(hash, commands_.yawRate);
@@ -390,7 +390,7 @@ std::size_t World::bytes() const {
            bytesIn(s.x, s.y, s.z, s.orientationA, s.orientationB, s.orientationC) +
            bytesIn(s.orientationLargest, s.phase, s.segment, s.fromPhase, s.fromSegment) +
            bytesIn(s.warpFrame, s.warpLength, s.speed) +
-           bytesIn(c.segment, c.phaseRate, c.pitch, c.yawRate, c.brake) +
+           bytesIn(c.action, c.phaseRate, c.pitch, c.yawRate, c.brake) +
            bytesIn(courses_, v.fish, v.kind, v.signs, v.partner, v.stage) +
            meals_.swallows.capacity() * sizeof(Meals::Swallow) +
            absences_.capacity() * sizeof(Absence);

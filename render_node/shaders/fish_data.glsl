@@ -2,7 +2,7 @@
 #ifndef FISH_DATA_GLSL
 #define FISH_DATA_GLSL
 
-// DrawnFish of render_node/surface/school_surface.h, 80 bytes; its first 48 and the segments are
+// DrawnFish of render_node/surface/school_surface.h, 80 bytes; its first 48 and the actions are
 // those of PresentedFish (common/motion/reconstruct.h).
 struct Fish {
     vec3 positionMetres;
@@ -10,9 +10,9 @@ struct Fish {
     vec4 rotation;  // quaternion, body to world
     float phase;    // cycles
     float fromPhase;
-    float warpWeight;  // share of `segment` against `fromSegment`
-    uint segment;
-    uint fromSegment;
+    float warpWeight;  // share of `action` against `fromAction`
+    uint action;
+    uint fromAction;
     uint id;
     uint species;  // its place in the cast
     uint detail;   // DetailLevel of render_node/surface/visibility.h

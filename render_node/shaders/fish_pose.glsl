@@ -10,7 +10,7 @@
 
 const uint kPoses = kActions * kPhases * kControlPoints;
 const uint kFinNumbers = 7u * 2u + kControlPoints * 2u * 2u;  // of a FinStyle, and of FinPoints
-// Species by species. First by segment and phase the points: 3 x 16 bits, body lengths, then a
+// Species by species. First by action and phase the points: 3 x 16 bits, body lengths, then a
 // heading, half turns; behind them, as OpenGL promises no more buffers, the fins.
 layout(std430, binding = kRecordedStorage) readonly buffer Recorded { uvec2 recorded[]; };
 
@@ -37,46 +37,46 @@ struct Posed {
     float drift;  // to the right, body lengths in a radian of the beat
 };
 
-vec4 recordedPoint(uint species, uint segment, uint phase, uint point) {
-    uint pose = segment * kPhases + phase;
+vec4 recordedPoint(uint species, uint action, uint phase, uint point) {
+    uint pose = action * kPhases + phase;
     uvec2 bits = recorded[species * (kPoses + kFinNumbers) + pose * kControlPoints + point];
     return vec4(unpackSnorm2x16(bits.x), unpackSnorm2x16(bits.y));
 }
 
 // A control point between two recorded phases, and how it drifts sideways in between (eq. 13).
-Posed posedAt(uint species, uint segment, float phase, uint point) {
+Posed posedAt(uint species, uint action, float phase, uint point) {
     float sampled = phase * float(kPhases);
     uint before = uint(floor(sampled)) % kPhases;
-    vec4 from = recordedPoint(species, segment, before, point);
-    vec4 to = recordedPoint(species, segment, (before + 1u) % kPhases, point);
+    vec4 from = recordedPoint(species, action, before, point);
+    vec4 to = recordedPoint(species, action, (before + 1u) % kPhases, point);
     vec4 here = mix(from, to, fract(sampled));
     float heading = here.w * 0.5 * kWholeTurn;
     vec3 right = vec3(sin(heading), 0.0, cos(heading));
     return Posed(here.xyz, heading, dot(to.xyz - from.xyz, right) * float(kPhases) / kWholeTurn);
 }
 
-// How far a segment is a turn to the left, to the right: a curve less than a turn. Actions of
+// How far an action is a turn to the left, to the right: a curve less than a turn. Actions of
 // common/motion/repertoire.h, by the gait within each curve.
-vec2 turnOf(uint segment) {
+vec2 turnOf(uint action) {
     const float kSharp = 1.0, kGradual = 0.4, kTight = 0.3, kWide = 0.15;
-    uint curve = (segment - kFirstCurve) / 3u, turn = segment - kFirstTurn;
-    float much = segment >= kFirstCurve && curve < 4u ? (curve % 2u == 0u ? kWide : kTight)
-                 : segment >= kFirstTurn && turn < 4u ? (turn % 2u == 0u ? kGradual : kSharp)
+    uint curve = (action - kFirstCurve) / 3u, turn = action - kFirstTurn;
+    float much = action >= kFirstCurve && curve < 4u ? (curve % 2u == 0u ? kWide : kTight)
+                 : action >= kFirstTurn && turn < 4u ? (turn % 2u == 0u ? kGradual : kSharp)
                                                       : 0.0;
-    bool left = segment >= kFirstTurn ? turn < 2u : curve < 2u;
+    bool left = action >= kFirstTurn ? turn < 2u : curve < 2u;
     return left ? vec2(much, 0.0) : vec2(0.0, much);
 }
 
 FinDrive finDriveOf(Fish self) {
     return FinDrive(mod(eyeAndTime.w, kFinSeconds), self.speed, rotate(self.rotation, vec3(1.0, 0.0, 0.0)).y,
-                    mix(turnOf(self.fromSegment), turnOf(self.segment), self.warpWeight),
+                    mix(turnOf(self.fromAction), turnOf(self.action), self.warpWeight),
                     fract(0.37 * float(self.id)), self.phase, self.fromPhase, self.warpWeight);
 }
 
 vec3 controlPointOf(Fish self, uint i) {
-    Posed pose = posedAt(self.species, self.segment, self.phase, i);
+    Posed pose = posedAt(self.species, self.action, self.phase, i);
     if (self.warpWeight < 1.0) {
-        Posed from = posedAt(self.species, self.fromSegment, self.fromPhase, i);
+        Posed from = posedAt(self.species, self.fromAction, self.fromPhase, i);
         pose.place = mix(from.place, pose.place, self.warpWeight);
         pose.heading = mix(from.heading, pose.heading, self.warpWeight);
         pose.drift = mix(from.drift, pose.drift, self.warpWeight);

@@ -60,8 +60,12 @@ vec4 rotationOf(uint i) {
 
 struct Motion {
     float phase, fromPhase, warpWeight;
-    uint segment, fromSegment;
+    uint action, fromAction;
 };
+
+uint actionOf(uint segment) {
+    return segment < kFirstTurn ? segment : kFirstTurn + (segment - kFirstTurn) / kTurnSegments;
+}
 
 float phaseBetween(uint from, uint to) {
     float phase = float(from) + fraction * float(to - from & 65535u);
@@ -76,7 +80,7 @@ Motion motionOf(uint i) {
     uvec2 from = before[2u * i + 1u].yz, to = after[2u * i + 1u].yz;
     uint segment = to.y & 255u, fromSegment = to.y >> 8 & 255u, lastSegment = from.y & 255u;
     Motion m = Motion(float(to.x & 65535u) * kPhaseUnit, float(to.x >> 16) * kPhaseUnit,
-                      weightOf(to.y), segment, fromSegment);
+                      weightOf(to.y), actionOf(segment), actionOf(fromSegment));
     bool wasWarping = (from.y >> 16 & 255u) != from.y >> 24;
     bool hasJustLeft = (to.y >> 16 & 255u) == 0u && lastSegment == fromSegment &&
                        (from.x & 65535u) == to.x >> 16 && lastSegment != segment && !wasWarping;

@@ -43,8 +43,8 @@ void main() {
     self.phase = motion.phase;
     self.fromPhase = motion.fromPhase;
     self.warpWeight = motion.warpWeight;
-    self.segment = motion.segment;
-    self.fromSegment = motion.fromSegment;
+    self.action = motion.action;
+    self.fromAction = motion.fromAction;
     self.id = traits[i].x;
     self.species = species;
     self.detail = level;

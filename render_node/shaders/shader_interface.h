@@ -147,6 +147,7 @@ AQUARAMA_CONSTANT uint kPhases = 64U;
 AQUARAMA_CONSTANT uint kActions = 27U;
 AQUARAMA_CONSTANT uint kFirstCurve = 3U;
 AQUARAMA_CONSTANT uint kFirstTurn = 22U;
+AQUARAMA_CONSTANT uint kTurnSegments = 41U;  // of the wire
 
 // The water stirred by fish, about the shared eye: cells of a grid, three numbers each.
 AQUARAMA_CONSTANT int kWakeCellsAcross = 40;

@@ -27,7 +27,8 @@ namespace aquarama::surface {
 static_assert(shaders::kControlPoints == body::kControlPoints &&
               shaders::kPhases == motion::kPhases && shaders::kActions == motion::kActions &&
               shaders::kFirstCurve == indexOf(motion::Action::CurveLeftWideSlow) &&
-              shaders::kFirstTurn == indexOf(motion::Action::TurnLeftGradual));
+              shaders::kFirstTurn == motion::kFirstTurn &&
+              shaders::kTurnSegments == motion::kTurnSegments);
 
 namespace {
 

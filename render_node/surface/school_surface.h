@@ -81,7 +81,7 @@ struct DrawnFish {
     float lengthMetres = 0;
     glm::vec4 rotation{};
     float phase = 0, fromPhase = 0, warpWeight = 0;
-    std::uint32_t segment = 0, fromSegment = 0;
+    std::uint32_t action = 0, fromAction = 0;
     std::uint32_t id = 0, species = 0;
     DetailLevel level = DetailLevel::Point;
     float blend = 0;

@@ -25,7 +25,7 @@ wire::StateFrame stateOf(std::int64_t fish) {
                                .orientationHigh = ~n,
                                .phase = static_cast<std::uint16_t>(n),
                                .fromPhase = 0,
-                               .segment = static_cast<std::uint8_t>(n % motion::kActions),
+                               .segment = static_cast<std::uint8_t>(n % motion::kSegments),
                                .fromSegment = 0,
                                .warpFrame = 0,
                                .warpLength = 0});

@@ -35,13 +35,14 @@ struct School {
             motion::setBodyFrame(states, i, {});
             states.phase[i] = static_cast<std::uint16_t>(random());
             decide(i);
-            states.segment[i] = commands.segment[i];
+            states.segment[i] =
+                motion::firstSegmentOf(static_cast<motion::Action>(commands.action[i]));
         }
     }
 
     void decide(std::size_t fish) {
         const auto action = static_cast<motion::Action>(random() % motion::kActions);
-        commands.segment[fish] = static_cast<std::uint8_t>(action);
+        commands.action[fish] = static_cast<std::uint8_t>(action);
         commands.phaseRate[fish] = motion::recordedPhaseRate(tables(), action);
         commands.yawRate[fish] = static_cast<std::int16_t>(random() % 2000);
         commands.pitch[fish] = static_cast<std::int16_t>(random() % 8000);

@@ -77,7 +77,7 @@ void Replica::command(Manoeuvre manoeuvre) {
 }
 
 void Replica::play(motion::Action action, double tempo) {
-    commands_.segment[0] = static_cast<std::uint8_t>(action);
+    commands_.action[0] = static_cast<std::uint8_t>(action);
     const auto rate = std::lround(tempo * motion::recordedPhaseRate(*tables_, action));
     assert(rate >= std::numeric_limits<std::int16_t>::min());
     assert(rate <= std::numeric_limits<std::int16_t>::max());
@@ -86,7 +86,7 @@ void Replica::play(motion::Action action, double tempo) {
 
 // As the secondary controller of the show does: a slope while the pitch is off.
 void Replica::takeSlope() {
-    const auto commanded = static_cast<motion::Action>(commands_.segment[0]);
+    const auto commanded = static_cast<motion::Action>(commands_.action[0]);
     if (!swims(commanded)) return;
     const float pitch = static_cast<float>(commands_.pitch[0]) / 32768.0F;
     const float error = pitch - (motion::meanRotation(*tables_, states_, 0) * glm::vec3(1, 0, 0)).y;
@@ -112,7 +112,7 @@ void Replica::learn(motion::Action action, const motion::ActionSegment& segment)
 }
 
 void Replica::bringToPhaseOf(const capture::NodeVectors& pose) {
-    const motion::ActionSegment& segment = repertoire_.segments.at(states_.segment[0]);
+    const motion::ActionSegment& segment = repertoire_.segments.at(indexOf(playing()));
     const bool warps = states_.warpFrame[0] != states_.warpLength[0];
     if (warps || segment.playsToEnd || playing() == motion::Action::Glide) return;
     // A jump of the phase would turn the mean frame by the sway between the two phases; the body

@@ -26,9 +26,7 @@ class Replica {
 
     // Replaces a segment of the repertoire that is not playing.
     void learn(motion::Action action, const motion::ActionSegment& segment);
-    [[nodiscard]] motion::Action playing() const {
-        return static_cast<motion::Action>(states_.segment[0]);
-    }
+    [[nodiscard]] motion::Action playing() const { return motion::actionOf(states_.segment[0]); }
 
     // While a cyclic segment plays, sets its phase to the one whose pose is nearest to `pose` (in
     // the body frame, body lengths) and keeps the direction of the mean frame. Does nothing during

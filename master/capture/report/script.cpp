@@ -114,9 +114,10 @@ ScriptCommand commandFor(const motion::Repertoire& repertoire,
                          Manoeuvre manoeuvre,
                          Random& random) {
     ScriptCommand command{.manoeuvre = manoeuvre, .beatTicks = beatTicks(repertoire, manoeuvre)};
-    // A turn lasts its recorded segment, rounded to ticks.
+    // A turn lasts the whole ticks in which the motor plays its segment.
     if (isTurn(manoeuvre)) {
-        command.ticks = static_cast<int>(std::lround(ticksOf(segmentOf(repertoire, manoeuvre))));
+        const long rate = std::lround(65536 / ticksOf(segmentOf(repertoire, manoeuvre)));
+        command.ticks = static_cast<int>(65535 / rate);
         return command;
     }
     constexpr double kUnit = 1.0 / 4294967296.0;  // 2^-32: the share is in [0, 1)

@@ -136,7 +136,7 @@ TEST_P(Attitude, aTickGoesTheSameWayInTheBodysAxesHoweverTheBodyLies) {
 // A slope is left where it would lead away from the commanded pitch, as the secondary controller
 // does.
 void endSlope(School& school, std::size_t fish) {
-    const auto commanded = static_cast<Action>(school.commands.segment[fish]);
+    const auto commanded = static_cast<Action>(school.commands.action[fish]);
     if (!isSlope(commanded)) return;
     const float wanted = static_cast<float>(school.commands.pitch[fish]) / 32768.0F;
     const auto sine = static_cast<float>(std::sin(school.pitch(fish) * kDegree));
@@ -163,14 +163,14 @@ TEST_P(Attitude, whenNotManoeuvringAFishIsUprightWithinFiveDegrees) {
                 const double pitch = std::uniform_real_distribution<double>(-45, 45)(random);
                 school.commands.pitch[i] = pitchCommand(pitch);
                 school.commands.yawRate[i] = static_cast<std::int16_t>(random() % 18000 - 9000);
-            } else if (isTurn(static_cast<Action>(school.commands.segment[i]))) {
+            } else if (isTurn(static_cast<Action>(school.commands.action[i]))) {
                 school.command(i, kStraight[random() % kStraight.size()]);  // one turn at a time
             }
             endSlope(school, i);
         }
         school.tick();
         for (std::size_t i = 0; i < kFish; ++i) {
-            const auto action = static_cast<Action>(school.states.segment[i]);
+            const auto action = actionOf(school.states.segment[i]);
             const bool turns = isTurn(action) || isCurve(action);
             calm[i] = turns ? 0 : calm[i] + 1;
             if (calm[i] < kCalmTicks || (tick + static_cast<int>(i)) % 8 != 0) continue;

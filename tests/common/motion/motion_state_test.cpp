@@ -35,8 +35,8 @@ MotionStates randomStates(std::size_t fish, unsigned seed) {
         states.fromPhase[i] = static_cast<std::uint16_t>(random());
         states.speed[i] =
             static_cast<std::int32_t>(random() % (2U * kFastestUnits)) - kFastestUnits;
-        states.segment[i] = static_cast<std::uint8_t>(random() % kActions);
-        states.fromSegment[i] = static_cast<std::uint8_t>(random() % kActions);
+        states.segment[i] = static_cast<std::uint8_t>(random() % kSegments);
+        states.fromSegment[i] = static_cast<std::uint8_t>(random() % kSegments);
         states.warpLength[i] = static_cast<std::uint8_t>(random());
         states.warpFrame[i] = static_cast<std::uint8_t>(random() % (states.warpLength[i] + 1U));
     }
@@ -133,7 +133,7 @@ TEST(MotionState, anImpossibleRecordIsNotPlayable) {
         return isPlayable(record);
     };
     EXPECT_TRUE(with([](auto&) {}));
-    EXPECT_FALSE(with([](auto& r) { r.segment = kActions; }));
+    EXPECT_FALSE(with([](auto& r) { r.segment = kSegments; }));
     EXPECT_FALSE(with([](auto& r) { r.fromSegment = 255; }));
     EXPECT_FALSE(with([](auto& r) { r.warpLength = 3, r.warpFrame = 4; }));
     EXPECT_FALSE(with([](auto& r) { r.orientationHigh |= 1U << 31U; }));

@@ -17,7 +17,7 @@ School randomSchool() {
     School school(kFish);
     scatter(school, random);
     for (std::size_t i = 0; i < kFish; ++i) {
-        school.commands.segment[i] = school.states.segment[i];
+        school.commands.action[i] = static_cast<std::uint8_t>(actionOf(school.states.segment[i]));
         school.commands.phaseRate[i] = static_cast<std::int16_t>(random() % 6000);
     }
     return school;
@@ -103,7 +103,7 @@ TEST(MotorStep, theTestsWorldIsOneInWhichThingsHappen) {
         commandAtRandom(school, random);
         school.tick();
         for (std::size_t i = 0; i < kFish; ++i) {
-            ++seen[school.states.segment[i]];
+            ++seen[indexOf(actionOf(school.states.segment[i]))];
             warping += school.states.warpFrame[i] != school.states.warpLength[i] ? 1 : 0;
         }
     }

@@ -23,8 +23,9 @@ TEST(MotorTables, knowTheRatesThatWereRecorded) {
                     gait.stride / gait.periodSeconds,
                     gait.bends ? 0.08 : 0.01)  // in a C-bend the origin leaves the course
             << nameOf(action);
-        EXPECT_NEAR(
-            recordedTurnRate(sharedTables(), action), gait.turnRadians / gait.periodSeconds, 0.01)
+        EXPECT_NEAR(recordedTurnRate(sharedTables(), firstSegmentOf(action)),
+                    gait.turnRadians / gait.periodSeconds,
+                    0.01)
             << nameOf(action);
     }
 }
@@ -110,10 +111,10 @@ TEST(Motor, aSharpTurnPlaysToItsEndAndTurnsAsRecorded) {
     const double heading = school.heading(0);
     school.command(0, Action::TurnLeftSharp);
     school.tick(10);
-    EXPECT_EQ(school.states.segment[0], indexOf(Action::TurnLeftSharp));
+    EXPECT_EQ(actionOf(school.states.segment[0]), Action::TurnLeftSharp);
     school.command(0, Action::ForwardMedium);  // asked too early: it waits for the end
     school.tick(30);
-    EXPECT_EQ(school.states.segment[0], indexOf(Action::TurnLeftSharp));
+    EXPECT_EQ(actionOf(school.states.segment[0]), Action::TurnLeftSharp);
     school.tick(60);
     EXPECT_EQ(school.states.segment[0], indexOf(Action::ForwardMedium));
     EXPECT_NEAR(std::remainder(school.heading(0) - heading, 360), 60, 1.5);
@@ -222,7 +223,7 @@ TEST(Motor, aRestingFishStaysExactlyWhereItIs) {
 TEST(Motor, anUnknownActionIsNotPlayed) {
     School school(1);
     school.play(0, Action::ForwardMedium);
-    school.commands.segment[0] = kActions;
+    school.commands.action[0] = kActions;
     school.tick(10);
     EXPECT_EQ(school.states.segment[0], indexOf(Action::ForwardMedium));
     EXPECT_GT(school.place(0).x, 0.01);
@@ -233,7 +234,7 @@ double largestRecordedStep() {
     double most = 0;
     for (int a = 0; a < kActions; ++a) {
         PresentedFish fish;
-        fish.segment = static_cast<std::uint32_t>(a);
+        fish.action = static_cast<std::uint32_t>(a);
         const int rate = recordedPhaseRate(sharedTables(), static_cast<Action>(a));
         for (int phase = 0; phase < 65536; phase += 256) {
             body::NodalPoints now;
@@ -278,7 +279,7 @@ TEST(MotionWarp, noNodalPointMovesFurtherThanTheEyeIsUsedTo) {
                     }
                     last = now;
                 }
-                ASSERT_EQ(school.states.segment[0], to);
+                ASSERT_EQ(actionOf(school.states.segment[0]), static_cast<Action>(to));
             }
         }
     }
@@ -286,15 +287,16 @@ TEST(MotionWarp, noNodalPointMovesFurtherThanTheEyeIsUsedTo) {
 
 TEST(MotionWarp, theFishKeepsSwimmingWhileItWarps) {
     School school(1);
-    school.play(0, Action::ForwardSlow);
+    school.play(0, Action::ForwardMedium);
     school.tick(30);
     school.command(0, Action::TurnLeftSharp);
+    const double mediumMetresATick = 0.2 * 2 * synthetic::kStrideBodyLengths / 60;
     int warped = 0;
     for (int i = 0; i < 20; ++i) {
         const glm::dvec3 before = school.place(0);
         school.tick();
         const double metresATick = glm::distance(school.place(0), before);
-        EXPECT_GT(metresATick, 0.5 * 0.2 * synthetic::kStrideBodyLengths / 60);
+        EXPECT_GT(metresATick, 0.5 * mediumMetresATick);
         warped += school.states.warpFrame[0] != school.states.warpLength[0] ? 1 : 0;
     }
     EXPECT_GT(warped, 0);
@@ -309,12 +311,14 @@ TEST(MotionWarp, thePhaseRunsOnWhenTheWarpHasEnded) {
     school.tick();
     const int frames = school.states.warpLength[0];
     ASSERT_GT(frames, 0);
-    EXPECT_EQ(school.states.phase[0], 0);  // a turn is entered at its start
+    // A turn plays during its warp.
+    const int entry = (frames + 1) * recordedPhaseRate(sharedTables(), Action::TurnRightSharp);
+    EXPECT_EQ(school.states.phase[0], entry);
     school.tick(frames);
     EXPECT_EQ(school.states.warpFrame[0], frames);
-    EXPECT_EQ(school.states.phase[0], 0);
+    EXPECT_EQ(school.states.phase[0], entry);
     school.tick();
-    EXPECT_EQ(school.states.phase[0], school.commands.phaseRate[0]);
+    EXPECT_EQ(school.states.phase[0], entry + school.commands.phaseRate[0]);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST_P(Patterns, aGlideIsEnteredByAWarpAndKeepsTheSpeedThatTheFishHad) {
     const double before = speedOf(school);
     school.command(0, Action::Glide);
     school.tick(school.states.warpLength[0] + 1);
-    EXPECT_EQ(school.states.segment[0], static_cast<std::uint8_t>(Action::Glide));
+    EXPECT_EQ(school.states.segment[0], firstSegmentOf(Action::Glide));
     EXPECT_GT(speedOf(school), 0.9 * before);
     EXPECT_LT(speedOf(school), before);
 }

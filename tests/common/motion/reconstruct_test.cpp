@@ -41,7 +41,7 @@ TEST(Reconstruct, nodalPointsAreThoseThatWereCaptured) {
             fish.lengthMetres = static_cast<float>(kLength);
             fish.rotation = glm::vec4(rotation.x, rotation.y, rotation.z, rotation.w);
             fish.phase = static_cast<float>(phase);
-            fish.segment = static_cast<std::uint32_t>(action);
+            fish.action = static_cast<std::uint32_t>(action);
             const body::NodalPoints nodes = nodesInWorld(fish);
             for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
                 const glm::dvec3 captured = kLength * synthetic::placed(gait, phase, rest[i]);
@@ -105,7 +105,7 @@ TEST(Reconstruct, aFishThatJumpedIsShownWhereItLanded) {
     after.phase = 5000;
     after.fromSegment = 2;
     const PresentedFish fish = present(before, after, 0.25F, {.id = 7, .lengthMillimetres = 300});
-    EXPECT_EQ(fish.segment, 3U);
+    EXPECT_EQ(fish.action, 3U);
     EXPECT_EQ(fish.warpWeight, 1.0F);
     EXPECT_EQ(fish.phase, 5000.0F / 65536.0F);
     EXPECT_EQ(fish.id, 7U);
@@ -130,7 +130,7 @@ TEST(Reconstruct, aFishThatGoesOrComesIsAwayAndNotOnItsWay) {
 
 TEST(Reconstruct, aSegmentThatDoesNotExistIsNotReadBeyondTheLast) {
     PresentedFish fish;
-    fish.segment = 250;
+    fish.action = 250;
     fish.phase = 7.5F;
     fish.lengthMetres = 1;
     const body::NodalPoints nodes = nodesInWorld(fish);

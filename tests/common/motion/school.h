@@ -40,7 +40,7 @@ struct School {
 
     // As recorded, from now on and for long.
     void play(std::size_t fish, Action action) {
-        states.segment[fish] = static_cast<std::uint8_t>(action);
+        states.segment[fish] = firstSegmentOf(action);
         command(fish, action);
         setSpeedBodyLengths(states, fish, recordedSpeedBodyLengths(*tables, action));
     }
@@ -52,7 +52,7 @@ struct School {
             states, fish, static_cast<float>(share) * speedBodyLengths(states, fish));
     }
     void command(std::size_t fish, Action action) {
-        commands.segment[fish] = static_cast<std::uint8_t>(action);
+        commands.action[fish] = static_cast<std::uint8_t>(action);
         commands.phaseRate[fish] = recordedPhaseRate(*tables, action);
     }
 
@@ -99,7 +99,7 @@ inline void scatter(School& school, std::mt19937& random) {
         const glm::quat turn(normal(random), normal(random), normal(random), normal(random));
         const glm::vec3 place(normal(random), normal(random), normal(random));
         setBodyFrame(school.states, i, {100.0F * place, glm::normalize(turn)});
-        school.states.segment[i] = static_cast<std::uint8_t>(random() % kActions);
+        school.states.segment[i] = static_cast<std::uint8_t>(random() % kSegments);
         school.states.phase[i] = static_cast<std::uint16_t>(random());
         school.states.speed[i] = static_cast<std::int32_t>(random() % 4000000) - 2000000;
         school.traits[i].lengthMillimetres = static_cast<std::uint16_t>(20 + random() % 5000);
@@ -109,7 +109,7 @@ inline void scatter(School& school, std::mt19937& random) {
 inline void commandAtRandom(School& school, std::mt19937& random) {
     for (std::size_t i = 0; i < school.traits.size(); ++i) {
         if (random() % 20 != 0) continue;  // a decision every third of a second
-        school.commands.segment[i] = static_cast<std::uint8_t>(random() % kActions);
+        school.commands.action[i] = static_cast<std::uint8_t>(random() % kActions);
         school.commands.phaseRate[i] = static_cast<std::int16_t>(random() % 6000);
         school.commands.brake[i] = static_cast<std::uint8_t>(random() % 2 == 0 ? 0 : random());
         school.commands.pitch[i] = static_cast<std::int16_t>(random());

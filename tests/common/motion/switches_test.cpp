@@ -31,7 +31,7 @@ float largestStepOf(const Repertoire& repertoire, const MotorTables& tables) {
     float most = 0;
     for (int action = 0; action < kActions; ++action) {
         const int rate = recordedPhaseRate(tables, static_cast<Action>(action));
-        FishRecord record{.segment = static_cast<std::uint8_t>(action)};
+        FishRecord record{.segment = firstSegmentOf(static_cast<Action>(action))};
         for (int phase = 0; phase < 65536; phase += 128) {
             record.phase = static_cast<std::uint16_t>(phase);
             const body::NodalPoints now = poseOf(repertoire, record);
@@ -42,8 +42,7 @@ float largestStepOf(const Repertoire& repertoire, const MotorTables& tables) {
     return most;
 }
 
-// Any action, glides among them, at any rate that the controller may ask for; one in four
-// backwards.
+// Any action, glides among them, at any rate that the controller may ask for.
 void orderAbout(School& school, std::mt19937& random) {
     std::uniform_real_distribution<double> tempo(1 - kRateMargin, 1 + kRateMargin);
     for (std::size_t i = 0; i < kFish; ++i) {

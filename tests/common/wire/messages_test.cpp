@@ -185,7 +185,7 @@ TEST(Messages, aStateThatLiesIsRefused) {
     EXPECT_TRUE(refused([](StateFrame& s) { s.fraction = 1.01F; }));
     EXPECT_TRUE(refused([&](StateFrame& s) { s.fraction = nan; }));
     EXPECT_TRUE(refused([&](StateFrame& s) { s.eye.positionMetres.y = nan; }));
-    EXPECT_TRUE(refused([](StateFrame& s) { s.after[3].segment = motion::kActions; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.after[3].segment = motion::kSegments; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.before[0].fromSegment = 255; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.after[1].warpFrame = 9; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.foodBefore.pop_back(); }));

@@ -19,8 +19,8 @@ inline std::vector<motion::FishRecord> sampleRecords(std::uint32_t fish) {
                            ~i >> 2U,
                            static_cast<std::uint16_t>(i * 31),
                            static_cast<std::uint16_t>(i * 57),
-                           static_cast<std::uint8_t>(i % motion::kActions),
-                           static_cast<std::uint8_t>((i + 3) % motion::kActions),
+                           static_cast<std::uint8_t>(i % motion::kSegments),
+                           static_cast<std::uint8_t>((i + 3) % motion::kSegments),
                            static_cast<std::uint8_t>(i % 8),
                            8,
                            1000 - n * 77});

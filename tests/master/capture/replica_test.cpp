@@ -28,11 +28,11 @@ class Replica {
         states_.resize(1);
         commands_.resize(1);
         motion::setBodyFrame(states_, 0, {});
-        states_.segment[0] = static_cast<std::uint8_t>(action);
+        states_.segment[0] = firstSegmentOf(action);
         command(action);
     }
     void command(motion::Action action) {
-        commands_.segment[0] = static_cast<std::uint8_t>(action);
+        commands_.action[0] = static_cast<std::uint8_t>(action);
         commands_.phaseRate[0] = motion::recordedPhaseRate(scadTables(), action);
     }
     void enterAt(int phase) { states_.phase[0] = static_cast<std::uint16_t>(phase); }
@@ -50,7 +50,9 @@ class Replica {
     }
     [[nodiscard]] glm::dvec3 place() const { return motion::bodyFrameOf(states_, 0).position; }
     [[nodiscard]] int ticksOf(int cycles) const { return cycles * 65536 / commands_.phaseRate[0]; }
-    [[nodiscard]] int segment() const { return states_.segment[0]; }
+    [[nodiscard]] int segment() const {
+        return static_cast<int>(motion::actionOf(states_.segment[0]));
+    }
     [[nodiscard]] body::NodalPoints pose() const {
         const motion::FishRecord record = motion::recordOf(states_, 0);
         body::NodalPoints nodes;

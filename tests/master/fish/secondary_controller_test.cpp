@@ -34,7 +34,9 @@ Gaits scadGaits() {
     const auto add = [&](Action action, std::int16_t rate, float speed, float turn) {
         gaits.phaseRate[indexOf(action)] = rate;
         gaits.speed[indexOf(action)] = speed;
-        gaits.turn[indexOf(action)] = turn;
+        const std::size_t first = firstSegmentOf(action);
+        const std::size_t segments = isTurn(action) ? motion::kTurnSegments : 1;
+        std::fill_n(gaits.turn.begin() + static_cast<std::ptrdiff_t>(first), segments, turn);
     };
     add(Action::Retreat, 2185, -0.4F, 0);
     add(Action::TurnLeftGradual, 1500, 1.7F, 0.52F);
@@ -54,7 +56,7 @@ struct Mind {
         courses.resize(1);
         memory.resize(1);
         view.fish[0].heading.x = 1;
-        startCommands(gaits, 1, 0, commands.segment.size(), commands, memory);
+        startCommands(gaits, 1, 0, commands.action.size(), commands, memory);
         want(0, 2.0F);
     }
     void want(float degreesToTheLeft, float speed, float urgency = 0) {
@@ -69,9 +71,9 @@ struct Mind {
         SecondaryController{&gaits, &view, &courses, &states, 1, {tick}, &commands, &memory}.run(0,
                                                                                                  1);
         tick += kTicksBetweenThoughts;
-        states.segment[0] = commands.segment[0];
+        states.segment[0] = firstSegmentOf(static_cast<motion::Action>(commands.action[0]));
         states.phase[0] = 65535;
-        return static_cast<motion::Action>(commands.segment[0]);
+        return static_cast<motion::Action>(commands.action[0]);
     }
     motion::Action thinkFor(int thoughts) {
         for (int i = 1; i < thoughts; ++i) think();
@@ -188,7 +190,7 @@ TEST(SecondaryController, aCommandStandsUntilTheCourseDiffersByALevel) {
         mind.want(i % 2 == 0 ? 1.2F : 0.8F, i % 2 == 0 ? 1.99F : 2.01F);
         mind.courses[0].openToChange = false;
         mind.think();
-        EXPECT_EQ(mind.commands.segment, before.segment);
+        EXPECT_EQ(mind.commands.action, before.action);
         EXPECT_EQ(mind.commands.phaseRate, before.phaseRate);
         EXPECT_EQ(mind.commands.yawRate, before.yawRate);
         EXPECT_EQ(mind.commands.pitch, before.pitch);
@@ -208,7 +210,7 @@ TEST(SecondaryController, backwardsItKeepsTheSideOfTheTurnItIsIn) {
     Mind mind;
     mind.want(170, 2.0F);
     EXPECT_EQ(mind.think(), motion::Action::TurnLeftSharp);
-    mind.states.segment[0] = static_cast<std::uint8_t>(motion::Action::TurnLeftGradual);
+    mind.states.segment[0] = firstSegmentOf(motion::Action::TurnLeftGradual);
     mind.want(-175, 2.0F);
     EXPECT_EQ(mind.think(), motion::Action::TurnLeftSharp);
 }

@@ -53,7 +53,7 @@ struct Diary {
     double nearPasses = 0;         // share of ticks with the school's middle within 3.2 m
     double farOff = 0;             // and beyond 6 m
     int longestOverlapTicks = 0;
-    std::vector<std::set<int>> actions = std::vector<std::set<int>>(kFish);
+    std::vector<std::set<motion::Action>> actions = std::vector<std::set<motion::Action>>(kFish);
 };
 
 // In water where there is nothing to leave the school for.
@@ -85,7 +85,7 @@ class Watch {
             fish_.push_back({motion::bodyFrameOf(world_.states(), i).position,
                              world_.view().heading(i),
                              0.001F * static_cast<float>(world_.traits()[i].lengthMillimetres)});
-            diary_.actions[i].insert(world_.states().segment[i]);
+            diary_.actions[i].insert(motion::actionOf(world_.states().segment[i]));
             notePlace(fish_.back().position);
         }
         noteTailBeats();
@@ -192,7 +192,7 @@ TEST_P(School, noTwoFishOverlapForLong) {
 }
 
 TEST_P(School, eachFishSwimsInSeveralWays) {
-    for (const std::set<int>& actions : diary().actions) EXPECT_GE(actions.size(), 4U);
+    for (const std::set<motion::Action>& actions : diary().actions) EXPECT_GE(actions.size(), 4U);
 }
 
 // 51 independent phases have a mean resultant of 0.12; one common beat has 1.

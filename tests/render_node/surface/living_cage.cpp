@@ -92,7 +92,7 @@ body::FinDrive driveOf(const motion::PresentedFish& fish, float seconds) {
         .weight = fish.warpWeight};
     for (std::size_t side = 0; side < 2; ++side)
         drive.turning.at(side) =
-            glm::mix(turnOf(fish.fromSegment, side), turnOf(fish.segment, side), fish.warpWeight);
+            glm::mix(turnOf(fish.fromAction, side), turnOf(fish.action, side), fish.warpWeight);
     return drive;
 }
 
@@ -103,9 +103,9 @@ void livingCage(const body::FishBody& body,
                 const motion::PresentedFish& fish,
                 float seconds,
                 std::span<glm::vec3> points) {
-    CagePose pose = poseAt(body, motion::segmentOf(repertoire, fish.segment), fish.phase);
+    CagePose pose = poseAt(body, motion::segmentOf(repertoire, fish.action), fish.phase);
     if (fish.warpWeight < 1.0F)
-        pose = mixed(poseAt(body, motion::segmentOf(repertoire, fish.fromSegment), fish.fromPhase),
+        pose = mixed(poseAt(body, motion::segmentOf(repertoire, fish.fromAction), fish.fromPhase),
                      pose,
                      fish.warpWeight);
     const body::FinDrive drive = driveOf(fish, seconds);

@@ -57,7 +57,7 @@ TEST_F(SchoolSurfaceTest, everyLevelLiesWhereTheCpuPutsIt) {
         motion::FishRecord record = test::recordOf(test::fishAt(place, test::anyRotation(random)));
         record.phase = static_cast<std::uint16_t>(bits(random));
         record.fromPhase = static_cast<std::uint16_t>(bits(random));
-        record.segment = static_cast<std::uint8_t>(trial % motion::kActions);
+        record.segment = static_cast<std::uint8_t>(trial % motion::kSegments);
         record.speed = static_cast<std::int32_t>(bits(random) % 500000U);
         record.fromSegment = static_cast<std::uint8_t>(trial % 3);
         record.warpLength = trial % 2 == 0 ? 0 : 9;
@@ -83,7 +83,7 @@ TEST_F(SchoolSurfaceTest, everySpeciesMovesItsFinsAsTheCpuDoes) {
         one.id = static_cast<std::uint32_t>(fish.size());
         one.speed = 0.25F * static_cast<float>(fish.size());
         one.phase = 0.625F;
-        one.segment = static_cast<std::uint32_t>(fish.size());
+        one.action = static_cast<std::uint32_t>(fish.size());
         fish.push_back(one);
         cast.push_back({body, {}, test::swaying(body, 0.12F), {test::traitsOf(one)}});
     }
@@ -120,7 +120,7 @@ TEST_F(SchoolSurfaceTest, noFishInSightIsCulled) {
         const glm::vec3 place{2 * unit(random), 2 * unit(random), -1.2F + 1.5F * unit(random)};
         motion::PresentedFish fish = test::fishAt(place, test::anyRotation(random));
         fish.phase = 0.5F + 0.49F * unit(random);
-        fish.segment = static_cast<std::uint32_t>(i % motion::kActions);
+        fish.action = static_cast<std::uint32_t>(i % motion::kActions);
         fish.id = static_cast<std::uint32_t>(i);
         school.push_back(fish);
     }
@@ -194,7 +194,7 @@ TEST_F(SchoolSurfaceTest, aSegmentWithoutControlPointsIsDrawnAllTheSame) {
     motion::Repertoire bare = repertoire_;
     bare.segments[2].controlPoints.clear();
     motion::PresentedFish fish = test::fishAt({0, 0, -1}, {1, 0, 0, 0});
-    fish.segment = 2;
+    fish.action = 2;
     fish.phase = 0.5F;
     const test::RecordedSchool recorded{{&fish, 1}};
     const std::vector<SchoolSpecies> cast{{body_, {}, bare, recorded.traits}};

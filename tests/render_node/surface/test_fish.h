@@ -97,8 +97,8 @@ inline motion::FishRecord recordOf(const motion::PresentedFish& fish) {
     };
     record.phase = cycle(fish.phase);
     record.fromPhase = cycle(fish.fromPhase);
-    record.segment = static_cast<std::uint8_t>(fish.segment);
-    record.fromSegment = static_cast<std::uint8_t>(fish.fromSegment);
+    record.segment = motion::firstSegmentOf(static_cast<motion::Action>(fish.action));
+    record.fromSegment = motion::firstSegmentOf(static_cast<motion::Action>(fish.fromAction));
     record.speed =
         static_cast<std::int32_t>(std::lround(fish.speed * motion::kSpeedUnitsPerBodyLength));
     if (fish.warpWeight >= 1.0F) return record;

@@ -52,8 +52,8 @@ struct TwoTicks {
                      motion::FishRecord& to,
                      std::uniform_int_distribution<int>& any,
                      std::mt19937& random) {
-        from.segment = static_cast<std::uint8_t>(any(random) % motion::kActions);
-        from.fromSegment = static_cast<std::uint8_t>(any(random) % motion::kActions);
+        from.segment = static_cast<std::uint8_t>(any(random) % motion::kSegments);
+        from.fromSegment = static_cast<std::uint8_t>(any(random) % motion::kSegments);
         from.phase = static_cast<std::uint16_t>(any(random));
         from.fromPhase = static_cast<std::uint16_t>(any(random));
         from.warpLength = static_cast<std::uint8_t>(any(random) % 9);
@@ -69,7 +69,7 @@ struct TwoTicks {
         // It leaves its segment in this tick: mid-cycle, or from within a warp.
         to.fromSegment = from.segment;
         to.fromPhase = from.phase;
-        to.segment = static_cast<std::uint8_t>(any(random) % motion::kActions);
+        to.segment = static_cast<std::uint8_t>(any(random) % motion::kSegments);
         to.phase = static_cast<std::uint16_t>(any(random));
         to.warpLength = 8;
         to.warpFrame = 0;
@@ -163,8 +163,8 @@ TEST_F(VisibilityTest, aFishIsWhereTheReferencePresentsIt) {
             // Half a unit of a quaternion moves the nose by as many body lengths.
             ASSERT_LT(glm::distance(fish.rotation, expected.rotation), 1e-4F);
             ASSERT_FLOAT_EQ(fish.lengthMetres, bodyLength);
-            ASSERT_EQ(fish.segment, expected.segment);
-            ASSERT_EQ(fish.fromSegment, expected.fromSegment);
+            ASSERT_EQ(fish.action, expected.action);
+            ASSERT_EQ(fish.fromAction, expected.fromAction);
             // A cycle moves no point by more than a body length.
             const float phaseApart = std::abs(fish.phase - expected.phase);
             ASSERT_LT(std::min(phaseApart, 1.0F - phaseApart), 1e-5F) << i;
