@@ -25,7 +25,8 @@ Travel playedTravel(const SegmentTables& tables, const Playing& playing) {
     return {.start = placeAt(playing.from),
             .end = placeAt(playing.to),
             .bodyFromMean = swayAt(tables, static_cast<std::uint32_t>(playing.to) & 0xFFFFU),
-            .rate = playing.to - playing.from};
+            .rate = playing.to - playing.from,
+            .strokePhase = (playing.from + playing.to) >> 1};
 }
 
 float bounded(float value, float limit) {
@@ -98,14 +99,16 @@ float speedAfter(const SpeedLoss& loss,
                  float pathAtStart,
                  float pathAtEnd,
                  std::uint8_t segment,
+                 std::uint32_t phase,
                  float brake) {
     constexpr std::uint8_t kGlide = firstSegmentOf(Action::Glide);
     const bool glides = segment == kGlide || pathAtEnd == 0.0F;
     const float carried = bounded(v + (pathAtEnd - pathAtStart), kFastest);
     const float target = glides ? 0.0F : pathAtEnd;
     const float against = glides ? carried : target;
-    const float drag = loss.drag[glides ? kGlide : segment];
-    const float step = drag * std::abs(against * (target - carried));
+    const float drag = loss.drag[glides ? kGlide : dragOf(segment, phase)];
+    const float compared = target > 0.0F ? std::max(carried, 0.0F) : carried;
+    const float step = drag * std::abs(against * (target - compared));
     const float swum = approached(carried, target, step);
     return approached(swum, 0.0F, (brake * loss.brake) * std::abs(swum));
 }
@@ -143,6 +146,7 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
                                    pathSpeed(a[3], rate),
                                    pathAtEnd,
                                    s.segment[i],
+                                   static_cast<std::uint32_t>(travel.strokePhase),
                                    static_cast<float>(step.commands->brake[i]) * kBrakeUnit);
     s.speed[i] = static_cast<std::int32_t>(speed);
     // Eq. 10 in body axes. seenFrom is the frame from which the path is seen, in the world.

@@ -74,6 +74,7 @@ void store(const Travel& travel, Block& block, std::size_t i) {
     put(travel.start.translationAndSpeed, block.left);
     put(travel.end.translationAndSpeed, block.reached);
     block.rate[i] = travel.rate;
+    block.from[i] = block.to[i] = travel.strokePhase;
 }
 
 // Bit i: lane i is set. At most 16 lanes, so two bytes hold them.
@@ -237,6 +238,8 @@ HWY_INLINE void changeSpeed(const MotorStep& step,
                    pathSpeed(left.speed, rate),
                    pathAtEnd,
                    bytesAt(s.segment, fish),
+                   hn::ShiftRight<1>(hn::Add(hn::Load(kInts, block.from + lane),
+                                             hn::Load(kInts, block.to + lane))),
                    hn::Mul(hn::ConvertTo(kFloats, bytesAt(step.commands->brake, fish)),
                            hn::Set(kFloats, kBrakeUnit)));
     hn::StoreU(hn::ConvertTo(kInts, speed), kInts, s.speed.data() + fish);

@@ -253,7 +253,8 @@ SpeedLoss lossOf(const SpeedResponse& response,
     if (slow + medium + fast > 0.0F) {
         for (std::uint32_t segment = 0; segment < kSegments; ++segment)
             loss.drag[segment] = squareLoss(swimDragOf(response, segments, segment));
-        loss.drag[indexOf(Action::Retreat)] = squareLoss(response.retreatDrag);
+        loss.drag[firstSegmentOf(Action::Retreat)] = squareLoss(2.0F * response.retreatDrag);
+        loss.drag.back() = 0.0F;
     }
     loss.drag[firstSegmentOf(Action::Glide)] = squareLoss(response.glideDrag);
     return loss;
@@ -432,17 +433,32 @@ float travelFromCell(const Travels& travels, std::size_t cell, std::size_t to) {
     return std::max(travels[cell][to], travels[cell + 1][to]);
 }
 
+// A tail that begins to beat moves the fish after so many beats only: its wave has to grow. By the
+// way of fish that swim on after a retreat (docs/motion.md).
+constexpr double kBeatsToBegin = 0.35;
+
 // The entry phase whose pose is nearest, and as many frames as keep each step within `step`
 // (section 4.2).
+WarpPlan planToPhase(const Travels& travels, std::size_t cell, std::size_t entry, float step) {
+    const float steps = std::sqrt(travelFromCell(travels, cell, entry)) / step;
+    const auto frames = static_cast<int>(steps);  // ceil(steps) - 1, but for whole numbers
+    return {static_cast<std::uint16_t>(entry << kPhaseCellBits),
+            static_cast<std::uint8_t>(std::min(frames, 255))};
+}
+
 WarpPlan planToCycle(const Travels& travels, std::size_t cell, float step) {
     std::size_t entry = 0;
     for (std::size_t m = 1; m < kPhases; ++m) {
         if (travelFromCell(travels, cell, m) < travelFromCell(travels, cell, entry)) entry = m;
     }
-    const float steps = std::sqrt(travelFromCell(travels, cell, entry)) / step;
-    const auto frames = static_cast<int>(steps);  // ceil(steps) - 1, but for whole numbers
-    return {static_cast<std::uint16_t>(entry << kPhaseCellBits),
-            static_cast<std::uint8_t>(std::min(frames, 255))};
+    return planToPhase(travels, cell, entry, step);
+}
+
+// The strokes of a retreat go on in the phase of the beat that was left.
+WarpPlan planToStroke(const Travels& travels, std::size_t cell, float step, std::int16_t rate) {
+    WarpPlan plan = planToPhase(travels, cell, cell, step);
+    plan.entryPhase = static_cast<std::uint16_t>(plan.entryPhase + (plan.frames + 1) * rate);
+    return plan;
 }
 
 // A turn plays from the first frame of the warp on, at its phase rate: the first phase to which all
@@ -470,17 +486,28 @@ WarpPlans planWarps(const Repertoire& repertoire,
     for (const ActionSegment& segment : repertoire.segments) cycles.push_back(cycleOf(segment));
     const float step = largestStep(cycles, phaseRates);
     WarpPlans plans;
-    const auto plan = [&](std::size_t from, std::size_t to, const Travels& travels) {
-        const bool turns = repertoire.segments[to].playsToEnd;
-        for (std::size_t cell = 0; cell < kPhases; ++cell)
-            plans[from][cell][to] = turns ? planToTurn(travels, cell, step, phaseRates[to])
-                                          : planToCycle(travels, cell, step);
+    const auto planFromTo = [&](std::size_t from, std::size_t to, const Travels& travels) {
+        const auto next = static_cast<Action>(to);
+        const bool begins = coastsBetween(static_cast<Action>(from), next);
+        const double beginning = kBeatsToBegin * 65536 / static_cast<double>(phaseRates[to]);
+        for (std::size_t cell = 0; cell < kPhases; ++cell) {
+            WarpPlan& plan = plans[from][cell][to];
+            if (repertoire.segments[to].playsToEnd)
+                plan = planToTurn(travels, cell, step, phaseRates[to]);
+            else if (next == Action::Retreat)
+                plan = planToStroke(travels, cell, step, phaseRates[to]);
+            else
+                plan = planToCycle(travels, cell, step);
+            if (begins)
+                plan.frames =
+                    std::max(plan.frames, static_cast<std::uint8_t>(std::min(beginning, 255.0)));
+        }
     };
     for (std::size_t a = 0; a < kActions; ++a) {
         for (std::size_t b = a; b < kActions; ++b) {
             const Travels travels = travelsBetween(cycles[a], cycles[b]);
-            plan(a, b, travels);
-            plan(b, a, transposed(travels));
+            planFromTo(a, b, travels);
+            planFromTo(b, a, transposed(travels));
         }
     }
     return plans;

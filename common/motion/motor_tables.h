@@ -87,7 +87,8 @@ struct SegmentTables {
 struct SpeedLoss {
     // For each squared speed unit, while a segment plays; 1 where no response was measured, so that
     // the speed follows at once.
-    std::array<float, kSegments> drag{};
+    // The retreat's is that of the power stroke; that of the recovery stroke is the last.
+    std::array<float, kSegments + 1> drag{};
     // The share of its speed that a fish loses with its fins fully spread.
     float brake = 0.0F;
 };
@@ -178,6 +179,9 @@ struct Travel {
     Quaternion bodyFromMean;  // at the end
     // The phase rate that the path's speeds are multiplied by.
     std::int32_t rate = 0;
+    // Of the stroke in the middle of the tick, 1/65536 of a cycle: before the segment's phase while
+    // a warp leads to it.
+    std::int32_t strokePhase = 0;
 };
 
 // Component by component and not normalised.
@@ -239,11 +243,6 @@ struct Playing {
     std::int32_t from = 0, to = 0;
 };
 
-// Whether a turn under way is broken off for the commanded action: for a turn to the other side.
-[[nodiscard]] inline bool breaksOff(Action turn, Action wanted) {
-    return isTurn(wanted) && isLeft(wanted) != isLeft(turn);
-}
-
 // Advances segment, phase and warp counter of fish i by a tick. The commanded rate is that of the
 // commanded action: while a turn plays that is no longer commanded, it plays as recorded. A turn is
 // left at its end, and by a warp even if the same turn follows, or where it is broken off; every
@@ -269,6 +268,12 @@ struct Playing {
     }
     fish.phase[i] = static_cast<std::uint16_t>(phase + rate);
     return {.warps = false, .from = phase, .to = phase + rate};
+}
+
+// Where SpeedLoss::drag has the drag of a segment at a phase, 1/65536 of a cycle.
+[[nodiscard]] inline std::size_t dragOf(std::uint32_t segment, std::uint32_t phase) {
+    constexpr std::uint32_t kRetreat = firstSegmentOf(Action::Retreat);
+    return segment == kRetreat && (phase & 0x8000U) != 0 ? kSegments : segment;
 }
 
 // The rotation from the mean frame to the body frame at a phase.
@@ -301,6 +306,12 @@ struct MeanTravel {
     float speedAtStart = 0.0F, speedAtEnd = 0.0F;
     std::int32_t rate = 0;
 };
+
+// Whether a fish that warps from one action to another coasts meanwhile: after a retreat the beat
+// of its tail has to grow against water that streams from behind.
+[[nodiscard]] constexpr bool coastsBetween(Action from, Action to) {
+    return from == Action::Retreat && swims(to);
+}
 
 // In a warp to a cycle: as in the mean of one. (The paper does not say what the body frame does
 // during a warp; if it were frozen, the fish would halt.)
@@ -353,16 +364,19 @@ struct MeanTravel {
     const auto swayAfter = [&](std::uint32_t done) {
         return normalised(lerp(last, first, static_cast<float>(done) * steps));
     };
-    const MeanTravel mean = next.playsToEnd ? turningTravel(next,
-                                                            fish.phase[i] * frame / frames,
-                                                            fish.phase[i] * (frame + 1) / frames)
-                                            : cyclingTravel(next, fish.phase[i], fish.phaseRate[i]);
+    const bool coasts = coastsBetween(actionOf(fish.fromSegment[i]), actionOf(fish.segment[i]));
+    const auto turnsTo = [&](std::uint32_t done) { return fish.phase[i] * done / frames; };
+    const MeanTravel mean =
+        next.playsToEnd ? turningTravel(next, turnsTo(frame), turnsTo(frame + 1))
+                        : cyclingTravel(next, fish.phase[i], coasts ? 0 : fish.phaseRate[i]);
     const Quaternion sway = swayAfter(frame + 1);
     const auto& [x, y, z] = mean.way;
     return {.start = {conjugate(swayAfter(frame)), {0.0F, 0.0F, 0.0F, mean.speedAtStart}},
             .end = {mean.turn * conjugate(sway), {x, y, z, mean.speedAtEnd}},
             .bodyFromMean = sway,
-            .rate = mean.rate};
+            .rate = mean.rate,
+            .strokePhase = fish.phase[i] - (2 * static_cast<std::int32_t>(frames - frame) - 1) *
+                                               fish.phaseRate[i] / 2};
 }
 
 }  // namespace aquarama::motion

@@ -163,6 +163,11 @@ inline constexpr int kSwimmingActions = 21;
     return swims(action) ? static_cast<Action>(indexOf(action) % kForwardGaits)
                          : Action::ForwardMedium;
 }
+// Whether a turn under way is broken off for another action: a sharp one for a sharp one to the
+// other side.
+[[nodiscard]] constexpr bool breaksOff(Action turn, Action wanted) {
+    return isSharp(turn) && isSharp(wanted) && isLeft(wanted) != isLeft(turn);
+}
 // The gait of an action that swims, on whatever way; every other action itself.
 [[nodiscard]] constexpr Action patternOf(Action action) {
     return swims(action) ? gaitOf(action) : action;
@@ -243,9 +248,12 @@ struct ActionSegment {
 };
 
 // How the speed v of a fish follows that of what it plays, p, in body lengths and seconds:
-//     dv/dt = swimDrag |p| (p - v)     while the tail beats: it meets the water at a speed near p,
+//     dv/dt = swimDrag |p| (p - v)     while the tail beats: it meets the water at a speed near p;
+//                                      a fish that still swims backwards counts as one at rest,
+//     dv/dt = 2 retreatDrag |p| (p - v)  in the first half of each stroke of a retreat, when the
+//                                      fins push; none in the second,
 //     dv/dt = -glideDrag v |v|         in a glide or at rest: quadratic drag;
-// in both, fins that are spread to a share s also brake by s * brakeRate * v. (The paper leaves
+// in all, fins that are spread to a share s also brake by s * brakeRate * v. (The paper leaves
 // this open; the law is ours.)
 struct SpeedResponse {
     // 1 / body length. Turns have that of medium. On a curve or slope the gait's times (q / p)^2,

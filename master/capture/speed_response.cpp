@@ -142,16 +142,36 @@ Transition coast(const SteadySwimming& from,
     return transition;
 }
 
-// From one gait to another or to a retreat, a sample a step. A sample is the mean speed over a beat
+// A retreat out of medium swimming. Only its fins beat, so no mean over a stroke is taken either.
+Transition backOut(const SteadySwimming& medium,
+                   const SteadySwimming& retreat,
+                   const Order& order,
+                   const Masses& masses) {
+    Swimmer swimmer = medium.swimmer;
+    swimmer.give(order);
+    Transition transition{.sampleSeconds = medium.beat.periodSeconds / motion::kPhases,
+                          .segmentSpeed = -glm::length(meanVelocityOf(retreat.beat)),
+                          .speeds = {},
+                          .strokeSeconds = retreat.beat.periodSeconds};
+    const double seconds = kSwumBeats * retreat.beat.periodSeconds;
+    while (transition.sampleSeconds * static_cast<double>(transition.speeds.size()) < seconds) {
+        transition.speeds.push_back(
+            glm::dot(meanOf(swimmer.state().velocities, masses), medium.beat.course));
+        swimmer.advance(medium.stepsPerPhase);
+    }
+    return transition;
+}
+
+// From one gait to another, a sample a step. A sample is the mean speed over a beat
 // of `to` around it, along the course of `from`: from the place half a beat before to that half a
 // beat after, by time. For the first samples the half beat before the order is extrapolated from
 // the steady speed of `from`.
 Transition changeTo(const SteadySwimming& to,
                     const SteadySwimming& from,
-                    const Order& order,
+                    const config::Gait& gait,
                     const Masses& masses) {
     Swimmer swimmer = from.swimmer;
-    swimmer.give(order);
+    swimmer.give({.controller = Controller::ForwardSwim, .gait = gait});
     const double step = swimmer.stepSeconds();
     const auto halfBeat = static_cast<std::size_t>(std::lround(to.beat.periodSeconds / step / 2));
     const glm::dvec3 velocity = meanVelocityOf(from.beat);
@@ -165,11 +185,8 @@ Transition changeTo(const SteadySwimming& to,
         places.push_back(meanOf(swimmer.state().positions, masses));
         swimmer.advance(1);
     }
-    const double steady = glm::length(meanVelocityOf(to.beat));
     Transition transition{
-        .sampleSeconds = step,
-        .segmentSpeed = order.controller == Controller::Retreat ? -steady : steady,
-        .speeds = {}};
+        .sampleSeconds = step, .segmentSpeed = glm::length(meanVelocityOf(to.beat)), .speeds = {}};
     for (std::size_t i = 0; i + 2 * halfBeat < places.size(); ++i)
         transition.speeds.push_back(glm::dot(places[i + 2 * halfBeat] - places[i], course) /
                                     (step * static_cast<double>(2 * halfBeat)));
@@ -189,20 +206,24 @@ Transitions swimTransitions(const config::Species& species,
     Transitions transitions{.swim = {},
                             .glide = coast(medium, Controller::Glide, kGlidedBeats, masses),
                             .brake = coast(medium, Controller::Brake, kBrakedBeats, masses),
-                            .retreat = changeTo(retreat, medium, retreatOf(species), masses)};
+                            .retreat = backOut(medium, retreat, retreatOf(species), masses)};
     for (std::size_t to = 0; to < gaits.size(); ++to)
         for (std::size_t from = 0; from < gaits.size(); ++from)
             if (from != to)
                 transitions.swim.at(to).push_back(
-                    changeTo(*gaits.at(to),
-                             *gaits.at(from),
-                             {.controller = Controller::ForwardSwim, .gait = *orders.at(to)},
-                             masses));
+                    changeTo(*gaits.at(to), *gaits.at(from), *orders.at(to), masses));
     return transitions;
 }
 
-double acceleration(const SpeedLaw& law, double segmentSpeed, double speed) {
-    return law.swimDrag * std::abs(segmentSpeed) * (segmentSpeed - speed) -
+double strengthAt(const Transition& transition, std::size_t sample) {
+    if (transition.strokeSeconds == 0) return 1;
+    const double strokes =
+        transition.sampleSeconds * static_cast<double>(sample) / transition.strokeSeconds;
+    return strokes - std::floor(strokes) < 0.5 ? 2 : 0;
+}
+
+double acceleration(const SpeedLaw& law, double segmentSpeed, double speed, double strength) {
+    return strength * law.swimDrag * std::abs(segmentSpeed) * (segmentSpeed - speed) -
            law.glideDrag * speed * std::abs(speed) - law.brakeRate * speed;
 }
 
@@ -221,10 +242,11 @@ double fitTerm(const std::vector<Transition>& transitions,
         double integral = 0;   // X
         for (std::size_t i = 1; i < v.size(); ++i) {
             const auto gained = [&](const SpeedLaw& law) {
-                return transition.sampleSeconds *
-                       (acceleration(law, transition.segmentSpeed, v[i - 1]) +
-                        acceleration(law, transition.segmentSpeed, v[i])) /
-                       2;
+                const auto at = [&](std::size_t sample) {
+                    return acceleration(
+                        law, transition.segmentSpeed, v[sample], strengthAt(transition, sample));
+                };
+                return transition.sampleSeconds * (at(i - 1) + at(i)) / 2;
             };
             explained += gained(known);
             integral += gained(unit);

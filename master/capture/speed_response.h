@@ -50,7 +50,12 @@ struct Transition {
     // The steady speed that it leads to; 0 for a glide and a brake, negative for a retreat.
     double segmentSpeed = 0;
     std::vector<double> speeds;
+    // Of a retreat, which begins at the start of a stroke; 0 for the others.
+    double strokeSeconds = 0;
 };
+// By how much stronger the tail or the fins act on the speed at a sample than in the mean: in a
+// retreat they do in the first half of a stroke, the power stroke, alone.
+[[nodiscard]] double strengthAt(const Transition& transition, std::size_t sample);
 
 // The transitions of one species that fitResponse() needs.
 struct Transitions {
@@ -69,7 +74,7 @@ using SteadyGaits = std::array<const SteadySwimming*, motion::kForwardGaits>;
 
 // The law of motion::SpeedResponse while one segment plays, where v is the fish's speed and p the
 // segment's:
-//     dv/dt = swimDrag |p| (p - v) - glideDrag v |v| - brakeRate v,
+//     dv/dt = strength swimDrag |p| (p - v) - glideDrag v |v| - brakeRate v,
 // where glideDrag is 0 while the fish swims. Drags are 1 / body length, brakeRate is 1 / s.
 struct SpeedLaw {
     double swimDrag = 0;
@@ -77,7 +82,10 @@ struct SpeedLaw {
     double brakeRate = 0;
 };
 // dv/dt of that law, body lengths / s^2.
-[[nodiscard]] double acceleration(const SpeedLaw& law, double segmentSpeed, double speed);
+[[nodiscard]] double acceleration(const SpeedLaw& law,
+                                  double segmentSpeed,
+                                  double speed,
+                                  double strength = 1);
 
 // Fits the coefficient k of one term of the law, `term`, where the others are known. The law is
 // linear in k. Integrated over time it is v(t) - v(0) - K(t) = k X(t), where K is the integral of

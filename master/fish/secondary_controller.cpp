@@ -324,7 +324,8 @@ bool SecondaryController::endsTurn(std::size_t fish) const {
 
 void SecondaryController::decide(std::size_t fish) const {
     const Moment moment = momentOf(fish);
-    const motion::Action chosen = choose(fish, moment);
+    const motion::Action asked = choose(fish, moment);
+    const motion::Action chosen = isKept(fish, moment, asked) ? moment.present : asked;
     if (patternOf(chosen) != patternOf(moment.present)) memory->chosenAt[fish] = tick.value;
     motion::MotorCommands& to = *commands;
     to.phaseRate[fish] = phaseRateFor(fish, chosen, moment);
@@ -340,6 +341,14 @@ void SecondaryController::decide(std::size_t fish) const {
     to.yawRate[fish] =
         steers ? yawRateFor(*gaits, moment, chosen, to.yawRate[fish]) : std::int16_t{0};
     to.brake[fish] = steers ? brakeFor(*gaits, moment, to.brake[fish]) : std::uint8_t{0};
+}
+
+bool SecondaryController::isKept(std::size_t fish,
+                                 const Moment& moment,
+                                 motion::Action asked) const {
+    const motion::Action playing = motion::actionOf(states->segment[fish]);
+    return moment.urgency > 0 && isTurn(playing) && !endsTurn(fish) &&
+           motion::breaksOff(playing, asked);
 }
 
 SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) const {

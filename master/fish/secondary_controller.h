@@ -117,6 +117,10 @@ struct SecondaryController {
     // thoughts, so that the next segment begins without a gap.
     [[nodiscard]] bool endsTurn(std::size_t fish) const;
     void decide(std::size_t fish) const;
+    // Whether the command stands although another was chosen. With anything in its way a fish does
+    // not break a turn off: the side from which it is pushed changes as it turns, and it would turn
+    // to neither.
+    [[nodiscard]] bool isKept(std::size_t fish, const Moment& moment, motion::Action asked) const;
     [[nodiscard]] Moment momentOf(std::size_t fish) const;
     [[nodiscard]] motion::Action choose(std::size_t fish, const Moment& moment) const;
     [[nodiscard]] std::int16_t phaseRateFor(std::size_t fish,

@@ -139,11 +139,11 @@ std::uint64_t packed(const motion::MotorCommands& commands, std::size_t fish) {
            bits(commands.yawRate[fish]) << 48U;
 }
 
-// Whole degrees between two directions, which need not be of unit length.
+// Degrees between two directions, which need not be of unit length, rounded up.
 std::size_t degreesBetween(glm::vec3 a, glm::vec3 b) {
     const float cosine = glm::dot(glm::normalize(a), glm::normalize(b));
     const float degrees = std::acos(std::clamp(cosine, -1.0F, 1.0F)) / kRadiansPerDegree<float>;
-    return static_cast<std::size_t>(std::min(degrees, 90.0F));
+    return static_cast<std::size_t>(std::min(std::ceil(degrees), 90.0F));
 }
 
 }  // namespace

@@ -112,7 +112,11 @@ struct MotionTally {
     // over the same half second. Fish slower than kSlowestPath or backing are left out.
     std::array<std::uint64_t, 91> meanSlip{}, bodySlip{};
 
-    [[nodiscard]] double capturedPercent() const { return 100 * captured / (captured + added); }
+    // Of what was turned; all of it where nothing was.
+    [[nodiscard]] double capturedPercent() const {
+        const double turned = captured + added;
+        return turned > 0 ? 100 * captured / turned : 100;
+    }
 };
 inline constexpr float kSlowestPath = 0.2F;  // body lengths a second
 // The least whole number of degrees that `share` of the angles do not exceed; 0 without any.

@@ -76,15 +76,15 @@ json bodyData(const motion::Repertoire& repertoire) {
 }
 
 // See Drift.
-json driftData(const motion::ActionSegment& segment, int repetitions) {
-    const Drift drift = driftAfter(segment, repetitions);
+json driftData(const motion::ActionSegment& segment, motion::Action action, int repetitions) {
+    const Drift drift = driftAfter(segment, isCurve(action) || isTurn(action), repetitions);
     return {{"heading_degrees", degrees(drift.headingRadians)},
             {"lean_degrees", degrees(drift.leanRadians)},
             {"climb", drift.climb}};
 }
 
 // The figures of a segment: some for all segments, some for gaits or turns only.
-json measuresData(const motion::ActionSegment& segment, bool isGait) {
+json measuresData(const motion::ActionSegment& segment, motion::Action action) {
     const capture::SegmentMeasures m = capture::measure(segment);
     const Seam seam = seamOf(segment);
     json data{{"period_seconds", m.periodSeconds},
@@ -92,9 +92,9 @@ json measuresData(const motion::ActionSegment& segment, bool isGait) {
               {"largest_step", m.largestStep},
               {"seam_at_the_join", seam.atTheJoin},
               {"seam_elsewhere", seam.elsewhere},
-              {"drift_after_1", driftData(segment, 1)},
-              {"drift_after_100", driftData(segment, 100)}};
-    if (isGait)
+              {"drift_after_1", driftData(segment, action, 1)},
+              {"drift_after_100", driftData(segment, action, 100)}};
+    if (isForward(action))
         data.update(json{{"beat_hertz", 1 / m.periodSeconds},
                          {"stride", m.strideBodyLengths},
                          {"tail", m.tailAmplitude},
@@ -165,7 +165,7 @@ std::string reportData(const motion::Repertoire& repertoire) {
         if (!isForward(action) && !isCurve(action) && !isTurn(action)) continue;
         const motion::ActionSegment& segment = repertoire.segments.at(i);
         const bool isGait = i < kGaits;
-        json one = measuresData(segment, isGait);
+        json one = measuresData(segment, action);
         one["name"] = motion::nameOf(action);
         if (isGait) one["midlines"] = midlinesData(segment);
         addViews(segment, one);

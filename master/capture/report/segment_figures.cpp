@@ -52,15 +52,13 @@ Seam seamOf(const motion::ActionSegment& segment) {
     return seam;
 }
 
-Drift driftAfter(const motion::ActionSegment& segment, int repetitions) {
+Drift driftAfter(const motion::ActionSegment& segment, bool turns, int repetitions) {
     assert(repetitions >= 1);
     const std::vector<capture::ReplayedPhase> phases = capture::replayAlongX(segment, repetitions);
     const capture::ReplayedPhase& start = phases.front();
     const capture::ReplayedPhase& end = phases.back();
     const double once = headingOf(phases[motion::kPhases]) - headingOf(start);
-    // What is not straight on is meant to turn.
-    constexpr double kStraightRadians = 1e-3;
-    const double told = std::abs(once) > kStraightRadians ? once * repetitions : 0;
+    const double told = turns ? once * repetitions : 0;
     const glm::dvec3 up{0, 1, 0};
     const double uprightness = glm::dot(end.worldFromBody * up, start.worldFromBody * up);
     return {.headingRadians =

@@ -21,14 +21,13 @@ struct Seam {
 
 // Closure of the motion: the errors that add up over repetitions.
 struct Drift {
-    // Change of heading. For a turn that plays to its end, beyond `repetitions` times its own
-    // angle.
+    // Change of heading. For a curve or turn, beyond `repetitions` times its own angle.
     double headingRadians = 0;
     double leanRadians = 0;  // roll and pitch together
     double climb = 0;        // body lengths
 };
 // `repetitions` >= 1.
-[[nodiscard]] Drift driftAfter(const motion::ActionSegment& segment, int repetitions);
+[[nodiscard]] Drift driftAfter(const motion::ActionSegment& segment, bool turns, int repetitions);
 
 // The midlines of one beat, as papers on swimming fish draw them, in a frame that moves with the
 // mean velocity. Each has kMidlinePoints points, from nose to tail.

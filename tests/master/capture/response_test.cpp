@@ -29,8 +29,9 @@ std::vector<double> replayLaw(const Transition& transition, const SpeedLaw& law)
     std::vector<double> speeds{transition.speeds.front()};
     while (speeds.size() < transition.speeds.size()) {
         const double v = speeds.back();
-        speeds.push_back(v +
-                         transition.sampleSeconds * acceleration(law, transition.segmentSpeed, v));
+        const double strength = strengthAt(transition, speeds.size() - 1);
+        speeds.push_back(v + transition.sampleSeconds *
+                                 acceleration(law, transition.segmentSpeed, v, strength));
     }
     return speeds;
 }
@@ -53,6 +54,18 @@ double wayErrorOf(const Transition& transition, const SpeedLaw& law) {
     return std::abs(way / swum - 1);
 }
 
+// The most by which the place is off at any time, body lengths.
+double farthestOff(const Transition& transition, const SpeedLaw& law) {
+    const std::vector<double> speeds = replayLaw(transition, law);
+    double off = 0;
+    double most = 0;
+    for (std::size_t i = 0; i < speeds.size(); ++i) {
+        off += transition.sampleSeconds * (speeds[i] - transition.speeds[i]);
+        most = std::max(most, std::abs(off));
+    }
+    return most;
+}
+
 TEST_P(Response, theLawReplaysEveryChangeOfSpeed) {
     const config::Swim& gaits = species().swim;
     const SteadySwimming slow = swimUntilSteady(species(), gaits.slow);
@@ -68,6 +81,7 @@ TEST_P(Response, theLawReplaysEveryChangeOfSpeed) {
         }
     const SpeedLaw backing{.swimDrag = static_cast<double>(response.retreatDrag)};
     EXPECT_LT(errorOf(swum.retreat, backing), 0.05) << swum.retreat.speeds.back();
+    EXPECT_LT(farthestOff(swum.retreat, backing), 0.04) << "body lengths";
     EXPECT_LT(errorOf(swum.glide, {.glideDrag = static_cast<double>(response.glideDrag)}), 0.05);
     EXPECT_LT(errorOf(swum.brake, brakeOf(response)), 0.03);
     EXPECT_LT(wayErrorOf(swum.brake, brakeOf(response)), 0.03);

@@ -163,14 +163,15 @@ TEST(Turn, radiusIsThatOfTheCircleItGoesRound) {
 }
 
 TEST(Drift, aStraightCycleHasNoneAndATwistedOneAsMuchAsItIsRepeated) {
-    const Drift none = driftAfter(evenSegment(1, 0.5F, 0), 100);
+    const Drift none = driftAfter(evenSegment(1, 0.5F, 0), false, 100);
     EXPECT_NEAR(none.headingRadians, 0, 1e-9);
     EXPECT_NEAR(none.leanRadians, 0, 1e-6);
     EXPECT_NEAR(none.climb, 0, 1e-9);
-    EXPECT_NEAR(driftAfter(evenSegment(1, 0.5F, 0.0005F), 100).headingRadians, 0.05, 1e-4);
+    EXPECT_NEAR(driftAfter(evenSegment(1, 0.5F, 0.01F), false, 100).headingRadians, 1, 1e-4);
     motion::ActionSegment turn = evenSegment(1, 0.5F, 1);
     turn.playsToEnd = true;
-    EXPECT_NEAR(driftAfter(turn, 100).headingRadians, 0, 1e-6) << "beyond its own hundred turns";
+    EXPECT_NEAR(driftAfter(turn, true, 100).headingRadians, 0, 1e-6)
+        << "beyond its own hundred turns";
 }
 
 TEST(Seam, isSeenWhereACycleDoesNotClose) {
