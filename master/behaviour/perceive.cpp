@@ -21,7 +21,7 @@ namespace {
 constexpr float kReachSeconds = 2.2F;
 constexpr float kReachMetres = 0.4F;
 // A submarine that approaches counts as larger by its way in this time.
-constexpr float kBowWaveSeconds = 1.0F;
+constexpr float kBowWaveSeconds = 1.5F;
 // For so long the submarine is taken to go on; a fish turns aside in two to four seconds.
 constexpr float kSubmarineSeconds = 3.0F;
 // By the push of the submarine: half a push is enough for the greatest haste.

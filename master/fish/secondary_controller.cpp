@@ -366,7 +366,12 @@ SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) cons
     // comes after it.
     const std::uint8_t playing = states->segment[fish];
     const motion::Action action = motion::actionOf(playing);
-    const float toCome = 1 - static_cast<float>(states->phase[fish]) / 65536.0F;
+    // It plays during the warp that leads to its phase.
+    const bool warps = states->warpFrame[fish] != states->warpLength[fish];
+    const float warped = warps ? static_cast<float>(states->warpFrame[fish] + 1) /
+                                     static_cast<float>(states->warpLength[fish] + 1)
+                               : 1.0F;
+    const float toCome = 1 - warped * static_cast<float>(states->phase[fish]) / 65536.0F;
     moment.yawError -= isTurn(action) ? gaits->turn[playing] * toCome
                                       : gaits->yawRate[indexOf(action)] * kLeadSeconds;
     return moment;
@@ -392,8 +397,8 @@ motion::Action SecondaryController::choose(std::size_t fish, const Moment& momen
     return recommended;
 }
 
-// A gait is played faster or slower to reach the wanted speed; the rate stays within kRateMargin of
-// the recording and kTempoMargin of the fish's own tempo.
+// A gait is played faster or slower to reach the wanted speed, and a turn in danger faster; the
+// rate stays within kRateMargin of the recording and kTempoMargin of the fish's own tempo.
 std::int16_t SecondaryController::phaseRateFor(std::size_t fish,
                                                motion::Action chosen,
                                                const Moment& moment) const {
@@ -402,7 +407,8 @@ std::int16_t SecondaryController::phaseRateFor(std::size_t fish,
     const float tempo = tempoOf(seed, fish);
     const float least = std::max(1 - kRateMargin, tempo - kTempoMargin);
     const float most = std::min(1 + kRateMargin, tempo + kTempoMargin);
-    const float rate = swims(chosen) ? moment.speed / gaits->speed[action] : tempo;
+    const float turns = moment.urgency > 1 ? most : tempo;
+    const float rate = swims(chosen) ? moment.speed / gaits->speed[action] : turns;
     const float present =
         chosen == moment.present ? static_cast<float>(commands->phaseRate[fish]) / recorded : 0.0F;
     const float level = levelFor(std::clamp(rate, least, most), present, kRateLevel);

@@ -221,6 +221,85 @@ TEST(Repertoire, isNotWrittenWithValuesOutOfBounds) {
                  Error);
 }
 
+// A small repertoire whose turns have paths by entry, each another.
+Repertoire withEntries() {
+    Repertoire repertoire = test::syntheticRepertoire(false);
+    for (int turn = kFirstTurn; turn < kFirstTurn + kTurns; ++turn) {
+        ActionSegment& segment = repertoire.segments[static_cast<std::size_t>(turn)];
+        segment.entered.resize(kTurnEntries);
+        for (std::size_t entry = 0; entry < segment.entered.size(); ++entry) {
+            TurnPath& path = segment.entered[entry];
+            const float angle = 0.01F * static_cast<float>(entry + 1);
+            path.courseBefore = {std::cos(angle), 0, std::sin(angle)};
+            path.courseAfter = {std::cos(angle), 0, -std::sin(angle)};
+            path.speedBefore = 1 + angle;
+            path.speedAfter = 1 - angle;
+            path.increments = segment.increments;
+            path.increments[5].translation.x = angle / 10;
+        }
+    }
+    return repertoire;
+}
+
+TEST(Repertoire, keepsThePathsOfTurnsByTheirEntries) {
+    const Repertoire written = withEntries();
+    const Bytes file = encodeRepertoire(written);
+    const Repertoire read = decodeRepertoire(file, "file");
+    EXPECT_EQ(encodeRepertoire(read), file);
+    for (std::size_t entry = 0; entry < kTurnEntries; ++entry) {
+        const TurnPath& was = written.segments[kFirstTurn + 1].entered[entry];
+        const TurnPath& is = read.segments[kFirstTurn + 1].entered.at(entry);
+        EXPECT_EQ(is.courseBefore, was.courseBefore);
+        EXPECT_EQ(is.courseAfter, was.courseAfter);
+        EXPECT_EQ(is.speedBefore, was.speedBefore);
+        EXPECT_EQ(is.speedAfter, was.speedAfter);
+        EXPECT_EQ(is.increments[5].translation, was.increments[5].translation);
+    }
+    EXPECT_TRUE(read.segments[0].entered.empty());
+}
+
+TEST(Repertoire, refusesPathsOfTurnsThatLeadNowhere) {
+    const auto fault = [](auto&& damage) {
+        Repertoire repertoire = withEntries();
+        damage(repertoire.segments[kFirstTurn].entered);
+        try {
+            (void)encodeRepertoire(repertoire);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    const float nan = std::nanf("");
+    EXPECT_THAT(fault([](auto& paths) { paths.pop_back(); }), testing::HasSubstr("some of its"));
+    for (const glm::vec3 course : {glm::vec3(0), glm::vec3(2, 0, 0), glm::vec3(nan, 0, 0)}) {
+        EXPECT_THAT(fault([&](auto& paths) { paths[3].courseBefore = course; }),
+                    testing::HasSubstr("turn_left_gradual has a course"));
+        EXPECT_THAT(fault([&](auto& paths) { paths[39].courseAfter = course; }),
+                    testing::HasSubstr("no direction"));
+    }
+    for (const float speed : {nan, 17.0F, -17.0F}) {
+        EXPECT_THAT(fault([&](auto& paths) { paths[0].speedBefore = speed; }),
+                    testing::HasSubstr("speed beyond"));
+        EXPECT_THAT(fault([&](auto& paths) { paths[0].speedAfter = speed; }),
+                    testing::HasSubstr("speed beyond"));
+    }
+    EXPECT_THAT(fault([&](auto& paths) { paths[9].increments[7].translation.z = nan; }),
+                testing::HasSubstr("moves the body frame"));
+}
+
+TEST(Repertoire, numbersSegmentsByTheirActions) {
+    int segments = 0;
+    for (int action = 0; action < kActions; ++action) {
+        const auto one = static_cast<Action>(action);
+        const int count = isTurn(one) ? kTurnSegments : 1;
+        for (int i = 0; i < count; ++i)
+            EXPECT_EQ(actionOf(static_cast<std::uint32_t>(firstSegmentOf(one) + i)), one);
+        EXPECT_EQ(firstSegmentOf(one), segments);
+        segments += count;
+    }
+    EXPECT_EQ(segments, kSegments);
+}
+
 TEST(Repertoire, namesItsSegments) {
     EXPECT_STREQ(nameOf(Action::ForwardSlow), "forward_slow");
     EXPECT_STREQ(nameOf(Action::TurnRightSharp), "turn_right_sharp");

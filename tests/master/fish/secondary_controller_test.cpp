@@ -215,6 +215,21 @@ TEST(SecondaryController, backwardsItKeepsTheSideOfTheTurnItIsIn) {
     EXPECT_EQ(mind.think(), motion::Action::TurnLeftSharp);
 }
 
+TEST(SecondaryController, inDangerItDoesNotBreakATurnOff) {
+    for (const float urgency : {0.0F, 0.5F, 1.5F}) {
+        Mind mind;
+        mind.want(100, 2.0F, urgency);
+        ASSERT_EQ(mind.think(), motion::Action::TurnLeftSharp);
+        mind.want(-100, 2.0F, urgency);
+        mind.states.phase[0] = 20000;
+        EXPECT_EQ(mind.think(),
+                  urgency == 0 ? motion::Action::TurnRightSharp : motion::Action::TurnLeftSharp);
+        mind.states.segment[0] = firstSegmentOf(motion::Action::TurnLeftSharp);
+        mind.states.phase[0] = 65000;
+        EXPECT_EQ(mind.think(), motion::Action::TurnRightSharp) << "at its end it may";
+    }
+}
+
 TEST(SecondaryController, whatATurnWillHaveDoneCounts) {
     for (const float degrees : {90.0F, 40.0F}) {
         Mind mind;
