@@ -125,7 +125,7 @@ void chronicle(const ChronicleOptions& options) {
     folder.write("overlaps.csv",
                  study::overlapsCsv(chronicle.overlaps(), world, scenario.world.cast));
     folder.show("chronicle", std::to_string(options.hours));
-    std::cout << '\n' << study::motionText(chronicle.motions(), scenario.world.cast);
+    std::cout << '\n' << study::speciesText(chronicle.species(), scenario.world.cast);
     std::cout << "\nhash of the world: " << std::hex << world.hash() << '\n';
 }
 

@@ -69,7 +69,9 @@ float FinPatch::rayAtStation(float s) const {
 namespace {
 
 constexpr float kTurn = glm::two_pi<float>();
-constexpr float kFlatRadians = 5.0F * kTurn / 360;  // off the flank, of a folded fin
+// Off the flank: of a folded fin, and of one that brakes.
+constexpr float kFlatRadians = 5.0F * kTurn / 360;
+constexpr float kSpreadRadians = 75.0F * kTurn / 360;
 // Phase lags, in radians and in cycles: the margin of a membrane follows its root by a sixth of a
 // beat, the tip of a rowing fin follows its root by an eighth.
 constexpr float kMarginLag = kTurn / 6;
@@ -133,6 +135,8 @@ FinStyle styleOf(const config::Species& species, const Hinge& hinge) {
     if (rowing.foldAbove > 0) {
         style.open = rowing.openRadians - rest;
         style.fold = std::min(kFlatRadians - rest, 0.0F);
+        const bool rows = rowing.strokeRadians > 0;
+        style.spread = rows ? std::max(kSpreadRadians - rest, style.open) : style.open;
         const glm::vec3 open = rotated(hinge.axis, style.open, hinge.ray);
         const glm::vec3 lifts = glm::normalize(glm::cross(open, glm::vec3(0, 1, 0)));
         style.stroke = glm::normalize(std::cos(rowing.flapRadians) * hinge.axis +
@@ -194,19 +198,23 @@ float ownCycles(std::uint32_t id) {
 
 // The displacement of a point of a pectoral fin, right side: feathering about the ray, opening
 // about the hinge, the stroke. Fast swimming and the outer side of a turn fold the fin, which then
-// rests.
+// rests; a fish that brakes holds it across the water.
 glm::vec3 rowed(const FinStyle& style, const FinPoint& point, const FinDrive& drive) {
     const bool isRight = point.side > 0;
     const float apart = isRight ? 0.0F : 0.5F * (1 - beyond(drive.speed, style.alternateBelow));
     const float beat = style.rowHertz * drive.seconds + ownCycles(drive.id) + apart;
     // On the outer side of a turn the fin is laid to the flank.
     const float outer = drive.turning[isRight ? 0 : 1];
-    const float rows = (1 - beyond(drive.speed, style.foldAbove)) * (1 - outer);
+    const float opens = (1 - beyond(drive.speed, style.foldAbove)) * (1 - outer);
+    const float rows = opens * (1 - drive.spread);
+    // Lift on both sides of a fish that climbs, and on the lower side of one that balances.
+    const float lift = drive.climb - (isRight ? drive.tilt : -drive.tilt);
     const float twist = rows * style.featherAngle * std::cos(kTurn * beat) +
-                        style.trimAngle * std::clamp(kTrimGain * drive.climb, -1.0F, 1.0F);
+                        style.trimAngle * std::clamp(kTrimGain * lift, -1.0F, 1.0F);
     const float angle = rows * style.strokeAngle * std::sin(kTurn * (beat - kTipLag * point.q));
     glm::vec3 arm = rotated(style.ray, twist * point.q, point.arm);
-    arm = rotated(style.hinge, glm::mix(style.fold, style.open, rows), arm);
+    const float opened = glm::mix(style.fold, style.open, opens);
+    arm = rotated(style.hinge, glm::mix(opened, style.spread, drive.spread), arm);
     return rotated(style.stroke, angle, arm) - point.arm;
 }
 
@@ -260,8 +268,8 @@ glm::vec3 finOffset(const FinTable& fins, std::size_t i, const FinDrive& drive, 
         case CagePart::Pectoral:
             return rowed(style, point, drive) * glm::vec3(1, 1, point.side);
         case CagePart::Pelvic: {
-            const float angle =
-                style.pelvicFold * glm::smoothstep(kStands, kFolded, std::abs(drive.speed));
+            const float angle = style.pelvicFold * (1 - drive.spread) *
+                                glm::smoothstep(kStands, kFolded, std::abs(drive.speed));
             const glm::vec3 offset = rotated({0, 0, 1}, angle, point.arm) - point.arm;
             return offset * glm::vec3(1, 1, point.side);
         }

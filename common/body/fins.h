@@ -57,6 +57,8 @@ struct FinDrive {
     float seconds = 0;               // of the show, modulo kFinSeconds
     float speed = 0;                 // body lengths a second; backwards is negative
     float climb = 0;                 // sine of its pitch, up is positive
+    float tilt = 0;                  // height of its right side: sine of its roll to the left
+    float spread = 0;                // 0 to 1: how far its pectoral fins brake
     std::array<float, 2> turning{};  // 0 to 1: how far it is in a turn to the left, to the right
     // Of the fish; gives each its own phase.
     std::uint32_t id = 0;

@@ -24,7 +24,7 @@ struct FinStyle {
     float fold = 0;      // from the rest angle to the flank
     glm::vec3 ray{};     // the fin's own axis, about which it feathers
     // Amplitudes of the beat about `stroke` and of the twist about `ray`; the largest twist with
-    // which a climbing or diving fish trims.
+    // which a fish that climbs, dives or balances trims.
     float strokeAngle = 0;
     float featherAngle = 0, trimAngle = 0;
     // Beats of the pectoral fins a second.
@@ -40,7 +40,8 @@ struct FinStyle {
     float opposed = 0;  // phase of the anal fin against the dorsal
     // How far the middle rays of the tail fin bend against its lobes, for each unit of drift.
     float cupping = 0;
-    float padding[3] = {0, 0, 0};  // to whole vectors
+    float spread = 0;           // of a pectoral fin that brakes, from the rest angle
+    float padding[2] = {0, 0};  // to whole vectors
 };
 static_assert(sizeof(FinStyle) == 112);
 

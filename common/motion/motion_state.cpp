@@ -62,7 +62,8 @@ void MotionStates::resize(std::size_t fish) {
     }
     speed.resize(fish);
     for (auto* column : {&phase, &fromPhase}) column->resize(fish);
-    for (auto* column : {&orientationLargest, &segment, &fromSegment, &warpFrame, &warpLength}) {
+    for (auto* column :
+         {&orientationLargest, &segment, &fromSegment, &warpFrame, &warpLength, &spread}) {
         column->resize(fish);
     }
 }
@@ -92,7 +93,7 @@ FishRecord recordOf(const MotionStates& states, std::size_t fish) {
             .fromSegment = states.fromSegment[fish],
             .warpFrame = states.warpFrame[fish],
             .warpLength = states.warpLength[fish],
-            .speed = states.speed[fish]};
+            .speedAndSpread = packedSpeedAndSpread(states.speed[fish], states.spread[fish])};
 }
 
 PackedOrientation orientationOf(const FishRecord& record) {
@@ -118,13 +119,14 @@ void setFromRecord(MotionStates& states, std::size_t fish, const FishRecord& rec
     states.fromSegment[fish] = record.fromSegment;
     states.warpFrame[fish] = record.warpFrame;
     states.warpLength[fish] = record.warpLength;
-    states.speed[fish] = record.speed;
+    states.speed[fish] = speedOf(record);
+    states.spread[fish] = spreadOf(record);
 }
 
 bool isPlayable(const FishRecord& record) {
     return record.segment < kSegments && record.fromSegment < kSegments &&
-           record.warpFrame <= record.warpLength && record.speed <= kFastestUnits &&
-           record.speed >= -kFastestUnits && record.orientationHigh >> 30U == 0;
+           record.warpFrame <= record.warpLength && speedOf(record) <= kFastestUnits &&
+           speedOf(record) >= -kFastestUnits && record.orientationHigh >> 30U == 0;
 }
 
 BodyFrame bodyFrameOf(const FishRecord& record) {
@@ -193,7 +195,7 @@ std::uint64_t hashOf(const MotionStates& states) {
         const std::uint64_t turn = mix(wide(r.orientationLow) | wide(r.orientationHigh) << 32U);
         const std::uint64_t warp = wide(r.segment) | wide(r.fromSegment) << 8U |
                                    wide(r.warpFrame) << 16U | wide(r.warpLength) << 24U |
-                                   wide(static_cast<std::uint32_t>(r.speed)) << 32U;
+                                   wide(r.speedAndSpread) << 32U;
         hash = hash * 0x9E3779B97F4A7C15U + (place + 5 * turn + 7 * mix(warp + 1));
     }
     return mix(hash);

@@ -125,6 +125,8 @@ inline constexpr float kOrientationLimit = 524287.0F;
 inline constexpr float kPositionUnitMetres = 1.0F / 65536.0F;
 inline constexpr float kSpeedUnitsPerBodyLength = 262144.0F;  // 2^18
 inline constexpr std::int32_t kFastestUnits = 4194303;        // 16 body lengths a second
+// Of MotionStates::spread in a tick: fins are spread within a fifth of a second.
+inline constexpr int kSpreadStep = 21;
 
 // Structure of arrays, one element for each fish; all columns have the same length. The world owns
 // it; during a tick, each thread writes a range of fish of its own. Position of the body frame's
@@ -149,6 +151,9 @@ struct MotionStates {
     // Along the mean frame's x axis, in units of 2^-18 body lengths a second; backwards is
     // negative.
     std::vector<std::int32_t> speed;
+    // How far the pectoral fins are seen to be spread, in 1/255: follows MotorCommands::brake by
+    // kSpreadStep a tick.
+    std::vector<std::uint8_t> spread;
 
     void resize(std::size_t fish);
     [[nodiscard]] std::size_t size() const { return x.size(); }
@@ -186,10 +191,21 @@ struct FishRecord {
     std::uint32_t orientationLow = 0, orientationHigh = 0;
     std::uint16_t phase = 0, fromPhase = 0;
     std::uint8_t segment = 0, fromSegment = 0, warpFrame = 0, warpLength = 0;
-    std::int32_t speed = 0;
+    // Low 24 bits: the speed in two's complement; high 8: the spread.
+    std::uint32_t speedAndSpread = 0;
     friend bool operator==(const FishRecord&, const FishRecord&) = default;
 };
 static_assert(sizeof(FishRecord) == 32);
+
+[[nodiscard]] inline std::uint32_t packedSpeedAndSpread(std::int32_t speed, std::uint8_t spread) {
+    return (static_cast<std::uint32_t>(speed) & 0xFFFFFFU) | std::uint32_t{spread} << 24U;
+}
+[[nodiscard]] inline std::int32_t speedOf(const FishRecord& record) {
+    return static_cast<std::int32_t>(record.speedAndSpread << 8U) >> 8;
+}
+[[nodiscard]] inline std::uint8_t spreadOf(const FishRecord& record) {
+    return static_cast<std::uint8_t>(record.speedAndSpread >> 24U);
+}
 
 // One fish of the columns as a record and back, without loss.
 [[nodiscard]] FishRecord recordOf(const MotionStates& states, std::size_t fish);

@@ -113,6 +113,12 @@ float speedAfter(const SpeedLoss& loss,
     return approached(swum, 0.0F, (brake * loss.brake) * std::abs(swum));
 }
 
+// MotionStates::spread after a tick.
+std::uint8_t spreadAfter(std::uint8_t spread, std::uint8_t brake) {
+    const int step = std::clamp(int{brake} - int{spread}, -kSpreadStep, kSpreadStep);
+    return static_cast<std::uint8_t>(spread + step);
+}
+
 // A travel as whole position units.
 std::int32_t stepUnits(float units) {
     return static_cast<std::int32_t>(roundToEven(bounded(units, kLongestStepUnits)));
@@ -149,6 +155,7 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
                                    static_cast<std::uint32_t>(travel.strokePhase),
                                    static_cast<float>(step.commands->brake[i]) * kBrakeUnit);
     s.speed[i] = static_cast<std::int32_t>(speed);
+    s.spread[i] = spreadAfter(s.spread[i], step.commands->brake[i]);
     // Eq. 10 in body axes. seenFrom is the frame from which the path is seen, in the world.
     const Quaternion seenFrom =
         renormalised(orientationOf(s, i) * conjugate(travel.start.rotation));

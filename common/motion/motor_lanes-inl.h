@@ -299,6 +299,15 @@ HWY_INLINE IntLanes bytesAt(const std::vector<std::uint8_t>& column, std::size_t
     return hn::PromoteTo(kInts, hn::LoadU(bytes, column.data() + fish));
 }
 
+// spreadAfter() of a vector of fish.
+HWY_INLINE void follow(std::vector<std::uint8_t>& spread, IntLanes brake, std::size_t fish) {
+    const hn::Rebind<std::uint8_t, Ints> bytes;
+    const IntLanes present = bytesAt(spread, fish);
+    const IntLanes most = hn::Set(kInts, kSpreadStep);
+    const IntLanes step = hn::Min(hn::Max(hn::Sub(brake, present), hn::Neg(most)), most);
+    hn::StoreU(hn::DemoteTo(bytes, hn::Add(present, step)), bytes, spread.data() + fish);
+}
+
 // Adds a step to one coordinate. Integer lanes wrap around, as moved() does.
 HWY_INLINE void move(std::vector<std::int32_t>& column, std::size_t fish, Lanes units) {
     std::int32_t* const position = column.data() + fish;

@@ -84,9 +84,9 @@ HWY_INLINE FishSet setOf(hn::Mask<Ints> mask) {
     return bits[0] | FishSet{bits[1]} << 8U;
 }
 
-// advanceSegment() for a block, as if every fish simply played on in its cycle. Returns the fish
-// for which that may be wrong: those that turn or are in a motion warp, and those that leave their
-// segment in this tick.
+// advanceSegment() for a block, as if every fish simply played on. Returns the fish for which that
+// may be wrong: those in a motion warp, those that leave their segment in this tick, and those told
+// another turn while they turn.
 HWY_INLINE FishSet playOn(const MotorTables& tables,
                           const MotorColumns& columns,
                           std::size_t first,
@@ -101,14 +101,22 @@ HWY_INLINE FishSet playOn(const MotorTables& tables,
     for (std::size_t lane = 0; lane < count; lane += hn::Lanes(kInts)) {
         const std::size_t fish = first + lane;
         const IntLanes phase = hn::PromoteTo(kInts, hn::LoadU(shorts, columns.phase + fish));
-        const IntLanes rate = hn::PromoteTo(kInts, hn::LoadU(rates, columns.phaseRate + fish));
+        const IntLanes commanded = hn::PromoteTo(kInts, hn::LoadU(rates, columns.phaseRate + fish));
         const IntLanes segment = bytesAt(columns.segment + fish);
-        const IntLanes cycle = hn::GatherIndex(kInts, tables.cycle.data(), segment);
-        const auto leaves = hn::Ne(cycle, bytesAt(columns.wanted + fish));
+        const IntLanes action = hn::GatherIndex(kInts, tables.action.data(), segment);
+        const IntLanes turnRate = hn::GatherIndex(kInts, tables.turnRate.data(), segment);
+        const IntLanes wanted = bytesAt(columns.wanted + fish);
+        const auto isToldAnother = hn::Ne(action, wanted);
+        const auto turns = hn::Gt(turnRate, hn::Zero(kInts));
+        const auto isToldATurn = hn::Gt(wanted, hn::Set(kInts, kFirstTurn - 1));
+        const IntLanes rate = hn::IfThenElse(hn::And(turns, isToldAnother), turnRate, commanded);
+        const IntLanes to = hn::Add(phase, rate);
+        const auto ends = hn::Gt(to, hn::Set(kInts, 0xFFFF));
+        const auto leaves =
+            hn::Or(hn::And(turns, ends), hn::AndNot(hn::AndNot(isToldATurn, turns), isToldAnother));
         const auto warps =
             hn::Ne(bytesAt(columns.warpFrame + fish), bytesAt(columns.warpLength + fish));
         restless |= setOf(hn::Or(warps, leaves)) << lane;
-        const IntLanes to = hn::Add(phase, rate);
         hn::Store(phase, kInts, block.from + lane);
         hn::Store(to, kInts, block.to + lane);
         hn::Store(rate, kInts, block.rate + lane);
@@ -232,6 +240,7 @@ HWY_INLINE void changeSpeed(const MotorStep& step,
     const PlaceLanes left = loadPlace(block.left + 4 * lane);
     const PlaceLanes reached = loadPlace(block.reached + 4 * lane);
     const Lanes pathAtEnd = pathSpeed(reached.speed, rate);
+    const IntLanes brake = bytesAt(step.commands->brake, fish);
     const Lanes speed =
         speedAfter(step.tables->loss,
                    hn::ConvertTo(kFloats, hn::LoadU(kInts, s.speed.data() + fish)),
@@ -240,8 +249,8 @@ HWY_INLINE void changeSpeed(const MotorStep& step,
                    bytesAt(s.segment, fish),
                    hn::ShiftRight<1>(hn::Add(hn::Load(kInts, block.from + lane),
                                              hn::Load(kInts, block.to + lane))),
-                   hn::Mul(hn::ConvertTo(kFloats, bytesAt(step.commands->brake, fish)),
-                           hn::Set(kFloats, kBrakeUnit)));
+                   hn::Mul(hn::ConvertTo(kFloats, brake), hn::Set(kFloats, kBrakeUnit)));
+    follow(s.spread, brake, fish);
     hn::StoreU(hn::ConvertTo(kInts, speed), kInts, s.speed.data() + fish);
     const Lanes faster = hn::Mul(hn::Sub(speed, pathAtEnd), hn::Set(kFloats, kLengthsPerSpeedUnit));
     hn::Store(faster, kFloats, block.faster + lane);

@@ -328,10 +328,11 @@ std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire)
             fill(segment, pathOf(segment), tables->segments[first]);
         phaseRates[i] = tables->segments[first].phaseRate;
     }
-    for (std::uint32_t segment = 0; segment < kSegments; ++segment)
-        tables->cycle[segment] = tables->segments[segment].playsToEnd
-                                     ? -1
-                                     : static_cast<std::int32_t>(actionOf(segment));
+    for (std::uint32_t segment = 0; segment < kSegments; ++segment) {
+        const SegmentTables& made = tables->segments[segment];
+        tables->action[segment] = static_cast<std::int32_t>(actionOf(segment));
+        tables->turnRate[segment] = made.playsToEnd ? made.phaseRate : 0;
+    }
     setEntryBorders(repertoire.segments[kFirstTurn], *tables);
     const SegmentTables& climb = tables->segments[indexOf(Action::ClimbMedium)];
     tables->pitchRate = 2.0F * climb.meanHalfTurn[2] * static_cast<float>(climb.phaseRate);

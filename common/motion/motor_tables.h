@@ -107,9 +107,9 @@ class MotorTables {
   public:
     std::array<SegmentTables, kSegments> segments;
     WarpPlans warps;
-    // The action of a segment that is a cycle, -1 for a turn: one column that the vectorised step
-    // gathers from.
-    std::array<std::int32_t, kSegments> cycle{};
+    // Columns that the vectorised step gathers from: the action of a segment, and its recorded
+    // phase rate if it is a turn, else 0.
+    std::array<std::int32_t, kSegments> action{}, turnRate{};
     // The speeds, in speed units, half-way between those at which turns were entered.
     std::array<std::int32_t, kEntrySpeeds - 1> entryBorders{};
     SpeedLoss loss;

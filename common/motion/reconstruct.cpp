@@ -90,8 +90,11 @@ PresentedFish present(const FishRecord& before,
         presentedRotation(bodyFrameOf(before).rotation, bodyFrameOf(after).rotation, fraction);
     fish.id = traits.id;
     const auto speedUnits =
-        glm::mix(static_cast<float>(before.speed), static_cast<float>(after.speed), fraction);
+        glm::mix(static_cast<float>(speedOf(before)), static_cast<float>(speedOf(after)), fraction);
     fish.speed = speedUnits / kSpeedUnitsPerBodyLength;
+    const auto spread = glm::mix(
+        static_cast<float>(spreadOf(before)), static_cast<float>(spreadOf(after)), fraction);
+    fish.spread = spread / 255.0F;
     pose(before, after, fraction, fish);
     return fish;
 }

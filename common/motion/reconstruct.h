@@ -23,8 +23,8 @@ struct PresentedFish {
     std::uint32_t action = 0;
     std::uint32_t fromAction = 0;
     std::uint32_t id = 0;
-    float speed = 0.0F;  // body lengths a second
-    std::uint32_t padding = 0;
+    float speed = 0.0F;   // body lengths a second
+    float spread = 0.0F;  // of the pectoral fins, 0 to 1
 };
 static_assert(sizeof(PresentedFish) == 64);
 

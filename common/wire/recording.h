@@ -20,7 +20,7 @@
 
 namespace aquarama::wire {
 
-inline constexpr std::uint32_t kRecordingVersion = 1;
+inline constexpr std::uint32_t kRecordingVersion = 2;
 // Bounds of what is read and written.
 inline constexpr std::size_t kMostSceneBytes = std::size_t{1} << 20U;
 inline constexpr std::size_t kMostSpeciesBytes = std::size_t{1} << 20U;

@@ -148,20 +148,20 @@ std::size_t degreesBetween(glm::vec3 a, glm::vec3 b) {
 
 }  // namespace
 
-MotionLog::MotionLog(const world::World& world)
+SpeciesLog::SpeciesLog(const world::World& world)
     : tallies_(world.speciesParameters().size()), fish_(world.view().size()) {}
 
-void MotionLog::note(const world::World& world) {
+void SpeciesLog::note(const world::World& world) {
     assert(world.view().size() == fish_.size());
     const bool glances = world.tick().value % kTicksOfSlip == 0;
     for (std::size_t fish = 0; fish < fish_.size(); ++fish) noteFish(world, fish, glances);
 }
 
 // The view shows the world before the tick, so it shows what the commands of the tick before did.
-void MotionLog::noteFish(const world::World& world, std::size_t fish, bool glances) {
+void SpeciesLog::noteFish(const world::World& world, std::size_t fish, bool glances) {
     constexpr float kRadiansOfUnit = 1.0F / (1 << 20);  // of MotorCommands::yawRate
     Fish& seen = fish_[fish];
-    MotionTally& tally = tallies_[world.view().kind[fish]];
+    SpeciesTally& tally = tallies_[world.view().kind[fish]];
     if (world.view().shows(fish, fish::kAway)) {
         seen.isNew = true;
         return;
@@ -175,6 +175,7 @@ void MotionLog::noteFish(const world::World& world, std::size_t fish, bool glanc
         tally.changes += command != seen.command ? 1 : 0;
         tally.fishSeconds += 1.0 / kTicksPerSecond;
         if (command != seen.command) commands_.insert(command);
+        noteLife(world.minds()[fish], seen, tally);
     }
     seen.faces += now.heading;
     seen.bodies += motion::bodyFrameOf(world.states(), fish).rotation * glm::vec3(1, 0, 0);
@@ -186,10 +187,22 @@ void MotionLog::noteFish(const world::World& world, std::size_t fish, bool glanc
     seen.heading = now.heading;
     seen.addedYaw = kRadiansOfUnit * static_cast<float>(world.commands().yawRate[fish]);
     seen.command = command;
+    seen.intention = world.minds()[fish].intention;
+    seen.eaten = world.minds()[fish].eaten;
     seen.isNew = false;
 }
 
-void MotionLog::noteSlip(const fish::VisibleFish& now, const Fish& fish, MotionTally& tally) {
+void SpeciesLog::noteLife(const fish::Mind& mind, const Fish& fish, SpeciesTally& tally) {
+    const auto begins = [&](fish::Intention intention) {
+        return mind.intention == intention && fish.intention != intention ? 1U : 0U;
+    };
+    // What was eaten since the last thought; time passes in thoughts.
+    tally.meals += mind.sinceMeal == 0 && mind.eaten != fish.eaten ? 1 : 0;
+    tally.flights += begins(fish::Intention::Escape);
+    tally.courtships += begins(fish::Intention::Mate);
+}
+
+void SpeciesLog::noteSlip(const fish::VisibleFish& now, const Fish& fish, SpeciesTally& tally) {
     const glm::vec3 path = now.position - fish.from;
     constexpr float kSeconds =
         static_cast<float>(kTicksOfSlip) / static_cast<float>(kTicksPerSecond);
@@ -198,13 +211,16 @@ void MotionLog::noteSlip(const fish::VisibleFish& now, const Fish& fish, MotionT
     ++tally.bodySlip.at(degreesBetween(path, fish.bodies));
 }
 
-MotionTally MotionLog::all() const {
-    MotionTally sum;
-    for (const MotionTally& tally : tallies_) {
+SpeciesTally SpeciesLog::all() const {
+    SpeciesTally sum;
+    for (const SpeciesTally& tally : tallies_) {
         sum.captured += tally.captured;
         sum.added += tally.added;
         sum.changes += tally.changes;
         sum.fishSeconds += tally.fishSeconds;
+        sum.meals += tally.meals;
+        sum.flights += tally.flights;
+        sum.courtships += tally.courtships;
         for (std::size_t i = 0; i < sum.meanSlip.size(); ++i) {
             sum.meanSlip.at(i) += tally.meanSlip.at(i);
             sum.bodySlip.at(i) += tally.bodySlip.at(i);
@@ -338,7 +354,7 @@ Chronicle::Chronicle(const world::World& world,
                      std::vector<float> halfWidths,
                      std::uint64_t ticksOfHour)
     : diary_(world, std::move(halfWidths)),
-      motions_(world),
+      species_(world),
       ticksOfHour_(ticksOfHour),
       counts_(world.counts()),
       ways_(world.view().size()) {
@@ -362,7 +378,7 @@ void Chronicle::beginHour(const world::World& world) {
 
 void Chronicle::note(const world::World& world) {
     diary_.note(world);
-    motions_.note(world);
+    species_.note(world);
     counts_ = world.counts();
     ++now_.ticks;
     if (now_.ticks % kTicksBetweenSteps == 0) notePlaces(world);

@@ -98,15 +98,17 @@ class OverlapLog {
     std::vector<BodyOverlap> fresh_;
 };
 
-// How fish move.
+// How fish move and live, species by species.
 
 // Sums over the fish of one species, or of a world.
-struct MotionTally {
+struct SpeciesTally {
     // Radians of heading: turned by played segments, and added by the yaw of commands.
     double captured = 0, added = 0;
     // Commands that differ from the one before, and seconds summed over fish.
     std::uint64_t changes = 0;
     double fishSeconds = 0;
+    // Particles or prey eaten, and times that fish began to flee and to court.
+    std::uint64_t meals = 0, flights = 0, courtships = 0;
     // Angles between what a fish faces and its path over half a second, by whole degrees: of its
     // mean frame, which is what the motor adds to the captured motion, and of the body, averaged
     // over the same half second. Fish slower than kSlowestPath or backing are left out.
@@ -122,16 +124,16 @@ inline constexpr float kSlowestPath = 0.2F;  // body lengths a second
 // The least whole number of degrees that `share` of the angles do not exceed; 0 without any.
 [[nodiscard]] int quantileDegrees(const std::array<std::uint64_t, 91>& slip, double share);
 
-// Watches the motion of all fish of one world, tick by tick.
-class MotionLog {
+// Watches all fish of one world, tick by tick.
+class SpeciesLog {
   public:
-    explicit MotionLog(const world::World& world);
+    explicit SpeciesLog(const world::World& world);
 
     // Call it after every tick.
     void note(const world::World& world);
     // By species, in the order of the cast.
-    [[nodiscard]] std::span<const MotionTally> byKind() const { return tallies_; }
-    [[nodiscard]] MotionTally all() const;
+    [[nodiscard]] std::span<const SpeciesTally> byKind() const { return tallies_; }
+    [[nodiscard]] SpeciesTally all() const;
     // Different commands that were given, of all species.
     [[nodiscard]] std::size_t distinctCommands() const { return commands_.size(); }
 
@@ -144,11 +146,14 @@ class MotionLog {
         std::uint64_t command = 0;
         bool isNew = true;                    // just here: nothing to compare with
         glm::vec3 from{}, faces{}, bodies{};  // since the last glance: place, sums of directions
+        fish::Intention intention{};
+        std::uint16_t eaten = 0;
     };
     void noteFish(const world::World& world, std::size_t fish, bool glances);
-    static void noteSlip(const fish::VisibleFish& now, const Fish& fish, MotionTally& tally);
+    static void noteLife(const fish::Mind& mind, const Fish& fish, SpeciesTally& tally);
+    static void noteSlip(const fish::VisibleFish& now, const Fish& fish, SpeciesTally& tally);
 
-    std::vector<MotionTally> tallies_;
+    std::vector<SpeciesTally> tallies_;
     std::vector<Fish> fish_;
     std::set<std::uint64_t> commands_;
 };
@@ -262,7 +267,7 @@ class Chronicle {
     // All hours that are complete, and the present one if it is more than half over.
     [[nodiscard]] std::vector<Hour> hours() const;
     [[nodiscard]] const OverlapLog& overlaps() const { return diary_.overlaps(); }
-    [[nodiscard]] const MotionLog& motions() const { return motions_; }
+    [[nodiscard]] const SpeciesLog& species() const { return species_; }
 
   private:
     // Way of one fish in this hour, and the place where it last left the radius of a stay.
@@ -277,7 +282,7 @@ class Chronicle {
     [[nodiscard]] Hour finished(const Hour& hour) const;
 
     Diary diary_;
-    MotionLog motions_;
+    SpeciesLog species_;
     std::uint64_t ticksOfHour_;
     std::vector<Hour> done_;
     Hour now_;

@@ -176,29 +176,31 @@ std::string hoursCsv(std::span<const Hour> hours) {
 
 namespace {
 
-void addMotion(std::ostream& text, const std::string& name, const MotionTally& tally) {
+void addSpecies(std::ostream& text, const std::string& name, const SpeciesTally& tally) {
     const auto slip = [&](const auto& angles) {
         text << " | " << quantileDegrees(angles, 0.5) << " / " << quantileDegrees(angles, 0.99);
     };
     text << "| " << name << " | " << tally.capturedPercent();
     slip(tally.meanSlip);
     slip(tally.bodySlip);
-    text << " | " << static_cast<double>(tally.changes) / tally.fishSeconds << " |\n";
+    text << " | " << static_cast<double>(tally.changes) / tally.fishSeconds << " | " << tally.meals
+         << " | " << tally.flights << " | " << tally.courtships << " |\n";
 }
 
 }  // namespace
 
-std::string motionText(const MotionLog& log, std::span<const world::WorldSpecies> cast) {
+std::string speciesText(const SpeciesLog& log, std::span<const world::WorldSpecies> cast) {
     assert(log.byKind().size() == cast.size());
     std::ostringstream text;
     text << std::fixed << std::setprecision(1)
          << "| species | turning by captured segments, % | path against captured motion, degrees: "
-            "median / 99 % | path against the body | changes of command a second |\n"
-            "|---|---|---|---|---|\n";
+            "median / 99 % | path against the body | changes of command a second | meals | flights "
+            "that began | courtships that began |\n"
+            "|---|---|---|---|---|---|---|---|\n";
     for (std::size_t kind = 0; kind < cast.size(); ++kind)
-        addMotion(text, cast[kind].name, log.byKind()[kind]);
-    const MotionTally all = log.all();
-    addMotion(text, "all", all);
+        addSpecies(text, cast[kind].name, log.byKind()[kind]);
+    const SpeciesTally all = log.all();
+    addSpecies(text, "all", all);
     text << "\nturning by captured segments: " << all.capturedPercent() << " %\n"
          << "different commands: " << log.distinctCommands() << '\n';
     return text.str();

@@ -87,8 +87,8 @@ struct StudyPlan {
 
 // How the fish moved, in Markdown: a line for each species, and the share of captured turning of
 // all.
-[[nodiscard]] std::string motionText(const MotionLog& log,
-                                     std::span<const world::WorldSpecies> cast);
+[[nodiscard]] std::string speciesText(const SpeciesLog& log,
+                                      std::span<const world::WorldSpecies> cast);
 
 // A line for each overlap of two fish, with what both intended when it began.
 [[nodiscard]] std::string overlapsCsv(const OverlapLog& log,

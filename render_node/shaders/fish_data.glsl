@@ -19,7 +19,7 @@ struct Fish {
     float blend;   // how far it is from the next coarser level: 0 looks as that does
     uint firstVertex;  // in the surface buffer, less the first vertex of its mesh
     float speed;  // body lengths a second
-    uint padding;
+    float spread;  // of the pectoral fins, 0 to 1
 };
 
 // Rotates a vector by a unit quaternion.

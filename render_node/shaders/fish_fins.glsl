@@ -16,7 +16,7 @@ struct FinStyle {
     float featherAngle, trimAngle, rowHertz, alternateBelow;
     float foldAbove, pelvicFold, swimRipple, swimWaves;
     float hoverRipple, hoverWaves, hoverHertz, opposed;
-    float cupping;
+    float cupping, spread;
 };
 struct FinPoint {
     vec3 arm;
@@ -37,6 +37,7 @@ const float kFoldBand = 0.2, kTrimGain = 3.0;
 // What drives the fins of one fish.
 struct FinDrive {
     float seconds, speed, climb;
+    float tilt, spread;
     vec2 turning;  // how far it is in a turn to the left, to the right
     float own;     // cycles by which it differs from others
     float phase, fromPhase, weight;
@@ -53,19 +54,23 @@ float beyondSpeed(float speed, float limit) {
     return smoothstep(limit - band, limit + band, abs(speed) + 1.0e-3);
 }
 
-// A pectoral fin rows with its stroke and feathers its blade; fast fish fold it. Below the speed
+// A pectoral fin rows with its stroke and feathers its blade; fast fish fold it, one that brakes holds
+// it across the water, and its twist gives the lift of a slope and of balancing. Below the speed
 // `alternateBelow` the left fin is half a cycle behind the right one.
 vec3 rowedFin(FinStyle style, FinPoint point, FinDrive drive) {
     bool isRight = point.side > 0.0;
     float apart = isRight ? 0.0 : 0.5 * (1.0 - beyondSpeed(drive.speed, style.alternateBelow));
     float beat = style.rowHertz * drive.seconds + drive.own + apart;
     float outer = isRight ? drive.turning.x : drive.turning.y;
-    float rows = (1.0 - beyondSpeed(drive.speed, style.foldAbove)) * (1.0 - outer);
+    float opens = (1.0 - beyondSpeed(drive.speed, style.foldAbove)) * (1.0 - outer);
+    float rows = opens * (1.0 - drive.spread);
+    float lift = drive.climb - (isRight ? drive.tilt : -drive.tilt);
     float twist = rows * style.featherAngle * cos(kWholeTurn * beat) +
-                  style.trimAngle * clamp(kTrimGain * drive.climb, -1.0, 1.0);
+                  style.trimAngle * clamp(kTrimGain * lift, -1.0, 1.0);
     float angle = rows * style.strokeAngle * sin(kWholeTurn * (beat - kTipLag * point.q));
     vec3 arm = rotatedAbout(style.ray, twist * point.q, point.arm);
-    arm = rotatedAbout(style.hinge, mix(style.fold, style.open, rows), arm);
+    float opened = mix(style.fold, style.open, opens);
+    arm = rotatedAbout(style.hinge, mix(opened, style.spread, drive.spread), arm);
     return rotatedAbout(style.stroke, angle, arm) - point.arm;
 }
 
@@ -90,7 +95,7 @@ vec3 finOffset(FinStyle style, FinPoint point, FinDrive drive, float drift) {
         case kBodyPart: return vec3(0.0);
         case kPectoralPart: return rowedFin(style, point, drive) * mirror;
         case kPelvicPart: {
-            float angle = style.pelvicFold * smoothstep(kStands, kFolded, abs(drive.speed));
+            float angle = style.pelvicFold * (1.0 - drive.spread) * smoothstep(kStands, kFolded, abs(drive.speed));
             return (rotatedAbout(vec3(0.0, 0.0, 1.0), angle, point.arm) - point.arm) * mirror;
         }
         case kCaudalPart: {

@@ -27,8 +27,9 @@ FinPoint finPointOf(uint species, uint i) {
 FinStyle finStyleOf(uint species) {
     vec4 a = finNumbers(species, 0u), b = finNumbers(species, 1u), c = finNumbers(species, 2u);
     vec4 d = finNumbers(species, 3u), e = finNumbers(species, 4u), f = finNumbers(species, 5u);
+    vec4 g = finNumbers(species, 6u);
     return FinStyle(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.x, d.y, d.z, d.w, e.x, e.y, e.z, e.w, f.x,
-                    f.y, f.z, f.w, finNumbers(species, 6u).x);
+                    f.y, f.z, f.w, g.x, g.y);
 }
 
 struct Posed {
@@ -69,6 +70,7 @@ vec2 turnOf(uint action) {
 
 FinDrive finDriveOf(Fish self) {
     return FinDrive(mod(eyeAndTime.w, kFinSeconds), self.speed, rotate(self.rotation, vec3(1.0, 0.0, 0.0)).y,
+                    rotate(self.rotation, vec3(0.0, 0.0, 1.0)).y, self.spread,
                     mix(turnOf(self.fromAction), turnOf(self.action), self.warpWeight),
                     fract(0.37 * float(self.id)), self.phase, self.fromPhase, self.warpWeight);
 }

@@ -8,7 +8,7 @@
 #include "shader_interface.h"
 
 // Two words of four numbers a fish: place and the low orientation; the high one, phases, segments
-// and warp, speed.
+// and warp, speed in 24 bits and spread in 8.
 layout(std430, binding = kBeforeStorage) readonly buffer Before { uvec4 before[]; };
 layout(std430, binding = kAfterStorage) readonly buffer After { uvec4 after[]; };
 layout(std430, binding = kTraitsStorage) readonly buffer Traits { uvec2 traits[]; };  // id, length in millimetres
@@ -23,8 +23,14 @@ float lengthMetresOf(uint i) { return float(traits[i].y) * 0.001; }
 // Body lengths a second; backwards is negative.
 float speedOf(uint i) {
     const float kUnitsPerBodyLength = 262144.0;
-    return mix(float(int(before[2u * i + 1u].w)), float(int(after[2u * i + 1u].w)), fraction) /
-           kUnitsPerBodyLength;
+    ivec2 units = ivec2(before[2u * i + 1u].w, after[2u * i + 1u].w) << 8 >> 8;
+    return mix(float(units.x), float(units.y), fraction) / kUnitsPerBodyLength;
+}
+
+// Of the pectoral fins, 0 to 1.
+float spreadOf(uint i) {
+    uvec2 spread = uvec2(before[2u * i + 1u].w, after[2u * i + 1u].w) >> 24;
+    return mix(float(spread.x), float(spread.y), fraction) / 255.0;
 }
 
 // Not in the water at one of the ticks: nobody draws it.

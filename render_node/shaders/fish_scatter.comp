@@ -50,7 +50,8 @@ void main() {
     self.detail = level;
     self.blend = detailAt(self.positionMetres, self.lengthMetres).blend;
     self.speed = speedOf(i);
-    self.firstVertex = self.padding = 0u;
+    self.spread = spreadOf(i);
+    self.firstVertex = 0u;
     if (level >= kControlMesh &&
         !findSurface(species, level - kControlMesh, slot, self.firstVertex)) {
         self.detail = kFewTriangles;

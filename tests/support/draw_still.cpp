@@ -21,7 +21,8 @@ using namespace aquarama;
 struct Options {
     std::vector<float> eye{0.0F, -6.0F, 0.0F};
     std::vector<std::string> portraits;
-    float metresAway = 0.7F, turnDegrees = 0.0F, lengthMetres = 0.24F, phase = 0.1F, speed = 0.8F;
+    float metresAway = 0.7F, turnDegrees = 0.0F, lengthMetres = 0.24F, phase = 0.1F, speed = 0.8F,
+          spread = 0.0F;
     int ball = 0;
     float ballMetres = 6.0F;
     std::string tier = "ultra", water = "IA", out = "still.png";
@@ -77,6 +78,7 @@ test::Still stillOf(const Options& options, test::Still still) {
             species, camera, options.metresAway, options.turnDegrees, options.lengthMetres));
         still.fish.back().phase = options.phase;
         still.fish.back().speedBodyLengths = options.speed;
+        still.fish.back().spread = options.spread;
         camera.azimuthDegrees += 60.0F * options.lengthMetres / options.metresAway;
     }
     test::Camera ahead = still.camera;
@@ -113,6 +115,7 @@ int main(int argc, char** argv) try {
     app.add_option("--length", options.lengthMetres, "of the portraits, metres");
     app.add_option("--phase", options.phase, "of the portraits' beat, 0 .. 1");
     app.add_option("--speed", options.speed, "of the portraits, body lengths a second");
+    app.add_option("--brake", options.spread, "of the portraits, 0 .. 1");
     app.add_option("--ball", options.ball, "so many scad in a ball");
     app.add_option("--ball-away", options.ballMetres, "metres");
     app.add_flag_callback(

@@ -47,6 +47,7 @@ Cast castOf(const std::vector<StillFish>& fish) {
                 fishAt(one.placeMetres, one.worldFromBody, one.lengthMetres);
             shown.phase = one.phase;
             shown.speed = one.speedBodyLengths;
+            shown.spread = one.spread;
             shown.id = static_cast<std::uint32_t>(cast.fish.size());
             cast.fish.push_back(recordOf(shown));
             traits.push_back(traitsOf(shown));

@@ -37,6 +37,7 @@ struct StillFish {
     float lengthMetres = 0.24F;
     float phase = 0.0F;
     float speedBodyLengths = 0.0F;  // a second; its fins go by it
+    float spread = 0.0F;            // of fins that brake, 0 to 1
 };
 // So far before the camera and turned so that it shows its left side (0), its face (90), its right
 // side (180).

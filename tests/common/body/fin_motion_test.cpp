@@ -122,6 +122,30 @@ TEST_P(FinsOf, foldFlatInAHurryAndOnTheOuterSideOfATurn) {
     }
 }
 
+// Straight out from the flank, against the water, however fast the fish is.
+TEST_P(FinsOf, standAcrossTheWaterAndStillWhileTheFishBrakes) {
+    if (rowing_.strokeRadians == 0) return;  // a shark's are planes
+    const glm::vec3 root = glm::cross(style_.hinge, glm::vec3(0, 0, 1));
+    for (const float speed : {0.1F, kCruise, 1.5F * rowing_.foldAbove}) {
+        const glm::vec3 arm = tip({.seconds = 1.3F, .speed = speed, .spread = 1});
+        const float off = std::atan2(arm.z, -glm::dot(arm, root));
+        EXPECT_NEAR(off, 75 * kDegree, 12 * kDegree) << speed;
+        const glm::vec3 later = tip({.seconds = 1.45F, .speed = speed, .spread = 1});
+        EXPECT_LT(glm::distance(arm, later), 1e-5F) << speed;
+    }
+}
+
+// A fish whose right side is high twists the right fin as one that dives, the left one as one that
+// climbs.
+TEST_P(FinsOf, twistAgainstEachOtherOnATiltedFish) {
+    ASSERT_GT(style_.trimAngle * style_.trimAngle, 0);
+    for (const std::size_t i : pointsOf(CagePart::Pectoral)) {
+        const float climb = body_.fins.points[i].side > 0 ? -0.2F : 0.2F;
+        EXPECT_EQ(offset(i, {.speed = kCruise, .tilt = 0.2F}),
+                  offset(i, {.speed = kCruise, .climb = climb}));
+    }
+}
+
 TEST_P(FinsOf, keepTheirLength) {
     const FinDrive drive{.seconds = 2.71F, .speed = kCruise, .climb = -0.3F, .id = 2};
     for (const std::size_t i : pointsOf(CagePart::Pectoral)) {
@@ -189,6 +213,8 @@ TEST_P(FinsOf, moveWithoutAJump) {
         return FinDrive{.seconds = 4 + t,
                         .speed = -1 + 4 * t,
                         .climb = 0.4F * t,
+                        .tilt = 0.3F - 0.6F * t,
+                        .spread = t < 0.5F ? 2 * t : 2 - 2 * t,
                         .turning = {std::min(2 * t, 1.0F), 0},
                         .id = 3,
                         .phase = std::fmod(0.2F + 3 * t, 1.0F),

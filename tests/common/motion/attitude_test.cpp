@@ -198,7 +198,7 @@ TEST_P(Attitude, aTurnInAClimbChangesTheCourseAndLeavesTheClimb) {
             school->command(0, Action::ForwardMedium);
             school->tick(400);
         }
-        EXPECT_NEAR(climbing.heading(0), level.heading(0), 25) << pitch;
+        EXPECT_NEAR(climbing.heading(0), level.heading(0), 16) << pitch;
         EXPECT_NEAR(climbing.pitch(0), pitch, 1);
         EXPECT_LT(std::abs(climbing.roll(0)), 1);
     }

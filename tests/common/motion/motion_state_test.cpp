@@ -39,6 +39,7 @@ MotionStates randomStates(std::size_t fish, unsigned seed) {
         states.fromSegment[i] = static_cast<std::uint8_t>(random() % kSegments);
         states.warpLength[i] = static_cast<std::uint8_t>(random());
         states.warpFrame[i] = static_cast<std::uint8_t>(random() % (states.warpLength[i] + 1U));
+        states.spread[i] = static_cast<std::uint8_t>(random());
     }
     return states;
 }
@@ -137,8 +138,10 @@ TEST(MotionState, anImpossibleRecordIsNotPlayable) {
     EXPECT_FALSE(with([](auto& r) { r.fromSegment = 255; }));
     EXPECT_FALSE(with([](auto& r) { r.warpLength = 3, r.warpFrame = 4; }));
     EXPECT_FALSE(with([](auto& r) { r.orientationHigh |= 1U << 31U; }));
-    EXPECT_FALSE(with([](auto& r) { r.speed = kFastestUnits + 1; }));
-    EXPECT_FALSE(with([](auto& r) { r.speed = -kFastestUnits - 1; }));
+    EXPECT_FALSE(
+        with([](auto& r) { r.speedAndSpread = packedSpeedAndSpread(kFastestUnits + 1, 0); }));
+    EXPECT_FALSE(
+        with([](auto& r) { r.speedAndSpread = packedSpeedAndSpread(-kFastestUnits - 1, 0); }));
 }
 
 TEST(MotionState, anAbsentFishIsNeitherRefusedNorLost) {

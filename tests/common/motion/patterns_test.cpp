@@ -99,6 +99,22 @@ TEST_P(Patterns, aBrakingFishSlowsDownAtEveryTickUntilItStopsWithinTheStatedWay)
     }
 }
 
+// What is seen of it: the fins open and close within a fifth of a second, and by even steps.
+TEST_P(Patterns, finsFollowTheCommandedBrakeWithinAFifthOfASecond) {
+    const auto tables = tablesOf(GetParam(), kResponse);
+    School school(1, *tables);
+    school.play(0, Action::ForwardMedium);
+    for (const int brake : {255, 0, 100}) {
+        const int from = school.states.spread[0];
+        school.commands.brake[0] = static_cast<std::uint8_t>(brake);
+        school.tick(6);
+        const int way = std::min(std::abs(brake - from), 6 * kSpreadStep);
+        EXPECT_EQ(school.states.spread[0], from + (brake > from ? way : -way));
+        school.tick(7);
+        EXPECT_EQ(school.states.spread[0], brake);
+    }
+}
+
 // At half the speed s of the segment, dv/dt = swimDrag s^2 / 2.
 TEST_P(Patterns, aFishAtHalfTheSpeedOfItsGaitGathersSpeedByTheDragOfThatGait) {
     const auto tables = tablesOf(GetParam(), kResponse);

@@ -92,8 +92,8 @@ TEST(RecordingFormat, anotherVersionIsNamed) {
     const auto version = std::ranges::find(file, versionTag) + 1;
     ASSERT_EQ(*version, std::byte{kRecordingVersion});
     *version = std::byte{kRecordingVersion + 1};
-    EXPECT_THAT(refusalOf(file), HasSubstr("of version 2"));
-    EXPECT_THAT(refusalOf(file), HasSubstr("reads version 1"));
+    EXPECT_THAT(refusalOf(file), HasSubstr("of version 3"));
+    EXPECT_THAT(refusalOf(file), HasSubstr("reads version 2"));
 }
 
 TEST(RecordingFormat, anotherProtocolOrBuildIsADoubt) {

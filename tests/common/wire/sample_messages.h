@@ -12,18 +12,19 @@ inline std::vector<motion::FishRecord> sampleRecords(std::uint32_t fish) {
     std::vector<motion::FishRecord> records;
     for (std::uint32_t i = 0; i < fish; ++i) {
         const auto n = static_cast<std::int32_t>(i);
-        records.push_back({n,
-                           -n * 7919,
-                           n << 8,
-                           i * 2654435761U,
-                           ~i >> 2U,
-                           static_cast<std::uint16_t>(i * 31),
-                           static_cast<std::uint16_t>(i * 57),
-                           static_cast<std::uint8_t>(i % motion::kSegments),
-                           static_cast<std::uint8_t>((i + 3) % motion::kSegments),
-                           static_cast<std::uint8_t>(i % 8),
-                           8,
-                           1000 - n * 77});
+        records.push_back(
+            {n,
+             -n * 7919,
+             n << 8,
+             i * 2654435761U,
+             ~i >> 2U,
+             static_cast<std::uint16_t>(i * 31),
+             static_cast<std::uint16_t>(i * 57),
+             static_cast<std::uint8_t>(i % motion::kSegments),
+             static_cast<std::uint8_t>((i + 3) % motion::kSegments),
+             static_cast<std::uint8_t>(i % 8),
+             8,
+             motion::packedSpeedAndSpread(1000 - n * 77, static_cast<std::uint8_t>(i * 3))});
     }
     return records;
 }

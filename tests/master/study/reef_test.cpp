@@ -26,7 +26,7 @@ struct Life {
     std::vector<Hour> hours;
     std::vector<BodyOverlap> overlaps;
     std::string overlapsCsv;
-    MotionTally motion;
+    SpeciesTally species;
     std::uint64_t hash = 0;
 };
 
@@ -50,7 +50,7 @@ Life lived() {
     return {chronicle.hours(),
             chronicle.overlaps().all(),
             overlapsCsv(chronicle.overlaps(), world, scenario.world.cast),
-            chronicle.motions().all(),
+            chronicle.species().all(),
             world.hash()};
 }
 
@@ -104,24 +104,32 @@ TEST_F(Reef, nobodyIsStuckAndNothingCollapsesIntoACorner) {
 
 // Fish turn by bending, and go where they look: what the motor adds to the captured motion is a
 // fifth of the turning at most, and slides by 8 degrees at most.
-void expectCapturedMotion(const MotionTally& motion) {
+void expectCapturedMotion(const SpeciesTally& motion) {
     EXPECT_GE(motion.capturedPercent(), 80);
     EXPECT_LE(quantileDegrees(motion.meanSlip, 0.99), 8);
     EXPECT_LT(static_cast<double>(motion.changes) / motion.fishSeconds, 7) << "changes of command";
 }
 
 TEST_F(Reef, fishTurnByCapturedSegmentsAndDoNotSlide) {
-    expectCapturedMotion(life().motion);
+    expectCapturedMotion(life().species);
+}
+
+TEST_F(Reef, mealsBySpeciesAreThoseOfTheWorld) {
+    std::uint64_t meals = 0;
+    for (const Hour& hour : life().hours) meals += hour.counts.meals + hour.counts.catches;
+    EXPECT_GT(meals, 0U);
+    EXPECT_EQ(life().species.meals, meals);
+    EXPECT_GT(life().species.flights, 0U);
 }
 
 TEST(BaitBall, fishTurnByCapturedSegmentsAndDoNotSlide) {
     world::World world(sceneOf("bait_ball").world);
-    MotionLog motions(world);
+    SpeciesLog species(world);
     for (std::uint64_t tick = 0; tick < kTicksOfMinute; ++tick) {
         world.advance();
-        motions.note(world);
+        species.note(world);
     }
-    expectCapturedMotion(motions.all());
+    expectCapturedMotion(species.all());
 }
 
 TEST_F(Reef, theChronicleHasALineForEachHourAndOverlap) {

@@ -256,7 +256,7 @@ TEST_F(SessionTest, saysReadyAndWaitsForTheRelease) {
 TEST_F(SessionTest, letsGoAtTheAppointedTimeOfTheMastersClock) {
     master_.clockAhead = seconds(1000);
     becomeMember(wire::Pace::Live, {0});
-    for (int ping = 0; ping < 3; ++ping) ASSERT_TRUE(master_.hear(v1::Envelope::kPing));
+    for (int ping = 0; ping < 12; ++ping) ASSERT_TRUE(master_.hear(v1::Envelope::kPing));
     master_.show(0);
     EXPECT_EQ(nextFrame(), 0U);
     auto release = readying(0);
@@ -264,9 +264,8 @@ TEST_F(SessionTest, letsGoAtTheAppointedTimeOfTheMastersClock) {
     const net::Instant at = net::monotonicNow() + milliseconds(200);
     master_.say(test::present(0, (at + master_.clockAhead).count()));
     EXPECT_EQ(release.get(), Release::Present);
-    // Never before; but the clock's offset is known to half a round trip, which a busy machine
-    // stretches.
-    EXPECT_GE(net::monotonicNow(), at - milliseconds(150));
+    // Never before; but the clock's offset is known to half the shortest round trip of twelve.
+    EXPECT_GE(net::monotonicNow(), at - milliseconds(50));
     master_.show(1);
     EXPECT_EQ(nextFrame(), 1U);
     release = readying(1);
@@ -275,7 +274,7 @@ TEST_F(SessionTest, letsGoAtTheAppointedTimeOfTheMastersClock) {
     const v1::Ready& ready = message->ready();
     ASSERT_TRUE(ready.has_released_frame());
     EXPECT_EQ(ready.released_frame(), 0U);
-    EXPECT_GE(net::Instant{ready.released_ns()}, at + master_.clockAhead - milliseconds(300));
+    EXPECT_GE(net::Instant{ready.released_ns()}, at + master_.clockAhead - milliseconds(100));
     session_->stop();
     release.get();
 }

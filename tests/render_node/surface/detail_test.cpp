@@ -26,9 +26,6 @@ const glm::vec3 kEye{0, -6, 0};
 
 // Of the difference that the fish makes at all. Rounding moves some pixels of the outline too.
 constexpr double kMostJump = 0.05;
-// Without multisampling, edges that run otherwise by a part of a pixel change whole pixels, and a
-// fish of 14 pixels has as many on its outline as within it.
-constexpr double kMostJumpOfFew = 0.25;
 
 using Pixels = std::vector<glm::vec3>;  // display light
 
@@ -131,37 +128,41 @@ TEST_F(DetailTest, noLimitLeavesAJump) {
             const Pixels before = at(limit * (1.0F - kNear)), after = at(limit * (1.0F + kNear));
             const double jump = difference(before, after) / difference(after, water);
             RecordProperty(species + "_" + std::to_string(limit), std::to_string(jump));
-            EXPECT_LT(jump, limit == 14.0F ? kMostJumpOfFew : kMostJump)
-                << species << " at " << limit << " pixels";
+            EXPECT_LT(jump, kMostJump) << species << " at " << limit << " pixels";
         }
 }
 
 // Many fish, so that which pixels' centres are hit is averaged out. What they change of the picture
-// for their area goes down with the water between, never by steps.
+// for their area goes down with the metres of water between, never by steps: the share that a metre
+// takes is that of the whole way.
 TEST_F(DetailTest, fishThatSwimAwayGrowFainterEvenly) {
-    constexpr std::size_t kFish = 150;
+    constexpr std::size_t kFish = 200;
     test::Camera camera;
-    camera.sizePixels = {192, 108};
-    camera.heightDegrees = 60.0F;
+    camera.sizePixels = {384, 216};
+    camera.heightDegrees = 90.0F;
     Wall wall("moorish_idol", camera, kFish);
     const Pixels water = wall.shown({});
-    double last = 0;
+    std::vector<double> metres, lights;
     for (float pixels = 18.0F; pixels > 1.6F; pixels /= 1.1F) {
         std::vector<motion::PresentedFish> fish;
         for (std::size_t i = 0; i < kFish; ++i) {
             const float k = static_cast<float>(i);
-            const glm::vec2 slope{0.9F * std::sin(12.9898F * k), 0.5F * std::sin(78.233F * k)};
+            const glm::vec2 slope{1.6F * std::sin(12.9898F * k), 0.9F * std::sin(78.233F * k)};
             const glm::vec3 towards = glm::normalize(glm::vec3{slope, -1.0F});
             const glm::quat turn = glm::angleAxis(2.4F * k, glm::vec3{0, 1, 0});
             fish.push_back(test::fishAt(kEye + wall.metresFor(pixels) * towards, turn, kLength));
             fish.back().id = static_cast<std::uint32_t>(i);
         }
-        const double light =
-            difference(wall.shown(fish), water) / static_cast<double>(pixels * pixels);
-        if (last > 0) {
-            EXPECT_NEAR(light / last, 0.95, 0.17) << pixels << " pixels";
-        }
-        last = light;
+        metres.push_back(static_cast<double>(wall.metresFor(pixels)));
+        lights.push_back(difference(wall.shown(fish), water) /
+                         static_cast<double>(pixels * pixels));
+    }
+    const double perMetre =
+        std::log(lights.front() / lights.back()) / (metres.back() - metres.front());
+    EXPECT_GT(perMetre, 0.05) << "the water takes light";
+    for (std::size_t i = 1; i < lights.size(); ++i) {
+        const double expected = std::exp(-perMetre * (metres[i] - metres[i - 1]));
+        EXPECT_NEAR(lights[i] / lights[i - 1], expected, 0.13) << metres[i] << " m";
     }
 }
 

@@ -86,6 +86,8 @@ body::FinDrive driveOf(const motion::PresentedFish& fish, float seconds) {
         .seconds = seconds - body::kFinSeconds * std::floor(seconds / body::kFinSeconds),
         .speed = fish.speed,
         .climb = (rotation * glm::vec3(1, 0, 0)).y,
+        .tilt = (rotation * glm::vec3(0, 0, 1)).y,
+        .spread = fish.spread,
         .id = fish.id,
         .phase = fish.phase,
         .fromPhase = fish.fromPhase,

@@ -58,7 +58,9 @@ TEST_F(SchoolSurfaceTest, everyLevelLiesWhereTheCpuPutsIt) {
         record.phase = static_cast<std::uint16_t>(bits(random));
         record.fromPhase = static_cast<std::uint16_t>(bits(random));
         record.segment = static_cast<std::uint8_t>(trial % motion::kSegments);
-        record.speed = static_cast<std::int32_t>(bits(random) % 500000U);
+        record.speedAndSpread =
+            motion::packedSpeedAndSpread(static_cast<std::int32_t>(bits(random) % 500000U),
+                                         static_cast<std::uint8_t>(bits(random)));
         record.fromSegment = static_cast<std::uint8_t>(trial % 3);
         record.warpLength = trial % 2 == 0 ? 0 : 9;
         record.warpFrame = static_cast<std::uint8_t>(trial % (record.warpLength + 1));
@@ -82,6 +84,7 @@ TEST_F(SchoolSurfaceTest, everySpeciesMovesItsFinsAsTheCpuDoes) {
         motion::PresentedFish one = test::fishAt({0, 0, -1}, {1, 0, 0, 0});
         one.id = static_cast<std::uint32_t>(fish.size());
         one.speed = 0.25F * static_cast<float>(fish.size());
+        one.spread = 0.2F * static_cast<float>(fish.size() % 6);
         one.phase = 0.625F;
         one.action = static_cast<std::uint32_t>(fish.size());
         fish.push_back(one);
@@ -120,6 +123,7 @@ TEST_F(SchoolSurfaceTest, noFishInSightIsCulled) {
         const glm::vec3 place{2 * unit(random), 2 * unit(random), -1.2F + 1.5F * unit(random)};
         motion::PresentedFish fish = test::fishAt(place, test::anyRotation(random));
         fish.phase = 0.5F + 0.49F * unit(random);
+        fish.spread = static_cast<float>(i % 2);
         fish.action = static_cast<std::uint32_t>(i % motion::kActions);
         fish.id = static_cast<std::uint32_t>(i);
         school.push_back(fish);

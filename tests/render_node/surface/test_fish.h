@@ -99,8 +99,9 @@ inline motion::FishRecord recordOf(const motion::PresentedFish& fish) {
     record.fromPhase = cycle(fish.fromPhase);
     record.segment = motion::firstSegmentOf(static_cast<motion::Action>(fish.action));
     record.fromSegment = motion::firstSegmentOf(static_cast<motion::Action>(fish.fromAction));
-    record.speed =
-        static_cast<std::int32_t>(std::lround(fish.speed * motion::kSpeedUnitsPerBodyLength));
+    record.speedAndSpread = motion::packedSpeedAndSpread(
+        static_cast<std::int32_t>(std::lround(fish.speed * motion::kSpeedUnitsPerBodyLength)),
+        static_cast<std::uint8_t>(std::lround(fish.spread * 255.0F)));
     if (fish.warpWeight >= 1.0F) return record;
     record.warpLength = 254;
     const long weight = std::lround(fish.warpWeight * 255.0F);
