@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "common/base/log.h"
+#include "common/config/keys.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 #include "common/wire/recording.h"
@@ -33,18 +34,34 @@ struct AskedMaster {
     std::string rig = supervisor::kDefaultRig;
     std::string address;  // empty: the rig's
 
-    [[nodiscard]] std::string controlAddress() const {
-        return address.empty() ? config::readRig(rig).controlAddress : address;
+    std::string key;  // file; empty: the operator's, where the rig needs one
+
+    // The file of the key to show; empty where none is needed.
+    [[nodiscard]] std::string keyPath() const {
+        if (!key.empty() || !address.empty() || !config::needsKeys(config::readRig(rig)))
+            return key;
+        return config::keyFileIn(config::keyFolderOf(rig), "operator").string();
+    }
+    [[nodiscard]] conductor::RequestClient connect() const {
+        const std::string path = keyPath();
+        if (path.empty())
+            return conductor::RequestClient(address.empty() ? config::readRig(rig).controlAddress
+                                                            : address);
+        const config::KeyFile shown = config::readKeyFile(path);
+        return conductor::RequestClient(
+            address.empty() ? shown.masterAddress : address,
+            net::PeerKeys{shown.masterKey, {shown.publicKey, shown.secretKey}});
     }
 };
 
 void describeMaster(CLI::App& command, AskedMaster& asked) {
     command.add_option("RIG", asked.rig, "whose master is asked")->capture_default_str();
     command.add_option("--master", asked.address, "its control address, instead of the rig's");
+    command.add_option("--key", asked.key, "file of the key to show (aquarama keys bundle)");
 }
 
 void showStatus(const AskedMaster& asked) {
-    conductor::RequestClient master(asked.controlAddress());
+    conductor::RequestClient master = asked.connect();
     std::cout << conductor::statusText(master.status());
 }
 
@@ -86,7 +103,7 @@ class Keyboard {
 
 // Tells the master what the keys say, and shows where the submarine is, until a key ends it.
 void steer(const AskedMaster& asked) {
-    conductor::RequestClient master(asked.controlAddress());
+    conductor::RequestClient master = asked.connect();
     Keyboard keyboard;
     conductor::TerminalSteering terminal;
     const bool onScreen = isatty(STDOUT_FILENO) != 0;
@@ -133,7 +150,7 @@ void print(std::uint32_t fish, std::size_t school, std::span<const std::string> 
 }
 
 void explainLive(const ExplainOptions& options) {
-    conductor::RequestClient master(options.asked.controlAddress());
+    conductor::RequestClient master = options.asked.connect();
     const bool onScreen = options.follow && isatty(STDOUT_FILENO) != 0;
     do {
         const v1::Explanation explanation = master.explain(options.fish);

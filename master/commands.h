@@ -5,11 +5,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 #include "common/cli/command_line.h"
+#include "common/config/rig.h"
+#include "common/net/channels.h"
 #include "master/supervisor/supervise.h"
 
 namespace aquarama {
@@ -72,6 +75,7 @@ void addRun(CommandLine& line);     // a show on this machine
 void addReplay(CommandLine& line);  // a recorded one
 void addMaster(CommandLine& line);  // the master alone
 void addNode(CommandLine& line);    // hands over to aquarama-node
+void addKeyCommands(CommandLine& line);
 void addStatus(CommandLine& line);
 void addPilot(CommandLine& line);
 void addExplain(CommandLine& line);
@@ -88,6 +92,11 @@ void addStudy(CommandLine& line);
 // Options of `run`, `replay` and `master`, declared once: which rig shows which world, and how.
 void describeWorld(CLI::App& command, supervisor::ShowOptions& options);
 void describeWall(CLI::App& command, supervisor::ShowOptions& options);
+
+// The keys of a master that listens past its machine; nothing where the rig needs none. Throws
+// Error where there are none yet.
+[[nodiscard]] std::optional<net::MasterKeys> masterKeysOf(const config::Rig& rig,
+                                                          const supervisor::ShowOptions& show);
 
 // Replays a recording without a wall and says whether it is the same world again. Returns the exit
 // status: 1 where it is another. Throws Error where it cannot be read.

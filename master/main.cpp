@@ -20,7 +20,7 @@ struct Group {
 const std::array kGroups{
     Group{"A show on this machine", {addRun, addReplay}},
     Group{"While a show runs", {addStatus, addPilot, addExplain}},
-    Group{"A show on several machines, one process each", {addMaster, addNode}},
+    Group{"A show on several machines, one process each", {addMaster, addNode, addKeyCommands}},
     Group{"Files", {addCheck, addInspect}},
     Group{"Fish and their repertoires",
           {addCapture, addExport, addGaits, addSearch, addControllers, addFidelity}},

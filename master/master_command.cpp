@@ -128,7 +128,8 @@ void runMaster(const MasterOptions& options) {
     cli::requireFolder("--trace", options.show.traceFolder);
     if (!options.show.recordPath.empty()) simulation::requireNewRecording(options.show.recordPath);
     cli::requireFile("--record", options.show.recordPath);
-    auto channels = net::bindMaster(rig.controlAddress, rig.stateAddress);
+    auto channels =
+        net::bindMaster(rig.controlAddress, rig.stateAddress, {}, masterKeysOf(rig, options.show));
     (options.show.replayPath.empty() ? showNew : showAgain)(rig, options, std::move(channels));
 }
 

@@ -16,9 +16,9 @@
 #include "common/cli/outputs.h"
 #include "common/cli/signals.h"
 #include "master/capture/capture_repertoire.h"
-#include "master/capture/report/c3d.h"
 #include "master/capture/report/gltf.h"
 #include "master/capture/report/report_data.h"
+#include "master/capture/report/take.h"
 #include "master/commands.h"
 
 namespace aquarama {

@@ -47,7 +47,9 @@ void describePictures(CLI::App& command, supervisor::RunOptions& options) {
 }
 
 int runWith(const supervisor::RunOptions& options) {
-    return supervisor::runShow(options, config::readRig(options.show.rigPath));
+    const config::Rig rig = config::readRig(options.show.rigPath);
+    static_cast<void>(masterKeysOf(rig, options.show));  // says at once where there are none
+    return supervisor::runShow(options, rig);
 }
 
 struct ReplayOptions {
@@ -107,6 +109,9 @@ void describeWall(CLI::App& command, supervisor::ShowOptions& options) {
         .add_option(
             "--quality", options.quality, "how fine the wall is drawn, instead of the rig's")
         ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));
+    command.add_option("--keys",
+                       options.keyFolder,
+                       "folder of the rig's keys, instead of the user's (aquarama keys)");
     command.add_option(
         "--trace", options.traceFolder, "folder for a line of times a frame, of each process");
 }

@@ -35,7 +35,18 @@ bool isLoopback(std::string_view host) {
            (host.starts_with("127.") && isAll(host, "0123456789."));
 }
 
-// Without keys anyone in reach could steer the wall, so nothing listens past this machine.
+std::string_view hostOf(std::string_view address) {
+    const std::size_t start = std::string_view("tcp://").size();
+    return address.substr(start, address.rfind(':') - start);
+}
+
+// Of a network card, as a number: a name could mean anything to a resolver.
+bool isHost(std::string_view host) {
+    const bool isEverywhere = host == "0.0.0.0" || host == "[::]";
+    return isLoopback(host) || (!isEverywhere && (isAll(host, "0123456789.") ||
+                                                  (host.starts_with('[') && host.ends_with(']'))));
+}
+
 void checkAddress(const TextReader& file,
                   const v1::Network& in,
                   const std::string& field,
@@ -49,11 +60,9 @@ void checkAddress(const TextReader& file,
         refuse("is no address: write tcp://127.0.0.1:PORT");
     const std::optional<int> port = wholeNumber(std::string_view(address).substr(colon + 1));
     if (!port || *port < 1 || *port > 65535) refuse("needs a port from 1 to 65535");
-    if (!isLoopback(std::string_view(address).substr(scheme.size(), colon - scheme.size())))
-        refuse(
-            "listens past this machine, which needs keys that do not exist yet: use "
-            "tcp://127.0.0.1:" +
-            std::to_string(*port));
+    if (!isHost(hostOf(address)))
+        refuse("needs the number of one network card, as tcp://192.168.7.1:" +
+               std::to_string(*port));
 }
 
 void checkNetwork(const TextReader& file, const v1::Network& in) {
@@ -62,6 +71,11 @@ void checkNetwork(const TextReader& file, const v1::Network& in) {
     const auto port = [](const std::string& address) { return address.substr(address.rfind(':')); };
     if (port(in.control()) == port(in.state()))
         file.refuse(in, "state", "state and control share one port: give each its own");
+    if (isLoopback(hostOf(in.control())) != isLoopback(hostOf(in.state())))
+        file.refuse(in,
+                    "state",
+                    "only one of state and control reaches past this machine: use one "
+                    "host for both");
 }
 
 // Of a panorama or a channel.
@@ -159,6 +173,7 @@ Channel channelOf(const TextReader& file, const v1::Channel& in, const Stereo& s
                     .sizePixels = sizeOf(in),
                     .projector = projectorOf(in.projector(), sizeOf(in)),
                     .display = displayOf(file, in.display()),
+                    .machine = in.machine(),
                     .place = file.placeOf(in)};
     refuseOddHalves(file, in, channel.display.stereo.value_or(stereo.mode));
     return channel;
@@ -225,6 +240,10 @@ Rig parseRig(const std::string& text, const std::string& source) {
 
 Rig readRig(const std::string& path) {
     return parseRig(readTextFile(path), path);
+}
+
+bool needsKeys(const Rig& rig) {
+    return !isLoopback(hostOf(rig.controlAddress));
 }
 
 std::string scenePathOf(const Rig& rig, const std::string& rigPath) {

@@ -102,6 +102,7 @@ struct Channel {
     glm::ivec2 sizePixels{};  // of the projector's picture
     Projector projector;
     Display display;
+    std::string machine;  // whose node shows it; empty: the master's
     SourcePlace place;
 };
 
@@ -135,6 +136,9 @@ struct Rig {
 // errors. Geometry (a projector that misses the screen) is checked by common/wall.
 [[nodiscard]] Rig readRig(const std::string& path);
 [[nodiscard]] Rig parseRig(const std::string& text, const std::string& source);
+
+// Whether its master listens past its own machine, where everybody needs a key.
+[[nodiscard]] bool needsKeys(const Rig& rig);
 
 // Where the scene lies that a rig shows. Throws Error at its place in the rig where there is none.
 [[nodiscard]] std::string scenePathOf(const Rig& rig, const std::string& rigPath);

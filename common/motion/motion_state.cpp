@@ -183,11 +183,14 @@ void setSpeedBodyLengths(MotionStates& states, std::size_t fish, float speed) {
     states.speed[fish] = static_cast<std::int32_t>(roundToEven(units));
 }
 
-std::uint64_t hashOf(const MotionStates& states) {
+namespace {
+
+template <class RecordAt>
+std::uint64_t foldedRecords(std::size_t count, RecordAt&& recordAt) {
     const auto wide = [](auto field) { return static_cast<std::uint64_t>(field); };
-    std::uint64_t hash = mix(states.size());
-    for (std::size_t fish = 0; fish < states.size(); ++fish) {
-        const FishRecord r = recordOf(states, fish);
+    std::uint64_t hash = mix(count);
+    for (std::size_t fish = 0; fish < count; ++fish) {
+        const FishRecord r = recordAt(fish);
         // Four words that do not depend on each other, so the processor works on them side by side;
         // only the last line waits for the fish before.
         const std::int32_t phases = r.phase | static_cast<std::int32_t>(wide(r.fromPhase) << 16U);
@@ -199,6 +202,16 @@ std::uint64_t hashOf(const MotionStates& states) {
         hash = hash * 0x9E3779B97F4A7C15U + (place + 5 * turn + 7 * mix(warp + 1));
     }
     return mix(hash);
+}
+
+}  // namespace
+
+std::uint64_t hashOf(const MotionStates& states) {
+    return foldedRecords(states.size(), [&](std::size_t fish) { return recordOf(states, fish); });
+}
+
+std::uint64_t hashOf(std::span<const FishRecord> records) {
+    return foldedRecords(records.size(), [&](std::size_t fish) { return records[fish]; });
 }
 
 }  // namespace aquarama::motion

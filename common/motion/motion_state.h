@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
@@ -242,5 +243,7 @@ void setAway(MotionStates& states, std::size_t fish);
 // Folds every bit of the state into one number: equal worlds have equal hashes. Cost: four multiply
 // chains for each fish.
 [[nodiscard]] std::uint64_t hashOf(const MotionStates& states);
+// The same of the same fish.
+[[nodiscard]] std::uint64_t hashOf(std::span<const FishRecord> records);
 
 }  // namespace aquarama::motion

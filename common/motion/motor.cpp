@@ -221,4 +221,58 @@ glm::vec3 meanHeadingReference(const MotorTables& tables,
             2.0F * (m.x * m.z - m.w * m.y)};
 }
 
+namespace {
+
+// Fish that swing stiffly to and fro, each action at a tempo of its own: in integers and sums, so
+// that what is tested is the motor alone.
+Repertoire selfTestRepertoire() {
+    Repertoire repertoire;
+    repertoire.recordedLengthMetres = 0.25F;
+    repertoire.response = {{0.6F, 0.5F, 0.4F}, 4.0F, 0.4F, 2.0F};
+    for (std::size_t a = 0; a < kCapturedActions; ++a) {
+        ActionSegment& segment = repertoire.segments[a];
+        segment.periodSeconds = 0.5F + static_cast<float>(a) / 64;
+        segment.playsToEnd = isTurn(static_cast<Action>(a));
+        const float yaw = static_cast<float>(a % 5) / 1024 - 0.002F;
+        for (std::size_t k = 0; k < kPhases; ++k) {
+            segment.increments[k] = {glm::normalize(glm::quat(1, 0, yaw, yaw / 4)),
+                                     {0.01F, 0.0F, 0.0F}};
+            const int swing = 64 * (static_cast<int>(k < kPhases / 2 ? k : kPhases - k) - 16);
+            for (std::size_t n = 0; n < body::kNodalPoints; ++n)
+                segment.nodes[k][n] = {static_cast<std::int16_t>(-1000 * static_cast<int>(n)),
+                                       0,
+                                       static_cast<std::int16_t>(swing * static_cast<int>(n))};
+        }
+    }
+    addGlide(repertoire);
+    return repertoire;
+}
+
+}  // namespace
+
+std::uint64_t motorSelfTest() {
+    constexpr std::size_t kFish = 100;  // some of them in no whole vector
+    constexpr int kTicks = 120;
+    const auto tables = makeMotorTables(selfTestRepertoire());
+    MotionStates states;
+    MotorCommands commands;
+    states.resize(kFish);
+    commands.resize(kFish);
+    const std::vector<FishTraits> traits(kFish, FishTraits{.id = 0, .lengthMillimetres = 250});
+    for (std::size_t fish = 0; fish < kFish; ++fish) setBodyFrame(states, fish, {});
+    for (int tick = 0; tick < kTicks; ++tick) {
+        for (std::size_t fish = static_cast<std::size_t>(tick) % 8; fish < kFish; fish += 8) {
+            const auto action =
+                static_cast<Action>((fish + static_cast<std::size_t>(tick)) % kActions);
+            commands.action[fish] = static_cast<std::uint8_t>(action);
+            commands.phaseRate[fish] = recordedPhaseRate(*tables, action);
+            commands.pitch[fish] = static_cast<std::int16_t>(200 * fish);
+            commands.yawRate[fish] = static_cast<std::int16_t>(tick);
+            commands.brake[fish] = static_cast<std::uint8_t>(tick);
+        }
+        MotorStep{tables.get(), traits, &commands, &states, 0, kFish}.run();
+    }
+    return hashOf(states);
+}
+
 }  // namespace aquarama::motion

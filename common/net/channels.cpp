@@ -17,23 +17,26 @@ constexpr int kControlQueue = 64;      // small messages
 constexpr int kMasterLingerMs = 1000;  // how long a farewell may take to leave
 constexpr int kNodeLingerMs = 200;
 constexpr int kMostRequests = 256;  // to the state channel in one turn: a flood stops no frame
-constexpr std::size_t kSubscriptionBytes = 256;  // the longest that the state channel listens to
+// The longest that the state channel listens to; a handshake with keys takes some 300.
+constexpr std::size_t kSubscriptionBytes = 1024;
 
 // Control on a ROUTER, which names its peers; states on an XPUB, which shows us subscriptions.
 class ZmqMasterChannels final : public MasterChannels {
   public:
     ZmqMasterChannels(const std::string& controlAddress,
                       const std::string& stateAddress,
-                      const PacketLimits& limits)
-        : control_(openSocket(context_, zmq::socket_type::router, kControlQueue, limits.toMaster)),
-          // Manual: a subscription counts only when we say so, so strangers cannot fill our memory
-          // with topics.
-          state_(openSocket(context_, zmq::socket_type::xpub, kStateQueue, kSubscriptionBytes)) {
-        control_.set(zmq::sockopt::linger, kMasterLingerMs);
-        state_.set(zmq::sockopt::linger, 0);
-        state_.set(zmq::sockopt::xpub_manual, 1);
-        bindSocket(control_, controlAddress);
-        bindSocket(state_, stateAddress);
+                      const PacketLimits& limits,
+                      const std::optional<MasterKeys>& keys)
+        : limits_(limits) {
+        if (keys) {
+            own_ = keys->own;
+            door_.emplace(context_, keys->allowed);
+        }
+        openSockets();
+        bindSocket(control_, controlAddress, door_.has_value());
+        bindSocket(state_, stateAddress, door_.has_value());
+        controlAddress_ = control_.get(zmq::sockopt::last_endpoint);
+        stateAddress_ = state_.get(zmq::sockopt::last_endpoint);
     }
 
     void sendControl(const PeerId& peer, ByteView bytes) override {
@@ -52,7 +55,10 @@ class ZmqMasterChannels final : public MasterChannels {
         if (!receive(control_, peer)) return std::nullopt;
         FromPeer from{peer.to_string(), {}};
         if (!peer.more()) return from;
-        if (auto bytes = receiveSingle(control_)) from.bytes = std::move(*bytes);
+        zmq::message_t content;
+        auto bytes = receiveSingle(control_, content);
+        if (door_) from.user = userOf(content);
+        if (bytes && (!door_ || !from.user.empty())) from.bytes = std::move(*bytes);
         return from;
     }
 
@@ -66,16 +72,51 @@ class ZmqMasterChannels final : public MasterChannels {
         return std::exchange(noise_, 0);
     }
 
-    void wait(Instant atMost) override { pollSockets({&control_, &state_}, wake_, atMost); }
+    void wait(Instant atMost) override {
+        if (door_ && door_->hasRevoked()) {
+            openSockets();
+            isBound_ = false;
+        }
+        if (!isBound_) bindAgain();
+        pollSockets({&control_, &state_}, wake_, isBound_ ? atMost : std::min(atMost, kRetry));
+    }
     void wake() override { wake_.set(); }
-    [[nodiscard]] std::string controlAddress() const override {
-        return control_.get(zmq::sockopt::last_endpoint);
-    }
-    [[nodiscard]] std::string stateAddress() const override {
-        return state_.get(zmq::sockopt::last_endpoint);
-    }
+    [[nodiscard]] std::string controlAddress() const override { return controlAddress_; }
+    [[nodiscard]] std::string stateAddress() const override { return stateAddress_; }
 
   private:
+    // Fresh ones in place of those that there are, whose connections end.
+    void openSockets() {
+        control_ = openSocket(context_, zmq::socket_type::router, kControlQueue, limits_.toMaster);
+        // Manual: a subscription counts only when we say so, so strangers cannot fill our memory
+        // with topics.
+        state_ = openSocket(context_, zmq::socket_type::xpub, kStateQueue, kSubscriptionBytes);
+        control_.set(zmq::sockopt::linger, kMasterLingerMs);
+        state_.set(zmq::sockopt::linger, 0);
+        state_.set(zmq::sockopt::xpub_manual, 1);
+        if (!door_) return;
+        requireKeys(control_, own_);
+        requireKeys(state_, own_);
+    }
+
+    // ZeroMQ frees an address a moment after its socket was closed.
+    void bindAgain() {
+        try {
+            if (control_.get(zmq::sockopt::last_endpoint).empty())
+                bindSocket(control_, controlAddress_, true);
+            bindSocket(state_, stateAddress_, true);
+            isBound_ = true;
+        } catch (const Error&) {  // not free yet
+        }
+    }
+
+    // The content of a message from a peer that has shown a key always has it; the peer's name,
+    // which ZeroMQ puts before it, does not.
+    static std::string userOf(const zmq::message_t& part) {
+        const char* const user = zmq_msg_gets(part.handle(), "User-Id");
+        return user == nullptr ? "" : user;
+    }
+
     // "\x01" is a subscription to everything, the only one that we know; "\x00" ends it.
     void admitSubscribers() {
         for (int request = 0; request < kMostRequests; ++request) {
@@ -92,23 +133,33 @@ class ZmqMasterChannels final : public MasterChannels {
         }
     }
 
+    static constexpr Instant kRetry = std::chrono::milliseconds(10);
+    PacketLimits limits_;
+    KeyPair own_;
     WakeEvent wake_;
     zmq::context_t context_{1};
+    std::optional<Doorkeeper> door_;  // with keys
     zmq::socket_t control_;
     zmq::socket_t state_;
+    std::string controlAddress_, stateAddress_;  // as bound
+    bool isBound_ = true;                        // not for a moment after a key was revoked
     std::size_t noise_ = 0;
 };
 
 // Control on a DEALER, states on a SUB.
 class ZmqNodeChannels final : public NodeChannels {
   public:
-    ZmqNodeChannels(const std::string& controlAddress, const PacketLimits& limits)
-        : maxBytes_(limits.toNode),
+    ZmqNodeChannels(const std::string& controlAddress,
+                    const PacketLimits& limits,
+                    const std::optional<PeerKeys>& keys)
+        : keys_(keys),
+          maxBytes_(limits.toNode),
           control_(openSocket(context_, zmq::socket_type::dealer, kControlQueue, maxBytes_)) {
         control_.set(zmq::sockopt::linger, kNodeLingerMs);
         // What is said while nobody listens is dropped: a master that starts late is not greeted
         // by a heap of old hellos.
         control_.set(zmq::sockopt::immediate, true);
+        if (keys_) showKeys(control_, *keys_);
         connectSocket(control_, controlAddress);
     }
 
@@ -118,6 +169,7 @@ class ZmqNodeChannels final : public NodeChannels {
     void subscribeState(const std::string& address) override {
         zmq::socket_t socket = openSocket(context_, zmq::socket_type::sub, kStateQueue, maxBytes_);
         socket.set(zmq::sockopt::subscribe, "");
+        if (keys_) showKeys(socket, *keys_);
         connectSocket(socket, address);
         state_ = std::move(socket);
     }
@@ -136,6 +188,7 @@ class ZmqNodeChannels final : public NodeChannels {
     void wake() override { wake_.set(); }
 
   private:
+    std::optional<PeerKeys> keys_;
     WakeEvent wake_;
     zmq::context_t context_{1};
     std::size_t maxBytes_;
@@ -147,13 +200,15 @@ class ZmqNodeChannels final : public NodeChannels {
 
 std::unique_ptr<MasterChannels> bindMaster(const std::string& controlAddress,
                                            const std::string& stateAddress,
-                                           const PacketLimits& limits) {
-    return std::make_unique<ZmqMasterChannels>(controlAddress, stateAddress, limits);
+                                           const PacketLimits& limits,
+                                           const std::optional<MasterKeys>& keys) {
+    return std::make_unique<ZmqMasterChannels>(controlAddress, stateAddress, limits, keys);
 }
 
 std::unique_ptr<NodeChannels> connectNode(const std::string& controlAddress,
-                                          const PacketLimits& limits) {
-    return std::make_unique<ZmqNodeChannels>(controlAddress, limits);
+                                          const PacketLimits& limits,
+                                          const std::optional<PeerKeys>& keys) {
+    return std::make_unique<ZmqNodeChannels>(controlAddress, limits, keys);
 }
 
 }  // namespace aquarama::net

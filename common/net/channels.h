@@ -10,6 +10,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -28,10 +29,34 @@ using ByteVector = std::vector<std::byte>;
 // A connection to the master, named by the master's socket; a new connection has a new name.
 using PeerId = std::string;
 
-// A packet that the master received.
+// A packet that the master received. `user`: whose key the connection has shown; empty without
+// keys.
 struct FromPeer {
     PeerId peer;
     ByteVector bytes;
+    std::string user = {};
+};
+
+// A pair of keys of CurveZMQ, Z85 text of 40 characters each.
+struct KeyPair {
+    std::string publicKey, secretKey;
+};
+// Of the system's random numbers.
+[[nodiscard]] KeyPair makeKeyPair();
+
+// By public key: the user of each that may connect.
+using Allowed = std::map<std::string, std::string>;
+// Of a master past the loopback. `allowed` is asked again once a second, on a thread of its own, so
+// that a key can be revoked while a show runs; a user that is no longer in it is cut off. It must
+// not throw.
+struct MasterKeys {
+    KeyPair own;
+    std::function<Allowed()> allowed;
+};
+// Of whoever connects to it.
+struct PeerKeys {
+    std::string master;  // public
+    KeyPair own;
 };
 
 // Largest packets that are accepted; a peer that sends a larger one is cut off.
@@ -77,16 +102,20 @@ using Connect = std::function<std::unique_ptr<NodeChannels>()>;
 // it.
 void requireConnectAddress(const std::string& address);
 // The address to bind: port "*" is any free one, and "localhost", which may mean anything to a
-// resolver, is 127.0.0.1. Throws Error where it is malformed, or reaches past this machine: nothing
-// is encrypted or authenticated yet.
-[[nodiscard]] std::string bindAddress(const std::string& address);
+// resolver, is 127.0.0.1. Throws Error where it is malformed, or where it reaches past this machine
+// and there are no keys: everything past it is encrypted and authenticated.
+[[nodiscard]] std::string bindAddress(const std::string& address, bool hasKeys = false);
 
-// Over ZeroMQ. Throws Error: malformed address, occupied port, an address past the loopback.
-[[nodiscard]] std::unique_ptr<MasterChannels> bindMaster(const std::string& controlAddress,
-                                                         const std::string& stateAddress,
-                                                         const PacketLimits& limits = {});
+// Over ZeroMQ, with keys by CURVE alone: who shows none that is allowed is not heard. Throws Error:
+// malformed address, occupied port, an address past the loopback without keys, keys that are none.
+[[nodiscard]] std::unique_ptr<MasterChannels> bindMaster(
+    const std::string& controlAddress,
+    const std::string& stateAddress,
+    const PacketLimits& limits = {},
+    const std::optional<MasterKeys>& keys = {});
 [[nodiscard]] std::unique_ptr<NodeChannels> connectNode(const std::string& controlAddress,
-                                                        const PacketLimits& limits = {});
+                                                        const PacketLimits& limits = {},
+                                                        const std::optional<PeerKeys>& keys = {});
 
 // A frame of a channel on its way to a clip.
 struct RawFrame {

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include <arpa/inet.h>
 #include <sys/eventfd.h>
@@ -18,6 +19,7 @@ namespace {
 
 constexpr int kReconnectMs = 50;  // a master that restarts is found at once
 constexpr int kReconnectMaxMs = 500;
+constexpr int kHandshakeMs = 2000;  // after which a connection that says nothing is closed
 constexpr std::string_view kTcp = "tcp://";
 
 // An address "tcp://HOST:PORT" in its parts.
@@ -87,14 +89,14 @@ void requireConnectAddress(const std::string& address) {
     if (!isPort(split(address).port)) refusePort(address);
 }
 
-std::string bindAddress(const std::string& address) {
+std::string bindAddress(const std::string& address, bool hasKeys) {
     Endpoint endpoint = split(address);
     if (endpoint.host == "localhost") endpoint.host = "127.0.0.1";
     if (endpoint.port != "*" && !isPort(endpoint.port)) refusePort(address);
-    if (!isLoopback(endpoint.host)) {
+    if (!isLoopback(endpoint.host) && !hasKeys) {
         throw Error("\"" + address +
                     "\" reaches past this machine, and without keys anybody there could take part; "
-                    "use tcp://127.0.0.1:PORT");
+                    "make keys (aquarama keys new), or use tcp://127.0.0.1:PORT");
     }
     return std::string(kTcp) + endpoint.host + ":" + endpoint.port;
 }
@@ -129,11 +131,12 @@ zmq::socket_t openSocket(zmq::context_t& context,
     socket.set(zmq::sockopt::sndhwm, queue);
     socket.set(zmq::sockopt::rcvhwm, queue);
     socket.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(maxBytes));
+    socket.set(zmq::sockopt::handshake_ivl, kHandshakeMs);
     return socket;
 }
 
-void bindSocket(zmq::socket_t& socket, const std::string& address) {
-    const std::string checked = bindAddress(address);
+void bindSocket(zmq::socket_t& socket, const std::string& address, bool hasKeys) {
+    const std::string checked = bindAddress(address, hasKeys);
     allowIpv6(socket, checked);
     try {
         socket.bind(checked);
@@ -158,6 +161,112 @@ void connectSocket(zmq::socket_t& socket, const std::string& address) {
     }
 }
 
+namespace {
+
+void setKeys(zmq::socket_t& socket, const KeyPair& own) {
+    socket.set(zmq::sockopt::curve_publickey, own.publicKey);
+    socket.set(zmq::sockopt::curve_secretkey, own.secretKey);
+}
+
+[[noreturn]] void refuseKeys() {
+    throw Error("a key is none of CurveZMQ; make new ones (aquarama keys new)");
+}
+
+}  // namespace
+
+KeyPair makeKeyPair() {
+    std::array<char, 41> publicKey{};
+    std::array<char, 41> secretKey{};
+    if (zmq_curve_keypair(publicKey.data(), secretKey.data()) != 0)
+        throw Error("this libzmq makes no keys; install one with libsodium");
+    return {publicKey.data(), secretKey.data()};
+}
+
+void requireKeys(zmq::socket_t& socket, const KeyPair& own) {
+    try {
+        setKeys(socket, own);
+        socket.set(zmq::sockopt::curve_server, true);
+        socket.set(zmq::sockopt::zap_domain, "aquarama");
+    } catch (const zmq::error_t&) {
+        refuseKeys();
+    }
+}
+
+void showKeys(zmq::socket_t& socket, const PeerKeys& keys) {
+    try {
+        setKeys(socket, keys.own);
+        socket.set(zmq::sockopt::curve_serverkey, keys.master);
+    } catch (const zmq::error_t&) {
+        refuseKeys();
+    }
+}
+
+Doorkeeper::Doorkeeper(zmq::context_t& context, std::function<Allowed()> allowed)
+    : list_(std::move(allowed)), allowed_(list_()), requests_(context, zmq::socket_type::rep) {
+    requests_.set(zmq::sockopt::linger, 0);
+    requests_.bind("inproc://zeromq.zap.01");
+    thread_ = std::thread([this] { serve(); });
+}
+
+Doorkeeper::~Doorkeeper() {
+    ended_ = true;
+    thread_.join();
+}
+
+bool Doorkeeper::isAllowed(const std::string& user) const {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::any_of(allowed_, [&](const auto& entry) { return entry.second == user; });
+}
+
+void Doorkeeper::serve() {
+    constexpr std::chrono::milliseconds kBetweenLooks{100};
+    Instant lastRead = monotonicNow();
+    while (!ended_) {
+        std::array items{zmq::pollitem_t{requests_.handle(), 0, ZMQ_POLLIN, 0}};
+        try {
+            zmq::poll(items.data(), items.size(), kBetweenLooks);
+        } catch (const zmq::error_t&) {  // a signal
+        }
+        if ((items[0].revents & ZMQ_POLLIN) != 0) answer(requests_);
+        if (monotonicNow() - lastRead < std::chrono::seconds(1)) continue;
+        readAgain();
+        lastRead = monotonicNow();
+    }
+}
+
+// Version, request, domain, address, identity, mechanism, key; the answer has version, request,
+// status, its text, user, and metadata.
+void Doorkeeper::answer(zmq::socket_t& requests) {
+    std::vector<std::string> parts;
+    zmq::message_t part;
+    do {
+        if (!receive(requests, part)) return;
+        parts.push_back(part.to_string());
+    } while (part.more());
+    std::string user;
+    if (parts.size() == 7 && parts[5] == "CURVE" && parts[6].size() == 32) {
+        std::array<char, 41> key{};
+        zmq_z85_encode(key.data(), reinterpret_cast<const std::uint8_t*>(parts[6].data()), 32);
+        const std::lock_guard lock(mutex_);
+        if (const auto known = allowed_.find(key.data()); known != allowed_.end())
+            user = known->second;
+    }
+    const std::string request = parts.size() > 1 ? parts[1] : "";
+    const std::array<std::string, 6> reply{
+        "1.0", request, user.empty() ? "400" : "200", user.empty() ? "no such key" : "", user, ""};
+    for (std::size_t i = 0; i < reply.size(); ++i)
+        requests.send(zmq::buffer(reply[i]),
+                      i + 1 < reply.size() ? zmq::send_flags::sndmore : zmq::send_flags::none);
+}
+
+void Doorkeeper::readAgain() {
+    Allowed now = list_();
+    const std::lock_guard lock(mutex_);
+    for (const auto& [key, user] : allowed_)
+        if (!now.contains(key)) revoked_ = true;
+    allowed_ = std::move(now);
+}
+
 void sendOrDrop(zmq::socket_t& socket, ByteView bytes) {
     try {
         [[maybe_unused]] const auto sent =
@@ -175,10 +284,15 @@ bool receive(zmq::socket_t& socket, zmq::message_t& message) {
 }
 
 std::optional<ByteVector> receiveSingle(zmq::socket_t& socket) {
-    zmq::message_t message;
-    if (!receive(socket, message)) return std::nullopt;
-    if (!message.more()) return bytesOf(message);
-    while (message.more() && receive(socket, message)) {
+    zmq::message_t first;
+    return receiveSingle(socket, first);
+}
+
+std::optional<ByteVector> receiveSingle(zmq::socket_t& socket, zmq::message_t& first) {
+    if (!receive(socket, first)) return std::nullopt;
+    if (!first.more()) return bytesOf(first);
+    zmq::message_t more;
+    while (receive(socket, more) && more.more()) {
     }
     return ByteVector{};
 }

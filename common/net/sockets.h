@@ -4,9 +4,13 @@
 // costs a few frames of memory and nobody else's time.
 #pragma once
 
+#include <atomic>
+#include <functional>
 #include <initializer_list>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include <zmq.hpp>
 
@@ -36,9 +40,42 @@ class WakeEvent {
                                        int queue,
                                        std::size_t maxBytes);
 
-// Over TCP. Throw Error: a malformed address, one past the loopback, an occupied port.
-void bindSocket(zmq::socket_t& socket, const std::string& address);
+// Over TCP. Throw Error: a malformed address, one past the loopback without keys, an occupied port.
+void bindSocket(zmq::socket_t& socket, const std::string& address, bool hasKeys);
 void connectSocket(zmq::socket_t& socket, const std::string& address);
+
+// Before the socket is bound or connected: it speaks CURVE from now on. Throw Error where a key is
+// none.
+void requireKeys(zmq::socket_t& socket, const KeyPair& own);
+void showKeys(zmq::socket_t& socket, const PeerKeys& keys);
+
+// Says who may connect to the sockets of a context that require keys (ZAP, ZeroMQ's RFC 27), on a
+// thread of its own: a flood of strangers takes no time from the frames. Made before the sockets,
+// ended after them.
+class Doorkeeper {
+  public:
+    Doorkeeper(zmq::context_t& context, std::function<Allowed()> allowed);
+    ~Doorkeeper();
+    Doorkeeper(const Doorkeeper&) = delete;
+    Doorkeeper& operator=(const Doorkeeper&) = delete;
+
+    [[nodiscard]] bool isAllowed(const std::string& user) const;
+    // Whether a user has been taken from the list since the last call.
+    [[nodiscard]] bool hasRevoked() { return revoked_.exchange(false); }
+
+  private:
+    void serve();
+    void answer(zmq::socket_t& requests);
+    void readAgain();
+
+    std::function<Allowed()> list_;
+    mutable std::mutex mutex_;
+    Allowed allowed_;
+    std::atomic<bool> revoked_ = false;
+    std::atomic<bool> ended_ = false;
+    zmq::socket_t requests_;
+    std::thread thread_;
+};
 
 // Where no space is left the message is dropped: the protocol repeats what matters.
 void sendOrDrop(zmq::socket_t& socket, ByteView bytes);
@@ -47,6 +84,8 @@ void sendOrDrop(zmq::socket_t& socket, ByteView bytes);
 // where one part is expected.
 [[nodiscard]] bool receive(zmq::socket_t& socket, zmq::message_t& message);
 [[nodiscard]] std::optional<ByteVector> receiveSingle(zmq::socket_t& socket);
+// `first`: its first part, for what ZeroMQ knows of the sender.
+[[nodiscard]] std::optional<ByteVector> receiveSingle(zmq::socket_t& socket, zmq::message_t& first);
 
 // Waits until one of these sockets has a message, `wake` was set (it is cleared), a signal has
 // come, or `atMost` is over.

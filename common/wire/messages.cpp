@@ -126,7 +126,7 @@ bool isValid(const v1::Input& m) {
 }
 
 bool isValid(const v1::NodeStatus& m) {
-    return isName(m.name()) && m.condition() != 0;
+    return isName(m.name()) && m.condition() != 0 && isText(m.machine(), kMostNameBytes);
 }
 
 bool isValid(const v1::StatusReply& m) {

@@ -61,10 +61,10 @@ bool isShare(float number) {
 // Unset is never taken for zero.
 bool hasAllScalars(const v1::State& message) {
     return message.has_frame() && message.has_tick() && message.has_fraction() &&
-           message.has_world_hash() && message.has_before() && message.has_after() &&
-           message.has_food_before() && message.has_food_after() && message.has_daylight() &&
-           message.has_quality() && message.layout_version() == kLayoutVersion &&
-           message.stride() == kStride;
+           message.has_world_hash() && message.has_motion_hash() && message.has_before() &&
+           message.has_after() && message.has_food_before() && message.has_food_after() &&
+           message.has_daylight() && message.has_quality() &&
+           message.layout_version() == kLayoutVersion && message.stride() == kStride;
 }
 
 }  // namespace
@@ -90,6 +90,7 @@ StateView viewOf(const StateFrame& state) {
             state.fraction,
             state.eye,
             state.worldHash,
+            state.motionHash,
             state.before,
             state.after,
             state.foodOriginMetres,
@@ -106,6 +107,7 @@ Packet encodeState(std::uint64_t session, const StateView& state) {
     message.set_tick(state.tick.value);
     message.set_fraction(state.fraction);
     message.set_world_hash(state.worldHash);
+    message.set_motion_hash(state.motionHash);
     writeEye(state.eye, *message.mutable_eye());
     message.set_layout_version(kLayoutVersion);
     message.set_stride(kStride);
@@ -141,6 +143,7 @@ std::optional<StateFrame> readState(const v1::State& message) {
                       fraction,
                       *eye,
                       message.world_hash(),
+                      message.motion_hash(),
                       std::move(*before),
                       std::move(*after),
                       {origin[0], origin[1], origin[2]},

@@ -92,6 +92,7 @@ struct BasicState {
     float fraction = 1.0F;
     Eye eye;
     std::uint64_t worldHash = 0;
+    std::uint64_t motionHash = 0;  // motion::hashOf() of `after`, as the master computed it
     FishRecords before;
     FishRecords after;
     glm::vec3 foodOriginMetres{};  // of FoodRecord::offsetMetres

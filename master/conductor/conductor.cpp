@@ -108,7 +108,11 @@ Conductor::Conductor(const config::Rig& rig,
       barrier_(namesOf(rig, options_).size(), limitsOf(rig.timing, options_), net::monotonicNow()),
       refresh_(fromSeconds(1.0 / rig.timing.refreshHertz)),
       trace_(openTrace(options_.traceDirectory)) {
-    for (const std::string& name : namesOf(rig, options_)) slots_.emplace_back().name = name;
+    for (const std::string& name : namesOf(rig, options_)) {
+        slots_.emplace_back().name = name;
+        const auto channel = std::ranges::find(rig.channels, name, &config::Channel::name);
+        slots_.back().machine = channel->machine;
+    }
     v1::Envelope message;
     v1::Welcome& welcome = *message.mutable_welcome();
     welcome = welcomeTo(rig, assets, school);
@@ -139,6 +143,7 @@ ShowReport Conductor::run() {
         takeTicks();
         answer();
         conduct(now);
+        nameMissing(now);
         if (now - lastPublished_ > kBeacon) {
             channels_->publishState(beacon_);
             lastPublished_ = now;
@@ -149,6 +154,20 @@ ShowReport Conductor::run() {
     sayFarewell();
     if (!failure_.empty()) throw Error(failure_);
     return report_;
+}
+
+// In the log, every few seconds: nodes of other machines are started by other hands.
+void Conductor::nameMissing(net::Instant now) {
+    constexpr net::Instant kBetweenRolls = std::chrono::seconds(5);
+    if (now - lastRoll_ < kBetweenRolls) return;
+    lastRoll_ = now;
+    std::string missing;
+    for (const ChannelSlot& slot : slots_) {
+        if (!slot.peer.empty()) continue;
+        missing += (missing.empty() ? "" : ", ") + slot.name;
+        if (!slot.machine.empty()) missing += " (machine " + slot.machine + ")";
+    }
+    if (!missing.empty()) logInfo("waiting for {}", missing);
 }
 
 // Repeats the farewell until every node has answered, two seconds at most: closing a connection
@@ -248,6 +267,7 @@ bool Conductor::publish(Frame frame, net::Instant now) {
                               : snapshots_.showing(frame, nextRelease(now) - kShownAge);
     if (!state) return false;
     state->quality = quality();
+    state->motionHash = motion::hashOf(state->after);
     const wire::Packet& packet = published_[frame] = wire::encodeState(session_, *state);
     channels_->publishState(packet);
     lastPublished_ = lastRepeat_ = net::monotonicNow();

@@ -9,13 +9,16 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/base/digest.h"
+#include "common/config/keys.h"
 #include "common/config/rig.h"
+#include "common/motion/motor.h"
 #include "common/net/channels.h"
 #include "common/wire/recording.h"
 #include "master/conductor/present_barrier.h"
@@ -58,6 +61,17 @@ using Blobs = std::map<Digest, net::ByteVector>;
                                     const wire::AssetBundle& assets,
                                     std::span<const motion::FishTraits> school);
 
+// Whose key a connection has shown.
+struct User {
+    config::KeyRole role = config::KeyRole::Watcher;
+    std::string name;  // of a node: its channel
+};
+// As the channels name it (net::Allowed): "node left", and back.
+[[nodiscard]] std::string userOf(config::KeyRole role, const std::string& name);
+[[nodiscard]] std::optional<User> userIn(const std::string& text);
+// Whether the holder of a key may say this to the master.
+[[nodiscard]] bool maySay(const User& user, const v1::Envelope& message);
+
 // What a show came to.
 struct ShowReport {
     std::uint64_t frames = 0;  // presented
@@ -91,13 +105,24 @@ class Conductor {
         bool prepared = false;
         std::optional<config::QualityTier> bears;  // the finest tier that its node has kept up with
         net::Instant lastHeard{};
+        std::string machine;  // empty: the master's
         std::uint64_t dropped = 0;
-        net::Instant lastFed{};  // when a visitor last dropped food in its window
+        std::uint64_t mismatches = 0;  // states that its node decoded to another hash
+        net::Instant lastFed{};        // when a visitor last dropped food in its window
     };
 
     // Messages (reception.cpp). `node` is a place in slots_; a peer may be none of them.
     void hear(net::Instant now);  // all that has arrived, within bounds
-    void take(const net::PeerId& peer, const v1::Envelope& message, net::Instant now);
+    // `user`: whose key the peer has shown; empty where no keys are needed.
+    void take(const net::FromPeer& from, const v1::Envelope& message, net::Instant now);
+    // Counts and names what a user may not say.
+    void refuse(const std::string& user, const v1::Envelope& message);
+    // The place of the node that speaks. A node that shows its key and knows this run is the same
+    // one over another connection.
+    [[nodiscard]] std::optional<std::size_t> speaker(const net::FromPeer& from,
+                                                     const v1::Envelope& message);
+    // Steering and food of a peer that is no node.
+    void takeOfVisitor(const net::FromPeer& from, const v1::Input& input, net::Instant now);
     // Of a node that takes part in this run.
     void takeOfNode(std::size_t node, const v1::Envelope& message, net::Instant now);
     // Answers a hello: welcome, refusal, or a dismissal while another node has the channel.
@@ -115,7 +140,7 @@ class Conductor {
     void leave(std::size_t node);
     void handle(std::size_t node, const v1::Input& input, net::Instant now);
     // Inputs, passed on to the tick thread where they are in bounds.
-    void feed(std::size_t node, glm::vec3 positionMetres, net::Instant now);
+    void feed(net::Instant& lastFed, glm::vec3 positionMetres, net::Instant now);
     void steer(const net::PeerId& peer, const Steering& steering, net::Instant now);
     // A question about a mind goes to the tick thread; answer() sends what came back.
     void ask(const net::PeerId& peer, std::uint32_t fish);
@@ -141,6 +166,7 @@ class Conductor {
     [[nodiscard]] bool isLast(Frame frame) const;
 
     void say(const net::PeerId& peer, v1::Envelope message);
+    void nameMissing(net::Instant now);
     void sayFarewell();
     [[nodiscard]] std::optional<std::size_t> seatNamed(const std::string& name) const;
     [[nodiscard]] std::optional<std::size_t> seatOf(const net::PeerId& peer) const;
@@ -172,8 +198,11 @@ class Conductor {
     net::Instant lastPublished_{};             // of anything, also of a beacon
     net::Instant lastRepeat_{};
     InputArbitration arbitration_;
-    wire::Eye eye_;        // of the last state that was published
-    double eyeTicks_ = 0;  // when it was there, in ticks and parts of them
+    std::map<std::string, net::Instant> fed_;      // by user: when one that is no node last fed
+    std::set<std::string> refused_;                // users that were told of in the log
+    net::Instant lastRoll_ = net::monotonicNow();  // when missing nodes were last named
+    wire::Eye eye_;                                // of the last state that was published
+    double eyeTicks_ = 0;                          // when it was there, in ticks and parts of them
     float speedMetresPerSecond_ = 0;
     std::optional<std::pair<Frame, wire::Packet>> lastPresent_;
     net::Instant lastRelease_{};

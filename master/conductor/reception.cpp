@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
+#include <spdlog/fmt/fmt.h>
 
 #include "common/base/log.h"
 #include "common/net/blob.h"
@@ -20,6 +21,10 @@ constexpr net::Instant kSilenceOfTheDead = std::chrono::milliseconds(250);
 // Between two inputs of food from one window.
 constexpr net::Instant kBetweenPinches = std::chrono::milliseconds(200);
 constexpr float kReachMetres = 8.0F;  // from the eye
+
+std::string hex(std::uint64_t hash) {
+    return fmt::format("{:016x}", hash);
+}
 
 std::string listed(const std::vector<std::string>& names) {
     std::string list;
@@ -54,15 +59,104 @@ void Conductor::hear(net::Instant now) {
         if (!from) return;
         const auto message = wire::decode(from->bytes);
         if (message && !from->peer.empty())
-            take(from->peer, *message, now);
+            take(*from, *message, now);
         else
             ++report_.refusedPackets;
     }
 }
 
-// Anybody may ask, and steer; the rest is for nodes of this run.
-void Conductor::take(const net::PeerId& peer, const v1::Envelope& message, net::Instant now) {
-    const auto node = seatOf(peer);
+std::string userOf(config::KeyRole role, const std::string& name) {
+    return std::string(config::nameOf(role)) + " " + name;
+}
+
+std::optional<User> userIn(const std::string& text) {
+    const std::size_t space = text.find(' ');
+    const auto* const role = std::ranges::find(config::kRoleNames, text.substr(0, space));
+    if (space == std::string::npos || role == config::kRoleNames.end()) return std::nullopt;
+    return User{static_cast<config::KeyRole>(role - config::kRoleNames.begin()),
+                text.substr(space + 1)};
+}
+
+namespace {
+
+bool isVisitorsInput(const v1::Envelope& message) {
+    return message.message_case() == v1::Envelope::kInput &&
+           (message.input().kind() == v1::INPUT_STEER ||
+            message.input().kind() == v1::INPUT_DROP_FOOD);
+}
+
+bool asks(const v1::Envelope& message) {
+    return message.message_case() == v1::Envelope::kStatusRequest ||
+           message.message_case() == v1::Envelope::kExplainRequest;
+}
+
+// Its window is a visitor's, and shows minds; it neither ends nor pauses the show.
+bool mayNodeSay(const std::string& channel, const v1::Envelope& message) {
+    switch (message.message_case()) {
+        case v1::Envelope::kHello:
+            return message.hello().channel() == channel;
+        case v1::Envelope::kPing:
+        case v1::Envelope::kReady:
+        case v1::Envelope::kBlobRequest:
+        case v1::Envelope::kPrepared:
+        case v1::Envelope::kFarewell:
+        case v1::Envelope::kExplainRequest:
+            return true;
+        default:
+            return isVisitorsInput(message);
+    }
+}
+
+}  // namespace
+
+bool maySay(const User& user, const v1::Envelope& message) {
+    switch (user.role) {
+        case config::KeyRole::Node:
+            return mayNodeSay(user.name, message);
+        case config::KeyRole::Watcher:
+            return asks(message);
+        case config::KeyRole::Visitor:
+            return isVisitorsInput(message);
+        case config::KeyRole::Operator:
+        case config::KeyRole::Crew:
+            return asks(message) || message.message_case() == v1::Envelope::kInput;
+        case config::KeyRole::Master:
+            break;
+    }
+    return false;
+}
+
+void Conductor::refuse(const std::string& user, const v1::Envelope& message) {
+    ++report_.refusedPackets;
+    if (!refused_.insert(user).second) return;
+    logWarning("{} said what its key does not allow (message {}); refused, as all that follows",
+               user,
+               static_cast<int>(message.message_case()));
+}
+
+std::optional<std::size_t> Conductor::speaker(const net::FromPeer& from,
+                                              const v1::Envelope& message) {
+    if (const auto node = seatOf(from.peer)) return node;
+    const auto user = userIn(from.user);
+    if (!user || user->role != config::KeyRole::Node || message.session() != session_)
+        return std::nullopt;
+    const auto node = seatNamed(user->name);
+    if (node && !slots_[*node].peer.empty()) slots_[*node].peer = from.peer;
+    return seatOf(from.peer);
+}
+
+void Conductor::takeOfVisitor(const net::FromPeer& from, const v1::Input& input, net::Instant now) {
+    const auto& at = input.position();
+    if (input.kind() == v1::INPUT_STEER) return steer(from.peer, wire::steeringOf(input), now);
+    feed(fed_[from.user], {at[0], at[1], at[2]}, now);
+}
+
+// Without keys anybody on this machine may ask, steer and feed; the rest is for nodes of this run.
+void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net::Instant now) {
+    const net::PeerId& peer = from.peer;
+    const auto user = userIn(from.user);
+    if (user && !maySay(*user, message)) return refuse(from.user, message);
+    const auto node = speaker(from, message);
     switch (message.message_case()) {
         case v1::Envelope::kHello:
             return greet(peer, message.hello(), now);
@@ -71,8 +165,8 @@ void Conductor::take(const net::PeerId& peer, const v1::Envelope& message, net::
         case v1::Envelope::kExplainRequest:
             return ask(peer, message.explain_request().fish());
         case v1::Envelope::kInput:
-            if (message.input().kind() != v1::INPUT_STEER || node) break;
-            return steer(peer, wire::steeringOf(message.input()), now);
+            if (node || !isVisitorsInput(message)) break;
+            return takeOfVisitor(from, message.input(), now);
         default:
             break;
     }
@@ -112,6 +206,11 @@ std::string Conductor::objectionTo(const v1::Hello& hello) const {
         return "it speaks protocol " + std::to_string(hello.major()) + " (build " + hello.build() +
                "), the master " + std::to_string(wire::kProtocolMajor) +
                "; install the same version on both";
+    static const std::uint64_t ownHash = motion::motorSelfTest();
+    if (hello.motor_hash() != ownHash)
+        return "its processor or build moves fish to other places (self-test " +
+               hex(hello.motor_hash()) + ", the master's " + hex(ownHash) +
+               "); install the same version on both";
     if (seatNamed(hello.channel())) return {};
     std::vector<std::string> names;
     for (const ChannelSlot& slot : slots_) names.push_back(slot.name);
@@ -150,6 +249,7 @@ void Conductor::pong(std::size_t node, std::int64_t sentNs) {
 void Conductor::ready(std::size_t node, const v1::Ready& ready, net::Instant now) {
     const Frame frame{ready.frame()};
     barrier_.ready(node, frame, now);
+    slots_[node].mismatches = ready.hash_mismatches();
     if (ready.has_released_frame()) skew_.add({ready.released_frame()}, ready.released_ns());
     // It asks again for a release that never came.
     if (lastPresent_ && frame <= lastPresent_->first)
@@ -235,7 +335,7 @@ void Conductor::handle(std::size_t node, const v1::Input& input, net::Instant no
             over_ = true;
             break;
         case v1::INPUT_DROP_FOOD:
-            return feed(node, {at[0], at[1], at[2]}, now);
+            return feed(slots_[node].lastFed, {at[0], at[1], at[2]}, now);
         case v1::INPUT_STEER:
             return steer(slots_[node].peer, wire::steeringOf(input), now);
         default:  // after the show there is no thread any more
@@ -244,8 +344,7 @@ void Conductor::handle(std::size_t node, const v1::Input& input, net::Instant no
 }
 
 // The world bounds the number of pellets; here the rate of a window is, and the reach.
-void Conductor::feed(std::size_t node, glm::vec3 positionMetres, net::Instant now) {
-    net::Instant& lastFed = slots_[node].lastFed;
+void Conductor::feed(net::Instant& lastFed, glm::vec3 positionMetres, net::Instant now) {
     if (now - lastFed < kBetweenPinches || !simulationThread_) return;
     const bool isInReach = glm::distance(positionMetres, eye_.positionMetres) < kReachMetres;
     const auto drop = [positionMetres](Simulation& simulation) {
@@ -302,6 +401,8 @@ v1::Envelope Conductor::status(net::Instant now) const {
             conditionOf(!slot.peer.empty(), slot.prepared, barrier_.isWaitedFor(place)));
         node.set_late(barrier_.timesLate(place));
         node.set_dropped(slot.dropped);
+        node.set_hash_mismatches(slot.mismatches);
+        node.set_machine(slot.machine);
     }
     return message;
 }

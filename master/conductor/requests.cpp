@@ -65,13 +65,21 @@ std::string statusText(const v1::StatusReply& status) {
                         status.skew_p99_ms());
     text += fmt::format("submarine     {}\n", submarineText(status));
     text += fmt::format("refused packets {}\n\n", status.refused_packets());
-    text += fmt::format("{:<16} {:<10} {:>8} {:>8}\n", "node", "state", "late", "dropped");
+    text += fmt::format("{:<16} {:<10} {:>8} {:>8} {:>8}  {}\n",
+                        "node",
+                        "state",
+                        "late",
+                        "dropped",
+                        "hash",
+                        "machine");
     for (const v1::NodeStatus& node : status.nodes()) {
-        text += fmt::format("{:<16} {:<10} {:>8} {:>8}\n",
+        text += fmt::format("{:<16} {:<10} {:>8} {:>8} {:>8}  {}\n",
                             node.name(),
                             wordFor(node.condition()),
                             node.late(),
-                            node.dropped());
+                            node.dropped(),
+                            node.hash_mismatches() == 0 ? "same" : "differs",
+                            node.machine().empty() ? "this" : node.machine());
     }
     return text;
 }
@@ -109,7 +117,8 @@ v1::Envelope RequestClient::ask(const v1::Envelope& question, v1::Envelope::Mess
         if (newest) return *std::move(newest);
     }
     throw Error("no master answers at " + address_ +
-                "; start one, or name its control address with --master");
+                "; start one, name its control address with --master, or show a key that may ask "
+                "(--key)");
 }
 
 }  // namespace aquarama::conductor

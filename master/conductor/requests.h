@@ -14,8 +14,9 @@ namespace aquarama::conductor {
 class RequestClient {
   public:
     // Throws Error where the address is malformed.
-    explicit RequestClient(const std::string& controlAddress)
-        : address_(controlAddress), channels_(net::connectNode(controlAddress)) {}
+    explicit RequestClient(const std::string& controlAddress,
+                           const std::optional<net::PeerKeys>& keys = {})
+        : address_(controlAddress), channels_(net::connectNode(controlAddress, {}, keys)) {}
 
     // The newest answer; the question is repeated until there is one, since the connection may not
     // be there yet. Throws Error where nobody answers within two seconds.

@@ -26,6 +26,7 @@ wire::StateView showingOne(Frame frame, const Snapshot& snapshot) {
             1.0F,
             snapshot.eye,
             snapshot.hash,
+            /*motionHash=*/0,  // of what is sent
             {},
             snapshot.fish,
             snapshot.food.originMetres,
@@ -75,6 +76,7 @@ std::optional<wire::StateView> SnapshotBuffer::showing(Frame frame, net::Instant
                            fraction,
                            between(before.eye, after->eye, fraction),
                            after->hash,
+                           /*motionHash=*/0,  // of what is sent
                            before.fish,
                            after->fish,
                            after->food.originMetres,

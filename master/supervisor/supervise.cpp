@@ -15,6 +15,7 @@
 
 #include "common/base/log.h"
 #include "common/cli/outputs.h"
+#include "common/config/keys.h"
 #include "master/supervisor/children.h"
 #include "master/supervisor/preflight.h"
 
@@ -73,6 +74,7 @@ Process masterProcess(const RunOptions& options) {
     if (show.fish) append(arguments, "--fish", std::to_string(*show.fish));
     append(arguments, "--pattern", show.pattern);
     append(arguments, "--quality", show.quality);
+    append(arguments, "--keys", show.keyFolder);
     append(arguments, "--trace", show.traceFolder);
     Process master{.name = kMaster, .command = {ownProgram(), arguments}, .started = {}};
     // A master that is started again begins another world, which does not belong into this file.
@@ -96,6 +98,12 @@ Process nodeProcess(const RunOptions& options,
                     const config::Channel& channel,
                     const std::string& filmPipe) {
     std::vector<std::string> arguments{channel.name, "--master", rig.controlAddress};
+    if (config::needsKeys(rig)) {
+        const std::string& folder = options.show.keyFolder;
+        const auto keys = folder.empty() ? config::keyFolderOf(options.show.rigPath)
+                                         : std::filesystem::path(folder);
+        arguments = {"--key", config::keyFileIn(keys, channel.name).string()};
+    }
     if (options.headless) arguments.emplace_back("--headless");
     append(arguments, "--snapshot", options.snapshotFolder);
     if (options.deep) arguments.emplace_back("--deep");
@@ -107,11 +115,36 @@ Process nodeProcess(const RunOptions& options,
             .started = {}};
 }
 
+// Of the master's machine; the others are started on their own.
+bool isLocal(const config::Channel& channel) {
+    return channel.machine.empty();
+}
+
+// Pictures are composed of what all nodes leave on this machine.
+void requireLocalChannels(const RunOptions& options, const config::Rig& rig) {
+    if (options.snapshotFolder.empty() && options.clipPath.empty()) return;
+    const auto remote = std::ranges::find_if_not(rig.channels, isLocal);
+    if (remote != rig.channels.end())
+        throw Error("--snapshot and --clip need every channel on this machine; " + remote->name +
+                    " is shown by machine " + remote->machine);
+}
+
+void sayWhatStarts(const RunOptions& options, const config::Rig& rig) {
+    std::cout << "starting the master and " << std::ranges::count_if(rig.channels, isLocal)
+              << " nodes of " << options.show.rigPath << std::endl;
+    for (const config::Channel& channel : rig.channels)
+        if (!isLocal(channel))
+            std::cout << "expecting node " << channel.name << " of machine " << channel.machine
+                      << std::endl;
+}
+
 // Software OpenGL takes every core for each process; several nodes on one machine share them
 // better. Two threads at least: those that fill pixels rest while their node prepares vertices, so
 // that nodes take turns.
 void shareCores(const config::Rig& rig) {
-    const std::size_t perNode = std::thread::hardware_concurrency() / rig.channels.size();
+    const auto local = static_cast<std::size_t>(std::ranges::count_if(rig.channels, isLocal));
+    const std::size_t perNode =
+        std::thread::hardware_concurrency() / std::max<std::size_t>(local, 1);
     // NOLINTNEXTLINE(concurrency-mt-unsafe): this process has one thread
     setenv("LP_NUM_THREADS",
            std::to_string(std::max<std::size_t>(perNode, 2)).c_str(),
@@ -260,8 +293,9 @@ std::vector<Process> processesOf(const RunOptions& options,
     if (pipes) processes.push_back(clipProcess(options, pipes->folder()));
     processes.push_back(masterProcess(options));
     for (const config::Channel& channel : rig.channels)
-        processes.push_back(
-            nodeProcess(options, rig, channel, pipes ? pipes->pipeOf(channel.name) : ""));
+        if (isLocal(channel))
+            processes.push_back(
+                nodeProcess(options, rig, channel, pipes ? pipes->pipeOf(channel.name) : ""));
     return processes;
 }
 
@@ -270,6 +304,7 @@ std::vector<Process> processesOf(const RunOptions& options,
 int runShow(const RunOptions& options, const config::Rig& rig) {
     assert(!rig.channels.empty());
     if (!options.headless) requireDisplay();
+    requireLocalChannels(options, rig);
     requireFreePort(rig.controlAddress);
     requireFreePort(rig.stateAddress);
     cli::requireFile("--clip", options.clipPath);
@@ -283,8 +318,7 @@ int runShow(const RunOptions& options, const config::Rig& rig) {
 
     const ErrorPipe errors;
     std::vector<Process> processes = processesOf(options, rig, pipes);
-    std::cout << "starting the master and " << rig.channels.size() << " nodes of "
-              << options.show.rigPath << std::endl;
+    sayWhatStarts(options, rig);
     for (Process& process : processes) process.launch();
 
     const Outcome outcome = watch(options, errors, processes);

@@ -23,6 +23,7 @@ struct ShowOptions {
     std::optional<std::uint64_t> frames;  // after which the show ends; none: somebody ends it
     std::string pattern;                  // empty: the world
     std::string quality;                  // empty: the rig's
+    std::string keyFolder;                // empty: config::keyFolderOf()
     std::string traceFolder;
     std::string recordPath;  // the show is written to this new file; empty: it is not
     std::string replayPath;  // the recording that is shown; empty: a new world

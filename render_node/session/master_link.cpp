@@ -22,6 +22,12 @@ constexpr net::Instant kFarthest =
     milliseconds(250);           // a release further ahead is a clock gone wrong
 constexpr int kSpoiltBlobs = 3;  // deliveries of a blob that fail before we give up
 
+// Takes a moment, and never changes.
+std::uint64_t ownMotorHash() {
+    static const std::uint64_t hash = motion::motorSelfTest();
+    return hash;
+}
+
 }  // namespace
 
 void Mailbox::admit(Admitted admitted) {
@@ -230,6 +236,7 @@ void MasterLink::sayReady() {
     v1::Envelope message;
     v1::Ready& ready = *message.mutable_ready();
     ready.set_frame(finished_->frame.value);
+    ready.set_hash_mismatches(mismatches_);
     if (const auto& released = finished_->released) {
         const net::Instant ahead = clock_.offset().value_or(net::Instant{});
         ready.set_released_frame(released->frame.value);
@@ -295,8 +302,23 @@ void MasterLink::readState(const net::ByteVector& bytes) {
     hearsStates_ = true;
     lastHeard_ = net::monotonicNow();
     if (!message->has_state()) return;
-    if (auto state = wire::readState(message->state()))
-        mailbox_.put({*std::move(state), lastHeard_});
+    auto state = wire::readState(message->state());
+    if (!state) return;
+    compareHash(*state);
+    mailbox_.put({*std::move(state), lastHeard_});
+}
+
+// Once a second, which costs a large school little.
+void MasterLink::compareHash(const wire::StateFrame& state) {
+    if (lastHeard_ - lastCompared_ < seconds(1)) return;
+    lastCompared_ = lastHeard_;
+    if (motion::hashOf(state.after) == state.motionHash) return;
+    if (mismatches_++ == 0)
+        logError(
+            "{}: the fish of frame {} are not those that the master sent; check this "
+            "machine's memory and version",
+            name_,
+            state.frame.value);
 }
 
 void MasterLink::beWelcomed(const v1::Envelope& message) {
@@ -430,6 +452,7 @@ void MasterLink::greet(net::Instant now) {
         hello.set_channel(name_);
         hello.set_major(wire::kProtocolMajor);
         hello.set_build(AQUARAMA_VERSION);
+        hello.set_motor_hash(ownMotorHash());
         say(std::move(message));
         lastHello_ = now;
     }
@@ -438,6 +461,7 @@ void MasterLink::greet(net::Instant now) {
     logWarning("{}: {}; still trying",
                name_,
                lastDismissal_.empty() ? "no master answers" : std::exchange(lastDismissal_, {}));
+    handle(Join{});  // ZeroMQ gives up a connection for good whose key was refused once
 }
 
 }  // namespace aquarama::session

@@ -13,6 +13,7 @@
 #include <string>
 #include <variant>
 
+#include "common/motion/motor.h"
 #include "common/net/blob.h"
 #include "common/net/channels.h"
 #include "common/wire/messages.h"
@@ -130,6 +131,7 @@ class MasterLink {
     // Whatever cannot be decoded is ignored.
     void readControl(const net::ByteVector& bytes);
     void readState(const net::ByteVector& bytes);
+    void compareHash(const wire::StateFrame& state);
     void take(const v1::Envelope& message);
     void beWelcomed(const v1::Envelope& message);
     // From the run of the master that welcomed us.
@@ -168,9 +170,10 @@ class MasterLink {
     Built built_;
     std::optional<Finished> finished_;  // and not released yet, as far as we know
     net::ClockOffset clock_;
+    std::uint64_t mismatches_ = 0;  // states that were not what the master had sent
     std::string lastDismissal_;
     net::Instant lastHeard_{}, lastPing_{}, lastHello_{}, lastReady_{}, lastRequest_{},
-        lastComplaint_{};
+        lastComplaint_{}, lastCompared_{};
 };
 
 }  // namespace aquarama::session

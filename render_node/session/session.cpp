@@ -149,9 +149,12 @@ std::unique_ptr<Session> makeSession(const std::string& name,
 
 std::unique_ptr<Session> connectSession(const std::string& name,
                                         const std::string& controlAddress,
+                                        const std::optional<net::PeerKeys>& keys,
                                         const std::filesystem::path& blobDirectory) {
     return makeSession(
-        name, [controlAddress] { return net::connectNode(controlAddress); }, blobDirectory);
+        name,
+        [controlAddress, keys] { return net::connectNode(controlAddress, {}, keys); },
+        blobDirectory);
 }
 
 }  // namespace aquarama::session

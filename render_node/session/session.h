@@ -93,6 +93,7 @@ class Session {
 [[nodiscard]] std::unique_ptr<Session> connectSession(
     const std::string& name,
     const std::string& controlAddress,
+    const std::optional<net::PeerKeys>& keys = {},
     const std::filesystem::path& blobDirectory = net::defaultBlobDirectory());
 
 }  // namespace aquarama::session

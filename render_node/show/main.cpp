@@ -7,6 +7,7 @@
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
+#include "common/config/keys.h"
 #include "common/net/channels.h"
 #include "render_node/show/run_node.h"
 
@@ -29,13 +30,16 @@ std::string addressProblem(const std::string& address) {
     }
 }
 
-void describe(CLI::App& app, aquarama::show::NodeOptions& options) {
-    app.add_option("NAME", options.channel, "the channel of the rig that this node shows")
-        ->required();
-    app.add_option(
-           "--master", options.masterAddress, "the master's control address, tcp://HOST:PORT")
-        ->required()
-        ->check(CLI::Validator(addressProblem, ""));
+void describe(CLI::App& app, aquarama::show::NodeOptions& options, std::string& keyPath) {
+    CLI::Option* name =
+        app.add_option("NAME", options.channel, "the channel of the rig that this node shows");
+    CLI::Option* master =
+        app.add_option(
+               "--master", options.masterAddress, "the master's control address, tcp://HOST:PORT")
+            ->check(CLI::Validator(addressProblem, ""));
+    app.add_option("--key", keyPath, "file of aquarama keys bundle, which names channel and master")
+        ->excludes(name)
+        ->excludes(master);
     app.add_flag("--headless", options.headless, "draw without a display");
     app.add_option(
            "--device",
@@ -56,6 +60,23 @@ void describe(CLI::App& app, aquarama::show::NodeOptions& options) {
     app.footer(kFooter);
 }
 
+// Channel, master and keys of a key file; without one the command line has named both.
+void readKey(const std::string& path, aquarama::show::NodeOptions& options) {
+    using namespace aquarama;
+    if (path.empty()) {
+        if (options.channel.empty()) throw CLI::RequiredError("NAME or --key");
+        if (options.masterAddress.empty()) throw CLI::RequiredError("--master or --key");
+        return;
+    }
+    const config::KeyFile key = config::readKeyFile(path);
+    if (key.role != config::KeyRole::Node)
+        throw Error(path + ": is the key of a " + std::string(config::nameOf(key.role)) +
+                    "; a node needs that of its channel (aquarama keys bundle)");
+    options.channel = key.name;
+    options.masterAddress = key.masterAddress;
+    options.keys = net::PeerKeys{key.masterKey, {key.publicKey, key.secretKey}};
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): outside runProgram() only a lack of memory throws
@@ -63,8 +84,10 @@ int main(int count, char** arguments) {
     using namespace aquarama;
     show::NodeOptions options;
     CLI::App app("Shows one channel of a wall, in step with all others.", "aquarama-node");
-    describe(app, options);
+    std::string keyPath;
+    describe(app, options, keyPath);
     return cli::runProgram(app, count, arguments, [&] {
+        readKey(keyPath, options);
         app.name("aquarama-node " + options.channel);
         cli::requireFolder("--snapshot", options.snapshotFolder);
         cli::requireFolder("--trace", options.traceFolder);

@@ -74,7 +74,7 @@ void runNode(const NodeOptions& options) {
     // Before any thread starts, so that all of them inherit the blocked signals.
     cli::holdSignals();
     const std::unique_ptr<session::Session> session =
-        session::connectSession(options.channel, options.masterAddress);
+        session::connectSession(options.channel, options.masterAddress, options.keys);
     const cli::SignalWatch watch([&] { session->stop(); });
     std::optional<session::Admission> admission = session->join();
     if (!admission) return;

@@ -2,7 +2,10 @@
 // Runs a render node with the options of its command line.
 #pragma once
 
+#include <optional>
 #include <string>
+
+#include "common/net/channels.h"
 
 namespace aquarama::show {
 
@@ -10,6 +13,7 @@ namespace aquarama::show {
 struct NodeOptions {
     std::string channel;
     std::string masterAddress;
+    std::optional<net::PeerKeys> keys;  // where the master is past the loopback
     bool headless = false;
     // With --headless, in place of the rig's device; empty: the rig's.
     std::string device;

@@ -229,7 +229,39 @@ class Files(Case):
 class Shows(Case):
     def test_binding_past_the_loopback_is_refused(self):
         rig = self.edited((r"tcp://127\.0\.0\.1:", "tcp://0.0.0.0:"))
-        self.refuses(r"aquarama run: \S+/desk\.txtpb:\d+:\d+: .*needs keys.*", "run", rig, "--headless", "--frames", 1)
+        self.refuses(r"aquarama run: \S+/desk\.txtpb:\d+:\d+: .*one network card.*", "run", rig, "--headless", "--frames", 1)
+        rig = self.edited((r"tcp://127\.0\.0\.1:", "tcp://192.0.2.1:"))
+        keys = Path(self.folder.name) / "no keys"
+        self.refuses(r"aquarama run: .*/master\.key: is not there.*aquarama keys new.*", "run", rig, "--keys", keys)
+
+    def test_keys(self):
+        """Of a rig of several machines: made once, listed, revoked, replaced; every mistake is one line."""
+        keys = Path(self.folder.name) / "keys"
+        self.refuses(r"aquarama keys new: .*needs no keys.*", "keys", "new", self.edited(), "--keys", keys)
+        rig = self.edited((r"tcp://127\.0\.0\.1:", "tcp://192.0.2.1:"))
+        self.refuses(r"aquarama keys list: .*is not there.*", "keys", "list", rig, "--keys", keys)
+        made = aquarama("keys", "new", rig, "--keys", keys)
+        self.assertIn("8 keys made", made.stdout, made.stderr)
+        self.assertEqual({path.stat().st_mode & 0o777 for path in keys.iterdir()}, {0o600})
+        self.assertEqual(keys.stat().st_mode & 0o777, 0o700)
+        before = {path.name: path.read_text() for path in keys.iterdir()}
+        self.assertIn("0 keys made", aquarama("keys", "new", rig, "--keys", keys).stdout)
+        self.assertEqual({path.name: path.read_text() for path in keys.iterdir()}, before)
+        self.refuses(r"aquarama keys revoke: no key is named \"up\".*crew, left, master.*",
+                     "keys", "revoke", rig, "up", "--keys", keys)
+        self.refuses(r"aquarama keys revoke: the master's key cannot.*", "keys", "revoke", rig, "master", "--keys", keys)
+        self.refuses(r"aquarama keys bundle: the master's key stays.*", "keys", "bundle", rig, "master", "--keys", keys)
+        self.assertEqual(aquarama("keys", "revoke", rig, "left", "--keys", keys).returncode, 0)
+        self.assertRegex(aquarama("keys", "list", rig, "--keys", keys).stdout, r"left +node +\S+ +revoked \d{4}-\d\d-\d\d")
+        out = Path(self.folder.name) / "left.key"
+        self.refuses(r"aquarama keys bundle: left was revoked.*", "keys", "bundle", rig, "left", "--keys", keys, "--out", out)
+        self.assertEqual(aquarama("keys", "rotate", rig, "left", "--keys", keys).returncode, 0)
+        self.assertEqual(aquarama("keys", "bundle", rig, "left", "--keys", keys, "--out", out).returncode, 0)
+        self.assertEqual(out.stat().st_mode & 0o777, 0o600)
+        self.refuses(r"aquarama keys bundle: .*is there already.*",
+                     "keys", "bundle", rig, "left", "--keys", keys, "--out", out)
+        (keys / "right.key").chmod(0o644)
+        self.refuses(r"aquarama keys list: .*right\.key: others than its owner.*", "keys", "list", rig, "--keys", keys)
 
     def test_an_occupied_port(self):
         rig = self.edited()

@@ -69,6 +69,14 @@ TEST(Fuzz, damagedRigsAreRefusedOrReadWhole) {
     feed(fuzzRig, filesIn(AQUARAMA_SOURCE_DIR "/config"), 6000);
 }
 
+TEST(Fuzz, damagedKeyFilesAreRefusedOrReadWhole) {
+    const std::string key = R"(version: 1 rig: "hall" master_address: "tcp://192.168.7.1:7400"
+        master_key: "rq:rM>}U?@Lns47E1%kR.o@n%FcmmsL/@{H8]yf7" name: "left" role: NODE
+        public_key: "rq:rM>}U?@Lns47E1%kR.o@n%FcmmsL/@{H8]yf7"
+        secret_key: "rq:rM>}U?@Lns47E1%kR.o@n%FcmmsL/@{H8]yf7" made: "2026-11-23")";
+    feed(fuzzKeys, {inputOf(std::as_bytes(std::span{key}))}, 3000);
+}
+
 TEST(Fuzz, damagedScenesAreRefusedOrReadWhole) {
     feed(fuzzScene, filesIn(AQUARAMA_SOURCE_DIR "/config/scenes"), 3000);
     feed(fuzzScene, filesIn(AQUARAMA_SOURCE_DIR "/config/scenes/routines"), 3000);

@@ -12,6 +12,7 @@ namespace aquarama {
 int fuzzRepertoire(const std::uint8_t* bytes, std::size_t size);
 int fuzzSpecies(const std::uint8_t* bytes, std::size_t size);
 int fuzzRig(const std::uint8_t* bytes, std::size_t size);
+int fuzzKeys(const std::uint8_t* bytes, std::size_t size);
 int fuzzScene(const std::uint8_t* bytes, std::size_t size);
 int fuzzWire(const std::uint8_t* bytes, std::size_t size);
 int fuzzRecording(const std::uint8_t* bytes, std::size_t size);

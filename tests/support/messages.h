@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/motion/motor.h"
 #include "common/wire/messages.h"
 
 namespace aquarama::test {
@@ -13,8 +14,10 @@ namespace aquarama::test {
 inline v1::Envelope hello(const std::string& channel,
                           std::uint32_t major = wire::kProtocolMajor,
                           const std::string& build = "") {
+    static const std::uint64_t motorHash = motion::motorSelfTest();
     v1::Envelope message;
     message.mutable_hello()->set_channel(channel);
+    message.mutable_hello()->set_motor_hash(motorHash);
     message.mutable_hello()->set_major(major);
     message.mutable_hello()->set_build(build);
     return message;

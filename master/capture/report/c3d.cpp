@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/capture/report/c3d.h"
-
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -9,6 +7,7 @@
 
 #include "common/base/units.h"
 #include "common/motion/repertoire.h"
+#include "master/capture/report/take.h"
 
 namespace aquarama::report {
 

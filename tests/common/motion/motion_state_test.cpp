@@ -55,6 +55,9 @@ TEST(MotionState, aRecordHoldsEveryBit) {
         EXPECT_EQ(recordOf(copy, i), record);
     }
     EXPECT_EQ(hashOf(copy), hashOf(states));
+    std::vector<FishRecord> records;
+    for (std::size_t i = 0; i < states.size(); ++i) records.push_back(recordOf(states, i));
+    EXPECT_EQ(hashOf(records), hashOf(states));
 }
 
 TEST(MotionState, anOrientationSurvivesToAFewMillionthsOfARadian) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One world on every machine: the vectorised step against the plain one, bit for bit.
+#include <set>
+
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
@@ -54,6 +56,19 @@ TEST(MotorStep, everyInstructionSetComputesTheBitsOfThePlainStep) {
     hwy::SetSupportedTargetsForTest(0);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     EXPECT_GT(compared, 0);
+}
+
+// What nodes are admitted by (Hello): the same on every machine.
+TEST(MotorStep, theSelfTestIsTheSameOnEveryInstructionSet) {
+    std::set<std::uint64_t> hashes;
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        hashes.insert(motorSelfTest());
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    EXPECT_EQ(hashes, std::set{motorSelfTest()});
 }
 
 TEST(MeanHeadings, everyInstructionSetComputesTheBitsOfPlainCode) {

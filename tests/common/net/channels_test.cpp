@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <random>
 #include <thread>
 
@@ -156,6 +157,111 @@ TEST(ZmqChannels, anOccupiedPortIsNamedWithTheRemedy) {
     const auto message = bindError(first->controlAddress(), "tcp://127.0.0.1:*");
     EXPECT_THAT(message, testing::HasSubstr(first->controlAddress()));
     EXPECT_THAT(message, testing::HasSubstr("stop the other master"));
+}
+
+// A master with keys, and the list that says who may connect.
+class Keyed : public testing::Test {
+  protected:
+    [[nodiscard]] std::unique_ptr<NodeChannels> nodeWith(const KeyPair& own) const {
+        return connectNode(master_->controlAddress(), {}, PeerKeys{keys_.publicKey, own});
+    }
+    void allow(const Allowed& allowed) {
+        const std::lock_guard lock(mutex_);
+        allowed_ = allowed;
+    }
+    // Whether the master hears a node within so long.
+    bool hears(NodeChannels& node, Instant within = milliseconds(500)) {
+        const Instant giveUp = monotonicNow() + within;
+        while (monotonicNow() < giveUp) {
+            node.sendControl(bytes("hello"));
+            master_->wait(milliseconds(10));
+            if (const auto heard = master_->receiveControl()) {
+                user_ = heard->user;
+                return text(heard->bytes) == "hello";
+            }
+        }
+        return false;
+    }
+
+    const KeyPair keys_ = makeKeyPair(), left_ = makeKeyPair(), right_ = makeKeyPair();
+    std::mutex mutex_;
+    Allowed allowed_{{left_.publicKey, "node left"}, {right_.publicKey, "node right"}};
+    std::unique_ptr<MasterChannels> master_ = bindMaster(
+        "tcp://127.0.0.1:*", "tcp://127.0.0.1:*", {}, MasterKeys{keys_, [this] {
+                                                                     const std::lock_guard lock(
+                                                                         mutex_);
+                                                                     return allowed_;
+                                                                 }});
+    std::string user_;
+};
+
+TEST_F(Keyed, whoShowsAKeyIsHeardByItsName) {
+    const auto left = nodeWith(left_);
+    const auto right = nodeWith(right_);
+    ASSERT_TRUE(hears(*left, seconds(10)));
+    EXPECT_EQ(user_, "node left");
+    ASSERT_TRUE(hears(*right, seconds(10)));
+    EXPECT_EQ(user_, "node right");
+    left->subscribeState(master_->stateAddress());
+    EXPECT_TRUE(await(*left, [&] {
+        master_->publishState(bytes("state"));
+        return left->receiveState();
+    }));
+}
+
+TEST_F(Keyed, noKeyAnUnknownKeyAndAnotherMastersAreNotHeard) {
+    const auto none = connectNode(master_->controlAddress());
+    const auto unknown = nodeWith(makeKeyPair());
+    const auto fooled =
+        connectNode(master_->controlAddress(), {}, PeerKeys{makeKeyPair().publicKey, left_});
+    EXPECT_FALSE(hears(*none));
+    EXPECT_FALSE(hears(*unknown));
+    EXPECT_FALSE(hears(*fooled)) << "it thinks the master somebody else";
+    EXPECT_TRUE(hears(*nodeWith(left_), seconds(10))) << "the others are none the worse";
+}
+
+// Within two seconds; the other comes back over a connection of its own accord.
+TEST_F(Keyed, aRevokedKeyIsCutOffAndTheOthersAreNot) {
+    const auto left = nodeWith(left_);
+    const auto right = nodeWith(right_);
+    ASSERT_TRUE(hears(*left, seconds(10)));
+    ASSERT_TRUE(hears(*right, seconds(10)));
+    const auto stateOf = [&](NodeChannels& node) {
+        node.subscribeState(master_->stateAddress());
+        return await(node, [&] {
+            master_->publishState(bytes("state"));
+            return node.receiveState();
+        });
+    };
+    EXPECT_TRUE(stateOf(*left));
+    allow({{right_.publicKey, "node right"}});
+    const Instant giveUp = monotonicNow() + seconds(6);
+    bool heardLeft = true;
+    while (heardLeft && monotonicNow() < giveUp) {
+        while (master_->receiveControl()) {
+        }
+        heardLeft = hears(*left, milliseconds(300));
+    }
+    EXPECT_FALSE(heardLeft);
+    while (left->receiveState()) {
+    }
+    for (int state = 0; state < 20; ++state) {
+        master_->publishState(bytes("secret"));
+        left->wait(milliseconds(10));
+        EXPECT_FALSE(left->receiveState());
+    }
+    ASSERT_TRUE(hears(*right, seconds(10)));
+    EXPECT_EQ(user_, "node right");
+}
+
+TEST_F(Keyed, aKeyThatIsNoneIsRefused) {
+    EXPECT_THROW(static_cast<void>(nodeWith({"short", "keys"})), Error);
+    EXPECT_THROW(
+        static_cast<void>(bindMaster("tcp://127.0.0.1:*",
+                                     "tcp://127.0.0.1:*",
+                                     {},
+                                     MasterKeys{{"short", "keys"}, [] { return Allowed{}; }})),
+        Error);
 }
 
 TEST(ZmqChannels, neitherAddressMayReachPastTheLoopback) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/capture/report/c3d.h"
-
 #include <gtest/gtest.h>
 
+#include "master/capture/report/take.h"
 #include "tests/master/capture/report/c3d_reader.h"
 #include "tests/support/scad.h"
 

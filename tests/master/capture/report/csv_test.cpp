@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "master/capture/report/c3d.h"
+#include "master/capture/report/take.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::report {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "master/capture/report/take.h"
 
 #include <set>
@@ -8,7 +9,6 @@
 
 #include "common/base/log.h"
 #include "common/motion/motor_tables.h"
-#include "master/capture/report/c3d.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::report {

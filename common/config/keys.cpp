@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/config/keys.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+#include <fcntl.h>
+#include <google/protobuf/text_format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "common/base/log.h"
+#include "common/config/keys.pb.h"
+#include "common/config/text_reader.h"
+
+namespace aquarama::config {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+static_assert(v1::KeyFile::CREW - v1::KeyFile::MASTER == static_cast<int>(KeyRole::Crew));
+
+constexpr std::uint32_t kVersion = 1;
+constexpr std::string_view kEnding = ".key";
+constexpr std::size_t kKeyLength = 40;
+constexpr std::string_view kZ85 =
+    "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?&<>()[]{}@%$#";
+
+void checkKey(const TextReader& file,
+              const v1::KeyFile& in,
+              const std::string& field,
+              const std::string& key) {
+    if (key.size() == kKeyLength && key.find_first_not_of(kZ85) == std::string::npos) return;
+    file.refuse(in, field, field + " is no key of 40 characters: copy the file again");
+}
+
+// What others than the owner could read is no secret any more.
+void requirePrivate(const fs::path& path) {
+    struct stat status {};
+    if (stat(path.c_str(), &status) == 0 && (status.st_mode & 077U) != 0)
+        throw Error(path.string() +
+                    ": others than its owner may read this key: chmod 600 it, and " +
+                    "make a new one (aquarama keys rotate) if somebody may have");
+}
+
+// A file of this name that did not exist, open for its owner only.
+int privateFile(const fs::path& path) {
+    unlink(path.c_str());
+    const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (file < 0)
+        throw Error(path.string() + ": cannot be written (" + std::strerror(errno) +
+                    "); choose another folder");
+    return file;
+}
+
+}  // namespace
+
+KeyFile readKeyFile(const fs::path& path) {
+    requirePrivate(path);
+    return parseKeyFile(readTextFile(path.string()), path.string());
+}
+
+KeyFile parseKeyFile(const std::string& text, const std::string& source) {
+    v1::KeyFile in;
+    TextReader file(text, source, in);
+    file.check();
+    checkKey(file, in, "master_key", in.master_key());
+    checkKey(file, in, "public_key", in.public_key());
+    checkKey(file, in, "secret_key", in.secret_key());
+    return {.rig = in.rig(),
+            .masterAddress = in.master_address(),
+            .masterKey = in.master_key(),
+            .name = in.name(),
+            .role = static_cast<KeyRole>(in.role() - v1::KeyFile::MASTER),
+            .publicKey = in.public_key(),
+            .secretKey = in.secret_key(),
+            .made = in.made(),
+            .revoked = in.revoked()};
+}
+
+void writeKeyFile(const fs::path& path, const KeyFile& key) {
+    v1::KeyFile out;
+    out.set_version(kVersion);
+    out.set_rig(key.rig);
+    out.set_master_address(key.masterAddress);
+    out.set_master_key(key.masterKey);
+    out.set_name(key.name);
+    out.set_role(static_cast<v1::KeyFile::Role>(static_cast<int>(key.role) + v1::KeyFile::MASTER));
+    out.set_public_key(key.publicKey);
+    out.set_secret_key(key.secretKey);
+    out.set_made(key.made);
+    if (!key.revoked.empty()) out.set_revoked(key.revoked);
+    std::string text;
+    google::protobuf::TextFormat::PrintToString(out, &text);
+    text = "# Secret: whoever holds this file takes part as " + key.name + ".\n" + text;
+    const fs::path fresh = path.string() + ".new";
+    const int file = privateFile(fresh);
+    const auto written = write(file, text.data(), text.size());
+    const bool isWhole = written == static_cast<ssize_t>(text.size()) && fsync(file) == 0;
+    close(file);
+    std::error_code problem;
+    if (isWhole) fs::rename(fresh, path, problem);
+    if (!isWhole || problem) throw Error(path.string() + ": cannot be written; is the disk full?");
+}
+
+fs::path keyFolderOf(const std::string& rigPath) {
+    // NOLINTBEGIN(concurrency-mt-unsafe): nobody sets the environment while a program runs
+    const char* const given = std::getenv("XDG_CONFIG_HOME");
+    const char* const home = std::getenv("HOME");
+    // NOLINTEND(concurrency-mt-unsafe)
+    const fs::path configuration = given != nullptr && *given != '\0'
+                                       ? fs::path(given)
+                                       : fs::path(home == nullptr ? "" : home) / ".config";
+    return configuration / "aquarama/keys" / fs::path(rigPath).stem();
+}
+
+fs::path keyFileIn(const fs::path& folder, std::string_view name) {
+    return folder / (std::string(name) + std::string(kEnding));
+}
+
+std::vector<KeyFile> readKeyFolder(const fs::path& folder) {
+    std::vector<KeyFile> keys;
+    std::error_code missing;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, missing))
+        if (entry.path().extension() == kEnding) keys.push_back(readKeyFile(entry.path()));
+    std::ranges::sort(keys, {}, &KeyFile::name);
+    return keys;
+}
+
+}  // namespace aquarama::config
