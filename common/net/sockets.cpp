@@ -254,9 +254,12 @@ void Doorkeeper::answer(zmq::socket_t& requests) {
     const std::string request = parts.size() > 1 ? parts[1] : "";
     const std::array<std::string, 6> reply{
         "1.0", request, user.empty() ? "400" : "200", user.empty() ? "no such key" : "", user, ""};
-    for (std::size_t i = 0; i < reply.size(); ++i)
-        requests.send(zmq::buffer(reply[i]),
-                      i + 1 < reply.size() ? zmq::send_flags::sndmore : zmq::send_flags::none);
+    try {
+        for (std::size_t i = 0; i < reply.size(); ++i)
+            requests.send(zmq::buffer(reply[i]),
+                          i + 1 < reply.size() ? zmq::send_flags::sndmore : zmq::send_flags::none);
+    } catch (const zmq::error_t&) {  // whoever asked is gone
+    }
 }
 
 void Doorkeeper::readAgain() {
