@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama status`, `pilot` and `explain`: they ask the master of a running show, or tell it.
+// `aquarama status`, `set`, `pilot` and `explain`: they ask the master of a running show, or tell
+// it.
 #include <array>
 #include <chrono>
 #include <iostream>
@@ -183,7 +184,58 @@ void explain(const ExplainOptions& options) {
     options.recording.empty() ? explainLive(options) : explainReplay(options);
 }
 
+// A value of the show, by name.
+struct SetOptions {
+    AskedMaster asked;
+    std::string what, value;
+};
+
+// Throws Error where it is none.
+bool switchedOn(const SetOptions& options) {
+    if (options.value == "on") return true;
+    if (options.value == "off") return false;
+    throw Error(options.what + " is on or off, not \"" + options.value + "\"");
+}
+
+v1::Pattern patternNamed(const std::string& name) {
+    if (name == "world") return v1::PATTERN_WORLD;
+    if (name == "grid") return v1::PATTERN_GRID;
+    if (name == "grey") return v1::PATTERN_GREY;
+    throw Error("pattern is world, grid or grey, not \"" + name + "\"");
+}
+
+// Returns when the wall shows it.
+void set(const SetOptions& options) {
+    v1::Set set;
+    if (options.what == "scene") set.set_scene(options.value);
+    if (options.what == "quality") set.set_quality(options.value);
+    if (options.what == "pattern") set.set_pattern(patternNamed(options.value));
+    if (options.what == "black") set.set_black(switchedOn(options));
+    if (options.what == "freeze") set.set_freeze(switchedOn(options));
+    options.asked.connect().set(std::move(set), [](const std::string& what) {
+        std::cout << what << std::endl;  // at once: it takes a while
+    });
+    std::cout << options.what << ' ' << options.value << '\n';
+}
+
 }  // namespace
+
+void addSet(CommandLine& line) {
+    const auto [command, options] =
+        line.add<SetOptions>("set", "what the running wall shows: scene, pattern, black ...", set);
+    describeMaster(command, options.asked);
+    command.get_option("RIG")->required();
+    command.add_option("WHAT", options.what, "scene, quality, pattern, black or freeze")
+        ->required()
+        ->check(CLI::IsMember({"scene", "quality", "pattern", "black", "freeze"}));
+    command
+        .add_option("VALUE",
+                    options.value,
+                    "a scene's name; low, medium, high, ultra or auto; world, grid or grey; on or "
+                    "off")
+        ->required();
+    command.footer("What is set is kept: a master that is started again shows it.");
+}
 
 void addStatus(CommandLine& line) {
     const auto [command, asked] =

@@ -77,6 +77,7 @@ void addMaster(CommandLine& line);  // the master alone
 void addNode(CommandLine& line);    // hands over to aquarama-node
 void addKeyCommands(CommandLine& line);
 void addStatus(CommandLine& line);
+void addSet(CommandLine& line);
 void addPilot(CommandLine& line);
 void addExplain(CommandLine& line);
 void addCheck(CommandLine& line);  // hands over to aquarama-calibrate

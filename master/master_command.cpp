@@ -2,12 +2,15 @@
 // `aquarama master`: joins a world, living or replayed, to the conductor, which shows it on the
 // wall.
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -15,7 +18,6 @@
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
-#include "common/cli/signals.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 #include "common/net/channels.h"
@@ -30,9 +32,12 @@ namespace aquarama {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 struct MasterOptions {
     supervisor::ShowOptions show;
     bool lockstep = false;
+    bool resume = false;
 };
 
 // None: the nodes measure which they can draw. In lockstep no clock is read, so nothing is
@@ -44,14 +49,79 @@ std::optional<config::QualityTier> qualityOf(const config::Rig& rig, const Maste
     return rig.quality;
 }
 
+constexpr std::string_view kSceneEnding = ".txtpb";
+
+std::string scenesIn(const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == kSceneEnding) names.push_back(entry.path().stem().string());
+    std::ranges::sort(names);
+    std::string list;
+    for (const std::string& one : names) list += (list.empty() ? "" : ", ") + one;
+    return list;
+}
+
+// The file of a scene: a name lies beside the rig's scene. Throws Error, naming those that are
+// there.
+std::string sceneFile(const config::Rig& rig, const std::string& rigPath, const std::string& name) {
+    if (name.find('/') != std::string::npos) return name;
+    const fs::path folder = fs::path(config::scenePathOf(rig, rigPath)).parent_path();
+    const fs::path file = folder / (name + std::string(kSceneEnding));
+    if (fs::is_regular_file(file)) return file.string();
+    throw Error("there is no scene \"" + name + "\" in " + folder.string() + ", only " +
+                scenesIn(folder));
+}
+
+// What is chosen for this run: by the options, else by the rig.
+conductor::ShowChange chosenBy(const MasterOptions& options) {
+    const supervisor::ShowOptions& show = options.show;
+    conductor::ShowChange chosen;
+    if (!show.scenePath.empty()) chosen.scene = fs::absolute(show.scenePath).string();
+    if (!show.quality.empty()) chosen.quality = config::tierNamed(show.quality);
+    if (show.pattern == "world") chosen.pattern = wire::Pattern::World;
+    if (show.pattern == "grid") chosen.pattern = wire::Pattern::Grid;
+    if (show.pattern == "grey") chosen.pattern = wire::Pattern::Grey;
+    return chosen;
+}
+
+// What earlier runs were told to show. A file that cannot be read does not keep the wall dark.
+conductor::ShowChange keptShow(const config::Rig& rig, const MasterOptions& options) {
+    const fs::path path = conductor::keptShowOf(options.show.rigPath);
+    try {
+        conductor::ShowChange kept = conductor::readKeptShow(path);
+        if (kept.scene) static_cast<void>(sceneFile(rig, options.show.rigPath, *kept.scene));
+        return kept;
+    } catch (const Error& problem) {
+        logWarning("what was set before is not shown: {}", problem.what());
+        return {};
+    }
+}
+
+// A show by the clock begins with what was set before, under the options of its command line. A
+// master that is started again goes on with what was set.
+void chooseWanted(const config::Rig& rig,
+                  const MasterOptions& options,
+                  conductor::ConductorOptions& conductor) {
+    conductor::WantedShow wanted{.scene = fs::path(rig.scene).stem().string(),
+                                 .quality = qualityOf(rig, options)};
+    const bool isKept = !options.lockstep && options.show.replayPath.empty();
+    if (isKept) {
+        conductor.keptAt = conductor::keptShowOf(options.show.rigPath);
+        conductor.kept = keptShow(rig, options);
+    }
+    const conductor::ShowChange chosen = chosenBy(options);
+    const auto& [under, over] =
+        options.resume ? std::pair{chosen, conductor.kept} : std::pair{conductor.kept, chosen};
+    conductor.wanted = conductor::with(conductor::with(std::move(wanted), under), over);
+    if (const std::string text = textOf(conductor.kept); !text.empty())
+        logInfo("as it was set before: {} (change it with aquarama set)", text);
+}
+
 // How the conductor runs the frames.
 conductor::ConductorOptions conductorOptions(const config::Rig& rig, const MasterOptions& options) {
     conductor::ConductorOptions conductor;
-    conductor.quality = qualityOf(rig, options);
     conductor.pace = options.lockstep ? wire::Pace::Lockstep : wire::Pace::Live;
-    conductor.pattern = options.show.pattern == "grid"   ? wire::Pattern::Grid
-                        : options.show.pattern == "grey" ? wire::Pattern::Grey
-                                                         : wire::Pattern::World;
+    chooseWanted(rig, options, conductor);
     conductor.frames = options.show.frames;
     conductor.traceDirectory = options.show.traceFolder;
     return conductor;
@@ -85,14 +155,23 @@ void show(const config::Rig& rig,
 void showNew(const config::Rig& rig,
              const MasterOptions& options,
              std::unique_ptr<net::MasterChannels> channels) {
-    const simulation::Assets assets = simulation::readAssets(
-        options.show.scenePath.empty() ? config::scenePathOf(rig, options.show.rigPath)
-                                       : options.show.scenePath,
-        {.seed = options.show.seed, .fish = options.show.fish});
+    conductor::ConductorOptions conducting = conductorOptions(rig, options);
+    const simulation::Assets assets =
+        simulation::readAssets(sceneFile(rig, options.show.rigPath, conducting.wanted.scene),
+                               {.seed = options.show.seed, .fish = options.show.fish});
     simulation::LivingWorld world(simulation::worldOptionsOf(assets));
-    const conductor::ConductorOptions conducting = conductorOptions(rig, options);
-    if (options.show.recordPath.empty())
+    if (options.show.recordPath.empty()) {
+        conducting.makeWorld = [rig, show = options.show](const std::string& scene) {
+            simulation::Assets next = simulation::readAssets(
+                sceneFile(rig, show.rigPath, scene), {.seed = show.seed, .fish = std::nullopt});
+            auto made = std::make_unique<simulation::LivingWorld>(simulation::worldOptionsOf(next));
+            const auto traits = made->world().traits();
+            return conductor::NextWorld{
+                std::move(next.bytes), {traits.begin(), traits.end()}, std::move(made)};
+        };
         return show(rig, conducting, {assets.bytes, world, world}, std::move(channels));
+    }
+    conducting.whyOneScene = "the show is recorded, and a recording has one scene";
     simulation::RecordingFile file(options.show.recordPath, assets.bytes);
     simulation::RecordedWorld recorded(world, file);
     show(rig, conducting, {assets.bytes, world, recorded}, std::move(channels));
@@ -107,6 +186,7 @@ void showAgain(const config::Rig& rig,
         logWarning("{}: {}", options.show.replayPath, doubt);
     simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
     conductor::ConductorOptions conducting = conductorOptions(rig, options);
+    conducting.whyOneScene = "a recording is shown, and has one scene";
     // In lockstep the world runs ahead of the frames, so the frames are counted instead.
     conductor::Conductor* running = nullptr;
     std::function<void()> onEnd = [&running] { running->stop(); };
@@ -141,6 +221,11 @@ void addMaster(CommandLine& line) {
     describeWorld(command, options.show);
     describeWall(command, options.show);
     command.add_flag("--lockstep", options.lockstep, "frame n shows tick n; no clock is read");
+    command
+        .add_flag("--resume",
+                  options.resume,
+                  "of a show that goes on: what was set meanwhile goes before the options")
+        ->excludes("--lockstep");
     command.add_option("--replay", options.show.replayPath, "show this recording")
         ->excludes("--record")
         ->excludes("--seed")

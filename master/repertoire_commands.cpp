@@ -13,8 +13,8 @@
 
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
-#include "common/cli/signals.h"
 #include "master/capture/capture_repertoire.h"
 #include "master/capture/report/gltf.h"
 #include "master/capture/report/report_data.h"

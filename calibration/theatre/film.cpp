@@ -16,7 +16,7 @@
 #include "calibration/theatre/clip.h"
 #include "calibration/theatre/compose.h"
 #include "common/base/log.h"
-#include "common/cli/signals.h"
+#include "common/cli/command_line.h"
 #include "common/net/channels.h"
 
 namespace aquarama::theatre {

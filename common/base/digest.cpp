@@ -27,4 +27,10 @@ std::string toHex(const Digest& digest) {
     return hex;
 }
 
+std::uint64_t shortHash(const Digest& digest) {
+    std::uint64_t hash = 0;
+    for (std::size_t i = 0; i < sizeof hash; ++i) hash = hash << 8U | digest.bytes[i];
+    return hash;
+}
+
 }  // namespace aquarama

@@ -27,6 +27,8 @@ struct Digest {
 [[nodiscard]] Digest digestOf(std::span<const std::byte> content);
 [[nodiscard]] Digest digestOf(std::string_view content);
 [[nodiscard]] std::string toHex(const Digest& digest);  // 64 lower-case digits
+// Its first 8 bytes: enough to tell contents apart that nobody forges.
+[[nodiscard]] std::uint64_t shortHash(const Digest& digest);
 
 // Folds arrays into one number: equal states have equal hashes. Fast, and the same on every
 // machine; not safe against an attacker.

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // An environment variable, empty where it is not set.
-fs::path variable(const char* name) {
+fs::path valueOf(const char* name) {
     const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody sets it
     return value != nullptr ? value : "";
 }
@@ -58,11 +58,15 @@ void writeWhole(const fs::path& path, std::span<const std::byte> content) {
     }
 }
 
+fs::path userFolder(const char* variable, const char* underHome) {
+    const fs::path given = valueOf(variable);
+    if (given.is_absolute()) return given / "aquarama";
+    const fs::path home = valueOf("HOME");
+    return (home.empty() ? fs::temp_directory_path() : home / underHome) / "aquarama";
+}
+
 fs::path cacheFolder() {
-    const fs::path cache = variable("XDG_CACHE_HOME");
-    if (cache.is_absolute()) return cache / "aquarama";
-    const fs::path home = variable("HOME");
-    return (home.empty() ? fs::temp_directory_path() : home / ".cache") / "aquarama";
+    return userFolder("XDG_CACHE_HOME", ".cache");
 }
 
 }  // namespace aquarama

@@ -19,8 +19,11 @@ namespace aquarama {
 // none. Throws Error when it cannot be written.
 void writeWhole(const std::filesystem::path& path, std::span<const std::byte> content);
 
-// Where this user's programs keep data that they can make again: $XDG_CACHE_HOME/aquarama, or
-// ~/.cache/aquarama; in the folder for temporary files where neither variable is set.
+// A folder of this user for our files, after the XDG base directories: the environment's `variable`
+// or else `underHome` in the home folder, and "aquarama" in that; in the folder for temporary files
+// where neither is set.
+[[nodiscard]] std::filesystem::path userFolder(const char* variable, const char* underHome);
+// For data that can be made again.
 [[nodiscard]] std::filesystem::path cacheFolder();
 
 }  // namespace aquarama

@@ -9,7 +9,9 @@
 #include <iostream>
 #include <optional>
 #include <sstream>
+#include <utility>
 
+#include <signal.h>
 #include <unistd.h>
 
 namespace aquarama::cli {
@@ -105,6 +107,31 @@ CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most) {
 CLI::Validator number(double least, double most) {
     assert(least <= most);
     return between(least, most, "a number");
+}
+
+namespace {
+
+sigset_t watchedSignals() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+    return signals;
+}
+
+}  // namespace
+
+void holdSignals() {
+    const sigset_t signals = watchedSignals();
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+}
+
+SignalWatch::SignalWatch(std::function<void()> onSignal) {
+    const sigset_t signals = watchedSignals();
+    thread_ = std::jthread([signals, call = std::move(onSignal)](const std::stop_token& ended) {
+        constexpr timespec kPollInterval{.tv_sec = 0, .tv_nsec = 50'000'000};
+        while (!ended.stop_requested())
+            if (sigtimedwait(&signals, nullptr, &kPollInterval) > 0) call();
+    });
 }
 
 }  // namespace aquarama::cli

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the command lines of all programs have in common: --help and --version of the program and of
-// each command, one line on stderr for an error, and the exit status: 2 where the command line
-// itself is wrong, 1 for every other error.
+// each command, one line on stderr for an error, the exit status (2 where the command line itself
+// is wrong, 1 for every other error), and the signals that end a program.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <thread>
 
 #include <CLI/CLI.hpp>
 
@@ -37,5 +38,21 @@ inline constexpr const char* kErrorPipeVariable = "AQUARAMA_CAUSES";
 [[nodiscard]] CLI::Validator number(double least, double most);
 inline constexpr std::uint64_t kMostSeed = UINT32_MAX;
 inline constexpr std::uint64_t kMostShownFrames = 1'000'000'000;  // half a year
+
+// SIGINT, SIGTERM and SIGHUP as a call on a thread of their own, so that a loop that waits for
+// something else can be told to end.
+
+// Blocks these signals. Call it before any other thread is made: threads inherit it, and leave the
+// signals to the watch.
+void holdSignals();
+
+// Calls `onSignal` for each of these signals, on its own thread, as long as it lives.
+class SignalWatch {
+  public:
+    explicit SignalWatch(std::function<void()> onSignal);
+
+  private:
+    std::jthread thread_;
+};
 
 }  // namespace aquarama::cli

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
@@ -12,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/config/keys.pb.h"
 #include "common/config/text_reader.h"
@@ -108,14 +108,7 @@ void writeKeyFile(const fs::path& path, const KeyFile& key) {
 }
 
 fs::path keyFolderOf(const std::string& rigPath) {
-    // NOLINTBEGIN(concurrency-mt-unsafe): nobody sets the environment while a program runs
-    const char* const given = std::getenv("XDG_CONFIG_HOME");
-    const char* const home = std::getenv("HOME");
-    // NOLINTEND(concurrency-mt-unsafe)
-    const fs::path configuration = given != nullptr && *given != '\0'
-                                       ? fs::path(given)
-                                       : fs::path(home == nullptr ? "" : home) / ".config";
-    return configuration / "aquarama/keys" / fs::path(rigPath).stem();
+    return userFolder("XDG_CONFIG_HOME", ".config") / "keys" / fs::path(rigPath).stem();
 }
 
 fs::path keyFileIn(const fs::path& folder, std::string_view name) {

@@ -91,7 +91,9 @@ float approached(float v, float target, float step) {
 }
 
 // The speed after a tick, from v and the path's at the tick's start and end; all in whole units.
-// First, v changes as the path's speed does, which matters in turns. Then the rest of the
+// First, v changes as the path's speed does, which matters in turns; but a turn takes no more speed
+// than there is, or one begun slowly, broken off and begun again would drive the fish backwards.
+// Then the rest of the
 // difference decays by the law of SpeedResponse; in a glide the target is 0, and a fish whose tail
 // rests glides. Last, spread fins brake.
 float speedAfter(const SpeedLoss& loss,
@@ -103,7 +105,8 @@ float speedAfter(const SpeedLoss& loss,
                  float brake) {
     constexpr std::uint8_t kGlide = firstSegmentOf(Action::Glide);
     const bool glides = segment == kGlide || pathAtEnd == 0.0F;
-    const float carried = bounded(v + (pathAtEnd - pathAtStart), kFastest);
+    const float carried =
+        bounded(std::max(v + (pathAtEnd - pathAtStart), std::min(v, 0.0F)), kFastest);
     const float target = glides ? 0.0F : pathAtEnd;
     const float against = glides ? carried : target;
     const float drag = loss.drag[glides ? kGlide : dragOf(segment, phase)];

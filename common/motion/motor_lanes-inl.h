@@ -273,7 +273,8 @@ HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
     const IntLanes glide = hn::Set(kInts, firstSegmentOf(Action::Glide));
     const auto glides = hn::Or(hn::RebindMask(kFloats, hn::Eq(segment, glide)),
                                hn::Eq(pathAtEnd, hn::Zero(kFloats)));
-    const Lanes carried = bounded(hn::Add(v, hn::Sub(pathAtEnd, pathAtStart)), kFastest);
+    const Lanes changed = hn::Add(v, hn::Sub(pathAtEnd, pathAtStart));
+    const Lanes carried = bounded(hn::Max(changed, hn::Min(v, hn::Zero(kFloats))), kFastest);
     const Lanes target = hn::IfThenZeroElse(glides, pathAtEnd);
     const Lanes against = hn::IfThenElse(glides, carried, target);
     const IntLanes swims = dragOf(segment, phase);

@@ -15,6 +15,7 @@
 namespace aquarama::wire {
 namespace {
 
+constexpr float kFullLight = 255;
 constexpr int kEyeNumbers = 7;  // position and rotation
 // In the order of Input.steering.
 constexpr std::array kAxes{
@@ -50,8 +51,12 @@ bool isDigest(const std::string& bytes) {
     return bytes.size() == Digest{}.bytes.size();
 }
 
-// One overload a message: whether all that it needs is there and within bounds. An enum's value
-// that we do not know reads as unset, which is 0.
+// A value of an enum that we know, and not the unset one.
+bool isOneOf(int value, bool (*isKnown)(int)) {
+    return value != 0 && isKnown(value);
+}
+
+// One overload a message: whether all that it needs is there and within bounds.
 bool isValid(const v1::Hello& m) {
     return isName(m.channel()) && m.has_major() && isText(m.build(), kMostNameBytes);
 }
@@ -65,7 +70,7 @@ bool isValid(const v1::Dismissed& m) {
 }
 
 // As many lengths as fish, each of 16 bits as in motion::FishTraits.
-bool isSchool(const v1::Welcome& m) {
+bool isSchool(const v1::Look& m) {
     return m.fish_ids_size() <= int{kMostFish} &&
            m.length_millimetres_size() == m.fish_ids_size() &&
            std::ranges::all_of(m.length_millimetres(), [](std::uint32_t length) {
@@ -74,7 +79,7 @@ bool isSchool(const v1::Welcome& m) {
 }
 
 // Species that together have as many fish as the school.
-bool isCast(const v1::Welcome& m) {
+bool isCast(const v1::Look& m) {
     std::uint64_t fish = 0;
     for (const v1::SpeciesBlobs& member : m.cast()) {
         if (!isDigest(member.species()) || !isDigest(member.repertoire())) return false;
@@ -83,12 +88,27 @@ bool isCast(const v1::Welcome& m) {
     return m.cast_size() <= int{kMostSpecies} && std::cmp_equal(fish, m.fish_ids_size());
 }
 
+bool isValid(const v1::Look& m) {
+    return m.has_number() && m.scene_text().size() <= kMostSceneTextBytes && m.has_seed() &&
+           m.has_world() && (!m.has_quality() || config::tierAt(m.quality())) && isSchool(m) &&
+           isCast(m);
+}
+
 bool isValid(const v1::Welcome& m) {
     return m.rig_text().size() <= kMostRigTextBytes &&
-           m.scene_text().size() <= kMostSceneTextBytes &&
-           isText(m.state_address(), kMostReasonBytes) && m.has_seed() && m.pace() != 0 &&
-           m.pattern() != 0 && (!m.has_quality() || config::tierAt(m.quality())) && isSchool(m) &&
-           isCast(m);
+           isText(m.state_address(), kMostReasonBytes) && isOneOf(m.pace(), v1::Pace_IsValid) &&
+           isValid(m.look());
+}
+
+bool isValid(const v1::Set& m) {
+    return m.has_request() && (!m.has_scene() || isName(m.scene())) &&
+           (!m.has_quality() || isName(m.quality())) &&
+           (!m.has_pattern() || isOneOf(m.pattern(), v1::Pattern_IsValid));
+}
+
+bool isValid(const v1::SetReply& m) {
+    return m.has_request() && isOneOf(m.outcome(), v1::Outcome_IsValid) &&
+           isText(m.reason(), kMostReasonBytes);
 }
 
 bool isValid(const v1::BlobRequest& m) {
@@ -103,7 +123,7 @@ bool isValid(const v1::BlobChunk& m) {
 }
 
 bool isValid(const v1::Prepared& m) {
-    return m.has_quality() && config::tierAt(m.quality());
+    return m.has_quality() && config::tierAt(m.quality()) && m.has_look();
 }
 
 // An earlier release is reported as a whole or not at all.
@@ -119,22 +139,24 @@ bool isValid(const v1::Input& m) {
     const auto isShare = [](std::int32_t axis) {
         return axis >= -kFullSteering && axis <= kFullSteering;
     };
-    return m.kind() != 0 && m.position_size() == (isFood ? 3 : 0) &&
+    return isOneOf(m.kind(), v1::InputKind_IsValid) && m.position_size() == (isFood ? 3 : 0) &&
            m.steering_size() == (isSteering ? int{kAxes.size()} : 0) &&
            std::ranges::all_of(m.position(), isNear) &&  // a number that is none is not near
            std::ranges::all_of(m.steering(), isShare);
 }
 
 bool isValid(const v1::NodeStatus& m) {
-    return isName(m.name()) && m.condition() != 0 && isText(m.machine(), kMostNameBytes);
+    return isName(m.name()) && isOneOf(m.condition(), v1::NodeCondition_IsValid) &&
+           isText(m.machine(), kMostNameBytes);
 }
 
 bool isValid(const v1::StatusReply& m) {
     const std::array numbers{
         m.frame_median_ms(), m.frame_p99_ms(), m.skew_median_ms(), m.skew_p99_ms(), m.speed_m_s()};
     const auto isFinite = [](float number) { return std::isfinite(number); };
-    return m.pace() != 0 && std::ranges::all_of(numbers, isFinite) && readEye(m.eye()) &&
-           isText(m.pilot(), kMostNameBytes) && m.nodes_size() <= kMostNodes &&
+    return isOneOf(m.pace(), v1::Pace_IsValid) && std::ranges::all_of(numbers, isFinite) &&
+           readEye(m.eye()) && readShow(m.show()) && isText(m.change(), kMostReasonBytes) &&
+           m.nodes_size() <= kMostNodes &&
            std::ranges::all_of(m.nodes(), [](const v1::NodeStatus& node) { return isValid(node); });
 }
 
@@ -155,8 +177,14 @@ bool isValid(const v1::Envelope& m) {
             return isValid(m.blob_request());
         case v1::Envelope::kBlobChunk:
             return isValid(m.blob_chunk());
+        case v1::Envelope::kPrepare:
+            return isValid(m.prepare().look());
         case v1::Envelope::kPrepared:
             return isValid(m.prepared());
+        case v1::Envelope::kSet:
+            return isValid(m.set());
+        case v1::Envelope::kSetReply:
+            return isValid(m.set_reply());
         case v1::Envelope::kJoined:
             return m.joined().has_first_frame();
         case v1::Envelope::kReady:
@@ -192,7 +220,7 @@ bool isValid(const v1::Envelope& m) {
 // become a whole object.
 std::size_t mostBytesOf(std::uint32_t field) {
     const bool mayBeLarge = field == v1::Envelope::kState || field == v1::Envelope::kWelcome ||
-                            field == v1::Envelope::kBlobChunk;
+                            field == v1::Envelope::kPrepare || field == v1::Envelope::kBlobChunk;
     return mayBeLarge ? kMostPacketBytes : kMostSmallPacketBytes;
 }
 
@@ -247,6 +275,40 @@ void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers) {
 std::optional<Eye> readEye(const google::protobuf::RepeatedField<float>& e) {
     if (e.size() != kEyeNumbers || !areFinite(e)) return std::nullopt;
     return Eye{{e[0], e[1], e[2]}, {e[3], e[4], e[5], e[6]}};
+}
+
+void writeShow(const Show& show, v1::Show& message) {
+    message.set_version(show.version);
+    message.set_look(show.look);
+    message.set_scene(show.scene);
+    message.set_quality(static_cast<std::uint32_t>(show.quality));
+    message.set_pattern(static_cast<v1::Pattern>(show.pattern));
+    message.set_black(show.black);
+    message.set_brightness(static_cast<std::uint32_t>(std::lround(kFullLight * show.brightness)));
+    message.set_frozen(show.frozen);
+    message.set_pilot(show.pilot);
+    message.set_calibration(show.calibration);
+}
+
+std::optional<Show> readShow(const v1::Show& m) {
+    const auto quality = config::tierAt(m.quality());
+    const bool isWhole = m.has_version() && m.has_look() && m.has_quality() && m.has_black() &&
+                         m.has_brightness() && m.has_frozen() && m.has_calibration() &&
+                         isOneOf(m.pattern(), v1::Pattern_IsValid);
+    const bool isLight = m.brightness() <= static_cast<std::uint32_t>(kFullLight);
+    if (!isWhole || !isLight || !quality || !isText(m.scene(), kMostNameBytes) ||
+        !isText(m.pilot(), kMostNameBytes))
+        return std::nullopt;
+    return Show{m.version(),
+                m.look(),
+                m.scene(),
+                *quality,
+                static_cast<Pattern>(m.pattern()),
+                m.black(),
+                static_cast<float>(m.brightness()) / kFullLight,
+                m.frozen(),
+                m.pilot(),
+                m.calibration()};
 }
 
 bool areFinite(const google::protobuf::RepeatedField<float>& numbers) {

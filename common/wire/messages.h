@@ -23,7 +23,7 @@
 namespace aquarama::wire {
 
 // Peers of another major version are refused.
-inline constexpr std::uint32_t kProtocolMajor = 1;
+inline constexpr std::uint32_t kProtocolMajor = 2;
 
 // Bounds. Larger or longer values are refused on arrival; text has no control characters, since it
 // is printed in logs and terminals.
@@ -55,6 +55,10 @@ inline constexpr std::size_t kMostPacketBytes = std::size_t{64} << 20U;  // two 
 // finite numbers.
 void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers);
 [[nodiscard]] std::optional<Eye> readEye(const google::protobuf::RepeatedField<float>& numbers);
+
+// Every field is written. Reading: empty where one is missing or out of bounds.
+void writeShow(const Show& show, v1::Show& message);
+[[nodiscard]] std::optional<Show> readShow(const v1::Show& message);
 
 // Whether no number is infinite or not a number.
 [[nodiscard]] bool areFinite(const google::protobuf::RepeatedField<float>& numbers);

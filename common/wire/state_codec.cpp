@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "common/wire/messages.h"
 
@@ -63,8 +64,8 @@ bool hasAllScalars(const v1::State& message) {
     return message.has_frame() && message.has_tick() && message.has_fraction() &&
            message.has_world_hash() && message.has_motion_hash() && message.has_before() &&
            message.has_after() && message.has_food_before() && message.has_food_after() &&
-           message.has_daylight() && message.has_quality() &&
-           message.layout_version() == kLayoutVersion && message.stride() == kStride;
+           message.has_daylight() && message.layout_version() == kLayoutVersion &&
+           message.stride() == kStride;
 }
 
 }  // namespace
@@ -97,7 +98,7 @@ StateView viewOf(const StateFrame& state) {
             state.foodBefore,
             state.foodAfter,
             state.daylight,
-            state.quality};
+            state.show};
 }
 
 Packet encodeState(std::uint64_t session, const StateView& state) {
@@ -118,7 +119,7 @@ Packet encodeState(std::uint64_t session, const StateView& state) {
     writeRecords(state.foodBefore, *message.mutable_food_before());
     writeRecords(state.foodAfter, *message.mutable_food_after());
     message.set_daylight(state.daylight);
-    message.set_quality(static_cast<std::uint32_t>(state.quality));
+    writeShow(state.show, *message.mutable_show());
     return encode(session, std::move(envelope));
 }
 
@@ -132,9 +133,9 @@ std::optional<StateFrame> readState(const v1::State& message) {
     if (!eye || !before || !after || !foodBefore || !foodAfter) return std::nullopt;
     const float fraction = message.fraction();
     const float daylight = message.daylight();
-    const auto quality = config::tierAt(message.quality());
+    auto show = readShow(message.show());
     const auto& origin = message.food_origin();
-    if (!isShare(fraction) || !isShare(daylight) || !quality) return std::nullopt;
+    if (!isShare(fraction) || !isShare(daylight) || !show) return std::nullopt;
     if (origin.size() != kPlaceNumbers || !areFinite(origin)) return std::nullopt;
     if (!arePaired(*before, *after, fraction) || !arePaired(*foodBefore, *foodAfter, fraction))
         return std::nullopt;
@@ -150,7 +151,7 @@ std::optional<StateFrame> readState(const v1::State& message) {
                       std::move(*foodBefore),
                       std::move(*foodAfter),
                       daylight,
-                      *quality};
+                      *std::move(show)};
 }
 
 }  // namespace aquarama::wire

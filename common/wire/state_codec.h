@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/base/digest.h"
 #include "common/base/units.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
@@ -82,6 +84,21 @@ struct Eye {
     glm::quat worldFromWall{1, 0, 0, 0};
 };
 
+// What the whole wall shows, in every frame. Only the master changes it, between two frames.
+struct Show {
+    std::uint64_t version = 0;  // grows with every change but those of brightness and pilot
+    std::uint32_t look = 0;     // what nodes have built, and draw this frame with
+    std::string scene;          // its name
+    config::QualityTier quality = config::QualityTier::Low;
+    Pattern pattern = Pattern::World;
+    bool black = false;       // is wanted
+    float brightness = 1.0F;  // share of the light, 0 to 1 in 255 steps: fades to what is wanted
+    bool frozen = false;      // the world stands still
+    std::string pilot;        // whose hand steers; empty: nobody's
+    std::uint64_t calibration = 0;  // shortHash() of the rig's text
+    friend bool operator==(const Show&, const Show&) = default;
+};
+
 // All that a frame shows; nothing before it is needed to draw it. `before` and `foodBefore` are
 // empty where fraction is 1: the frame shows the tick itself. Else the frame shows the moment
 // between tick - 1 (before) and tick (after).
@@ -99,7 +116,7 @@ struct BasicState {
     FoodRecords foodBefore;
     FoodRecords foodAfter;
     float daylight = 1.0F;  // of the sky: 1 at noon, less towards the night, never below 0
-    config::QualityTier quality = config::QualityTier::Low;  // of the whole wall
+    Show show;
 };
 // What a node has received: owns its records.
 using StateFrame = BasicState<std::vector<motion::FishRecord>, std::vector<FoodRecord>>;

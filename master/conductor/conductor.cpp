@@ -73,24 +73,21 @@ Blobs blobsOf(const wire::AssetBundle& assets) {
     return blobs;
 }
 
-v1::Welcome welcomeTo(const config::Rig& rig,
-                      const wire::AssetBundle& assets,
-                      std::span<const motion::FishTraits> school) {
-    v1::Welcome welcome;
-    welcome.set_rig_text(rig.text);
-    welcome.set_scene_text(assets.scene);
-    welcome.set_seed(assets.seed);
+v1::Look lookOf(const wire::AssetBundle& assets, std::span<const motion::FishTraits> school) {
+    v1::Look look;
+    look.set_scene_text(assets.scene);
+    look.set_seed(assets.seed);
     for (const motion::FishTraits& fish : school) {
-        welcome.add_fish_ids(fish.id);
-        welcome.add_length_millimetres(fish.lengthMillimetres);
+        look.add_fish_ids(fish.id);
+        look.add_length_millimetres(fish.lengthMillimetres);
     }
     for (const wire::SpeciesAssets& species : assets.cast) {
-        v1::SpeciesBlobs& member = *welcome.add_cast();
+        v1::SpeciesBlobs& member = *look.add_cast();
         member.set_species(wire::bytesOf(digestOf(species.text)));
         member.set_repertoire(wire::bytesOf(digestOf(species.repertoire)));
         member.set_fish(species.fish);
     }
-    return welcome;
+    return look;
 }
 
 Conductor::Conductor(const config::Rig& rig,
@@ -100,31 +97,35 @@ Conductor::Conductor(const config::Rig& rig,
                      std::span<const motion::FishTraits> school,
                      std::unique_ptr<net::MasterChannels> channels)
     : options_(std::move(options)),
-      simulation_(simulation),
+      simulation_(&simulation),
       fishOfSchool_(static_cast<std::uint32_t>(school.size())),
+      rigText_(rig.text),
+      calibration_(shortHash(digestOf(rig.text))),
+      control_(options_.wanted, options_.kept),
+      look_(std::make_unique<v1::Look>(lookOf(assets, school))),
       blobs_(blobsOf(assets)),
       channels_(std::move(channels)),
       session_(freshSession()),
       barrier_(namesOf(rig, options_).size(), limitsOf(rig.timing, options_), net::monotonicNow()),
       refresh_(fromSeconds(1.0 / rig.timing.refreshHertz)),
-      trace_(openTrace(options_.traceDirectory)) {
+      trace_(openTrace(options_.traceDirectory)),
+      keptOnDisk_(options_.kept) {
     for (const std::string& name : namesOf(rig, options_)) {
         slots_.emplace_back().name = name;
         const auto channel = std::ranges::find(rig.channels, name, &config::Channel::name);
         slots_.back().machine = channel->machine;
     }
-    v1::Envelope message;
-    v1::Welcome& welcome = *message.mutable_welcome();
-    welcome = welcomeTo(rig, assets, school);
-    welcome.set_state_address(channels_->stateAddress());
-    welcome.set_pace(static_cast<v1::Pace>(options_.pace));
-    welcome.set_pattern(static_cast<v1::Pattern>(options_.pattern));
-    if (options_.quality) welcome.set_quality(static_cast<std::uint32_t>(*options_.quality));
-    welcome_ = wire::encode(session_, std::move(message));
+    look_->set_number(control_.look());
+    look_->set_world(control_.hasWorld());
+    if (const auto& quality = control_.wanted().quality)
+        look_->set_quality(static_cast<std::uint32_t>(*quality));
+    writeWelcome();
     v1::Envelope beacon;
     beacon.mutable_beacon();
     beacon_ = wire::encode(session_, std::move(beacon));
 }
+
+Conductor::~Conductor() = default;
 
 void Conductor::stop() {
     stopped_ = true;
@@ -132,16 +133,14 @@ void Conductor::stop() {
 }
 
 ShowReport Conductor::run() {
-    std::optional<Tick> lastTick;
-    if (isLockstep() && options_.frames) lastTick = Tick{*options_.frames - 1};
     over_ = options_.frames == 0U;
-    simulationThread_ = std::make_unique<SimulationThread>(
-        simulation_, options_.pace, lastTick, [this] { channels_->wake(); });
+    startSimulation();
     while (!over_ && !stopped_) {
         const net::Instant now = net::monotonicNow();
         hear(now);
         takeTicks();
         answer();
+        changeShow(now);
         conduct(now);
         nameMissing(now);
         if (now - lastPublished_ > kBeacon) {
@@ -152,6 +151,8 @@ ShowReport Conductor::run() {
     }
     simulationThread_.reset();
     sayFarewell();
+    if (keeping_.valid()) keeping_.wait();
+    keepWhatWasSet();
     if (!failure_.empty()) throw Error(failure_);
     return report_;
 }
@@ -251,6 +252,7 @@ void Conductor::release(net::Instant now) {
     for (const ChannelSlot& slot : slots_) {
         if (slot.prepared) channels_->sendControl(slot.peer, lastPresent_->second);
     }
+    if (black_ && *black_ <= next_) control_.blackShown();
     if (report_.frames++ > 0) frameTimes_.add(at - lastRelease_);
     lastRelease_ = at;
     over_ = over_ || isLast(next_);
@@ -266,7 +268,8 @@ bool Conductor::publish(Frame frame, net::Instant now) {
     auto state = isLockstep() ? snapshots_.showing(frame, Tick{frame.value})
                               : snapshots_.showing(frame, nextRelease(now) - kShownAge);
     if (!state) return false;
-    state->quality = quality();
+    dim(now, frame);
+    state->show = shown(now);
     state->motionHash = motion::hashOf(state->after);
     const wire::Packet& packet = published_[frame] = wire::encodeState(session_, *state);
     channels_->publishState(packet);

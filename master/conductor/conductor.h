@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,6 +24,7 @@
 #include "common/net/channels.h"
 #include "common/wire/recording.h"
 #include "master/conductor/present_barrier.h"
+#include "master/conductor/show_control.h"
 #include "master/conductor/simulation.h"
 #include "master/conductor/simulation_thread.h"
 #include "master/conductor/steering.h"
@@ -31,21 +34,35 @@ class BlobRequest;
 class Envelope;
 class Hello;
 class Input;
+class Look;
+class Prepared;
 class Ready;
+class Set;
 class Welcome;
 }  // namespace aquarama::v1
 
 namespace aquarama::conductor {
 
+// A world that a show changes to, and the files that it was made from.
+struct NextWorld {
+    wire::AssetBundle assets;
+    std::vector<motion::FishTraits> school;
+    std::unique_ptr<Simulation> simulation;
+};
+
 // How a show is conducted.
 struct ConductorOptions {
     wire::Pace pace = wire::Pace::Live;
-    wire::Pattern pattern = wire::Pattern::World;
+    WantedShow wanted = {};        // at first
+    ShowChange kept = {};          // what was set in earlier runs, part of `wanted`
+    std::filesystem::path keptAt;  // where that is kept; empty: nowhere
+    // Of a scene, by its name; called from a thread of its own, throws Error. Null: the show keeps
+    // its scene, for the reason that follows.
+    std::function<NextWorld(const std::string& scene)> makeWorld;
+    std::string whyOneScene = "this master has one scene only";
     std::optional<std::uint64_t> frames;   // the show ends after so many
     std::vector<std::string> expected;     // the channels that take part; empty: all of the rig
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
-    std::optional<config::QualityTier>
-        quality;  // of the wall; nothing: the finest that every node bears
     net::Instant patience =
         std::chrono::seconds(60);  // lockstep: silence of a node that ends the show
 };
@@ -55,11 +72,10 @@ using Blobs = std::map<Digest, net::ByteVector>;
 // The species files and repertoires of a show.
 [[nodiscard]] Blobs blobsOf(const wire::AssetBundle& assets);
 
-// What nodes are told of a show in answer to their hello; the conductor adds how it is conducted.
+// What nodes build for a scene; the conductor adds number, quality and whether the world is drawn.
 // `school` has the fish of all species of the assets, in their order.
-[[nodiscard]] v1::Welcome welcomeTo(const config::Rig& rig,
-                                    const wire::AssetBundle& assets,
-                                    std::span<const motion::FishTraits> school);
+[[nodiscard]] v1::Look lookOf(const wire::AssetBundle& assets,
+                              std::span<const motion::FishTraits> school);
 
 // Whose key a connection has shown.
 struct User {
@@ -91,6 +107,9 @@ class Conductor {
               const wire::AssetBundle& assets,
               std::span<const motion::FishTraits> school,
               std::unique_ptr<net::MasterChannels> channels);
+    ~Conductor();
+    Conductor(const Conductor&) = delete;
+    Conductor& operator=(const Conductor&) = delete;
 
     // Until the frames are done, a node asks to quit, or stop(). Throws Error where a node of a
     // lockstep show stays silent.
@@ -103,6 +122,7 @@ class Conductor {
         std::string name;
         net::PeerId peer;  // empty: nobody
         bool prepared = false;
+        std::uint32_t builtLook = 0;               // the newest that its node has built
         std::optional<config::QualityTier> bears;  // the finest tier that its node has kept up with
         net::Instant lastHeard{};
         std::string machine;  // empty: the master's
@@ -131,7 +151,8 @@ class Conductor {
     void pong(std::size_t node, std::int64_t sentNs);
     // Its picture of a frame is finished.
     void ready(std::size_t node, const v1::Ready& ready, net::Instant now);
-    // It has built all it needs: from the next frame on it is waited for.
+    // It has built a look. The one that is shown: from the next frame on it is waited for.
+    void prepared(std::size_t node, const v1::Prepared& prepared);
     void admit(std::size_t node);
     void giveChunk(const net::PeerId& peer, const v1::BlobRequest& request);
     void dismiss(const net::PeerId& peer, const std::string& why);
@@ -139,6 +160,12 @@ class Conductor {
     void vacate(std::size_t node);
     void leave(std::size_t node);
     void handle(std::size_t node, const v1::Input& input, net::Instant now);
+    // What the show shall be.
+    void set(const net::FromPeer& from, const v1::Set& set);
+    // Why a change is refused; empty where it is not.
+    [[nodiscard]] std::string objectionTo(const v1::Set& set) const;
+    [[nodiscard]] std::string objectionToScene(const std::string& scene) const;
+    [[nodiscard]] std::string objectionToQuality(const std::string& quality) const;
     // Inputs, passed on to the tick thread where they are in bounds.
     void feed(net::Instant& lastFed, glm::vec3 positionMetres, net::Instant now);
     void steer(const net::PeerId& peer, const Steering& steering, net::Instant now);
@@ -150,6 +177,23 @@ class Conductor {
     [[nodiscard]] std::string pilotName(net::Instant now) const;
     // The tier of the whole wall: as chosen, or the finest that every node bears.
     [[nodiscard]] config::QualityTier quality() const;
+
+    // Changes of the show (changes.cpp), a step at each turn of the loop.
+    void changeShow(net::Instant now);
+    void makeNextWorld();
+    void announceNextLook(net::Instant now);
+    void prepareNodes(net::Instant now);
+    void giveUpNextLook(const std::string& missing);
+    void switchLook();
+    void startSimulation();
+    void keepWhatWasSet();
+    void writeWelcome();
+    // What the wall shows now, with the brightness of the last frame; and of a frame to be
+    // published.
+    [[nodiscard]] wire::Show shown(net::Instant now) const;
+    void dim(net::Instant now, Frame frame);
+    // The tier that every node has measured that it bears; nothing where one has not.
+    [[nodiscard]] std::optional<config::QualityTier> measuredTier() const;
 
     // Frames. `now` is the moment at which this turn of the loop began.
     void noteEye(const wire::StateView& state);
@@ -173,12 +217,17 @@ class Conductor {
     [[nodiscard]] bool isLockstep() const { return options_.pace == wire::Pace::Lockstep; }
 
     ConductorOptions options_;
-    Simulation& simulation_;
+    Simulation* simulation_;
+    std::unique_ptr<Simulation> own_;  // simulation_, after a change of scene
     std::uint32_t fishOfSchool_;
+    std::string rigText_;
+    std::uint64_t calibration_;
+    ShowControl control_;
+    std::unique_ptr<v1::Look> look_;  // that is shown
     Blobs blobs_;
     std::unique_ptr<net::MasterChannels> channels_;
     std::uint64_t session_;
-    wire::Packet welcome_, beacon_;  // encoded once: they never change
+    wire::Packet welcome_, beacon_;  // encoded once for many
     std::vector<ChannelSlot> slots_;
     PresentBarrier barrier_;
     net::Instant refresh_;
@@ -201,11 +250,21 @@ class Conductor {
     std::map<std::string, net::Instant> fed_;      // by user: when one that is no node last fed
     std::set<std::string> refused_;                // users that were told of in the log
     net::Instant lastRoll_ = net::monotonicNow();  // when missing nodes were last named
+    float brightness_ = 1.0F;                      // of the last state that was published
     wire::Eye eye_;                                // of the last state that was published
     double eyeTicks_ = 0;                          // when it was there, in ticks and parts of them
     float speedMetresPerSecond_ = 0;
     std::optional<std::pair<Frame, wire::Packet>> lastPresent_;
     net::Instant lastRelease_{};
+    std::future<NextWorld> making_;
+    std::optional<NextWorld> made_;
+    std::unique_ptr<v1::Look> nextLook_;  // that nodes are told to build
+    net::Instant preparingSince_{}, lastPrepare_{};
+    std::optional<net::Instant> dimmedSince_;
+    std::optional<Frame> black_;        // the first without light, on the way to the next scene
+    std::future<void> retiring_;        // of the world before
+    std::future<std::string> keeping_;  // why it could not be written; empty: it was
+    ShowChange keptOnDisk_;
     ShowReport report_;
     RecentTimes frameTimes_;
     SkewMeter skew_;

@@ -119,7 +119,8 @@ bool maySay(const User& user, const v1::Envelope& message) {
             return isVisitorsInput(message);
         case config::KeyRole::Operator:
         case config::KeyRole::Crew:
-            return asks(message) || message.message_case() == v1::Envelope::kInput;
+            return asks(message) || message.message_case() == v1::Envelope::kInput ||
+                   message.message_case() == v1::Envelope::kSet;
         case config::KeyRole::Master:
             break;
     }
@@ -164,6 +165,8 @@ void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net
             return say(peer, status(now));
         case v1::Envelope::kExplainRequest:
             return ask(peer, message.explain_request().fish());
+        case v1::Envelope::kSet:
+            return set(from, message.set());
         case v1::Envelope::kInput:
             if (node || !isVisitorsInput(message)) break;
             return takeOfVisitor(from, message.input(), now);
@@ -189,8 +192,7 @@ void Conductor::takeOfNode(std::size_t node, const v1::Envelope& message, net::I
         case v1::Envelope::kBlobRequest:
             return giveChunk(slots_[node].peer, message.blob_request());
         case v1::Envelope::kPrepared:
-            slots_[node].bears = config::tierAt(message.prepared().quality());
-            return admit(node);
+            return prepared(node, message.prepared());
         case v1::Envelope::kInput:
             return handle(node, message.input(), now);
         case v1::Envelope::kFarewell:
@@ -256,9 +258,25 @@ void Conductor::ready(std::size_t node, const v1::Ready& ready, net::Instant now
         channels_->sendControl(slots_[node].peer, lastPresent_->second);
 }
 
+void Conductor::prepared(std::size_t node, const v1::Prepared& prepared) {
+    ChannelSlot& slot = slots_[node];
+    slot.builtLook = prepared.look();
+    if (prepared.look() == control_.look()) {
+        if (!look_->has_quality()) slot.bears = config::tierAt(prepared.quality());
+        return admit(node);
+    }
+    const bool isNext = nextLook_ && prepared.look() == nextLook_->number();
+    if (isNext && slot.prepared) return;
+    // It was built while the wall went on to another.
+    barrier_.leave(node);
+    dismiss(std::exchange(slot.peer, {}), "the wall shows another look by now");
+    slot.prepared = false;
+}
+
 // Lockstep: it takes part in the frame that is drawn now. Live: in the first that it surely sees.
 void Conductor::admit(std::size_t node) {
     if (slots_[node].prepared) return;
+    lastPrepare_ = {};  // if another look is being prepared, this node has to build it as well
     const Frame first = isLockstep() ? next_ : unpublished_;
     slots_[node].prepared = true;
     barrier_.join(node, first);
@@ -338,8 +356,8 @@ void Conductor::handle(std::size_t node, const v1::Input& input, net::Instant no
             return feed(slots_[node].lastFed, {at[0], at[1], at[2]}, now);
         case v1::INPUT_STEER:
             return steer(slots_[node].peer, wire::steeringOf(input), now);
-        default:  // after the show there is no thread any more
-            if (!isLockstep() && simulationThread_) simulationThread_->togglePause();
+        default:
+            ++report_.refusedPackets;
     }
 }
 
@@ -358,7 +376,7 @@ void Conductor::feed(net::Instant& lastFed, glm::vec3 positionMetres, net::Insta
 
 // A node that has left still counts: when it comes back, nothing changes.
 config::QualityTier Conductor::quality() const {
-    if (options_.quality) return *options_.quality;
+    if (look_->has_quality()) return *config::tierAt(look_->quality());
     std::optional<config::QualityTier> least;
     for (const ChannelSlot& slot : slots_)
         if (slot.bears) least = std::min(least.value_or(*slot.bears), *slot.bears);
@@ -382,7 +400,6 @@ v1::Envelope Conductor::status(net::Instant now) const {
     v1::Envelope message;
     v1::StatusReply& reply = *message.mutable_status_reply();
     reply.set_pace(static_cast<v1::Pace>(options_.pace));
-    reply.set_paused(simulationThread_ && simulationThread_->paused());
     reply.set_frame(next_.value);
     reply.set_tick(report_.tick.value);
     reply.set_frame_median_ms(frameTimes_.quantileMs(0.5));
@@ -392,7 +409,8 @@ v1::Envelope Conductor::status(net::Instant now) const {
     reply.set_refused_packets(report_.refusedPackets);
     wire::writeEye(eye_, *reply.mutable_eye());
     reply.set_speed_m_s(speedMetresPerSecond_);
-    reply.set_pilot(pilotName(now));
+    wire::writeShow(shown(now), *reply.mutable_show());
+    reply.set_change(control_.waitingFor());
     for (std::size_t place = 0; place < slots_.size(); ++place) {
         const ChannelSlot& slot = slots_[place];
         v1::NodeStatus& node = *reply.add_nodes();

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/conductor/requests.h"
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <random>
+#include <thread>
 #include <utility>
 
 #include <glm/gtc/quaternion.hpp>
@@ -48,15 +51,36 @@ std::string submarineText(const v1::StatusReply& status) {
         -at.y,
         headingDegrees(eye),
         status.speed_m_s(),
-        status.pilot().empty() ? "nobody steers" : status.pilot() + " steers");
+        status.show().pilot().empty() ? "nobody steers" : status.show().pilot() + " steers");
 }
 
+namespace {
+
+// What the wall shows, and what is to come.
+std::string showText(const v1::StatusReply& status) {
+    constexpr std::array kPatterns{"", "world", "grid", "grey"};
+    const wire::Show show = wire::readShow(status.show()).value_or(wire::Show{});
+    const auto onOff = [](bool on) { return on ? "on" : "off"; };
+    std::string text = fmt::format(
+        "show          scene {}   quality {}   pattern {}   black {}   freeze {}   version {}\n",
+        show.scene,
+        config::nameOf(show.quality),
+        kPatterns.at(static_cast<std::size_t>(show.pattern)),
+        onOff(show.black),
+        onOff(show.frozen),
+        show.version);
+    if (!status.change().empty()) text += fmt::format("to come       {}\n", status.change());
+    return text;
+}
+
+}  // namespace
+
 std::string statusText(const v1::StatusReply& status) {
-    std::string text = fmt::format("{}{}   frame {}   tick {}\n",
+    std::string text = fmt::format("{}   frame {}   tick {}\n",
                                    status.pace() == v1::PACE_LIVE ? "live" : "lockstep",
-                                   status.paused() ? ", paused" : "",
                                    status.frame(),
                                    status.tick());
+    text += showText(status);
     text += fmt::format("frame time    median {:8.2f} ms   p99 {:8.2f} ms\n",
                         status.frame_median_ms(),
                         status.frame_p99_ms());
@@ -94,6 +118,22 @@ v1::Explanation RequestClient::explain(std::uint32_t fish) {
     v1::Envelope question;
     question.mutable_explain_request()->set_fish(fish);
     return ask(question, v1::Envelope::kExplanation).explanation();
+}
+
+void RequestClient::set(v1::Set set, const std::function<void(const std::string&)>& onWait) {
+    constexpr auto kBetween = std::chrono::milliseconds(100);
+    std::random_device device;
+    set.set_request(std::uint64_t{device()} << 32U | device());
+    v1::Envelope question;
+    *question.mutable_set() = std::move(set);
+    std::string waitingFor;
+    while (true) {
+        const v1::SetReply reply = ask(question, v1::Envelope::kSetReply).set_reply();
+        if (reply.outcome() == v1::OUTCOME_DONE) return;
+        if (reply.outcome() == v1::OUTCOME_REFUSED) throw Error("refused: " + reply.reason());
+        if (std::exchange(waitingFor, reply.reason()) != reply.reason()) onWait(reply.reason());
+        std::this_thread::sleep_for(kBetween);
+    }
 }
 
 void RequestClient::steer(const Steering& steering) {

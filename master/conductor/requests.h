@@ -2,6 +2,7 @@
 // Requests that anybody may send to the running master, and its status as text.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -22,6 +23,11 @@ class RequestClient {
     // be there yet. Throws Error where nobody answers within two seconds.
     v1::StatusReply status();
     v1::Explanation explain(std::uint32_t fish);
+
+    // Repeated until the show shows it, also through the minutes that a new scene may take; between
+    // that, `onWait` hears what is waited for, whenever that changes. Throws Error where it is
+    // refused, saying why.
+    void set(v1::Set set, const std::function<void(const std::string&)>& onWait);
 
     // Not answered, and lost where the connection does not stand yet.
     void steer(const Steering& steering);

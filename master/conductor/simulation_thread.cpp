@@ -32,7 +32,8 @@ wire::StateView showingOne(Frame frame, const Snapshot& snapshot) {
             snapshot.food.originMetres,
             {},
             snapshot.food.particles,
-            snapshot.daylight};
+            snapshot.daylight,
+            /*show=*/{}};
 }
 
 // Where the eye is at a fraction of the way between two ticks.
@@ -65,8 +66,8 @@ std::optional<wire::StateView> SnapshotBuffer::showing(Frame frame, net::Instant
     if (after == snapshots_.end()) return showingOne(frame, snapshots_.back());
     if (after == snapshots_.begin()) return showingOne(frame, *after);
     const Snapshot& before = *std::prev(after);
-    // After a pause two ticks lie far apart; the world stood still until one period before the
-    // second.
+    // After it was frozen two ticks lie far apart; the world stood still until one period before
+    // the second.
     const net::Instant sinceBefore = moment - (after->due - kTickPeriod);
     const float fraction = static_cast<float>(sinceBefore.count()) / float{kTickPeriod.count()};
     if (fraction <= 0.0F) return showingOne(frame, before);
@@ -82,7 +83,8 @@ std::optional<wire::StateView> SnapshotBuffer::showing(Frame frame, net::Instant
                            after->food.originMetres,
                            before.food.particles,
                            after->food.particles,
-                           glm::mix(before.daylight, after->daylight, fraction)};
+                           glm::mix(before.daylight, after->daylight, fraction),
+                           /*show=*/{}};
 }
 
 SimulationThread::SimulationThread(Simulation& simulation,
@@ -104,17 +106,12 @@ SimulationThread::~SimulationThread() {
     thread_.join();
 }
 
-void SimulationThread::togglePause() {
+void SimulationThread::freeze(bool frozen) {
     {
         const std::lock_guard lock(mutex_);
-        paused_ = !paused_;
+        frozen_ = frozen;
     }
     changed_.notify_all();
-}
-
-bool SimulationThread::paused() const {
-    const std::lock_guard lock(mutex_);
-    return paused_;
 }
 
 std::optional<Snapshot> SimulationThread::take() {
@@ -178,32 +175,33 @@ void SimulationThread::runLockstep() {
     }
 }
 
-bool SimulationThread::sleepUntil(net::Instant due, net::Instant& pausedFor) {
+bool SimulationThread::sleepUntil(net::Instant due, net::Instant& frozenFor) {
     std::unique_lock lock(mutex_);
     const auto when = std::chrono::steady_clock::time_point(due);
-    const auto disturbed = [&] { return stopped_ || paused_ || !jobs_.empty(); };
-    while (changed_.wait_until(lock, when, disturbed) && !stopped_ && !paused_) {
+    const auto disturbed = [&] { return stopped_ || frozen_ || !jobs_.empty(); };
+    while (changed_.wait_until(lock, when, disturbed) && !stopped_ && !frozen_) {
         serve(lock);
         if (net::monotonicNow() >= due) break;
     }
-    const net::Instant pause = net::monotonicNow();
-    const bool wasPaused = paused_;
-    while (paused_ && !stopped_) {
+    const net::Instant begin = net::monotonicNow();
+    const bool wasFrozen = frozen_;
+    while (frozen_ && !stopped_) {
         serve(lock);
-        changed_.wait(lock, [&] { return stopped_ || !paused_ || !jobs_.empty(); });
+        changed_.wait(lock, [&] { return stopped_ || !frozen_ || !jobs_.empty(); });
     }
-    pausedFor = wasPaused ? net::monotonicNow() - pause : net::Instant{};
+    frozenFor = wasFrozen ? net::monotonicNow() - begin : net::Instant{};
     return !stopped_;
 }
 
-// Tick k is due at start + k / 60 s, not counting pauses and what could not be caught up.
+// Tick k is due at start + k / 60 s, not counting when it is frozen and what could not be caught
+// up.
 void SimulationThread::runLive() {
     net::Instant due = net::monotonicNow();
     while (put(due)) {
         due += kTickPeriod;
-        net::Instant pausedFor{};
-        if (!sleepUntil(due, pausedFor)) return;
-        due += pausedFor;
+        net::Instant frozenFor{};
+        if (!sleepUntil(due, frozenFor)) return;
+        due += frozenFor;
         const net::Instant overdue = net::monotonicNow() - due;
         if (overdue > kMostCatchUp) {
             logWarning("the world is {} ms behind and goes on from here",

@@ -52,12 +52,11 @@ class SimulationThread {
 
     // The next tick, in order; does not wait. Empty: it is not simulated yet.
     [[nodiscard]] std::optional<Snapshot> take();
-    // Live only: a lockstep show is the same every time.
-    void togglePause();
-    [[nodiscard]] bool paused() const;
+    // Live only: a lockstep show is the same every time. The first tick is made in any case.
+    void freeze(bool frozen);
 
     // The job is called from the tick thread between two ticks, soon, in the order given; also
-    // while the world is paused or has come to its last tick. False: too many wait already.
+    // while the world is frozen or has come to its last tick. False: too many wait already.
     using Job = std::function<void(Simulation&)>;
     [[nodiscard]] bool betweenTicks(Job job);
 
@@ -70,8 +69,8 @@ class SimulationThread {
     // Serves until there is room for a snapshot. False: stopped.
     bool awaitRoom();
     void serveUntilStopped();
-    // False: stopped. True: the instant has come, and `pausedFor` it came later than planned.
-    bool sleepUntil(net::Instant due, net::Instant& pausedFor);
+    // False: stopped. True: the instant has come, and `frozenFor` it came later than planned.
+    bool sleepUntil(net::Instant due, net::Instant& frozenFor);
 
     Simulation& simulation_;
     std::optional<Tick> lastTick_;
@@ -81,7 +80,7 @@ class SimulationThread {
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::vector<Job> jobs_;
-    bool paused_ = false;
+    bool frozen_ = false;
     bool stopped_ = false;
     std::thread thread_;  // last: it uses all of the above
 };

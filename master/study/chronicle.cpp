@@ -189,6 +189,7 @@ void SpeciesLog::noteFish(const world::World& world, std::size_t fish, bool glan
     seen.command = command;
     seen.intention = world.minds()[fish].intention;
     seen.eaten = world.minds()[fish].eaten;
+    seen.sinceMeal = world.minds()[fish].sinceMeal;
     seen.isNew = false;
 }
 
@@ -196,8 +197,10 @@ void SpeciesLog::noteLife(const fish::Mind& mind, const Fish& fish, SpeciesTally
     const auto begins = [&](fish::Intention intention) {
         return mind.intention == intention && fish.intention != intention ? 1U : 0U;
     };
-    // What was eaten since the last thought; time passes in thoughts.
-    tally.meals += mind.sinceMeal == 0 && mind.eaten != fish.eaten ? 1 : 0;
+    // What was eaten since the last thought; time passes in thoughts. After a digested meal the
+    // next one has its number again.
+    const bool isAnother = mind.eaten != fish.eaten || fish.sinceMeal != 0;
+    tally.meals += mind.sinceMeal == 0 && isAnother ? 1 : 0;
     tally.flights += begins(fish::Intention::Escape);
     tally.courtships += begins(fish::Intention::Mate);
 }

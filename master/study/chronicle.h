@@ -148,6 +148,7 @@ class SpeciesLog {
         glm::vec3 from{}, faces{}, bodies{};  // since the last glance: place, sums of directions
         fish::Intention intention{};
         std::uint16_t eaten = 0;
+        std::uint32_t sinceMeal = 0;
     };
     void noteFish(const world::World& world, std::size_t fish, bool glances);
     static void noteLife(const fish::Mind& mind, const Fish& fish, SpeciesTally& tally);

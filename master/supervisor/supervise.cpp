@@ -40,14 +40,15 @@ constexpr const char* kClip = "clip";
 struct Process {
     std::string name;
     Command command;
-    std::vector<std::string> firstTimeOnly{};  // arguments of its first start
+    std::vector<std::string> firstTimeOnly{};  // arguments of its first start,
+    std::vector<std::string> laterOnly{};      // and of all others
     pid_t child = 0;
     Clock::time_point started;
     bool proven = false;  // has lived long enough once
 
     void launch() {
         Command now = command;
-        for (std::string& argument : std::exchange(firstTimeOnly, {}))
+        for (std::string& argument : std::exchange(firstTimeOnly, laterOnly))
             now.arguments.push_back(std::move(argument));
         child = start(now);
         started = Clock::now();
@@ -79,6 +80,7 @@ Process masterProcess(const RunOptions& options) {
     Process master{.name = kMaster, .command = {ownProgram(), arguments}, .started = {}};
     // A master that is started again begins another world, which does not belong into this file.
     append(master.firstTimeOnly, "--record", show.recordPath);
+    if (!options.lockstep()) master.laterOnly.emplace_back("--resume");
     return master;
 }
 

@@ -66,14 +66,29 @@ struct Hands {
     }
 };
 
+// Holds the OpenGL objects of one picture, and has no framebuffer 0. A context has as many as it is
+// asked for, so that a picture can be built on one thread while another thread draws one of another
+// workspace. Textures are shared with the context: what was drawn is copied into its window. Used
+// by one thread at a time; the context must outlive it.
+class Workspace {
+  public:
+    virtual ~Workspace() = default;
+    // Makes it current on the calling thread. Throws Error where the driver refuses.
+    virtual void makeCurrent() = 0;
+    // Ends that; it is then current on no thread.
+    virtual void release() = 0;
+};
+
 // The context: a GLFW window, or EGL without a display, behind one interface.
 
 // Thread rules: the main thread creates the context, calls pumpEvents() and the functions for
-// input, and destroys it. The drawing thread makes it current, draws, and releases it before the
-// main thread destroys it.
+// input, and destroys it. The drawing thread makes it or one of its workspaces current, draws, and
+// releases it before the main thread destroys it.
 class Context {
   public:
     virtual ~Context() = default;
+    // May be called by any thread. Throws Error where the driver gives no more contexts.
+    [[nodiscard]] virtual std::unique_ptr<Workspace> makeWorkspace() = 0;
     // Makes the context current on the calling thread. Throws Error where the driver refuses.
     virtual void makeCurrent() = 0;
     // Ends that; the context is then current on no thread.

@@ -112,6 +112,38 @@ EGLContext makeContext(EGLDisplay display, bool toldOfReset) {
     return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
 }
 
+// Owns a context of EGL that is never used with a surface.
+class OffscreenWorkspace final : public Workspace {
+  public:
+    explicit OffscreenWorkspace(EGLDisplay display) : display_{display} {
+        eglBindAPI(EGL_OPENGL_API);  // of the thread
+        context_ = makeContext(display_, /*toldOfReset=*/true);
+        if (context_ == EGL_NO_CONTEXT) context_ = makeContext(display_, /*toldOfReset=*/false);
+    }
+    ~OffscreenWorkspace() override {
+        if (eglGetCurrentContext() == context_) release();
+        eglDestroyContext(display_, context_);
+    }
+    OffscreenWorkspace(const OffscreenWorkspace&) = delete;
+    OffscreenWorkspace& operator=(const OffscreenWorkspace&) = delete;
+
+    [[nodiscard]] bool exists() const { return context_ != EGL_NO_CONTEXT; }
+    void makeCurrent() override {
+        eglBindAPI(EGL_OPENGL_API);
+        if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
+            throw Error(
+                "EGL refuses to make the context current without a surface; update the driver");
+        }
+    }
+    void release() override {
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+
+  private:
+    EGLDisplay display_;
+    EGLContext context_ = EGL_NO_CONTEXT;
+};
+
 // A context without a surface. Everything is drawn into framebuffer objects; there is no input.
 class OffscreenContext final : public Context {
   public:
@@ -128,10 +160,8 @@ class OffscreenContext final : public Context {
             throw Error("device \"" + device +
                         "\": EGL does not start; install libegl1 and a driver (libgl1-mesa-dri)");
         }
-        eglBindAPI(EGL_OPENGL_API);
-        context_ = makeContext(display_, /*toldOfReset=*/true);
-        if (context_ == EGL_NO_CONTEXT) context_ = makeContext(display_, /*toldOfReset=*/false);
-        if (context_ == EGL_NO_CONTEXT) {
+        own_.emplace(display_);
+        if (!own_->exists()) {
             throw Error(
                 "device \"" + device +
                 "\": no OpenGL 4.5 core context; update its driver or choose another device");
@@ -140,22 +170,14 @@ class OffscreenContext final : public Context {
         requireDriver("device \"" + device + "\"");
     }
     // The display is not terminated: EGL shares it among all contexts of the process.
-    ~OffscreenContext() override {
-        release();
-        eglDestroyContext(display_, context_);
-    }
-    OffscreenContext(const OffscreenContext&) = delete;
-    OffscreenContext& operator=(const OffscreenContext&) = delete;
 
-    void makeCurrent() override {
-        if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
-            throw Error(
-                "EGL refuses to make the context current without a surface; update the driver");
-        }
+    [[nodiscard]] std::unique_ptr<Workspace> makeWorkspace() override {
+        auto workspace = std::make_unique<OffscreenWorkspace>(display_);
+        if (!workspace->exists()) throw Error("EGL gives no more contexts; restart the node");
+        return workspace;
     }
-    void release() override {
-        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    }
+    void makeCurrent() override { own_->makeCurrent(); }
+    void release() override { own_->release(); }
     void swap() override {}
     [[nodiscard]] glm::ivec2 framebufferPixels() const override { return sizePixels_; }
     [[nodiscard]] bool hasWindow() const override { return false; }
@@ -175,7 +197,7 @@ class OffscreenContext final : public Context {
   private:
     glm::ivec2 sizePixels_;
     EGLDisplay display_ = EGL_NO_DISPLAY;
-    EGLContext context_ = EGL_NO_CONTEXT;
+    std::optional<OffscreenWorkspace> own_;
 };
 
 }  // namespace

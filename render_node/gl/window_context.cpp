@@ -9,7 +9,9 @@
 #include <string>
 #include <utility>
 
+#include <epoxy/egl.h>
 #include <epoxy/gl.h>
+#include <epoxy/glx.h>
 #define GLFW_INCLUDE_NONE
 #include <algorithm>
 
@@ -131,6 +133,121 @@ struct DestroyWindow {
     void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
 };
 
+// GLFW's own context and its configuration: GLX under X, else EGL. Textures of others are shared
+// with it.
+struct NativeContext {
+    Display* x = nullptr;  // null: EGL
+    GLXContext glx = nullptr;
+    GLXFBConfig glxConfig = nullptr;
+    EGLDisplay egl = EGL_NO_DISPLAY;
+    EGLContext eglContext = EGL_NO_CONTEXT;
+    EGLConfig eglConfig = nullptr;
+    bool toldOfReset = false;  // only contexts that are alike in this may share
+};
+
+// The framebuffer configuration of a current context of GLX. Throws Error where it is not found.
+GLXFBConfig configOf(Display* x, GLXContext context) {
+    int id = 0, count = 0;
+    glXQueryContext(x, context, GLX_FBCONFIG_ID, &id);
+    const std::array wanted{GLX_FBCONFIG_ID, id, 0};
+    GLXFBConfig* configs = glXChooseFBConfig(x, DefaultScreen(x), wanted.data(), &count);
+    if (configs == nullptr || count == 0) throw Error("X does not know its own context");
+    GLXFBConfig config = configs[0];
+    XFree(configs);
+    return config;
+}
+
+// Of the context that GLFW has made current.
+NativeContext currentContext() {
+    NativeContext native;
+    GLint strategy = 0;
+    glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
+    native.toldOfReset = strategy == GL_LOSE_CONTEXT_ON_RESET;
+    if (placesWindows()) {
+        native.x = glXGetCurrentDisplay();
+        native.glx = glXGetCurrentContext();
+        native.glxConfig = configOf(native.x, native.glx);
+        return native;
+    }
+    native.egl = eglGetCurrentDisplay();
+    native.eglContext = eglGetCurrentContext();
+    EGLint id = 0, count = 0;
+    eglQueryContext(native.egl, native.eglContext, EGL_CONFIG_ID, &id);
+    const std::array wanted{EGL_CONFIG_ID, id, EGL_NONE};
+    eglChooseConfig(native.egl, wanted.data(), &native.eglConfig, 1, &count);
+    return native;
+}
+
+// Owns a context beside that of a window, of which GLFW knows nothing.
+class WindowWorkspace final : public Workspace {
+  public:
+    explicit WindowWorkspace(const NativeContext& window) : window_{window} {
+        if (window_.x != nullptr) {
+            const std::array attributes{GLX_CONTEXT_MAJOR_VERSION_ARB,
+                                        4,
+                                        GLX_CONTEXT_MINOR_VERSION_ARB,
+                                        5,
+                                        GLX_CONTEXT_PROFILE_MASK_ARB,
+                                        GLX_CONTEXT_CORE_PROFILE_BIT_ARB,
+                                        window_.toldOfReset ? GLX_CONTEXT_FLAGS_ARB : 0,
+                                        GLX_CONTEXT_ROBUST_ACCESS_BIT_ARB,
+                                        GLX_CONTEXT_RESET_NOTIFICATION_STRATEGY_ARB,
+                                        GLX_LOSE_CONTEXT_ON_RESET_ARB,
+                                        0};
+            glx_ = glXCreateContextAttribsARB(
+                window_.x, window_.glxConfig, window_.glx, True, attributes.data());
+        } else {
+            const std::array attributes{
+                EGL_CONTEXT_MAJOR_VERSION,
+                4,
+                EGL_CONTEXT_MINOR_VERSION,
+                5,
+                EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                window_.toldOfReset ? EGL_CONTEXT_OPENGL_ROBUST_ACCESS : EGL_NONE,
+                EGL_TRUE,
+                EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                EGL_LOSE_CONTEXT_ON_RESET,
+                EGL_NONE};
+            eglBindAPI(EGL_OPENGL_API);
+            egl_ = eglCreateContext(
+                window_.egl, window_.eglConfig, window_.eglContext, attributes.data());
+        }
+        if (glx_ == nullptr && egl_ == EGL_NO_CONTEXT)
+            throw Error("the graphics driver gives no more contexts; restart the node");
+    }
+    ~WindowWorkspace() override {
+        if (glx_ != nullptr) glXDestroyContext(window_.x, glx_);
+        if (egl_ != EGL_NO_CONTEXT) eglDestroyContext(window_.egl, egl_);
+    }
+    WindowWorkspace(const WindowWorkspace&) = delete;
+    WindowWorkspace& operator=(const WindowWorkspace&) = delete;
+
+    void makeCurrent() override {
+        glfwMakeContextCurrent(nullptr);
+        bool done = false;
+        if (glx_ != nullptr) {
+            done = glXMakeContextCurrent(window_.x, None, None, glx_) != False;
+        } else {
+            eglBindAPI(EGL_OPENGL_API);
+            done = eglMakeCurrent(window_.egl, EGL_NO_SURFACE, EGL_NO_SURFACE, egl_) != EGL_FALSE;
+        }
+        if (!done)
+            throw Error(
+                "the graphics driver refuses a context without a window; update the driver");
+    }
+    void release() override {
+        if (glx_ != nullptr) glXMakeContextCurrent(window_.x, None, None, nullptr);
+        if (egl_ != EGL_NO_CONTEXT)
+            eglMakeCurrent(window_.egl, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+
+  private:
+    NativeContext window_;
+    GLXContext glx_ = nullptr;
+    EGLContext egl_ = EGL_NO_CONTEXT;
+};
+
 // The window of one channel. GLFW calls the callbacks from pumpEvents(), hence on the main thread;
 // only framebuffer_ is also read by the drawing thread.
 class WindowContext : public Context {
@@ -159,6 +276,12 @@ class WindowContext : public Context {
             of(source).framebuffer_ = glm::ivec2(width, height);
         });
         check();
+        makeCurrent();
+        native_ = currentContext();
+        release();
+    }
+    [[nodiscard]] std::unique_ptr<Workspace> makeWorkspace() override {
+        return std::make_unique<WindowWorkspace>(native_);
     }
     void makeCurrent() override {
         glfwMakeContextCurrent(window_.get());
@@ -220,6 +343,7 @@ class WindowContext : public Context {
     glm::ivec2 size_;
     bool quadBuffered_;
     std::unique_ptr<GLFWwindow, DestroyWindow> window_;
+    NativeContext native_;
     std::atomic<glm::ivec2> framebuffer_{glm::ivec2(0)};
     // Pressed, not yet taken by nextKey().
     std::deque<char> keys_;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/reef/palette.h"
-
 #include <array>
 #include <cstddef>
 
 #include <glm/vec3.hpp>
+
+#include "render_node/reef/scatter.h"
 
 namespace aquarama::scene {
 

@@ -13,7 +13,6 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "render_node/reef/mesh.h"
-#include "render_node/reef/palette.h"
 #include "render_node/reef/strands.h"
 
 namespace aquarama::scene {

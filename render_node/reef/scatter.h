@@ -47,4 +47,8 @@ static_assert(sizeof(Instance) == 64);
 [[nodiscard]] std::vector<Instance> scatter(const place::PlaceKey& place,
                                             const std::array<Levels, kRockShapes>& rocks);
 
+// A tint for a form in a patch of the reef: linear Rec. 709 albedo. Each patch has a few hues in
+// harmony; accents are rare.
+[[nodiscard]] glm::vec3 tintOf(Form form, std::uint32_t patch, Dice& dice);
+
 }  // namespace aquarama::scene

@@ -69,6 +69,16 @@ void Mailbox::tellMind(ExplainedMind explanation) {
     mind_ = std::move(explanation);
 }
 
+void Mailbox::offerNextLook(Admitted next) {
+    const std::lock_guard lock(mutex_);
+    nextLook_ = std::move(next);
+}
+
+std::optional<Admitted> Mailbox::takeNextLook() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(nextLook_, {});
+}
+
 void Mailbox::interrupt(Release why) {
     const std::lock_guard lock(mutex_);
     if (interruption_ != Release::Quit) interruption_ = why;
@@ -84,6 +94,7 @@ void Mailbox::expectJoin() {
     states_.clear();
     release_.reset();
     mind_.reset();
+    nextLook_.reset();
 }
 
 JoinOutcome Mailbox::awaitJoin() {
@@ -201,6 +212,7 @@ void MasterLink::handle(const Join&) {
     phase_ = Phase::Greeting;
     session_ = 0;
     hearsStates_ = false;
+    fetchesNextLook_ = false;
     finished_.reset();
     lastHello_ = net::Instant{};
     lastComplaint_ = net::monotonicNow();
@@ -209,6 +221,14 @@ void MasterLink::handle(const Join&) {
 void MasterLink::handle(const Built& built) {
     built_ = built;
     if (phase_ == Phase::Building) phase_ = Phase::Listening;
+    if (phase_ == Phase::Member) sayPrepared();
+}
+
+void MasterLink::sayPrepared() {
+    v1::Envelope message;
+    message.mutable_prepared()->set_quality(static_cast<std::uint32_t>(built_.quality));
+    message.mutable_prepared()->set_look(built_.look);
+    say(std::move(message));
 }
 
 void MasterLink::handle(const Finished& finished) {
@@ -221,6 +241,13 @@ void MasterLink::handle(const v1::Input& input) {
     if (session_ == 0) return;
     v1::Envelope message;
     *message.mutable_input() = input;
+    say(std::move(message));
+}
+
+void MasterLink::handle(const v1::Set& set) {
+    if (session_ == 0) return;
+    v1::Envelope message;
+    *message.mutable_set() = set;
     say(std::move(message));
 }
 
@@ -282,6 +309,8 @@ void MasterLink::takeOfRun(const v1::Envelope& message) {
         case v1::Envelope::kJoined:
             return mailbox_.start(static_cast<wire::Pace>(admitted_.welcome.pace()),
                                   {message.joined().first_frame()});
+        case v1::Envelope::kPrepare:
+            return prepare(message.prepare().look());
         case v1::Envelope::kPresent:
             return beReleased(message.present());
         case v1::Envelope::kFarewell:
@@ -304,6 +333,7 @@ void MasterLink::readState(const net::ByteVector& bytes) {
     if (!message->has_state()) return;
     auto state = wire::readState(message->state());
     if (!state) return;
+    if (state->show.calibration != calibration_) return lose("the wall is calibrated anew");
     compareHash(*state);
     mailbox_.put({*std::move(state), lastHeard_});
 }
@@ -325,6 +355,7 @@ void MasterLink::beWelcomed(const v1::Envelope& message) {
     session_ = message.session();
     phase_ = Phase::Fetching;
     admitted_ = {message.welcome(), {}};
+    calibration_ = shortHash(digestOf(admitted_.welcome.rig_text()));
     assembly_.reset();
     clock_ = {};
     try {
@@ -337,7 +368,7 @@ void MasterLink::beWelcomed(const v1::Envelope& message) {
 
 // Takes from the cache what is there, and asks for the first that is not.
 void MasterLink::fetchNext() {
-    for (const v1::SpeciesBlobs& blobs : admitted_.welcome.cast()) {
+    for (const v1::SpeciesBlobs& blobs : admitted_.welcome.look().cast()) {
         for (const std::string* bytes : {&blobs.species(), &blobs.repertoire()}) {
             const Digest digest = wire::digestIn(*bytes);
             if (admitted_.blobs.contains(digest)) continue;
@@ -363,7 +394,8 @@ void MasterLink::requestChunk() {
 
 void MasterLink::takeChunk(const v1::BlobChunk& chunk) {
     const Digest digest = wire::digestIn(chunk.digest());
-    if (phase_ != Phase::Fetching || !assembly_ || digest != assembly_->digest()) return;
+    const bool isFetching = phase_ == Phase::Fetching || fetchesNextLook_;
+    if (!isFetching || !assembly_ || digest != assembly_->digest()) return;
     const auto content = std::as_bytes(std::span{chunk.content()});
     if (!assembly_->take(chunk.offset(), chunk.total(), content)) return;
     if (!assembly_->whole()) return requestChunk();
@@ -378,7 +410,18 @@ void MasterLink::takeChunk(const v1::BlobChunk& chunk) {
     fetchNext();
 }
 
+// The master says it again and again until it has heard that it is built.
+void MasterLink::prepare(const v1::Look& look) {
+    if (phase_ != Phase::Member) return;
+    if (look.number() == built_.look) return sayPrepared();
+    if (look.number() == admitted_.welcome.look().number()) return;
+    *admitted_.welcome.mutable_look() = look;
+    fetchesNextLook_ = true;
+    fetchNext();
+}
+
 void MasterLink::admit() {
+    if (std::exchange(fetchesNextLook_, false)) return mailbox_.offerNextLook(admitted_);
     phase_ = Phase::Building;
     mailbox_.admit(admitted_);
 }
@@ -435,11 +478,10 @@ void MasterLink::keepTime(net::Instant now) {
         say(std::move(ping));
         lastPing_ = now;
     }
-    if (phase_ == Phase::Fetching && now - lastRequest_ > kRepeat) requestChunk();
+    const bool isFetching = phase_ == Phase::Fetching || fetchesNextLook_;
+    if (isFetching && now - lastRequest_ > kRepeat) requestChunk();
     if (phase_ == Phase::Listening && hearsStates_) {
-        v1::Envelope prepared;
-        prepared.mutable_prepared()->set_quality(static_cast<std::uint32_t>(built_.quality));
-        say(std::move(prepared));
+        sayPrepared();
         phase_ = Phase::Member;
     }
     if (finished_ && now - lastReady_ > kRepeat) sayReady();

@@ -57,6 +57,7 @@ class Mailbox {
     void put(ArrivedState arrived);
     void release(const ReleaseOrder& order);
     void tellMind(ExplainedMind explanation);
+    void offerNextLook(Admitted next);
     void interrupt(Release why);  // Rejoin or Quit; nothing comes back after Quit
 
     // The render thread's side. Each blocks until there is an answer.
@@ -66,6 +67,8 @@ class Mailbox {
     // The newest release, of this frame or a later one; empty: interrupted.
     [[nodiscard]] std::optional<ReleaseOrder> awaitRelease(Frame frame);
     [[nodiscard]] Release interruption() const;
+    // The next look that all blobs are there for, once; does not block.
+    [[nodiscard]] std::optional<Admitted> takeNextLook();
     // The last that was told in this run of the master; does not block.
     [[nodiscard]] std::optional<ExplainedMind> latestMind() const;
 
@@ -82,6 +85,7 @@ class Mailbox {
     std::deque<ArrivedState> states_;
     std::optional<ReleaseOrder> release_;
     std::optional<ExplainedMind> mind_;
+    std::optional<Admitted> nextLook_;
 };
 
 // When a node let go of a frame, in this machine's clock.
@@ -99,7 +103,8 @@ class MasterLink {
 
     // Requests of the render thread.
     struct Join {};
-    struct Built {  // all that the show needs; the node keeps up with this tier
+    struct Built {  // a look; the node keeps up with this tier
+        std::uint32_t look = 0;
         config::QualityTier quality = config::QualityTier::Low;
     };
     struct Finished {  // the picture of this frame
@@ -107,7 +112,7 @@ class MasterLink {
         std::optional<ReleaseReport> released;  // of an earlier frame
     };
     // Inputs and questions; dropped while the node is not welcomed.
-    using Request = std::variant<Join, Built, Finished, v1::Input, v1::ExplainRequest>;
+    using Request = std::variant<Join, Built, Finished, v1::Input, v1::Set, v1::ExplainRequest>;
     void post(const Request& request);
     void stop();  // from any thread
 
@@ -126,6 +131,7 @@ class MasterLink {
     void handle(const Built& built);
     void handle(const Finished& finished);
     void handle(const v1::Input& input);
+    void handle(const v1::Set& set);
     void handle(const v1::ExplainRequest& request);
 
     // Whatever cannot be decoded is ignored.
@@ -136,6 +142,8 @@ class MasterLink {
     void beWelcomed(const v1::Envelope& message);
     // From the run of the master that welcomed us.
     void takeOfRun(const v1::Envelope& message);
+    // The look that comes next: its blobs are fetched beside the frames.
+    void prepare(const v1::Look& look);
     void takeChunk(const v1::BlobChunk& chunk);
     void beReleased(const v1::Present& present);
     void beDismissed(const std::string& reason);
@@ -144,6 +152,7 @@ class MasterLink {
     void fetchNext();
     void requestChunk();
     void admit();  // every blob is there
+    void sayPrepared();
     void sayReady();
     // The master is gone or another: joins again.
     void lose(const std::string& why);
@@ -163,7 +172,9 @@ class MasterLink {
     bool connectionUsed_ = false;
     Phase phase_ = Phase::Outside;
     std::uint64_t session_ = 0;
-    Admitted admitted_;
+    Admitted admitted_;  // what is fetched, or was last
+    bool fetchesNextLook_ = false;
+    std::uint64_t calibration_ = 0;              // of the rig that we were welcomed with
     std::optional<net::BlobAssembly> assembly_;  // of the blob that is being fetched
     int spoiltBlobs_ = 0;
     bool hearsStates_ = false;

@@ -18,7 +18,7 @@ std::string textOf(const net::ByteVector& bytes) {
 // The species with the blobs that were fetched for them.
 std::vector<wire::SpeciesAssets> castOf(const Admitted& admitted) {
     std::vector<wire::SpeciesAssets> cast;
-    for (const v1::SpeciesBlobs& member : admitted.welcome.cast())
+    for (const v1::SpeciesBlobs& member : admitted.welcome.look().cast())
         cast.push_back({"the master's species file",
                         textOf(admitted.blobs.at(wire::digestIn(member.species()))),
                         admitted.blobs.at(wire::digestIn(member.repertoire())),
@@ -26,12 +26,12 @@ std::vector<wire::SpeciesAssets> castOf(const Admitted& admitted) {
     return cast;
 }
 
-std::vector<motion::FishTraits> schoolOf(const v1::Welcome& welcome) {
+std::vector<motion::FishTraits> schoolOf(const v1::Look& look) {
     std::vector<motion::FishTraits> school;
-    school.reserve(static_cast<std::size_t>(welcome.fish_ids_size()));
-    for (int i = 0; i < welcome.fish_ids_size(); ++i)
+    school.reserve(static_cast<std::size_t>(look.fish_ids_size()));
+    for (int i = 0; i < look.fish_ids_size(); ++i)
         school.push_back(
-            {welcome.fish_ids(i), static_cast<std::uint16_t>(welcome.length_millimetres(i))});
+            {look.fish_ids(i), static_cast<std::uint16_t>(look.length_millimetres(i))});
     return school;
 }
 
@@ -39,20 +39,23 @@ std::vector<motion::FishTraits> schoolOf(const v1::Welcome& welcome) {
 Digest showOf(v1::Welcome welcome) {
     welcome.clear_state_address();
     welcome.clear_pace();
-    welcome.clear_quality();
+    welcome.mutable_look()->clear_number();
+    welcome.mutable_look()->clear_quality();
     return digestOf(welcome.SerializeAsString());
 }
 
 // Throws Error where the master's rig or scene cannot be read.
 Admission admissionOf(const Admitted& admitted) {
     const v1::Welcome& welcome = admitted.welcome;
-    return {.show = showOf(welcome),
+    const v1::Look& look = welcome.look();
+    return {.look = look.number(),
+            .show = showOf(welcome),
             .rig = config::parseRig(welcome.rig_text(), "the master's rig"),
-            .scene = config::parseScene(welcome.scene_text(), "the master's scene"),
-            .seed = welcome.seed(),
-            .pattern = static_cast<wire::Pattern>(welcome.pattern()),
-            .quality = welcome.has_quality() ? config::tierAt(welcome.quality()) : std::nullopt,
-            .school = schoolOf(welcome),
+            .scene = config::parseScene(look.scene_text(), "the master's scene"),
+            .seed = look.seed(),
+            .world = look.world(),
+            .quality = look.has_quality() ? config::tierAt(look.quality()) : std::nullopt,
+            .school = schoolOf(look),
             .cast = castOf(admitted)};
 }
 
@@ -84,7 +87,13 @@ class LinkSession final : public Session {
         return admissionOf(*admitted);
     }
 
-    void prepared(config::QualityTier quality) override { link_.post(MasterLink::Built{quality}); }
+    void prepared(std::uint32_t look, config::QualityTier quality) override {
+        link_.post(MasterLink::Built{look, quality});
+    }
+    std::optional<Admission> nextLook() override {
+        const auto offered = mailbox_.takeNextLook();
+        return offered ? std::optional(admissionOf(*offered)) : std::nullopt;
+    }
 
     std::optional<wire::StateFrame> nextFrame() override {
         auto arrived = mailbox_.takeState();
@@ -108,9 +117,16 @@ class LinkSession final : public Session {
         return Release::Present;
     }
 
-    void send(NodeInput input) override {
+    void quit() override {
         v1::Input message;
-        message.set_kind(input == NodeInput::Quit ? v1::INPUT_QUIT : v1::INPUT_TOGGLE_PAUSE);
+        message.set_kind(v1::INPUT_QUIT);
+        link_.post(message);
+    }
+    // Said once: a hand that sees no effect presses again.
+    void freeze(bool frozen) override {
+        v1::Set message;
+        message.set_request(static_cast<std::uint64_t>(net::monotonicNow().count()));
+        message.set_freeze(frozen);
         link_.post(message);
     }
     void dropFood(glm::vec3 positionMetres) override {

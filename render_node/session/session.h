@@ -21,9 +21,6 @@
 
 namespace aquarama::session {
 
-// What the keys of a window ask of the show.
-enum class NodeInput : std::uint8_t { Quit, TogglePause };
-
 // What became of a frame that was reported ready.
 enum class Release : std::uint8_t {
     Present,  // swap now: the present instant has come
@@ -32,13 +29,14 @@ enum class Release : std::uint8_t {
     Quit,     // the show is over
 };
 
-// A show that a node takes part in.
+// A look of the show that a node takes part in: all that it builds before it can draw.
 struct Admission {
-    Digest show;  // of all that is built for it: another show has another
+    std::uint32_t look = 0;  // its number, as in wire::Show
+    Digest show;             // of all that is built for it: another look has another
     config::Rig rig;
     config::Scene scene;
     std::uint32_t seed = 0;
-    wire::Pattern pattern = wire::Pattern::World;
+    bool world = true;  // false: patterns alone are drawn
     // Of the whole wall; nothing: the node measures its own.
     std::optional<config::QualityTier> quality = {};
     std::vector<motion::FishTraits> school;
@@ -61,9 +59,12 @@ class Session {
     // cached on disk). Empty: stopped, or the master ended the show. Throws Error where the master
     // refuses the node, saying why.
     virtual std::optional<Admission> join() = 0;
-    // All that must be built before the first frame is built, and this is the finest tier that the
-    // node keeps up with: from now on the master waits for it.
-    virtual void prepared(config::QualityTier quality) = 0;
+    // This look is built, and this is the finest tier that the node keeps up with. After join():
+    // from now on the master waits for the node.
+    virtual void prepared(std::uint32_t look, config::QualityTier quality) = 0;
+    // The look that the master will show next, to be built while frames are drawn; each is returned
+    // once. Does not block. Throws Error where the master's scene cannot be read.
+    [[nodiscard]] virtual std::optional<Admission> nextLook() = 0;
     // The next frame to draw: in lockstep every one in order, live the newest. Empty: see
     // `interruption`.
     virtual std::optional<wire::StateFrame> nextFrame() = 0;
@@ -74,7 +75,9 @@ class Session {
     // The picture of this frame is finished (its fence has signalled). Blocks until it is released
     // or overtaken.
     virtual Release readyThenWait(Frame frame) = 0;
-    virtual void send(NodeInput input) = 0;
+    // What the keys of a window ask of the show: its end, and whether the world stands still.
+    virtual void quit() = 0;
+    virtual void freeze(bool frozen) = 0;
     virtual void dropFood(glm::vec3 positionMetres) = 0;  // world frame
     // What hands ask of the submarine; holds until the next, half a second at most.
     virtual void steer(const Steering& steering) = 0;

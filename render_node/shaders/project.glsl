@@ -7,6 +7,7 @@ layout(location = kSizeLocation) uniform ivec2 size;  // of the projector's pict
 layout(location = kSeedLocation) uniform uint seed;
 layout(location = kDitheredLocation) uniform bool dithered;
 layout(location = kBlendMaskLocation) uniform bool blendMask;
+layout(location = kBrightnessLocation) uniform float brightness;  // share of the light, 0 black
 
 layout(location = 0) out vec4 encoded;
 
@@ -50,7 +51,7 @@ vec3 projectedLight(sampler2D scene, sampler2D placeAndWeight, ivec2 pixel) {
 }
 
 vec4 finished(vec3 light, ivec2 pixel) {
-    vec3 value = encode(clamp(light, 0.0, 1.0));
+    vec3 value = encode(clamp(light * brightness, 0.0, 1.0));
     if (dithered) value = toCodes(value, noise(uvec3(pixel, seed)));
     return vec4(value, 1.0);
 }

@@ -116,6 +116,7 @@ AQUARAMA_CONSTANT int kSeedLocation = 1;
 AQUARAMA_CONSTANT int kDitheredLocation = 2;
 AQUARAMA_CONSTANT int kBlendMaskLocation = 3;
 AQUARAMA_CONSTANT int kModeLocation = 4;
+AQUARAMA_CONSTANT int kBrightnessLocation = 5;
 
 // Locations of uniforms: pattern.
 AQUARAMA_CONSTANT int kWallFromCameraLocation = 0;
@@ -159,7 +160,7 @@ AQUARAMA_CONSTANT int kSightRises = 32;
 AQUARAMA_CONSTANT int kSightAzimuths = 9;
 
 // Sides of square tiles and maps, metres.
-AQUARAMA_CONSTANT float kTileMetres = 12.0F;       // caustics and waves; waves have whole numbers on it
+AQUARAMA_CONSTANT float kTileMetres = 12.0F;  // caustics and waves; waves have whole numbers on it
 AQUARAMA_CONSTANT float kRippleTileMetres = 2.9F;  // the shorter waves
 AQUARAMA_CONSTANT float kSandTileMetres = 2.6F;
 AQUARAMA_CONSTANT float kRockTileMetres = 1.1F;

@@ -103,17 +103,15 @@ ChannelPicture::Viewing::Viewing(const wall::ChannelFrustum& from,
 ChannelPicture::ChannelPicture(const session::Admission& admission,
                                std::size_t channel,
                                config::QualityTier quality)
-    : pattern_{admission.pattern},
-      stereo_{wall::stereoOf(admission.rig, channel)},
-      school_{admission.school} {
+    : stereo_{wall::stereoOf(admission.rig, channel)}, school_{admission.school} {
     assert(channel < admission.rig.channels.size());
     const config::Rig& rig = admission.rig;
     const std::uint32_t id = rig.channels[channel].id;
     const wall::WarpMap warp = wall::warpMap(rig, channel);
     map_ = projectionMap(warp, wall::channelFrustum(rig, channel, kMarginRadians));
-    sceneSize_ = scenePictureSize(map_);
-    if (pattern_ == wire::Pattern::World)
-        sceneSize_ = glm::ceil(glm::vec2(sceneSize_) * scene::qualityOf(quality).pictureShare);
+    patternSize_ = scenePictureSize(map_);
+    worldSize_ = glm::ceil(glm::vec2(patternSize_) * scene::qualityOf(quality).pictureShare);
+    sceneSize_ = worldSize_;
     // Two eyes for any stereo mode, else one between them.
     const bool two = stereo_.mode != config::StereoMode::Mono;
     for (const wall::EyeSide side : two ? std::vector{wall::EyeSide::Left, wall::EyeSide::Right}
@@ -122,11 +120,10 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
             wall::channelFrustum(rig, channel, kMarginRadians, side), warp, rig.screen, id);
     if (two && stereo_.mode != config::StereoMode::QuadBuffer)
         together_.emplace(map_.sizePixels, id, stereo_.mode);
-    const bool world = pattern_ == wire::Pattern::World;
-    // The scene has one texture: all eyes but the last need a copy. A test pattern has none.
+    // The scene has one texture: all eyes but the last need a copy.
     for (Viewing& eye : eyes_)
-        if (!world || &eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, sceneSize_);
-    if (world)
+        if (&eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, worldSize_);
+    if (admission.world)
         scene_.emplace(scene::SceneOptions{.seed = admission.seed,
                                            .place = admission.scene.place,
                                            .water = admission.scene.water.jerlov,
@@ -140,9 +137,13 @@ void ChannelPicture::drawScene(const wire::StateFrame& frame,
                                const Overlays& overlays,
                                const std::optional<WatchedMind>& mind) {
     frame_ = frame.frame;
-    if (scene_) drawWorld(frame);
+    brightness_ = frame.show.brightness;
+    const bool isWorld = scene_ && frame.show.pattern == wire::Pattern::World;
+    sceneSize_ = isWorld ? worldSize_ : patternSize_;
+    if (brightness_ == 0 && eyes_.front().sceneTexture != 0) return;
+    if (isWorld) drawWorld(frame);
     for (Viewing& eye : eyes_) {
-        if (!scene_) drawPattern(eye);
+        if (!isWorld) drawPattern(eye, frame.show.pattern);
         glNamedFramebufferTexture(eye.onScene.name(), GL_COLOR_ATTACHMENT0, eye.sceneTexture, 0);
         if (overlays.warpGrid) eye.pattern.addGrid(eye.onScene.name(), sceneSize_);
         if (overlays.fishIds) drawFishIds(eye, frame);
@@ -182,13 +183,13 @@ void ChannelPicture::drawWorld(const wire::StateFrame& frame) {
     }
 }
 
-void ChannelPicture::drawPattern(Viewing& eye) const {
-    assert(eye.kept.has_value());
-    eye.sceneTexture = eye.kept->texture();
-    if (pattern_ == wire::Pattern::Grid)
-        eye.pattern.drawGrid(eye.kept->framebuffer(), sceneSize_);
+void ChannelPicture::drawPattern(Viewing& eye, wire::Pattern pattern) const {
+    if (!eye.patterned) eye.patterned.emplace(GL_RGBA16F, patternSize_);
+    eye.sceneTexture = eye.patterned->texture();
+    if (pattern == wire::Pattern::Grid)
+        eye.pattern.drawGrid(eye.patterned->framebuffer(), patternSize_);
     else
-        eye.pattern.drawGrey(eye.kept->framebuffer(), sceneSize_);
+        eye.pattern.drawGrey(eye.patterned->framebuffer(), patternSize_);
 }
 
 std::optional<FishPlace> ChannelPicture::placeOf(const glm::mat4& clipFromWorld,
@@ -261,7 +262,8 @@ void ChannelPicture::project(unsigned framebuffer,
     Projection::Draw draw{.framebuffer = framebuffer,
                           .frame = frame_,
                           .encoding = encoding,
-                          .blendMask = overlays.blendMask};
+                          .blendMask = overlays.blendMask,
+                          .brightness = brightness_};
     const auto sceneAndMap = [](const Viewing& eye) {
         return PairProjection::Eye{eye.sceneTexture, eye.projection.mapTexture()};
     };
@@ -276,7 +278,7 @@ void ChannelPicture::project(unsigned framebuffer,
         draw.sceneTexture = eye.sceneTexture;
         eye.projection.draw(draw);
     }
-    if (!overlays.help) return;
+    if (!overlays.help || brightness_ == 0) return;
     const float dot = dotPixels(sizePixels());
     text_.draw(helpLabels(dot), framebuffer, sizePixels(), dot);
 }

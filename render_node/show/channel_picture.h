@@ -40,8 +40,9 @@ class ChannelPicture {
                    std::size_t channel,
                    config::QualityTier quality);
 
-    // Draws the picture of each eye's frustum in linear light, with the overlays that belong to the
-    // world: grid, fish numbers, a mind.
+    // Draws the picture of each eye's frustum in linear light, the world or the frame's pattern,
+    // with the overlays that belong to the world: grid, fish numbers, a mind. A frame without light
+    // is not drawn.
     void drawScene(const wire::StateFrame& frame,
                    const Overlays& overlays,
                    const std::optional<WatchedMind>& mind = std::nullopt);
@@ -78,6 +79,8 @@ class ChannelPicture {
         // A copy of the picture, where the scene's own texture is overwritten by the next eye, or
         // where there is no scene.
         std::optional<gl::Target> kept;
+        // A test pattern, in the projector's own fineness; made when one is first drawn.
+        std::optional<gl::Target> patterned;
         glm::mat4 clipFromWorld{1.0F};
         // GL name of the picture that was drawn last; 0 before the first drawScene().
         unsigned sceneTexture = 0;
@@ -85,7 +88,7 @@ class ChannelPicture {
 
     // Draws the world for each eye; drawPattern() draws a test pattern in its place.
     void drawWorld(const wire::StateFrame& frame);
-    void drawPattern(Viewing& eye) const;
+    void drawPattern(Viewing& eye, wire::Pattern pattern) const;
     void drawFishIds(const Viewing& eye, const wire::StateFrame& frame);
     void drawMind(const Viewing& eye, const wire::StateFrame& frame, const WatchedMind& mind);
     // The camera of an eye in the world, for the submarine's place and heading.
@@ -95,22 +98,23 @@ class ChannelPicture {
     [[nodiscard]] std::optional<FishPlace> placeOf(const glm::mat4& clipFromWorld,
                                                    const motion::PresentedFish& fish) const;
 
-    wire::Pattern pattern_;
     config::Stereo stereo_;
     std::vector<motion::FishTraits> school_;
     // The map for the point between the eyes.
     ProjectionMap map_;
-    glm::ivec2 sceneSize_{};
+    // Of the world's picture, of a pattern's, and of the one that was drawn last.
+    glm::ivec2 worldSize_{}, patternSize_{}, sceneSize_{};
     // One, or left and right.
     std::deque<Viewing> eyes_;
     // Set where one picture holds both eyes.
     std::optional<PairProjection> together_;
-    // Set where the world is shown, not a test pattern.
+    // Set where the world can be shown, not test patterns alone.
     std::optional<scene::SceneRenderer> scene_;
     TextOverlay text_;
     std::vector<scene::FoodParticle> food_;
-    // Number of the frame that was drawn last: its parity seeds the dither.
+    // Number of the frame that was drawn last: its parity seeds the dither. And its light.
     Frame frame_;
+    float brightness_ = 1.0F;
 };
 
 // Pictures of what a channel projects, read back from the GPU.

@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "common/base/log.h"
+#include "render_node/gl/program.h"
 #include "render_node/show/channel_picture.h"
 
 namespace aquarama::show {
@@ -31,13 +32,16 @@ void waitForGpu() {
     glDeleteSync(fence);
 }
 
-// Copies the picture into the window, scaled to fit, with black margins.
-void show(const gl::Target& picture, glm::ivec2 window) {
+// Copies a texture into framebuffer 0 of a window, scaled to fit, with black margins.
+void copyToWindow(const gl::Target& picture, glm::ivec2 window, GLenum buffer) {
     const auto [corner, size] = fitInto(window, picture.sizePixels());
+    const gl::Framebuffer from;  // framebuffers belong to one context, textures to all
+    glNamedFramebufferTexture(from.name(), GL_COLOR_ATTACHMENT0, picture.texture(), 0);
+    glNamedFramebufferDrawBuffer(0, buffer);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glClearColor(0, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT);
-    glBlitNamedFramebuffer(picture.framebuffer(),
+    glBlitNamedFramebuffer(from.name(),
                            0,
                            0,
                            0,
@@ -48,10 +52,74 @@ void show(const gl::Target& picture, glm::ivec2 window) {
                            corner.x + size.x,
                            corner.y + size.y,
                            GL_COLOR_BUFFER_BIT,
-                           GL_LINEAR);
+                           size == picture.sizePixels() ? GL_NEAREST : GL_LINEAR);
 }
 
 }  // namespace
+
+Stage::Stage(gl::Context& context, const std::string& channel, session::Admission admission)
+    : admission_{std::move(admission)},
+      channel_{channelIndex(admission_.rig, channel)},
+      workspace_{context.makeWorkspace()} {
+    const glm::ivec2 size = admission_.rig.channels[channel_].sizePixels;
+    workspace_->makeCurrent();
+#ifndef NDEBUG
+    gl::logMessages();
+#endif
+    logInfo("building {} x {} pixels on {}", size.x, size.y, context.description());
+    for (int eye = 0; eye < (context.quadBuffered() ? 2 : 1); ++eye)
+        targets_.emplace_back(GL_RGBA8, size);
+    chooseQuality();
+    // Some drivers compile shaders on first use.
+    drawEmpty();
+    waitForGpu();
+}
+
+Stage::~Stage() {
+    workspace_->makeCurrent();
+    picture_.reset();
+    targets_.clear();
+    workspace_->release();
+}
+
+void Stage::bringTo(config::QualityTier quality) {
+    if (picture_ && quality_ == quality) return;
+    // The old picture goes first, so that the GPU need not hold both.
+    picture_.reset();
+    picture_.emplace(admission_, channel_, quality);
+    quality_ = quality;
+}
+
+void Stage::chooseQuality() {
+    if (admission_.quality || !admission_.world) {
+        bears_ = admission_.quality.value_or(config::QualityTier::Low);
+    } else {
+        bears_ =
+            finestWithin(kBudgetShare / admission_.rig.timing.refreshHertz,
+                         [this](config::QualityTier quality) { return secondsAFrame(quality); });
+        logInfo("keeps up with quality {}", config::nameOf(bears_));
+    }
+    bringTo(bears_);
+}
+
+void Stage::drawEmpty() {
+    wire::StateFrame frame;
+    frame.eye.positionMetres = admission_.scene.eye;
+    if (!admission_.world) frame.show.pattern = wire::Pattern::Grey;
+    picture_->drawScene(frame, Overlays{});
+    picture_->project(targets_.front().framebuffer(), Encoding::Dithered8, Overlays{});
+}
+
+double Stage::secondsAFrame(config::QualityTier quality) {
+    constexpr int kFrames = 5;
+    bringTo(quality);
+    drawEmpty();  // not measured
+    waitForGpu();
+    const auto begin = now();
+    for (int i = 0; i < kFrames; ++i) drawEmpty();
+    waitForGpu();
+    return std::chrono::duration<double>(now() - begin).count() / kFrames;
+}
 
 ChannelShow::ChannelShow(session::Session& session,
                          gl::Context& context,
@@ -66,85 +134,90 @@ ChannelShow::ChannelShow(session::Session& session,
     if (!options.filmPipe.empty()) film_ = net::connectFrames(options.filmPipe);
 }
 
+// A stage that is still being built is waited for: it uses the context.
+ChannelShow::~ChannelShow() {
+    if (stage_) stage_->workspace().release();
+}
+
 void ChannelShow::run(session::Admission first) {
     std::optional<session::Admission> admission = std::move(first);
     while (admission) {
         build(std::move(*admission));
-        session_.prepared(bears_);
+        session_.prepared(stage_->admission().look, stage_->bears());
         const session::Release end = play();
         if (end == session::Release::Quit) break;
         logInfo("lost the master; joining again");
         admission = session_.join();
     }
     if (!shown_ || options_.snapshotFolder.empty()) return;
+    stage_->workspace().makeCurrent();
     if (undrawn_) draw(*undrawn_);
     writeSnapshot(options_.snapshotFolder,
                   options_.channel,
-                  *picture_,
+                  stage_->picture(),
                   options_.deep ? PictureBits::Deep16 : PictureBits::Dithered8);
 }
 
 // When the same show goes on after an interruption, nothing is built again.
 void ChannelShow::build(session::Admission admission) {
-    if (built_ && built_->show == admission.show) return;
+    const std::uint32_t look = admission.look;
+    next_.reset();
+    if (stage_ && stage_->admission().show == admission.show) return stage_->renumber(look);
     const std::size_t channel = channelIndex(admission.rig, options_.channel);
-    const glm::ivec2 size = admission.rig.channels[channel].sizePixels;
-    if (picture_ && picture_->sizePixels() != size)
+    if (stage_ && stage_->picture().sizePixels() != admission.rig.channels[channel].sizePixels)
         throw Error("channel \"" + options_.channel +
                     "\" has another size than before; start its node again");
-    logInfo("building {} x {} pixels on {}", size.x, size.y, context_.description());
-    pointing_.emplace(admission.rig, channel);
-    watched_.reset();
-    offscreen_.emplace(GL_RGBA8, size);
-    built_ = std::move(admission);
+    stage_.reset();  // first, so that the GPU need not hold both
+    enter(std::make_unique<Stage>(context_, options_.channel, std::move(admission)));
     shown_ = false;
-    chooseQuality();
 }
 
-void ChannelShow::buildPicture(config::QualityTier quality) {
-    assert(built_.has_value());
-    // The old picture goes first, so that the GPU need not hold both.
-    picture_.reset();
-    picture_.emplace(*built_, channelIndex(built_->rig, options_.channel), quality);
-    quality_ = quality;
+void ChannelShow::enter(std::unique_ptr<Stage> stage) {
+    stage_ = std::move(stage);
+    pointing_.emplace(stage_->admission().rig,
+                      channelIndex(stage_->admission().rig, options_.channel));
+    watched_.reset();
 }
 
-void ChannelShow::chooseQuality() {
-    if (built_->quality || built_->pattern != wire::Pattern::World) {
-        bears_ = built_->quality.value_or(config::QualityTier::Low);
-    } else {
-        bears_ =
-            finestWithin(kBudgetShare / built_->rig.timing.refreshHertz,
-                         [this](config::QualityTier quality) { return secondsAFrame(quality); });
-        logInfo("keeps up with quality {}", config::nameOf(bears_));
+void ChannelShow::buildNext() {
+    if (!building_.valid()) {
+        auto admission = session_.nextLook();
+        if (!admission) return;
+        const auto build = [this](session::Admission what) {
+            auto stage = std::make_unique<Stage>(context_, options_.channel, std::move(what));
+            stage->workspace().release();
+            return stage;
+        };
+        building_ = std::async(std::launch::async, build, std::move(*admission));
     }
-    if (!picture_ || quality_ != bears_) buildPicture(bears_);
+    if (building_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    next_ = building_.get();
+    session_.prepared(next_->admission().look, next_->bears());
 }
 
-double ChannelShow::secondsAFrame(config::QualityTier quality) {
-    constexpr int kFrames = 5;
-    buildPicture(quality);
-    wire::StateFrame frame;
-    frame.eye.positionMetres = built_->scene.eye;
-    // The first frame is not measured: some drivers compile shaders on first use.
-    draw(frame);
-    waitForGpu();
-    const auto begin = now();
-    for (int i = 0; i < kFrames; ++i) draw(frame);
-    waitForGpu();
-    return std::chrono::duration<double>(now() - begin).count() / kFrames;
+bool ChannelShow::bringOn(std::uint32_t look) {
+    if (look == stage_->admission().look) return true;
+    if (!next_ || next_->admission().look != look) return false;
+    stage_->workspace().release();
+    retiring_ =
+        std::async(std::launch::async, [old = std::move(stage_)]() mutable { old.reset(); });
+    next_->workspace().makeCurrent();
+    enter(std::move(next_));
+    return true;
 }
 
 session::Release ChannelShow::play() {
     while (const std::optional<wire::StateFrame> state = session_.nextFrame()) {
         FrameTimes times{.state = session_.stateArrival()};
+        controls_.show(state->show);
+        buildNext();
+        if (!bringOn(state->show.look)) return session::Release::Rejoin;
         feed(state->eye);
-        if (state->quality != quality_) buildPicture(state->quality);
+        stage_->bringTo(state->show.quality);
         const bool seen = isSeen(state->frame);
         if (seen) {
             draw(*state);
-            waitForGpu();
-            refuseLoss();
+            fillWindow();
         }
         // Ready is reported only after the GPU has finished the picture.
         times.ready = now();
@@ -171,22 +244,38 @@ void ChannelShow::refuseLoss() const {
 }
 
 void ChannelShow::draw(const wire::StateFrame& frame) {
-    assert(picture_.has_value());
+    ChannelPicture& picture = stage_->picture();
     const Overlays overlays = controls_.overlays();
-    picture_->drawScene(frame, overlays, overlays.mind ? watchMind(frame) : std::nullopt);
-    if (!context_.quadBuffered()) return project(overlays, Shown::Display);
-    const bool swapped = picture_->stereo().swapEyes;
-    glNamedFramebufferDrawBuffer(0, swapped ? GL_BACK_RIGHT : GL_BACK_LEFT);
-    project(overlays, Shown::LeftEye);
-    glNamedFramebufferDrawBuffer(0, swapped ? GL_BACK_LEFT : GL_BACK_RIGHT);
-    project(overlays, Shown::RightEye);
+    stage_->workspace().makeCurrent();
+    picture.drawScene(frame, overlays, overlays.mind ? watchMind(frame) : std::nullopt);
+    if (!context_.quadBuffered()) {
+        picture.project(
+            stage_->target().framebuffer(), Encoding::Dithered8, overlays, Shown::Display);
+    } else {
+        for (const Shown eye : {Shown::LeftEye, Shown::RightEye})
+            picture.project(stage_->target(eye).framebuffer(), Encoding::Dithered8, overlays, eye);
+    }
+    waitForGpu();
+    refuseLoss();
 }
 
-void ChannelShow::project(const Overlays& overlays, Shown shown) {
+// Into the back buffer, so that a swap shows it at once. The window's context is current
+// afterwards.
+void ChannelShow::fillWindow() {
+    if (!context_.hasWindow()) return;
+    stage_->workspace().release();
+    context_.makeCurrent();
     const glm::ivec2 window = context_.framebufferPixels();
-    const bool fits = context_.hasWindow() && window == picture_->sizePixels();
-    picture_->project(fits ? 0 : offscreen_->framebuffer(), Encoding::Dithered8, overlays, shown);
-    if (context_.hasWindow() && !fits) show(*offscreen_, window);
+    if (!context_.quadBuffered()) {
+        copyToWindow(stage_->target(), window, GL_BACK);
+    } else {
+        const bool swapped = stage_->picture().stereo().swapEyes;
+        copyToWindow(
+            stage_->target(swapped ? Shown::RightEye : Shown::LeftEye), window, GL_BACK_LEFT);
+        copyToWindow(
+            stage_->target(swapped ? Shown::LeftEye : Shown::RightEye), window, GL_BACK_RIGHT);
+    }
+    waitForGpu();
 }
 
 void ChannelShow::feed(const wire::Eye& eye) {
@@ -199,7 +288,7 @@ void ChannelShow::feed(const wire::Eye& eye) {
 
 std::optional<glm::vec2> ChannelShow::pixelAt(const WindowPlace& place) const {
     if (!place) return pointing_->middle();
-    return picturePlace(context_.framebufferPixels(), picture_->sizePixels(), *place);
+    return picturePlace(context_.framebufferPixels(), stage_->picture().sizePixels(), *place);
 }
 
 // The fish is chosen only as often as the master is asked, because the nearest fish may change at
@@ -209,7 +298,7 @@ std::optional<WatchedMind> ChannelShow::watchMind(const wire::StateFrame& frame)
     if (now() - askedAt_ >= kBetweenQuestions) {
         askedAt_ = now();
         const auto pixel = pixelAt(controls_.pointer()).value_or(pointing_->middle());
-        watched_ = picture_->fishNearest(frame, pixel);
+        watched_ = stage_->picture().fishNearest(frame, pixel);
         if (watched_) session_.askMind(*watched_);
     }
     if (!watched_) return std::nullopt;
@@ -220,7 +309,8 @@ std::optional<WatchedMind> ChannelShow::watchMind(const wire::StateFrame& frame)
 }
 
 void ChannelShow::film(Frame frame) {
-    Picture taken = takePicture(*picture_, PictureBits::Dithered8, flat(*picture_));
+    stage_->workspace().makeCurrent();
+    Picture taken = takePicture(stage_->picture(), PictureBits::Dithered8, flat(stage_->picture()));
     film_->send({frame.value, taken.sizePixels.x, taken.sizePixels.y, std::move(taken.rgb)});
 }
 

@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <fstream>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <span>
@@ -52,10 +54,52 @@ class Trace {
     std::ofstream file_;
 };
 
+// A look that is ready to be drawn: the channel's picture of it, in a workspace of its own.
+class Stage {
+  public:
+    // Builds it on the calling thread and leaves its workspace current there. Without a prescribed
+    // quality it measures with which the node keeps up. Throws Error: a channel that the rig does
+    // not have or another size than the context's, a driver that cannot draw what is needed.
+    Stage(gl::Context& context, const std::string& channel, session::Admission admission);
+    // May be on another thread, while no thread has the workspace current.
+    ~Stage();
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+
+    [[nodiscard]] const session::Admission& admission() const { return admission_; }
+    // The same look under another number: the master was started again.
+    void renumber(std::uint32_t look) { admission_.look = look; }
+    [[nodiscard]] gl::Workspace& workspace() { return *workspace_; }
+    [[nodiscard]] ChannelPicture& picture() { return *picture_; }
+    // What is shown, of one eye where the window shows both.
+    [[nodiscard]] const gl::Target& target(Shown shown = Shown::Display) const {
+        return shown == Shown::RightEye ? targets_.back() : targets_.front();
+    }
+    // The finest tier that this node keeps up with.
+    [[nodiscard]] config::QualityTier bears() const { return bears_; }
+    // Makes the picture anew where it is of another tier. The workspace is current.
+    void bringTo(config::QualityTier quality);
+
+  private:
+    void chooseQuality();
+    // Measured time of a frame without fish at this tier; builds the picture for it.
+    [[nodiscard]] double secondsAFrame(config::QualityTier quality);
+    void drawEmpty();
+
+    session::Admission admission_;
+    std::size_t channel_;
+    std::unique_ptr<gl::Workspace> workspace_;
+    std::optional<ChannelPicture> picture_;
+    std::deque<gl::Target> targets_;
+    // The tier of picture_.
+    config::QualityTier quality_ = config::QualityTier::Low;
+    config::QualityTier bears_ = config::QualityTier::Low;
+};
+
 // The drawing loop.
 
-// Runs on the drawing thread. Owns GL objects; construct, use and destroy it there with the context
-// current. Session, context and controls must outlive it.
+// Runs on the drawing thread; construct, use and destroy it there. The next look is built on a
+// thread of its own. Session, context and controls must outlive it.
 class ChannelShow {
   public:
     ChannelShow(session::Session& session,
@@ -63,25 +107,30 @@ class ChannelShow {
                 Controls& controls,
                 const NodeOptions& options);
 
+    ~ChannelShow();
+    ChannelShow(const ChannelShow&) = delete;
+    ChannelShow& operator=(const ChannelShow&) = delete;
+
     // Runs from the first admission to the end of the show; whenever the master is lost it joins
     // again. Writes the snapshot at the end. Throws Error: a channel that the rig does not have, a
     // lost OpenGL context, a file that cannot be written.
     void run(session::Admission admission);
 
   private:
-    // Prepares for a show; keeps everything where it is the same show as before.
+    // Prepares for a show; keeps everything where it is the same look as before.
     void build(session::Admission admission);
-    void buildPicture(config::QualityTier quality);
-    // Sets bears_: the tier that the master prescribes, else the finest with which this node keeps
-    // up, which it measures.
-    void chooseQuality();
-    // Measured time of a frame without fish at this tier; builds the picture for it.
-    [[nodiscard]] double secondsAFrame(config::QualityTier quality);
+    // Begins to build the look that the master announces, and reports it when it is built.
+    void buildNext();
+    // Brings the stage of this look on; false where there is none. What was shown before ends on a
+    // thread of its own.
+    [[nodiscard]] bool bringOn(std::uint32_t look);
+    void enter(std::unique_ptr<Stage> stage);
     // Draws and presents frames until the master is lost (Rejoin) or the show ends (Quit).
     [[nodiscard]] session::Release play();
-    // Draws and projects a frame, for quad buffers once for each eye. It does not wait for the GPU.
+    // Draws and projects a frame, for quad buffers once for each eye, and waits for the GPU. The
+    // stage's workspace is current afterwards.
     void draw(const wire::StateFrame& frame);
-    void project(const Overlays& overlays, Shown shown);
+    void fillWindow();
     // Throws Error where the context is lost.
     void film(Frame frame);
     void refuseLoss() const;
@@ -104,16 +153,12 @@ class ChannelShow {
     Trace trace_;
     // Sends frames to the program that encodes a clip; null: none.
     std::unique_ptr<net::FrameSender> film_;
-    // The admission that picture_ was built for.
-    std::optional<session::Admission> built_;
-    // The tier of picture_.
-    config::QualityTier quality_ = config::QualityTier::Low;
-    // The finest tier that this node keeps up with.
-    config::QualityTier bears_ = config::QualityTier::Low;
+    // What is drawn; its workspace is current. And the next look, while it is built and after.
+    std::unique_ptr<Stage> stage_;
+    std::future<std::unique_ptr<Stage>> building_;
+    std::unique_ptr<Stage> next_;
+    std::future<void> retiring_;
     std::optional<Pointing> pointing_;
-    std::optional<ChannelPicture> picture_;
-    // Drawn into where there is no window of the channel's size.
-    std::optional<gl::Target> offscreen_;
     // The fish whose mind is shown, as its index in the school.
     std::optional<std::uint32_t> watched_;
     // When the fish was last chosen and the master asked.

@@ -44,10 +44,10 @@ void Controls::press(char key) {
         case gl::kEscapeKey:
         case 'q':
             if (std::exchange(quitAsked_, true)) session_.stop();
-            return session_.send(session::NodeInput::Quit);
+            return session_.quit();
         case ' ':
         case 'p':
-            return session_.send(session::NodeInput::TogglePause);
+            return session_.freeze(!frozen_);
         case 'c':
             return drop({});
         default:
@@ -78,6 +78,10 @@ void Controls::drop(const Pinch& pinch) {
 Overlays Controls::overlays() const {
     const std::lock_guard lock(mutex_);
     return overlays_;
+}
+
+void Controls::show(const wire::Show& shown) {
+    frozen_ = shown.frozen;
 }
 
 WindowPlace Controls::pointer() const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <deque>
 #include <mutex>
@@ -67,7 +68,7 @@ inline constexpr std::array<std::string_view, 14> kKeyHelp{
     "PAGE UP, DOWN    RISE, SINK",
     "DRAG RIGHT       LOOK ABOUT, ALSO HOME, END",
     "C    CLICK       DROP FOOD",
-    "P    SPACE       PAUSE",
+    "P    SPACE       FREEZE",
     "F                FULLSCREEN",
     "G                GRID ON THE WALL",
     "B                BLEND MASK",
@@ -100,6 +101,10 @@ class Controls {
     // Sends the steering that the hands ask for, when it is due.
     void hold(const gl::Hands& hands, std::chrono::nanoseconds now);
 
+    // What the wall shows: a key that changes it asks for the other value. May be called by any
+    // thread.
+    void show(const wire::Show& shown);
+
     // May be called by any thread.
     [[nodiscard]] Overlays overlays() const;
     [[nodiscard]] WindowPlace pointer() const;
@@ -113,6 +118,7 @@ class Controls {
     session::Session& session_;
     bool quitAsked_ = false;
     SteeringPace pace_;
+    std::atomic<bool> frozen_ = false;
     // Guards all members below. Those above belong to the main thread.
     mutable std::mutex mutex_;
     Overlays overlays_;

@@ -38,6 +38,7 @@ void beginPass(const Projection::Draw& what,
                  channelId * 2U + static_cast<GLuint>(what.frame.value % 2));
     glUniform1i(shaders::kDitheredLocation, what.encoding == Encoding::Dithered8 ? 1 : 0);
     glUniform1i(shaders::kBlendMaskLocation, what.blendMask ? 1 : 0);
+    glUniform1f(shaders::kBrightnessLocation, what.brightness);
 }
 
 // Bilinear filtering without wrapping. A sampler object leaves the texture's own state alone.

@@ -57,6 +57,8 @@ class Projection {
         Encoding encoding = Encoding::Dithered8;
         // Draws white in place of the scene, so that only the blend is seen.
         bool blendMask = false;
+        // Share of the light, 0 black to 1.
+        float brightness = 1.0F;
     };
     void draw(const Draw& what) const;
     // GL name of the projection map, for PairProjection.

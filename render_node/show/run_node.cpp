@@ -7,10 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "common/cli/signals.h"
+#include "common/cli/command_line.h"
 #include "common/wall/wall.h"
 #include "render_node/gl/context.h"
-#include "render_node/gl/program.h"
 #include "render_node/session/session.h"
 #include "render_node/show/channel_show.h"
 #include "render_node/show/controls.h"
@@ -42,29 +41,12 @@ std::unique_ptr<gl::Context> openContext(const NodeOptions& options,
     return context;
 }
 
-// Keeps a context current on this thread for the life of the object. The main thread may destroy
-// the context only after that.
-class CurrentContext {
-  public:
-    explicit CurrentContext(gl::Context& context) : context_{context} { context_.makeCurrent(); }
-    ~CurrentContext() { context_.release(); }
-    CurrentContext(const CurrentContext&) = delete;
-    CurrentContext& operator=(const CurrentContext&) = delete;
-
-  private:
-    gl::Context& context_;
-};
-
 // Body of the drawing thread. Its errors reach the main thread through the future.
 void show(session::Session& session,
           gl::Context& context,
           Controls& controls,
           const NodeOptions& options,
           session::Admission admission) {
-    const CurrentContext current(context);
-#ifndef NDEBUG
-    gl::logMessages();
-#endif
     ChannelShow(session, context, controls, options).run(std::move(admission));
 }
 

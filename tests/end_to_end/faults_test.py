@@ -7,7 +7,7 @@ import time
 import unittest
 from pathlib import Path
 
-from show import BIN, CHANNELS, ROOT, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
+from show import BIN, CHANNELS, ROOT, aquarama, children_of, control_address, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
 
 
 class LiveShow:
@@ -103,12 +103,6 @@ class Faults(unittest.TestCase):
         self.show.processes["master"].send_signal(signal.SIGINT)
         for name, process in self.show.processes.items():
             self.assertEqual(process.wait(15), 0, name)
-
-
-def children_of(process):
-    """command line -> process id of what it has started."""
-    listing = subprocess.run(["ps", "-o", "pid=,args=", "--ppid", str(process.pid)], capture_output=True, text=True).stdout
-    return {line.split(None, 1)[1]: int(line.split()[0]) for line in listing.splitlines()}
 
 
 class Lockstep(unittest.TestCase):

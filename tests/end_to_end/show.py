@@ -60,6 +60,12 @@ def start(command, *arguments, log=None):
                                 stdout=output, stderr=subprocess.STDOUT, env=environment, cwd=ROOT)
 
 
+def children_of(process):
+    """command line -> process id of what it has started."""
+    listing = subprocess.run(["ps", "-o", "pid=,args=", "--ppid", str(process.pid)], capture_output=True, text=True).stdout
+    return {line.split(None, 1)[1]: int(line.split()[0]) for line in listing.splitlines()}
+
+
 def end(processes, within=10):
     """Ends what still runs."""
     for process in processes:
@@ -97,4 +103,7 @@ def wait_until(condition, seconds, what):
 
 
 def temporary_folder():
-    return tempfile.TemporaryDirectory(prefix="aquarama-")
+    """A folder of its own for a test; what a show keeps for its next start lies in it as well."""
+    folder = tempfile.TemporaryDirectory(prefix="aquarama-")
+    os.environ["XDG_STATE_HOME"] = folder.name + "/state"
+    return folder

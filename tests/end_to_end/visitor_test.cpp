@@ -94,7 +94,7 @@ TEST(Visitor, whatIsDroppedFallsWhereItWasDroppedAndSinks) {
     const Master master({"--seed", "3"});
     const auto session = master.connect();
     ASSERT_TRUE(session->join());
-    session->prepared(config::QualityTier::Low);
+    session->prepared(1, config::QualityTier::Low);
     const auto first = await(*session, [](const wire::StateFrame&) { return true; });
     ASSERT_TRUE(first);
     EXPECT_TRUE(pelletsIn(*first).empty());
@@ -118,7 +118,7 @@ TEST(Visitor, whatIsDroppedFallsWhereItWasDroppedAndSinks) {
     });
     ASSERT_TRUE(later);
     EXPECT_LE(pelletsIn(*later).size(), 12U);
-    session->send(session::NodeInput::Quit);
+    session->quit();
 }
 
 // Ahead, and turned to the left: the eye goes on and looks elsewhere; who lets go glides to rest.
@@ -126,7 +126,7 @@ TEST(Visitor, steersTheSubmarine) {
     const Master master({});
     const auto session = master.connect();
     ASSERT_TRUE(session->join());
-    session->prepared(config::QualityTier::Low);
+    session->prepared(1, config::QualityTier::Low);
     const auto first = await(*session, [](const wire::StateFrame&) { return true; });
     ASSERT_TRUE(first);
     const glm::vec3 begin = first->eye.positionMetres;
@@ -155,21 +155,21 @@ TEST(Visitor, steersTheSubmarine) {
     });
     ASSERT_TRUE(rested) << "its last word holds for half a second";
     EXPECT_LT(fastest, 1.3F);
-    session->send(session::NodeInput::Quit);
+    session->quit();
 }
 
 TEST(Visitor, looksIntoTheMindOfAFish) {
     const Master master({});
     const auto session = master.connect();
     ASSERT_TRUE(session->join());
-    session->prepared(config::QualityTier::Low);
+    session->prepared(1, config::QualityTier::Low);
     session->askMind(0);
     const auto told =
         await(*session, [&](const wire::StateFrame&) { return session->latestMind(); });
     ASSERT_TRUE(told);
     EXPECT_EQ(session->latestMind()->fish, 0U);
     EXPECT_FALSE(session->latestMind()->lines.empty());
-    session->send(session::NodeInput::Quit);
+    session->quit();
 }
 
 }  // namespace

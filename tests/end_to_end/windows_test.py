@@ -23,7 +23,10 @@ class Display:
         os.close(write)
         with os.fdopen(read) as number:
             self.name = ":" + number.readline().strip()
-        self.environment = os.environ | {"DISPLAY": self.name, "LP_NUM_THREADS": "1"}
+
+    @property
+    def environment(self):
+        return os.environ | {"DISPLAY": self.name, "LP_NUM_THREADS": "1"}
 
     def close(self):
         self.server.terminate()
@@ -109,6 +112,20 @@ class Windows(unittest.TestCase):
         wait_until(lambda: steered() == "nobody steers", 30, "the hand to let go")
         self.display.press(window, "q")
         self.assertEqual(self.show.wait(30), 0)
+
+    def test_another_scene_comes_on_in_the_same_windows(self):
+        self.run_show("--pattern", "grid")
+        wait_until(lambda: self.frames_shown() >= 3, 60, "the first frames")
+        before = self.display.windows()
+        done = aquarama("set", self.rig, "scene", "empty_sea")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        at = self.frames_shown()
+        wait_until(lambda: self.frames_shown() > at + 60, 60, "light again")
+        self.assertEqual(self.display.windows(), before)
+        _, _, pixel = self.display.screenshot()
+        for x, y, width, height, _ in before.values():
+            colours = {pixel(x + i * width // 24, y + j * height // 18) for i in range(2, 23) for j in range(2, 17)}
+            self.assertGreater(len(colours), 20, "the grid is drawn by the new look")
 
     def test_keys(self):
         self.run_show()

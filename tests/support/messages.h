@@ -61,9 +61,10 @@ inline v1::Envelope blobChunk(const Digest& digest,
     return message;
 }
 
-inline v1::Envelope prepared(config::QualityTier quality) {
+inline v1::Envelope prepared(config::QualityTier quality, std::uint32_t look = 1) {
     v1::Envelope message;
     message.mutable_prepared()->set_quality(static_cast<std::uint32_t>(quality));
+    message.mutable_prepared()->set_look(look);
     return message;
 }
 

@@ -67,7 +67,7 @@ class CountingWorld final : public conductor::Simulation {
 };
 
 struct Event {
-    enum class Kind : std::uint8_t { Ready, Presented } kind;
+    enum class Kind : std::uint8_t { Ready, Presented, Built } kind;  // Built: a look
     std::string node;
     wire::StateFrame state;
 };
@@ -81,13 +81,26 @@ class Journal {
         events_.push_back(std::move(event));
         grown_.notify_all();
     }
+    // Of frames.
     std::vector<Event> events() const {
+        std::vector<Event> events = allEvents();
+        std::erase_if(events, [](const Event& event) { return event.kind == Event::Kind::Built; });
+        return events;
+    }
+    std::vector<Event> allEvents() const {
         const std::lock_guard lock(mutex_);
         return events_;
     }
     std::uint64_t presentedBy(const std::string& node) const {
         const std::lock_guard lock(mutex_);
         return presented(node);
+    }
+    // Waits until an event of this kind is noted. False: none came within half a minute.
+    template <class IsIt>
+    bool await(IsIt isIt) {
+        std::unique_lock lock(mutex_);
+        return grown_.wait_for(
+            lock, std::chrono::seconds(30), [&] { return std::ranges::any_of(events_, isIt); });
     }
     // False: it did not come to it within half a minute.
     bool awaitPresented(const std::string& node, std::uint64_t frames) {
@@ -196,10 +209,9 @@ class StageNode {
   private:
     void live() try {
         std::this_thread::sleep_for(habits_.starting);
-        while (session_->join()) {
+        while (const auto admission = session_->join()) {
             ++joins_;
-            std::this_thread::sleep_for(habits_.building);
-            session_->prepared(config::QualityTier::Low);
+            build(admission->look);
             if (show() == session::Release::Quit) return;
         }
     } catch (const Error& error) {
@@ -207,9 +219,21 @@ class StageNode {
         refusal_ = error.what();
     }
 
+    void build(std::uint32_t look) {
+        std::this_thread::sleep_for(habits_.building);
+        wire::StateFrame built;
+        built.show.look = look;
+        journal_.note({Event::Kind::Built, name_, built});
+        session_->prepared(look, config::QualityTier::Low);
+    }
+
     session::Release show() {
         while (auto state = session_->nextFrame()) {
             const Frame frame = state->frame;
+            // Beside the frames, as a node does.
+            if (const auto next = session_->nextLook())
+                building_ =
+                    std::async(std::launch::async, [this, look = next->look] { build(look); });
             std::this_thread::sleep_for(habits_.drawing);
             journal_.note({Event::Kind::Ready, name_, *state});
             const session::Release release = session_->readyThenWait(frame);
@@ -231,6 +255,7 @@ class StageNode {
     mutable std::mutex mutex_;
     std::string refusal_;
     std::unique_ptr<session::Session> session_;
+    std::future<void> building_;
     std::thread thread_;
 };
 

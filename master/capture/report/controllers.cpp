@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/capture/report/controllers.h"
 
 #include <algorithm>
 #include <cassert>

@@ -17,7 +17,6 @@
 #include "common/motion/repertoire.h"
 #include "master/capture/biomechanical_fish.h"
 #include "master/capture/measure.h"
-#include "master/capture/report/controllers.h"
 #include "master/capture/report/segment_figures.h"
 #include "master/capture/report/silhouette.h"
 

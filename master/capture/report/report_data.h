@@ -54,6 +54,12 @@ template <class Points>
 // body lengths.
 [[nodiscard]] std::string reportData(const motion::Repertoire& repertoire);
 
+inline constexpr int kMoments = 240;  // intervals between the recorded moments of a trial
+
+// The biomechanical fish under each of the nine motor controllers, simulated in this call: most
+// trials start in medium swimming; balance starts rolled by 40 degrees and retreat at rest. JSON.
+[[nodiscard]] std::string controllersData(const config::Species& species);
+
 // Write reportData() as SPECIES.json and controllersData() as controllers.json into the folder and
 // return the path. Throw Error where that cannot be written.
 std::filesystem::path writeReport(const motion::Repertoire& repertoire,

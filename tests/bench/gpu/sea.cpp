@@ -32,7 +32,8 @@ wire::StateFrame frameAfter(const simulation::LivingWorld& world, const wire::St
             .foodOriginMetres = now.food.originMetres,
             .foodBefore = last.foodAfter,
             .foodAfter = std::move(now.food.particles),
-            .daylight = now.daylight};
+            .daylight = now.daylight,
+            .show = {}};
 }
 
 }  // namespace

@@ -46,12 +46,13 @@ std::optional<StateFrame> stateIn(const Packet& packet) {
 // Programs of one major version understand each other: the bytes of a message never change.
 TEST(Messages, haveTheBytesThatTheyAlwaysHad) {
     const std::vector<std::string> digests{
-        "ad94141562075314", "ae4cef27df3adcf5", "7687747413484398", "a3fdc54a6bf9ddbd",
-        "ad11dd27c0983987", "81410cb06e23d6ae", "a36e0f7f63cf522e", "d58981b9658d8987",
+        "39917dd9bf35bb19", "ae4cef27df3adcf5", "dfbdd8d85639eb3e", "a3fdc54a6bf9ddbd",
+        "ad11dd27c0983987", "090c0b2bd94cf4ca", "a36e0f7f63cf522e", "1139093d03c35539",
         "a8f675baedfe365b", "a0d58f772300ae41", "53120c895e56033d", "247b8e1afba65972",
         "c7f3b369c0a00088", "a551c3a1e912174b", "760f621d6ecf57ec", "bc793839cd199cc1",
-        "d29f308dd2bccd54", "b4f804f1f21489db", "bcea5a3655123469", "133cce62e1fa4467",
-        "0e6d236a31b5abdd", "8ab8134b5d347401", "e0dfa8acf875aa5e"};
+        "235999b6cc1f24b0", "b4f804f1f21489db", "bcea5a3655123469", "133cce62e1fa4467",
+        "bdf73ab30553fc56", "8ab8134b5d347401", "e0dfa8acf875aa5e", "f78471573ccb309e",
+        "32c7dff52456d642", "723425cc2d64413d"};
     const std::vector<Packet> packets = samplePackets();
     ASSERT_EQ(packets.size(), digests.size());
     for (std::size_t i = 0; i < packets.size(); ++i)
@@ -83,7 +84,7 @@ TEST(Messages, aStateKeepsEveryBitOfEveryFish) {
     EXPECT_EQ(state->foodBefore, sent.foodBefore);
     EXPECT_EQ(state->foodAfter, sent.foodAfter);
     EXPECT_EQ(state->daylight, sent.daylight);
-    EXPECT_EQ(state->quality, sent.quality);
+    EXPECT_EQ(state->show, sent.show);
 }
 
 // An empty sea between two ticks, and a school before any food has come.
@@ -194,7 +195,12 @@ TEST(Messages, aStateThatLiesIsRefused) {
     EXPECT_TRUE(refused([](StateFrame& s) { s.foodAfter[1].bits = 5; }));  // nothing, somewhere
     EXPECT_TRUE(refused([&](StateFrame& s) { s.foodOriginMetres.z = nan; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.daylight = -0.01F; }));
-    EXPECT_TRUE(refused([](StateFrame& s) { s.quality = static_cast<config::QualityTier>(4); }));
+    EXPECT_TRUE(
+        refused([](StateFrame& s) { s.show.quality = static_cast<config::QualityTier>(4); }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.show.pattern = static_cast<Pattern>(4); }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.show.brightness = 1.01F; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.show.scene = "a\nb"; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.show.pilot = std::string(65, 'x'); }));
     EXPECT_TRUE(refused([&](StateFrame& s) { s.daylight = nan; }));
     EXPECT_TRUE(refused([](StateFrame& s) {
         s.foodBefore.resize(kMostFood + 1);
@@ -210,9 +216,9 @@ TEST(Messages, foodIsDroppedAtAPlaceOrNotAtAll) {
     EXPECT_FALSE(accepted({std::numeric_limits<float>::quiet_NaN(), -6, 0}));
     EXPECT_FALSE(accepted({0, std::numeric_limits<float>::infinity(), 0}));
     EXPECT_FALSE(isUnderstood(test::input(v1::INPUT_DROP_FOOD)));
-    v1::Envelope pause = test::dropFood({0, 0, 0});
-    pause.mutable_input()->set_kind(v1::INPUT_TOGGLE_PAUSE);
-    EXPECT_FALSE(isUnderstood(pause));
+    v1::Envelope quit = test::dropFood({0, 0, 0});
+    quit.mutable_input()->set_kind(v1::INPUT_QUIT);
+    EXPECT_FALSE(isUnderstood(quit));
     EXPECT_FALSE(isUnderstood(test::input(v1::INPUT_UNSPECIFIED)));
 }
 
@@ -231,7 +237,7 @@ TEST(Messages, aSteeringIsOfSharesNoneBeyondFull) {
 TEST(Messages, aCastOfMoreOrFewerFishThanTheSchoolIsRefused) {
     const auto accepted = [](std::uint32_t fish) {
         v1::Welcome welcome = sampleWelcome();
-        welcome.mutable_cast(1)->set_fish(fish);
+        welcome.mutable_look()->mutable_cast(1)->set_fish(fish);
         return isUnderstood(test::welcome(welcome));
     };
     EXPECT_TRUE(accepted(1));
@@ -247,14 +253,16 @@ TEST(Messages, aWelcomeOrAStatusThatLiesIsRefused) {
         alter(welcome);
         return isUnderstood(test::welcome(welcome));
     };
-    EXPECT_TRUE(welcomed([](v1::Welcome& w) { w.clear_quality(); }));
-    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.set_quality(4); }));
-    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.clear_seed(); }));
+    EXPECT_TRUE(welcomed([](v1::Welcome& w) { w.mutable_look()->clear_quality(); }));
+    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.mutable_look()->set_quality(4); }));
+    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.mutable_look()->clear_seed(); }));
     EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.clear_pace(); }));
-    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.clear_pattern(); }));
-    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.set_length_millimetres(0, 65536); }));
-    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.add_fish_ids(1); }));
-    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.mutable_cast(0)->set_species("short"); }));
+    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.mutable_look()->clear_world(); }));
+    EXPECT_FALSE(
+        welcomed([](v1::Welcome& w) { w.mutable_look()->set_length_millimetres(0, 65536); }));
+    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.mutable_look()->add_fish_ids(1); }));
+    EXPECT_FALSE(
+        welcomed([](v1::Welcome& w) { w.mutable_look()->mutable_cast(0)->set_species("short"); }));
     EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.set_state_address("a\nb"); }));
     EXPECT_FALSE(
         welcomed([](v1::Welcome& w) { w.set_rig_text(std::string(kMostRigTextBytes + 1, ' ')); }));

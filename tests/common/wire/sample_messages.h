@@ -35,6 +35,19 @@ inline std::vector<FoodRecord> sampleFood() {
             foodRecord(FoodRecord::Kind::Pellet, {-63.0F, 0.125F, -1.0F}, 1)};
 }
 
+inline Show sampleShow() {
+    return {.version = 12,
+            .look = 3,
+            .scene = "reef",
+            .quality = config::QualityTier::Medium,
+            .pattern = Pattern::Grid,
+            .black = true,
+            .brightness = 0.2F,
+            .frozen = true,
+            .pilot = "middle",
+            .calibration = 0x0123456789ABCDEFU};
+}
+
 inline StateFrame sampleState(std::uint32_t fish) {
     StateFrame state;
     state.frame = {1U << 20U};
@@ -48,35 +61,68 @@ inline StateFrame sampleState(std::uint32_t fish) {
     state.foodBefore = sampleFood();
     state.foodAfter = sampleFood();
     state.daylight = 0.75F;
-    state.quality = config::QualityTier::Medium;
+    state.show = sampleShow();
     return state;
+}
+
+inline v1::Look sampleLook() {
+    v1::Look look;
+    look.set_number(3);
+    look.set_scene_text("name: \"reef\"\n");
+    look.set_seed(4000000000U);
+    look.set_world(true);
+    for (const std::uint32_t id : {7U, 4000000000U}) look.add_fish_ids(id);
+    for (const std::uint32_t length : {230U, 65535U}) look.add_length_millimetres(length);
+    for (const std::string kind : {"", "other "}) {
+        v1::SpeciesBlobs& member = *look.add_cast();
+        member.set_species(bytesOf(digestOf(kind + "species")));
+        member.set_repertoire(bytesOf(digestOf(kind + "repertoire")));
+        member.set_fish(1);
+    }
+    look.set_quality(static_cast<std::uint32_t>(config::QualityTier::Ultra));
+    return look;
 }
 
 inline v1::Welcome sampleWelcome() {
     v1::Welcome welcome;
     welcome.set_rig_text("name: \"desk\"\n# a comment\n");
-    welcome.set_scene_text("name: \"reef\"\n");
     welcome.set_state_address("tcp://127.0.0.1:7401");
-    welcome.set_seed(4000000000U);
     welcome.set_pace(v1::PACE_LOCKSTEP);
-    welcome.set_pattern(v1::PATTERN_GREY);
-    for (const std::uint32_t id : {7U, 4000000000U}) welcome.add_fish_ids(id);
-    for (const std::uint32_t length : {230U, 65535U}) welcome.add_length_millimetres(length);
-    for (const std::string kind : {"", "other "}) {
-        v1::SpeciesBlobs& member = *welcome.add_cast();
-        member.set_species(bytesOf(digestOf(kind + "species")));
-        member.set_repertoire(bytesOf(digestOf(kind + "repertoire")));
-        member.set_fish(1);
-    }
-    welcome.set_quality(static_cast<std::uint32_t>(config::QualityTier::Ultra));
+    *welcome.mutable_look() = sampleLook();
     return welcome;
+}
+
+inline v1::Envelope samplePrepare() {
+    v1::Envelope message;
+    *message.mutable_prepare()->mutable_look() = sampleLook();
+    return message;
+}
+
+inline v1::Envelope sampleSet() {
+    v1::Envelope message;
+    v1::Set& set = *message.mutable_set();
+    set.set_request(0x8000000000000001U);
+    set.set_scene("bait_ball");
+    set.set_quality("auto");
+    set.set_pattern(v1::PATTERN_WORLD);
+    set.set_black(false);
+    set.set_freeze(true);
+    return message;
+}
+
+inline v1::Envelope sampleSetReply() {
+    v1::Envelope message;
+    v1::SetReply& reply = *message.mutable_set_reply();
+    reply.set_request(0x8000000000000001U);
+    reply.set_outcome(v1::OUTCOME_REFUSED);
+    reply.set_reason("there is no such scene");
+    return message;
 }
 
 inline v1::Envelope sampleStatus() {
     v1::Envelope message;
     v1::StatusReply& reply = *message.mutable_status_reply();
     reply.set_pace(v1::PACE_LOCKSTEP);
-    reply.set_paused(true);
     reply.set_frame(99);
     reply.set_tick(98);
     reply.set_frame_median_ms(16.5F);
@@ -86,7 +132,8 @@ inline v1::Envelope sampleStatus() {
     reply.set_refused_packets(3);
     writeEye({{1, -6, 2.5F}, {0.5F, 0.5F, 0.5F, -0.5F}}, *reply.mutable_eye());
     reply.set_speed_m_s(0.375F);
-    reply.set_pilot("middle");
+    writeShow(sampleShow(), *reply.mutable_show());
+    reply.set_change("prepared by all nodes but left");
     const auto add = [&](const char* name, v1::NodeCondition is, std::uint64_t late, int dropped) {
         v1::NodeStatus& node = *reply.add_nodes();
         node.set_name(name);
@@ -109,7 +156,7 @@ inline std::vector<Packet> samplePackets() {
                                            test::welcome(sampleWelcome()),
                                            test::blobRequest(digest, 1U << 18U),
                                            test::blobChunk(digest, 50, 200, chunk),
-                                           test::prepared(config::QualityTier::High),
+                                           test::prepared(config::QualityTier::High, 3),
                                            test::joined(65)};
     const std::vector<v1::Envelope> after{
         test::beacon(),
@@ -120,13 +167,16 @@ inline std::vector<Packet> samplePackets() {
         test::farewell(),
         test::ping(-1),
         test::pong(-1, 77),
-        test::input(v1::INPUT_TOGGLE_PAUSE),
+        test::input(v1::INPUT_QUIT),
         test::dropFood({0.5F, -6.25F, -2.5F}),
         test::steer({127, -127, 0, 1, -64}),
         test::statusRequest(),
         sampleStatus(),
         test::explainRequest(59),
-        test::explanation(59, 60, 7200, {"59  bigeye_scad", "", "~"})};
+        test::explanation(59, 60, 7200, {"59  bigeye_scad", "", "~"}),
+        samplePrepare(),
+        sampleSet(),
+        sampleSetReply()};
     std::vector<Packet> packets;
     for (const v1::Envelope& message : before) packets.push_back(encode(kSession, message));
     packets.push_back(encodeState(kSession, viewOf(sampleState(5))));

@@ -108,7 +108,7 @@ TEST_F(Reception, refusesAnotherMajorVersionByName) {
     peer.say(test::hello("left", wire::kProtocolMajor + 1, "9.9.9"));
     const auto refusal = peer.hear(v1::Envelope::kRefusal);
     ASSERT_TRUE(refusal);
-    EXPECT_THAT(refusal->refusal().reason(), testing::HasSubstr("protocol 2"));
+    EXPECT_THAT(refusal->refusal().reason(), testing::HasSubstr("protocol 3"));
     EXPECT_THAT(refusal->refusal().reason(), testing::HasSubstr("9.9.9"));
 }
 
@@ -121,6 +121,13 @@ TEST_F(Reception, refusesAMachineWhoseMotorMovesFishElsewhere) {
     const auto refusal = peer.hear(v1::Envelope::kRefusal);
     ASSERT_TRUE(refusal);
     EXPECT_THAT(refusal->refusal().reason(), testing::HasSubstr("0000000000001234"));
+}
+
+v1::Envelope setBlack(std::uint64_t request, bool black = true) {
+    v1::Envelope message;
+    message.mutable_set()->set_request(request);
+    message.mutable_set()->set_black(black);
+    return message;
 }
 
 // What each key allows; a window of a node is a visitor's.
@@ -154,7 +161,7 @@ TEST(Users, maySayWhatTheirRoleIsFor) {
     EXPECT_EQ(whoMay(input(v1::INPUT_STEER)), "node visitor operator crew ");
     EXPECT_EQ(whoMay(input(v1::INPUT_DROP_FOOD)), "node visitor operator crew ");
     EXPECT_EQ(whoMay(input(v1::INPUT_QUIT)), "operator crew ");
-    EXPECT_EQ(whoMay(input(v1::INPUT_TOGGLE_PAUSE)), "operator crew ");
+    EXPECT_EQ(whoMay(setBlack(1)), "operator crew ");
     v1::Envelope ofTheMaster;
     ofTheMaster.mutable_present()->set_frame(1);
     EXPECT_EQ(whoMay(ofTheMaster), "") << "nobody but the master says it";
@@ -180,7 +187,7 @@ TEST_F(Reception, refusesANameThatTheRigDoesNotHaveAndSaysWhichItHas) {
 
 TEST_F(Reception, welcomesWithAllThatANodeNeeds) {
     ConductorOptions options;
-    options.pattern = wire::Pattern::Grid;
+    options.wanted.pattern = wire::Pattern::Grid;
     const test::StageMaster master(options, net_.master());
     Peer peer(net_);
     peer.say(test::hello("left"));
@@ -189,10 +196,10 @@ TEST_F(Reception, welcomesWithAllThatANodeNeeds) {
     const v1::Welcome& welcome = message->welcome();
     EXPECT_EQ(config::parseRig(welcome.rig_text(), "welcome").channels.size(), 3U);
     EXPECT_EQ(welcome.state_address(), "memory:state");
-    EXPECT_EQ(welcome.seed(), 77U);
-    EXPECT_EQ(welcome.pattern(), v1::PATTERN_GRID);
-    EXPECT_EQ(welcome.fish_ids_size(), 3);
-    net::BlobAssembly assembly(wire::digestIn(welcome.cast(0).repertoire()));
+    EXPECT_EQ(welcome.look().seed(), 77U);
+    EXPECT_FALSE(welcome.look().world());
+    EXPECT_EQ(welcome.look().fish_ids_size(), 3);
+    net::BlobAssembly assembly(wire::digestIn(welcome.look().cast(0).repertoire()));
     while (!assembly.whole()) {
         peer.say(test::blobRequest(assembly.digest(), assembly.nextOffset()));
         const auto answer = peer.hear(v1::Envelope::kBlobChunk);
@@ -276,12 +283,12 @@ TEST_F(Reception, handsMoveTheEye) {
     EXPECT_EQ(eyeAfterSome(), 5);
     pilot.say(test::steer({.ahead = 7}));
     EXPECT_EQ(eyeAfterSome(), 7);
-    EXPECT_EQ(status().pilot(), "pilot");
+    EXPECT_EQ(status().show().pilot(), "pilot");
     left.say(test::steer({.ahead = 6}));  // still held, but not the latest
     EXPECT_EQ(eyeAfterSome(), 7);
     pilot.say(test::steer({}));
     EXPECT_EQ(eyeAfterSome(), 0);
-    EXPECT_NE(status().pilot(), "pilot");
+    EXPECT_NE(status().show().pilot(), "pilot");
 }
 
 TEST_F(Reception, aSecondNodeOfANameWaitsUntilTheFirstIsSilent) {
@@ -401,22 +408,62 @@ TEST_F(Reception, theSlowestNodeDecidesHowFineTheWallIsDrawn) {
     ASSERT_TRUE(right.join("right", config::QualityTier::Medium));
     const auto state = left.seeState();
     ASSERT_TRUE(state);
-    EXPECT_EQ(state->quality, config::QualityTier::Medium);
+    EXPECT_EQ(state->show.quality, config::QualityTier::Medium);
 }
 
 TEST_F(Reception, aRigMaySayHowFineItsWallIsDrawn) {
     ConductorOptions options = lockstepOf({"left"});
-    options.quality = config::QualityTier::Ultra;
+    options.wanted.quality = config::QualityTier::Ultra;
     test::StageMaster master(options, net_.master());
     Peer left(net_);
     left.say(test::hello("left"));
     const auto welcome = left.hear(v1::Envelope::kWelcome);
     ASSERT_TRUE(welcome);
-    EXPECT_EQ(config::tierAt(welcome->welcome().quality()), config::QualityTier::Ultra);
+    EXPECT_EQ(config::tierAt(welcome->welcome().look().quality()), config::QualityTier::Ultra);
     left.say(test::prepared(config::QualityTier::Low));
     const auto state = left.seeState();
     ASSERT_TRUE(state);
-    EXPECT_EQ(state->quality, config::QualityTier::Ultra);
+    EXPECT_EQ(state->show.quality, config::QualityTier::Ultra);
+}
+
+TEST_F(Reception, aShowInLockstepCannotBeChanged) {
+    const test::StageMaster master(lockstepOf({"left"}), net_.master());
+    Peer asker(net_);
+    asker.say(setBlack(1));
+    const auto reply = asker.hear(v1::Envelope::kSetReply);
+    ASSERT_TRUE(reply);
+    EXPECT_EQ(reply->set_reply().outcome(), v1::OUTCOME_REFUSED);
+    EXPECT_THAT(reply->set_reply().reason(), testing::HasSubstr("lockstep"));
+}
+
+TEST_F(Reception, whatCannotBeShownIsRefusedByName) {
+    const test::StageMaster master(ConductorOptions{}, net_.master());
+    Peer asker(net_);
+    const auto refusal = [&](auto alter) {
+        static std::uint64_t request = 0;
+        v1::Envelope message;
+        message.mutable_set()->set_request(++request);
+        alter(*message.mutable_set());
+        asker.say(message);
+        const auto reply = asker.hear(v1::Envelope::kSetReply).value_or(v1::Envelope{}).set_reply();
+        EXPECT_EQ(reply.outcome(), v1::OUTCOME_REFUSED);
+        return reply.reason();
+    };
+    EXPECT_THAT(refusal([](v1::Set& s) { s.set_scene("reef"); }), testing::HasSubstr("one scene"));
+    EXPECT_THAT(refusal([](v1::Set& s) { s.set_quality("best"); }), testing::HasSubstr("best"));
+    EXPECT_THAT(refusal([](v1::Set& s) { s.set_quality("auto"); }), testing::HasSubstr("measured"));
+    EXPECT_EQ(status().show().version(), 1U);
+}
+
+// A node that missed the announcement of a look would draw another one than the wall.
+TEST_F(Reception, aNodeThatBuiltWhatTheWallDoesNotShowHasToJoinAnew) {
+    const test::StageMaster master(ConductorOptions{}, net_.master());
+    Peer left(net_);
+    left.say(test::hello("left"));
+    ASSERT_TRUE(left.hear(v1::Envelope::kWelcome));
+    left.say(test::prepared(config::QualityTier::Low, 7));
+    EXPECT_TRUE(left.hear(v1::Envelope::kDismissed));
+    EXPECT_TRUE(left.join("left"));
 }
 
 TEST_F(Reception, writesWhenEachStateWentOut) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole shows over real sockets: order, faults, start orders.
+#include <functional>
 #include <map>
 #include <random>
 #include <set>
@@ -224,16 +225,16 @@ TEST(Show, anyNodeMayEndIt) {
     test::Journal journal;
     const auto nodes = nodesOf(master, journal);
     ASSERT_TRUE(journal.awaitPresented("middle", 3));
-    nodes[1]->session().send(session::NodeInput::Quit);
+    nodes[1]->session().quit();
     EXPECT_GE(master.report().frames, 3U);
 }
 
-TEST(Show, aPausedWorldStandsStillWhileFramesGoOn) {
+TEST(Show, aFrozenWorldStandsStillWhileFramesGoOn) {
     test::StageMaster master(ConductorOptions{});
     test::Journal journal;
     const auto nodes = nodesOf(master, journal);
     ASSERT_TRUE(journal.awaitPresented("left", 5));
-    nodes[0]->session().send(session::NodeInput::TogglePause);
+    nodes[0]->session().freeze(true);
     std::uint64_t still = 0;
     while (still < 20) {  // the suite's budget would stop it
         ASSERT_TRUE(journal.awaitPresented("left", journal.presentedBy("left") + 1));
@@ -243,11 +244,136 @@ TEST(Show, aPausedWorldStandsStillWhileFramesGoOn) {
                 return event.state.tick == events.back().state.tick;
             }));
     }
-    nodes[1]->session().send(session::NodeInput::TogglePause);
-    const Tick paused = journal.events().back().state.tick;
-    while (journal.events().back().state.tick <= paused) {
+    nodes[1]->session().freeze(false);
+    const Tick frozen = journal.events().back().state.tick;
+    while (journal.events().back().state.tick <= frozen) {
         ASSERT_TRUE(journal.awaitPresented("left", journal.presentedBy("left") + 1));
     }
+}
+
+// Sets a value as `aquarama set` does; returns why it was refused, empty where it was not.
+std::string setting(const test::StageMaster& master, const std::function<void(v1::Set&)>& alter) {
+    v1::Set set;
+    alter(set);
+    try {
+        RequestClient(master.control()).set(set, [](const std::string&) {});
+        return "";
+    } catch (const Error& refused) {
+        return refused.what();
+    }
+}
+
+ConductorOptions withScenes() {
+    ConductorOptions options;
+    options.wanted.scene = "reef";
+    options.makeWorld = [](const std::string& scene) {
+        if (scene != "lagoon") throw Error("there is no scene " + scene);
+        return NextWorld{test::StageMaster::assets(),
+                         test::StageMaster::school(),
+                         std::make_unique<test::CountingWorld>()};
+    };
+    return options;
+}
+
+// Whatever a node draws it has built; no node shows the next look before all have built it; and the
+// wall is black when it changes.
+void expectOneLook(const std::vector<test::Event>& events) {
+    std::map<std::string, std::set<std::uint32_t>> built;
+    std::map<std::string, wire::Show> shown;
+    for (const test::Event& event : events) {
+        const wire::Show& show = event.state.show;
+        if (event.kind == test::Event::Kind::Built) built[event.node].insert(show.look);
+        if (event.kind != test::Event::Kind::Presented) continue;
+        for (const std::string& name : kNames)
+            EXPECT_TRUE(show.look == 1 || built[name].contains(show.look)) << name;
+        if (shown.contains(event.node) && shown[event.node].look != show.look) {
+            EXPECT_EQ(shown[event.node].brightness, 0) << "the last frame of the scene before";
+            EXPECT_LT(show.brightness, 0.2F) << "the first of the next";
+        }
+        shown[event.node] = show;
+    }
+}
+
+TEST(Show, aSceneChangesThroughBlackWhenEveryNodeHasBuiltIt) {
+    test::StageMaster master(withScenes());
+    test::Journal journal;
+    std::vector<std::unique_ptr<test::StageNode>> nodes;
+    for (const std::string& name : kNames)
+        nodes.push_back(std::make_unique<test::StageNode>(
+            name,
+            master.connect(),
+            journal,
+            test::StageNode::Habits{{}, {}, milliseconds(name == "middle" ? 400 : 20)}));
+    for (const std::string& name : kNames) ASSERT_TRUE(journal.awaitPresented(name, 5));
+    const std::uint64_t before = journal.presentedBy("left");
+    EXPECT_EQ(setting(master, [](v1::Set& set) { set.set_scene("lagoon"); }), "");
+    EXPECT_TRUE(journal.await([](const test::Event& event) {
+        return event.kind == test::Event::Kind::Presented && event.state.show.look == 2 &&
+               event.state.show.brightness == 1;
+    }));
+    expectOneLook(journal.allEvents());
+    const auto events = journal.events();
+    const auto during = std::ranges::count_if(events, [](const test::Event& event) {
+        return event.kind == test::Event::Kind::Presented && event.node == "left" &&
+               event.state.show.look == 1;
+    });
+    EXPECT_GT(static_cast<std::uint64_t>(during), before + 10) << "the scene before was shown";
+    EXPECT_EQ(events.back().state.show.scene, "lagoon");
+    for (const auto& node : nodes) EXPECT_EQ(node->joins(), 1);
+
+    EXPECT_THAT(setting(master, [](v1::Set& set) { set.set_scene("pond"); }),
+                testing::HasSubstr("there is no scene pond"));
+    EXPECT_EQ(RequestClient(master.control()).status().show().scene(), "lagoon");
+}
+
+// The rest of the wall need not wait for one that hangs, and it has another chance.
+TEST(Show, aNodeThatComesWhileASceneChangesShowsTheNewOne) {
+    test::StageMaster master(withScenes());
+    test::Journal journal;
+    std::vector<std::unique_ptr<test::StageNode>> nodes;
+    for (const std::string& name : {kNames[0], kNames[1]})
+        nodes.push_back(std::make_unique<test::StageNode>(
+            name, master.connect(), journal, test::StageNode::Habits{{}, {}, milliseconds(100)}));
+    ASSERT_TRUE(journal.awaitPresented("middle", 5));
+    nodes.push_back(std::make_unique<test::StageNode>(
+        "right",
+        master.connect(),
+        journal,
+        test::StageNode::Habits{{}, milliseconds(50), milliseconds(250)}));
+    EXPECT_EQ(setting(master, [](v1::Set& set) { set.set_scene("lagoon"); }), "");
+    EXPECT_TRUE(journal.await([](const test::Event& event) {
+        return event.kind == test::Event::Kind::Presented && event.node == "right" &&
+               event.state.show.scene == "lagoon";
+    }));
+}
+
+TEST(Show, whatWasSetIsShownByAMasterThatIsStartedAgain) {
+    const std::filesystem::path folder = test::freshDirectory();
+    ConductorOptions options;
+    options.keptAt = folder / "desk.txtpb";
+    {
+        test::StageMaster master(options);
+        test::Journal journal;
+        const auto nodes = nodesOf(master, journal);
+        ASSERT_TRUE(journal.awaitPresented("left", 3));
+        EXPECT_EQ(setting(master,
+                          [](v1::Set& set) {
+                              set.set_black(true);
+                              set.set_pattern(v1::PATTERN_GRID);
+                          }),
+                  "");
+    }
+    options.kept = readKeptShow(options.keptAt);
+    options.wanted = with({}, options.kept);
+    test::StageMaster master(options);
+    test::Journal journal;
+    const auto nodes = nodesOf(master, journal);
+    ASSERT_TRUE(journal.awaitPresented("left", 3));
+    for (const test::Event& event : journal.events()) {
+        EXPECT_EQ(event.state.show.brightness, 0);
+        EXPECT_EQ(event.state.show.pattern, wire::Pattern::Grid);
+    }
+    std::filesystem::remove_all(folder);
 }
 
 TEST(Show, anEvenlySlowWallLosesNobody) {

@@ -61,19 +61,18 @@ TEST(SimulationThread, liveTicksAreDueOnePeriodApartWhateverTheirDelay) {
     }
 }
 
-TEST(SimulationThread, aPausePutsOffAllThatIsDue) {
+TEST(SimulationThread, aFreezePutsOffAllThatIsDue) {
     test::CountingWorld world;
     SimulationThread simulationThread(world, wire::Pace::Live, {}, [] {});
     next(simulationThread);
-    simulationThread.togglePause();
-    EXPECT_TRUE(simulationThread.paused());
+    simulationThread.freeze(true);
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
     while (simulationThread.take()) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
     EXPECT_FALSE(simulationThread.take());
     const net::Instant resumed = net::monotonicNow();
-    simulationThread.togglePause();
+    simulationThread.freeze(false);
     EXPECT_GE(next(simulationThread).due, resumed);
 }
 
@@ -87,11 +86,11 @@ void askAndExpectAnAnswer(SimulationThread& simulationThread) {
     while (!answered) std::this_thread::yield();  // the suite's budget would stop it
 }
 
-TEST(SimulationThread, doesJobsWhileItRunsWhileItIsPausedAndWhileNobodyTakesItsTicks) {
+TEST(SimulationThread, doesJobsWhileItRunsWhileItIsFrozenAndWhileNobodyTakesItsTicks) {
     test::CountingWorld world;
     SimulationThread live(world, wire::Pace::Live, {}, [] {});
     askAndExpectAnAnswer(live);
-    live.togglePause();
+    live.freeze(true);
     askAndExpectAnAnswer(live);
 
     test::CountingWorld other;
@@ -137,7 +136,7 @@ TEST(SimulationThread, endsWhileItWaits) {
     test::CountingWorld world;
     for (const wire::Pace pace : {wire::Pace::Live, wire::Pace::Lockstep}) {
         SimulationThread simulationThread(world, pace, {}, [] {});
-        if (pace == wire::Pace::Live) simulationThread.togglePause();
+        if (pace == wire::Pace::Live) simulationThread.freeze(true);
     }
 }
 

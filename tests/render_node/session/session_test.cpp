@@ -20,10 +20,13 @@ using std::chrono::seconds;
 constexpr std::uint64_t kRun = 42;
 
 v1::Welcome deskWelcome() {
-    v1::Welcome welcome = conductor::welcomeTo(
-        test::StageMaster::deskRig(), test::StageMaster::assets(), test::StageMaster::school());
+    v1::Welcome welcome;
+    welcome.set_rig_text(test::StageMaster::deskRig().text);
     welcome.set_pace(v1::PACE_LIVE);
-    welcome.set_pattern(v1::PATTERN_WORLD);
+    v1::Look& look = *welcome.mutable_look();
+    look = conductor::lookOf(test::StageMaster::assets(), test::StageMaster::school());
+    look.set_number(1);
+    look.set_world(true);
     return welcome;
 }
 
@@ -97,6 +100,7 @@ class ScriptedMaster {
     void show(std::uint64_t frame) {
         wire::StateFrame state;
         state.frame = {frame};
+        state.show.calibration = shortHash(digestOf(test::StageMaster::deskRig().text));
         channels_->publishState(wire::encodeState(run, wire::viewOf(state)));
     }
 
@@ -138,7 +142,7 @@ class SessionTest : public testing::Test {
         auto join = joining();
         master_.admit(deskBlobs(), pace);
         ASSERT_TRUE(join.get());
-        session_->prepared(config::QualityTier::Low);
+        session_->prepared(1, config::QualityTier::Low);
         master_.letIn(first);
     }
     std::uint64_t nextFrame() { return session_->nextFrame().value().frame.value; }
@@ -209,7 +213,7 @@ TEST_F(SessionTest, aSceneThatCannotBeReadIsAnError) {
     auto join = joining();
     ASSERT_TRUE(master_.hear(v1::Envelope::kHello));
     v1::Welcome welcome = deskWelcome();
-    welcome.set_scene_text("name: \"reef\" mermaids: 3");
+    welcome.mutable_look()->set_scene_text("name: \"reef\" mermaids: 3");
     master_.say(test::welcome(welcome));
     master_.giveBlobs(deskBlobs(), 2);
     EXPECT_THAT(errorOf(std::move(join)), testing::HasSubstr("mermaids"));
@@ -228,7 +232,7 @@ TEST_F(SessionTest, isPreparedOnlyOnceItHearsTheStates) {
     auto join = joining();
     master_.admit(deskBlobs());
     ASSERT_TRUE(join.get());
-    session_->prepared(config::QualityTier::Low);
+    session_->prepared(1, config::QualityTier::Low);
     EXPECT_FALSE(master_.hear(v1::Envelope::kPrepared, milliseconds(200)));
     master_.publish(test::beacon());
     EXPECT_TRUE(master_.hear(v1::Envelope::kPrepared));
@@ -373,9 +377,9 @@ TEST_F(SessionTest, stopEndsTheWaitForARelease) {
 
 TEST_F(SessionTest, passesOnWhatItsKeysSay) {
     becomeMember(wire::Pace::Live, {0});
-    session_->send(NodeInput::TogglePause);
-    EXPECT_EQ(master_.hear(v1::Envelope::kInput)->input().kind(), v1::INPUT_TOGGLE_PAUSE);
-    session_->send(NodeInput::Quit);
+    session_->freeze(true);
+    EXPECT_TRUE(master_.hear(v1::Envelope::kSet)->set().freeze());
+    session_->quit();
     EXPECT_EQ(master_.hear(v1::Envelope::kInput)->input().kind(), v1::INPUT_QUIT);
 }
 

@@ -173,7 +173,7 @@ TEST_F(ChannelPictureTest, theFishNearestToThePointerIsTheOneThatIsSeenThere) {
     session::Admission two = stage->admission;
     two.school.push_back({.id = 18, .lengthMillimetres = 240});
     two.cast.front().fish = 2;
-    two.pattern = wire::Pattern::World;
+    two.world = true;
     ChannelPicture picture(two, kMiddle, config::QualityTier::Low);
     EXPECT_EQ(picture.fishNearest(emptySea(), {240, 180}), std::nullopt);
     EXPECT_EQ(picture.fishNearest(frame, glm::vec2(pixelOf(two.rig, kMiddle, kFishPlace))), 0U);

@@ -131,6 +131,61 @@ TEST_F(ChannelShowTest, theSnapshotIsTheGreyOfTheWall) {
     }
 }
 
+// The grid is built while grey is shown, and comes on with the first frame that says so; a frame of
+// a look that was never built cannot be shown.
+TEST_F(ChannelShowTest, theNextLookIsBuiltBesideTheFrames) {
+    class NextSession : public FakeSession {
+      public:
+        NextSession(Events& events) : FakeSession(events, {}), events_{events} {}
+        std::optional<wire::StateFrame> nextFrame() override {
+            const auto isBuilt = std::ranges::find(events_, "prepared look 1") != events_.end();
+            frame_ = frameNumber(frame_.frame.value + 1, wire::Pattern::Grid);
+            frame_.show.look = isBuilt ? 1 : 0;
+            last_ = frame_.frame.value;
+            return isBuilt && wasBuilt_ ? std::nullopt
+                                        : (wasBuilt_ = isBuilt, std::optional(frame_));
+        }
+        session::Release readyThenWait(Frame) override { return session::Release::Present; }
+        std::uint64_t last_ = 0;
+
+      private:
+        Events& events_;
+        wire::StateFrame frame_;
+        bool wasBuilt_ = false;
+    };
+    NextSession session(events_);
+    session.nextLook_ = admissionTo(wire::Pattern::Grid);
+    session.nextLook_->look = 1;
+    session.nextLook_->show = digestOf("another");
+    show(session, options(/*deep=*/true));
+    EXPECT_GT(session.last_, 2U) << "frames went on while it was built";
+    EXPECT_TRUE(fs::exists(folder_ + "/channel-middle.png"));
+
+    events_.clear();
+    wire::StateFrame unknown = frameNumber(0);
+    unknown.show.look = 9;
+    FakeSession lost(events_, {{unknown, session::Release::Present}});
+    show(lost, options());
+    EXPECT_EQ(events_, (Events{"prepared", "join"}));
+}
+
+// Black to the last bit: no grain of the dither, no text.
+TEST_F(ChannelShowTest, withoutLightAPictureIsBlackAndHalfTheLightIsHalf) {
+    for (const float brightness : {0.0F, 0.5F}) {
+        wire::StateFrame frame = frameNumber(0);
+        frame.show.brightness = brightness;
+        FakeSession session(events_, {{frame, session::Release::Present}});
+        show(session, options(/*deep=*/true));
+        const Picture picture = readPng(folder_ + "/channel-middle.png");
+        const config::Rig rig = wall::shippedRig("desk");
+        const wall::WarpMap warp = wall::warpMap(rig, channelIndex(rig, "middle"));
+        for (std::size_t i = 0; i < warp.pointAndWeight.size(); ++i) {
+            const double light = kGrey * double{brightness} * double{warp.pointAndWeight[i].w};
+            ASSERT_NEAR(picture.rgb[3 * i], 65535 * srgbOf(light), brightness == 0 ? 0 : 10);
+        }
+    }
+}
+
 // Straight ahead of the picture's middle; a click goes where the window is clicked.
 TEST_F(ChannelShowTest, dropsFoodAtAnArmsLengthBeforeTheEyeOfTheFrame) {
     wire::StateFrame frame = frameNumber(0);
@@ -167,7 +222,8 @@ double gridOfTheWall(const config::Rig& rig, glm::dvec2 pixel) {
 // How far a picture is displaced from what it should be, by least squares: the reference's slope
 // times the displacement explains the difference.
 TEST_F(ChannelShowTest, theGridLiesOnTheWallToATenthOfAPixel) {
-    FakeSession session(events_, {{frameNumber(0), session::Release::Present}});
+    FakeSession session(events_,
+                        {{frameNumber(0, wire::Pattern::Grid), session::Release::Present}});
     show(session, options(/*deep=*/true), wire::Pattern::Grid);
     const Light light = lightOf(readPng(folder_ + "/channel-middle.png"));
     const config::Rig rig = wall::shippedRig("desk");

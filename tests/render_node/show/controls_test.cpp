@@ -23,7 +23,7 @@ class ControlsTest : public testing::Test {
 
 TEST_F(ControlsTest, quitGoesToTheWholeShow) {
     controls_.press('q');
-    EXPECT_EQ(events_, Events{"send quit"});
+    EXPECT_EQ(events_, Events{"quit"});
 }
 
 TEST_F(ControlsTest, quitTwiceEndsThisNodeAlone) {
@@ -32,10 +32,14 @@ TEST_F(ControlsTest, quitTwiceEndsThisNodeAlone) {
     EXPECT_EQ(events_[1], "stop");
 }
 
-TEST_F(ControlsTest, pauseGoesToTheWholeShow) {
+// Wanted values, never toggles: what a key asks for depends on what the wall shows.
+TEST_F(ControlsTest, freezeAsksForWhatTheWallDoesNotShow) {
     controls_.press('p');
+    wire::Show shown;
+    shown.frozen = true;
+    controls_.show(shown);
     controls_.press(' ');
-    EXPECT_EQ(events_, (Events{"send pause", "send pause"}));
+    EXPECT_EQ(events_, (Events{"freeze", "thaw"}));
 }
 
 TEST_F(ControlsTest, eachOverlayIsSwitchedByItsKeyAndBack) {

@@ -34,7 +34,12 @@ class FakeSession : public session::Session {
         events_.emplace_back("join");
         return rejoin_;
     }
-    void prepared(config::QualityTier /*quality*/) override { events_.emplace_back("prepared"); }
+    void prepared(std::uint32_t look, config::QualityTier /*quality*/) override {
+        events_.push_back(look == 0 ? "prepared" : "prepared look " + std::to_string(look));
+    }
+    [[nodiscard]] std::optional<session::Admission> nextLook() override {
+        return std::exchange(nextLook_, {});
+    }
     std::optional<wire::StateFrame> nextFrame() override {
         if (script_.empty()) return std::nullopt;
         return script_.front().first;
@@ -49,9 +54,8 @@ class FakeSession : public session::Session {
         script_.pop_front();
         return answer;
     }
-    void send(session::NodeInput input) override {
-        events_.emplace_back(input == session::NodeInput::Quit ? "send quit" : "send pause");
-    }
+    void quit() override { events_.emplace_back("quit"); }
+    void freeze(bool frozen) override { events_.emplace_back(frozen ? "freeze" : "thaw"); }
     void dropFood(glm::vec3 positionMetres) override { drops_.push_back(positionMetres); }
     void steer(const Steering& steering) override { steerings_.push_back(steering); }
     void askMind(std::uint32_t fish) override { events_.push_back("ask " + std::to_string(fish)); }
@@ -60,7 +64,7 @@ class FakeSession : public session::Session {
     }
     void stop() override { events_.emplace_back("stop"); }
 
-    std::optional<session::Admission> rejoin_;
+    std::optional<session::Admission> rejoin_, nextLook_;
     std::vector<glm::vec3> drops_;
     std::vector<Steering> steerings_;
     std::optional<session::ExplainedMind> mind_;
@@ -75,6 +79,9 @@ class CountingContext : public gl::Context {
   public:
     CountingContext(Events& events, glm::ivec2 size)
         : events_{events}, context_{gl::makeOffscreenContext("auto", size)} {}
+    [[nodiscard]] std::unique_ptr<gl::Workspace> makeWorkspace() override {
+        return context_->makeWorkspace();
+    }
     void makeCurrent() override { context_->makeCurrent(); }
     void release() override { context_->release(); }
     void swap() override { events_.emplace_back("swap"); }
@@ -112,12 +119,14 @@ inline session::Admission admissionTo(wire::Pattern pattern) {
     admission.rig = wall::shippedRig("desk");
     admission.scene = config::readScene(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb");
     admission.seed = 1;
-    admission.pattern = pattern;
+    admission.world = pattern == wire::Pattern::World;
     return admission;
 }
 
-inline wire::StateFrame frameNumber(std::uint64_t number) {
+inline wire::StateFrame frameNumber(std::uint64_t number,
+                                    wire::Pattern pattern = wire::Pattern::World) {
     wire::StateFrame frame;
+    frame.show.pattern = pattern;
     frame.frame = {number};
     frame.tick = {number};
     return frame;

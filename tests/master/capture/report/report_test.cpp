@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "master/capture/measure.h"
-#include "master/capture/report/controllers.h"
 #include "master/capture/report/report_data.h"
 #include "master/capture/report/segment_figures.h"
 #include "master/capture/report/silhouette.h"

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a show comes to show what is set: another world is made beside the present one, nodes build
+// its look behind their pictures, and the wall goes through black to it.
+#include <cassert>
+#include <chrono>
+#include <utility>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "common/base/log.h"
+#include "common/wire/messages.h"
+#include "master/conductor/conductor.h"
+
+namespace aquarama::conductor {
+namespace {
+
+using Phase = ShowControl::Phase;
+
+constexpr net::Instant kRepeat = std::chrono::seconds(1);
+// To build a look; software OpenGL on a busy machine takes some ten seconds.
+constexpr net::Instant kMostPreparing = std::chrono::seconds(120);
+constexpr std::string_view kAuto = "auto";
+
+template <class Result>
+bool isReady(const std::future<Result>& future) {
+    return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+// Of a message to which there is no objection.
+ShowChange changeIn(const v1::Set& set) {
+    ShowChange change;
+    if (set.has_scene()) change.scene = set.scene();
+    if (set.has_quality()) change.quality = config::tierNamed(set.quality());
+    if (set.has_pattern()) change.pattern = static_cast<wire::Pattern>(set.pattern());
+    if (set.has_black()) change.black = set.black();
+    if (set.has_freeze()) change.freeze = set.freeze();
+    return change;
+}
+
+}  // namespace
+
+std::optional<config::QualityTier> Conductor::measuredTier() const {
+    std::optional<config::QualityTier> least;
+    for (const ChannelSlot& slot : slots_) {
+        if (!slot.bears) return std::nullopt;
+        least = std::min(least.value_or(*slot.bears), *slot.bears);
+    }
+    return least;
+}
+
+std::string Conductor::objectionToScene(const std::string& scene) const {
+    if (scene != control_.wanted().scene && !options_.makeWorld) return options_.whyOneScene;
+    if (scene.find_first_of("/\\") != std::string::npos)
+        return "a scene is named without folder and ending";
+    return {};
+}
+
+std::string Conductor::objectionToQuality(const std::string& quality) const {
+    if (config::tierNamed(quality)) return {};
+    if (quality != kAuto) return "quality is low, medium, high, ultra or auto, not " + quality;
+    if (!measuredTier())
+        return "not every node has measured which quality it bears: that is done when a show "
+               "starts "
+               "without a chosen one";
+    return {};
+}
+
+std::string Conductor::objectionTo(const v1::Set& set) const {
+    if (isLockstep()) return "a show in lockstep is the same every time; run it with --live";
+    std::string objection;
+    if (set.has_scene()) objection = objectionToScene(set.scene());
+    if (set.has_quality() && objection.empty()) objection = objectionToQuality(set.quality());
+    return objection;
+}
+
+void Conductor::set(const net::FromPeer& from, const v1::Set& set) {
+    Answer answer{Outcome::Refused, objectionTo(set)};
+    if (answer.reason.empty()) {
+        const ShowChange change = changeIn(set);
+        const std::uint64_t before = control_.version();
+        answer = control_.set(set.request(), change);
+        if (simulationThread_) simulationThread_->freeze(control_.wanted().freeze);
+        if (control_.version() != before)
+            logInfo("{} sets {}", from.user.empty() ? "somebody here" : from.user, textOf(change));
+    }
+    v1::Envelope message;
+    v1::SetReply& reply = *message.mutable_set_reply();
+    reply.set_request(set.request());
+    reply.set_outcome(static_cast<v1::Outcome>(answer.outcome));
+    reply.set_reason(answer.reason);
+    say(from.peer, std::move(message));
+}
+
+void Conductor::changeShow(net::Instant now) {
+    if (control_.phase() == Phase::Making) makeNextWorld();
+    if (control_.phase() == Phase::Preparing) prepareNodes(now);
+    if (control_.phase() == Phase::Switching) switchLook();
+    // Nobody draws, so nobody has to see black.
+    if (control_.phase() == Phase::Fading && !barrier_.hasMembers()) control_.blackShown();
+    keepWhatWasSet();
+}
+
+void Conductor::makeNextWorld() {
+    if (!making_.valid())
+        making_ = std::async(std::launch::async, [this, scene = control_.next().scene] {
+            return options_.makeWorld(scene);
+        });
+    if (!isReady(making_)) return;
+    try {
+        made_ = making_.get();
+        blobs_.merge(blobsOf(made_->assets));
+        control_.made();
+    } catch (const Error& problem) {
+        logWarning("the scene stays: {}", problem.what());
+        control_.fail(problem.what());
+    }
+}
+
+void Conductor::announceNextLook(net::Instant now) {
+    nextLook_ = std::make_unique<v1::Look>(made_ ? lookOf(made_->assets, made_->school) : *look_);
+    nextLook_->set_number(control_.nextLook());
+    nextLook_->set_world(control_.nextHasWorld());
+    const auto& quality = control_.next().quality;
+    if (const auto tier = quality ? quality : measuredTier())
+        nextLook_->set_quality(static_cast<std::uint32_t>(*tier));
+    preparingSince_ = now;
+    lastPrepare_ = {};
+}
+
+// Those that take part are waited for; one that comes later builds it before it is switched to, or
+// joins anew after that.
+void Conductor::prepareNodes(net::Instant now) {
+    if (!nextLook_) announceNextLook(now);
+    v1::Envelope message;
+    *message.mutable_prepare()->mutable_look() = *nextLook_;
+    const bool isDue = now - lastPrepare_ > kRepeat;
+    if (isDue) lastPrepare_ = now;
+    std::string missing;
+    for (const ChannelSlot& slot : slots_) {
+        if (!slot.prepared || slot.builtLook == nextLook_->number()) continue;
+        missing += (missing.empty() ? "" : ", ") + slot.name;
+        if (isDue) say(slot.peer, message);
+    }
+    if (missing.empty()) return control_.prepared();
+    control_.setWaitingFor("prepared by all nodes but " + missing);
+    if (now - preparingSince_ > kMostPreparing) giveUpNextLook(missing);
+}
+
+void Conductor::giveUpNextLook(const std::string& missing) {
+    logWarning("the scene stays: {} did not prepare the next in time", missing);
+    control_.fail("not prepared within two minutes by " + missing + "; see its log");
+    nextLook_.reset();
+    made_.reset();
+}
+
+void Conductor::switchLook() {
+    assert(nextLook_);
+    look_ = std::move(nextLook_);
+    if (made_) {
+        simulationThread_.reset();
+        // The world before is large: it ends beside the frames.
+        retiring_ = std::async(std::launch::async, [old = std::move(own_)] {});
+        own_ = std::move(made_->simulation);
+        simulation_ = own_.get();
+        fishOfSchool_ = static_cast<std::uint32_t>(made_->school.size());
+        made_.reset();
+        snapshots_ = {};
+        startSimulation();
+    }
+    black_.reset();
+    control_.switched();
+    writeWelcome();
+    logInfo("showing look {}: scene {}, quality {}",
+            control_.look(),
+            control_.wanted().scene,
+            config::nameOf(quality()));
+}
+
+void Conductor::startSimulation() {
+    std::optional<Tick> lastTick;
+    if (isLockstep() && options_.frames) lastTick = Tick{*options_.frames - 1};
+    simulationThread_ = std::make_unique<SimulationThread>(
+        *simulation_, options_.pace, lastTick, [this] { channels_->wake(); });
+    if (!isLockstep()) simulationThread_->freeze(control_.wanted().freeze);
+}
+
+void Conductor::writeWelcome() {
+    v1::Envelope message;
+    v1::Welcome& welcome = *message.mutable_welcome();
+    welcome.set_rig_text(rigText_);
+    welcome.set_state_address(channels_->stateAddress());
+    welcome.set_pace(static_cast<v1::Pace>(options_.pace));
+    *welcome.mutable_look() = *look_;
+    welcome_ = wire::encode(session_, std::move(message));
+}
+
+wire::Show Conductor::shown(net::Instant now) const {
+    const WantedShow& wanted = control_.wanted();
+    return {.version = control_.version(),
+            .look = control_.look(),
+            .scene =
+                std::filesystem::path(wanted.scene).stem().string().substr(0, wire::kMostNameBytes),
+            .quality = quality(),
+            .pattern = wanted.pattern,
+            .black = wanted.black,
+            .brightness = brightness_,
+            .frozen = wanted.freeze,
+            .pilot = pilotName(now),
+            .calibration = calibration_};
+}
+
+// On the way to the next scene it is noted when light went, for the log, and which frame is black.
+void Conductor::dim(net::Instant now, Frame frame) {
+    if (isLockstep()) return;
+    brightness_ = control_.brightness(now);
+    const bool fades = control_.phase() == Phase::Fading;
+    if (fades && !dimmedSince_) dimmedSince_ = now;
+    if (fades && brightness_ == 0 && !black_) black_ = frame;
+    if (brightness_ < 1 || !dimmedSince_) return;
+    logInfo("through black in {:.1f} s",
+            std::chrono::duration<double>(now - *std::exchange(dimmedSince_, {})).count());
+}
+
+// A disk may take its time: the frames do not wait for it.
+void Conductor::keepWhatWasSet() {
+    if (isReady(keeping_))
+        if (const std::string problem = keeping_.get(); !problem.empty())
+            logWarning("what was set is lost with the next start: {}", problem);
+    if (options_.keptAt.empty() || keeping_.valid() || control_.kept() == keptOnDisk_) return;
+    keptOnDisk_ = control_.kept();
+    keeping_ = std::async(std::launch::async,
+                          [path = options_.keptAt, kept = keptOnDisk_]() -> std::string {
+                              try {
+                                  keepShow(path, kept);
+                                  return {};
+                              } catch (const Error& problem) {
+                                  return problem.what();
+                              }
+                          });
+}
+
+}  // namespace aquarama::conductor

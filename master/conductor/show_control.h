@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the wall is to show, and how it comes to show it: wanted values, the steps of a change of
+// scene or quality, fades, and what of it is kept on disk.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "common/config/rig.h"
+#include "common/net/clock.h"
+#include "common/wire/state_codec.h"
+
+namespace aquarama::conductor {
+
+// All that can be wanted of a wall.
+struct WantedShow {
+    std::string scene;  // a name beside the rig's scene, or from the command line a file's path
+    std::optional<config::QualityTier> quality = {};  // nothing: the finest that every node bears
+    wire::Pattern pattern = wire::Pattern::World;
+    bool black = false;
+    bool freeze = false;
+    friend bool operator==(const WantedShow&, const WantedShow&) = default;
+};
+
+// Values that somebody sets, or has set; those that are absent stay, or were never set.
+struct ShowChange {
+    std::optional<std::string> scene = {};
+    // Set: a tier, or nothing for the finest that every node bears.
+    std::optional<std::optional<config::QualityTier>> quality = {};
+    std::optional<wire::Pattern> pattern = {};
+    std::optional<bool> black = {};
+    std::optional<bool> freeze = {};
+    friend bool operator==(const ShowChange&, const ShowChange&) = default;
+};
+// `wanted` with the values that are set.
+[[nodiscard]] WantedShow with(WantedShow wanted, const ShowChange& change);
+
+// For logs: "scene reef, black on".
+[[nodiscard]] std::string textOf(const ShowChange& change);
+
+// What became of a change; numbered as in aquarama.proto.
+enum class Outcome : std::uint8_t { Done = 1, Preparing = 2, Refused = 3 };
+struct Answer {
+    Outcome outcome = Outcome::Done;
+    std::string reason;  // why it was refused, or what is waited for
+};
+
+// A state machine without clock, sockets or worlds, so that every change can be played through in a
+// test. Black, freeze and a pattern hold from the next frame on. Another scene or quality is
+// another look: its world is made and every node builds it while the present one is shown; a scene
+// also goes through black.
+class ShowControl {
+  public:
+    // `kept`: what was set in earlier runs, already part of `wanted`.
+    ShowControl(WantedShow wanted, ShowChange kept);
+
+    // Applies a change, or begins it. `request` is its sender's number: a change that is said again
+    // is answered again, and not begun anew.
+    Answer set(std::uint64_t request, const ShowChange& change);
+    // Of the change that is under way; empty where there is none.
+    [[nodiscard]] const std::string& waitingFor() const { return waitingFor_; }
+    void setWaitingFor(std::string what) { waitingFor_ = std::move(what); }
+
+    enum class Phase : std::uint8_t {
+        Steady,     // nothing changes but brightness
+        Making,     // the next world is being made: then made()
+        Preparing,  // nodes build the next look: then prepared()
+        Fading,     // to black; then blackShown()
+        Switching,  // the next frame is of the next look: then switched()
+    };
+    [[nodiscard]] Phase phase() const { return phase_; }
+    void made();
+    void prepared();
+    void blackShown();
+    // The next look is shown from now on.
+    void switched();
+    // The change cannot be done; the wall shows what it did before.
+    void fail(const std::string& reason);
+
+    // What the wall shows, or fades to.
+    [[nodiscard]] const WantedShow& wanted() const { return wanted_; }
+    // All that was ever set and is shown: kept on disk for the next run.
+    [[nodiscard]] const ShowChange& kept() const { return kept_; }
+    // What the look under way will show.
+    [[nodiscard]] const WantedShow& next() const { return next_; }
+    // Whether the look that is shown has the world, not patterns alone; and the next one.
+    [[nodiscard]] bool hasWorld() const { return hasWorld_; }
+    [[nodiscard]] bool nextHasWorld() const {
+        return hasWorld_ || next_.pattern == wire::Pattern::World;
+    }
+    [[nodiscard]] std::uint32_t look() const { return look_; }
+    [[nodiscard]] std::uint32_t nextLook() const { return look_ + 1; }
+    [[nodiscard]] std::uint64_t version() const { return version_; }
+    // Share of the light at a moment that is never earlier than at the call before: half a second
+    // from black to full light.
+    [[nodiscard]] float brightness(net::Instant now);
+
+  private:
+    using RequestAndAnswer = std::pair<std::uint64_t, Answer>;
+    Answer begin(std::uint64_t request, const WantedShow& goal, const ShowChange& change);
+    Answer remember(std::uint64_t request, const Answer& answer);
+    void settle(const Answer& answer);  // of the change under way
+
+    WantedShow wanted_, next_;
+    ShowChange kept_, change_;  // change_: under way
+    Phase phase_ = Phase::Steady;
+    bool hasWorld_;
+    std::uint32_t look_ = 1;
+    std::uint64_t version_ = 1;
+    std::uint64_t underWay_ = 0;  // request
+    std::string waitingFor_;
+    std::deque<RequestAndAnswer> answers_;  // the last few
+    float brightness_;
+    net::Instant brightnessAt_{};
+};
+
+// Where the values that were set for a rig are kept: aquarama/shows/RIG.txtpb in the user's folder
+// for state ($XDG_STATE_HOME, or ~/.local/state).
+[[nodiscard]] std::filesystem::path keptShowOf(const std::string& rigPath);
+// Nothing is set where there is no such file. Throws Error where it is malformed.
+[[nodiscard]] ShowChange readKeptShow(const std::filesystem::path& path);
+// Throws Error where it cannot be written.
+void keepShow(const std::filesystem::path& path, const ShowChange& kept);
+
+}  // namespace aquarama::conductor

@@ -1,0 +1,82 @@
+"""Real processes: what the wall shows is set from a terminal, and a master that is killed comes back with it."""
+
+import os
+import re
+import signal
+import time
+import unittest
+from pathlib import Path
+
+from show import aquarama, children_of, end, rig_on_free_ports, start, temporary_folder, wait_until
+
+
+class Set(unittest.TestCase):
+    def setUp(self):
+        self.folder = temporary_folder()
+        self.rig = rig_on_free_ports(self.folder.name)
+        self.log = Path(self.folder.name) / "log"
+        self.processes = []
+
+    def tearDown(self):
+        end(self.processes)
+        self.folder.cleanup()
+
+    def set(self, what, value):
+        return aquarama("set", self.rig, what, value)
+
+    def shown(self):
+        """What status says that the wall shows: name -> value."""
+        said = re.search(r"show +(.*)", aquarama("status", self.rig).stdout)
+        return dict(pair.split(" ", 1) for pair in re.split(r" {3}", said[1])) if said else {}
+
+    def test_a_killed_master_comes_back_black_and_a_scene_comes_on_through_black(self):
+        # Patterns need no world to be drawn: software OpenGL takes a second and more for a frame of a reef.
+        begun = time.monotonic()
+        show = start("run", self.rig, "--headless", "--live", "--pattern", "grid", log=self.log)
+        self.processes = [show]
+        wait_until(lambda: "showing" in self.log.read_text(), 60, "the first frame")
+        for what, value in (("black", "on"), ("freeze", "on"), ("pattern", "grey")):
+            done = self.set(what, value)
+            self.assertEqual((done.returncode, done.stdout), (0, f"{what} {value}\n"), done.stderr)
+        before = self.shown()
+        self.assertEqual((before["black"], before["freeze"], before["pattern"]), ("on", "on", "grey"))
+
+        time.sleep(max(0, 6 - (time.monotonic() - begun)))  # one that dies at once is not started again
+        master = next(pid for command, pid in children_of(show).items() if " master " in command)
+        os.kill(master, signal.SIGKILL)
+        wait_until(lambda: self.shown().get("black") == "on", 20, "the master to come back, black")
+        self.assertEqual((self.shown()["freeze"], self.shown()["pattern"]), ("on", "grey"))
+        self.assertIn("as it was set before: pattern grey, black on, freeze on", self.log.read_text())
+        for what in ("black", "freeze"):
+            self.assertEqual(self.set(what, "off").returncode, 0)
+
+        done = self.set("scene", "empty_sea")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.shown()["scene"], "empty_sea")
+        wait_until(lambda: "through black in" in self.log.read_text(), 20, "light again")
+
+        for what, value, why in (("scene", "lagoon", "bait_ball, empty_sea, reef"), ("scene", "../desk", "without folder"),
+                                 ("quality", "best", "not best"), ("black", "maybe", "on or off"), ("pattern", "dots", "grid")):
+            refused = self.set(what, value)
+            self.assertEqual(refused.returncode, 1, what)
+            self.assertIn(why, refused.stderr)
+        self.assertEqual(self.shown()["scene"], "empty_sea")
+
+        # Tomorrow's show begins with what was set today, but for what its command line says.
+        show.send_signal(signal.SIGINT)
+        show.wait(20)
+        self.log.write_text("")
+        self.processes = [start("run", self.rig, "--headless", "--live", "--pattern", "grid", log=self.log)]
+        wait_until(lambda: self.shown().get("scene") == "empty_sea", 60, "the show of the next day")
+        self.assertEqual(self.shown()["pattern"], "grid")
+
+    def test_a_show_in_lockstep_is_the_same_every_time(self):
+        self.processes = [start("master", self.rig, "--lockstep", "--pattern", "grid")]
+        wait_until(lambda: "lockstep" in aquarama("status", self.rig).stdout, 60, "the master")
+        refused = self.set("black", "on")
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("--live", refused.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/conductor/show_control.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/base/log.h"
+
+namespace aquarama::conductor {
+namespace {
+
+using std::chrono::milliseconds;
+using Phase = ShowControl::Phase;
+
+constexpr net::Instant kStart = std::chrono::seconds(100);
+
+ShowControl reef() {
+    return ShowControl({.scene = "reef", .quality = config::QualityTier::Low}, {});
+}
+
+ShowChange scene(const std::string& name) {
+    ShowChange change;
+    change.scene = name;
+    return change;
+}
+
+ShowChange black(bool on) {
+    ShowChange change;
+    change.black = on;
+    return change;
+}
+
+// To the phase in which the next look is shown with the next frame.
+void prepareAll(ShowControl& control) {
+    control.made();
+    control.prepared();
+    control.blackShown();
+}
+
+TEST(ShowControl, blackFreezeAndPatternsHoldAtOnce) {
+    ShowControl control = reef();
+    ShowChange change;
+    change.black = change.freeze = true;
+    change.pattern = wire::Pattern::Grid;
+    EXPECT_EQ(control.set(1, change).outcome, Outcome::Done);
+    EXPECT_EQ(control.phase(), Phase::Steady);
+    EXPECT_TRUE(control.wanted().black);
+    EXPECT_TRUE(control.wanted().freeze);
+    EXPECT_EQ(control.wanted().pattern, wire::Pattern::Grid);
+    EXPECT_EQ(control.look(), 1U);
+    EXPECT_EQ(control.kept(), change);
+}
+
+TEST(ShowControl, aSceneIsMadeThenBuiltThenShownAfterBlack) {
+    ShowControl control = reef();
+    EXPECT_EQ(control.set(1, scene("lagoon")).outcome, Outcome::Preparing);
+    EXPECT_EQ(control.phase(), Phase::Making);
+    control.made();
+    EXPECT_EQ(control.phase(), Phase::Preparing);
+    EXPECT_EQ(control.wanted().scene, "reef") << "until it is shown";
+    EXPECT_EQ(control.kept(), ShowChange{}) << "a scene that never comes on is not kept";
+    control.prepared();
+    EXPECT_EQ(control.phase(), Phase::Fading);
+    EXPECT_EQ(control.set(1, scene("lagoon")).outcome, Outcome::Preparing);
+    control.blackShown();
+    EXPECT_EQ(control.phase(), Phase::Switching);
+    control.switched();
+    EXPECT_EQ(control.wanted().scene, "lagoon");
+    EXPECT_EQ(control.look(), 2U);
+    EXPECT_EQ(control.set(1, scene("lagoon")).outcome, Outcome::Done);
+    EXPECT_EQ(control.kept(), scene("lagoon"));
+}
+
+// Half a second to black and half a second back, whatever the times of the frames.
+TEST(ShowControl, fadesInHalfASecond) {
+    ShowControl control = reef();
+    EXPECT_EQ(control.brightness(kStart), 1);
+    static_cast<void>(control.set(1, scene("lagoon")));
+    EXPECT_EQ(control.brightness(kStart + milliseconds(100)), 1) << "while it is prepared";
+    control.made();
+    control.prepared();
+    EXPECT_NEAR(control.brightness(kStart + milliseconds(350)), 0.5, 1e-5);
+    EXPECT_EQ(control.brightness(kStart + milliseconds(700)), 0);
+    control.blackShown();
+    EXPECT_EQ(control.brightness(kStart + milliseconds(900)), 0);
+    control.switched();
+    EXPECT_NEAR(control.brightness(kStart + milliseconds(1000)), 0.2, 1e-5);
+    EXPECT_EQ(control.brightness(kStart + milliseconds(1500)), 1);
+}
+
+TEST(ShowControl, blackStaysBlackThroughAChangeOfScene) {
+    ShowControl control({.scene = "reef", .black = true}, {});
+    EXPECT_EQ(control.brightness(kStart), 0);
+    static_cast<void>(control.set(1, scene("lagoon")));
+    prepareAll(control);
+    control.switched();
+    EXPECT_EQ(control.brightness(kStart + std::chrono::seconds(9)), 0);
+    static_cast<void>(control.set(2, black(false)));
+    EXPECT_EQ(control.brightness(kStart + std::chrono::seconds(10)), 1);
+}
+
+// What was set while a scene is prepared is not undone by it.
+TEST(ShowControl, blackThatIsSetWhileASceneIsPreparedStays) {
+    ShowControl control = reef();
+    static_cast<void>(control.set(1, scene("lagoon")));
+    EXPECT_EQ(control.set(2, black(true)).outcome, Outcome::Done);
+    prepareAll(control);
+    control.switched();
+    EXPECT_TRUE(control.wanted().black);
+}
+
+TEST(ShowControl, aSecondSceneIsRefusedUntilTheFirstIsShown) {
+    ShowControl control = reef();
+    static_cast<void>(control.set(1, scene("lagoon")));
+    EXPECT_EQ(control.set(2, scene("pond")).outcome, Outcome::Refused);
+    prepareAll(control);
+    control.switched();
+    EXPECT_EQ(control.set(2, scene("pond")).outcome, Outcome::Refused) << "the same answer again";
+    EXPECT_EQ(control.set(3, scene("pond")).outcome, Outcome::Preparing);
+}
+
+TEST(ShowControl, aChangeThatFailsLeavesTheWallAsItWas) {
+    ShowControl control = reef();
+    static_cast<void>(control.set(1, scene("pond")));
+    control.fail("there is no such scene");
+    EXPECT_EQ(control.phase(), Phase::Steady);
+    EXPECT_EQ(control.wanted().scene, "reef");
+    EXPECT_EQ(control.look(), 1U);
+    const Answer answer = control.set(1, scene("pond"));
+    EXPECT_EQ(answer.outcome, Outcome::Refused);
+    EXPECT_EQ(answer.reason, "there is no such scene");
+}
+
+// A packet that was delayed must not undo what somebody else has set since.
+TEST(ShowControl, aRequestThatIsSaidAgainIsNotDoneAgain) {
+    ShowControl control = reef();
+    static_cast<void>(control.set(1, black(true)));
+    static_cast<void>(control.set(2, black(false)));
+    EXPECT_EQ(control.set(1, black(true)).outcome, Outcome::Done);
+    EXPECT_FALSE(control.wanted().black);
+    EXPECT_EQ(control.version(), 3U);
+}
+
+// A wall that began with a pattern has built no world.
+TEST(ShowControl, aWorldIsBuiltBeforeItReplacesAPattern) {
+    ShowControl control({.scene = "reef", .pattern = wire::Pattern::Grid}, {});
+    ShowChange world;
+    world.pattern = wire::Pattern::World;
+    EXPECT_EQ(control.set(1, world).outcome, Outcome::Preparing);
+    EXPECT_EQ(control.phase(), Phase::Preparing);
+    EXPECT_EQ(control.wanted().pattern, wire::Pattern::Grid);
+    EXPECT_TRUE(control.nextHasWorld());
+    control.prepared();
+    EXPECT_EQ(control.phase(), Phase::Switching) << "the same scene needs no black";
+    control.switched();
+    EXPECT_EQ(control.wanted().pattern, wire::Pattern::World);
+}
+
+TEST(KeptShow, isReadAsItWasWritten) {
+    const std::filesystem::path file = testing::TempDir() + "aquarama_kept_show.txtpb";
+    ShowChange kept;
+    for (const bool on : {false, true}) {
+        keepShow(file, kept);
+        EXPECT_EQ(readKeptShow(file), kept);
+        kept.scene = "lagoon";
+        kept.quality = on ? std::optional(config::QualityTier::High) : std::nullopt;
+        kept.pattern = wire::Pattern::Grey;
+        kept.black = kept.freeze = on;
+    }
+    keepShow(file, kept);
+    EXPECT_EQ(readKeptShow(file), kept);
+    std::ofstream(file) << "version: 1 colour: 3";
+    EXPECT_THROW(static_cast<void>(readKeptShow(file)), Error);
+    std::filesystem::remove(file);
+    EXPECT_EQ(readKeptShow(file), ShowChange{});
+}
+
+}  // namespace
+}  // namespace aquarama::conductor
