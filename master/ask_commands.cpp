@@ -220,6 +220,12 @@ void set(const SetOptions& options) {
 
 }  // namespace
 
+conductor::RequestClient connectToMaster(const std::string& rigPath, const std::string& keyFolder) {
+    AskedMaster asked{.rig = rigPath, .address = {}, .key = {}};
+    if (!keyFolder.empty()) asked.key = config::keyFileIn(keyFolder, "operator").string();
+    return asked.connect();
+}
+
 void addSet(CommandLine& line) {
     const auto [command, options] =
         line.add<SetOptions>("set", "what the running wall shows: scene, pattern, black ...", set);

@@ -15,6 +15,10 @@
 #include "common/net/channels.h"
 #include "master/supervisor/supervise.h"
 
+namespace aquarama::conductor {
+class RequestClient;
+}
+
 namespace aquarama {
 
 // A command that was added, to describe its options; both live as long as the command line.
@@ -76,6 +80,7 @@ void addReplay(CommandLine& line);  // a recorded one
 void addMaster(CommandLine& line);  // the master alone
 void addNode(CommandLine& line);    // hands over to aquarama-node
 void addKeyCommands(CommandLine& line);
+void addDoctor(CommandLine& line);
 void addStatus(CommandLine& line);
 void addSet(CommandLine& line);
 void addPilot(CommandLine& line);
@@ -98,6 +103,11 @@ void describeWall(CLI::App& command, supervisor::ShowOptions& options);
 // Error where there are none yet.
 [[nodiscard]] std::optional<net::MasterKeys> masterKeysOf(const config::Rig& rig,
                                                           const supervisor::ShowOptions& show);
+
+// A connection to the master of a rig for questions, with the operator's key of this folder (empty:
+// the user's) where the rig needs one. Throws Error where it cannot be read.
+[[nodiscard]] conductor::RequestClient connectToMaster(const std::string& rigPath,
+                                                       const std::string& keyFolder);
 
 // Replays a recording without a wall and says whether it is the same world again. Returns the exit
 // status: 1 where it is another. Throws Error where it cannot be read.

@@ -64,7 +64,7 @@ std::string scenesIn(const fs::path& folder) {
 // The file of a scene: a name lies beside the rig's scene. Throws Error, naming those that are
 // there.
 std::string sceneFile(const config::Rig& rig, const std::string& rigPath, const std::string& name) {
-    if (name.find('/') != std::string::npos) return name;
+    if (name.ends_with(kSceneEnding)) return name;
     const fs::path folder = fs::path(config::scenePathOf(rig, rigPath)).parent_path();
     const fs::path file = folder / (name + std::string(kSceneEnding));
     if (fs::is_regular_file(file)) return file.string();
@@ -73,10 +73,10 @@ std::string sceneFile(const config::Rig& rig, const std::string& rigPath, const 
 }
 
 // What is chosen for this run: by the options, else by the rig.
-conductor::ShowChange chosenBy(const MasterOptions& options) {
+wire::ShowChange chosenBy(const MasterOptions& options) {
     const supervisor::ShowOptions& show = options.show;
-    conductor::ShowChange chosen;
-    if (!show.scenePath.empty()) chosen.scene = fs::absolute(show.scenePath).string();
+    wire::ShowChange chosen;
+    if (!show.scenePath.empty()) chosen.scene = show.scenePath;
     if (!show.quality.empty()) chosen.quality = config::tierNamed(show.quality);
     if (show.pattern == "world") chosen.pattern = wire::Pattern::World;
     if (show.pattern == "grid") chosen.pattern = wire::Pattern::Grid;
@@ -85,10 +85,10 @@ conductor::ShowChange chosenBy(const MasterOptions& options) {
 }
 
 // What earlier runs were told to show. A file that cannot be read does not keep the wall dark.
-conductor::ShowChange keptShow(const config::Rig& rig, const MasterOptions& options) {
-    const fs::path path = conductor::keptShowOf(options.show.rigPath);
+wire::ShowChange keptShow(const config::Rig& rig, const MasterOptions& options) {
+    const fs::path path = wire::keptShowOf(options.show.rigPath);
     try {
-        conductor::ShowChange kept = conductor::readKeptShow(path);
+        wire::ShowChange kept = wire::readKeptShow(path);
         if (kept.scene) static_cast<void>(sceneFile(rig, options.show.rigPath, *kept.scene));
         return kept;
     } catch (const Error& problem) {
@@ -102,17 +102,17 @@ conductor::ShowChange keptShow(const config::Rig& rig, const MasterOptions& opti
 void chooseWanted(const config::Rig& rig,
                   const MasterOptions& options,
                   conductor::ConductorOptions& conductor) {
-    conductor::WantedShow wanted{.scene = fs::path(rig.scene).stem().string(),
-                                 .quality = qualityOf(rig, options)};
+    wire::WantedShow wanted{.scene = fs::path(rig.scene).stem().string(),
+                            .quality = qualityOf(rig, options)};
     const bool isKept = !options.lockstep && options.show.replayPath.empty();
     if (isKept) {
-        conductor.keptAt = conductor::keptShowOf(options.show.rigPath);
+        conductor.keptAt = wire::keptShowOf(options.show.rigPath);
         conductor.kept = keptShow(rig, options);
     }
-    const conductor::ShowChange chosen = chosenBy(options);
+    const wire::ShowChange chosen = chosenBy(options);
     const auto& [under, over] =
         options.resume ? std::pair{chosen, conductor.kept} : std::pair{conductor.kept, chosen};
-    conductor.wanted = conductor::with(conductor::with(std::move(wanted), under), over);
+    conductor.wanted = wire::with(wire::with(std::move(wanted), under), over);
     if (const std::string text = textOf(conductor.kept); !text.empty())
         logInfo("as it was set before: {} (change it with aquarama set)", text);
 }

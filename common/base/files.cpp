@@ -58,6 +58,14 @@ void writeWhole(const fs::path& path, std::span<const std::byte> content) {
     }
 }
 
+std::uint64_t freeBytesAt(fs::path path) {
+    std::error_code error;
+    while (path.has_parent_path() && path != path.parent_path() && !fs::exists(path, error))
+        path = path.parent_path();
+    const fs::space_info space = fs::space(path, error);
+    return error ? 0 : space.available;
+}
+
 fs::path userFolder(const char* variable, const char* underHome) {
     const fs::path given = valueOf(variable);
     if (given.is_absolute()) return given / "aquarama";

@@ -19,6 +19,10 @@ namespace aquarama {
 // none. Throws Error when it cannot be written.
 void writeWhole(const std::filesystem::path& path, std::span<const std::byte> content);
 
+// What this user may still write on the disk of a path, which need not be there yet; 0 where it
+// cannot be told.
+[[nodiscard]] std::uint64_t freeBytesAt(std::filesystem::path path);
+
 // A folder of this user for our files, after the XDG base directories: the environment's `variable`
 // or else `underHome` in the home folder, and "aquarama" in that; in the folder for temporary files
 // where neither is set.

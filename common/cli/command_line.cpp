@@ -93,6 +93,15 @@ int runProgram(CLI::App& app, int count, char** arguments, const Job& job) {
     }
 }
 
+std::string buildText() {
+    std::istringstream lines(versionText());
+    std::string version, commit;
+    std::getline(lines, version);
+    lines >> commit;  // the word "commit"
+    std::getline(lines >> std::ws, commit);
+    return version + " " + commit;
+}
+
 void sayError(const std::string& program, const std::string& what) {
     std::string line = program + ": " + what;
     std::ranges::replace(line, '\n', ' ');

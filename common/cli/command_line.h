@@ -32,6 +32,9 @@ inline constexpr const char* kErrorPipeVariable = "AQUARAMA_CAUSES";
 // its definition for each program (aquarama_version in cmake/Aquarama.cmake).
 [[nodiscard]] std::string versionText();
 
+// Version and commit, on one line.
+[[nodiscard]] std::string buildText();
+
 // Validators of an option's value; they refuse it in words that name it and what is allowed. Both
 // ends of a range are allowed.
 [[nodiscard]] CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most);

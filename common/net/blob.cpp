@@ -65,6 +65,10 @@ void BlobCache::keep(const Digest& digest, std::span<const std::byte> blob) cons
     }
 }
 
+std::uint64_t BlobCache::freeBytes() const {
+    return freeBytesAt(directory_);
+}
+
 std::filesystem::path defaultBlobDirectory() {
     return cacheFolder() / "blobs";
 }

@@ -48,6 +48,9 @@ class BlobCache {
     // Appears under its name whole or not at all, whoever else writes the same.
     void keep(const Digest& digest, std::span<const std::byte> blob) const;
 
+    // On its disk, for this user; 0 where it cannot be told.
+    [[nodiscard]] std::uint64_t freeBytes() const;
+
   private:
     [[nodiscard]] std::filesystem::path pathOf(const Digest& digest) const;
     std::filesystem::path directory_;

@@ -2,6 +2,10 @@
 #include "common/net/clock.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <sys/timex.h>
 
 namespace aquarama::net {
 
@@ -9,11 +13,18 @@ Instant monotonicNow() {
     return std::chrono::duration_cast<Instant>(std::chrono::steady_clock::now().time_since_epoch());
 }
 
+bool isClockSynchronised() {
+    timex asked{};
+    return adjtimex(&asked) != TIME_ERROR && (asked.status & STA_UNSYNC) == 0;
+}
+
 void ClockOffset::add(Instant sent, Instant master, Instant received) {
     if (received < sent) return;  // an echo of something that this clock never said
     const Instant roundTrip = received - sent;
-    samples_.push_back({master - (sent + roundTrip / 2), roundTrip});
+    const Instant middle = sent + roundTrip / 2;
+    samples_.push_back({middle, master - middle, roundTrip});
     if (samples_.size() > kSamples) samples_.pop_front();
+    if (++sinceWindow_ == kWindow) closeWindow();
 }
 
 // The sample with the shortest round trip; null where there is none yet.
@@ -22,9 +33,49 @@ const ClockOffset::Sample* ClockOffset::best() const {
     return shortest == samples_.end() ? nullptr : &*shortest;
 }
 
-std::optional<Instant> ClockOffset::offset() const {
+void ClockOffset::closeWindow() {
+    sinceWindow_ = 0;
+    const auto first = samples_.end() - static_cast<std::ptrdiff_t>(kWindow);
+    windows_.push_back(
+        *std::min_element(first, samples_.end(), [](const Sample& a, const Sample& b) {
+            return a.roundTrip < b.roundTrip;
+        }));
+    if (windows_.size() > kWindows) windows_.pop_front();
+    fit();
+}
+
+// Least squares, each sample with the inverse square of its round trip as weight: what it may be
+// wrong by.
+void ClockOffset::fit() {
+    line_ = {};
+    if (windows_.size() < kLeastWindows) return;
+    const Instant at = windows_.front().at, base = windows_.front().offset;
+    double sum = 0, t = 0, o = 0, tt = 0, to = 0;
+    for (const Sample& sample : windows_) {
+        const double error = static_cast<double>(sample.roundTrip.count()) + 1000;
+        const double weight = 1e6 / (error * error);
+        const auto time = static_cast<double>((sample.at - at).count());
+        const auto offset = static_cast<double>((sample.offset - base).count());
+        sum += weight;
+        t += weight * time;
+        o += weight * offset;
+        tt += weight * time * time;
+        to += weight * time * offset;
+    }
+    const double spread = sum * tt - t * t;
+    if (spread <= 0) return;
+    const double slope = (sum * to - t * o) / spread;
+    if (std::abs(slope) > kMostDrift) return;
+    const auto atZero = static_cast<std::int64_t>((o - slope * t) / sum);
+    line_ = {at, base + Instant{atZero}, slope, true};
+}
+
+std::optional<Instant> ClockOffset::offset(Instant now) const {
     const Sample* sample = best();
-    return sample != nullptr ? std::optional{sample->offset} : std::nullopt;
+    if (sample == nullptr) return std::nullopt;
+    if (!line_.isKnown) return sample->offset;
+    const double drifted = line_.slope * static_cast<double>((now - line_.at).count());
+    return line_.base + Instant{static_cast<std::int64_t>(drifted)};
 }
 
 std::optional<Instant> ClockOffset::roundTrip() const {

@@ -15,25 +15,47 @@ using Instant = std::chrono::nanoseconds;  // since the epoch of CLOCK_MONOTONIC
 // Now, on CLOCK_MONOTONIC of this machine.
 [[nodiscard]] Instant monotonicNow();
 
+// Whether the kernel holds this machine's clock to others', by chrony, ntpd or PTP.
+[[nodiscard]] bool isClockSynchronised();
+
 // The master's clock minus the node's, from round trips. A reply tells the offset to within half
-// its round trip, and queues only ever add to one: so the shortest of the last few is believed. Of
-// the net thread.
+// its round trip, and queues only ever add to one: so the shortest of every second or so is
+// believed. Clocks of two machines also run at different rates, some 10 to 100 ppm apart: after six
+// seconds a line is laid through what was believed, and followed. Of the net thread.
 class ClockOffset {
   public:
     // A ping left at `sent`, was answered at `master` (master's clock) and came back at `received`.
     void add(Instant sent, Instant master, Instant received);
-    [[nodiscard]] std::optional<Instant> offset() const;
-    [[nodiscard]] std::optional<Instant> roundTrip() const;  // of the sample that is believed
+    // At a moment of the node's clock; empty before the first round trip.
+    [[nodiscard]] std::optional<Instant> offset(Instant now) const;
+    [[nodiscard]] std::optional<Instant> roundTrip() const;  // the shortest of the last seconds
+    // By how much the master's clock runs faster, parts per million; 0 while it is not known.
+    [[nodiscard]] double driftPpm() const { return line_.slope * 1e6; }
 
   private:
     struct Sample {
+        Instant at;  // of the node's clock, half-way
         Instant offset, roundTrip;
     };
+    // offset = base + slope (now - at)
+    struct Line {
+        Instant at{}, base{};
+        double slope = 0;
+        bool isKnown = false;
+    };
     [[nodiscard]] const Sample* best() const;
+    // Keeps the best of the samples that make a window, and fits the line again.
+    void closeWindow();
+    void fit();
 
-    // At 20 pings a second: 3 s, in which crystals 50 ppm apart drift by 0.15 ms.
-    static constexpr std::size_t kSamples = 64;
-    std::deque<Sample> samples_;
+    static constexpr std::size_t kSamples = 64;  // at 20 pings a second: 3 s
+    static constexpr std::size_t kWindow = 16;
+    static constexpr std::size_t kWindows = 32;      // 26 s
+    static constexpr std::size_t kLeastWindows = 8;  // for a line
+    static constexpr double kMostDrift = 500e-6;     // more is no clock's drift, but noise
+    std::deque<Sample> samples_, windows_;
+    std::size_t sinceWindow_ = 0;
+    Line line_;
 };
 
 }  // namespace aquarama::net

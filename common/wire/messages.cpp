@@ -145,9 +145,24 @@ bool isValid(const v1::Input& m) {
            std::ranges::all_of(m.steering(), isShare);
 }
 
+bool isValid(const v1::NodeReport& m) {
+    const std::array numbers{m.round_trip_median_ms(),
+                             m.round_trip_p99_ms(),
+                             m.unanswered_percent(),
+                             m.clock_drift_ppm()};
+    const auto isFinite = [](float number) { return std::isfinite(number); };
+    const auto isLineOfReport = [](const std::string& line) {
+        return isText(line, kMostLineBytes);
+    };
+    return isLineOfReport(m.host()) && isLineOfReport(m.build()) && isLineOfReport(m.renderer()) &&
+           m.monitors_size() <= kMostMonitors &&
+           std::ranges::all_of(m.monitors(), isLineOfReport) &&
+           std::ranges::all_of(numbers, isFinite);
+}
+
 bool isValid(const v1::NodeStatus& m) {
-    return isName(m.name()) && isOneOf(m.condition(), v1::NodeCondition_IsValid) &&
-           isText(m.machine(), kMostNameBytes);
+    return (!m.has_report() || isValid(m.report())) && isName(m.name()) &&
+           isOneOf(m.condition(), v1::NodeCondition_IsValid) && isText(m.machine(), kMostNameBytes);
 }
 
 bool isValid(const v1::StatusReply& m) {
@@ -185,6 +200,8 @@ bool isValid(const v1::Envelope& m) {
             return isValid(m.set());
         case v1::Envelope::kSetReply:
             return isValid(m.set_reply());
+        case v1::Envelope::kNodeReport:
+            return isValid(m.node_report());
         case v1::Envelope::kJoined:
             return m.joined().has_first_frame();
         case v1::Envelope::kReady:

@@ -34,7 +34,9 @@ inline constexpr std::size_t kMostSceneTextBytes = std::size_t{1} << 20U;
 inline constexpr std::size_t kMostBlobBytes = std::size_t{64} << 20U;
 inline constexpr std::size_t kBlobChunkBytes = std::size_t{256} << 10U;
 inline constexpr int kMostNodes = 256;
-inline constexpr float kMostInputMetres = 10'000;  // of a position, on each axis
+inline constexpr int kMostMonitors = 16;
+inline constexpr std::size_t kMostLineBytes = 256;  // of a report
+inline constexpr float kMostInputMetres = 10'000;   // of a position, on each axis
 inline constexpr int kMostExplanationLines = 48;
 inline constexpr std::size_t kMostExplanationLineBytes = 120;
 // All messages but welcomes, states and chunks, which alone hold their content as plain bytes or

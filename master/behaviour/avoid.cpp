@@ -4,8 +4,8 @@
 
 #include "common/place/place.h"
 #include "master/behaviour/company.h"
-#include "master/behaviour/feeding.h"
 #include "master/behaviour/home.h"
+#include "master/behaviour/intention_generator.h"
 #include "master/behaviour/routines.h"
 
 namespace aquarama::behaviour {

@@ -8,7 +8,7 @@
 
 #include "common/base/random_streams.h"
 #include "common/place/place.h"
-#include "master/behaviour/feeding.h"
+#include "master/behaviour/intention_generator.h"
 #include "master/behaviour/routines.h"
 
 namespace aquarama::behaviour {

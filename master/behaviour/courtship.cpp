@@ -7,7 +7,7 @@
 
 #include "common/base/hash.h"
 #include "common/place/place.h"
-#include "master/behaviour/feeding.h"
+#include "master/behaviour/intention_generator.h"
 #include "master/behaviour/routines.h"
 #include "master/fish/fish_view.h"
 

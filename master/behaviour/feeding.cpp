@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/feeding.h"
-
 #include <algorithm>
 #include <cassert>
 
 #include "common/place/place.h"
+#include "master/behaviour/intention_generator.h"
 #include "master/behaviour/routines.h"
 #include "master/fish/fish_view.h"
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/mental_state.h"
-
 #include <algorithm>
 #include <cassert>
 
 #include "common/base/random_streams.h"
 #include "common/base/units.h"
 #include "master/behaviour/perceive.h"
+#include "master/behaviour/think.h"
 #include "master/fish/minds.h"
 
 namespace aquarama::behaviour {

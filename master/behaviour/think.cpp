@@ -4,7 +4,6 @@
 #include <cassert>
 
 #include "master/behaviour/intention_generator.h"
-#include "master/behaviour/mental_state.h"
 #include "master/behaviour/perceive.h"
 #include "master/behaviour/routines.h"
 #include "master/fish/minds.h"

@@ -231,7 +231,7 @@ void Conductor::keepWhatWasSet() {
     keeping_ = std::async(std::launch::async,
                           [path = options_.keptAt, kept = keptOnDisk_]() -> std::string {
                               try {
-                                  keepShow(path, kept);
+                                  wire::keepShow(path, kept);
                                   return {};
                               } catch (const Error& problem) {
                                   return problem.what();

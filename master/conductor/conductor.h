@@ -35,6 +35,7 @@ class Envelope;
 class Hello;
 class Input;
 class Look;
+class NodeReport;
 class Prepared;
 class Ready;
 class Set;
@@ -128,7 +129,8 @@ class Conductor {
         std::string machine;  // empty: the master's
         std::uint64_t dropped = 0;
         std::uint64_t mismatches = 0;  // states that its node decoded to another hash
-        net::Instant lastFed{};        // when a visitor last dropped food in its window
+        std::shared_ptr<const v1::NodeReport> report;  // its node's last
+        net::Instant lastFed{};  // when a visitor last dropped food in its window
     };
 
     // Messages (reception.cpp). `node` is a place in slots_; a peer may be none of them.

@@ -97,6 +97,7 @@ bool mayNodeSay(const std::string& channel, const v1::Envelope& message) {
             return message.hello().channel() == channel;
         case v1::Envelope::kPing:
         case v1::Envelope::kReady:
+        case v1::Envelope::kNodeReport:
         case v1::Envelope::kBlobRequest:
         case v1::Envelope::kPrepared:
         case v1::Envelope::kFarewell:
@@ -193,6 +194,9 @@ void Conductor::takeOfNode(std::size_t node, const v1::Envelope& message, net::I
             return giveChunk(slots_[node].peer, message.blob_request());
         case v1::Envelope::kPrepared:
             return prepared(node, message.prepared());
+        case v1::Envelope::kNodeReport:
+            slots_[node].report = std::make_shared<const v1::NodeReport>(message.node_report());
+            return;
         case v1::Envelope::kInput:
             return handle(node, message.input(), now);
         case v1::Envelope::kFarewell:
@@ -315,6 +319,7 @@ void Conductor::vacate(std::size_t node) {
     dismiss(slot.peer, "you were silent for too long");
     slot.peer.clear();
     slot.prepared = false;
+    slot.report.reset();
 }
 
 void Conductor::leave(std::size_t node) {
@@ -322,6 +327,7 @@ void Conductor::leave(std::size_t node) {
     barrier_.leave(node);
     slot.peer.clear();
     slot.prepared = false;
+    slot.report.reset();
     logInfo("node {} has left", slot.name);
 }
 
@@ -421,6 +427,7 @@ v1::Envelope Conductor::status(net::Instant now) const {
         node.set_dropped(slot.dropped);
         node.set_hash_mismatches(slot.mismatches);
         node.set_machine(slot.machine);
+        if (slot.report) *node.mutable_report() = *slot.report;
     }
     return message;
 }

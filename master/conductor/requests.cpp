@@ -18,7 +18,16 @@
 namespace aquarama::conductor {
 namespace {
 
-const char* wordFor(v1::NodeCondition condition) {
+// Of the compass: 0 where the wall looks at first, 90 to the right of it.
+int headingDegrees(const wire::Eye& eye) {
+    const glm::vec3 nose = eye.worldFromWall * glm::vec3(0, 0, -1);
+    const float degrees = glm::degrees(std::atan2(nose.x, -nose.z));
+    return static_cast<int>(std::lround(degrees + 360)) % 360;
+}
+
+}  // namespace
+
+std::string wordFor(v1::NodeCondition condition) {
     switch (condition) {
         case v1::NODE_ABSENT:
             return "absent";
@@ -30,15 +39,6 @@ const char* wordFor(v1::NodeCondition condition) {
             return "late";
     }
 }
-
-// Of the compass: 0 where the wall looks at first, 90 to the right of it.
-int headingDegrees(const wire::Eye& eye) {
-    const glm::vec3 nose = eye.worldFromWall * glm::vec3(0, 0, -1);
-    const float degrees = glm::degrees(std::atan2(nose.x, -nose.z));
-    return static_cast<int>(std::lround(degrees + 360)) % 360;
-}
-
-}  // namespace
 
 std::string submarineText(const v1::StatusReply& status) {
     const wire::Eye eye = wire::readEye(status.eye()).value_or(wire::Eye{});

@@ -39,6 +39,9 @@ class RequestClient {
     std::unique_ptr<net::NodeChannels> channels_;
 };
 
+// "in step", "late" ...
+[[nodiscard]] std::string wordFor(v1::NodeCondition condition);
+
 // Where the submarine is, how fast, and who steers it; one line.
 [[nodiscard]] std::string submarineText(const v1::StatusReply& status);
 

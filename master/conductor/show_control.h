@@ -1,46 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the wall is to show, and how it comes to show it: wanted values, the steps of a change of
-// scene or quality, fades, and what of it is kept on disk.
+// How a wall comes to show what is wanted: the steps of a change of scene or quality, and fades.
 #pragma once
 
 #include <cstdint>
 #include <deque>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "common/config/rig.h"
 #include "common/net/clock.h"
-#include "common/wire/state_codec.h"
+#include "common/wire/show_file.h"
 
 namespace aquarama::conductor {
 
-// All that can be wanted of a wall.
-struct WantedShow {
-    std::string scene;  // a name beside the rig's scene, or from the command line a file's path
-    std::optional<config::QualityTier> quality = {};  // nothing: the finest that every node bears
-    wire::Pattern pattern = wire::Pattern::World;
-    bool black = false;
-    bool freeze = false;
-    friend bool operator==(const WantedShow&, const WantedShow&) = default;
-};
-
-// Values that somebody sets, or has set; those that are absent stay, or were never set.
-struct ShowChange {
-    std::optional<std::string> scene = {};
-    // Set: a tier, or nothing for the finest that every node bears.
-    std::optional<std::optional<config::QualityTier>> quality = {};
-    std::optional<wire::Pattern> pattern = {};
-    std::optional<bool> black = {};
-    std::optional<bool> freeze = {};
-    friend bool operator==(const ShowChange&, const ShowChange&) = default;
-};
-// `wanted` with the values that are set.
-[[nodiscard]] WantedShow with(WantedShow wanted, const ShowChange& change);
-
-// For logs: "scene reef, black on".
-[[nodiscard]] std::string textOf(const ShowChange& change);
+using wire::ShowChange;
+using wire::WantedShow;
 
 // What became of a change; numbered as in aquarama.proto.
 enum class Outcome : std::uint8_t { Done = 1, Preparing = 2, Refused = 3 };
@@ -117,13 +91,5 @@ class ShowControl {
     float brightness_;
     net::Instant brightnessAt_{};
 };
-
-// Where the values that were set for a rig are kept: aquarama/shows/RIG.txtpb in the user's folder
-// for state ($XDG_STATE_HOME, or ~/.local/state).
-[[nodiscard]] std::filesystem::path keptShowOf(const std::string& rigPath);
-// Nothing is set where there is no such file. Throws Error where it is malformed.
-[[nodiscard]] ShowChange readKeptShow(const std::filesystem::path& path);
-// Throws Error where it cannot be written.
-void keepShow(const std::filesystem::path& path, const ShowChange& kept);
 
 }  // namespace aquarama::conductor

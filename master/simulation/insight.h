@@ -14,7 +14,7 @@
 #include "common/base/units.h"
 #include "common/motion/repertoire.h"
 #include "master/behaviour/intention_generator.h"
-#include "master/behaviour/mental_state.h"
+#include "master/behaviour/think.h"
 #include "master/behaviour/perceive.h"
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"

@@ -6,7 +6,7 @@
 
 #include "common/base/hash.h"
 #include "common/place/place.h"
-#include "master/behaviour/mental_state.h"
+#include "master/behaviour/think.h"
 #include "master/fish/fish_view.h"
 #include "master/fish/secondary_controller.h"
 #include "master/world/beginning.h"

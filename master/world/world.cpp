@@ -12,7 +12,6 @@
 #include "common/base/random_streams.h"
 #include "common/motion/headings.h"
 #include "common/place/place.h"
-#include "master/behaviour/mental_state.h"
 #include "master/behaviour/routines.h"
 #include "master/behaviour/think.h"
 #include "master/fish/minds.h"

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -107,6 +108,10 @@ class Context {
     // The reason why the driver has lost the context and every object in it; empty while it has
     // not. Needs the context to be current on the calling thread.
     [[nodiscard]] virtual std::optional<std::string> loss() const = 0;
+
+    // The monitors of this machine, as "HDMI-1 1920x1080 60 Hz"; none without a display. Main
+    // thread only.
+    [[nodiscard]] virtual std::vector<std::string> monitors() const { return {}; }
 
     // Waits for window events for at most this long and handles them. Main thread only.
     virtual void pumpEvents(std::chrono::milliseconds atMost) = 0;

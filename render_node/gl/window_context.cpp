@@ -299,6 +299,18 @@ class WindowContext : public Context {
                (placesWindows() ? ", in a window" : ", in a window that Wayland places");
     }
     [[nodiscard]] std::optional<std::string> loss() const override { return lossOfContext(); }
+    [[nodiscard]] std::vector<std::string> monitors() const override {
+        int count = 0;
+        GLFWmonitor** all = glfwGetMonitors(&count);
+        std::vector<std::string> texts;
+        for (GLFWmonitor* monitor : std::span{all, static_cast<std::size_t>(count)}) {
+            const GLFWvidmode& mode = *glfwGetVideoMode(monitor);
+            texts.push_back(std::string(glfwGetMonitorName(monitor)) + " " +
+                            std::to_string(mode.width) + "x" + std::to_string(mode.height) + " " +
+                            std::to_string(mode.refreshRate) + " Hz");
+        }
+        return texts;
+    }
     void pumpEvents(std::chrono::milliseconds atMost) override {
         assert(atMost.count() >= 0);
         glfwWaitEventsTimeout(std::chrono::duration<double>(atMost).count());

@@ -2,8 +2,12 @@
 #include "render_node/session/master_link.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <utility>
+#include <vector>
+
+#include <unistd.h>
 
 #include "common/base/log.h"
 
@@ -19,13 +23,21 @@ constexpr net::Instant kRepeat = seconds(1);         // of what was not answered
 constexpr net::Instant kMasterSilence = seconds(2);  // after which the master is taken for gone
 constexpr net::Instant kComplaint = seconds(3);  // between two lines that say we are still waiting
 constexpr net::Instant kFarthest =
-    milliseconds(250);           // a release further ahead is a clock gone wrong
-constexpr int kSpoiltBlobs = 3;  // deliveries of a blob that fail before we give up
+    milliseconds(250);  // a release further ahead is a clock gone wrong
+constexpr net::Instant kReport = seconds(5);
+constexpr std::size_t kPings = 200;  // of ten seconds
+constexpr int kSpoiltBlobs = 3;      // deliveries of a blob that fail before we give up
 
 // Takes a moment, and never changes.
 std::uint64_t ownMotorHash() {
     static const std::uint64_t hash = motion::motorSelfTest();
     return hash;
+}
+
+std::string hostName() {
+    std::array<char, 65> name{};
+    gethostname(name.data(), name.size() - 1);
+    return name.data();
 }
 
 }  // namespace
@@ -237,6 +249,11 @@ void MasterLink::handle(const Finished& finished) {
     sayReady();
 }
 
+void MasterLink::handle(const NodeFacts& facts) {
+    facts_ = facts;
+    lastReport_ = {};
+}
+
 void MasterLink::handle(const v1::Input& input) {
     if (session_ == 0) return;
     v1::Envelope message;
@@ -265,7 +282,7 @@ void MasterLink::sayReady() {
     ready.set_frame(finished_->frame.value);
     ready.set_hash_mismatches(mismatches_);
     if (const auto& released = finished_->released) {
-        const net::Instant ahead = clock_.offset().value_or(net::Instant{});
+        const net::Instant ahead = clock_.offset(released->at).value_or(net::Instant{});
         ready.set_released_frame(released->frame.value);
         ready.set_released_ns((released->at + ahead).count());
     }
@@ -301,9 +318,7 @@ void MasterLink::take(const v1::Envelope& message) {
 void MasterLink::takeOfRun(const v1::Envelope& message) {
     switch (message.message_case()) {
         case v1::Envelope::kPong:
-            return clock_.add(net::Instant{message.pong().sent_ns()},
-                              net::Instant{message.pong().master_ns()},
-                              net::monotonicNow());
+            return hearPong(message.pong(), net::monotonicNow());
         case v1::Envelope::kBlobChunk:
             return takeChunk(message.blob_chunk());
         case v1::Envelope::kJoined:
@@ -358,6 +373,7 @@ void MasterLink::beWelcomed(const v1::Envelope& message) {
     calibration_ = shortHash(digestOf(admitted_.welcome.rig_text()));
     assembly_.reset();
     clock_ = {};
+    pings_.clear();
     try {
         channels_->subscribeState(admitted_.welcome.state_address());
     } catch (const Error& error) {
@@ -430,8 +446,8 @@ void MasterLink::beReleased(const v1::Present& present) {
     const Frame frame{present.frame()};
     const net::Instant now = net::monotonicNow();
     net::Instant at = now;
-    if (present.at_ns() != 0 && clock_.offset())
-        at = net::Instant{present.at_ns()} - *clock_.offset();
+    const auto ahead = clock_.offset(now);
+    if (present.at_ns() != 0 && ahead) at = net::Instant{present.at_ns()} - *ahead;
     if (at > now + kFarthest) at = now;
     if (finished_ && finished_->frame <= frame) finished_.reset();
     mailbox_.release({frame, at});
@@ -472,12 +488,8 @@ void MasterLink::keepTime(net::Instant now) {
     if (phase_ == Phase::Outside) return;
     if (phase_ == Phase::Greeting) return greet(now);
     if (now - lastHeard_ > kMasterSilence) return lose("the master has fallen silent");
-    if (now - lastPing_ >= kPing) {
-        v1::Envelope ping;
-        ping.mutable_ping()->set_sent_ns(now.count());
-        say(std::move(ping));
-        lastPing_ = now;
-    }
+    if (now - lastPing_ >= kPing) sayPing(now);
+    if (phase_ == Phase::Member && now - lastReport_ >= kReport) sayReport(now);
     const bool isFetching = phase_ == Phase::Fetching || fetchesNextLook_;
     if (isFetching && now - lastRequest_ > kRepeat) requestChunk();
     if (phase_ == Phase::Listening && hearsStates_) {
@@ -485,6 +497,54 @@ void MasterLink::keepTime(net::Instant now) {
         phase_ = Phase::Member;
     }
     if (finished_ && now - lastReady_ > kRepeat) sayReady();
+}
+
+void MasterLink::sayPing(net::Instant now) {
+    v1::Envelope ping;
+    ping.mutable_ping()->set_sent_ns(now.count());
+    say(std::move(ping));
+    lastPing_ = now;
+    pings_.emplace_back(now, std::nullopt);
+    if (pings_.size() > kPings) pings_.pop_front();
+}
+
+void MasterLink::hearPong(const v1::Pong& pong, net::Instant now) {
+    const net::Instant sent{pong.sent_ns()};
+    clock_.add(sent, net::Instant{pong.master_ns()}, now);
+    const auto ping = std::ranges::find(pings_, sent, [](const auto& p) { return p.first; });
+    if (ping != pings_.end()) ping->second = now - sent;
+}
+
+// Milliseconds; sorts the times.
+float quantile(std::vector<net::Instant>& times, double share) {
+    if (times.empty()) return 0;
+    std::ranges::sort(times);
+    const auto at = static_cast<std::size_t>(share * static_cast<double>(times.size() - 1));
+    return std::chrono::duration<float, std::milli>(times[at]).count();
+}
+
+void MasterLink::sayReport(net::Instant now) {
+    std::vector<net::Instant> roundTrips;
+    std::size_t unanswered = 0;
+    for (const auto& [sent, roundTrip] : pings_) {
+        if (roundTrip) roundTrips.push_back(*roundTrip);
+        if (!roundTrip && now - sent > kRepeat) ++unanswered;
+    }
+    v1::Envelope message;
+    v1::NodeReport& report = *message.mutable_node_report();
+    report.set_host(hostName());
+    report.set_build(facts_.build);
+    report.set_renderer(facts_.renderer);
+    for (const std::string& monitor : facts_.monitors) report.add_monitors(monitor);
+    report.set_free_disk_bytes(cache_.freeBytes());
+    report.set_clock_synchronised(net::isClockSynchronised());
+    report.set_round_trip_median_ms(quantile(roundTrips, 0.5));
+    report.set_round_trip_p99_ms(quantile(roundTrips, 0.99));
+    report.set_unanswered_percent(100 * static_cast<float>(unanswered) /
+                                  static_cast<float>(std::max<std::size_t>(pings_.size(), 1)));
+    report.set_clock_drift_ppm(static_cast<float>(clock_.driftPpm()));
+    say(std::move(message));
+    lastReport_ = now;
 }
 
 void MasterLink::greet(net::Instant now) {

@@ -112,7 +112,8 @@ class MasterLink {
         std::optional<ReleaseReport> released;  // of an earlier frame
     };
     // Inputs and questions; dropped while the node is not welcomed.
-    using Request = std::variant<Join, Built, Finished, v1::Input, v1::Set, v1::ExplainRequest>;
+    using Request =
+        std::variant<Join, Built, Finished, NodeFacts, v1::Input, v1::Set, v1::ExplainRequest>;
     void post(const Request& request);
     void stop();  // from any thread
 
@@ -130,6 +131,7 @@ class MasterLink {
     void handle(const Join& join);
     void handle(const Built& built);
     void handle(const Finished& finished);
+    void handle(const NodeFacts& facts);
     void handle(const v1::Input& input);
     void handle(const v1::Set& set);
     void handle(const v1::ExplainRequest& request);
@@ -154,6 +156,9 @@ class MasterLink {
     void admit();  // every blob is there
     void sayPrepared();
     void sayReady();
+    void sayPing(net::Instant now);
+    void hearPong(const v1::Pong& pong, net::Instant now);
+    void sayReport(net::Instant now);
     // The master is gone or another: joins again.
     void lose(const std::string& why);
     void keepTime(net::Instant now);
@@ -181,10 +186,13 @@ class MasterLink {
     Built built_;
     std::optional<Finished> finished_;  // and not released yet, as far as we know
     net::ClockOffset clock_;
+    NodeFacts facts_;
+    // When pings of the last ten seconds were sent, and how long their answers took.
+    std::deque<std::pair<net::Instant, std::optional<net::Instant>>> pings_;
     std::uint64_t mismatches_ = 0;  // states that were not what the master had sent
     std::string lastDismissal_;
     net::Instant lastHeard_{}, lastPing_{}, lastHello_{}, lastReady_{}, lastRequest_{},
-        lastComplaint_{}, lastCompared_{};
+        lastReport_{}, lastComplaint_{}, lastCompared_{};
 };
 
 }  // namespace aquarama::session

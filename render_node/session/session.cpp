@@ -136,6 +136,7 @@ class LinkSession final : public Session {
         link_.post(message);
     }
     void steer(const Steering& steering) override { link_.post(wire::steeringInput(steering)); }
+    void describe(const NodeFacts& facts) override { link_.post(facts); }
     void askMind(std::uint32_t fish) override {
         v1::ExplainRequest question;
         question.set_fish(fish);

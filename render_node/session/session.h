@@ -43,6 +43,13 @@ struct Admission {
     std::vector<wire::SpeciesAssets> cast;  // of all fish of the school, in its order
 };
 
+// What only the process knows of the machine that it draws on.
+struct NodeFacts {
+    std::string build;                  // version and commit
+    std::string renderer;               // of OpenGL
+    std::vector<std::string> monitors;  // none without a display
+};
+
 // What the master said of the mind of a fish: lines of printable ASCII; none where there is no such
 // fish.
 struct ExplainedMind {
@@ -81,6 +88,8 @@ class Session {
     virtual void dropFood(glm::vec3 positionMetres) = 0;  // world frame
     // What hands ask of the submarine; holds until the next, half a second at most.
     virtual void steer(const Steering& steering) = 0;
+    // Told to the master every few seconds, with how the way to it is. May be called by any thread.
+    virtual void describe(const NodeFacts& facts) = 0;
     // Asks what goes on in the mind of a fish; the answer comes when it comes.
     virtual void askMind(std::uint32_t fish) = 0;
     [[nodiscard]] virtual std::optional<ExplainedMind> latestMind() const = 0;

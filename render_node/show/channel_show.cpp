@@ -57,7 +57,7 @@ void copyToWindow(const gl::Target& picture, glm::ivec2 window, GLenum buffer) {
 
 }  // namespace
 
-Stage::Stage(gl::Context& context, const std::string& channel, session::Admission admission)
+BuiltLook::BuiltLook(gl::Context& context, const std::string& channel, session::Admission admission)
     : admission_{std::move(admission)},
       channel_{channelIndex(admission_.rig, channel)},
       workspace_{context.makeWorkspace()} {
@@ -66,7 +66,8 @@ Stage::Stage(gl::Context& context, const std::string& channel, session::Admissio
 #ifndef NDEBUG
     gl::logMessages();
 #endif
-    logInfo("building {} x {} pixels on {}", size.x, size.y, context.description());
+    renderer_ = context.description();
+    logInfo("building {} x {} pixels on {}", size.x, size.y, renderer_);
     for (int eye = 0; eye < (context.quadBuffered() ? 2 : 1); ++eye)
         targets_.emplace_back(GL_RGBA8, size);
     chooseQuality();
@@ -75,14 +76,14 @@ Stage::Stage(gl::Context& context, const std::string& channel, session::Admissio
     waitForGpu();
 }
 
-Stage::~Stage() {
+BuiltLook::~BuiltLook() {
     workspace_->makeCurrent();
     picture_.reset();
     targets_.clear();
     workspace_->release();
 }
 
-void Stage::bringTo(config::QualityTier quality) {
+void BuiltLook::bringTo(config::QualityTier quality) {
     if (picture_ && quality_ == quality) return;
     // The old picture goes first, so that the GPU need not hold both.
     picture_.reset();
@@ -90,7 +91,7 @@ void Stage::bringTo(config::QualityTier quality) {
     quality_ = quality;
 }
 
-void Stage::chooseQuality() {
+void BuiltLook::chooseQuality() {
     if (admission_.quality || !admission_.world) {
         bears_ = admission_.quality.value_or(config::QualityTier::Low);
     } else {
@@ -102,7 +103,7 @@ void Stage::chooseQuality() {
     bringTo(bears_);
 }
 
-void Stage::drawEmpty() {
+void BuiltLook::drawEmpty() {
     wire::StateFrame frame;
     frame.eye.positionMetres = admission_.scene.eye;
     if (!admission_.world) frame.show.pattern = wire::Pattern::Grey;
@@ -110,7 +111,7 @@ void Stage::drawEmpty() {
     picture_->project(targets_.front().framebuffer(), Encoding::Dithered8, Overlays{});
 }
 
-double Stage::secondsAFrame(config::QualityTier quality) {
+double BuiltLook::secondsAFrame(config::QualityTier quality) {
     constexpr int kFrames = 5;
     bringTo(quality);
     drawEmpty();  // not measured
@@ -168,12 +169,13 @@ void ChannelShow::build(session::Admission admission) {
         throw Error("channel \"" + options_.channel +
                     "\" has another size than before; start its node again");
     stage_.reset();  // first, so that the GPU need not hold both
-    enter(std::make_unique<Stage>(context_, options_.channel, std::move(admission)));
+    enter(std::make_unique<BuiltLook>(context_, options_.channel, std::move(admission)));
     shown_ = false;
 }
 
-void ChannelShow::enter(std::unique_ptr<Stage> stage) {
+void ChannelShow::enter(std::unique_ptr<BuiltLook> stage) {
     stage_ = std::move(stage);
+    session_.describe({options_.build, stage_->renderer(), options_.monitors});
     pointing_.emplace(stage_->admission().rig,
                       channelIndex(stage_->admission().rig, options_.channel));
     watched_.reset();
@@ -184,7 +186,7 @@ void ChannelShow::buildNext() {
         auto admission = session_.nextLook();
         if (!admission) return;
         const auto build = [this](session::Admission what) {
-            auto stage = std::make_unique<Stage>(context_, options_.channel, std::move(what));
+            auto stage = std::make_unique<BuiltLook>(context_, options_.channel, std::move(what));
             stage->workspace().release();
             return stage;
         };

@@ -55,16 +55,16 @@ class Trace {
 };
 
 // A look that is ready to be drawn: the channel's picture of it, in a workspace of its own.
-class Stage {
+class BuiltLook {
   public:
     // Builds it on the calling thread and leaves its workspace current there. Without a prescribed
     // quality it measures with which the node keeps up. Throws Error: a channel that the rig does
     // not have or another size than the context's, a driver that cannot draw what is needed.
-    Stage(gl::Context& context, const std::string& channel, session::Admission admission);
+    BuiltLook(gl::Context& context, const std::string& channel, session::Admission admission);
     // May be on another thread, while no thread has the workspace current.
-    ~Stage();
-    Stage(const Stage&) = delete;
-    Stage& operator=(const Stage&) = delete;
+    ~BuiltLook();
+    BuiltLook(const BuiltLook&) = delete;
+    BuiltLook& operator=(const BuiltLook&) = delete;
 
     [[nodiscard]] const session::Admission& admission() const { return admission_; }
     // The same look under another number: the master was started again.
@@ -77,6 +77,8 @@ class Stage {
     }
     // The finest tier that this node keeps up with.
     [[nodiscard]] config::QualityTier bears() const { return bears_; }
+    // Of OpenGL, for people.
+    [[nodiscard]] const std::string& renderer() const { return renderer_; }
     // Makes the picture anew where it is of another tier. The workspace is current.
     void bringTo(config::QualityTier quality);
 
@@ -88,6 +90,7 @@ class Stage {
 
     session::Admission admission_;
     std::size_t channel_;
+    std::string renderer_;
     std::unique_ptr<gl::Workspace> workspace_;
     std::optional<ChannelPicture> picture_;
     std::deque<gl::Target> targets_;
@@ -124,7 +127,7 @@ class ChannelShow {
     // Brings the stage of this look on; false where there is none. What was shown before ends on a
     // thread of its own.
     [[nodiscard]] bool bringOn(std::uint32_t look);
-    void enter(std::unique_ptr<Stage> stage);
+    void enter(std::unique_ptr<BuiltLook> stage);
     // Draws and presents frames until the master is lost (Rejoin) or the show ends (Quit).
     [[nodiscard]] session::Release play();
     // Draws and projects a frame, for quad buffers once for each eye, and waits for the GPU. The
@@ -154,9 +157,9 @@ class ChannelShow {
     // Sends frames to the program that encodes a clip; null: none.
     std::unique_ptr<net::FrameSender> film_;
     // What is drawn; its workspace is current. And the next look, while it is built and after.
-    std::unique_ptr<Stage> stage_;
-    std::future<std::unique_ptr<Stage>> building_;
-    std::unique_ptr<Stage> next_;
+    std::unique_ptr<BuiltLook> stage_;
+    std::future<std::unique_ptr<BuiltLook>> building_;
+    std::unique_ptr<BuiltLook> next_;
     std::future<void> retiring_;
     std::optional<Pointing> pointing_;
     // The fish whose mind is shown, as its index in the school.

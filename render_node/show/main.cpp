@@ -92,6 +92,7 @@ int main(int count, char** arguments) {
         cli::requireFolder("--snapshot", options.snapshotFolder);
         cli::requireFolder("--trace", options.traceFolder);
         spdlog::set_default_logger(spdlog::stdout_color_mt("node " + options.channel));
+        options.build = cli::buildText();
         show::runNode(options);
         return 0;
     });

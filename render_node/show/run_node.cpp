@@ -63,8 +63,10 @@ void runNode(const NodeOptions& options) {
     const std::size_t channel = channelIndex(admission->rig, options.channel);
     const std::unique_ptr<gl::Context> context = openContext(options, admission->rig, channel);
     Controls controls(*session);
+    NodeOptions described = options;
+    described.monitors = context->monitors();
     std::future<void> drawing = std::async(std::launch::async, [&] {
-        show(*session, *context, controls, options, std::move(*admission));
+        show(*session, *context, controls, described, std::move(*admission));
     });
     while (drawing.wait_for(0s) != std::future_status::ready) {
         context->pumpEvents(kPatience);

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/net/channels.h"
 
@@ -27,6 +28,9 @@ struct NodeOptions {
     int filmEvery = 1;
     // Where the times of frames are written.
     std::string traceFolder;
+    // For the master: version and commit, and the monitors of this machine.
+    std::string build;
+    std::vector<std::string> monitors;
 };
 
 // One node, from joining the show to its end.

@@ -119,6 +119,27 @@ inline v1::Envelope sampleSetReply() {
     return message;
 }
 
+inline v1::NodeReport sampleReport() {
+    v1::NodeReport report;
+    report.set_host("wall-left");
+    report.set_build("0.1.0 123456789abc");
+    report.set_renderer("llvmpipe");
+    report.add_monitors("HDMI-1 1920x1080 60 Hz");
+    report.set_free_disk_bytes(1U << 30U);
+    report.set_clock_synchronised(true);
+    report.set_round_trip_median_ms(0.25F);
+    report.set_round_trip_p99_ms(1.5F);
+    report.set_unanswered_percent(0);
+    report.set_clock_drift_ppm(-12.5F);
+    return report;
+}
+
+inline v1::Envelope sampleNodeReport() {
+    v1::Envelope message;
+    *message.mutable_node_report() = sampleReport();
+    return message;
+}
+
 inline v1::Envelope sampleStatus() {
     v1::Envelope message;
     v1::StatusReply& reply = *message.mutable_status_reply();
@@ -143,6 +164,7 @@ inline v1::Envelope sampleStatus() {
     };
     add("left", v1::NODE_LATE, 4, 1);
     add("right", v1::NODE_ABSENT, 0, 2);
+    *reply.mutable_nodes(0)->mutable_report() = sampleReport();
     return message;
 }
 
@@ -176,7 +198,8 @@ inline std::vector<Packet> samplePackets() {
         test::explanation(59, 60, 7200, {"59  bigeye_scad", "", "~"}),
         samplePrepare(),
         sampleSet(),
-        sampleSetReply()};
+        sampleSetReply(),
+        sampleNodeReport()};
     std::vector<Packet> packets;
     for (const v1::Envelope& message : before) packets.push_back(encode(kSession, message));
     packets.push_back(encodeState(kSession, viewOf(sampleState(5))));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hunger, libido and fear over time, against their closed forms.
-#include "master/behaviour/mental_state.h"
+#include "master/behaviour/think.h"
 
 #include <cmath>
 #include <cstdint>

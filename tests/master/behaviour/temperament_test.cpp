@@ -2,7 +2,7 @@
 // What single fish draw from the ranges of their species.
 #include <gtest/gtest.h>
 
-#include "master/behaviour/mental_state.h"
+#include "master/behaviour/think.h"
 #include "master/fish/minds.h"
 
 namespace aquarama::behaviour {

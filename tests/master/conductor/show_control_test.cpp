@@ -162,19 +162,19 @@ TEST(KeptShow, isReadAsItWasWritten) {
     const std::filesystem::path file = testing::TempDir() + "aquarama_kept_show.txtpb";
     ShowChange kept;
     for (const bool on : {false, true}) {
-        keepShow(file, kept);
-        EXPECT_EQ(readKeptShow(file), kept);
+        wire::keepShow(file, kept);
+        EXPECT_EQ(wire::readKeptShow(file), kept);
         kept.scene = "lagoon";
         kept.quality = on ? std::optional(config::QualityTier::High) : std::nullopt;
         kept.pattern = wire::Pattern::Grey;
         kept.black = kept.freeze = on;
     }
-    keepShow(file, kept);
-    EXPECT_EQ(readKeptShow(file), kept);
+    wire::keepShow(file, kept);
+    EXPECT_EQ(wire::readKeptShow(file), kept);
     std::ofstream(file) << "version: 1 colour: 3";
-    EXPECT_THROW(static_cast<void>(readKeptShow(file)), Error);
+    EXPECT_THROW(static_cast<void>(wire::readKeptShow(file)), Error);
     std::filesystem::remove(file);
-    EXPECT_EQ(readKeptShow(file), ShowChange{});
+    EXPECT_EQ(wire::readKeptShow(file), ShowChange{});
 }
 
 }  // namespace

@@ -363,8 +363,8 @@ TEST(Show, whatWasSetIsShownByAMasterThatIsStartedAgain) {
                           }),
                   "");
     }
-    options.kept = readKeptShow(options.keptAt);
-    options.wanted = with({}, options.kept);
+    options.kept = wire::readKeptShow(options.keptAt);
+    options.wanted = wire::with({}, options.kept);
     test::StageMaster master(options);
     test::Journal journal;
     const auto nodes = nodesOf(master, journal);

@@ -56,6 +56,7 @@ class FakeSession : public session::Session {
     }
     void quit() override { events_.emplace_back("quit"); }
     void freeze(bool frozen) override { events_.emplace_back(frozen ? "freeze" : "thaw"); }
+    void describe(const session::NodeFacts& facts) override { facts_ = facts; }
     void dropFood(glm::vec3 positionMetres) override { drops_.push_back(positionMetres); }
     void steer(const Steering& steering) override { steerings_.push_back(steering); }
     void askMind(std::uint32_t fish) override { events_.push_back("ask " + std::to_string(fish)); }
@@ -65,6 +66,7 @@ class FakeSession : public session::Session {
     void stop() override { events_.emplace_back("stop"); }
 
     std::optional<session::Admission> rejoin_, nextLook_;
+    session::NodeFacts facts_;
     std::vector<glm::vec3> drops_;
     std::vector<Steering> steerings_;
     std::optional<session::ExplainedMind> mind_;

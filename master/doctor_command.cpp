@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+// `aquarama doctor`: looks over a wall before a show: the rig, its keys and ports, this machine,
+// and by the running master every node and its way to it.
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <ifaddrs.h>
+#include <netdb.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/config/keys.h"
+#include "common/config/rig.h"
+#include "common/config/scene.h"
+#include "common/net/clock.h"
+#include "common/wall/wall.h"
+#include "master/commands.h"
+#include "master/conductor/requests.h"
+#include "master/supervisor/preflight.h"
+
+namespace aquarama {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DoctorOptions {
+    std::string rig = supervisor::kDefaultRig;
+    std::string keyFolder;  // empty: the user's
+    bool json = false;
+};
+
+enum class Verdict : std::uint8_t { Pass, Warn, Fail };
+
+// What was found about one thing, and what to do about it.
+struct Finding {
+    Verdict verdict = Verdict::Pass;
+    std::string subject, what, todo;
+};
+
+class Findings {
+  public:
+    void pass(std::string subject, std::string what) {
+        all_.push_back({Verdict::Pass, std::move(subject), std::move(what), {}});
+    }
+    // Passes where `isGood`, else it is `otherwise`, and `todo` says what to do.
+    void judge(
+        bool isGood, Verdict otherwise, std::string subject, std::string what, std::string todo) {
+        if (isGood) return pass(std::move(subject), std::move(what));
+        all_.push_back({otherwise, std::move(subject), std::move(what), std::move(todo)});
+    }
+    // Passes where `check()`, which returns what it found, throws no Error; that says what to do.
+    template <class Check>
+    bool attempt(const std::string& subject, Check check) {
+        try {
+            pass(subject, check());
+            return true;
+        } catch (const Error& problem) {
+            all_.push_back({Verdict::Fail, subject, problem.what(), {}});
+            return false;
+        }
+    }
+    [[nodiscard]] const std::vector<Finding>& all() const { return all_; }
+
+  private:
+    std::vector<Finding> all_;
+};
+
+constexpr std::uint64_t kLeastDiskBytes = std::uint64_t{1} << 30U;
+constexpr double kOldKeyDays = 365;
+constexpr float kSlowRoundTripMs = 5;  // the release of a frame is said 2 ms before it
+constexpr float kMostUnansweredPercent = 1;
+
+constexpr const char* kSynchronise =
+    "install chrony or linuxptp, so that the logs of all machines agree; frames do not need it";
+
+std::string gigabytes(std::uint64_t bytes) {
+    return fmt::format("{:.0f} GB free", static_cast<double>(bytes) / 1e9);
+}
+
+// Since the day on which a key was made; 0 where it is none.
+double daysSince(const std::string& day) {
+    std::tm date{};
+    if (strptime(day.c_str(), "%Y-%m-%d", &date) == nullptr) return 0;
+    return std::difftime(std::time(nullptr), timegm(&date)) / 86400;
+}
+
+void lookAtKey(Findings& findings, const fs::path& folder, const std::string& name) {
+    findings.attempt("key " + name, [&] {
+        const config::KeyFile key = config::readKeyFile(config::keyFileIn(folder, name));
+        if (!key.revoked.empty())
+            throw Error("was revoked on " + key.revoked + "; aquarama keys rotate makes another");
+        const double days = daysSince(key.made);
+        return fmt::format("{:.0f} days old{}",
+                           days,
+                           days > kOldKeyDays ? "; aquarama keys rotate makes another" : "");
+    });
+}
+
+// Whether an interface of this machine has the address of the rig.
+bool isOwnAddress(const std::string& address) {
+    const std::size_t begin = address.find("//") + 2;
+    const std::string host = address.substr(begin, address.rfind(':') - begin);
+    ifaddrs* list = nullptr;
+    if (getifaddrs(&list) != 0) return false;
+    const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> owner(list, &freeifaddrs);
+    for (const ifaddrs* one = list; one != nullptr; one = one->ifa_next) {
+        std::array<char, NI_MAXHOST> text{};
+        if (one->ifa_addr != nullptr && one->ifa_addr->sa_family == AF_INET &&
+            getnameinfo(one->ifa_addr,
+                        sizeof(sockaddr_in),
+                        text.data(),
+                        text.size(),
+                        nullptr,
+                        0,
+                        NI_NUMERICHOST) == 0 &&
+            host == text.data())
+            return true;
+    }
+    return host == "localhost";
+}
+
+// What is needed for a show on this machine, whether one runs or not.
+void lookAtMachine(Findings& findings, const DoctorOptions& options, const config::Rig& rig) {
+    findings.attempt("scene", [&] {
+        const std::string path = config::scenePathOf(rig, options.rig);
+        return path + ", " + std::to_string(config::readScene(path).cast.size()) + " species";
+    });
+    findings.judge(
+        isOwnAddress(rig.controlAddress),
+        Verdict::Fail,
+        "address",
+        rig.controlAddress,
+        "no network interface here has it: this is not the master's machine, its cable is "
+        "out, or the rig names another");
+    const std::uint64_t free = freeBytesAt(cacheFolder());
+    findings.judge(free > kLeastDiskBytes,
+                   Verdict::Warn,
+                   "disk",
+                   gigabytes(free) + " at " + cacheFolder().string(),
+                   "repertoires, keys and logs need a gigabyte: make room");
+    const bool isAlone = std::ranges::all_of(
+        rig.channels, [](const config::Channel& channel) { return channel.machine.empty(); });
+    if (!isAlone)
+        findings.judge(net::isClockSynchronised(),
+                       Verdict::Warn,
+                       "clock",
+                       net::isClockSynchronised() ? "synchronised" : "not synchronised",
+                       kSynchronise);
+    if (!config::needsKeys(rig)) return findings.pass("keys", "none are needed on one machine");
+    const fs::path folder =
+        options.keyFolder.empty() ? config::keyFolderOf(options.rig) : fs::path(options.keyFolder);
+    lookAtKey(findings, folder, "master");
+    for (const config::Channel& channel : rig.channels) lookAtKey(findings, folder, channel.name);
+}
+
+void lookAtReport(Findings& findings, const std::string& subject, const v1::NodeStatus& node) {
+    const v1::NodeReport& report = node.report();
+    const bool isSoftware = report.renderer().find("llvmpipe") != std::string::npos;
+    findings.judge(!isSoftware,
+                   Verdict::Warn,
+                   subject,
+                   "machine " + report.host() + ", " + report.renderer(),
+                   "it draws on the processor: install its card's driver, or accept a slow wall");
+    for (const std::string& monitor : report.monitors())
+        findings.pass(subject, "monitor " + monitor);
+    findings.judge(report.build() == cli::buildText(),
+                   Verdict::Warn,
+                   subject,
+                   "build " + report.build(),
+                   "this machine has " + cli::buildText() + ": install the same on both");
+    // Within one machine only a busy processor delays an answer.
+    const bool isFar = !node.machine().empty();
+    findings.judge(!isFar || (report.round_trip_p99_ms() < kSlowRoundTripMs &&
+                              report.unanswered_percent() < kMostUnansweredPercent),
+                   Verdict::Warn,
+                   subject,
+                   fmt::format("round trip {:.2f} ms, 99 % within {:.2f} ms, {:.1f} % of pings "
+                               "unanswered, the master's clock {:+.1f} ppm faster",
+                               report.round_trip_median_ms(),
+                               report.round_trip_p99_ms(),
+                               report.unanswered_percent(),
+                               report.clock_drift_ppm()),
+                   "use a cable and a switch of its own for the wall; wireless is too uneven");
+    if (isFar)
+        findings.judge(
+            report.clock_synchronised(),
+            Verdict::Warn,
+            subject,
+            report.clock_synchronised() ? "clock synchronised" : "clock not synchronised",
+            kSynchronise);
+    findings.judge(report.free_disk_bytes() > kLeastDiskBytes,
+                   Verdict::Warn,
+                   subject,
+                   gigabytes(report.free_disk_bytes()),
+                   "make room on its disk");
+}
+
+void lookAtNode(Findings& findings, const v1::NodeStatus& node) {
+    const std::string subject = "node " + node.name();
+    const std::string machine =
+        node.machine().empty() ? "this machine" : "machine " + node.machine();
+    findings.judge(node.condition() == v1::NODE_IN_STEP,
+                   node.condition() == v1::NODE_ABSENT ? Verdict::Fail : Verdict::Warn,
+                   subject,
+                   conductor::wordFor(node.condition()) + ", " + machine,
+                   node.condition() == v1::NODE_ABSENT
+                       ? "start it there: aquarama node --key FILE; see its output"
+                       : "it draws more slowly than the others: see its frame times");
+    findings.judge(node.hash_mismatches() == 0,
+                   Verdict::Fail,
+                   subject,
+                   node.hash_mismatches() == 0 ? "decodes the fish as they were sent"
+                                               : "decodes other fish than were sent",
+                   "check its memory and its version");
+    if (node.has_report()) lookAtReport(findings, subject, node);
+}
+
+// Asks the master of the running show; false where none runs.
+bool lookAtShow(Findings& findings, const DoctorOptions& options) {
+    v1::StatusReply status;
+    try {
+        status = connectToMaster(options.rig, options.keyFolder).status();
+    } catch (const Error&) {
+        return false;
+    }
+    findings.pass("show",
+                  fmt::format("runs, frame {}: median {:.1f} ms, 99 % {:.1f} ms; release skew "
+                              "{:.2f} ms, 99 % {:.2f} ms",
+                              status.frame(),
+                              status.frame_median_ms(),
+                              status.frame_p99_ms(),
+                              status.skew_median_ms(),
+                              status.skew_p99_ms()));
+    for (const v1::NodeStatus& node : status.nodes()) lookAtNode(findings, node);
+    return true;
+}
+
+void lookAtPorts(Findings& findings, const config::Rig& rig) {
+    findings.attempt("ports", [&] {
+        for (const std::string& address : {rig.controlAddress, rig.stateAddress})
+            supervisor::requireFreePort(address);
+        return std::string("free");
+    });
+    findings.judge(false,
+                   Verdict::Warn,
+                   "show",
+                   "none runs, so nothing is known of the nodes",
+                   "start it (aquarama run, or the services of all machines) and ask again");
+}
+
+Findings lookOver(const DoctorOptions& options) {
+    Findings findings;
+    config::Rig rig;
+    const bool isRig = findings.attempt("rig", [&] {
+        rig = config::readRig(options.rig);
+        wall::checkGeometry(rig, options.rig);
+        return options.rig + ", " + std::to_string(rig.channels.size()) + " channels";
+    });
+    if (!isRig) return findings;
+    lookAtMachine(findings, options, rig);
+    if (!lookAtShow(findings, options)) lookAtPorts(findings, rig);
+    return findings;
+}
+
+constexpr std::array kVerdicts{"pass", "warn", "fail"};
+
+void print(const Findings& findings) {
+    for (const Finding& finding : findings.all())
+        std::cout << fmt::format("{}  {:<14} {}{}{}\n",
+                                 kVerdicts.at(static_cast<std::size_t>(finding.verdict)),
+                                 finding.subject,
+                                 finding.what,
+                                 finding.todo.empty() ? "" : ": ",
+                                 finding.todo);
+}
+
+void printJson(const Findings& findings) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const Finding& finding : findings.all())
+        list.push_back({{"verdict", kVerdicts.at(static_cast<std::size_t>(finding.verdict))},
+                        {"subject", finding.subject},
+                        {"what", finding.what},
+                        {"todo", finding.todo}});
+    std::cout << list.dump(2) << '\n';
+}
+
+// 1 where something fails.
+int doctor(const DoctorOptions& options) {
+    const Findings findings = lookOver(options);
+    (options.json ? printJson : print)(findings);
+    return std::ranges::any_of(
+        findings.all(), [](const Finding& finding) { return finding.verdict == Verdict::Fail; });
+}
+
+}  // namespace
+
+void addDoctor(CommandLine& line) {
+    const auto [command, options] = line.add<DoctorOptions>(
+        "doctor", "whether a wall is ready: rig, keys, network, machines", doctor);
+    command.add_option("RIG", options.rig, "the rig's file")->capture_default_str();
+    command.add_option(
+        "--keys", options.keyFolder, "folder of the rig's keys, instead of the user's");
+    command.add_flag(
+        "--json", options.json, "for programs: verdict, subject, what and todo of each");
+    command.footer(
+        "A line for each finding: pass, warn or fail, what was found, and what to do. The exit "
+        "status is 1 "
+        "where something\nfails. With a running show it tells of every node as well.");
+}
+
+}  // namespace aquarama
