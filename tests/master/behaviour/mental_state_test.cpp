@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hunger, libido and fear over time, against their closed forms.
-#include "master/behaviour/think.h"
-
 #include <cmath>
 #include <cstdint>
 
 #include <gtest/gtest.h>
 
 #include "master/behaviour/perceive.h"
+#include "master/behaviour/think.h"
 #include "master/fish/minds.h"
 #include "master/fish/secondary_controller.h"
 
