@@ -69,7 +69,7 @@ class Releases {
   public:
     void attend(session::Session& session) {
         while (session.join()) {
-            session.prepared(config::QualityTier::Low);
+            session.prepared(1, config::QualityTier::Low);
             while (const auto state = session.nextFrame()) {
                 if (session.readyThenWait(state->frame) != session::Release::Present) continue;
                 const std::lock_guard lock(mutex_);
