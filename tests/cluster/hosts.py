@@ -335,10 +335,10 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--long", action="store_true")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--starts", type=int, help="8 by default, 1000 with --long")
+    parser.add_argument("--starts", type=int, help="50 by default, 1000 with --long")
     options = parser.parse_args()
-    options.cut, options.hurt = (10, 3600) if options.long else (2, 10)
-    options.starts = options.starts or (1000 if options.long else 8)
+    options.cut, options.hurt = (10, 3600) if options.long else (2, 30)
+    options.starts = options.starts or (1000 if options.long else 50)
     with temporary_folder() as folder:
         wall = Wall(folder)
         try:
