@@ -143,5 +143,5 @@ function(aquarama_suite name)
   file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/processor_time)
   add_test(NAME ${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/timed.sh ${CMAKE_BINARY_DIR}/processor_time/${name} ${ARGN})
   set_tests_properties(${name} PROPERTIES WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
-    ENVIRONMENT "AQUARAMA_BIN=${CMAKE_BINARY_DIR}/bin;XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/cache;LP_NUM_THREADS=1")
+    ENVIRONMENT "AQUARAMA_BIN=${CMAKE_BINARY_DIR}/bin;XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/cache;XDG_STATE_HOME=${CMAKE_BINARY_DIR}/state;LP_NUM_THREADS=1")
 endfunction()

@@ -197,11 +197,10 @@ bool switchedOn(const SetOptions& options) {
     throw Error(options.what + " is on or off, not \"" + options.value + "\"");
 }
 
-v1::Pattern patternNamed(const std::string& name) {
-    if (name == "world") return v1::PATTERN_WORLD;
-    if (name == "grid") return v1::PATTERN_GRID;
-    if (name == "grey") return v1::PATTERN_GREY;
-    throw Error("pattern is world, grid or grey, not \"" + name + "\"");
+v1::Pattern patternIn(const SetOptions& options) {
+    if (const auto pattern = wire::patternNamed(options.value))
+        return static_cast<v1::Pattern>(*pattern);
+    throw Error("pattern is world, grid or grey, not \"" + options.value + "\"");
 }
 
 // Returns when the wall shows it.
@@ -209,7 +208,7 @@ void set(const SetOptions& options) {
     v1::Set set;
     if (options.what == "scene") set.set_scene(options.value);
     if (options.what == "quality") set.set_quality(options.value);
-    if (options.what == "pattern") set.set_pattern(patternNamed(options.value));
+    if (options.what == "pattern") set.set_pattern(patternIn(options));
     if (options.what == "black") set.set_black(switchedOn(options));
     if (options.what == "freeze") set.set_freeze(switchedOn(options));
     options.asked.connect().set(std::move(set), [](const std::string& what) {

@@ -78,9 +78,7 @@ wire::ShowChange chosenBy(const MasterOptions& options) {
     wire::ShowChange chosen;
     if (!show.scenePath.empty()) chosen.scene = show.scenePath;
     if (!show.quality.empty()) chosen.quality = config::tierNamed(show.quality);
-    if (show.pattern == "world") chosen.pattern = wire::Pattern::World;
-    if (show.pattern == "grid") chosen.pattern = wire::Pattern::Grid;
-    if (show.pattern == "grey") chosen.pattern = wire::Pattern::Grey;
+    chosen.pattern = wire::patternNamed(show.pattern);
     return chosen;
 }
 

@@ -2,8 +2,10 @@
 #include "common/net/clock.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include <sys/timex.h>
 
@@ -81,6 +83,22 @@ std::optional<Instant> ClockOffset::offset(Instant now) const {
 std::optional<Instant> ClockOffset::roundTrip() const {
     const Sample* sample = best();
     return sample != nullptr ? std::optional{sample->roundTrip} : std::nullopt;
+}
+
+void RecentTimes::add(Instant time) {
+    times_.push_back(time);
+    if (times_.size() > kKept) times_.pop_front();
+}
+
+float RecentTimes::quantileMs(double quantile) const {
+    assert(quantile >= 0);
+    assert(quantile <= 1);
+    if (times_.empty()) return 0.0F;
+    std::vector<Instant> sorted(times_.begin(), times_.end());
+    const auto rank =
+        static_cast<std::ptrdiff_t>(quantile * static_cast<double>(sorted.size() - 1));
+    std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
+    return std::chrono::duration<float, std::milli>(sorted[static_cast<std::size_t>(rank)]).count();
 }
 
 }  // namespace aquarama::net

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -56,6 +57,18 @@ class ClockOffset {
     std::deque<Sample> samples_, windows_;
     std::size_t sinceWindow_ = 0;
     Line line_;
+};
+
+// The last 600 durations: of frames, ten seconds at 60 Hz.
+class RecentTimes {
+  public:
+    void add(Instant time);
+    [[nodiscard]] float quantileMs(
+        double quantile) const;  // quantile 0 to 1; 0 where there is nothing yet
+
+  private:
+    static constexpr std::size_t kKept = 600;
+    std::deque<Instant> times_;
 };
 
 }  // namespace aquarama::net

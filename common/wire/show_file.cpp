@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/wire/show_file.h"
 
-#include <array>
 #include <span>
 #include <string_view>
 
@@ -24,8 +23,6 @@ WantedShow with(WantedShow wanted, const ShowChange& change) {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kPatternNames{"", "world", "grid", "grey"};
-
 void add(std::string& text, std::string_view what, const std::optional<std::string_view>& value) {
     if (!value) return;
     if (!text.empty()) text += ", ";
@@ -43,8 +40,7 @@ std::string textOf(const ShowChange& change) {
     add(text, "scene", change.scene);
     if (change.quality)
         add(text, "quality", *change.quality ? config::nameOf(**change.quality) : "auto");
-    if (change.pattern)
-        add(text, "pattern", kPatternNames.at(static_cast<std::size_t>(*change.pattern)));
+    if (change.pattern) add(text, "pattern", nameOf(*change.pattern));
     add(text, "black", onOff(change.black));
     add(text, "freeze", onOff(change.freeze));
     return text;

@@ -4,11 +4,14 @@
 // the .cpp file; the small control packets are in messages.h.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -34,6 +37,16 @@ using Packet = std::vector<std::byte>;
 enum class Pace : std::uint8_t { Live = 1, Lockstep = 2 };
 // What the channels show: the world, or a pattern for setting up and for tests. As above.
 enum class Pattern : std::uint8_t { World = 1, Grid = 2, Grey = 3 };
+// As command lines and logs name them.
+inline constexpr std::array<std::string_view, 3> kPatternNames{"world", "grid", "grey"};
+[[nodiscard]] constexpr std::string_view nameOf(Pattern pattern) {
+    return kPatternNames.at(static_cast<std::size_t>(pattern) - 1);
+}
+[[nodiscard]] constexpr std::optional<Pattern> patternNamed(std::string_view name) {
+    const auto* const found = std::ranges::find(kPatternNames, name);
+    if (found == kPatternNames.end()) return std::nullopt;
+    return static_cast<Pattern>(found - kPatternNames.begin() + 1);
+}
 
 // Resolution of a position of food.
 inline constexpr float kFoodUnitMetres = 1.0F / 8192.0F;

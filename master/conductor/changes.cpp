@@ -5,8 +5,6 @@
 #include <chrono>
 #include <utility>
 
-#include <spdlog/fmt/fmt.h>
-
 #include "common/base/log.h"
 #include "common/wire/messages.h"
 #include "master/conductor/conductor.h"
@@ -50,7 +48,7 @@ std::optional<config::QualityTier> Conductor::measuredTier() const {
 
 std::string Conductor::objectionToScene(const std::string& scene) const {
     if (scene != control_.wanted().scene && !options_.makeWorld) return options_.whyOneScene;
-    if (scene.find_first_of("/\\") != std::string::npos)
+    if (scene.find_first_of("/\\") != std::string::npos || scene.ends_with(".txtpb"))
         return "a scene is named without folder and ending";
     return {};
 }
@@ -59,9 +57,8 @@ std::string Conductor::objectionToQuality(const std::string& quality) const {
     if (config::tierNamed(quality)) return {};
     if (quality != kAuto) return "quality is low, medium, high, ultra or auto, not " + quality;
     if (!measuredTier())
-        return "not every node has measured which quality it bears: that is done when a show "
-               "starts "
-               "without a chosen one";
+        return "not every node has measured which quality it bears; that is done when a show "
+               "starts without a chosen quality";
     return {};
 }
 
@@ -123,6 +120,9 @@ void Conductor::announceNextLook(net::Instant now) {
     const auto& quality = control_.next().quality;
     if (const auto tier = quality ? quality : measuredTier())
         nextLook_->set_quality(static_cast<std::uint32_t>(*tier));
+    v1::Envelope message;
+    *message.mutable_prepare()->mutable_look() = *nextLook_;
+    prepare_ = wire::encode(session_, std::move(message));
     preparingSince_ = now;
     lastPrepare_ = {};
 }
@@ -131,15 +131,13 @@ void Conductor::announceNextLook(net::Instant now) {
 // joins anew after that.
 void Conductor::prepareNodes(net::Instant now) {
     if (!nextLook_) announceNextLook(now);
-    v1::Envelope message;
-    *message.mutable_prepare()->mutable_look() = *nextLook_;
     const bool isDue = now - lastPrepare_ > kRepeat;
     if (isDue) lastPrepare_ = now;
     std::string missing;
     for (const ChannelSlot& slot : slots_) {
         if (!slot.prepared || slot.builtLook == nextLook_->number()) continue;
         missing += (missing.empty() ? "" : ", ") + slot.name;
-        if (isDue) say(slot.peer, message);
+        if (isDue) channels_->sendControl(slot.peer, prepare_);
     }
     if (missing.empty()) return control_.prepared();
     control_.setWaitingFor("prepared by all nodes but " + missing);
@@ -169,7 +167,7 @@ void Conductor::switchLook() {
     }
     black_.reset();
     control_.switched();
-    writeWelcome();
+    welcomeToLook();
     logInfo("showing look {}: scene {}, quality {}",
             control_.look(),
             control_.wanted().scene,
@@ -184,7 +182,7 @@ void Conductor::startSimulation() {
     if (!isLockstep()) simulationThread_->freeze(control_.wanted().freeze);
 }
 
-void Conductor::writeWelcome() {
+void Conductor::welcomeToLook() {
     v1::Envelope message;
     v1::Welcome& welcome = *message.mutable_welcome();
     welcome.set_rig_text(rigText_);
@@ -192,14 +190,15 @@ void Conductor::writeWelcome() {
     welcome.set_pace(static_cast<v1::Pace>(options_.pace));
     *welcome.mutable_look() = *look_;
     welcome_ = wire::encode(session_, std::move(message));
+    const std::filesystem::path scene = control_.wanted().scene;
+    sceneName_ = scene.stem().string().substr(0, wire::kMostNameBytes);
 }
 
 wire::Show Conductor::shown(net::Instant now) const {
     const WantedShow& wanted = control_.wanted();
     return {.version = control_.version(),
             .look = control_.look(),
-            .scene =
-                std::filesystem::path(wanted.scene).stem().string().substr(0, wire::kMostNameBytes),
+            .scene = sceneName_,
             .quality = quality(),
             .pattern = wanted.pattern,
             .black = wanted.black,

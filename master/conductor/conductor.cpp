@@ -119,7 +119,7 @@ Conductor::Conductor(const config::Rig& rig,
     look_->set_world(control_.hasWorld());
     if (const auto& quality = control_.wanted().quality)
         look_->set_quality(static_cast<std::uint32_t>(*quality));
-    writeWelcome();
+    welcomeToLook();
     v1::Envelope beacon;
     beacon.mutable_beacon();
     beacon_ = wire::encode(session_, std::move(beacon));

@@ -189,7 +189,8 @@ class Conductor {
     void switchLook();
     void startSimulation();
     void keepWhatWasSet();
-    void writeWelcome();
+    // What nodes are told of the look that is shown: in a welcome, and its name in each frame.
+    void welcomeToLook();
     // What the wall shows now, with the brightness of the last frame; and of a frame to be
     // published.
     [[nodiscard]] wire::Show shown(net::Instant now) const;
@@ -226,6 +227,7 @@ class Conductor {
     std::uint64_t calibration_;
     ShowControl control_;
     std::unique_ptr<v1::Look> look_;  // that is shown
+    std::string sceneName_;           // of it
     Blobs blobs_;
     std::unique_ptr<net::MasterChannels> channels_;
     std::uint64_t session_;
@@ -261,6 +263,7 @@ class Conductor {
     std::future<NextWorld> making_;
     std::optional<NextWorld> made_;
     std::unique_ptr<v1::Look> nextLook_;  // that nodes are told to build
+    wire::Packet prepare_;                // says so
     net::Instant preparingSince_{}, lastPrepare_{};
     std::optional<net::Instant> dimmedSince_;
     std::optional<Frame> black_;        // the first without light, on the way to the next scene

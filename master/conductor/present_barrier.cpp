@@ -122,22 +122,6 @@ PresentBarrier::Decision PresentBarrier::decideLockstep(net::Instant now) const 
     return {Verdict::Wait, end, name};
 }
 
-void RecentTimes::add(net::Instant time) {
-    times_.push_back(time);
-    if (times_.size() > kKept) times_.pop_front();
-}
-
-float RecentTimes::quantileMs(double quantile) const {
-    assert(quantile >= 0);
-    assert(quantile <= 1);
-    if (times_.empty()) return 0.0F;
-    std::vector<net::Instant> sorted(times_.begin(), times_.end());
-    const auto rank =
-        static_cast<std::ptrdiff_t>(quantile * static_cast<double>(sorted.size() - 1));
-    std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
-    return std::chrono::duration<float, std::milli>(sorted[static_cast<std::size_t>(rank)]).count();
-}
-
 void SkewMeter::add(Frame frame, std::int64_t atNs) {
     const auto span = std::ranges::find(spans_, frame, &Span::frame);
     if (span != spans_.end()) {

@@ -15,6 +15,8 @@
 
 namespace aquarama::conductor {
 
+using net::RecentTimes;
+
 // How long the barrier waits.
 struct BarrierLimits {
     bool lockstep = false;
@@ -91,18 +93,6 @@ class PresentBarrier {
     std::optional<Frame> frame_;
     bool anyReady_ = false;
     std::optional<net::Instant> deadline_;  // of frame_, as soon as anybody is ready for it
-};
-
-// Durations of the last 600 frames: ten seconds at 60 Hz.
-class RecentTimes {
-  public:
-    void add(net::Instant time);
-    [[nodiscard]] float quantileMs(
-        double quantile) const;  // quantile 0 to 1; 0 where there is nothing yet
-
-  private:
-    static constexpr std::size_t kKept = 600;
-    std::deque<net::Instant> times_;
 };
 
 // Release skew of a frame: the latest node's release minus the earliest's.

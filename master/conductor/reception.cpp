@@ -269,8 +269,7 @@ void Conductor::prepared(std::size_t node, const v1::Prepared& prepared) {
         if (!look_->has_quality()) slot.bears = config::tierAt(prepared.quality());
         return admit(node);
     }
-    const bool isNext = nextLook_ && prepared.look() == nextLook_->number();
-    if (isNext && slot.prepared) return;
+    if (slot.prepared) return;  // the next one, or one that was given up
     // It was built while the wall went on to another.
     barrier_.leave(node);
     dismiss(std::exchange(slot.peer, {}), "the wall shows another look by now");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/conductor/requests.h"
 
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -58,14 +57,13 @@ namespace {
 
 // What the wall shows, and what is to come.
 std::string showText(const v1::StatusReply& status) {
-    constexpr std::array kPatterns{"", "world", "grid", "grey"};
     const wire::Show show = wire::readShow(status.show()).value_or(wire::Show{});
     const auto onOff = [](bool on) { return on ? "on" : "off"; };
     std::string text = fmt::format(
         "show          scene {}   quality {}   pattern {}   black {}   freeze {}   version {}\n",
         show.scene,
         config::nameOf(show.quality),
-        kPatterns.at(static_cast<std::size_t>(show.pattern)),
+        wire::nameOf(show.pattern),
         onOff(show.black),
         onOff(show.frozen),
         show.version);

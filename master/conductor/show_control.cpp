@@ -56,6 +56,8 @@ Answer ShowControl::begin(std::uint64_t request, const WantedShow& goal, const S
     next_ = goal;
     change_ = change;
     underWay_ = request;
+    ++nextLook_;
+    nextHasWorld_ = hasWorld_ || goal.pattern == wire::Pattern::World;
     phase_ = goal.scene != wanted_.scene ? Phase::Making : Phase::Preparing;
     waitingFor_ = phase_ == Phase::Making ? "the world of scene " + goal.scene + " is being made"
                                           : "nodes build it";
@@ -78,14 +80,15 @@ void ShowControl::blackShown() {
 
 void ShowControl::switched() {
     assert(phase_ == Phase::Switching);
-    hasWorld_ = nextHasWorld();
+    hasWorld_ = nextHasWorld_;
     wanted_ = next_;
     put(kept_.scene, change_.scene);
     put(kept_.quality, change_.quality);
     put(kept_.pattern, change_.pattern);
     phase_ = Phase::Steady;
-    ++look_;
+    look_ = nextLook_;
     ++version_;
+    brightnessAt_ = {};
     settle({});
 }
 

@@ -63,14 +63,13 @@ class ShowControl {
     [[nodiscard]] const WantedShow& next() const { return next_; }
     // Whether the look that is shown has the world, not patterns alone; and the next one.
     [[nodiscard]] bool hasWorld() const { return hasWorld_; }
-    [[nodiscard]] bool nextHasWorld() const {
-        return hasWorld_ || next_.pattern == wire::Pattern::World;
-    }
+    [[nodiscard]] bool nextHasWorld() const { return nextHasWorld_; }
     [[nodiscard]] std::uint32_t look() const { return look_; }
-    [[nodiscard]] std::uint32_t nextLook() const { return look_ + 1; }
+    // Of the look under way; a number is never used twice, also where a change has failed.
+    [[nodiscard]] std::uint32_t nextLook() const { return nextLook_; }
     [[nodiscard]] std::uint64_t version() const { return version_; }
     // Share of the light at a moment that is never earlier than at the call before: half a second
-    // from black to full light.
+    // from black to full light. The first frame of a look that follows black is black.
     [[nodiscard]] float brightness(net::Instant now);
 
   private:
@@ -82,8 +81,8 @@ class ShowControl {
     WantedShow wanted_, next_;
     ShowChange kept_, change_;  // change_: under way
     Phase phase_ = Phase::Steady;
-    bool hasWorld_;
-    std::uint32_t look_ = 1;
+    bool hasWorld_, nextHasWorld_ = false;
+    std::uint32_t look_ = 1, nextLook_ = 1;
     std::uint64_t version_ = 1;
     std::uint64_t underWay_ = 0;  // request
     std::string waitingFor_;

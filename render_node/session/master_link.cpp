@@ -5,7 +5,6 @@
 #include <array>
 #include <cassert>
 #include <utility>
-#include <vector>
 
 #include <unistd.h>
 
@@ -515,19 +514,11 @@ void MasterLink::hearPong(const v1::Pong& pong, net::Instant now) {
     if (ping != pings_.end()) ping->second = now - sent;
 }
 
-// Milliseconds; sorts the times.
-float quantile(std::vector<net::Instant>& times, double share) {
-    if (times.empty()) return 0;
-    std::ranges::sort(times);
-    const auto at = static_cast<std::size_t>(share * static_cast<double>(times.size() - 1));
-    return std::chrono::duration<float, std::milli>(times[at]).count();
-}
-
 void MasterLink::sayReport(net::Instant now) {
-    std::vector<net::Instant> roundTrips;
+    net::RecentTimes roundTrips;
     std::size_t unanswered = 0;
     for (const auto& [sent, roundTrip] : pings_) {
-        if (roundTrip) roundTrips.push_back(*roundTrip);
+        if (roundTrip) roundTrips.add(*roundTrip);
         if (!roundTrip && now - sent > kRepeat) ++unanswered;
     }
     v1::Envelope message;
@@ -538,8 +529,8 @@ void MasterLink::sayReport(net::Instant now) {
     for (const std::string& monitor : facts_.monitors) report.add_monitors(monitor);
     report.set_free_disk_bytes(cache_.freeBytes());
     report.set_clock_synchronised(net::isClockSynchronised());
-    report.set_round_trip_median_ms(quantile(roundTrips, 0.5));
-    report.set_round_trip_p99_ms(quantile(roundTrips, 0.99));
+    report.set_round_trip_median_ms(roundTrips.quantileMs(0.5));
+    report.set_round_trip_p99_ms(roundTrips.quantileMs(0.99));
     report.set_unanswered_percent(100 * static_cast<float>(unanswered) /
                                   static_cast<float>(std::max<std::size_t>(pings_.size(), 1)));
     report.set_clock_drift_ppm(static_cast<float>(clock_.driftPpm()));

@@ -163,6 +163,7 @@ void ChannelShow::run(session::Admission first) {
 void ChannelShow::build(session::Admission admission) {
     const std::uint32_t look = admission.look;
     next_.reset();
+    isStale_ = building_.valid();  // of another run of the master: its numbers mean nothing now
     if (stage_ && stage_->admission().show == admission.show) return stage_->renumber(look);
     const std::size_t channel = channelIndex(admission.rig, options_.channel);
     if (stage_ && stage_->picture().sizePixels() != admission.rig.channels[channel].sizePixels)
@@ -194,6 +195,7 @@ void ChannelShow::buildNext() {
     }
     if (building_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
     next_ = building_.get();
+    if (std::exchange(isStale_, false)) return next_.reset();
     session_.prepared(next_->admission().look, next_->bears());
 }
 

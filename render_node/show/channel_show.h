@@ -160,6 +160,7 @@ class ChannelShow {
     std::unique_ptr<BuiltLook> stage_;
     std::future<std::unique_ptr<BuiltLook>> building_;
     std::unique_ptr<BuiltLook> next_;
+    bool isStale_ = false;  // what is being built
     std::future<void> retiring_;
     std::optional<Pointing> pointing_;
     // The fish whose mind is shown, as its index in the school.

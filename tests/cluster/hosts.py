@@ -72,7 +72,7 @@ class Wall:
                               capture_output=True, text=True, timeout=60)
 
     def start(self, machine, *arguments):
-        environment = os.environ | {"LP_NUM_THREADS": "0"}
+        environment = os.environ | {"LP_NUM_THREADS": "0", "XDG_STATE_HOME": str(self.folder / "state")}
         with open(self.folder / "log", "a") as log:
             self.processes[machine] = subprocess.Popen(["ip", "netns", "exec", machine, *map(str, arguments)], stdout=log,
                                                        stderr=subprocess.STDOUT, env=environment, cwd=ROOT)

@@ -56,6 +56,7 @@ class Set(unittest.TestCase):
         wait_until(lambda: "through black in" in self.log.read_text(), 20, "light again")
 
         for what, value, why in (("scene", "lagoon", "bait_ball, empty_sea, reef"), ("scene", "../desk", "without folder"),
+                                 ("scene", "reef.txtpb", "without folder"),
                                  ("quality", "best", "not best"), ("black", "maybe", "on or off"), ("pattern", "dots", "grid")):
             refused = self.set(what, value)
             self.assertEqual(refused.returncode, 1, what)

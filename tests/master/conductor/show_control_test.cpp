@@ -86,7 +86,8 @@ TEST(ShowControl, fadesInHalfASecond) {
     control.blackShown();
     EXPECT_EQ(control.brightness(kStart + milliseconds(900)), 0);
     control.switched();
-    EXPECT_NEAR(control.brightness(kStart + milliseconds(1000)), 0.2, 1e-5);
+    EXPECT_EQ(control.brightness(kStart + milliseconds(1000)), 0) << "the first of the new scene";
+    EXPECT_NEAR(control.brightness(kStart + milliseconds(1100)), 0.2, 1e-5);
     EXPECT_EQ(control.brightness(kStart + milliseconds(1500)), 1);
 }
 
@@ -131,6 +132,8 @@ TEST(ShowControl, aChangeThatFailsLeavesTheWallAsItWas) {
     const Answer answer = control.set(1, scene("pond"));
     EXPECT_EQ(answer.outcome, Outcome::Refused);
     EXPECT_EQ(answer.reason, "there is no such scene");
+    static_cast<void>(control.set(2, scene("lagoon")));
+    EXPECT_EQ(control.nextLook(), 3U) << "a node may have built look 2, which was given up";
 }
 
 // A packet that was delayed must not undo what somebody else has set since.
