@@ -15,6 +15,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/base/digest.h"
+#include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
@@ -38,6 +39,7 @@ struct MasterOptions {
     supervisor::ShowOptions show;
     bool lockstep = false;
     bool resume = false;
+    std::shared_ptr<LogFile> log;  // of a show by the clock
 };
 
 // None: the nodes measure which they can draw. In lockstep no clock is read, so nothing is
@@ -122,6 +124,7 @@ conductor::ConductorOptions conductorOptions(const config::Rig& rig, const Maste
     chooseWanted(rig, options, conductor);
     conductor.frames = options.show.frames;
     conductor.traceDirectory = options.show.traceFolder;
+    conductor.log = options.log.get();
     return conductor;
 }
 
@@ -197,6 +200,23 @@ void showAgain(const config::Rig& rig,
     show(rig, conducting, {recording.assets, world, replayed}, std::move(channels), &running);
 }
 
+// The log of this rig's shows; the master's own lines go into it from now on. A show goes on
+// without where it cannot be written.
+std::shared_ptr<LogFile> openLog(const std::string& rigPath) {
+    const fs::path path = userFolder("XDG_STATE_HOME", ".local/state") / "logs" /
+                          (fs::path(rigPath).stem().string() + ".jsonl");
+    try {
+        auto log = std::make_shared<LogFile>(path);
+        setLogListener([log](Severity severity, const std::string& line) {
+            log->write("master", log->masterFrame, severity, line);
+        });
+        return log;
+    } catch (const Error& problem) {
+        logWarning("{}", problem.what());
+        return nullptr;
+    }
+}
+
 // Binds the addresses before it makes the world, which takes seconds: a second master of the rig is
 // refused at once.
 void runMaster(const MasterOptions& options) {
@@ -208,7 +228,10 @@ void runMaster(const MasterOptions& options) {
     cli::requireFile("--record", options.show.recordPath);
     auto channels =
         net::bindMaster(rig.controlAddress, rig.stateAddress, {}, masterKeysOf(rig, options.show));
-    (options.show.replayPath.empty() ? showNew : showAgain)(rig, options, std::move(channels));
+    MasterOptions logging = options;
+    if (!options.lockstep) logging.log = openLog(options.show.rigPath);
+    (options.show.replayPath.empty() ? showNew : showAgain)(rig, logging, std::move(channels));
+    setLogListener({});
 }
 
 }  // namespace

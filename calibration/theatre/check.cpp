@@ -9,7 +9,7 @@
 
 #include "common/base/units.h"
 #include "common/config/scene.h"
-#include "common/place/water.h"
+#include "common/place/place.h"
 #include "common/wall/pinhole.h"
 #include "common/wall/wall.h"
 

@@ -1,20 +1,95 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/base/log.h"
 
+#include <array>
+#include <chrono>
+#include <mutex>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/async.h>
+#include <spdlog/fmt/chrono.h>
+#include <spdlog/sinks/rotating_file_sink.h>
 #include <spdlog/spdlog.h>
 
 namespace aquarama {
+namespace {
+
+std::mutex listenerMutex;
+LogListener listener;
+
+void tellListener(Severity severity, const std::string& line) {
+    const std::lock_guard lock(listenerMutex);
+    if (listener) listener(severity, line);
+}
+
+}  // namespace
 
 void writeInfo(const std::string& line) {
     spdlog::info(line);
+    tellListener(Severity::Info, line);
 }
 
 void writeWarning(const std::string& line) {
     spdlog::warn(line);
+    tellListener(Severity::Warning, line);
 }
 
 void writeError(const std::string& line) {
     spdlog::error(line);
+    tellListener(Severity::Error, line);
+}
+
+void setLogListener(LogListener next) {
+    const std::lock_guard lock(listenerMutex);
+    listener = std::move(next);
+}
+
+// The writing thread and its queue, and the logger that puts lines there.
+struct LogFile::Impl {
+    std::shared_ptr<spdlog::details::thread_pool> thread;
+    std::shared_ptr<spdlog::async_logger> logger;
+};
+
+LogFile::LogFile(const std::filesystem::path& path) : impl_(std::make_unique<Impl>()) {
+    constexpr std::size_t kMostBytes = std::size_t{8} << 20U;
+    constexpr std::size_t kOldFiles = 5;
+    constexpr std::size_t kWaitingLines = 1024;
+    try {
+        std::filesystem::create_directories(path.parent_path());
+        auto sink = std::make_shared<spdlog::sinks::rotating_file_sink_mt>(
+            path.string(), kMostBytes, kOldFiles);
+        impl_->thread = std::make_shared<spdlog::details::thread_pool>(kWaitingLines, 1);
+        impl_->logger = std::make_shared<spdlog::async_logger>(
+            "show", sink, impl_->thread, spdlog::async_overflow_policy::overrun_oldest);
+    } catch (const std::exception& problem) {
+        throw Error(path.string() + ": the log of the show cannot be written (" + problem.what() +
+                    "); make its folder writable");
+    }
+    impl_->logger->set_pattern("%v");
+    impl_->logger->flush_on(spdlog::level::info);
+}
+
+LogFile::~LogFile() = default;
+
+void LogFile::write(const std::string& node,
+                    std::uint64_t frame,
+                    Severity severity,
+                    const std::string& text) {
+    constexpr std::array kNames{"info", "warning", "error"};
+    const auto now =
+        std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
+    const auto milliseconds = now.time_since_epoch().count() % 1000;
+    const nlohmann::ordered_json line{
+        {"time",
+         fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z",
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(now)),
+                     milliseconds)},
+        {"node", node},
+        {"frame", frame},
+        {"severity", kNames.at(static_cast<std::size_t>(severity))},
+        {"text", text}};
+    impl_->logger->info(
+        line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 }  // namespace aquarama

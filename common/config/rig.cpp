@@ -221,6 +221,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
             .panoramaPixels = sizeOf(in.panorama()),
             .controlAddress = in.network().control(),
             .stateAddress = in.network().state(),
+            .metricsPort = static_cast<std::uint16_t>(in.network().metrics_port()),
             .channels = {},
             .timing = timingOf(file, in.timing()),
             .scene = in.scene(),

@@ -121,6 +121,8 @@ struct Rig {
     glm::ivec2 panoramaPixels{};  // the unrolled wall, for the composed pictures
     std::string controlAddress;   // "tcp://127.0.0.1:7400": ROUTER
     std::string stateAddress;     // "tcp://127.0.0.1:7401": PUB
+    // Of the master; that of channel i is i + 1 higher. 0: no figures are served.
+    std::uint16_t metricsPort = 0;
     std::vector<Channel> channels;
     Timing timing;
     std::string scene;  // path of the file of what is shown, relative to the rig's folder

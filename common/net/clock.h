@@ -13,6 +13,11 @@ namespace aquarama::net {
 // A moment or a duration of the monotonic clock.
 using Instant = std::chrono::nanoseconds;  // since the epoch of CLOCK_MONOTONIC
 
+// For figures.
+[[nodiscard]] inline double secondsIn(Instant duration) {
+    return std::chrono::duration<double>(duration).count();
+}
+
 // Now, on CLOCK_MONOTONIC of this machine.
 [[nodiscard]] Instant monotonicNow();
 

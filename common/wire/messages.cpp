@@ -149,7 +149,8 @@ bool isValid(const v1::NodeReport& m) {
     const std::array numbers{m.round_trip_median_ms(),
                              m.round_trip_p99_ms(),
                              m.unanswered_percent(),
-                             m.clock_drift_ppm()};
+                             m.clock_drift_ppm(),
+                             m.gpu_celsius()};
     const auto isFinite = [](float number) { return std::isfinite(number); };
     const auto isLineOfReport = [](const std::string& line) {
         return isText(line, kMostLineBytes);
@@ -158,6 +159,11 @@ bool isValid(const v1::NodeReport& m) {
            m.monitors_size() <= kMostMonitors &&
            std::ranges::all_of(m.monitors(), isLineOfReport) &&
            std::ranges::all_of(numbers, isFinite);
+}
+
+bool isValid(const v1::LogLine& m) {
+    return isOneOf(m.severity(), v1::LogSeverity_IsValid) && m.has_frame() &&
+           isText(m.text(), kMostLogBytes);
 }
 
 bool isValid(const v1::NodeStatus& m) {
@@ -202,6 +208,8 @@ bool isValid(const v1::Envelope& m) {
             return isValid(m.set_reply());
         case v1::Envelope::kNodeReport:
             return isValid(m.node_report());
+        case v1::Envelope::kLogLine:
+            return isValid(m.log_line());
         case v1::Envelope::kJoined:
             return m.joined().has_first_frame();
         case v1::Envelope::kReady:

@@ -29,6 +29,7 @@ inline constexpr std::uint32_t kProtocolMajor = 2;
 // is printed in logs and terminals.
 inline constexpr std::size_t kMostNameBytes = 64;
 inline constexpr std::size_t kMostReasonBytes = 1024;
+inline constexpr std::size_t kMostLogBytes = 1000;  // of a line of a node's log
 inline constexpr std::size_t kMostRigTextBytes = std::size_t{1} << 20U;
 inline constexpr std::size_t kMostSceneTextBytes = std::size_t{1} << 20U;
 inline constexpr std::size_t kMostBlobBytes = std::size_t{64} << 20U;

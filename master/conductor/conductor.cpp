@@ -109,12 +109,14 @@ Conductor::Conductor(const config::Rig& rig,
       barrier_(namesOf(rig, options_).size(), limitsOf(rig.timing, options_), net::monotonicNow()),
       refresh_(fromSeconds(1.0 / rig.timing.refreshHertz)),
       trace_(openTrace(options_.traceDirectory)),
-      keptOnDisk_(options_.kept) {
+      keptOnDisk_(options_.kept),
+      metrics_(isLockstep() ? std::uint16_t{0} : rig.metricsPort) {
     for (const std::string& name : namesOf(rig, options_)) {
         slots_.emplace_back().name = name;
         const auto channel = std::ranges::find(rig.channels, name, &config::Channel::name);
         slots_.back().machine = channel->machine;
     }
+    figures_ = makeFigures();
     look_->set_number(control_.look());
     look_->set_world(control_.hasWorld());
     if (const auto& quality = control_.wanted().quality)
@@ -143,6 +145,7 @@ ShowReport Conductor::run() {
         changeShow(now);
         conduct(now);
         nameMissing(now);
+        count(now);
         if (now - lastPublished_ > kBeacon) {
             channels_->publishState(beacon_);
             lastPublished_ = now;
@@ -253,7 +256,10 @@ void Conductor::release(net::Instant now) {
         if (slot.prepared) channels_->sendControl(slot.peer, lastPresent_->second);
     }
     if (black_ && *black_ <= next_) control_.blackShown();
-    if (report_.frames++ > 0) frameTimes_.add(at - lastRelease_);
+    if (report_.frames++ > 0) {
+        frameTimes_.add(at - lastRelease_);
+        figures_.frameSeconds(net::secondsIn(at - lastRelease_));
+    }
     lastRelease_ = at;
     over_ = over_ || isLast(next_);
     drawing_ = false;
@@ -273,6 +279,8 @@ bool Conductor::publish(Frame frame, net::Instant now) {
     state->motionHash = motion::hashOf(state->after);
     const wire::Packet& packet = published_[frame] = wire::encodeState(session_, *state);
     channels_->publishState(packet);
+    publishedBytes_ += packet.size();
+    if (options_.log != nullptr) options_.log->masterFrame = frame.value;
     lastPublished_ = lastRepeat_ = net::monotonicNow();
     if (trace_.is_open()) trace_ << frame.value << ',' << lastPublished_.count() << ",,\n";
     if (published_.size() > 2) published_.erase(published_.begin());

@@ -18,10 +18,12 @@
 #include <vector>
 
 #include "common/base/digest.h"
+#include "common/base/log.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
 #include "common/motion/motor.h"
 #include "common/net/channels.h"
+#include "common/net/metrics.h"
 #include "common/wire/recording.h"
 #include "master/conductor/present_barrier.h"
 #include "master/conductor/show_control.h"
@@ -34,6 +36,7 @@ class BlobRequest;
 class Envelope;
 class Hello;
 class Input;
+class LogLine;
 class Look;
 class NodeReport;
 class Prepared;
@@ -64,6 +67,7 @@ struct ConductorOptions {
     std::optional<std::uint64_t> frames;   // the show ends after so many
     std::vector<std::string> expected;     // the channels that take part; empty: all of the rig
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
+    LogFile* log = nullptr;                // of the whole show; null: none
     net::Instant patience =
         std::chrono::seconds(60);  // lockstep: silence of a node that ends the show
 };
@@ -130,8 +134,21 @@ class Conductor {
         std::uint64_t dropped = 0;
         std::uint64_t mismatches = 0;  // states that its node decoded to another hash
         std::shared_ptr<const v1::NodeReport> report;  // its node's last
-        net::Instant lastFed{};  // when a visitor last dropped food in its window
+        net::Instant lastFed{};      // when a visitor last dropped food in its window
+        std::uint64_t logLines = 0;  // of its node, in this second
     };
+
+    // What is counted for Prometheus.
+    struct NodeFigures {
+        net::Record condition, late, dropped, mismatches, roundTrip, drift, celsius;
+    };
+    struct Figures {
+        net::Record frameSeconds, skewSeconds, frames, fish, bytes, refused, black;
+        std::vector<NodeFigures> nodes;
+    };
+    [[nodiscard]] Figures makeFigures();
+    // Once a second.
+    void count(net::Instant now);
 
     // Messages (reception.cpp). `node` is a place in slots_; a peer may be none of them.
     void hear(net::Instant now);  // all that has arrived, within bounds
@@ -153,6 +170,8 @@ class Conductor {
     void pong(std::size_t node, std::int64_t sentNs);
     // Its picture of a frame is finished.
     void ready(std::size_t node, const v1::Ready& ready, net::Instant now);
+    // A line of its log, into the log of the show.
+    void note(std::size_t node, const v1::LogLine& line);
     // It has built a look. The one that is shown: from the next frame on it is waited for.
     void prepared(std::size_t node, const v1::Prepared& prepared);
     void admit(std::size_t node);
@@ -273,6 +292,10 @@ class Conductor {
     ShowReport report_;
     RecentTimes frameTimes_;
     SkewMeter skew_;
+    net::Metrics metrics_;
+    Figures figures_;
+    net::Instant lastCount_{};
+    std::uint64_t publishedBytes_ = 0;
 };
 
 }  // namespace aquarama::conductor

@@ -122,19 +122,22 @@ PresentBarrier::Decision PresentBarrier::decideLockstep(net::Instant now) const 
     return {Verdict::Wait, end, name};
 }
 
-void SkewMeter::add(Frame frame, std::int64_t atNs) {
+std::optional<net::Instant> SkewMeter::add(Frame frame, std::int64_t atNs) {
     const auto span = std::ranges::find(spans_, frame, &Span::frame);
     if (span != spans_.end()) {
         span->earliestNs = std::min(span->earliestNs, atNs);
         span->latestNs = std::max(span->latestNs, atNs);
         ++span->nodes;
-        return;
+        return std::nullopt;
     }
     spans_.push_back({frame, atNs, atNs, 1});
-    if (spans_.size() <= kOpen) return;
-    const Span& closed = spans_.front();
-    if (closed.nodes > 1) skews_.add(net::Instant{closed.latestNs - closed.earliestNs});
+    if (spans_.size() <= kOpen) return std::nullopt;
+    const Span closed = spans_.front();
     spans_.pop_front();
+    if (closed.nodes < 2) return std::nullopt;
+    const net::Instant skew{closed.latestNs - closed.earliestNs};
+    skews_.add(skew);
+    return skew;
 }
 
 }  // namespace aquarama::conductor

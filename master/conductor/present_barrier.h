@@ -98,8 +98,9 @@ class PresentBarrier {
 // Release skew of a frame: the latest node's release minus the earliest's.
 class SkewMeter {
   public:
-    // A node let go of this frame, in nanoseconds of the master's clock.
-    void add(Frame frame, std::int64_t atNs);
+    // A node let go of this frame, in nanoseconds of the master's clock. The skew of the frame for
+    // which no more is waited, if any.
+    std::optional<net::Instant> add(Frame frame, std::int64_t atNs);
     [[nodiscard]] const RecentTimes& skews() const { return skews_; }
 
   private:

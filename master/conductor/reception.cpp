@@ -98,6 +98,7 @@ bool mayNodeSay(const std::string& channel, const v1::Envelope& message) {
         case v1::Envelope::kPing:
         case v1::Envelope::kReady:
         case v1::Envelope::kNodeReport:
+        case v1::Envelope::kLogLine:
         case v1::Envelope::kBlobRequest:
         case v1::Envelope::kPrepared:
         case v1::Envelope::kFarewell:
@@ -197,6 +198,8 @@ void Conductor::takeOfNode(std::size_t node, const v1::Envelope& message, net::I
         case v1::Envelope::kNodeReport:
             slots_[node].report = std::make_shared<const v1::NodeReport>(message.node_report());
             return;
+        case v1::Envelope::kLogLine:
+            return note(node, message.log_line());
         case v1::Envelope::kInput:
             return handle(node, message.input(), now);
         case v1::Envelope::kFarewell:
@@ -256,10 +259,23 @@ void Conductor::ready(std::size_t node, const v1::Ready& ready, net::Instant now
     const Frame frame{ready.frame()};
     barrier_.ready(node, frame, now);
     slots_[node].mismatches = ready.hash_mismatches();
-    if (ready.has_released_frame()) skew_.add({ready.released_frame()}, ready.released_ns());
+    if (ready.has_released_frame()) {
+        const auto skew = skew_.add({ready.released_frame()}, ready.released_ns());
+        if (skew) figures_.skewSeconds(net::secondsIn(*skew));
+    }
     // It asks again for a release that never came.
     if (lastPresent_ && frame <= lastPresent_->first)
         channels_->sendControl(slots_[node].peer, lastPresent_->second);
+}
+
+void Conductor::note(std::size_t node, const v1::LogLine& line) {
+    constexpr std::uint64_t kMostLinesASecond = 50;
+    ChannelSlot& slot = slots_[node];
+    if (options_.log == nullptr || ++slot.logLines > kMostLinesASecond) return;
+    options_.log->write(slot.name,
+                        line.frame(),
+                        static_cast<Severity>(line.severity() - v1::LOG_INFO),
+                        line.text());
 }
 
 void Conductor::prepared(std::size_t node, const v1::Prepared& prepared) {
@@ -399,6 +415,63 @@ std::string Conductor::pilotName(net::Instant now) const {
     if (!pilot) return {};
     const auto slot = seatOf(*pilot);
     return slot ? slots_[*slot].name : "pilot";
+}
+
+Conductor::Figures Conductor::makeFigures() {
+    net::Metrics& m = metrics_;
+    Figures figures{
+        .frameSeconds = m.histogram("aquarama_frame_seconds", "Time between two releases"),
+        .skewSeconds = m.histogram("aquarama_release_skew_seconds",
+                                   "The last node's release of a frame minus the first's"),
+        .frames = m.counter("aquarama_frames_total", "Frames that were released"),
+        .fish = m.gauge("aquarama_fish", "Fish of the world"),
+        .bytes = m.counter("aquarama_state_bytes_total", "Bytes of states, once for all nodes"),
+        .refused = m.counter("aquarama_refused_packets_total", "Packets that were refused"),
+        .black = m.gauge("aquarama_black", "1 where the wall is black because it was set so"),
+        .nodes = {}};
+    for (const ChannelSlot& slot : slots_) {
+        const net::Labels node{{"node", slot.name}};
+        figures.nodes.push_back(
+            {.condition = m.gauge(
+                 "aquarama_node_condition", "1 absent, 2 preparing, 3 in step, 4 late", node),
+             .late = m.counter("aquarama_node_late_total", "Deadlines that it missed", node),
+             .dropped = m.counter("aquarama_node_dropped_total", "Times it fell silent", node),
+             .mismatches = m.counter("aquarama_node_hash_mismatches_total",
+                                     "States that it decoded to another hash",
+                                     node),
+             .roundTrip = m.gauge(
+                 "aquarama_node_round_trip_seconds", "Median of its pings of ten seconds", node),
+             .drift = m.gauge("aquarama_node_clock_drift_ppm",
+                              "By which the master's clock is faster than its own",
+                              node),
+             .celsius = m.gauge("aquarama_node_gpu_celsius",
+                                "Temperature of its graphics card; 0 where none is told",
+                                node)});
+    }
+    return figures;
+}
+
+void Conductor::count(net::Instant now) {
+    if (now - lastCount_ < std::chrono::seconds(1)) return;
+    lastCount_ = now;
+    figures_.frames(static_cast<double>(report_.frames));
+    figures_.fish(fishOfSchool_);
+    figures_.bytes(static_cast<double>(publishedBytes_));
+    figures_.refused(static_cast<double>(report_.refusedPackets));
+    figures_.black(control_.wanted().black ? 1 : 0);
+    for (std::size_t place = 0; place < slots_.size(); ++place) {
+        ChannelSlot& slot = slots_[place];
+        const NodeFigures& node = figures_.nodes[place];
+        node.condition(conditionOf(!slot.peer.empty(), slot.prepared, barrier_.isWaitedFor(place)));
+        node.late(static_cast<double>(barrier_.timesLate(place)));
+        node.dropped(static_cast<double>(slot.dropped));
+        node.mismatches(static_cast<double>(slot.mismatches));
+        slot.logLines = 0;
+        if (!slot.report) continue;
+        node.roundTrip(static_cast<double>(slot.report->round_trip_median_ms()) / 1000);
+        node.drift(static_cast<double>(slot.report->clock_drift_ppm()));
+        node.celsius(static_cast<double>(slot.report->gpu_celsius()));
+    }
 }
 
 v1::Envelope Conductor::status(net::Instant now) const {

@@ -14,7 +14,7 @@
 #include "common/config/species.h"
 #include "common/motion/motor.h"
 #include "common/motion/repertoire.h"
-#include "common/place/water.h"
+#include "common/place/place.h"
 #include "master/capture/capture_repertoire.h"
 #include "master/simulation/insight.h"
 

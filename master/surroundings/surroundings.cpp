@@ -8,7 +8,7 @@
 
 #include "common/base/digest.h"
 #include "common/base/hash.h"
-#include "common/place/water.h"
+#include "common/place/place.h"
 
 namespace aquarama::surroundings {
 

@@ -9,7 +9,6 @@
 #include <span>
 
 #include "common/place/place.h"
-#include "common/place/water.h"
 
 namespace aquarama::surroundings {
 

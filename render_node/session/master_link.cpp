@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
 #include <utility>
 
 #include <unistd.h>
@@ -37,6 +40,34 @@ std::string hostName() {
     std::array<char, 65> name{};
     gethostname(name.data(), name.size() - 1);
     return name.data();
+}
+
+// The hottest of the graphics cards whose driver tells the kernel, degrees Celsius; 0: none does.
+float gpuCelsius() {
+    namespace fs = std::filesystem;
+    float hottest = 0;
+    std::error_code none;
+    for (const fs::directory_entry& card : fs::directory_iterator("/sys/class/drm", none)) {
+        const fs::path sensors = card.path() / "device" / "hwmon";
+        for (const fs::directory_entry& sensor : fs::directory_iterator(sensors, none)) {
+            std::ifstream file(sensor.path() / "temp1_input");
+            float thousandths = 0;
+            if (file >> thousandths) hottest = std::max(hottest, thousandths / 1000);
+        }
+    }
+    return hottest;
+}
+
+v1::LogSeverity wireSeverity(Severity severity) {
+    return static_cast<v1::LogSeverity>(static_cast<int>(severity) + v1::LOG_INFO);
+}
+
+// As a packet may carry it: no control characters, and not too long.
+std::string printable(std::string text) {
+    text.resize(std::min(text.size(), wire::kMostLogBytes));
+    std::ranges::replace_if(
+        text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
+    return text;
 }
 
 }  // namespace
@@ -172,6 +203,10 @@ void MasterLink::post(const Request& request) {
     channels_->wake();
 }
 
+void MasterLink::log(Severity severity, const std::string& line) {
+    requests_.tryPut(Logged{severity, line});
+}
+
 void MasterLink::stop() {
     stopped_ = true;
     requests_.close();
@@ -245,12 +280,22 @@ void MasterLink::sayPrepared() {
 void MasterLink::handle(const Finished& finished) {
     if (phase_ != Phase::Member) return;
     finished_ = finished;
+    lastFinished_ = finished.frame;
     sayReady();
 }
 
 void MasterLink::handle(const NodeFacts& facts) {
     facts_ = facts;
     lastReport_ = {};
+}
+
+void MasterLink::handle(const Logged& line) {
+    constexpr std::size_t kMostUnsaid = 100;
+    if (unsaid_.size() == kMostUnsaid) unsaid_.pop_front();
+    v1::LogLine& last = unsaid_.emplace_back();
+    last.set_severity(wireSeverity(line.severity));
+    last.set_frame(lastFinished_.value);
+    last.set_text(printable(line.text));
 }
 
 void MasterLink::handle(const v1::Input& input) {
@@ -279,7 +324,7 @@ void MasterLink::sayReady() {
     v1::Envelope message;
     v1::Ready& ready = *message.mutable_ready();
     ready.set_frame(finished_->frame.value);
-    ready.set_hash_mismatches(mismatches_);
+    ready.set_hash_mismatches(traffic_.mismatches);
     if (const auto& released = finished_->released) {
         const net::Instant ahead = clock_.offset(released->at).value_or(net::Instant{});
         ready.set_released_frame(released->frame.value);
@@ -339,6 +384,7 @@ void MasterLink::takeOfRun(const v1::Envelope& message) {
 }
 
 void MasterLink::readState(const net::ByteVector& bytes) {
+    traffic_.receivedBytes += bytes.size();
     const auto message = wire::decode(bytes);
     if (!message || session_ == 0) return;
     if (message->session() != session_) return lose("the master was started again");
@@ -357,7 +403,7 @@ void MasterLink::compareHash(const wire::StateFrame& state) {
     if (lastHeard_ - lastCompared_ < seconds(1)) return;
     lastCompared_ = lastHeard_;
     if (motion::hashOf(state.after) == state.motionHash) return;
-    if (mismatches_++ == 0)
+    if (traffic_.mismatches++ == 0)
         logError(
             "{}: the fish of frame {} are not those that the master sent; check this "
             "machine's memory and version",
@@ -488,6 +534,7 @@ void MasterLink::keepTime(net::Instant now) {
     if (phase_ == Phase::Greeting) return greet(now);
     if (now - lastHeard_ > kMasterSilence) return lose("the master has fallen silent");
     if (now - lastPing_ >= kPing) sayPing(now);
+    sayLog();
     if (phase_ == Phase::Member && now - lastReport_ >= kReport) sayReport(now);
     const bool isFetching = phase_ == Phase::Fetching || fetchesNextLook_;
     if (isFetching && now - lastRequest_ > kRepeat) requestChunk();
@@ -510,6 +557,7 @@ void MasterLink::sayPing(net::Instant now) {
 void MasterLink::hearPong(const v1::Pong& pong, net::Instant now) {
     const net::Instant sent{pong.sent_ns()};
     clock_.add(sent, net::Instant{pong.master_ns()}, now);
+    traffic_.clockOffsetSeconds = net::secondsIn(clock_.offset(now).value_or(net::Instant{}));
     const auto ping = std::ranges::find(pings_, sent, [](const auto& p) { return p.first; });
     if (ping != pings_.end()) ping->second = now - sent;
 }
@@ -534,8 +582,21 @@ void MasterLink::sayReport(net::Instant now) {
     report.set_unanswered_percent(100 * static_cast<float>(unanswered) /
                                   static_cast<float>(std::max<std::size_t>(pings_.size(), 1)));
     report.set_clock_drift_ppm(static_cast<float>(clock_.driftPpm()));
+    traffic_.gpuCelsius = gpuCelsius();
+    if (traffic_.gpuCelsius > 0) report.set_gpu_celsius(traffic_.gpuCelsius);
     say(std::move(message));
     lastReport_ = now;
+}
+
+// A few at each turn, so that a flood of lines delays nothing else.
+void MasterLink::sayLog() {
+    constexpr int kLinesATurn = 4;
+    for (int line = 0; line < kLinesATurn && !unsaid_.empty(); ++line) {
+        v1::Envelope message;
+        *message.mutable_log_line() = std::move(unsaid_.front());
+        unsaid_.pop_front();
+        say(std::move(message));
+    }
 }
 
 void MasterLink::greet(net::Instant now) {

@@ -11,8 +11,10 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
+#include "common/base/log.h"
 #include "common/motion/motor.h"
 #include "common/net/blob.h"
 #include "common/net/channels.h"
@@ -111,10 +113,24 @@ class MasterLink {
         Frame frame;
         std::optional<ReleaseReport> released;  // of an earlier frame
     };
+    struct Logged {  // a line of this process's log, for that of the show
+        Severity severity;
+        std::string text;
+    };
     // Inputs and questions; dropped while the node is not welcomed.
-    using Request =
-        std::variant<Join, Built, Finished, NodeFacts, v1::Input, v1::Set, v1::ExplainRequest>;
+    using Request = std::
+        variant<Join, Built, Finished, NodeFacts, Logged, v1::Input, v1::Set, v1::ExplainRequest>;
     void post(const Request& request);
+    // From any thread, also the net thread; where too many wait, the line is lost.
+    void log(Severity severity, const std::string& line);
+    // For figures, as the net thread knows it now; from any thread.
+    struct Traffic {
+        std::atomic<double> clockOffsetSeconds = 0;  // the master's clock minus this machine's
+        std::atomic<std::uint64_t> receivedBytes = 0;
+        std::atomic<std::uint64_t> mismatches = 0;  // states that were not what was sent
+        std::atomic<float> gpuCelsius = 0;          // 0: not told
+    };
+    [[nodiscard]] const Traffic& traffic() const { return traffic_; }
     void stop();  // from any thread
 
     // The net thread; returns after stop(), having said farewell.
@@ -132,6 +148,7 @@ class MasterLink {
     void handle(const Built& built);
     void handle(const Finished& finished);
     void handle(const NodeFacts& facts);
+    void handle(const Logged& line);
     void handle(const v1::Input& input);
     void handle(const v1::Set& set);
     void handle(const v1::ExplainRequest& request);
@@ -159,6 +176,7 @@ class MasterLink {
     void sayPing(net::Instant now);
     void hearPong(const v1::Pong& pong, net::Instant now);
     void sayReport(net::Instant now);
+    void sayLog();
     // The master is gone or another: joins again.
     void lose(const std::string& why);
     void keepTime(net::Instant now);
@@ -189,7 +207,9 @@ class MasterLink {
     NodeFacts facts_;
     // When pings of the last ten seconds were sent, and how long their answers took.
     std::deque<std::pair<net::Instant, std::optional<net::Instant>>> pings_;
-    std::uint64_t mismatches_ = 0;  // states that were not what the master had sent
+    Traffic traffic_;
+    Frame lastFinished_;
+    std::deque<v1::LogLine> unsaid_;  // lines of the log that the master has not been told
     std::string lastDismissal_;
     net::Instant lastHeard_{}, lastPing_{}, lastHello_{}, lastReady_{}, lastRequest_{},
         lastReport_{}, lastComplaint_{}, lastCompared_{};

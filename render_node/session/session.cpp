@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/session/session.h"
 
+#include <algorithm>
 #include <thread>
 #include <utility>
 
 #include "common/base/log.h"
 #include "common/net/channels.h"
+#include "common/net/metrics.h"
 #include "render_node/session/master_link.h"
 
 namespace aquarama::session {
@@ -59,15 +61,70 @@ Admission admissionOf(const Admitted& admitted) {
             .cast = castOf(admitted)};
 }
 
+// What a node counts for Prometheus.
+class NodeFigures {
+  public:
+    // Of the node of this channel of the rig.
+    NodeFigures(const config::Rig& rig, const std::string& name) : metrics_(portOf(rig, name)) {}
+
+    void begin() { begun_ = net::monotonicNow(); }  // of a frame
+    void finish() { picture_(net::secondsIn(net::monotonicNow() - begun_)); }
+    // A frame was released, or passed over.
+    void release(Release release, const MasterLink::Traffic& traffic) {
+        const net::Instant now = net::monotonicNow();
+        if (release == Release::Present) {
+            if (presented_ > 0) frame_(net::secondsIn(now - lastPresent_));
+            lastPresent_ = now;
+            frames_(static_cast<double>(++presented_));
+        }
+        if (release == Release::Skip) skips_(static_cast<double>(++skipped_));
+        offset_(traffic.clockOffsetSeconds);
+        bytes_(static_cast<double>(traffic.receivedBytes));
+        mismatches_(static_cast<double>(traffic.mismatches));
+        celsius_(static_cast<double>(traffic.gpuCelsius));
+    }
+
+  private:
+    // 0 where the rig names none.
+    static std::uint16_t portOf(const config::Rig& rig, const std::string& name) {
+        const auto channel = std::ranges::find(rig.channels, name, &config::Channel::name);
+        if (rig.metricsPort == 0 || channel == rig.channels.end()) return 0;
+        return static_cast<std::uint16_t>(rig.metricsPort + 1 + (channel - rig.channels.begin()));
+    }
+
+    net::Metrics metrics_;
+    net::Record picture_ = metrics_.histogram("aquarama_picture_seconds",
+                                              "From a frame's state to its finished picture");
+    net::Record frame_ =
+        metrics_.histogram("aquarama_present_seconds", "Time between two frames that were shown");
+    net::Record frames_ = metrics_.counter("aquarama_presented_total", "Frames that were shown");
+    net::Record skips_ =
+        metrics_.counter("aquarama_skipped_total", "Frames that the wall showed without this node");
+    net::Record offset_ =
+        metrics_.gauge("aquarama_clock_offset_seconds", "The master's clock minus this machine's");
+    net::Record bytes_ =
+        metrics_.counter("aquarama_received_bytes_total", "Bytes of states that have arrived");
+    net::Record mismatches_ = metrics_.counter("aquarama_hash_mismatches_total",
+                                               "States that it decoded to another hash");
+    net::Record celsius_ = metrics_.gauge("aquarama_gpu_celsius",
+                                          "Temperature of the graphics card; 0 where none is told");
+    net::Instant begun_{}, lastPresent_{};
+    std::uint64_t presented_ = 0, skipped_ = 0;
+};
+
 // The render thread's side of a mailbox whose other side is a net thread.
 class LinkSession final : public Session {
   public:
     LinkSession(const std::string& name, net::Connect connect, const std::filesystem::path& blobs)
         : name_(name),
           link_(name, std::move(connect), net::BlobCache(blobs), mailbox_),
-          netThread_([this] { link_.run(); }) {}
+          netThread_([this] { link_.run(); }) {
+        setLogListener(
+            [this](Severity severity, const std::string& line) { link_.log(severity, line); });
+    }
 
     ~LinkSession() override {
+        setLogListener({});
         link_.stop();
         netThread_.join();
     }
@@ -84,7 +141,10 @@ class LinkSession final : public Session {
         }
         auto* admitted = std::get_if<Admitted>(&outcome);
         if (admitted == nullptr) return std::nullopt;
-        return admissionOf(*admitted);
+        Admission admission = admissionOf(*admitted);
+        if (!figures_ && admitted->welcome.pace() == v1::PACE_LIVE)
+            figures_.emplace(admission.rig, name_);
+        return admission;
     }
 
     void prepared(std::uint32_t look, config::QualityTier quality) override {
@@ -99,6 +159,7 @@ class LinkSession final : public Session {
         auto arrived = mailbox_.takeState();
         if (!arrived) return std::nullopt;
         stateArrival_ = arrived->arrival;
+        if (figures_) figures_->begin();
         return std::move(arrived->state);
     }
 
@@ -106,6 +167,13 @@ class LinkSession final : public Session {
     std::chrono::nanoseconds stateArrival() const override { return stateArrival_; }
 
     Release readyThenWait(Frame frame) override {
+        if (figures_) figures_->finish();
+        const Release release = awaitRelease(frame);
+        if (figures_) figures_->release(release, link_.traffic());
+        return release;
+    }
+
+    Release awaitRelease(Frame frame) {
         link_.post(MasterLink::Finished{frame, std::exchange(released_, {})});
         const auto order = mailbox_.awaitRelease(frame);
         if (!order) return mailbox_.interruption();
@@ -150,6 +218,7 @@ class LinkSession final : public Session {
     std::string name_;
     Mailbox mailbox_;
     MasterLink link_;
+    std::optional<NodeFigures> figures_;  // live, from the first welcome on
     std::optional<ReleaseReport> released_;
     bool skipped_ = false;
     std::chrono::nanoseconds stateArrival_{};

@@ -151,6 +151,10 @@ TEST(House, zeroMqStaysInNet) {
     EXPECT_EQ(strangers(std::regex("^zmq"), {"common/net/"}), std::vector<std::string>{});
 }
 
+TEST(House, prometheusStaysInNet) {
+    EXPECT_EQ(strangers(std::regex("^prometheus/"), {"common/net/"}), std::vector<std::string>{});
+}
+
 TEST(House, protobufStaysInConfigAndWire) {
     const std::vector<std::string> homes{"common/config/", "common/wire/"};
     EXPECT_EQ(strangers(std::regex("google/protobuf|\\.pb\\.h$"), homes),

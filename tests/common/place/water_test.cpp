@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/place/water.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/base/log.h"
+#include "common/place/place.h"
 
 namespace aquarama::place {
 namespace {

@@ -131,12 +131,22 @@ inline v1::NodeReport sampleReport() {
     report.set_round_trip_p99_ms(1.5F);
     report.set_unanswered_percent(0);
     report.set_clock_drift_ppm(-12.5F);
+    report.set_gpu_celsius(61.5F);
     return report;
 }
 
 inline v1::Envelope sampleNodeReport() {
     v1::Envelope message;
     *message.mutable_node_report() = sampleReport();
+    return message;
+}
+
+inline v1::Envelope sampleLogLine() {
+    v1::Envelope message;
+    v1::LogLine& line = *message.mutable_log_line();
+    line.set_severity(v1::LOG_WARNING);
+    line.set_frame(41);
+    line.set_text("left: no master answers; still trying");
     return message;
 }
 
@@ -199,7 +209,8 @@ inline std::vector<Packet> samplePackets() {
         samplePrepare(),
         sampleSet(),
         sampleSetReply(),
-        sampleNodeReport()};
+        sampleNodeReport(),
+        sampleLogLine()};
     std::vector<Packet> packets;
     for (const v1::Envelope& message : before) packets.push_back(encode(kSession, message));
     packets.push_back(encodeState(kSession, viewOf(sampleState(5))));

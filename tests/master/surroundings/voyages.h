@@ -7,7 +7,7 @@
 
 #include "common/base/hash.h"
 #include "common/config/scene.h"
-#include "common/place/water.h"
+#include "common/place/place.h"
 #include "master/surroundings/pilot.h"
 
 namespace aquarama::surroundings {
