@@ -162,6 +162,64 @@ void lookAtMachine(Findings& findings, const DoctorOptions& options, const confi
     for (const config::Channel& channel : rig.channels) lookAtKey(findings, folder, channel.name);
 }
 
+// What the node's machine has, against what the rig says of its channel.
+void lookAtMonitors(Findings& findings,
+                    const std::string& subject,
+                    const config::Channel& channel,
+                    const v1::NodeReport& report) {
+    for (const std::string& monitor : report.monitors())
+        findings.pass(subject, "monitor " + monitor);
+    if (channel.display.mode != config::DisplayMode::Fullscreen) return;
+    const int wanted = channel.display.monitor;
+    const bool isThere = wanted < report.monitors_size();
+    findings.judge(
+        isThere,
+        Verdict::Warn,
+        subject,
+        fmt::format("the rig wants its monitor {} of {}", wanted, report.monitors_size()),
+        "see its cables, or correct display.monitor; without a display (--headless) "
+        "nothing is shown there");
+    if (!isThere) return;
+    const std::string size = fmt::format("{}x{}", channel.sizePixels.x, channel.sizePixels.y);
+    findings.judge(report.monitors(wanted).find(" " + size + " ") != std::string::npos,
+                   Verdict::Warn,
+                   subject,
+                   fmt::format("monitor {} is to show {}", wanted, size),
+                   "it is at another size now: correct the channel's, or the monitor's mode");
+}
+
+// How well it keeps time with the master.
+void lookAtTime(Findings& findings, const std::string& subject, const v1::NodeStatus& node) {
+    const v1::NodeReport& report = node.report();
+    // Within one machine only a busy processor delays an answer.
+    const bool isFar = !node.machine().empty();
+    findings.judge(
+        !isFar || (report.round_trip_p99_ms() < kSlowRoundTripMs &&
+                   report.unanswered_percent() < kMostUnansweredPercent),
+        Verdict::Warn,
+        subject,
+        fmt::format("round trip {:.2f} ms, 99 % within {:.2f} ms, jitter {:.2f} ms, "
+                    "{:.1f} % of pings unanswered, the master's clock {:+.1f} ppm faster",
+                    report.round_trip_median_ms(),
+                    report.round_trip_p99_ms(),
+                    report.jitter_ms(),
+                    report.unanswered_percent(),
+                    report.clock_drift_ppm()),
+        "use a cable and a switch of its own for the wall; wireless is too uneven");
+    findings.judge(report.real_time(),
+                   Verdict::Warn,
+                   subject,
+                   report.real_time() ? "real-time priority" : "no real-time priority",
+                   "frames are late where its machine is busy: allow it, as docs/cluster.md says");
+    if (isFar)
+        findings.judge(
+            report.clock_synchronised(),
+            Verdict::Warn,
+            subject,
+            report.clock_synchronised() ? "clock synchronised" : "clock not synchronised",
+            kSynchronise);
+}
+
 void lookAtReport(Findings& findings, const std::string& subject, const v1::NodeStatus& node) {
     const v1::NodeReport& report = node.report();
     const bool isSoftware = report.renderer().find("llvmpipe") != std::string::npos;
@@ -170,33 +228,11 @@ void lookAtReport(Findings& findings, const std::string& subject, const v1::Node
                    subject,
                    "machine " + report.host() + ", " + report.renderer(),
                    "it draws on the processor: install its card's driver, or accept a slow wall");
-    for (const std::string& monitor : report.monitors())
-        findings.pass(subject, "monitor " + monitor);
     findings.judge(report.build() == cli::buildText(),
                    Verdict::Warn,
                    subject,
                    "build " + report.build(),
                    "this machine has " + cli::buildText() + ": install the same on both");
-    // Within one machine only a busy processor delays an answer.
-    const bool isFar = !node.machine().empty();
-    findings.judge(!isFar || (report.round_trip_p99_ms() < kSlowRoundTripMs &&
-                              report.unanswered_percent() < kMostUnansweredPercent),
-                   Verdict::Warn,
-                   subject,
-                   fmt::format("round trip {:.2f} ms, 99 % within {:.2f} ms, {:.1f} % of pings "
-                               "unanswered, the master's clock {:+.1f} ppm faster",
-                               report.round_trip_median_ms(),
-                               report.round_trip_p99_ms(),
-                               report.unanswered_percent(),
-                               report.clock_drift_ppm()),
-                   "use a cable and a switch of its own for the wall; wireless is too uneven");
-    if (isFar)
-        findings.judge(
-            report.clock_synchronised(),
-            Verdict::Warn,
-            subject,
-            report.clock_synchronised() ? "clock synchronised" : "clock not synchronised",
-            kSynchronise);
     findings.judge(report.free_disk_bytes() > kLeastDiskBytes,
                    Verdict::Warn,
                    subject,
@@ -204,7 +240,7 @@ void lookAtReport(Findings& findings, const std::string& subject, const v1::Node
                    "make room on its disk");
 }
 
-void lookAtNode(Findings& findings, const v1::NodeStatus& node) {
+void lookAtNode(Findings& findings, const config::Rig& rig, const v1::NodeStatus& node) {
     const std::string subject = "node " + node.name();
     const std::string machine =
         node.machine().empty() ? "this machine" : "machine " + node.machine();
@@ -221,11 +257,15 @@ void lookAtNode(Findings& findings, const v1::NodeStatus& node) {
                    node.hash_mismatches() == 0 ? "decodes the fish as they were sent"
                                                : "decodes other fish than were sent",
                    "check its memory and its version");
-    if (node.has_report()) lookAtReport(findings, subject, node);
+    if (!node.has_report()) return;
+    lookAtReport(findings, subject, node);
+    lookAtTime(findings, subject, node);
+    const auto channel = std::ranges::find(rig.channels, node.name(), &config::Channel::name);
+    if (channel != rig.channels.end()) lookAtMonitors(findings, subject, *channel, node.report());
 }
 
 // Asks the master of the running show; false where none runs.
-bool lookAtShow(Findings& findings, const DoctorOptions& options) {
+bool lookAtShow(Findings& findings, const DoctorOptions& options, const config::Rig& rig) {
     v1::StatusReply status;
     try {
         status = connectToMaster(options.rig, options.keyFolder).status();
@@ -240,7 +280,7 @@ bool lookAtShow(Findings& findings, const DoctorOptions& options) {
                               status.frame_p99_ms(),
                               status.skew_median_ms(),
                               status.skew_p99_ms()));
-    for (const v1::NodeStatus& node : status.nodes()) lookAtNode(findings, node);
+    for (const v1::NodeStatus& node : status.nodes()) lookAtNode(findings, rig, node);
     return true;
 }
 
@@ -267,7 +307,7 @@ Findings lookOver(const DoctorOptions& options) {
     });
     if (!isRig) return findings;
     lookAtMachine(findings, options, rig);
-    if (!lookAtShow(findings, options)) lookAtPorts(findings, rig);
+    if (!lookAtShow(findings, options, rig)) lookAtPorts(findings, rig);
     return findings;
 }
 

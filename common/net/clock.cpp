@@ -7,12 +7,20 @@
 #include <cstddef>
 #include <vector>
 
+#include <pthread.h>
+#include <sched.h>
 #include <sys/timex.h>
 
 namespace aquarama::net {
 
 Instant monotonicNow() {
     return std::chrono::duration_cast<Instant>(std::chrono::steady_clock::now().time_since_epoch());
+}
+
+bool runInRealTime(bool wanted) {
+    const sched_param priority{.sched_priority = wanted ? 10 : 0};
+    const int policy = wanted ? SCHED_RR : SCHED_OTHER;
+    return pthread_setschedparam(pthread_self(), policy | SCHED_RESET_ON_FORK, &priority) == 0;
 }
 
 bool isClockSynchronised() {
@@ -83,6 +91,37 @@ std::optional<Instant> ClockOffset::offset(Instant now) const {
 std::optional<Instant> ClockOffset::roundTrip() const {
     const Sample* sample = best();
     return sample != nullptr ? std::optional{sample->roundTrip} : std::nullopt;
+}
+
+namespace {
+
+// Between two blanks; any display's refresh rate is well within.
+constexpr Instant kShortestPeriod = std::chrono::milliseconds(2);
+constexpr Instant kLongestPeriod = std::chrono::milliseconds(100);
+
+Instant periodBetween(const auto& first, const auto& last) {
+    return (last.at - first.at) / static_cast<std::int64_t>(last.count - first.count);
+}
+
+}  // namespace
+
+void BlankMeter::add(std::uint64_t count, Instant at) {
+    constexpr Instant kKept = std::chrono::seconds(5);
+    const Blank blank{count, at};
+    if (!seen_.empty() && count == seen_.back().count) return;
+    // Another mode, another display, or a driver that dates by another clock.
+    if (!seen_.empty() && (count < seen_.back().count || at <= seen_.back().at ||
+                           periodBetween(seen_.back(), blank) < kShortestPeriod ||
+                           periodBetween(seen_.back(), blank) > kLongestPeriod))
+        seen_.clear();
+    seen_.push_back(blank);
+    while (at - seen_.front().at > kKept) seen_.pop_front();
+}
+
+std::optional<Blanks> BlankMeter::blanks() const {
+    constexpr Instant kLeast = std::chrono::seconds(1);
+    if (seen_.empty() || seen_.back().at - seen_.front().at < kLeast) return std::nullopt;
+    return Blanks{seen_.back().at, periodBetween(seen_.front(), seen_.back())};
 }
 
 void RecentTimes::add(Instant time) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Instants of this machine's monotonic clock, and how a node learns where the master's stands.
+// Instants of this machine's monotonic clock, threads that wake on time, and how a node learns
+// where the master's stands.
 #pragma once
 
 #include <chrono>
@@ -20,6 +21,10 @@ using Instant = std::chrono::nanoseconds;  // since the epoch of CLOCK_MONOTONIC
 
 // Now, on CLOCK_MONOTONIC of this machine.
 [[nodiscard]] Instant monotonicNow();
+
+// Asks the kernel to run the calling thread as soon as it wakes, before all that has no such
+// priority; threads that it starts later have none. Or ends that. False where this user may not.
+bool runInRealTime(bool wanted = true);
 
 // Whether the kernel holds this machine's clock to others', by chrony, ntpd or PTP.
 [[nodiscard]] bool isClockSynchronised();
@@ -62,6 +67,26 @@ class ClockOffset {
     std::deque<Sample> samples_, windows_;
     std::size_t sinceWindow_ = 0;
     Line line_;
+};
+
+// The vertical blanks of a display: at `last`, and at every `period` before and after it.
+struct Blanks {
+    Instant last{}, period{};
+};
+
+// Finds the period of a display from blanks that its driver counts and dates.
+class BlankMeter {
+  public:
+    void add(std::uint64_t count, Instant at);
+    // Empty until a second has been seen without a jump.
+    [[nodiscard]] std::optional<Blanks> blanks() const;
+
+  private:
+    struct Blank {
+        std::uint64_t count;
+        Instant at;
+    };
+    std::deque<Blank> seen_;  // of the last five seconds
 };
 
 // The last 600 durations: of frames, ten seconds at 60 Hz.

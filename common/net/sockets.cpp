@@ -234,6 +234,26 @@ void Doorkeeper::serve() {
     }
 }
 
+// A connection costs memory: who shows the same key again and again is not let in for a while.
+std::string Doorkeeper::userOf(const std::string& binaryKey) {
+    constexpr int kMostHandshakes = 100;
+    constexpr Instant kWithin = std::chrono::seconds(10);
+    std::array<char, 41> key{};
+    zmq_z85_encode(key.data(), reinterpret_cast<const std::uint8_t*>(binaryKey.data()), 32);
+    const std::lock_guard lock(mutex_);
+    const auto known = allowed_.find(key.data());
+    if (known == allowed_.end()) return {};
+    Handshakes& handshakes = handshakes_[known->second];
+    const Instant now = monotonicNow();
+    if (now - handshakes.since > kWithin) handshakes = {now, 0};
+    if (++handshakes.count <= kMostHandshakes) return known->second;
+    if (handshakes.count == kMostHandshakes + 1)
+        logWarning("{} connects more than {} times in ten seconds; refused for a while",
+                   known->second,
+                   kMostHandshakes);
+    return {};
+}
+
 // Version, request, domain, address, identity, mechanism, key; the answer has version, request,
 // status, its text, user, and metadata.
 void Doorkeeper::answer(zmq::socket_t& requests) {
@@ -244,13 +264,7 @@ void Doorkeeper::answer(zmq::socket_t& requests) {
         parts.push_back(part.to_string());
     } while (part.more());
     std::string user;
-    if (parts.size() == 7 && parts[5] == "CURVE" && parts[6].size() == 32) {
-        std::array<char, 41> key{};
-        zmq_z85_encode(key.data(), reinterpret_cast<const std::uint8_t*>(parts[6].data()), 32);
-        const std::lock_guard lock(mutex_);
-        if (const auto known = allowed_.find(key.data()); known != allowed_.end())
-            user = known->second;
-    }
+    if (parts.size() == 7 && parts[5] == "CURVE" && parts[6].size() == 32) user = userOf(parts[6]);
     const std::string request = parts.size() > 1 ? parts[1] : "";
     const std::array<std::string, 6> reply{
         "1.0", request, user.empty() ? "400" : "200", user.empty() ? "no such key" : "", user, ""};

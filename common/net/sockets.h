@@ -7,6 +7,7 @@
 #include <atomic>
 #include <functional>
 #include <initializer_list>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -64,13 +65,21 @@ class Doorkeeper {
     [[nodiscard]] bool hasRevoked() { return revoked_.exchange(false); }
 
   private:
+    // Of a user, in the last ten seconds.
+    struct Handshakes {
+        Instant since{};
+        int count = 0;
+    };
     void serve();
     void answer(zmq::socket_t& requests);
+    // Empty where this key is not to be let in.
+    [[nodiscard]] std::string userOf(const std::string& binaryKey);
     void readAgain();
 
     std::function<Allowed()> list_;
     mutable std::mutex mutex_;
     Allowed allowed_;
+    std::map<std::string, Handshakes> handshakes_;  // by user
     std::atomic<bool> revoked_ = false;
     std::atomic<bool> ended_ = false;
     zmq::socket_t requests_;

@@ -126,9 +126,10 @@ bool isValid(const v1::Prepared& m) {
     return m.has_quality() && config::tierAt(m.quality()) && m.has_look();
 }
 
-// An earlier release is reported as a whole or not at all.
+// An earlier release is reported as a whole or not at all, and so are blanks.
 bool isValid(const v1::Ready& m) {
-    return m.has_frame() && m.has_released_frame() == m.has_released_ns();
+    return m.has_frame() && m.has_released_frame() == m.has_released_ns() &&
+           m.has_blank_ns() == m.has_blank_period_ns();
 }
 
 // Only food has a position, only a steering has axes.
@@ -150,7 +151,8 @@ bool isValid(const v1::NodeReport& m) {
                              m.round_trip_p99_ms(),
                              m.unanswered_percent(),
                              m.clock_drift_ppm(),
-                             m.gpu_celsius()};
+                             m.gpu_celsius(),
+                             m.jitter_ms()};
     const auto isFinite = [](float number) { return std::isfinite(number); };
     const auto isLineOfReport = [](const std::string& line) {
         return isText(line, kMostLineBytes);

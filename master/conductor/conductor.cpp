@@ -3,6 +3,7 @@
 #include "master/conductor/conductor.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <random>
 #include <utility>
@@ -19,11 +20,15 @@ using std::chrono::milliseconds;
 
 // Time for a release to reach every node: ten times the median of a busy machine's loopback.
 constexpr net::Instant kLead = milliseconds(2);
-// A frame shows the world two ticks before it is released: both are simulated by then.
-constexpr net::Instant kShownAge = 2 * kTickPeriod;
+// A state is published so long before the release of the frame before it: nodes begin to draw then.
+constexpr net::Instant kPublishLead = milliseconds(3);
+// A frame shows the world as it was so long before its release, which is a refresh after the one
+// before: the two ticks on either side are simulated when it is published.
+constexpr net::Instant kShownAge = 2 * kTickPeriod + kPublishLead + milliseconds(1);
 constexpr net::Instant kBeacon = milliseconds(50);
 constexpr net::Instant kRepeat = std::chrono::seconds(1);
 constexpr net::Instant kLongestWait = milliseconds(10);
+constexpr std::size_t kMostNodes = 64;  // as many as a rig has channels
 
 net::Instant fromSeconds(double seconds) {
     return std::chrono::duration_cast<net::Instant>(std::chrono::duration<double>(seconds));
@@ -111,6 +116,7 @@ Conductor::Conductor(const config::Rig& rig,
       trace_(openTrace(options_.traceDirectory)),
       keptOnDisk_(options_.kept),
       metrics_(isLockstep() ? std::uint16_t{0} : rig.metricsPort) {
+    assert(rig.channels.size() <= kMostNodes);
     for (const std::string& name : namesOf(rig, options_)) {
         slots_.emplace_back().name = name;
         const auto channel = std::ranges::find(rig.channels, name, &config::Channel::name);
@@ -136,6 +142,10 @@ void Conductor::stop() {
 
 ShowReport Conductor::run() {
     over_ = options_.frames == 0U;
+    if (!isLockstep() && !net::runInRealTime())
+        logInfo(
+            "no real-time priority: frames are late where this machine is busy; "
+            "docs/cluster.md says how to allow it");
     startSimulation();
     while (!over_ && !stopped_) {
         const net::Instant now = net::monotonicNow();
@@ -150,7 +160,7 @@ ShowReport Conductor::run() {
             channels_->publishState(beacon_);
             lastPublished_ = now;
         }
-        channels_->wait(kLongestWait);
+        channels_->wait(untilDue());
     }
     simulationThread_.reset();
     sayFarewell();
@@ -225,7 +235,8 @@ void Conductor::conduct(net::Instant now) {
     }
     if (!drawing_) return beginNext(now);
     // As late as possible, so that what it shows is fresh; early enough to be there on time.
-    if (barrier_.anyReady() && !isLast(next_)) publish({next_.value + 1}, now);
+    const bool isDue = isLockstep() || now + kPublishLead >= nextRelease(now);
+    if (barrier_.anyReady() && isDue && !isLast(next_)) publish({next_.value + 1}, now);
     if (decision.verdict == PresentBarrier::Verdict::Present) return release(now);
     if (decision.verdict == PresentBarrier::Verdict::Idle) {
         if (const auto awaited = barrier_.nextAwaited()) {
@@ -233,17 +244,39 @@ void Conductor::conduct(net::Instant now) {
             beginNext(now);
         }
     }
-    if (isLockstep() && now - lastRepeat_ > kRepeat) publishAgain(now);
+    if (now - lastRepeat_ > kRepeat) publishAgain(now);
 }
 
 void Conductor::beginNext(net::Instant now) {
-    const bool mayBegin = isLockstep() ? barrier_.allPrepared() : barrier_.hasMembers();
+    const bool mayBegin = isLockstep()
+                              ? barrier_.allPrepared()
+                              : barrier_.hasMembers() && now + kPublishLead >= lastRelease_;
     drawing_ = mayBegin && publish(next_, now);
     if (drawing_) barrier_.begin(next_);
 }
 
+// How long the loop may sleep where nothing is heard: the next state has its time.
+net::Instant Conductor::untilDue() const {
+    const net::Instant due = lastRelease_ - kPublishLead - net::monotonicNow();
+    return drawing_ || isLockstep() || due < net::Instant{0} ? kLongestWait
+                                                             : std::min(due, kLongestWait);
+}
+
 net::Instant Conductor::nextRelease(net::Instant now) const {
-    return std::max(now + kLead, lastRelease_ + refresh_);
+    constexpr net::Instant kBelieved = std::chrono::seconds(2);
+    std::array<net::Blanks, kMostNodes> displays;
+    std::size_t count = 0;
+    for (std::size_t node = 0; node < slots_.size(); ++node) {
+        const auto& blanks = slots_[node].blanks;
+        if (blanks && blanks->last > now - kBelieved && barrier_.isWaitedFor(node))
+            displays[count++] = *blanks;
+    }
+    return releaseTime(now + kLead, lastRelease_, refresh_, std::span(displays).first(count));
+}
+
+// Of the frame that is drawn, or of the one after it.
+net::Instant Conductor::releaseOf(Frame frame, net::Instant now) const {
+    return nextRelease(now) + (next_ < frame ? refresh_ : net::Instant{0});
 }
 
 void Conductor::release(net::Instant now) {
@@ -272,7 +305,7 @@ bool Conductor::publish(Frame frame, net::Instant now) {
     if (frame < unpublished_) return true;
     takeTicks();
     auto state = isLockstep() ? snapshots_.showing(frame, Tick{frame.value})
-                              : snapshots_.showing(frame, nextRelease(now) - kShownAge);
+                              : snapshots_.showing(frame, releaseOf(frame, now) - kShownAge);
     if (!state) return false;
     dim(now, frame);
     state->show = shown(now);
@@ -300,7 +333,7 @@ void Conductor::noteEye(const wire::StateView& state) {
     eye_ = state.eye;
 }
 
-// Lockstep passes nobody over, so a state that was lost on its way must come again.
+// Where all wait for a state that was lost on its way, it must come again.
 void Conductor::publishAgain(net::Instant now) {
     for (const auto& [frame, packet] : published_) channels_->publishState(packet);
     lastRepeat_ = now;

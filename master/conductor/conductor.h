@@ -134,6 +134,7 @@ class Conductor {
         std::uint64_t dropped = 0;
         std::uint64_t mismatches = 0;  // states that its node decoded to another hash
         std::shared_ptr<const v1::NodeReport> report;  // its node's last
+        std::optional<net::Blanks> blanks;             // of its display, in the master's clock
         net::Instant lastFed{};      // when a visitor last dropped food in its window
         std::uint64_t logLines = 0;  // of its node, in this second
     };
@@ -156,6 +157,8 @@ class Conductor {
     void take(const net::FromPeer& from, const v1::Envelope& message, net::Instant now);
     // Counts and names what a user may not say.
     void refuse(const std::string& user, const v1::Envelope& message);
+    // Whether the holder of a key may ask or be welcomed once more in this second.
+    [[nodiscard]] bool isWithinRate(const std::string& user, net::Instant now);
     // The place of the node that speaks. A node that shows its key and knows this run is the same
     // one over another connection.
     [[nodiscard]] std::optional<std::size_t> speaker(const net::FromPeer& from,
@@ -226,9 +229,13 @@ class Conductor {
     bool publish(Frame frame, net::Instant now);
     // Sends the last two states once more, for nodes that missed them.
     void publishAgain(net::Instant now);
-    // When a frame that is ready now is shown: one refresh after the last, and not before the
-    // release can have reached every node.
+    // When a frame that is ready now is shown, not before the release can have reached every node:
+    // releaseTime() for the displays of those who are waited for.
     [[nodiscard]] net::Instant nextRelease(net::Instant now) const;
+    [[nodiscard]] net::Instant releaseOf(Frame frame, net::Instant now) const;
+    [[nodiscard]] net::Instant untilDue() const;
+    // Of a node's display, where they can be believed.
+    [[nodiscard]] std::optional<net::Blanks> blanksIn(const v1::Ready& ready) const;
     [[nodiscard]] bool isLast(Frame frame) const;
 
     void say(const net::PeerId& peer, v1::Envelope message);
@@ -270,8 +277,14 @@ class Conductor {
     net::Instant lastPublished_{};             // of anything, also of a beacon
     net::Instant lastRepeat_{};
     InputArbitration arbitration_;
-    std::map<std::string, net::Instant> fed_;      // by user: when one that is no node last fed
-    std::set<std::string> refused_;                // users that were told of in the log
+    std::map<std::string, net::Instant> fed_;  // by user: when one that is no node last fed
+    std::set<std::string> refused_;            // users that were told of in the log
+    struct Rate {
+        net::Instant since{};
+        int count = 0;
+    };
+    std::map<std::string, Rate> rates_;            // by user: what was answered in this second
+    std::set<std::string> objections_;             // to hellos, that were told of in the log
     net::Instant lastRoll_ = net::monotonicNow();  // when missing nodes were last named
     float brightness_ = 1.0F;                      // of the last state that was published
     wire::Eye eye_;                                // of the last state that was published

@@ -122,6 +122,75 @@ PresentBarrier::Decision PresentBarrier::decideLockstep(net::Instant now) const 
     return {Verdict::Wait, end, name};
 }
 
+namespace {
+
+// Instants at which to release: from `begin` on for `length`, and again every period.
+struct Gap {
+    net::Instant begin{}, length{};
+};
+
+// The time to the next blank.
+net::Instant toNextBlank(const net::Blanks& display, net::Instant from) {
+    const net::Instant since = (from - display.last) % display.period;
+    return since > net::Instant{0} ? display.period - since : -since;
+}
+
+// From a display's next blank to the first of any other.
+Gap gapAfter(const net::Blanks& display,
+             net::Instant from,
+             net::Instant period,
+             std::span<const net::Blanks> displays) {
+    const net::Instant begin = toNextBlank(display, from);
+    net::Instant length = period;
+    for (const net::Blanks& other : displays) {
+        const net::Instant after = (toNextBlank(other, from) - begin + 2 * period) % period;
+        if (after > net::Instant{0}) length = std::min(length, after);
+    }
+    return {from + begin, length};
+}
+
+// The widest gap; but that of `last` as long as no other is much wider: between two gaps of one
+// width there is no going to and fro.
+Gap gapFor(net::Instant last,
+           net::Instant from,
+           net::Instant period,
+           std::span<const net::Blanks> displays) {
+    Gap best;
+    net::Instant most{};
+    for (const net::Blanks& display : displays) {
+        const Gap gap = gapAfter(display, from, period, displays);
+        const net::Instant place = ((last - gap.begin) % period + period) % period;
+        const net::Instant worth = place < gap.length ? gap.length * 5 / 4 : gap.length;
+        if (worth > most) best = gap;
+        most = std::max(most, worth);
+    }
+    return best;
+}
+
+// Without the guard at either end, or its middle alone.
+Gap guarded(const Gap& gap) {
+    if (gap.length <= 2 * kBlankGuard) return {gap.begin + gap.length / 2, {}};
+    return {gap.begin + kBlankGuard, gap.length - 2 * kBlankGuard};
+}
+
+}  // namespace
+
+net::Instant releaseTime(net::Instant earliest,
+                         net::Instant last,
+                         net::Instant refresh,
+                         std::span<const net::Blanks> displays) {
+    if (displays.empty()) return std::max(earliest, last + refresh);
+    net::Instant period{};
+    for (const net::Blanks& display : displays)
+        period += display.period / static_cast<std::int64_t>(displays.size());
+    Gap gap = guarded(gapFor(last, earliest, period, displays));
+    gap.begin -= 2 * period;
+    // What is known of the phases wavers a little: a gap that begins just after `last` is its own.
+    while (gap.begin + gap.length < earliest || gap.begin <= last + kBlankGuard)
+        gap.begin += period;
+    return std::max(gap.begin, earliest);
+}
+
 std::optional<net::Instant> SkewMeter::add(Frame frame, std::int64_t atNs) {
     const auto span = std::ranges::find(spans_, frame, &Span::frame);
     if (span != spans_.end()) {

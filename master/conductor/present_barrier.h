@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/base/units.h"
@@ -94,6 +95,19 @@ class PresentBarrier {
     bool anyReady_ = false;
     std::optional<net::Instant> deadline_;  // of frame_, as soon as anybody is ready for it
 };
+
+// When a frame is released that could be shown from `earliest` on; pure. Each display shows it at
+// its first blank after the release. All these blanks fall into less than one refresh where the
+// release is in the widest gap between the phases of the displays: so frames never mix, although
+// the displays are not locked to each other. Each frame has a gap of its own, the first after that
+// of `last`; in it, the release is as early as it can. All in the master's clock. Without displays:
+// one `refresh` after `last`, at the earliest.
+[[nodiscard]] net::Instant releaseTime(net::Instant earliest,
+                                       net::Instant last,
+                                       net::Instant refresh,
+                                       std::span<const net::Blanks> displays);
+// A release keeps this distance from blanks, for whom it reaches a little early or late.
+inline constexpr net::Instant kBlankGuard = std::chrono::milliseconds(1);
 
 // Release skew of a frame: the latest node's release minus the earliest's.
 class SkewMeter {

@@ -148,6 +148,17 @@ std::optional<std::size_t> Conductor::speaker(const net::FromPeer& from,
     return seatOf(from.peer);
 }
 
+bool Conductor::isWithinRate(const std::string& user, net::Instant now) {
+    constexpr int kMostASecond = 200;
+    if (user.empty()) return true;
+    Rate& rate = rates_[user];  // as many as there are keys
+    if (now - rate.since > std::chrono::seconds(1)) rate = {now, 0};
+    if (++rate.count <= kMostASecond) return true;
+    if (rate.count == kMostASecond + 1)
+        logWarning("{} asks more than {} times a second; the rest is refused", user, kMostASecond);
+    return false;
+}
+
 void Conductor::takeOfVisitor(const net::FromPeer& from, const v1::Input& input, net::Instant now) {
     const auto& at = input.position();
     if (input.kind() == v1::INPUT_STEER) return steer(from.peer, wire::steeringOf(input), now);
@@ -159,6 +170,12 @@ void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net
     const net::PeerId& peer = from.peer;
     const auto user = userIn(from.user);
     if (user && !maySay(*user, message)) return refuse(from.user, message);
+    const bool isCostly = asks(message) || message.message_case() == v1::Envelope::kHello ||
+                          message.message_case() == v1::Envelope::kSet;
+    if (isCostly && !isWithinRate(from.user, now)) {
+        ++report_.refusedPackets;
+        return;
+    }
     const auto node = speaker(from, message);
     switch (message.message_case()) {
         case v1::Envelope::kHello:
@@ -229,7 +246,9 @@ std::string Conductor::objectionTo(const v1::Hello& hello) const {
 void Conductor::greet(const net::PeerId& peer, const v1::Hello& hello, net::Instant now) {
     if (const std::string objection = objectionTo(hello); !objection.empty()) {
         ++report_.refusedPackets;
-        logWarning("refused node {}: {}", hello.channel(), objection);
+        constexpr std::size_t kMostTold = 100;
+        if (objections_.size() < kMostTold && objections_.insert(objection).second)
+            logWarning("refused node {}: {}", hello.channel(), objection);
         v1::Envelope refusal;
         refusal.mutable_refusal()->set_reason(objection);
         return say(peer, std::move(refusal));
@@ -259,6 +278,7 @@ void Conductor::ready(std::size_t node, const v1::Ready& ready, net::Instant now
     const Frame frame{ready.frame()};
     barrier_.ready(node, frame, now);
     slots_[node].mismatches = ready.hash_mismatches();
+    slots_[node].blanks = blanksIn(ready);
     if (ready.has_released_frame()) {
         const auto skew = skew_.add({ready.released_frame()}, ready.released_ns());
         if (skew) figures_.skewSeconds(net::secondsIn(*skew));
@@ -266,6 +286,15 @@ void Conductor::ready(std::size_t node, const v1::Ready& ready, net::Instant now
     // It asks again for a release that never came.
     if (lastPresent_ && frame <= lastPresent_->first)
         channels_->sendControl(slots_[node].peer, lastPresent_->second);
+}
+
+// A display of quite another rate cannot be kept in step with the wall.
+std::optional<net::Blanks> Conductor::blanksIn(const v1::Ready& ready) const {
+    const net::Blanks blanks{net::Instant{ready.blank_ns()}, net::Instant{ready.blank_period_ns()}};
+    const net::Instant apart = blanks.period - refresh_;
+    const bool isBelieved = ready.has_blank_ns() && apart < refresh_ / 50 &&
+                            -apart < refresh_ / 50 && blanks.last < net::monotonicNow();
+    return isBelieved ? std::optional(blanks) : std::nullopt;
 }
 
 void Conductor::note(std::size_t node, const v1::LogLine& line) {

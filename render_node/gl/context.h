@@ -97,6 +97,13 @@ class Context {
     // Shows the finished default framebuffer on the display; does nothing without one. A window
     // swaps at the vertical blank.
     virtual void swap() = 0;
+    // The last vertical blank of the window's display; empty where the driver tells of none. On the
+    // drawing thread, with the context current.
+    struct VerticalBlank {
+        std::uint64_t count;
+        std::chrono::nanoseconds at;  // CLOCK_MONOTONIC
+    };
+    [[nodiscard]] virtual std::optional<VerticalBlank> lastBlank() const { return std::nullopt; }
     // Width and height of framebuffer 0, in pixels; may be read by any thread.
     [[nodiscard]] virtual glm::ivec2 framebufferPixels() const = 0;
     // True where framebuffer 0 is a window's; false where there is none.

@@ -278,6 +278,9 @@ class WindowContext : public Context {
         check();
         makeCurrent();
         native_ = currentContext();
+        countsBlanks_ =
+            native_.x != nullptr &&
+            epoxy_has_glx_extension(native_.x, DefaultScreen(native_.x), "GLX_OML_sync_control");
         release();
     }
     [[nodiscard]] std::unique_ptr<Workspace> makeWorkspace() override {
@@ -291,6 +294,15 @@ class WindowContext : public Context {
     }
     void release() override { glfwMakeContextCurrent(nullptr); }
     void swap() override { glfwSwapBuffers(window_.get()); }
+    [[nodiscard]] std::optional<VerticalBlank> lastBlank() const override {
+        const GLXDrawable window = glXGetCurrentDrawable();
+        if (!countsBlanks_ || window == None) return std::nullopt;
+        std::int64_t microseconds = 0, blanks = 0, swaps = 0;
+        const auto told = glXGetSyncValuesOML(native_.x, window, &microseconds, &blanks, &swaps);
+        if (told == False || blanks <= 0) return std::nullopt;
+        return VerticalBlank{static_cast<std::uint64_t>(blanks),
+                             std::chrono::microseconds(microseconds)};
+    }
     [[nodiscard]] glm::ivec2 framebufferPixels() const override { return framebuffer_; }
     [[nodiscard]] bool hasWindow() const override { return true; }
     [[nodiscard]] bool quadBuffered() const override { return quadBuffered_; }
@@ -356,6 +368,7 @@ class WindowContext : public Context {
     bool quadBuffered_;
     std::unique_ptr<GLFWwindow, DestroyWindow> window_;
     NativeContext native_;
+    bool countsBlanks_ = false;
     std::atomic<glm::ivec2> framebuffer_{glm::ivec2(0)};
     // Pressed, not yet taken by nextKey().
     std::deque<char> keys_;

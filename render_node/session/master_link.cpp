@@ -133,6 +133,7 @@ void Mailbox::expectJoin() {
     join_.reset();
     interruption_.reset();
     pace_.reset();
+    next_ = {};  // of another run of the master: its frames may come before start()
     states_.clear();
     release_.reset();
     mind_.reset();
@@ -216,6 +217,7 @@ void MasterLink::stop() {
 }
 
 void MasterLink::run() {
+    isInRealTime_ = net::runInRealTime();
     try {
         while (!stopped_) {
             turn();
@@ -325,10 +327,16 @@ void MasterLink::sayReady() {
     v1::Ready& ready = *message.mutable_ready();
     ready.set_frame(finished_->frame.value);
     ready.set_hash_mismatches(traffic_.mismatches);
+    const auto masters = [&](net::Instant own) {
+        return (own + clock_.offset(own).value_or(net::Instant{})).count();
+    };
     if (const auto& released = finished_->released) {
-        const net::Instant ahead = clock_.offset(released->at).value_or(net::Instant{});
         ready.set_released_frame(released->frame.value);
-        ready.set_released_ns((released->at + ahead).count());
+        ready.set_released_ns(masters(released->at));
+    }
+    if (const auto& blanks = finished_->blanks) {
+        ready.set_blank_ns(masters(blanks->last));
+        ready.set_blank_period_ns(static_cast<std::uint32_t>(blanks->period.count()));
     }
     say(std::move(message));
     lastReady_ = net::monotonicNow();
@@ -562,25 +570,38 @@ void MasterLink::hearPong(const v1::Pong& pong, net::Instant now) {
     if (ping != pings_.end()) ping->second = now - sent;
 }
 
-void MasterLink::sayReport(net::Instant now) {
+void MasterLink::reportPings(v1::NodeReport& report, net::Instant now) const {
     net::RecentTimes roundTrips;
     std::size_t unanswered = 0;
+    std::optional<net::Instant> before;
+    double jitter = 0;
+    int answered = 0;
     for (const auto& [sent, roundTrip] : pings_) {
-        if (roundTrip) roundTrips.add(*roundTrip);
         if (!roundTrip && now - sent > kRepeat) ++unanswered;
+        if (!roundTrip) continue;
+        roundTrips.add(*roundTrip);
+        if (before) jitter += std::abs(net::secondsIn(*roundTrip - *before));
+        before = roundTrip;
+        ++answered;
     }
+    report.set_round_trip_median_ms(roundTrips.quantileMs(0.5));
+    report.set_round_trip_p99_ms(roundTrips.quantileMs(0.99));
+    report.set_jitter_ms(static_cast<float>(1000 * jitter / std::max(answered - 1, 1)));
+    report.set_unanswered_percent(100 * static_cast<float>(unanswered) /
+                                  static_cast<float>(std::max<std::size_t>(pings_.size(), 1)));
+}
+
+void MasterLink::sayReport(net::Instant now) {
     v1::Envelope message;
     v1::NodeReport& report = *message.mutable_node_report();
+    reportPings(report, now);
     report.set_host(hostName());
     report.set_build(facts_.build);
     report.set_renderer(facts_.renderer);
     for (const std::string& monitor : facts_.monitors) report.add_monitors(monitor);
     report.set_free_disk_bytes(cache_.freeBytes());
     report.set_clock_synchronised(net::isClockSynchronised());
-    report.set_round_trip_median_ms(roundTrips.quantileMs(0.5));
-    report.set_round_trip_p99_ms(roundTrips.quantileMs(0.99));
-    report.set_unanswered_percent(100 * static_cast<float>(unanswered) /
-                                  static_cast<float>(std::max<std::size_t>(pings_.size(), 1)));
+    report.set_real_time(isInRealTime_);
     report.set_clock_drift_ppm(static_cast<float>(clock_.driftPpm()));
     traffic_.gpuCelsius = gpuCelsius();
     if (traffic_.gpuCelsius > 0) report.set_gpu_celsius(traffic_.gpuCelsius);

@@ -112,6 +112,7 @@ class MasterLink {
     struct Finished {  // the picture of this frame
         Frame frame;
         std::optional<ReleaseReport> released;  // of an earlier frame
+        std::optional<net::Blanks> blanks;      // of its display, in this machine's clock
     };
     struct Logged {  // a line of this process's log, for that of the show
         Severity severity;
@@ -176,6 +177,7 @@ class MasterLink {
     void sayPing(net::Instant now);
     void hearPong(const v1::Pong& pong, net::Instant now);
     void sayReport(net::Instant now);
+    void reportPings(v1::NodeReport& report, net::Instant now) const;
     void sayLog();
     // The master is gone or another: joins again.
     void lose(const std::string& why);
@@ -205,6 +207,7 @@ class MasterLink {
     std::optional<Finished> finished_;  // and not released yet, as far as we know
     net::ClockOffset clock_;
     NodeFacts facts_;
+    bool isInRealTime_ = false;  // the net thread
     // When pings of the last ten seconds were sent, and how long their answers took.
     std::deque<std::pair<net::Instant, std::optional<net::Instant>>> pings_;
     Traffic traffic_;

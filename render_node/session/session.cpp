@@ -156,6 +156,7 @@ class LinkSession final : public Session {
     }
 
     std::optional<wire::StateFrame> nextFrame() override {
+        net::runInRealTime(false);
         auto arrived = mailbox_.takeState();
         if (!arrived) return std::nullopt;
         stateArrival_ = arrived->arrival;
@@ -168,13 +169,16 @@ class LinkSession final : public Session {
 
     Release readyThenWait(Frame frame) override {
         if (figures_) figures_->finish();
+        // From here to the swap every microsecond is skew. Not while it draws: on a processor that
+        // draws as well, the net threads would wait.
+        net::runInRealTime();
         const Release release = awaitRelease(frame);
         if (figures_) figures_->release(release, link_.traffic());
         return release;
     }
 
     Release awaitRelease(Frame frame) {
-        link_.post(MasterLink::Finished{frame, std::exchange(released_, {})});
+        link_.post(MasterLink::Finished{frame, std::exchange(released_, {}), blanks_.blanks()});
         const auto order = mailbox_.awaitRelease(frame);
         if (!order) return mailbox_.interruption();
         if (order->frame != frame && !std::exchange(skipped_, true)) return Release::Skip;
@@ -183,6 +187,10 @@ class LinkSession final : public Session {
         std::this_thread::sleep_until(std::chrono::steady_clock::time_point(order->at));
         released_ = ReleaseReport{frame, net::monotonicNow()};
         return Release::Present;
+    }
+
+    void sawBlank(std::uint64_t count, std::chrono::nanoseconds at) override {
+        blanks_.add(count, at);
     }
 
     void quit() override {
@@ -220,6 +228,7 @@ class LinkSession final : public Session {
     MasterLink link_;
     std::optional<NodeFigures> figures_;  // live, from the first welcome on
     std::optional<ReleaseReport> released_;
+    net::BlankMeter blanks_;
     bool skipped_ = false;
     std::chrono::nanoseconds stateArrival_{};
     std::thread netThread_;  // last: it uses all of the above

@@ -82,6 +82,8 @@ class Session {
     // The picture of this frame is finished (its fence has signalled). Blocks until it is released
     // or overtaken.
     virtual Release readyThenWait(Frame frame) = 0;
+    // A vertical blank of the node's display, as its driver counts and dates it (CLOCK_MONOTONIC).
+    virtual void sawBlank(std::uint64_t count, std::chrono::nanoseconds at) = 0;
     // What the keys of a window ask of the show: its end, and whether the world stands still.
     virtual void quit() = 0;
     virtual void freeze(bool frozen) = 0;

@@ -231,12 +231,23 @@ session::Release ChannelShow::play() {
         if (release == session::Release::Skip) continue;
         if (seen) context_.swap();
         times.present = now();
+        watchBlanks(state->frame);
         trace_.write(state->frame, times);
         if (film_ && isFilmed(state->frame)) film(state->frame);
         undrawn_ = seen ? std::nullopt : state;
         if (!std::exchange(shown_, true)) logInfo("showing");
     }
     return session_.interruption();
+}
+
+// Not after every frame: it asks the display server.
+void ChannelShow::watchBlanks(Frame frame) {
+    constexpr std::uint64_t kEvery = 16;
+    if (frame.value % kEvery != 0) return;
+    const auto blank = context_.lastBlank();
+    if (!blank) return;
+    const bool isOurClock = blank->at <= now() && now() - blank->at < std::chrono::seconds(1);
+    if (isOurClock) session_.sawBlank(blank->count, blank->at);
 }
 
 // A lost context takes all textures and programs with it. The node ends; a new process builds

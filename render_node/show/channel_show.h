@@ -136,6 +136,7 @@ class ChannelShow {
     void fillWindow();
     // Throws Error where the context is lost.
     void film(Frame frame);
+    void watchBlanks(Frame frame);
     void refuseLoss() const;
     // Sends the food that a visitor has dropped, as places of the world.
     void feed(const wire::Eye& eye);

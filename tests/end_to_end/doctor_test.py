@@ -43,6 +43,8 @@ class Doctor(unittest.TestCase):
         self.assertEqual(found["key left"][0][0], "fail")
 
     def test_a_running_show_tells_of_its_nodes_and_of_one_that_is_missing(self):
+        # Shown without a display, so that the monitor of the rig is not there.
+        self.rig.write_text(self.rig.read_text().replace("mode: WINDOW", "mode: FULLSCREEN", 1))
         self.processes = [start("master", self.rig, "--pattern", "grid")]
         for name in ("left", "middle"):
             self.processes.append(start("node", name, "--master", control_address(self.rig), "--headless"))
@@ -53,8 +55,10 @@ class Doctor(unittest.TestCase):
         self.assertEqual(found["node right"][0][0], "fail")
         self.assertIn("absent", found["node right"][0][1])
         said = " ".join(what for _, what, _ in found["node left"])
-        for word in ("in step", "OpenGL", "build 0.1.0", "round trip", "free"):
+        for word in ("in step", "OpenGL", "build 0.1.0", "round trip", "jitter", "real-time", "free"):
             self.assertIn(word, said)
+        self.assertIn("monitor 0 of 0", said)
+        self.assertNotIn("monitor", " ".join(what for _, what, _ in found["node middle"]))
         text = aquarama("doctor", self.rig)
         self.assertRegex(text.stdout, r"fail +node right +absent")
 

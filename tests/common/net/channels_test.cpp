@@ -2,17 +2,26 @@
 // The same promises for both kinds of channels, and over real sockets what strangers may do.
 #include "common/net/channels.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <mutex>
 #include <random>
 #include <thread>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <zmq.hpp>
@@ -218,6 +227,126 @@ TEST_F(Keyed, noKeyAnUnknownKeyAndAnotherMastersAreNotHeard) {
     EXPECT_FALSE(hears(*unknown));
     EXPECT_FALSE(hears(*fooled)) << "it thinks the master somebody else";
     EXPECT_TRUE(hears(*nodeWith(left_), seconds(10))) << "the others are none the worse";
+}
+
+// Of this process, in bytes.
+std::size_t residentMemory() {
+    std::ifstream file("/proc/self/statm");
+    std::size_t total = 0, resident = 0;
+    file >> total >> resident;
+    return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+// A connection to an address of ZeroMQ that speaks as it likes.
+class RawConnection {
+  public:
+    explicit RawConnection(const std::string& address) : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
+        sockaddr_in to{};
+        to.sin_family = AF_INET;
+        to.sin_port =
+            htons(static_cast<std::uint16_t>(std::stoi(address.substr(address.rfind(':') + 1))));
+        to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        isOpen_ =
+            socket_ >= 0 && connect(socket_, reinterpret_cast<sockaddr*>(&to), sizeof to) == 0;
+    }
+    ~RawConnection() {
+        if (socket_ >= 0) close(socket_);
+    }
+    RawConnection(RawConnection&& other) noexcept
+        : socket_(std::exchange(other.socket_, -1)), isOpen_(other.isOpen_) {}
+    RawConnection& operator=(RawConnection&&) = delete;
+    RawConnection(const RawConnection&) = delete;
+    RawConnection& operator=(const RawConnection&) = delete;
+
+    [[nodiscard]] bool isOpen() const { return isOpen_; }
+    void say(const std::string& raw) const {
+        ASSERT_EQ(send(socket_, raw.data(), raw.size(), MSG_NOSIGNAL),
+                  static_cast<ssize_t>(raw.size()));
+    }
+    // Whether the other end hangs up within so long; what it says is thrown away.
+    [[nodiscard]] bool isCutOffWithin(milliseconds within) const {
+        const Instant giveUp = monotonicNow() + within;
+        while (monotonicNow() < giveUp) {
+            pollfd poll{socket_, POLLIN, 0};
+            if (::poll(&poll, 1, 50) <= 0) continue;
+            std::array<char, 4096> heard{};
+            if (recv(socket_, heard.data(), heard.size(), 0) <= 0) return true;
+        }
+        return false;
+    }
+
+  private:
+    int socket_;
+    bool isOpen_ = false;
+};
+
+// ZMTP 3.0: a greeting that asks for CURVE, and a command that claims to be a gibibyte long.
+TEST_F(Keyed, aLengthOfAGibibyteTakesNoMemory) {
+    std::string greeting = std::string("\xff\0\0\0\0\0\0\0\1\x7f\3\0", 12) + "CURVE";
+    greeting.resize(64);
+    const std::size_t before = residentMemory();
+    const RawConnection raw(master_->controlAddress());
+    ASSERT_TRUE(raw.isOpen());
+    raw.say(greeting);
+    raw.say(std::string("\6\0\0\0\0\x40\0\0\0", 9));
+    raw.say(std::string(1000, 'x'));
+    EXPECT_TRUE(raw.isCutOffWithin(seconds(10)));
+    EXPECT_LT(residentMemory(), before + (64U << 20U));
+    EXPECT_TRUE(hears(*nodeWith(right_), seconds(10)));
+}
+
+// The sender has a key; its message is as long as ZeroMQ lets it.
+TEST_F(Keyed, aTooLongMessageCutsOffItsSenderAlone) {
+    const auto left = nodeWith(left_);
+    const auto right = nodeWith(right_);
+    ASSERT_TRUE(hears(*left, seconds(10)));
+    ASSERT_TRUE(hears(*right, seconds(10)));
+    left->sendControl(ByteVector(PacketLimits{}.toMaster + 1));
+    EXPECT_TRUE(hears(*right, seconds(10)));
+    const Instant end = monotonicNow() + milliseconds(300);
+    while (monotonicNow() < end) {
+        master_->wait(milliseconds(10));
+        while (const auto heard = master_->receiveControl())
+            EXPECT_LE(heard->bytes.size(), PacketLimits{}.toMaster);
+    }
+}
+
+// Each costs ZeroMQ a session until its two seconds for a handshake are over. In a soak, which
+// takes more than a minute, ten thousand.
+TEST_F(Keyed, hundredsOfConnectionsThatSayNothingKeepNobodyOut) {
+    rlimit files{};
+    getrlimit(RLIMIT_NOFILE, &files);
+    files.rlim_cur = files.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &files);
+    const auto right = nodeWith(right_);
+    ASSERT_TRUE(hears(*right, seconds(10)));
+    std::vector<RawConnection> silent;
+    // Both ends of each are in this process.
+    const std::size_t most = std::getenv("AQUARAMA_SOAK") != nullptr ? 10000 : 500;
+    const std::size_t wanted = std::min<std::size_t>(most, files.rlim_max / 2 - 200);
+    for (std::size_t i = 0; i < wanted; ++i) {
+        silent.emplace_back(master_->controlAddress());
+        if (i % 100 == 0) {
+            EXPECT_TRUE(hears(*right, seconds(10)));
+        }
+    }
+    std::cout << "[ INFO     ] " << silent.size() << " connections\n";
+    EXPECT_TRUE(hears(*right, seconds(10)));
+    EXPECT_TRUE(hears(*nodeWith(left_), seconds(10))) << "who comes now";
+    EXPECT_TRUE(silent.front().isCutOffWithin(seconds(10)));
+}
+
+// It is let in again ten seconds after the first of them: not waited for here.
+TEST_F(Keyed, whoConnectsWithOneKeyAgainAndAgainIsRefusedForAWhileAndTheOthersAreNot) {
+    const auto right = nodeWith(right_);
+    ASSERT_TRUE(hears(*right, seconds(10)));
+    int heard = 0;
+    for (int connection = 0; connection < 130; ++connection)
+        if (hears(*nodeWith(left_), milliseconds(connection < 100 ? 5000 : 100))) ++heard;
+    EXPECT_GE(heard, 50);
+    EXPECT_LE(heard, 100);
+    EXPECT_TRUE(hears(*right, seconds(10)));
+    EXPECT_EQ(user_, "node right");
 }
 
 // Within two seconds; the other comes back over a connection of its own accord.

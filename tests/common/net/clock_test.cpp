@@ -85,5 +85,29 @@ TEST(ClockOffset, ignoresAnEchoFromTheFuture) {
     EXPECT_FALSE(clock.offset(milliseconds(10)));
 }
 
+// Blanks are dated to 0.1 ms, and not all are seen.
+TEST(BlankMeter, findsThePeriodOfADisplay) {
+    std::mt19937 random(7);
+    BlankMeter meter;
+    const Instant period{16'683'350};
+    for (std::uint64_t count = 1000; count < 1400; count += 1 + random() % 30)
+        meter.add(count, period * count + microseconds(random() % 100));
+    ASSERT_TRUE(meter.blanks());
+    EXPECT_NEAR(static_cast<double>(meter.blanks()->period.count()), 16'683'350, 500);
+}
+
+TEST(BlankMeter, knowsNothingForASecondAndAfterAJump) {
+    BlankMeter meter;
+    const Instant period = milliseconds(16);
+    for (std::uint64_t count = 1; count <= 60; ++count) meter.add(count, period * count);
+    EXPECT_FALSE(meter.blanks());
+    meter.add(80, period * 80);
+    EXPECT_TRUE(meter.blanks());
+    meter.add(20, period * 81);  // another display
+    EXPECT_FALSE(meter.blanks());
+    meter.add(1000000, period * 82);  // a driver that counts nonsense
+    EXPECT_FALSE(meter.blanks());
+}
+
 }  // namespace
 }  // namespace aquarama::net

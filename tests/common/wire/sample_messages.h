@@ -132,6 +132,8 @@ inline v1::NodeReport sampleReport() {
     report.set_unanswered_percent(0);
     report.set_clock_drift_ppm(-12.5F);
     report.set_gpu_celsius(61.5F);
+    report.set_real_time(true);
+    report.set_jitter_ms(0.125F);
     return report;
 }
 
@@ -147,6 +149,13 @@ inline v1::Envelope sampleLogLine() {
     line.set_severity(v1::LOG_WARNING);
     line.set_frame(41);
     line.set_text("left: no master answers; still trying");
+    return message;
+}
+
+inline v1::Envelope readyWithBlanks() {
+    v1::Envelope message = test::ready(14);
+    message.mutable_ready()->set_blank_ns(987654321);
+    message.mutable_ready()->set_blank_period_ns(16683350);
     return message;
 }
 
@@ -194,6 +203,7 @@ inline std::vector<Packet> samplePackets() {
         test::beacon(),
         test::ready(12, 11, -5),
         test::ready(13),
+        readyWithBlanks(),
         test::present(12, 123456789012345),
         test::dismissed("silent"),
         test::farewell(),

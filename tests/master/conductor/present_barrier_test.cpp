@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <random>
 #include <utility>
 #include <vector>
@@ -371,6 +372,132 @@ TEST(PresentBarrier, neverPresentsWhatTheWaitSetIsNotReadyFor) {
         }
         EXPECT_GT(frame, 100U);
     }
+}
+
+// Displays that are not locked to each other, each with a node that swaps when it is told to, and
+// shows the frame at the blank that follows.
+class UnlockedDisplays {
+  public:
+    // Hertz of each; phases, and all that wavers, are drawn from the seed.
+    UnlockedDisplays(unsigned seed, const std::vector<double>& hertz) : random_(seed) {
+        for (const double rate : hertz)
+            blanks_.push_back(
+                {net::Instant{uniform(0, 16'000'000)}, net::Instant{std::llround(1e9 / rate)}});
+    }
+
+    // As they are reported: up to half a second old, and 0.1 ms beside the truth.
+    std::vector<net::Blanks> reported(net::Instant now) {
+        std::vector<net::Blanks> all = blanks_;
+        for (net::Blanks& display : all) {
+            const net::Instant moment = now - net::Instant{uniform(0, 500'000'000)};
+            display.last =
+                next(display, moment) - display.period + net::Instant{uniform(-100'000, 100'000)};
+        }
+        return all;
+    }
+    // Shows the next frame everywhere. Swaps are up to 0.5 ms late.
+    void release(net::Instant at) {
+        std::vector<net::Instant> shown;
+        for (const net::Blanks& display : blanks_)
+            shown.push_back(next(display, at + net::Instant{uniform(0, 500'000)}));
+        shownAt_.push_back(std::move(shown));
+    }
+    // The latest display's blank of a frame after the earliest's, the worst of all frames.
+    net::Instant worstSpread() const {
+        net::Instant worst{};
+        for (const auto& shown : shownAt_) {
+            const auto [first, last] = std::ranges::minmax(shown);
+            worst = std::max(worst, last - first);
+        }
+        return worst;
+    }
+    // How often a display showed a frame not for just one of its periods.
+    int irregular() const {
+        int count = 0;
+        for (std::size_t frame = 1; frame < shownAt_.size(); ++frame)
+            for (std::size_t i = 0; i < blanks_.size(); ++i)
+                if (shownAt_[frame][i] - shownAt_[frame - 1][i] != blanks_[i].period) ++count;
+        return count;
+    }
+    net::Instant uniform(net::Instant least, net::Instant most) {
+        return net::Instant{uniform(least.count(), most.count())};
+    }
+
+  private:
+    std::int64_t uniform(std::int64_t least, std::int64_t most) {
+        return std::uniform_int_distribution(least, most)(random_);
+    }
+    static net::Instant next(const net::Blanks& display, net::Instant after) {
+        return display.last +
+               ((after - display.last) / display.period + 1) * display.period;  // after > last
+    }
+
+    std::mt19937_64 random_;
+    std::vector<net::Blanks> blanks_;
+    std::vector<std::vector<net::Instant>> shownAt_;
+};
+
+constexpr net::Instant kRefresh{16'666'667};
+
+// A minute. All are ready 3 to 12 ms after the last release, and a release needs 2 ms.
+void playMinute(UnlockedDisplays& displays, bool knowsPhases) {
+    net::Instant last = std::chrono::seconds(1);
+    while (last < std::chrono::seconds(61)) {
+        const net::Instant earliest = last + displays.uniform(milliseconds(5), milliseconds(14));
+        const auto phases = knowsPhases ? displays.reported(earliest) : std::vector<net::Blanks>{};
+        last = releaseTime(earliest, last, kRefresh, phases);
+        displays.release(last);
+    }
+}
+
+// Of three phases two neighbours are a third of the circle apart or more; a gap is kept until
+// another is a quarter wider.
+constexpr net::Instant kSpreadOfThree = kRefresh - kRefresh * 4 / 15 + milliseconds(1);
+
+TEST(ReleaseTime, framesNeverMixOnUnlockedDisplaysOfOneRate) {
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        UnlockedDisplays displays(seed, {59.94, 59.94, 59.94});
+        playMinute(displays, true);
+        EXPECT_LT(displays.worstSpread(), kSpreadOfThree) << "seed " << seed;
+        // The gap that it begins in may be just too narrow to be kept: one change.
+        EXPECT_LE(displays.irregular(), 3) << "seed " << seed;
+    }
+}
+
+// Quartzes 50 ppm apart: phases pass each other every few minutes.
+TEST(ReleaseTime, followsDisplaysThatDriftAgainstEachOther) {
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        UnlockedDisplays displays(seed, {60.003, 60.0, 59.997});
+        playMinute(displays, true);
+        EXPECT_LT(displays.worstSpread(), kSpreadOfThree) << "seed " << seed;
+        EXPECT_LE(displays.irregular(), 6) << "seed " << seed;  // one or two changes of gap
+    }
+}
+
+TEST(ReleaseTime, withoutPhasesFramesDoMixInTheSameSimulation) {
+    UnlockedDisplays displays(1, {59.94, 59.94, 59.94});
+    playMinute(displays, false);
+    EXPECT_GT(displays.worstSpread(), kSpreadOfThree);
+    EXPECT_GT(displays.irregular(), 0);
+}
+
+TEST(ReleaseTime, isOneRefreshAfterTheLastWhereNoDisplayTellsItsPhase) {
+    EXPECT_EQ(releaseTime(milliseconds(105), milliseconds(100), kRefresh, {}),
+              milliseconds(100) + kRefresh);
+    EXPECT_EQ(releaseTime(milliseconds(130), milliseconds(100), kRefresh, {}), milliseconds(130));
+}
+
+// Blanks at 0 and 4 ms of each 16: the gap is from 5 to 15.
+TEST(ReleaseTime, isTheFirstMomentInTheWidestGap) {
+    const std::vector<net::Blanks> displays{{milliseconds(160), milliseconds(16)},
+                                            {milliseconds(164), milliseconds(16)}};
+    const auto release = [&](int earliest, int last) {
+        return releaseTime(milliseconds(earliest), milliseconds(last), kRefresh, displays);
+    };
+    EXPECT_EQ(release(161, 149), milliseconds(165));  // waits for the gap
+    EXPECT_EQ(release(168, 149), milliseconds(168));  // is in it
+    EXPECT_EQ(release(176, 149), milliseconds(181));  // is past it
+    EXPECT_EQ(release(168, 166), milliseconds(181));  // this gap has its frame
 }
 
 TEST(RecentTimes, giveQuantilesOfTheLastTenSeconds) {

@@ -220,6 +220,107 @@ TEST(Show, nodesFindAMasterThatWasStartedAgain) {
     EXPECT_GE(nodes[0]->joins(), 2);
 }
 
+// A show with keys over the loopback: those of the nodes, of a visitor and of a watcher.
+class KeyedShow : public testing::Test {
+  protected:
+    static net::Allowed allowedOf(const std::map<std::string, net::KeyPair>& keys) {
+        net::Allowed allowed;
+        for (const auto& [user, pair] : keys) allowed.emplace(pair.publicKey, user);
+        return allowed;
+    }
+    net::Connect connect(const std::string& user) {
+        return [this, own = keys_.at(user)] {
+            return net::connectNode(
+                master_.control(), {}, net::PeerKeys{masterKeys_.publicKey, own});
+        };
+    }
+
+    const net::KeyPair masterKeys_ = net::makeKeyPair();
+    const std::map<std::string, net::KeyPair> keys_{{"node left", net::makeKeyPair()},
+                                                    {"node middle", net::makeKeyPair()},
+                                                    {"node right", net::makeKeyPair()},
+                                                    {"visitor phone", net::makeKeyPair()},
+                                                    {"watcher board", net::makeKeyPair()}};
+    test::StageMaster master_{
+        ConductorOptions{},
+        net::bindMaster("tcp://127.0.0.1:*",
+                        "tcp://127.0.0.1:*",
+                        {},
+                        net::MasterKeys{masterKeys_, [this] { return allowedOf(keys_); }})};
+};
+
+// Says again and again, with its own key, what another has said, and answers that are none of its.
+void flood(net::NodeChannels& channels,
+           const std::vector<net::ByteVector>& packets,
+           const std::atomic<bool>& ended) {
+    while (!ended) {
+        for (const net::ByteVector& packet : packets) channels.sendControl(packet);
+        while (channels.receiveControl()) {
+        }
+    }
+}
+
+// What a node has said, overheard from its own end of the cable.
+class Overheard final : public net::NodeChannels {
+  public:
+    Overheard(std::unique_ptr<net::NodeChannels> inner,
+              std::mutex& mutex,
+              std::vector<net::ByteVector>& said)
+        : inner_(std::move(inner)), mutex_(mutex), said_(said) {}
+    void sendControl(net::ByteView bytes) override {
+        inner_->sendControl(bytes);
+        const std::lock_guard lock(mutex_);
+        if (said_.size() < 500) said_.emplace_back(bytes.begin(), bytes.end());
+    }
+    std::optional<net::ByteVector> receiveControl() override { return inner_->receiveControl(); }
+    void subscribeState(const std::string& address) override { inner_->subscribeState(address); }
+    std::optional<net::ByteVector> receiveState() override { return inner_->receiveState(); }
+    void wait(net::Instant atMost) override { inner_->wait(atMost); }
+    void wake() override { inner_->wake(); }
+
+  private:
+    std::unique_ptr<net::NodeChannels> inner_;
+    std::mutex& mutex_;
+    std::vector<net::ByteVector>& said_;
+};
+
+TEST_F(KeyedShow, floodsAndReplaysByHoldersOfKeysEndNothing) {
+    test::Journal journal;
+    std::mutex mutex;
+    std::vector<net::ByteVector> said;
+    const auto overheard = [&, inner = connect("node left")] {
+        return std::make_unique<Overheard>(inner(), mutex, said);
+    };
+    test::StageNode left("left", overheard, journal);
+    test::StageNode middle("middle", connect("node middle"), journal);
+    test::StageNode right("right", connect("node right"), journal);
+    for (const std::string& name : kNames) ASSERT_TRUE(journal.awaitPresented(name, 30)) << name;
+
+    std::vector<net::ByteVector> replayed;
+    {
+        const std::lock_guard lock(mutex);
+        replayed = said;
+    }
+    // Farewells and hellos of another, settings, questions, noise.
+    for (const v1::Envelope& message :
+         {test::farewell(), test::hello("left"), test::hello("nobody"), test::statusRequest()})
+        replayed.push_back(wire::encode(1, message));
+    replayed.emplace_back(60000, std::byte{0xA5});
+    std::atomic<bool> ended = false;
+    std::vector<std::thread> floods;
+    for (const char* user : {"visitor phone", "watcher board"})
+        floods.emplace_back([&, channels = std::shared_ptr(connect(user)())] {
+            flood(*channels, replayed, ended);
+        });
+    for (const std::string& name : kNames)
+        EXPECT_TRUE(journal.awaitPresented(name, journal.presentedBy(name) + 100)) << name;
+    ended = true;
+    for (std::thread& thread : floods) thread.join();
+    for (const test::StageNode* node : {&left, &middle, &right}) EXPECT_EQ(node->joins(), 1);
+    master_.conductor().stop();
+    EXPECT_GT(master_.report().refusedPackets, 1000U);
+}
+
 TEST(Show, anyNodeMayEndIt) {
     test::StageMaster master(ConductorOptions{});
     test::Journal journal;

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <future>
+#include <thread>
+
 #include <gtest/gtest.h>
 
 #include "render_node/session/master_link.h"
@@ -34,6 +38,25 @@ TEST(Mailbox, liveGivesTheNewest) {
     mailbox.put(stateOf(1));
     mailbox.put(stateOf(3));
     EXPECT_EQ(taken(mailbox), 3U);
+}
+
+// The render thread already waits when it comes, and has shown frame 9 of the run before.
+TEST(Mailbox, theFirstFrameOfAnotherMasterMayComeBeforeItsStart) {
+    Mailbox mailbox;
+    mailbox.start(wire::Pace::Live, {9});
+    mailbox.put(stateOf(9));
+    EXPECT_EQ(taken(mailbox), 9U);
+    mailbox.interrupt(Release::Rejoin);
+    mailbox.expectJoin();
+    auto waiting = std::async(std::launch::async, [&] { return mailbox.takeState(); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    mailbox.put(stateOf(0));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    mailbox.start(wire::Pace::Live, {0});
+    const auto came = waiting.wait_for(std::chrono::seconds(5));
+    mailbox.interrupt(Release::Quit);
+    EXPECT_EQ(came, std::future_status::ready);
+    EXPECT_TRUE(waiting.get());
 }
 
 TEST(Mailbox, keepsOnlyTheLastFewStates) {

@@ -54,6 +54,7 @@ class FakeSession : public session::Session {
         script_.pop_front();
         return answer;
     }
+    void sawBlank(std::uint64_t /*count*/, std::chrono::nanoseconds /*at*/) override {}
     void quit() override { events_.emplace_back("quit"); }
     void freeze(bool frozen) override { events_.emplace_back(frozen ? "freeze" : "thaw"); }
     void describe(const session::NodeFacts& facts) override { facts_ = facts; }
