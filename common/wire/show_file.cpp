@@ -70,8 +70,12 @@ fs::path keptShowOf(const std::string& rigPath) {
 
 ShowChange readKeptShow(const fs::path& path) {
     if (!fs::exists(path)) return {};
+    return parseKeptShow(config::readTextFile(path.string()), path.string());
+}
+
+ShowChange parseKeptShow(const std::string& text, const std::string& source) {
     v1::WantedShow in;
-    config::TextReader file(config::readTextFile(path.string()), path.string(), in);
+    config::TextReader file(text, source, in);
     file.check();
     ShowChange kept;
     if (in.has_scene()) kept.scene = in.scene();

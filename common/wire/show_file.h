@@ -42,6 +42,8 @@ struct ShowChange {
 [[nodiscard]] std::filesystem::path keptShowOf(const std::string& rigPath);
 // Nothing is set where there is no such file. Throws Error where it is malformed.
 [[nodiscard]] ShowChange readKeptShow(const std::filesystem::path& path);
+// The same of its text; `source` names it in errors.
+[[nodiscard]] ShowChange parseKeptShow(const std::string& text, const std::string& source);
 // Throws Error where it cannot be written.
 void keepShow(const std::filesystem::path& path, const ShowChange& kept);
 

@@ -113,6 +113,7 @@ Conductor::Conductor(const config::Rig& rig,
       session_(freshSession()),
       barrier_(namesOf(rig, options_).size(), limitsOf(rig.timing, options_), net::monotonicNow()),
       refresh_(fromSeconds(1.0 / rig.timing.refreshHertz)),
+      deadline_(limitsOf(rig.timing, options_).deadline),
       trace_(openTrace(options_.traceDirectory)),
       keptOnDisk_(options_.kept),
       metrics_(isLockstep() ? std::uint16_t{0} : rig.metricsPort) {
@@ -244,7 +245,7 @@ void Conductor::conduct(net::Instant now) {
             beginNext(now);
         }
     }
-    if (now - lastRepeat_ > kRepeat) publishAgain(now);
+    if (now - lastRepeat_ > repeatAfter_) publishAgain(now);
 }
 
 void Conductor::beginNext(net::Instant now) {
@@ -315,6 +316,7 @@ bool Conductor::publish(Frame frame, net::Instant now) {
     publishedBytes_ += packet.size();
     if (options_.log != nullptr) options_.log->masterFrame = frame.value;
     lastPublished_ = lastRepeat_ = net::monotonicNow();
+    repeatAfter_ = isLockstep() ? kRepeat : deadline_;
     if (trace_.is_open()) trace_ << frame.value << ',' << lastPublished_.count() << ",,\n";
     if (published_.size() > 2) published_.erase(published_.begin());
     unpublished_ = {frame.value + 1};
@@ -333,10 +335,12 @@ void Conductor::noteEye(const wire::StateView& state) {
     eye_ = state.eye;
 }
 
-// Where all wait for a state that was lost on its way, it must come again.
+// Where all wait for a state that was lost on its way, it must come again; less and less often, as
+// they may just be slow.
 void Conductor::publishAgain(net::Instant now) {
     for (const auto& [frame, packet] : published_) channels_->publishState(packet);
     lastRepeat_ = now;
+    repeatAfter_ = std::min(2 * repeatAfter_, kRepeat);
 }
 
 void Conductor::say(const net::PeerId& peer, v1::Envelope message) {

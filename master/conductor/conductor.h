@@ -260,7 +260,7 @@ class Conductor {
     wire::Packet welcome_, beacon_;  // encoded once for many
     std::vector<ChannelSlot> slots_;
     PresentBarrier barrier_;
-    net::Instant refresh_;
+    net::Instant refresh_, deadline_;
     std::ofstream trace_;
     std::atomic<bool> stopped_ = false;
     bool over_ = false;
@@ -275,7 +275,7 @@ class Conductor {
     Frame unpublished_;                        // the first
     std::map<Frame, wire::Packet> published_;  // the last two: sent again to whoever may lack them
     net::Instant lastPublished_{};             // of anything, also of a beacon
-    net::Instant lastRepeat_{};
+    net::Instant lastRepeat_{}, repeatAfter_{};
     InputArbitration arbitration_;
     std::map<std::string, net::Instant> fed_;  // by user: when one that is no node last fed
     std::set<std::string> refused_;            // users that were told of in the log

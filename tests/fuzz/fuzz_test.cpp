@@ -82,6 +82,12 @@ TEST(Fuzz, damagedScenesAreRefusedOrReadWhole) {
     feed(fuzzScene, filesIn(AQUARAMA_SOURCE_DIR "/config/scenes/routines"), 3000);
 }
 
+TEST(Fuzz, damagedKeptShowsAreRefusedOrReadWhole) {
+    const std::string kept =
+        R"(version: 1 scene: "bait_ball" quality: HIGH pattern: GRID black: true freeze: false)";
+    feed(fuzzShow, {inputOf(std::as_bytes(std::span{kept}))}, 3000);
+}
+
 TEST(Fuzz, damagedRecordingsAreRefusedOrReadWithinBounds) {
     std::vector<FuzzInput> seeds{inputOf(wire::joined(wire::sampleEntries()))};
     for (const wire::Packet& entry : wire::sampleEntries()) seeds.push_back(inputOf(entry));

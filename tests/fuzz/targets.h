@@ -14,6 +14,7 @@ int fuzzSpecies(const std::uint8_t* bytes, std::size_t size);
 int fuzzRig(const std::uint8_t* bytes, std::size_t size);
 int fuzzKeys(const std::uint8_t* bytes, std::size_t size);
 int fuzzScene(const std::uint8_t* bytes, std::size_t size);
+int fuzzShow(const std::uint8_t* bytes, std::size_t size);
 int fuzzWire(const std::uint8_t* bytes, std::size_t size);
 int fuzzRecording(const std::uint8_t* bytes, std::size_t size);
 

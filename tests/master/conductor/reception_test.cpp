@@ -113,6 +113,18 @@ TEST_F(Reception, refusesAnotherMajorVersionByName) {
     EXPECT_THAT(refusal->refusal().reason(), testing::HasSubstr("9.9.9"));
 }
 
+// Live, where the others do not wait for one: a state that all missed is sent again.
+TEST_F(Reception, aStateThatNobodyAnswersComesAgain) {
+    const test::StageMaster master(ConductorOptions{}, net_.master());
+    Peer peer(net_);
+    ASSERT_TRUE(peer.join("left"));
+    const auto state = peer.seeState();
+    const auto again = peer.seeState();
+    ASSERT_TRUE(state && again);
+    EXPECT_EQ(again->frame, state->frame);
+    EXPECT_EQ(peer.present(state->frame.value), state->frame.value);
+}
+
 TEST_F(Reception, refusesAMachineWhoseMotorMovesFishElsewhere) {
     const test::StageMaster master(ConductorOptions{}, net_.master());
     Peer peer(net_);

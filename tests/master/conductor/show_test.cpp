@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole shows over real sockets: order, faults, start orders.
+#include <cstdlib>
+#include <fstream>
 #include <functional>
+#include <future>
 #include <map>
 #include <random>
 #include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "master/conductor/requests.h"
 #include "tests/support/stage.h"
@@ -220,6 +224,54 @@ TEST(Show, nodesFindAMasterThatWasStartedAgain) {
     EXPECT_GE(nodes[0]->joins(), 2);
 }
 
+std::size_t residentMebibytes() {
+    std::ifstream file("/proc/self/statm");
+    std::size_t total = 0, resident = 0;
+    file >> total >> resident;
+    return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) >> 20U;
+}
+
+// A node that counts its frames and keeps nothing. True where it saw each of them, once and in
+// order.
+bool seesAllFrames(session::Session& session, std::uint64_t frames) {
+    std::uint64_t next = 0;
+    while (session.join()) {
+        session.prepared(1, config::QualityTier::Low);
+        while (const auto state = session.nextFrame()) {
+            if (state->frame.value != next || state->tick.value != next) return false;
+            if (session.readyThenWait(state->frame) == session::Release::Present) ++next;
+        }
+        if (session.interruption() == session::Release::Quit) break;
+    }
+    return next == frames;
+}
+
+// The traffic of a session without sockets, in lockstep, as fast as it goes: of 20 minutes, in a
+// soak of 24 hours.
+TEST(Show, aDayOfFramesKeepsItsMemoryAndItsCounts) {
+    const bool isSoak = std::getenv("AQUARAMA_SOAK") != nullptr;
+    const std::uint64_t frames = 60U * 60U * (isSoak ? 24U * 60U : 2U);
+    test::MemoryNet net;
+    test::StageMaster master(lockstep(frames), net.master());
+    const auto blobs = test::freshDirectory();
+    std::vector<std::future<bool>> nodes;
+    for (const std::string& name : kNames)
+        nodes.push_back(std::async(std::launch::async, [&net, &blobs, name, frames] {
+            const auto session =
+                session::makeSession(name, [&net] { return net.node(); }, blobs);
+            return seesAllFrames(*session, frames);
+        }));
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    const std::size_t before = residentMebibytes();
+    const ShowReport report = master.report();
+    for (std::future<bool>& node : nodes) EXPECT_TRUE(node.get());
+    EXPECT_LT(residentMebibytes(), before + 16);
+    EXPECT_EQ(report.frames, frames);
+    EXPECT_EQ(report.tick.value, frames - 1);
+    EXPECT_EQ(report.refusedPackets, 0U);
+    std::filesystem::remove_all(blobs);
+}
+
 // A show with keys over the loopback: those of the nodes, of a visitor and of a watcher.
 class KeyedShow : public testing::Test {
   protected:
@@ -257,6 +309,7 @@ void flood(net::NodeChannels& channels,
         for (const net::ByteVector& packet : packets) channels.sendControl(packet);
         while (channels.receiveControl()) {
         }
+        std::this_thread::sleep_for(milliseconds(5));  // 100 000 packets a second are enough
     }
 }
 
@@ -313,7 +366,7 @@ TEST_F(KeyedShow, floodsAndReplaysByHoldersOfKeysEndNothing) {
             flood(*channels, replayed, ended);
         });
     for (const std::string& name : kNames)
-        EXPECT_TRUE(journal.awaitPresented(name, journal.presentedBy(name) + 100)) << name;
+        EXPECT_TRUE(journal.awaitPresented(name, journal.presentedBy(name) + 60)) << name;
     ended = true;
     for (std::thread& thread : floods) thread.join();
     for (const test::StageNode* node : {&left, &middle, &right}) EXPECT_EQ(node->joins(), 1);
