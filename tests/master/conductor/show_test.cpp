@@ -257,8 +257,8 @@ TEST(Show, aDayOfFramesKeepsItsMemoryAndItsCounts) {
     std::vector<std::future<bool>> nodes;
     for (const std::string& name : kNames)
         nodes.push_back(std::async(std::launch::async, [&net, &blobs, name, frames] {
-            const auto session =
-                session::makeSession(name, [&net] { return net.node(); }, blobs);
+            const auto session = session::makeSession(
+                name, [&net] { return net.node(); }, blobs);
             return seesAllFrames(*session, frames);
         }));
     std::this_thread::sleep_for(std::chrono::seconds(1));
