@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <vector>
 
-#include <pthread.h>
 #include <sched.h>
 #include <sys/timex.h>
 
@@ -18,9 +17,11 @@ Instant monotonicNow() {
 }
 
 bool runInRealTime(bool wanted) {
+    // By the kernel's call, of which the C library keeps no note: pthread_setschedparam's would pass
+    // on to new threads, whose priority the kernel has reset, and libzmq 4.3.5 ends on that conflict.
     const sched_param priority{.sched_priority = wanted ? 10 : 0};
     const int policy = wanted ? SCHED_RR : SCHED_OTHER;
-    return pthread_setschedparam(pthread_self(), policy | SCHED_RESET_ON_FORK, &priority) == 0;
+    return sched_setscheduler(0, policy | SCHED_RESET_ON_FORK, &priority) == 0;
 }
 
 bool isClockSynchronised() {
