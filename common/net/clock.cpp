@@ -17,8 +17,9 @@ Instant monotonicNow() {
 }
 
 bool runInRealTime(bool wanted) {
-    // By the kernel's call, of which the C library keeps no note: pthread_setschedparam's would pass
-    // on to new threads, whose priority the kernel has reset, and libzmq 4.3.5 ends on that conflict.
+    // By the kernel's call, of which the C library keeps no note: pthread_setschedparam's would
+    // pass on to new threads, whose priority the kernel has reset, and libzmq 4.3.5 ends on that
+    // conflict.
     const sched_param priority{.sched_priority = wanted ? 10 : 0};
     const int policy = wanted ? SCHED_RR : SCHED_OTHER;
     return sched_setscheduler(0, policy | SCHED_RESET_ON_FORK, &priority) == 0;
