@@ -57,6 +57,9 @@ class Findings {
         if (isGood) return pass(std::move(subject), std::move(what));
         all_.push_back({otherwise, std::move(subject), std::move(what), std::move(todo)});
     }
+    void fail(std::string subject, std::string problem) {
+        all_.push_back({Verdict::Fail, std::move(subject), std::move(problem), {}});
+    }
     // Passes where `check()`, which returns what it found, throws no Error; that says what to do.
     template <class Check>
     bool attempt(const std::string& subject, Check check) {
@@ -64,7 +67,7 @@ class Findings {
             pass(subject, check());
             return true;
         } catch (const Error& problem) {
-            all_.push_back({Verdict::Fail, subject, problem.what(), {}});
+            fail(subject, problem.what());
             return false;
         }
     }
@@ -94,15 +97,19 @@ double daysSince(const std::string& day) {
 }
 
 void lookAtKey(Findings& findings, const fs::path& folder, const std::string& name) {
-    findings.attempt("key " + name, [&] {
+    try {
         const config::KeyFile key = config::readKeyFile(config::keyFileIn(folder, name));
         if (!key.revoked.empty())
             throw Error("was revoked on " + key.revoked + "; aquarama keys rotate makes another");
         const double days = daysSince(key.made);
-        return fmt::format("{:.0f} days old{}",
-                           days,
-                           days > kOldKeyDays ? "; aquarama keys rotate makes another" : "");
-    });
+        findings.judge(days <= kOldKeyDays,
+                       Verdict::Warn,
+                       "key " + name,
+                       fmt::format("{:.0f} days old", days),
+                       "older than a year: aquarama keys rotate makes another");
+    } catch (const Error& problem) {
+        findings.fail("key " + name, problem.what());
+    }
 }
 
 // Whether an interface of this machine has the address of the rig.

@@ -246,7 +246,7 @@ bool seesAllFrames(session::Session& session, std::uint64_t frames) {
     return next == frames;
 }
 
-// The traffic of a session without sockets, in lockstep, as fast as it goes: of 20 minutes, in a
+// The traffic of a session without sockets, in lockstep, as fast as it goes: of two minutes, in a
 // soak of 24 hours.
 TEST(Show, aDayOfFramesKeepsItsMemoryAndItsCounts) {
     const bool isSoak = std::getenv("AQUARAMA_SOAK") != nullptr;
