@@ -5,13 +5,15 @@
 #include <cassert>
 #include <cmath>
 #include <csetjmp>
-#include <cstdio>
-#include <memory>
-#include <string_view>
+#include <cstring>
+#include <fstream>
+#include <new>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <png.h>
 
+#include "common/base/files.h"
 #include "common/base/hash.h"
 #include "common/base/log.h"
 
@@ -112,7 +114,8 @@ glm::vec3 bilinear(const Light& light, glm::dvec2 pixel) {
 }
 
 // libpng reports errors by longjmp, which runs no destructors: so the functions that it may jump
-// out of (readRows, writeRows) own nothing, and what they fill belongs to their callers.
+// out of (readHeader, readRows, writeRows) own nothing, and what they fill belongs to their
+// callers.
 
 namespace {
 
@@ -120,20 +123,18 @@ namespace {
 constexpr png_uint_32 kLargest = 16384;
 // A small file could otherwise make the program allocate all memory of the machine.
 constexpr png_uint_32 kMostPixels = 1U << 26;
+// What such a picture of 16 bits has at most, with the headers.
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 29;
 // A snapshot takes a second to compress at this level, and five at the best.
 constexpr int kCompression = 3;
 
-// Closes a file that an error leaves open; a written file is closed by hand, to see whether that
-// succeeds.
-struct Closer {
-    void operator()(std::FILE* file) const { (void)std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, Closer>;
-
-// The state of a read or write. Owned by readPng() or writePng(), which longjmp() does not leave.
+// The state of a read or write. Owned by decodePng() or encodePng(), which longjmp() does not
+// leave.
 struct Job {
     png_structp png = nullptr;
     png_infop info = nullptr;
+    std::span<const std::byte> file;  // what is still to be read
+    std::vector<std::byte> written;
     std::vector<png_byte> bytes;
     std::vector<png_bytep> rows;
     std::string complaint;
@@ -147,13 +148,38 @@ void remember(png_structp png, png_const_charp what) {
 
 void ignore(png_structp /*png*/, png_const_charp /*warning*/) {}
 
-std::size_t rowBytes(const Picture& picture) {
-    return static_cast<std::size_t>(picture.sizePixels.x) * 3 *
-           static_cast<std::size_t>(picture.bits / 8);
+void take(png_structp png, png_bytep into, std::size_t count) {
+    auto& file = static_cast<Job*>(png_get_io_ptr(png))->file;
+    if (count > file.size()) png_error(png, "it is cut off");
+    std::memcpy(into, file.data(), count);
+    file = file.subspan(count);
+}
+
+// No exception may pass through libpng, and no jump may leave a handler.
+bool append(std::vector<std::byte>& bytes, std::span<const png_byte> more) {
+    try {
+        const auto* first = reinterpret_cast<const std::byte*>(more.data());
+        bytes.insert(bytes.end(), first, first + more.size());
+        return true;
+    } catch (const std::bad_alloc&) {
+        return false;
+    }
+}
+
+void give(png_structp png, png_bytep from, std::size_t count) {
+    if (!append(static_cast<Job*>(png_get_io_ptr(png))->written, {from, count}))
+        png_error(png, "out of memory");
+}
+
+void keepNothing(png_structp /*png*/) {}
+
+std::size_t rowBytes(const PngPicture& picture) {
+    return static_cast<std::size_t>(picture.sizePixels.x) *
+           static_cast<std::size_t>(picture.components * picture.bits / 8);
 }
 
 // Memory for the packed picture, and pointers to its rows, as libpng wants them.
-void makeRows(Job& job, const Picture& picture) {
+void makeRows(Job& job, const PngPicture& picture) {
     const auto height = static_cast<std::size_t>(picture.sizePixels.y);
     job.bytes.resize(rowBytes(picture) * height);
     for (std::size_t y = 0; y < height; ++y)
@@ -161,21 +187,21 @@ void makeRows(Job& job, const Picture& picture) {
 }
 
 // Size and depth into `picture`, and what libpng shall convert. False after an error.
-bool readHeader(Job& job, std::FILE* file, Picture& picture) {
+bool readHeader(Job& job, PngPicture& picture) {
     if (setjmp(png_jmpbuf(job.png)) != 0) return false;
-    png_init_io(job.png, file);
+    png_set_read_fn(job.png, &job, take);
     png_set_user_limits(job.png, kLargest, kLargest);
     png_read_info(job.png, job.info);
     if (png_get_image_width(job.png, job.info) * png_get_image_height(job.png, job.info) >
         kMostPixels)
         png_error(job.png, "too many pixels");
     png_set_expand(job.png);
-    png_set_gray_to_rgb(job.png);
     png_set_strip_alpha(job.png);
     (void)png_set_interlace_handling(job.png);
     png_read_update_info(job.png, job.info);
     picture.sizePixels = {static_cast<int>(png_get_image_width(job.png, job.info)),
                           static_cast<int>(png_get_image_height(job.png, job.info))};
+    picture.components = png_get_channels(job.png, job.info);
     picture.bits = png_get_bit_depth(job.png, job.info);
     return true;
 }
@@ -188,20 +214,20 @@ bool readRows(Job& job) {
     return true;
 }
 
-bool writeRows(Job& job, std::FILE* file, const Picture& picture) {
+bool writeRows(Job& job, const PngPicture& picture, PngMeaning meaning) {
     if (setjmp(png_jmpbuf(job.png)) != 0) return false;
-    png_init_io(job.png, file);
+    png_set_write_fn(job.png, &job, give, keepNothing);
     png_set_compression_level(job.png, kCompression);
     png_set_IHDR(job.png,
                  job.info,
                  static_cast<png_uint_32>(picture.sizePixels.x),
                  static_cast<png_uint_32>(picture.sizePixels.y),
                  picture.bits,
-                 PNG_COLOR_TYPE_RGB,
+                 picture.components == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY,
                  PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
-    png_set_sRGB(job.png, job.info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (meaning == PngMeaning::Srgb) png_set_sRGB(job.png, job.info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(job.png, job.info);
     png_write_image(job.png, job.rows.data());
     png_write_end(job.png, nullptr);
@@ -209,58 +235,85 @@ bool writeRows(Job& job, std::FILE* file, const Picture& picture) {
 }
 
 // From packed bytes to codes and back; 16-bit PNG is big-endian.
-void unpack(const std::vector<png_byte>& bytes, Picture& picture) {
+void unpack(const std::vector<png_byte>& bytes, PngPicture& picture) {
     const bool deep = picture.bits == 16;
-    picture.rgb.resize(deep ? bytes.size() / 2 : bytes.size());
-    for (std::size_t i = 0; i < picture.rgb.size(); ++i)
-        picture.rgb[i] =
+    picture.codes.resize(deep ? bytes.size() / 2 : bytes.size());
+    for (std::size_t i = 0; i < picture.codes.size(); ++i)
+        picture.codes[i] =
             deep ? static_cast<std::uint16_t>(bytes[2 * i] << 8 | bytes[2 * i + 1]) : bytes[i];
 }
 
-void pack(const Picture& picture, std::vector<png_byte>& bytes) {
+void pack(const PngPicture& picture, std::vector<png_byte>& bytes) {
     const bool deep = picture.bits == 16;
-    for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
-        if (deep) bytes[2 * i] = static_cast<png_byte>(picture.rgb[i] >> 8);
-        bytes[deep ? 2 * i + 1 : i] = static_cast<png_byte>(picture.rgb[i] & 0xff);
+    for (std::size_t i = 0; i < picture.codes.size(); ++i) {
+        if (deep) bytes[2 * i] = static_cast<png_byte>(picture.codes[i] >> 8);
+        bytes[deep ? 2 * i + 1 : i] = static_cast<png_byte>(picture.codes[i] & 0xff);
     }
+}
+
+std::vector<std::uint16_t> threeOfEach(const std::vector<std::uint16_t>& grey) {
+    std::vector<std::uint16_t> rgb;
+    rgb.reserve(3 * grey.size());
+    for (const std::uint16_t code : grey) rgb.insert(rgb.end(), 3, code);
+    return rgb;
 }
 
 }  // namespace
 
-Picture readPng(const std::string& path) {
-    const File file(std::fopen(path.c_str(), "rb"));
-    if (!file) throw Error(path + ": cannot be opened; check the path");
+PngPicture decodePng(std::span<const std::byte> bytes, const std::string& source) {
     Job job;
+    job.file = bytes;
     job.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, remember, ignore);
     job.info = png_create_info_struct(job.png);
-    Picture picture;
-    bool whole = readHeader(job, file.get(), picture);
+    PngPicture picture;
+    bool whole = readHeader(job, picture);
     if (whole) {
         makeRows(job, picture);
         whole = readRows(job);
     }
     png_destroy_read_struct(&job.png, &job.info, nullptr);
     if (!whole)
-        throw Error(path + ": is no whole PNG picture (" + job.complaint + "); write it anew");
+        throw Error(source + ": is no whole PNG picture (" + job.complaint + "); write it anew");
     unpack(job.bytes, picture);
     return picture;
 }
 
-void writePng(const std::string& path, const Picture& picture) {
+std::vector<std::byte> encodePng(const PngPicture& picture, PngMeaning meaning) {
     assert(picture.bits == 8 || picture.bits == 16);
-    assert(picture.rgb.size() * static_cast<std::size_t>(picture.bits / 8) ==
+    assert(picture.components == 1 || picture.components == 3);
+    assert(picture.codes.size() * static_cast<std::size_t>(picture.bits / 8) ==
            rowBytes(picture) * static_cast<std::size_t>(picture.sizePixels.y));
-    File file(std::fopen(path.c_str(), "wb"));
-    if (!file) throw Error(path + ": cannot be written; check the folder and its permissions");
     Job job;
     job.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, remember, ignore);
     job.info = png_create_info_struct(job.png);
     makeRows(job, picture);
     pack(picture, job.bytes);
-    const bool whole = writeRows(job, file.get(), picture);
+    const bool whole = writeRows(job, picture, meaning);
     png_destroy_write_struct(&job.png, &job.info);
-    if (!whole || std::fclose(file.release()) != 0)  // a full disk shows itself when closing
-        throw Error(path + ": writing failed; is the disk full?");
+    if (!whole)
+        throw Error("a picture cannot be written as PNG (" + job.complaint + "); make it smaller");
+    return std::move(job.written);
+}
+
+Picture readPng(const std::string& path) {
+    PngPicture read = decodePng(readWhole(path, kMostBytes), path);
+    return {.sizePixels = read.sizePixels,
+            .bits = read.bits,
+            .rgb = read.components == 1 ? threeOfEach(read.codes) : std::move(read.codes)};
+}
+
+void writePng(const std::string& path, const Picture& picture) {
+    const std::vector<std::byte> bytes = encodePng({.sizePixels = picture.sizePixels,
+                                                    .components = 3,
+                                                    .bits = picture.bits,
+                                                    .codes = picture.rgb},
+                                                   PngMeaning::Srgb);
+    std::ofstream file(path, std::ios::binary);
+    if (!file) throw Error(path + ": cannot be written; check the folder and its permissions");
+    file.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+    file.close();  // a full disk shows itself here
+    if (!file) throw Error(path + ": writing failed; is the disk full?");
 }
 
 }  // namespace aquarama

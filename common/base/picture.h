@@ -3,7 +3,9 @@
 // the two.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -57,9 +59,25 @@ struct Light {
 
 // Pictures to and from PNG files.
 
-// Grey and palettes are read as red green blue, transparency is dropped; 16 bits stay 16, fewer
-// become 8. Throws Error when the file is not a readable picture of at most 16384 pixels each way
-// and 64 million in all.
+// A picture as PNG has it.
+struct PngPicture {
+    glm::ivec2 sizePixels{};
+    int components = 3;  // 1: grey; 3: red green blue
+    int bits = 8;        // or 16
+    std::vector<std::uint16_t> codes;
+};
+// What is meant by the codes: those of sRGB, which the file then says, or something of the
+// caller's.
+enum class PngMeaning : std::uint8_t { Srgb, Unsaid };
+
+// Palettes are read as red green blue, transparency is dropped; 16 bits stay 16, fewer become 8.
+// Throws Error, which names the source, where the bytes are no readable picture of at most 16384
+// pixels each way and 64 million in all.
+[[nodiscard]] PngPicture decodePng(std::span<const std::byte> bytes, const std::string& source);
+// Throws Error where memory is short.
+[[nodiscard]] std::vector<std::byte> encodePng(const PngPicture& picture, PngMeaning meaning);
+
+// As decodePng(), and grey as red green blue.
 [[nodiscard]] Picture readPng(const std::string& path);
 // 8 or 16 bits, as the picture has. Throws Error when the file cannot be written.
 void writePng(const std::string& path, const Picture& picture);

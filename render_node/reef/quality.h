@@ -87,7 +87,7 @@ template <std::size_t Limits>
 // The viewpoint of a frame. Levels of detail are the same on every node, as they depend on the
 // shared eye alone.
 struct Viewpoint {
-    surface::Frustum frustum;
+    surface::FrustumPlanes frustum;
     // The shared eye, world frame.
     glm::vec3 eyeMetres{};
     bool culling = true;

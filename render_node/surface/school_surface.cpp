@@ -163,7 +163,7 @@ struct SchoolSurface::Parts {
     void setConstants() const;
     void upload(const gl::Buffer& buffer, std::span<const motion::FishRecord> records) const;
     void bindRecords() const;
-    void setView(unsigned program, const Frustum& frustum, const SharedView& shared) const;
+    void setView(unsigned program, const FrustumPlanes& frustum, const SharedView& shared) const;
     // The four kernels that cull, count, plan and scatter.
     void sort() const;
     // Fills the surface buffer for one turn.
@@ -279,7 +279,7 @@ void SchoolSurface::Parts::bindRecords() const {
 }
 
 void SchoolSurface::Parts::setView(unsigned program,
-                                   const Frustum& frustum,
+                                   const FrustumPlanes& frustum,
                                    const SharedView& shared) const {
     const glm::vec4 eye{shared.eyeMetres, shared.pixelRadians};
     glProgramUniform4fv(program, shaders::kPlanesLocation, 6, &frustum.planes.front().x);
@@ -435,7 +435,7 @@ void SchoolSurface::look(const glm::mat4& clipFromWorld, const SharedView& share
     const gl::Stage stage{"fish sort"};
     const Parts& parts = *parts_;
     if (parts.fish == 0) return;
-    const Frustum frustum = frustumOf(clipFromWorld);
+    const FrustumPlanes frustum = frustumOf(clipFromWorld);
     for (const unsigned program : {parts.cull.name(), parts.scatter.name()})
         parts.setView(program, frustum, shared);
     parts.sort();

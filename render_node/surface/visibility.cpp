@@ -20,10 +20,10 @@ constexpr float kMorph = 1.35F;
 }  // namespace
 
 // Gribb and Hartmann: each plane is a sum or difference of rows of the matrix.
-Frustum frustumOf(const glm::mat4& clipFromWorld) {
+FrustumPlanes frustumOf(const glm::mat4& clipFromWorld) {
     const glm::vec4 x = glm::row(clipFromWorld, 0), y = glm::row(clipFromWorld, 1);
     const glm::vec4 z = glm::row(clipFromWorld, 2), w = glm::row(clipFromWorld, 3);
-    Frustum frustum{{w + x, w - x, w + y, w - y, z, w - z}};
+    FrustumPlanes frustum{{w + x, w - x, w + y, w - y, z, w - z}};
     for (glm::vec4& plane : frustum.planes) {
         const float length = glm::length(glm::vec3(plane));
         // The plane at infinity has no normal.
@@ -32,7 +32,7 @@ Frustum frustumOf(const glm::mat4& clipFromWorld) {
     return frustum;
 }
 
-bool Frustum::sees(glm::vec3 centre, float radius) const {
+bool FrustumPlanes::sees(glm::vec3 centre, float radius) const {
     return std::ranges::all_of(planes, [&](const glm::vec4& plane) {
         return glm::dot(glm::vec3(plane), centre) + plane.w >= -radius;
     });

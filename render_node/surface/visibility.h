@@ -14,7 +14,7 @@
 namespace aquarama::surface {
 
 // The planes of a view, world frame, metres.
-struct Frustum {
+struct FrustumPlanes {
     // Planes (normal, offset) that point inward: the four sides, then the two of the depth. Normals
     // have unit length, except that a far plane at infinity has none.
     std::array<glm::vec4, 6> planes{};
@@ -24,7 +24,7 @@ struct Frustum {
 };
 // The frustum of a matrix whose depth runs from zero to one, in either direction; the far plane may
 // be at infinity.
-[[nodiscard]] Frustum frustumOf(const glm::mat4& clipFromWorld);
+[[nodiscard]] FrustumPlanes frustumOf(const glm::mat4& clipFromWorld);
 
 // Levels of detail, from coarse to fine. From ControlMesh on a fish has a surface, which is refined
 // 0 to 3 times. The numbers are those of fish_detail.glsl.

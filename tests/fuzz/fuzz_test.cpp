@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "common/motion/repertoire.h"
+#include "tests/common/formats/sample_walls.h"
+#include "tests/common/formats/vendor_samples.h"
 #include "tests/common/wire/sample_messages.h"
 #include "tests/common/wire/sample_recording.h"
 #include "tests/fuzz/mutate.h"
@@ -92,6 +94,35 @@ TEST(Fuzz, damagedRecordingsAreRefusedOrReadWithinBounds) {
     std::vector<FuzzInput> seeds{inputOf(wire::joined(wire::sampleEntries()))};
     for (const wire::Packet& entry : wire::sampleEntries()) seeds.push_back(inputOf(entry));
     feed(fuzzRecording, seeds, 20000);
+}
+
+TEST(Fuzz, damagedWarpFilesOfVendorsAreRefusedOrReadWhole) {
+    using namespace formats;
+    const SampleVioso channel{.blocks = 4, .flags = 0x20, .blackScale = 0.5F};
+    std::vector<FuzzInput> seeds{
+        inputOf(sciss()),
+        inputOf(sciss({.version = 2, .first = 5, .second = 4, .right = 0.5F})),
+        inputOf(vioso({.points = true})),
+        inputOf(vioso(
+            channel,
+            {viosoBitmap(24, false, 99), viosoBitmap(128, true, 0x3e4ccccd), viosoWarp(channel)}))};
+    for (const std::string_view text :
+         {kScalable, kDomeprojection, kFrustum, kSimcad, kPaulBourke, kObj})
+        seeds.push_back(inputOf(bytesOf(text)));
+    feed(fuzzVendors, seeds, 40000);
+}
+
+TEST(Fuzz, damagedMpcdiFilesAreRefusedOrCanBeWrittenAgain) {
+    std::vector<FuzzInput> seeds{
+        inputOf(test::bytesOf(test::kManifest)),
+        inputOf(formats::encodePfm({.size = {1, 1}, .texels = {{0.25F, 0.5F, 1}}}))};
+    for (const formats::Profile profile : {formats::Profile::Screen, formats::Profile::Projector}) {
+        const std::vector<std::byte> bytes = formats::encodeMpcdi(test::sampleWall(profile), 2);
+        formats::Archive archive(bytes, "a seed");
+        seeds.push_back(inputOf(bytes));
+        seeds.push_back(inputOf(archive.read("mpcdi.xml")));
+    }
+    feed(fuzzMpcdi, seeds, 4000);
 }
 
 TEST(Fuzz, damagedPacketsAreRefusedOrReadWhole) {

@@ -17,5 +17,7 @@ int fuzzScene(const std::uint8_t* bytes, std::size_t size);
 int fuzzShow(const std::uint8_t* bytes, std::size_t size);
 int fuzzWire(const std::uint8_t* bytes, std::size_t size);
 int fuzzRecording(const std::uint8_t* bytes, std::size_t size);
+int fuzzVendors(const std::uint8_t* bytes, std::size_t size);
+int fuzzMpcdi(const std::uint8_t* bytes, std::size_t size);
 
 }  // namespace aquarama

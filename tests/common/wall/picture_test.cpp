@@ -80,6 +80,30 @@ TEST_F(Png, whatIsWrittenIsReadBackInBothDepths) {
     }
 }
 
+TEST_F(Png, masksKeepTheirDepthAndTheNumberOfTheirComponents) {
+    for (const int bits : {8, 16})
+        for (const int components : {1, 3}) {
+            PngPicture mask{
+                .sizePixels = {5, 3}, .components = components, .bits = bits, .codes = {}};
+            for (int i = 0; i < 15 * components; ++i)
+                mask.codes.push_back(static_cast<std::uint16_t>(i * (bits == 16 ? 1021 : 5)));
+            const PngPicture back = decodePng(encodePng(mask, PngMeaning::Unsaid), "a mask");
+            EXPECT_EQ(back.sizePixels, mask.sizePixels);
+            EXPECT_EQ(back.components, components);
+            EXPECT_EQ(back.bits, bits);
+            EXPECT_EQ(back.codes, mask.codes);
+        }
+}
+
+TEST_F(Png, greyIsReadAsThreeEqualColours) {
+    const std::vector<std::byte> grey = encodePng(
+        {.sizePixels = {2, 1}, .components = 1, .bits = 8, .codes = {7, 200}}, PngMeaning::Unsaid);
+    std::ofstream(path_, std::ios::binary)
+        .write(reinterpret_cast<const char*>(grey.data()),
+               static_cast<std::streamsize>(grey.size()));
+    EXPECT_EQ(readPng(path_).rgb, (std::vector<std::uint16_t>{7, 7, 7, 200, 200, 200}));
+}
+
 TEST_F(Png, aFileCutShortAnywhereIsRefused) {
     writePng(path_, pictureOf(ramp(), 8, 2));
     const auto whole = std::filesystem::file_size(path_);

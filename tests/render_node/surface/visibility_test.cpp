@@ -122,7 +122,7 @@ TEST_F(VisibilityTest, cullingAndLevelsAreThoseOfTheCpu) {
             EXPECT_FALSE(isShown) << i;
             continue;
         }
-        const Frustum frustum = frustumOf(clip_);
+        const FrustumPlanes frustum = frustumOf(clip_);
         if (frustum.sees(fish.positionMetres, margin - 1e-4F)) {
             EXPECT_TRUE(isShown) << i;
         }
@@ -179,7 +179,7 @@ TEST_F(VisibilityTest, aQuarterOfAMillionFishAreSorted) {
     SchoolSurface surface = surfaceOf(school, {});
     surface.update({school.before, school.after, 1.0F});
     surface.look(clip_, kShared);
-    const Frustum frustum = frustumOf(clip_);
+    const FrustumPlanes frustum = frustumOf(clip_);
     const float reach = reachOf(recordedPoints(body_, repertoire_));
     std::size_t expected = 0;
     for (std::size_t i = 0; i < school.traits.size(); ++i) {

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// MPCDI 1 and 2, profiles 2d, 3d, a3 and sl: an archive of a manifest, warps and masks, or the
+// manifest alone, which has the poses. What the standard leaves open is read as docs/decisions/0046
+// says.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "common/formats/wall_file.h"
+
+namespace aquarama::formats {
+
+// Any zip archive, and any XML whose root is MPCDI.
+[[nodiscard]] bool isMpcdi(std::span<const std::byte> bytes);
+
+// `source` names it in errors. Throws Error.
+[[nodiscard]] WallFile readMpcdi(std::span<const std::byte> bytes,
+                                 const std::string& source,
+                                 const ReadOptions& options = {});
+
+// version: 1 or 2. Reading the file again gives the same WallFile, as far as pfmOf() can say its
+// samples. Other tools take any grid for texel centres: resampled() at the projector's size is for
+// them. Throws Error where a channel lacks what its profile needs, or the file cannot be written.
+[[nodiscard]] std::vector<std::byte> encodeMpcdi(const WallFile& wall, int version);
+void writeMpcdi(const std::string& path, const WallFile& wall, int version);
+
+// The words of the format, for both directions.
+
+inline constexpr std::array<std::string_view, 4> kProfileNames{"2d", "3d", "a3", "sl"};
+inline constexpr std::array<std::string_view, 4> kOriginNames{
+    "unknown", "centerOfMass", "idealEyePoint", "floorCenter"};
+
+struct AngleName {
+    const char* name;
+    double Frustum::*angle;
+};
+inline constexpr std::array kAngleNames{AngleName{"yaw", &Frustum::yaw},
+                                        AngleName{"pitch", &Frustum::pitch},
+                                        AngleName{"roll", &Frustum::roll},
+                                        AngleName{"rightAngle", &Frustum::right},
+                                        AngleName{"leftAngle", &Frustum::left},
+                                        AngleName{"upAngle", &Frustum::up},
+                                        AngleName{"downAngle", &Frustum::down}};
+
+// Each with x, y or z behind it.
+struct AxisName {
+    const char* name;
+    glm::dvec3 CoordinateFrame::*axis;
+};
+inline constexpr std::array kAxisNames{AxisName{"pos", &CoordinateFrame::position},
+                                       AxisName{"yaw", &CoordinateFrame::yaw},
+                                       AxisName{"pitch", &CoordinateFrame::pitch},
+                                       AxisName{"roll", &CoordinateFrame::roll}};
+
+// What a channel's pose lacks that the profile needs; null: nothing.
+[[nodiscard]] const char* missingOf(const FileChannel& channel, Profile profile);
+
+// Numbers of the file are decimals; nothing where it is none, or not finite. What follows is what
+// is kept of them; the writer chooses decimals that give the same again.
+[[nodiscard]] std::optional<long double> decimalIn(std::string_view text);
+[[nodiscard]] double radiansOf(long double degrees);  // over -pi, up to pi
+// The top of a region whose lower border lies at y, as heights of the buffer from its top.
+[[nodiscard]] double topOf(long double y, double height);
+
+// An extension of our own says how a warp is stored where the values alone would tell another way:
+// <extension Name="Aquarama"><warp region="left" file="geometryWarpFile" sampling="nodes"
+// values="places"/></extension>
+inline constexpr const char* kOwnExtension = "Aquarama";
+inline constexpr std::array<std::string_view, 2> kSamplingNames{"centres", "nodes"};
+inline constexpr std::array<std::string_view, 3> kStoredNames{"places", "wholeBuffer", "offsets"};
+
+}  // namespace aquarama::formats

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/formats/wall_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/formats/mpcdi.h"
+#include "common/formats/pfm.h"
+#include "common/formats/vendors.h"
+
+namespace aquarama::formats {
+
+namespace {
+
+using Bytes = std::span<const std::byte>;
+
+// A wall of forty projectors of 4K has so many.
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 32;
+constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+
+// A format: how its content is known, and its reader.
+struct Format {
+    bool (*isIt)(Bytes bytes);
+    WallFile (*read)(Bytes bytes,
+                     const std::string& source,
+                     const ReadOptions& options,
+                     const FrustumFile& frustum);
+};
+
+// Of readers that need no frustum beside the file.
+template <auto read>
+WallFile alone(Bytes bytes,
+               const std::string& source,
+               const ReadOptions& options,
+               const FrustumFile& /*frustum*/) {
+    return read(bytes, source, options);
+}
+
+constexpr std::array kFormats{Format{isMpcdi, alone<readMpcdi>},
+                              Format{isVioso, alone<readVioso>},
+                              Format{isSciss, alone<readSciss>},
+                              Format{isScalable, alone<readScalable>},
+                              Format{isDomeprojection, readDomeprojection},
+                              Format{isSimcad, readSimcad},
+                              Format{isPaulBourke, alone<readPaulBourke>},
+                              Format{isPfm, readPfm},
+                              Format{isObj, alone<readObjWarp>}};
+
+// The samples about a place along one axis: the first of two, and how much of the second.
+struct Between {
+    int low = 0, high = 0;
+    double t = 0;
+};
+
+Between between(double place, int count, Sampling sampling) {
+    if (count == 1) return {};
+    const double index = sampling == Sampling::Centres ? place * count - 0.5 : place * (count - 1);
+    const int low = static_cast<int>(std::clamp(std::floor(index), 0.0, count - 2.0));
+    return {low, low + 1, index - low};
+}
+
+}  // namespace
+
+glm::dvec3 CoordinateFrame::canonicalPosition() const {
+    return {glm::dot(position, pitch), -glm::dot(position, yaw), -glm::dot(position, roll)};
+}
+
+glm::dmat3 worldFromCamera(const Frustum& frustum) {
+    const glm::dquat yaw = glm::angleAxis(-frustum.yaw, glm::dvec3(0, 1, 0));
+    const glm::dquat pitch = glm::angleAxis(frustum.pitch, glm::dvec3(1, 0, 0));
+    const glm::dquat roll = glm::angleAxis(-frustum.roll, glm::dvec3(0, 0, 1));
+    return glm::mat3_cast(yaw * pitch * roll);
+}
+
+namespace {
+
+WallFile readWith(Bytes bytes,
+                  const std::string& source,
+                  const ReadOptions& options,
+                  const FrustumFile& frustum) {
+    for (const Format& format : kFormats)
+        if (format.isIt(bytes)) return format.read(bytes, source, options, frustum);
+    throw Error(source + ": is of no known format of wall files; export it as MPCDI");
+}
+
+}  // namespace
+
+WallFile readWallFile(Bytes bytes, const std::string& source, const ReadOptions& options) {
+    return readWith(bytes, source, options, {});
+}
+
+WallFile readWallFile(const std::string& path, const ReadOptions& options) {
+    const std::vector<std::byte> bytes = readWhole(path, kMostBytes);
+    const std::string beside = frustumPathBeside(path);
+    if (beside == path || !std::filesystem::is_regular_file(beside))
+        return readWith(bytes, path, options, {});
+    const std::vector<std::byte> frustum = readWhole(beside, kMostBytes);
+    return readWith(bytes, path, options, {beside, frustum});
+}
+
+glm::vec3 warpAt(const Warp& warp, glm::dvec2 place) {
+    assert(!warp.samples.empty());
+    if (!std::isfinite(place.x) || !std::isfinite(place.y)) return glm::vec3(kNothing);
+    const Between x = between(place.x, warp.size.x, warp.sampling);
+    const Between y = between(place.y, warp.size.y, warp.sampling);
+    glm::dvec3 sum{};
+    const auto add = [&](int column, int row, double weight) {
+        const auto index = static_cast<std::size_t>(row) * static_cast<std::size_t>(warp.size.x) +
+                           static_cast<std::size_t>(column);
+        if (weight != 0) sum += weight * glm::dvec3(warp.samples[index]);
+    };
+    add(x.low, y.low, (1 - x.t) * (1 - y.t));
+    add(x.high, y.low, x.t * (1 - y.t));
+    add(x.low, y.high, (1 - x.t) * y.t);
+    add(x.high, y.high, x.t * y.t);
+    return glm::vec3(sum);
+}
+
+Warp resampled(const Warp& warp, glm::ivec2 size) {
+    Warp fine{.size = size, .samples = {}};
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x)
+            fine.samples.push_back(warpAt(warp, (glm::dvec2(x, y) + 0.5) / glm::dvec2(size)));
+    return fine;
+}
+
+glm::vec3 lightAt(const Mask& mask, glm::dvec2 place) {
+    assert(!mask.codes.empty());
+    const Between x = between(std::clamp(place.x, 0.0, 1.0), mask.size.x, Sampling::Centres);
+    const Between y = between(std::clamp(place.y, 0.0, 1.0), mask.size.y, Sampling::Centres);
+    const double most = mask.bits == 16 ? 65535 : 255;
+    const auto light = [&](int column, int row, int component) {
+        const int pixel = row * mask.size.x + column;
+        const int index = pixel * mask.components + (mask.components == 3 ? component : 0);
+        return std::pow(mask.codes[static_cast<std::size_t>(index)] / most, mask.gamma);
+    };
+    const double tx = std::clamp(x.t, 0.0, 1.0), ty = std::clamp(y.t, 0.0, 1.0);
+    glm::dvec3 sum;
+    for (int i = 0; i < 3; ++i)
+        sum[i] = (1 - ty) * ((1 - tx) * light(x.low, y.low, i) + tx * light(x.high, y.low, i)) +
+                 ty * ((1 - tx) * light(x.low, y.high, i) + tx * light(x.high, y.high, i));
+    return glm::vec3(sum);
+}
+
+}  // namespace aquarama::formats

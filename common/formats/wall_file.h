@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// What other tools know of the channels of a wall: warp, blend, black level and pose of each, read
+// from any of their files into one representation. Files are untrusted: every reader checks sizes
+// before it takes memory, and throws Error with one line that says what, where and what to do.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace aquarama::formats {
+
+// What the samples of all warps of a file say; named as the profiles of MPCDI.
+enum class Profile : std::uint8_t {
+    Content,    // "2d": a place in flat content, the same for all channels: x right, y down, 0 to 1
+    View,       // "3d": a place in the picture of the channel's frustum: x right, y down, 0 to 1
+    Screen,     // "a3": the point of the screen that is lit, metres
+    Projector,  // "sl": as View; frustum and position are those of the projector itself
+};
+
+// How the samples of a warp lie in the projector's picture: sample c of n at (c + 0.5) / n of its
+// width, or from border to border at c / (n - 1). The same for rows.
+enum class Sampling : std::uint8_t { Centres, Nodes };
+
+// How a file says the samples of a warp, and says them again when it is written: floats would not
+// come back the same in another way. Samples in memory are always as Profile tells.
+enum class Stored : std::uint8_t {
+    Places,       // of the channel's part of the buffer (Content), of the picture, of the world
+    WholeBuffer,  // of the whole buffer (Content)
+    Offsets,      // from an even grid (View, Projector)
+};
+
+// The warp of a channel: for places of the projector's picture, top row first, what they show
+// (Profile). x is NaN where a place shows nothing.
+struct Warp {
+    glm::ivec2 size{};  // samples
+    Sampling sampling = Sampling::Centres;
+    std::vector<glm::vec3> samples;
+    Stored stored = Stored::Places;
+    // In the order of the samples, where a float map was read: what its file had for them. They are
+    // written again to the bit, each where its sample is still the same.
+    std::vector<glm::vec3> texels = {};
+};
+
+// A mask over the projector's picture, top row first; its size may differ from the picture's.
+// code / most of its bits, to the power of gamma, is linear.
+struct Mask {
+    glm::ivec2 size{};
+    int components = 1;  // 1, or 3: red green blue
+    int bits = 8;        // 8 or 16
+    double gamma = 1;
+    std::vector<std::uint16_t> codes;
+};
+
+// Where a picture is seen or thrown from, and its edges. Canonical axes: x right, y up, -z forward;
+// camera_to_world = Ry(-yaw) Rx(pitch) Rz(-roll). Radians; edges are angles from the optical axis,
+// left and down negative.
+struct Frustum {
+    double yaw = 0, pitch = 0, roll = 0;
+    double left = 0, right = 0, down = 0, up = 0;
+};
+// camera_to_world of its yaw, pitch and roll.
+[[nodiscard]] glm::dmat3 worldFromCamera(const Frustum& frustum);
+
+// The axes of a file in which a projector's position is given: vectors of canonical axes.
+struct CoordinateFrame {
+    glm::dvec3 position{};  // in the file's axes
+    glm::dvec3 yaw{0, -1, 0}, pitch{1, 0, 0},
+        roll{0, 0, -1};  // where down, right and forward point
+    // p_canonical = (dot(p, pitch), -dot(p, yaw), -dot(p, roll)).
+    [[nodiscard]] glm::dvec3 canonicalPosition() const;
+};
+
+// What the format allows and we do not know, kept for a round trip: an element of XML, and files of
+// the archive that it names.
+struct Extension {
+    std::string xml;
+    std::vector<std::pair<std::string, std::vector<std::byte>>> files;
+    std::string place = "extensionSet";  // the element that it stands in
+};
+
+// One projector of a wall file.
+struct FileChannel {
+    std::string name;
+    glm::ivec2 sizePixels{};
+    std::string buffer = "buffer1";  // content that it shares with channels of the same buffer
+    glm::ivec2 bufferPixels{};       // 0: not said
+    // The part of the buffer that it takes: top left corner and size, 0 to 1.
+    glm::dvec2 corner{0, 0}, extent{1, 1};
+    std::optional<Frustum> frustum;
+    std::optional<CoordinateFrame> coordinateFrame;
+    std::optional<Warp> warp;
+    std::optional<Warp> distortion;    // Projector: of the lens
+    std::optional<Mask> blend, black;  // out = in * blend * (1 - black) + black, in linear light
+    std::string interpolation = "linear";  // between samples: also "keystone", "smooth"
+    std::vector<Extension> extensions;     // of this channel
+};
+
+// Where the points of the screen are measured from (Screen, Projector).
+enum class DataOrigin : std::uint8_t { Unknown, CentreOfMass, IdealEyePoint, FloorCentre };
+
+// A whole file.
+struct WallFile {
+    Profile profile = Profile::Content;
+    std::vector<FileChannel> channels;
+    std::vector<Extension> extensions;
+    DataOrigin origin = DataOrigin::Unknown;
+    std::string date;  // as the file says it; where empty, that of writing
+};
+
+// What a file does not tell itself, and the user may.
+struct ReadOptions {
+    std::optional<glm::ivec2> sizePixels = {};  // of the projector's picture
+    std::optional<Sampling> sampling = {};      // of coarse grids of formats that leave it open
+    bool upsideDown = false;  // the producer's rows run the other way than the format says
+};
+
+// Reads a file of any known format; which one is told by its content, not by its name. Throws
+// Error.
+// Of a mesh or map with a frustum file beside it, that is read as well.
+[[nodiscard]] WallFile readWallFile(const std::string& path, const ReadOptions& options = {});
+// The same of its bytes alone; `source` names it in errors.
+[[nodiscard]] WallFile readWallFile(std::span<const std::byte> bytes,
+                                    const std::string& source,
+                                    const ReadOptions& options = {});
+
+// The warp at a place of the picture (0 to 1, top left corner at (0, 0)), bilinear between samples;
+// beyond the outermost centres by the line through the last two. x is NaN where one of the samples
+// that matter is.
+[[nodiscard]] glm::vec3 warpAt(const Warp& warp, glm::dvec2 place);
+// Linear light that a mask lets through at a place, bilinear between the centres of its codes;
+// beyond them that of the border.
+[[nodiscard]] glm::vec3 lightAt(const Mask& mask, glm::dvec2 place);
+// The same warp at the centres of so many samples, stored as places: for tools that know nothing
+// else.
+[[nodiscard]] Warp resampled(const Warp& warp, glm::ivec2 size);
+
+// A mesh over a projector's picture, as several formats have it.
+struct WarpMesh {
+    struct Vertex {
+        glm::dvec2 place;   // of the picture, 0 to 1, top left corner at (0, 0)
+        glm::dvec3 target;  // what it shows
+        double light = 1;   // blend, linear
+    };
+    std::vector<Vertex> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+// The mesh at the centres of so many samples, linear within triangles; `light` where a mask is
+// wanted, else null. Of triangles that overlap the later wins.
+[[nodiscard]] Warp rasterised(const WarpMesh& mesh, glm::ivec2 size, Mask* light = nullptr);
+
+}  // namespace aquarama::formats
