@@ -11,6 +11,11 @@ bin=build/show/bin
 declare -A way=(
     [panorama.png]="wall desk panorama.png"
     [stereo.png]="wall desk_stereo stereo.png"
+    [screen_flat_3.webp]="screen flat_3"
+    [screen_wall_2x2.webp]="screen wall_2x2"
+    [screen_dome_5.webp]="screen dome_5"
+    [screen_televisions_3.webp]="screen televisions_3"
+    [screen_cave_4.webp]="screen cave_4"
     [portraits.png]=portraits
     [tiers.png]=tiers
     [water_types.png]=water_types
@@ -38,6 +43,22 @@ wall() {
     $bin/aquarama run "config/$1.txtpb" --quality medium --headless --frames 61 --film-every 60 --clip "$drawn/$1.mp4" \
         --snapshot "$drawn/$1"
     mv "$drawn/$1/panorama.png" "$drawn/$2"
+}
+# The hall of a rig, and below it the panorama, which is no wider and not higher than the hall.
+screen() {
+    $bin/aquarama run "config/$1.txtpb" --quality medium --headless --frames 61 --film-every 60 --clip "$drawn/$1.mp4" \
+        --snapshot "$drawn/$1"
+    /usr/bin/python3 - "$drawn/$1" "$drawn/screen_$1.webp" <<'PYTHON'
+import sys
+from PIL import Image
+hall, panorama = (Image.open(f"{sys.argv[1]}/{name}.png").convert("RGB") for name in ("hall", "panorama"))
+hall = hall.resize((1000, 563), Image.LANCZOS)
+panorama.thumbnail((1000, 563), Image.LANCZOS)
+sheet = Image.new("RGB", (1000, 573 + panorama.height))
+sheet.paste(hall, (0, 0))
+sheet.paste(panorama, ((1000 - panorama.width) // 2, 573))
+sheet.save(sys.argv[2], quality=85, method=6)
+PYTHON
 }
 portraits() {
     $bin/aquarama_draw_still --plate --fov 40 --azimuth 10 --width 1280 --height 720 --quality ultra --out "$drawn/portraits.png"

@@ -117,6 +117,39 @@ void chooseWanted(const config::Rig& rig,
         logInfo("as it was set before: {} (change it with aquarama set)", text);
 }
 
+// Looks at the files that a rig names, whether they have changed: ConductorOptions::changedRig.
+class RigFileWatch {
+  public:
+    RigFileWatch(config::Rig rig, std::string path)
+        : rig_{std::move(rig)}, path_{std::move(path)}, seen_{look()} {}
+
+    std::optional<config::Rig> operator()() {
+        auto now = look();
+        if (now == seen_) return std::nullopt;
+        seen_ = std::move(now);
+        config::readRigFiles(rig_, path_);
+        wall::checkGeometry(rig_, path_);
+        return rig_;
+    }
+
+  private:
+    using Stamp = std::pair<fs::file_time_type, std::uintmax_t>;
+    // When each was written, and its size; while one is being replaced it may be missing.
+    [[nodiscard]] std::vector<Stamp> look() const {
+        std::vector<Stamp> stamps;
+        for (const auto& [name, content] : rig_.files) {
+            const std::string file = config::besideFile(path_, name);
+            std::error_code none;
+            stamps.emplace_back(fs::last_write_time(file, none), fs::file_size(file, none));
+        }
+        return stamps;
+    }
+
+    config::Rig rig_;
+    std::string path_;
+    std::vector<Stamp> seen_;
+};
+
 // How the conductor runs the frames.
 conductor::ConductorOptions conductorOptions(const config::Rig& rig, const MasterOptions& options) {
     conductor::ConductorOptions conductor;
@@ -125,6 +158,7 @@ conductor::ConductorOptions conductorOptions(const config::Rig& rig, const Maste
     conductor.frames = options.show.frames;
     conductor.traceDirectory = options.show.traceFolder;
     conductor.log = options.log.get();
+    if (!rig.files.empty()) conductor.changedRig = RigFileWatch(rig, options.show.rigPath);
     return conductor;
 }
 

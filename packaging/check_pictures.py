@@ -59,10 +59,15 @@ def fault_of(path, expected):
     return f"is flat: {colours} colours" if colours < LEAST_COLOURS else None
 
 
-# Reports all faults at once; the exit status is 0 without any.
-faults = []
-for name, expected in SIZES.items():
-    picture = Path(sys.argv[1]) / f"{name}.png"
-    if fault := fault_of(picture, expected):
-        faults.append(f"{picture}: {fault}")
-sys.exit("\n".join(faults) or 0)
+def main():
+    # Reports all faults at once; the exit status is 0 without any.
+    faults = []
+    for name, expected in SIZES.items():
+        picture = Path(sys.argv[1]) / f"{name}.png"
+        if fault := fault_of(picture, expected):
+            faults.append(f"{picture}: {fault}")
+    sys.exit("\n".join(faults) or 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <iterator>
+#include <optional>
+
+#include <glm/geometric.hpp>
 
 #include "common/base/units.h"
 #include "common/config/scene.h"
 #include "common/place/place.h"
-#include "common/wall/pinhole.h"
 #include "common/wall/wall.h"
 
 namespace aquarama::theatre {
@@ -80,43 +83,74 @@ double degreesAt(glm::dvec3 point) {
     return wall::azimuthOf(point) / kRadiansPerDegree<double>;
 }
 
-// How much of this projector's picture a neighbour lights too, at the screen's mid-height.
-ChannelOverlap overlapOf(const config::Screen& screen,
-                         const wall::Pinhole& own,
-                         const config::Channel& neighbour) {
-    const wall::Pinhole other(neighbour);
-    ChannelOverlap overlap;
-    overlap.with = neighbour.name;
+bool isUprightCylinder(const config::Screen& screen) {
+    return screen.shape == config::ScreenShape::Cylinder && screen.tiltRadians == 0;
+}
+
+// Adds how much of this channel's picture another lights too, along the screen's mid-height.
+void measureAlong(const wall::ScreenSurface& screen,
+                  const wall::Optics& own,
+                  const wall::Optics& other,
+                  ChannelOverlap& overlap) {
     glm::dvec2 lastPixel{};
     double lastDegrees = 0;
     bool inside = false;
     for (int i = 0; i < kAlong; ++i) {
-        const glm::dvec3 point =
-            wall::screenPointAt(screen, {static_cast<double>(i) / (kAlong - 1), 0.5});
-        const auto pixel = own.pixelOf(point);
-        const bool shared = pixel && other.pixelOf(point) && wall::lightsInside(own, point) &&
-                            wall::lightsInside(other, point);
+        const auto point = screen.at({static_cast<double>(i) / (kAlong - 1), 0.5});
+        if (!point) continue;
+        const auto pixel = own.pixelOf(*point);
+        const bool shared = pixel && other.pixelOf(*point);
         if (shared && inside) {
             overlap.pixels += std::abs(pixel->x - lastPixel.x);
-            overlap.degrees += degreesAt(point) - lastDegrees;
+            overlap.degrees += degreesAt(*point) - lastDegrees;
         }
         inside = shared;
         if (shared) lastPixel = *pixel;
-        lastDegrees = degreesAt(point);
+        lastDegrees = degreesAt(*point);
     }
-    return overlap;
 }
 
-// Pixels per degree as seen from the sweet spot, by the closest thing to a derivative.
+// Places all over a channel's picture, and what they light.
+std::vector<glm::dvec3> sampled(const wall::Optics& optics, glm::dvec2 sizePixels) {
+    constexpr int kPlaces = 96;  // each way
+    std::vector<glm::dvec3> points;
+    for (int y = 0; y < kPlaces; ++y)
+        for (int x = 0; x < kPlaces; ++x)
+            if (const auto point =
+                    optics.pointOf(sizePixels * (glm::dvec2(x, y) + 0.5) / double{kPlaces}, 0))
+                points.push_back(*point);
+    return points;
+}
+
+// Pixels per degree as seen from the sweet spot, in the middle of the picture.
+glm::dvec2 densityOf(const wall::Optics& optics, glm::dvec2 sizePixels, glm::dvec3 sweetSpot) {
+    const auto here = optics.pointOf(sizePixels / 2.0, 0);
+    glm::dvec2 density(0);
+    for (const int axis : {0, 1}) {
+        glm::dvec2 step(0);
+        step[axis] = 1;
+        const auto next = optics.pointOf(sizePixels / 2.0 + step, 0);
+        if (!here || !next) continue;
+        const glm::dvec3 a = glm::normalize(*here - sweetSpot);
+        const glm::dvec3 b = glm::normalize(*next - sweetSpot);
+        density[axis] = kRadiansPerDegree<double> / glm::length(glm::cross(a, b));
+    }
+    return density;
+}
+
+// The same along and across an upright cylinder, in the middle of what the channel lights.
 glm::dvec2 densityAt(const config::Screen& screen,
-                     const wall::Pinhole& projector,
+                     const wall::Wall& wall,
+                     const wall::Optics& optics,
                      glm::dvec2 unrolledPosition) {
     constexpr double kStep = 1e-4;
-    const auto here = projector.pixelOf(wall::screenPointAt(screen, unrolledPosition));
-    const auto right =
-        projector.pixelOf(wall::screenPointAt(screen, unrolledPosition + glm::dvec2(kStep, 0)));
-    const auto down =
-        projector.pixelOf(wall::screenPointAt(screen, unrolledPosition + glm::dvec2(0, kStep)));
+    const auto pixelAt = [&](glm::dvec2 position) -> std::optional<glm::dvec2> {
+        const auto point = wall.screen().at(position);
+        return point ? optics.pixelOf(*point) : std::nullopt;
+    };
+    const auto here = pixelAt(unrolledPosition);
+    const auto right = pixelAt(unrolledPosition + glm::dvec2(kStep, 0));
+    const auto down = pixelAt(unrolledPosition + glm::dvec2(0, kStep));
     if (!here || !right || !down) return {};
     const double degreesRight = kStep * screen.arcRadians / kRadiansPerDegree<double>;
     const double degreesDown =
@@ -126,10 +160,7 @@ glm::dvec2 densityAt(const config::Screen& screen,
 
 // An azimuth in words.
 std::string sideways(double degrees) {
-    char text[48];
-    std::snprintf(
-        text, sizeof text, "%.1f deg %s", std::abs(degrees), degrees < 0 ? "left" : "right");
-    return text;
+    return said("%.1f deg %s", std::abs(degrees), degrees < 0 ? "left" : "right");
 }
 
 }  // namespace
@@ -165,64 +196,115 @@ std::string inventoryOf(const config::Species& species, const std::string& path)
     return "species " + lineOf(species) + "\n" + path + ": good\n";
 }
 
-ChannelSurvey surveyChannel(const config::Rig& rig, std::size_t channel) {
-    assert(channel < rig.channels.size());
-    const wall::Pinhole own(rig.channels[channel]);
-    const std::vector<glm::dvec3> lit = wall::litOutline(rig.screen, own, 0);
-    const auto [left, right] = std::ranges::minmax(lit, {}, wall::azimuthOf);
+namespace {
+
+// What is lit, as azimuths, elevations and heights.
+void measureReach(const std::vector<glm::dvec3>& lit, glm::dvec3 sweetSpot, ChannelSurvey& survey) {
+    glm::dvec3 sum(0);
+    for (const glm::dvec3& point : lit) sum += glm::normalize(point - sweetSpot);
+    const double middle = degreesAt(sum);
+    // Of what lies about the back, too: degrees beyond 180 go on.
+    const auto degreesOf = [&](glm::dvec3 point) {
+        return middle + std::remainder(degreesAt(point - sweetSpot) - middle, 360.0);
+    };
+    const auto [left, right] = std::ranges::minmax(lit, {}, degreesOf);
+    const auto [low, high] = std::ranges::minmax(
+        lit, {}, [&](glm::dvec3 point) { return wall::elevationOf(point - sweetSpot); });
     const auto [bottom, top] = std::ranges::minmax(lit, {}, &glm::dvec3::y);
-    ChannelSurvey survey;
-    survey.name = rig.channels[channel].name;
-    survey.leftDegrees = degreesAt(left);
-    survey.rightDegrees = degreesAt(right);
+    survey.leftDegrees = degreesOf(left);
+    survey.rightDegrees = degreesOf(right);
+    survey.bottomDegrees = wall::elevationOf(low - sweetSpot) / kRadiansPerDegree<double>;
+    survey.topDegrees = wall::elevationOf(high - sweetSpot) / kRadiansPerDegree<double>;
     survey.bottomMetres = bottom.y;
     survey.topMetres = top.y;
-    const double u = (wall::unrolled(rig.screen, left).x + wall::unrolled(rig.screen, right).x) / 2;
-    const double v = (wall::unrolled(rig.screen, bottom).y + wall::unrolled(rig.screen, top).y) / 2;
-    survey.pixelsPerDegree = densityAt(rig.screen, own, {u, v});
+}
+
+// With every channel that lights a part of the same screen; panels share nothing.
+std::vector<ChannelOverlap> overlapsOf(const config::Rig& rig,
+                                       const wall::Wall& wall,
+                                       std::size_t channel) {
+    const wall::Optics& own = wall.channel(channel);
+    const std::vector<glm::dvec3> points = sampled(own, rig.channels[channel].sizePixels);
+    std::vector<ChannelOverlap> overlaps;
     for (std::size_t i = 0; i < rig.channels.size(); ++i) {
-        if (i == channel) continue;
-        const ChannelOverlap overlap = overlapOf(rig.screen, own, rig.channels[i]);
-        if (overlap.pixels > 0) survey.overlaps.push_back(overlap);
+        if (i == channel || rig.channels[i].panel) continue;
+        const wall::Optics& other = wall.channel(i);
+        const auto shared = std::ranges::count_if(
+            points, [&](glm::dvec3 point) { return other.pixelOf(point).has_value(); });
+        if (shared == 0) continue;
+        ChannelOverlap overlap{.with = rig.channels[i].name};
+        overlap.share = static_cast<double>(shared) / static_cast<double>(points.size());
+        if (isUprightCylinder(rig.screen)) measureAlong(wall.screen(), own, other, overlap);
+        overlaps.push_back(overlap);
     }
+    return overlaps;
+}
+
+}  // namespace
+
+ChannelSurvey surveyChannel(const config::Rig& rig, const wall::Wall& wall, std::size_t channel) {
+    assert(channel < rig.channels.size());
+    const wall::Optics& own = wall.channel(channel);
+    std::vector<glm::dvec3> lit = own.outline(0);
+    ChannelSurvey survey;
+    survey.name = rig.channels[channel].name;
+    survey.isUpright = isUprightCylinder(rig.screen);
+    survey.overlaps = overlapsOf(rig, wall, channel);
+    if (!survey.isUpright) {
+        std::ranges::copy(sampled(own, rig.channels[channel].sizePixels), std::back_inserter(lit));
+        measureReach(lit, rig.sweetSpotMetres, survey);
+        survey.pixelsPerDegree =
+            densityOf(own, rig.channels[channel].sizePixels, rig.sweetSpotMetres);
+        return survey;
+    }
+    measureReach(lit, glm::dvec3(0), survey);
+    const auto [left, right] = std::ranges::minmax(lit, {}, wall::azimuthOf);
+    const auto [bottom, top] = std::ranges::minmax(lit, {}, &glm::dvec3::y);
+    const double u = (wall.screen().unrolled(left).x + wall.screen().unrolled(right).x) / 2;
+    const double v = (wall.screen().unrolled(bottom).y + wall.screen().unrolled(top).y) / 2;
+    survey.pixelsPerDegree = densityAt(rig.screen, wall, own, {u, v});
     return survey;
 }
 
-double worstBlendSum(const config::Rig& rig) {
-    const wall::Blend blend(rig);
+double worstBlendSum(const wall::Wall& wall) {
     constexpr glm::ivec2 kGrid(601, 151);
     double worst = 0;
     for (int y = 0; y < kGrid.y; ++y)
         for (int x = 0; x < kGrid.x; ++x) {
             const glm::dvec2 t = glm::dvec2(x, y) / glm::dvec2(kGrid - 1);
-            const glm::dvec2 at = wall::kDarkBorder + (1 - 2 * wall::kDarkBorder) * t;
+            const auto point =
+                wall.screen().at(wall::kDarkBorder + (1 - 2 * wall::kDarkBorder) * t);
+            if (!point) continue;
             double sum = 0;
-            for (std::size_t i = 0; i < rig.channels.size(); ++i)
-                sum += blend.weight(i, wall::screenPointAt(rig.screen, at));
-            worst = std::max(worst, std::abs(sum - 1));
+            for (std::size_t i = 0; i < wall.channels(); ++i) sum += wall.weight(i, *point);
+            if (sum > 0) worst = std::max(worst, std::abs(sum - 1));
         }
     return worst;
 }
 
+namespace {
+
+std::string upward(double degrees) {
+    return said("%.1f deg %s", std::abs(degrees), degrees < 0 ? "down" : "up");
+}
+
+}  // namespace
+
 std::string oneLine(const ChannelSurvey& survey) {
-    char numbers[128];
-    std::snprintf(numbers,
-                  sizeof numbers,
-                  ", %+.2f to %+.2f m; %.1f x %.1f px per degree",
-                  survey.bottomMetres,
-                  survey.topMetres,
-                  survey.pixelsPerDegree.x,
-                  survey.pixelsPerDegree.y);
-    std::string line = survey.name + ": lights " + sideways(survey.leftDegrees) + " to " +
-                       sideways(survey.rightDegrees) + numbers;
-    for (const ChannelOverlap& overlap : survey.overlaps) {
-        std::snprintf(numbers,
-                      sizeof numbers,
-                      "; blends over %.0f px (%.1f deg) with ",
-                      overlap.pixels,
-                      overlap.degrees);
-        line += numbers + overlap.with;
-    }
+    constexpr double kNearlyRound = 350;
+    std::string line = survey.name + ": lights ";
+    line += survey.rightDegrees - survey.leftDegrees > kNearlyRound
+                ? "all round, "
+                : sideways(survey.leftDegrees) + " to " + sideways(survey.rightDegrees) + ", ";
+    line += survey.isUpright ? said("%+.2f to %+.2f m", survey.bottomMetres, survey.topMetres)
+                             : upward(survey.bottomDegrees) + " to " + upward(survey.topDegrees);
+    line += said("; %.1f x %.1f px per degree", survey.pixelsPerDegree.x, survey.pixelsPerDegree.y);
+    for (const ChannelOverlap& overlap : survey.overlaps)
+        line +=
+            (overlap.pixels > 0
+                 ? said("; blends over %.0f px (%.1f deg) with ", overlap.pixels, overlap.degrees)
+                 : said("; blends over %.0f %% of its picture with ", 100 * overlap.share)) +
+            overlap.with;
     return line;
 }
 

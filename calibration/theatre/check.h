@@ -8,6 +8,7 @@
 
 #include "common/config/rig.h"
 #include "common/config/scene.h"
+#include "common/wall/wall.h"
 
 namespace aquarama::theatre {
 
@@ -19,24 +20,30 @@ namespace aquarama::theatre {
 // What two channels both light.
 struct ChannelOverlap {
     std::string with;   // the other channel
-    double pixels = 0;  // of this channel's picture, along the screen's mid-height
+    double pixels = 0;  // of this channel's picture, along a cylinder's mid-height
     double degrees = 0;
+    double share = 0;  // of this channel's picture
 };
 
 struct ChannelSurvey {
     std::string name;
     double leftDegrees = 0, rightDegrees = 0;  // azimuths of what it lights; right is positive
     double bottomMetres = 0, topMetres = 0;    // above the sweet spot
-    glm::dvec2 pixelsPerDegree{};              // in the middle of what it lights
+    double bottomDegrees = 0, topDegrees = 0;  // elevations
+    bool isUpright = false;  // the screen is an upright cylinder: heights tell more than angles
+    glm::dvec2 pixelsPerDegree{};  // in the middle of what it lights
     std::vector<ChannelOverlap> overlaps;
 };
 
-// Of the channel of this index, which lights a part of the screen (wall::checkGeometry).
-[[nodiscard]] ChannelSurvey surveyChannel(const config::Rig& rig, std::size_t channel);
+// Of the channel of this index, which lights a part of the screen (wall::checkGeometry). `wall` is
+// rig's.
+[[nodiscard]] ChannelSurvey surveyChannel(const config::Rig& rig,
+                                          const wall::Wall& wall,
+                                          std::size_t channel);
 
 // The largest deviation from one of the sum of all channels' shares of light, over many points of
-// the screen.
-[[nodiscard]] double worstBlendSum(const config::Rig& rig);
+// the screen that are lit.
+[[nodiscard]] double worstBlendSum(const wall::Wall& wall);
 
 // The survey in one line.
 [[nodiscard]] std::string oneLine(const ChannelSurvey& survey);

@@ -17,24 +17,33 @@
 #include "common/base/log.h"
 #include "common/base/picture.h"
 #include "common/base/worker_pool.h"
-#include "common/wall/pinhole.h"
 #include "common/wall/wall.h"
 
 namespace aquarama::theatre {
 
 namespace {
 
-std::vector<PanoramaMap::Sample> samplesOf(const config::Rig& rig, const config::Channel& channel) {
-    const wall::Pinhole projector(channel);
+// Whether the point is on the edge of a panel that meets this one: a point is one panel's.
+bool isShownBefore(const wall::Wall& wall, std::size_t channel, glm::dvec3 point) {
+    if (!wall.channel(channel).wallFromPanel()) return false;
+    for (std::size_t other = 0; other < channel; ++other)
+        if (wall.channel(other).pixelOf(point)) return true;
+    return false;
+}
+
+std::vector<PanoramaMap::Sample> samplesOf(const wall::Wall& wall,
+                                           glm::ivec2 panoramaPixels,
+                                           std::size_t channel) {
+    const wall::Optics& optics = wall.channel(channel);
     std::vector<PanoramaMap::Sample> samples;
-    for (int y = 0; y < rig.panoramaPixels.y; ++y)
-        for (int x = 0; x < rig.panoramaPixels.x; ++x) {
-            const glm::dvec2 at = glm::dvec2(x + 0.5, y + 0.5) / glm::dvec2(rig.panoramaPixels);
-            const glm::dvec3 point = wall::screenPointAt(rig.screen, at);
-            const auto pixel = projector.pixelOf(point);
-            if (pixel && wall::lightsInside(projector, point))
+    for (int y = 0; y < panoramaPixels.y; ++y)
+        for (int x = 0; x < panoramaPixels.x; ++x) {
+            const auto point =
+                wall.screen().at(glm::dvec2(x + 0.5, y + 0.5) / glm::dvec2(panoramaPixels));
+            const auto pixel = point ? optics.pixelOf(*point) : std::nullopt;
+            if (pixel && !isShownBefore(wall, channel, *point))
                 samples.push_back(
-                    {static_cast<std::uint32_t>(y * rig.panoramaPixels.x + x), glm::vec2(*pixel)});
+                    {static_cast<std::uint32_t>(y * panoramaPixels.x + x), glm::vec2(*pixel)});
         }
     return samples;
 }
@@ -58,18 +67,26 @@ struct Eye {
     }
 };
 
-Eye eyeAtTheBack(const config::Screen& screen, glm::dvec2 sizePixels) {
+// So that all of the screen is in the picture that is well before the eye.
+Eye eyeAtTheBack(const wall::ScreenSurface& screen, glm::dvec2 sizePixels) {
+    constexpr double kNearest = 0.5;  // of the screen's reach
+    const ScreenReach reach = reachOf(screen);
     Eye eye{};
-    eye.position = {0, kEyeUpMetres, kEyeBackRadii * screen.radiusMetres};
-    const double halfArc = screen.arcRadians / 2;
-    const double toEdge = eye.position.z + screen.radiusMetres * std::cos(halfArc);
-    const double halfWidth = screen.radiusMetres * std::sin(halfArc) / toEdge;
-    const double height = screen.heightMetres / toEdge;
+    eye.position = {0, kEyeUpMetres, kEyeBackRadii * reach.radius};
+    double halfWidth = 0, bottom = 1e9, top = -1e9;  // tangents
+    for (const glm::dvec3& point : pointsOn(screen)) {
+        const double ahead = eye.position.z - point.z;
+        if (ahead < kNearest * reach.radius) continue;
+        halfWidth = std::max(halfWidth, std::abs(point.x) / ahead);
+        bottom = std::min(bottom, (point.y - eye.position.y) / ahead);
+        top = std::max(top, (point.y - eye.position.y) / ahead);
+    }
+    const double height = top - bottom;
     const double width = std::max(2 * halfWidth, height * sizePixels.x / sizePixels.y);
     eye.tangentPerPixel = kMargin * width / sizePixels.x;
     eye.left = -kMargin * width / 2;
     const double free = eye.tangentPerPixel * sizePixels.y - height;
-    eye.top = (screen.heightMetres / 2 - eye.position.y) / toEdge + kShareAbove * free;
+    eye.top = top + kShareAbove * free;
     return eye;
 }
 
@@ -134,10 +151,11 @@ bool hasStereo(const config::Rig& rig) {
 }  // namespace
 
 PanoramaMap::PanoramaMap(const config::Rig& rig) : sizePixels_{rig.panoramaPixels} {
+    const wall::Wall wall(rig);
     std::vector<std::future<std::vector<Sample>>> pending;
-    for (const config::Channel& channel : rig.channels)
-        pending.push_back(
-            std::async(std::launch::async, samplesOf, std::cref(rig), std::cref(channel)));
+    for (std::size_t channel = 0; channel < wall.channels(); ++channel)
+        pending.push_back(std::async(
+            std::launch::async, samplesOf, std::cref(wall), rig.panoramaPixels, channel));
     for (auto& samples : pending) samples_.push_back(samples.get());
 }
 
@@ -154,11 +172,37 @@ Light composePanorama(const config::Rig& rig, std::span<const Light> channels) {
     return PanoramaMap(rig).compose(channels);
 }
 
-Light composeHall(const config::Rig& rig, const Light& panorama, glm::ivec2 sizePixels) {
+namespace {
+
+// What the screen sends back at a point of it.
+ScreenLight screenLight(const wall::Wall& wall,
+                        const Light& panorama,
+                        std::span<const Light> channels) {
+    if (channels.empty())
+        return [&wall, &panorama](glm::dvec3 point) {
+            return bilinear(panorama,
+                            wall.screen().unrolled(point) * glm::dvec2(panorama.sizePixels));
+        };
+    return [&wall, channels](glm::dvec3 point) {
+        for (std::size_t i = 0; i < channels.size(); ++i)
+            if (const auto pixel = wall.channel(i).pixelOf(point))
+                return bilinear(channels[i], *pixel);
+        return glm::vec3(0);
+    };
+}
+
+}  // namespace
+
+Light composeHall(const config::Rig& rig,
+                  const Light& panorama,
+                  glm::ivec2 sizePixels,
+                  std::span<const Light> channels) {
     assert(sizePixels.x > 0);
     assert(sizePixels.y > 0);
-    const Eye eye = eyeAtTheBack(rig.screen, sizePixels);
-    const Room room(rig.screen, panorama, eye.position);
+    if (rig.screen.shape != config::ScreenShape::Panels) channels = {};
+    const wall::Wall wall(rig);
+    const Eye eye = eyeAtTheBack(wall.screen(), sizePixels);
+    const Room room(wall.screen(), panorama, screenLight(wall, panorama, channels), eye.position);
     Light hall = darkness(sizePixels);
     WorkerPool(std::thread::hardware_concurrency())
         .run(static_cast<std::size_t>(sizePixels.y),
@@ -180,6 +224,7 @@ std::vector<Light> readChannels(const config::Rig& rig, const std::string& folde
 
 void writePanoramaAndHall(const config::Rig& rig,
                           const Light& panorama,
+                          std::span<const Light> channels,
                           const std::string& folder,
                           int bits) {
     assert(bits == 8 || bits == 16);
@@ -187,13 +232,15 @@ void writePanoramaAndHall(const config::Rig& rig,
     auto written = std::async(std::launch::async, [&] {
         writePng(folder + "/panorama.png", pictureOf(panorama, bits, 0));
     });
-    writePng(folder + "/hall.png", pictureOf(composeHall(rig, panorama, kHallPixels), bits, 0));
+    writePng(folder + "/hall.png",
+             pictureOf(composeHall(rig, panorama, kHallPixels, channels), bits, 0));
     written.get();
 }
 
 void composeSnapshot(const config::Rig& rig, const std::string& folder, int bits) {
     const PanoramaMap map(rig);
-    writePanoramaAndHall(rig, map.compose(readChannels(rig, folder)), folder, bits);
+    const std::vector<Light> channels = readChannels(rig, folder);
+    writePanoramaAndHall(rig, map.compose(channels), channels, folder, bits);
     if (!hasStereo(rig)) return;
     for (const std::string eye : {".left_eye", ".right_eye"})
         writePng(fmt::format("{}/panorama{}.png", folder, eye),

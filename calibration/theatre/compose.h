@@ -40,11 +40,13 @@ class PanoramaMap {
 // Size of the hall's picture and clip.
 inline constexpr glm::ivec2 kHallPixels(1600, 900);
 
-// What a visitor at the back of the dark hall sees, over the heads of the audience. Takes seconds;
-// uses all processors.
+// What a visitor at the back of the dark hall sees, over the heads of the audience. `channels`: as
+// above, for panels, whose panorama is coarse above and below; else they may be left out. Takes
+// seconds; uses all processors.
 [[nodiscard]] Light composeHall(const config::Rig& rig,
                                 const Light& panorama,
-                                glm::ivec2 sizePixels);
+                                glm::ivec2 sizePixels,
+                                std::span<const Light> channels = {});
 
 // What every channel of folder/channel-NAME.png throws on the wall, seen without glasses: of two
 // eyes that its display parts again the mean of channel-NAME.left_eye.png and .right_eye.png.
@@ -55,6 +57,7 @@ inline constexpr glm::ivec2 kHallPixels(1600, 900);
 // be written.
 void writePanoramaAndHall(const config::Rig& rig,
                           const Light& panorama,
+                          std::span<const Light> channels,
                           const std::string& folder,
                           int bits);
 

@@ -53,25 +53,26 @@ class Camera {
     }
     [[nodiscard]] Picture pictureOf(const std::vector<FilmedFrame>& frames) const {
         if (!map_) return frames.front().picture;
-        const Light panorama = panoramaOf(frames);
+        const std::vector<Light> channels = channelsOf(frames);
+        const Light panorama = map_->compose(channels);
         const auto seed = static_cast<std::uint32_t>(frames.front().frame);
         return aquarama::pictureOf(
-            of_ == kHall ? composeHall(rig_, panorama, kHallPixels) : panorama, 8, seed);
+            of_ == kHall ? composeHall(rig_, panorama, kHallPixels, channels) : panorama, 8, seed);
     }
     // The panorama and the hall of one frame; needs the frames of all channels.
     void writePictures(const std::vector<FilmedFrame>& frames, const std::string& folder) const {
-        const Light panorama = panoramaOf(frames);
-        writePanoramaAndHall(rig_, panorama, folder, 8);
+        const std::vector<Light> channels = channelsOf(frames);
+        writePanoramaAndHall(rig_, map_->compose(channels), channels, folder, 8);
         std::cout << "first picture: " << folder << "/panorama.png, " << folder << "/hall.png"
                   << std::endl;
     }
 
   private:
-    [[nodiscard]] Light panoramaOf(const std::vector<FilmedFrame>& frames) const {
+    [[nodiscard]] static std::vector<Light> channelsOf(const std::vector<FilmedFrame>& frames) {
         std::vector<Light> channels;
         channels.reserve(frames.size());
         for (const FilmedFrame& frame : frames) channels.push_back(lightOf(frame.picture));
-        return map_->compose(channels);
+        return channels;
     }
 
     const config::Rig& rig_;

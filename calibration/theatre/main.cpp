@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // aquarama-calibrate: checks a rig, says what it does, and composes what its projectors show.
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "calibration/theatre/check.h"
 #include "calibration/theatre/compose.h"
@@ -27,6 +29,7 @@ void say(const std::string& text) {
 // Throws Error for a mistake in the file, or for a projector that misses the screen.
 config::Rig checkedRig(const std::string& text, const std::string& path) {
     config::Rig rig = config::parseRig(text, path);
+    config::readRigFiles(rig, path);
     wall::checkGeometry(rig, path);
     return rig;
 }
@@ -37,14 +40,22 @@ config::Rig readCheckedRig(const std::string& path) {
 
 // Says what each channel lights; checks the scene that the rig shows as well.
 void checkRig(const config::Rig& rig, const std::string& path) {
+    const wall::Wall wall(rig);
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
-        std::printf("%s\n", theatre::oneLine(theatre::surveyChannel(rig, i)).c_str());
-    const double worst = theatre::worstBlendSum(rig);
-    if (worst > 1e-6) throw Error(path + ": the channels' shares of light do not sum to one");
+        std::printf("%s\n", theatre::oneLine(theatre::surveyChannel(rig, wall, i)).c_str());
+    const double dark = wall::darkShare(wall);
+    if (dark > 0) std::printf("dark: %.1f %% of the screen\n", 100 * dark);
+    const bool blendsItself = std::ranges::none_of(
+        rig.channels, [](const config::Channel& channel) { return channel.wallFile.has_value(); });
+    const double worst = theatre::worstBlendSum(wall);
+    if (blendsItself && worst > 1e-6)
+        throw Error(path + ": the channels' shares of light do not sum to one");
     const std::string scene = config::scenePathOf(rig, path);
     (void)theatre::inventoryOf(config::readScene(scene), scene);
-    std::printf(
-        "%s: good; the channels' shares of light sum to one within %.0e\n", path.c_str(), worst);
+    std::printf("%s: good; the %s sum to one within %.0e\n",
+                path.c_str(),
+                blendsItself ? "channels' shares of light" : "blends of its wall files",
+                worst);
 }
 
 // A rig, a scene or a species, whichever the file holds; `showRig` is called for a rig.
@@ -74,14 +85,42 @@ int checkAll(const std::vector<std::string>& paths) {
     return status;
 }
 
+std::string textOf(const config::Screen& screen) {
+    const double degrees = screen.arcRadians / kRadiansPerDegree<double>;
+    const std::string tilt = screen.tiltRadians == 0
+                                 ? ""
+                                 : fmt::format(", tilted {:.1f} degrees",
+                                               screen.tiltRadians / kRadiansPerDegree<double>);
+    switch (screen.shape) {
+        case config::ScreenShape::Cylinder:
+            return fmt::format("radius {:.3f} m, {:.1f} degrees ({:.3f} m of arc), {:.3f} m high",
+                               screen.radiusMetres,
+                               degrees,
+                               screen.arcRadians * screen.radiusMetres,
+                               screen.heightMetres) +
+                   tilt;
+        case config::ScreenShape::Flat:
+            return fmt::format("flat, {:.3f} x {:.3f} m, {:.3f} m away",
+                               screen.widthMetres,
+                               screen.heightMetres,
+                               screen.distanceMetres) +
+                   tilt;
+        case config::ScreenShape::Dome:
+            return fmt::format(
+                       "dome, radius {:.3f} m, {:.1f} degrees open", screen.radiusMetres, degrees) +
+                   tilt;
+        case config::ScreenShape::Measured:
+            return "measured, " + screen.meshFile;
+        case config::ScreenShape::Panels:
+            return "panels";
+    }
+    return {};
+}
+
 void inspectRig(const config::Rig& rig, const std::string& /*path*/) {
     std::printf("rig \"%s\": %zu channels\n", rig.name.c_str(), rig.channels.size());
     std::printf("scene: %s\n", rig.scene.c_str());
-    std::printf("screen: radius %.3f m, %.1f degrees (%.3f m of arc), %.3f m high\n",
-                rig.screen.radiusMetres,
-                rig.screen.arcRadians / kRadiansPerDegree<double>,
-                rig.screen.arcRadians * rig.screen.radiusMetres,
-                rig.screen.heightMetres);
+    std::printf("screen: %s\n", textOf(rig.screen).c_str());
     std::printf("panorama: %d x %d pixels\n", rig.panoramaPixels.x, rig.panoramaPixels.y);
     if (rig.stereo.mode != config::StereoMode::Mono)
         std::printf("stereo: %s, eyes %.0f mm apart\n",

@@ -5,11 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-
-#include "common/wall/wall.h"
 
 namespace aquarama::theatre {
 
@@ -35,6 +34,7 @@ Light coarsened(const Light& fine, glm::ivec2 cells) {
 constexpr double kFloorBelowScreen = 0.3;    // metres
 constexpr double kCeilingAboveScreen = 1.1;  // over the projectors
 constexpr double kSeatsBeforeEye = 3.0;
+constexpr double kLeastHallMetres = 2.2;    // round a smaller screen nobody sits
 constexpr double kSeatedHeadMetres = 1.02;  // middle of the head above the floor
 constexpr float kFloorAlbedo = 0.3F;
 constexpr float kWallAlbedo = 0.1F;
@@ -111,16 +111,51 @@ std::vector<Person> seatedRow(double floor, double middleZ) {
 
 }  // namespace
 
-ScreenGlow::ScreenGlow(const config::Screen& screen, const Light& panorama)
+ScreenReach reachOf(const wall::ScreenSurface& screen) {
+    ScreenReach reach{.radius = 0, .bottom = 1e9, .top = -1e9};
+    for (const glm::dvec3& point : pointsOn(screen)) {
+        reach.radius = std::max(reach.radius, std::hypot(point.x, point.z));
+        reach.bottom = std::min(reach.bottom, point.y);
+        reach.top = std::max(reach.top, point.y);
+    }
+    return reach;
+}
+
+std::vector<glm::dvec3> pointsOn(const wall::ScreenSurface& screen) {
+    constexpr int kPlaces = 64;  // each way
+    std::vector<glm::dvec3> points = screen.border(0);
+    for (int y = 0; y <= kPlaces; ++y)
+        for (int x = 0; x <= kPlaces; ++x)
+            if (const auto point = screen.at(glm::dvec2(x, y) / double{kPlaces}))
+                points.push_back(*point);
+    return points;
+}
+
+namespace {
+
+// Of the part of the screen under a small rectangle of the panorama about a place, per share of the
+// whole panorama.
+double squareMetresAt(const wall::ScreenSurface& screen, glm::dvec2 place) {
+    constexpr double kStep = 1e-3;
+    const auto here = screen.at(place);
+    const auto right = screen.at(place + glm::dvec2(kStep, 0));
+    const auto down = screen.at(place + glm::dvec2(0, kStep));
+    if (!here || !right || !down) return 0;
+    return glm::length(glm::cross(*right - *here, *down - *here)) / (kStep * kStep);
+}
+
+}  // namespace
+
+ScreenGlow::ScreenGlow(const wall::ScreenSurface& screen, const Light& panorama)
     : coarse_(coarsened(panorama, kLamps)) {
-    const double squareMetres =
-        screen.radiusMetres * screen.arcRadians * screen.heightMetres / (kLamps.x * kLamps.y);
     for (int y = 0; y < kLamps.y; ++y)
         for (int x = 0; x < kLamps.x; ++x) {
-            const glm::dvec3 centre =
-                wall::screenPointAt(screen, glm::dvec2(x + 0.5, y + 0.5) / glm::dvec2(kLamps));
-            const glm::dvec3 facing = glm::normalize(glm::dvec3(-centre.x, 0, -centre.z));
-            lamps_.push_back({centre, facing, squareMetres, coarse_.at(x, y)});
+            const glm::dvec2 place = glm::dvec2(x + 0.5, y + 0.5) / glm::dvec2(kLamps);
+            const auto centre = screen.at(place);
+            if (!centre) continue;
+            const double squareMetres = squareMetresAt(screen, place) / (kLamps.x * kLamps.y);
+            const glm::dvec3 facing = glm::normalize(screen.normalAt(*centre));
+            lamps_.push_back({*centre, facing, squareMetres, coarse_.at(x, y)});
             mean_ += coarse_.at(x, y) / float{kLamps.x * kLamps.y};
         }
 }
@@ -144,12 +179,15 @@ glm::vec3 ScreenGlow::blurred(glm::dvec2 position) const {
     return bilinear(coarse_, position * glm::dvec2(kLamps));
 }
 
-Room::Room(const config::Screen& screen, const Light& panorama, glm::dvec3 eye)
-    : screen_(screen), panorama_(panorama), glow_(screen, panorama) {
-    const double radius = screen.radiusMetres;
-    low_ = {-1.5 * radius, -screen.heightMetres / 2 - kFloorBelowScreen, -1.25 * radius};
-    high_ = {1.5 * radius, screen.heightMetres / 2 + kCeilingAboveScreen, 2.5 * radius};
-    audience_ = seatedRow(low_.y, eye.z - kSeatsBeforeEye);
+Room::Room(const wall::ScreenSurface& screen,
+           const Light& panorama,
+           ScreenLight light,
+           glm::dvec3 eye)
+    : screen_(screen), light_(std::move(light)), glow_(screen, panorama) {
+    const auto [radius, bottom, top] = reachOf(screen);
+    low_ = {-1.5 * radius, bottom - kFloorBelowScreen, -1.25 * radius};
+    high_ = {1.5 * radius, top + kCeilingAboveScreen, 2.5 * radius};
+    if (radius > kLeastHallMetres) audience_ = seatedRow(low_.y, eye.z - kSeatsBeforeEye);
 }
 
 glm::vec3 Room::seen(std::span<const wall::Ray> rays) const {
@@ -158,9 +196,8 @@ glm::vec3 Room::seen(std::span<const wall::Ray> rays) const {
     for (const wall::Ray& ray : rays) {
         if (const auto body = person(ray)) {
             sum += *body;
-        } else if (const auto point = wall::screenHit(screen_, ray, 0)) {
-            sum += bilinear(panorama_,
-                            wall::unrolled(screen_, *point) * glm::dvec2(panorama_.sizePixels));
+        } else if (const auto point = screen_.hit(ray, 0)) {
+            sum += light_(*point);
         } else {
             if (!wall) wall = walls(ray);
             sum += *wall;
@@ -200,8 +237,8 @@ glm::vec3 Room::walls(const wall::Ray& ray) const {
 
     glm::vec3 light = kFloorAlbedo * (glow_.on(point, normal) + kBounce * glow_.mean());
     const wall::Ray mirrored{point, ray.direction * glm::dvec3(1, -1, 1)};
-    if (const auto image = wall::screenHit(screen_, mirrored, 0)) {
-        const glm::dvec2 at = wall::unrolled(screen_, *image);
+    if (const auto image = screen_.hit(mirrored, 0)) {
+        const glm::dvec2 at = screen_.unrolled(*image);
         const double fromEdge = std::min({at.x, 1 - at.x, at.y, 1 - at.y});
         const auto share = static_cast<float>(glm::smoothstep(0.0, kGlossFade, fromEdge));
         light += kFloorGloss * share * glow_.blurred(at);

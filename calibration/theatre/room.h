@@ -3,6 +3,7 @@
 // screen.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,15 +11,22 @@
 #include <glm/vec3.hpp>
 
 #include "common/base/picture.h"
-#include "common/config/rig.h"
-#include "common/wall/pinhole.h"
+#include "common/wall/surface.h"
 
 namespace aquarama::theatre {
+
+// How far the screen reaches from the wall's y axis, and its heights; metres.
+struct ScreenReach {
+    double radius = 0, bottom = 0, top = 0;
+};
+[[nodiscard]] ScreenReach reachOf(const wall::ScreenSurface& screen);
+// Points all over the screen, edges included.
+[[nodiscard]] std::vector<glm::dvec3> pointsOn(const wall::ScreenSurface& screen);
 
 // The screen as a coarse grid of lamps, for what it throws on the room.
 class ScreenGlow {
   public:
-    ScreenGlow(const config::Screen& screen, const Light& panorama);
+    ScreenGlow(const wall::ScreenSurface& screen, const Light& panorama);
     // Light that a white matt surface at this point of the wall's frame would send back; the normal
     // has length one.
     [[nodiscard]] glm::vec3 on(glm::dvec3 point, glm::dvec3 normal) const;
@@ -50,10 +58,16 @@ struct Person {
     double reach;
 };
 
-// The hall as an eye sees it; keeps a reference to the panorama.
+// What the screen sends back at a point of it.
+using ScreenLight = std::function<glm::vec3(glm::dvec3 point)>;
+
+// The hall as an eye sees it; keeps a reference to the screen.
 class Room {
   public:
-    Room(const config::Screen& screen, const Light& panorama, glm::dvec3 eye);
+    Room(const wall::ScreenSurface& screen,
+         const Light& panorama,
+         ScreenLight light,
+         glm::dvec3 eye);
     // The mean of what comes along the rays (of length-one directions) of one pixel to an eye in
     // the room. The light on floor, ceiling and walls changes slowly: it is found once a pixel.
     [[nodiscard]] glm::vec3 seen(std::span<const wall::Ray> rays) const;
@@ -62,8 +76,8 @@ class Room {
     [[nodiscard]] std::optional<glm::vec3> person(const wall::Ray& ray) const;
     [[nodiscard]] glm::vec3 walls(const wall::Ray& ray) const;
 
-    config::Screen screen_;
-    const Light& panorama_;
+    const wall::ScreenSurface& screen_;
+    ScreenLight light_;
     ScreenGlow glow_;
     std::vector<Person> audience_;
     glm::dvec3 low_, high_;  // corners

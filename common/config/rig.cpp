@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/config/rig.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <set>
 
+#include <glm/geometric.hpp>
+
+#include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/base/units.h"
 #include "common/config/rig.pb.h"
@@ -83,11 +88,53 @@ glm::ivec2 sizeOf(const auto& in) {
     return {in.width_px(), in.height_px()};
 }
 
-Screen screenOf(const TextReader& file, const v1::Screen& in) {
-    return {.radiusMetres = in.radius_m(),
+Screen cylinderOf(const TextReader& file, const v1::Screen& in) {
+    for (const char* field : {"radius_m", "arc_deg", "height_m"}) file.require(in, field);
+    return {.shape = ScreenShape::Cylinder,
+            .radiusMetres = in.radius_m(),
             .arcRadians = in.arc_deg() * kDegree,
             .heightMetres = in.height_m(),
-            .place = file.placeOf(in)};
+            .meshFile = {},
+            .place = {}};
+}
+
+Screen flatOf(const v1::FlatScreen& in) {
+    return {.shape = ScreenShape::Flat,
+            .widthMetres = in.width_m(),
+            .heightMetres = in.height_m(),
+            .distanceMetres = in.distance_m(),
+            .meshFile = {},
+            .place = {}};
+}
+
+Screen domeOf(const v1::DomeScreen& in) {
+    return {.shape = ScreenShape::Dome,
+            .radiusMetres = in.radius_m(),
+            .arcRadians = in.opening_deg() * kDegree,
+            .meshFile = {},
+            .place = {}};
+}
+
+Screen shapeOf(const TextReader& file, const v1::Screen& in) {
+    if (in.has_flat()) return flatOf(in.flat());
+    if (in.has_dome()) return domeOf(in.dome());
+    if (in.has_measured())
+        return {.shape = ScreenShape::Measured, .meshFile = in.measured().file(), .place = {}};
+    return cylinderOf(file, in);
+}
+
+Screen screenOf(const TextReader& file, const v1::Screen& in) {
+    const bool isCylinder = in.has_radius_m() || in.has_arc_deg() || in.has_height_m();
+    if (int{isCylinder} + in.has_flat() + in.has_dome() + in.has_measured() > 1)
+        file.refuse(in,
+                    "the screen has two shapes: keep one of radius_m with arc_deg and height_m, "
+                    "flat, dome, measured");
+    Screen screen = shapeOf(file, in);
+    screen.tiltRadians = in.tilt_deg() * kDegree;
+    screen.place = file.placeOf(in);
+    if (screen.shape == ScreenShape::Measured && screen.tiltRadians != 0)
+        file.refuse(in, "tilt_deg", "a measured screen lies as its file says: remove tilt_deg");
+    return screen;
 }
 
 Timing timingOf(const TextReader& file, const v1::Timing& in) {
@@ -124,7 +171,42 @@ Projector projectorOf(const v1::Projector& in, glm::dvec2 sizePixels) {
                                     in.roll_deg() * kDegree},
             .focalPixels = {in.focal_x_px(), in.focal_y_px()},
             .principalPixels = {in.has_principal_x_px() ? in.principal_x_px() : sizePixels.x / 2,
-                                in.has_principal_y_px() ? in.principal_y_px() : sizePixels.y / 2}};
+                                in.has_principal_y_px() ? in.principal_y_px() : sizePixels.y / 2},
+            .radial = {in.k1(), in.k2()}};
+}
+
+// A lens must not fold the picture: r (1 + k1 r^2 + k2 r^4) grows all the way to the picture's
+// farthest corner.
+void checkLens(const TextReader& file,
+               const v1::Projector& in,
+               const Projector& lens,
+               glm::dvec2 sizePixels) {
+    if (lens.radial == glm::dvec2(0)) return;
+    double farthest = 0;
+    for (const glm::dvec2 corner :
+         {glm::dvec2(0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1)})
+        farthest = std::max(
+            farthest, glm::length((corner * sizePixels - lens.principalPixels) / lens.focalPixels));
+    constexpr int kSteps = 200;
+    double thrown = 0;
+    for (int i = 1; thrown < farthest && i <= 10 * kSteps; ++i) {
+        const double square = std::pow(farthest * i / kSteps, 2);
+        if (1 + square * (3 * lens.radial.x + 5 * square * lens.radial.y) <= 0)
+            file.refuse(in,
+                        "k1",
+                        "the lens folds its picture before the farthest corner: k1 and k2 are for "
+                        "tangents, not pixels; make them smaller");
+        thrown = std::sqrt(square) * (1 + square * (lens.radial.x + square * lens.radial.y));
+    }
+}
+
+Panel panelOf(const v1::Panel& in) {
+    return {.positionMetres = positionOf(in.position()),
+            .yawPitchRollRadians = {in.yaw_deg() * kDegree,
+                                    in.pitch_deg() * kDegree,
+                                    in.roll_deg() * kDegree},
+            .sizeMetres = {in.width_m(), in.height_m()},
+            .bezelMetres = in.bezel_m()};
 }
 
 void checkDevice(const TextReader& file, const v1::Display& in) {
@@ -171,10 +253,22 @@ Channel channelOf(const TextReader& file, const v1::Channel& in, const Stereo& s
     Channel channel{.id = in.id(),
                     .name = in.name(),
                     .sizePixels = sizeOf(in),
-                    .projector = projectorOf(in.projector(), sizeOf(in)),
+                    .projector = {},
                     .display = displayOf(file, in.display()),
                     .machine = in.machine(),
                     .place = file.placeOf(in)};
+    if (in.has_projector() + in.has_panel() + in.has_wall_file() != 1)
+        file.refuse(in,
+                    "channel \"" + in.name() +
+                        "\" needs one of projector, panel and wall_file: what shows it");
+    if (in.has_projector()) {
+        channel.projector = projectorOf(in.projector(), sizeOf(in));
+        checkLens(file, in.projector(), channel.projector, sizeOf(in));
+    }
+    if (in.has_panel()) channel.panel = panelOf(in.panel());
+    if (in.has_wall_file())
+        channel.wallFile = {in.wall_file().file(),
+                            in.wall_file().has_region() ? in.wall_file().region() : in.name()};
     refuseOddHalves(file, in, channel.display.stereo.value_or(stereo.mode));
     return channel;
 }
@@ -204,6 +298,25 @@ void refuseOverlaps(const TextReader& file, const v1::Rig& in) {
     }
 }
 
+// The screen of projectors; panels are their own.
+void takeScreen(const TextReader& file, const std::string& source, const v1::Rig& in, Rig& rig) {
+    const auto isPanel = [](const Channel& channel) { return channel.panel.has_value(); };
+    if (std::ranges::all_of(rig.channels, isPanel)) {
+        rig.screen.shape = ScreenShape::Panels;
+        if (in.has_screen()) file.refuse(in.screen(), "all channels are panels: remove the screen");
+        return;
+    }
+    const auto panel = std::ranges::find_if(rig.channels, isPanel);
+    if (panel != rig.channels.end())
+        throw Error(
+            placed(source,
+                   panel->place,
+                   "a rig has panels or projectors, not both: give the panels a rig of their own"));
+    file.require(in, "screen");
+    rig.screen = screenOf(file, in.screen());
+    if (rig.screen.shape == ScreenShape::Measured) rig.files[rig.screen.meshFile];
+}
+
 }  // namespace
 
 std::string nameOf(StereoMode mode) {
@@ -217,7 +330,8 @@ Rig parseRig(const std::string& text, const std::string& source) {
     checkNetwork(file, in.network());
     Rig rig{.text = text,
             .name = in.name(),
-            .screen = screenOf(file, in.screen()),
+            .screen = {},
+            .hidesBezels = in.bezels() == v1::Rig::HIDDEN,
             .panoramaPixels = sizeOf(in.panorama()),
             .controlAddress = in.network().control(),
             .stateAddress = in.network().state(),
@@ -231,16 +345,27 @@ Rig parseRig(const std::string& text, const std::string& source) {
                        .swapEyes = in.stereo().swap_eyes()},
             .sweetSpotMetres = positionOf(in.sweet_spot()),
             .sweetSpotPlace = {},
-            .quality = qualityOf(in)};
+            .quality = qualityOf(in),
+            .files = {}};
     if (in.has_sweet_spot()) rig.sweetSpotPlace = file.placeOf(in.sweet_spot());
     for (const v1::Channel& channel : in.channels())
         rig.channels.push_back(channelOf(file, channel, rig.stereo));
+    for (const Channel& channel : rig.channels)
+        if (channel.wallFile) rig.files[channel.wallFile->file];
+    takeScreen(file, source, in, rig);
     refuseOverlaps(file, in);
     return rig;
 }
 
+void readRigFiles(Rig& rig, const std::string& rigPath) {
+    for (auto& [name, content] : rig.files)
+        content = readWhole(besideFile(rigPath, name), kMostWallFileBytes);
+}
+
 Rig readRig(const std::string& path) {
-    return parseRig(readTextFile(path), path);
+    Rig rig = parseRig(readTextFile(path), path);
+    readRigFiles(rig, path);
+    return rig;
 }
 
 bool needsKeys(const Rig& rig) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,23 +44,45 @@ inline constexpr std::array<std::string_view, 4> kTierNames{"low", "medium", "hi
     return tierAt(static_cast<std::uint32_t>(found - kTierNames.begin()));
 }
 
-// A piece of an upright cylinder, open towards the audience. Wall frame: metres, Y up, origin on
-// the cylinder's axis at the screen's mid-height, where the sweet spot is unless a rig moves it;
-// the screen's middle is at (0, 0, -radius).
+// What light falls on.
+enum class ScreenShape : std::uint8_t { Cylinder, Flat, Dome, Measured, Panels };
+
+// Wall frame: metres, Y up, the screen's middle ahead of the origin (-z), where the sweet spot is
+// unless a rig moves it. rig.proto says how each shape lies there.
 struct Screen {
-    double radiusMetres = 0;
-    double arcRadians = 0;
-    double heightMetres = 0;
+    ScreenShape shape = ScreenShape::Cylinder;
+    double radiusMetres = 0;    // cylinder, dome
+    double arcRadians = 0;      // cylinder; of a dome its opening
+    double widthMetres = 0;     // flat
+    double heightMetres = 0;    // cylinder, flat
+    double distanceMetres = 0;  // flat
+    double tiltRadians = 0;     // about +X, the front going down; not of measured ones and panels
+    std::string meshFile;       // measured: name in Rig::files
     SourcePlace place;
 };
 
-// A pinhole: x right, y up, looking along -Z of its own frame.
+// A pinhole with a lens: x right, y up, looking along -Z of its own frame.
 struct Projector {
     glm::dvec3 positionMetres{};       // wall frame
     glm::dvec3 yawPitchRollRadians{};  // yaw about +Y (left positive), then pitch about +X (up
                                        // positive), then roll about +Z
     glm::dvec2 focalPixels{};          // fx and fy differ where pixels are not square
     glm::dvec2 principalPixels{};      // from the top left corner of the picture
+    glm::dvec2 radial{};               // k1, k2: a tangent r is thrown at r (1 + k1 r^2 + k2 r^4)
+};
+
+// A flat display, x right and y up on it, its face towards +Z of its own frame.
+struct Panel {
+    glm::dvec3 positionMetres{};       // of its middle, wall frame
+    glm::dvec3 yawPitchRollRadians{};  // as a projector's
+    glm::dvec2 sizeMetres{};           // of the picture
+    double bezelMetres = 0;
+};
+
+// One channel of a file that another program has written.
+struct WallFileRegion {
+    std::string file;  // name in Rig::files
+    std::string region;
 };
 
 // What takes the picture of a channel: a window on a desktop, or a whole monitor.
@@ -95,12 +118,14 @@ struct Display {
     std::optional<bool> swapEyes = {};        // instead of the rig's
 };
 
-// One projector, the picture that it throws and the node that draws it.
+// One projector or panel, the picture that it shows and the node that draws it.
 struct Channel {
     std::uint32_t id = 0;
     std::string name;
-    glm::ivec2 sizePixels{};  // of the projector's picture
-    Projector projector;
+    glm::ivec2 sizePixels{};  // of its picture
+    Projector projector;      // unless one of these stands in its place
+    std::optional<Panel> panel = {};
+    std::optional<WallFileRegion> wallFile = {};
     Display display;
     std::string machine;  // whose node shows it; empty: the master's
     SourcePlace place;
@@ -118,6 +143,7 @@ struct Rig {
     std::string text;  // of the file, as it was read: the nodes are sent it
     std::string name;
     Screen screen;
+    bool hidesBezels = false;     // of panels
     glm::ivec2 panoramaPixels{};  // the unrolled wall, for the composed pictures
     std::string controlAddress;   // "tcp://127.0.0.1:7400": ROUTER
     std::string stateAddress;     // "tcp://127.0.0.1:7401": PUB
@@ -131,13 +157,20 @@ struct Rig {
     glm::dvec3 sweetSpotMetres{};  // wall frame: between the viewer's eyes
     SourcePlace sweetSpotPlace;
     std::optional<QualityTier> quality;  // nothing: measured at start
+    // Measured screens and wall files, whole, by the name that the rig has for them.
+    std::map<std::string, std::vector<std::byte>> files;
 };
 
 // Reads a rig and holds it to rig.proto and to what no single field can tell (overlapping ids, a
 // bind past the loopback): throws Error with file:line:column. `source` is the file's name in
 // errors. Geometry (a projector that misses the screen) is checked by common/wall.
 [[nodiscard]] Rig readRig(const std::string& path);
+// Without the files that it names: `files` has empty ones.
 [[nodiscard]] Rig parseRig(const std::string& text, const std::string& source);
+// Reads the files that a rig names from its folder, as readRig() does. Throws Error where one
+// cannot be read or is larger than kMostWallFileBytes.
+void readRigFiles(Rig& rig, const std::string& rigPath);
+inline constexpr std::size_t kMostWallFileBytes = std::size_t{64} << 20U;
 
 // Whether its master listens past its own machine, where everybody needs a key.
 [[nodiscard]] bool needsKeys(const Rig& rig);

@@ -29,29 +29,36 @@ namespace pattern {
 }
 
 // Light at an angle, of lines at all multiples of the spacing.
-[[nodiscard]] inline double lines(double atDegrees, double spacingDegrees) {
-    const double off = atDegrees - spacingDegrees * std::round(atDegrees / spacingDegrees);
+// `scale`: of a degree of this angle, as an arc.
+[[nodiscard]] inline double lines(double atDegrees, double spacingDegrees, double scale) {
+    const double off =
+        scale * (atDegrees - spacingDegrees * std::round(atDegrees / spacingDegrees));
     return std::exp(-off * off / (2 * kGridSigmaDegrees * kGridSigmaDegrees));
 }
 
-[[nodiscard]] inline double majorAndMinor(double atDegrees) {
-    return std::fmax(kGridMinorLight * pattern::lines(atDegrees, kGridDegrees),
-                     pattern::lines(atDegrees, kGridMajorDegrees));
+[[nodiscard]] inline double majorAndMinor(double atDegrees, double scale) {
+    return std::fmax(kGridMinorLight * pattern::lines(atDegrees, kGridDegrees, scale),
+                     pattern::lines(atDegrees, kGridMajorDegrees, scale));
 }
 
 }  // namespace pattern
 
 // On an upright cylinder about the origin: upright lines and horizontal rings. direction: wall
-// frame, of any length.
-[[nodiscard]] inline double gridLight(glm::dvec3 direction) {
+// frame, of any length. isAround: what shows zenith or nadir, where lines of equal azimuth meet,
+// has them as wide there as elsewhere (PatternGround::isAround).
+[[nodiscard]] inline double gridLight(glm::dvec3 direction, bool isAround = false) {
     const double azimuth = pattern::degrees(direction.x, -direction.z);
     const double level = std::sqrt(direction.x * direction.x + direction.z * direction.z);
     const double elevation = pattern::degrees(direction.y, level);
-    return std::fmax(pattern::majorAndMinor(azimuth), pattern::majorAndMinor(elevation));
+    const double scale =
+        isAround ? level / std::sqrt(level * level + direction.y * direction.y) : 1;
+    return std::fmax(pattern::majorAndMinor(azimuth, scale), pattern::majorAndMinor(elevation, 1));
 }
 
-[[nodiscard]] inline double patternLight(TestPattern pattern, glm::dvec3 direction) {
-    return pattern == TestPattern::Grid ? gridLight(direction) : kGreyLight;
+[[nodiscard]] inline double patternLight(TestPattern pattern,
+                                         glm::dvec3 direction,
+                                         bool isAround = false) {
+    return pattern == TestPattern::Grid ? gridLight(direction, isAround) : kGreyLight;
 }
 
 }  // namespace aquarama::wall

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+#include <numbers>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <glm/vec4.hpp>
 
 #include "common/base/log.h"
 #include "common/base/units.h"
-#include "common/wall/pinhole.h"
 
 namespace aquarama::wall {
 
@@ -31,27 +31,13 @@ config::Stereo stereoOf(const config::Rig& rig, std::size_t channel) {
     return stereo;
 }
 
-std::optional<glm::dvec3> screenPoint(const config::Screen& screen,
-                                      const config::Channel& channel,
-                                      glm::dvec2 pixel) {
-    return screenHit(screen, Pinhole(channel).ray(pixel), 0);
+Wall::Wall(const config::Rig& rig) : rig_(rig), screen_(makeSurface(rig_)) {
+    const WallFiles files = readWallFiles(rig_);
+    for (std::size_t i = 0; i < rig_.channels.size(); ++i)
+        channels_.push_back(makeOptics(rig_, i, *screen_, files));
 }
 
-std::optional<glm::dvec2> projectorPixel(const config::Channel& channel,
-                                         glm::dvec3 screenPointMetres) {
-    return Pinhole(channel).pixelOf(screenPointMetres);
-}
-
-glm::dvec2 unrolled(const config::Screen& screen, glm::dvec3 point) {
-    return {0.5 + azimuthOf(point) / screen.arcRadians, 0.5 - point.y / screen.heightMetres};
-}
-
-glm::dvec3 screenPointAt(const config::Screen& screen, glm::dvec2 position) {
-    const double azimuth = (position.x - 0.5) * screen.arcRadians;
-    return {screen.radiusMetres * std::sin(azimuth),
-            (0.5 - position.y) * screen.heightMetres,
-            -screen.radiusMetres * std::cos(azimuth)};
-}
+Wall::~Wall() = default;
 
 namespace {
 
@@ -63,46 +49,76 @@ double bump(double position, double size) {
     return hill * hill;
 }
 
-// The weight of a projector at a point before the weights are divided by their sum; 0 where it does
+}  // namespace
+
+// The weight of a channel at a point before the weights are divided by their sum; 0 where it does
 // not light the point.
-double pull(const Pinhole& projector, glm::dvec3 point) {
-    const auto pixel = projector.pixelOf(point);
-    if (!pixel || !lightsInside(projector, point)) return 0;
-    return bump(pixel->x, projector.size().x) * bump(pixel->y, projector.size().y);
+double Wall::pull(std::size_t channel, glm::dvec3 point) const {
+    const auto pixel = channels_[channel]->pixelOf(point);
+    if (!pixel) return 0;
+    const glm::dvec2 size(rig_.channels[channel].sizePixels);
+    return bump(pixel->x, size.x) * bump(pixel->y, size.y);
+}
+
+// Of a blend that a wall file has: the mean of its colours, between the centres of pixels.
+double Wall::ownWeight(std::size_t channel, glm::dvec2 pixel) const {
+    const glm::ivec2 size = rig_.channels[channel].sizePixels;
+    const std::vector<glm::vec3>& blend = channels_[channel]->blend();
+    const glm::dvec2 centre = glm::clamp(pixel - 0.5, glm::dvec2(0), glm::dvec2(size - 1));
+    const glm::ivec2 low = glm::min(glm::ivec2(centre), glm::max(size - 2, 0));
+    const glm::dvec2 share = centre - glm::dvec2(low);
+    const auto at = [&](glm::ivec2 pixelAt) {
+        const glm::ivec2 inside = glm::min(pixelAt, size - 1);
+        const glm::vec3& light = blend[static_cast<std::size_t>(inside.y * size.x + inside.x)];
+        return static_cast<double>(light.x + light.y + light.z) / 3;
+    };
+    const double above = glm::mix(at(low), at(low + glm::ivec2(1, 0)), share.x);
+    const double below = glm::mix(at(low + glm::ivec2(0, 1)), at(low + 1), share.x);
+    return glm::mix(above, below, share.y);
+}
+
+double Wall::weight(std::size_t channel, glm::dvec3 point) const {
+    assert(channel < channels_.size());
+    const bool isPanel = rig_.channels[channel].panel.has_value();
+    if (isPanel || !channels_[channel]->blend().empty()) {
+        const auto pixel = channels_[channel]->pixelOf(point);
+        return !pixel ? 0 : isPanel ? 1 : ownWeight(channel, *pixel);
+    }
+    const double own = pull(channel, point);
+    if (own <= 0) return 0;
+    double sum = own;
+    for (std::size_t i = 0; i < channels_.size(); ++i)
+        if (i != channel) sum += pull(i, point);
+    return own / sum;
+}
+
+namespace {
+
+bool isGrey(const std::vector<glm::vec3>& light) {
+    return std::ranges::all_of(light,
+                               [](glm::vec3 one) { return one.x == one.y && one.y == one.z; });
 }
 
 }  // namespace
 
-Blend::Blend(const config::Rig& rig) {
-    for (const config::Channel& channel : rig.channels) projectors_.emplace_back(channel);
-}
-
-double Blend::weight(std::size_t channel, glm::dvec3 point) const {
-    assert(channel < projectors_.size());
-    const double own = pull(projectors_[channel], point);
-    if (own <= 0) return 0;
-    double sum = own;
-    for (std::size_t i = 0; i < projectors_.size(); ++i)
-        if (i != channel) sum += pull(projectors_[i], point);
-    return own / sum;
-}
-
-double blendWeight(const config::Rig& rig, std::size_t channel, glm::dvec3 screenPointMetres) {
-    return Blend(rig).weight(channel, screenPointMetres);
-}
-
-WarpMap warpMap(const config::Rig& rig, std::size_t channel) {
-    assert(channel < rig.channels.size());
-    const Blend blend(rig);
-    const glm::ivec2 size = rig.channels[channel].sizePixels;
-    WarpMap map;
-    map.sizePixels = size;
+WarpMap Wall::warp(std::size_t channel) const {
+    assert(channel < channels_.size());
+    const glm::ivec2 size = rig_.channels[channel].sizePixels;
+    const Optics& optics = *channels_[channel];
+    const bool isPanel = rig_.channels[channel].panel.has_value();
+    const bool hasBlend = !optics.blend().empty();
+    const bool isWeight = hasBlend && isGrey(optics.blend());
+    WarpMap map{.sizePixels = size, .pointAndWeight = {}, .black = optics.black()};
+    if (!isWeight) map.blend = optics.blend();
     map.pointAndWeight.reserve(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+    const auto weightOf = [&](glm::dvec3 point) -> double {
+        if (isWeight) return static_cast<double>(optics.blend()[map.pointAndWeight.size()].x);
+        return isPanel || hasBlend ? 1 : weight(channel, point);
+    };
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
-            const Ray ray = blend.projector(channel).ray({x + 0.5, y + 0.5});
-            const auto point = screenHit(rig.screen, ray, kSpillMetres);
-            map.pointAndWeight.push_back(point ? glm::vec4(*point, blend.weight(channel, *point))
+            const auto point = optics.pointOf({x + 0.5, y + 0.5}, kSpillMetres);
+            map.pointAndWeight.push_back(point ? glm::vec4(*point, weightOf(*point))
                                                : glm::vec4(0));
         }
     return map;
@@ -110,20 +126,48 @@ WarpMap warpMap(const config::Rig& rig, std::size_t channel) {
 
 namespace {
 
-// A camera at `eye` that looks horizontally towards an azimuth (right positive): upright things
-// stay upright in every channel.
-glm::dmat4 levelCamera(glm::dvec3 eye, double azimuth) {
-    const glm::dvec3 right(std::cos(azimuth), 0, std::sin(azimuth));
-    const glm::dvec3 back(-std::sin(azimuth), 0, std::cos(azimuth));
-    const glm::dmat3 wallFromCamera(right, glm::dvec3(0, 1, 0), back);
+// A camera at `eye` with these axes.
+glm::dmat4 cameraAt(glm::dvec3 eye, const glm::dmat3& wallFromCamera) {
     return glm::translate(glm::dmat4(glm::transpose(wallFromCamera)), -eye);
 }
 
-// The azimuth of the middle of what is lit, seen from between the eyes.
+// A camera that looks horizontally towards an azimuth (right positive): upright things stay upright
+// in every channel.
+glm::dmat3 levelAxes(double azimuth) {
+    const glm::dvec3 right(std::cos(azimuth), 0, std::sin(azimuth));
+    const glm::dvec3 back(-std::sin(azimuth), 0, std::cos(azimuth));
+    return {right, glm::dvec3(0, 1, 0), back};
+}
+
+// A camera that looks along a direction, without roll.
+glm::dmat3 aimedAxes(glm::dvec3 direction) {
+    constexpr double kNearlyUp = 0.95;  // where "without roll" has no meaning any more
+    const glm::dvec3 up =
+        std::abs(direction.y) < kNearlyUp ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+    const glm::dvec3 right = glm::normalize(glm::cross(direction, up));
+    return {right, glm::cross(right, direction), -direction};
+}
+
+// The azimuth of the middle of what is lit, seen from between the eyes, where it does not lie about
+// the back.
 double azimuthOfMiddle(const std::vector<glm::dvec3>& lit, glm::dvec3 between) {
     const auto [leftmost, rightmost] =
         std::ranges::minmax(lit, {}, [&](glm::dvec3 point) { return azimuthOf(point - between); });
     return (azimuthOf(leftmost - between) + azimuthOf(rightmost - between)) / 2;
+}
+
+// Level where that wastes little: where nothing is very high or low, nor about the back.
+glm::dmat3 axesFor(const std::vector<glm::dvec3>& lit, glm::dvec3 between) {
+    constexpr double kSteepest = 45 * kRadiansPerDegree<double>;
+    glm::dvec3 sum(0);
+    double steepest = 0;
+    for (const glm::dvec3& point : lit) {
+        sum += glm::normalize(point - between);
+        steepest = std::max(steepest, std::abs(elevationOf(point - between)));
+    }
+    const bool isBehind = std::abs(azimuthOf(sum)) > std::numbers::pi / 2;
+    if (steepest > kSteepest || isBehind) return aimedAxes(glm::normalize(sum));
+    return levelAxes(azimuthOfMiddle(lit, between));
 }
 
 // The tangent of an angle that is larger by so much.
@@ -131,36 +175,65 @@ double widened(double tangent, double byRadians) {
     return std::tan(std::atan(tangent) + byRadians);
 }
 
+// Tangents.
+struct Extents {
+    glm::dvec2 low{std::numeric_limits<double>::infinity()};
+    glm::dvec2 high{-std::numeric_limits<double>::infinity()};
+};
+
+Extents widened(const Extents& extents, double byRadians) {
+    return {{widened(extents.low.x, -byRadians), widened(extents.low.y, -byRadians)},
+            {widened(extents.high.x, byRadians), widened(extents.high.y, byRadians)}};
+}
+
+// A margin of whole pixels of a panel, so that each of them is one of the picture's.
+void takePanelMargin(ChannelFrustum& frustum,
+                     const Extents& panel,
+                     const Extents& least,
+                     glm::ivec2 sizePixels) {
+    const glm::dvec2 pixel = (panel.high - panel.low) / glm::dvec2(sizePixels);
+    const glm::dvec2 before = glm::ceil((panel.low - least.low) / pixel);
+    const glm::dvec2 after = glm::ceil((least.high - panel.high) / pixel);
+    const glm::dvec2 low = panel.low - before * pixel;
+    const glm::dvec2 high = panel.high + after * pixel;
+    frustum.left = low.x;
+    frustum.bottom = low.y;
+    frustum.right = high.x;
+    frustum.top = high.y;
+    frustum.sizePixels = sizePixels + glm::ivec2(before + after);
+}
+
+// What must be lit is so far in front of the eye.
+constexpr double kLeastAheadMetres = 0.1;
+
 }  // namespace
 
-ChannelFrustum channelFrustum(const config::Rig& rig,
-                              std::size_t channel,
-                              double marginRadians,
-                              EyeSide eye) {
-    assert(channel < rig.channels.size());
-    // What is lit must be so far in front of the eye.
-    constexpr double kLeastAheadMetres = 0.1;
-    const std::vector<glm::dvec3> lit =
-        litOutline(rig.screen, Pinhole(rig.channels[channel]), kSpillMetres);
-    const double ahead = azimuthOfMiddle(lit, rig.sweetSpotMetres);
+ChannelFrustum Wall::frustum(std::size_t channel, double marginRadians, EyeSide eye) const {
+    assert(channel < channels_.size());
+    const std::string& name = rig_.channels[channel].name;
+    const Optics& optics = *channels_[channel];
+    const std::vector<glm::dvec3> lit = optics.outline(kSpillMetres);
+    if (lit.empty()) throw Error("channel \"" + name + "\" misses the screen; aim it there");
+    const auto panel = optics.wallFromPanel();
     ChannelFrustum frustum;
-    frustum.cameraFromWall = levelCamera(eyePosition(rig, eye), ahead);
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    glm::dvec2 low(kInfinity);
-    glm::dvec2 high(-kInfinity);
+    frustum.cameraFromWall =
+        cameraAt(eyePosition(rig_, eye), panel ? *panel : axesFor(lit, rig_.sweetSpotMetres));
+    Extents extents;
     for (const glm::dvec3& point : lit) {
         const glm::dvec4 seen = frustum.cameraFromWall * glm::dvec4(point, 1);
         if (-seen.z < kLeastAheadMetres)
-            throw Error("channel \"" + rig.channels[channel].name +
+            throw Error("channel \"" + name +
                         "\" lights what is beside or behind the eyes; move sweet_spot back");
         const glm::dvec2 tangent = glm::dvec2(seen) / -seen.z;
-        low = glm::min(low, tangent);
-        high = glm::max(high, tangent);
+        extents.low = glm::min(extents.low, tangent);
+        extents.high = glm::max(extents.high, tangent);
     }
-    frustum.left = widened(low.x, -marginRadians);
-    frustum.bottom = widened(low.y, -marginRadians);
-    frustum.right = widened(high.x, marginRadians);
-    frustum.top = widened(high.y, marginRadians);
+    const Extents wide = widened(extents, marginRadians);
+    frustum.left = wide.low.x;
+    frustum.bottom = wide.low.y;
+    frustum.right = wide.high.x;
+    frustum.top = wide.high.y;
+    if (panel) takePanelMargin(frustum, extents, wide, rig_.channels[channel].sizePixels);
     return frustum;
 }
 
@@ -182,18 +255,19 @@ glm::mat4 clipFromCamera(const ChannelFrustum& f, float nearMetres) {
 }
 
 // Angles between the directions of pixels next to each other, at a grid of places.
-double finestPixelRadians(const config::Rig& rig) {
+double Wall::finestPixelRadians() const {
     // Places along each side of a picture.
     constexpr int kProbes = 5;
     double finest = std::numbers::pi;
-    for (const config::Channel& channel : rig.channels) {
-        const glm::dvec2 size(channel.sizePixels);
+    for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
+        const Optics& optics = *channels_[channel];
+        const glm::dvec2 size(rig_.channels[channel].sizePixels);
         for (int i = 0; i < kProbes * kProbes; ++i) {
             const glm::dvec2 pixel =
                 size * (glm::dvec2(i % kProbes, i / kProbes) + 0.5) / double{kProbes};
-            const auto here = screenPoint(rig.screen, channel, pixel);
+            const auto here = optics.pointOf(pixel, 0);
             for (const glm::dvec2 step : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
-                const auto next = screenPoint(rig.screen, channel, pixel + step);
+                const auto next = optics.pointOf(pixel + step, 0);
                 if (!here || !next) continue;
                 const double angle =
                     glm::length(glm::cross(glm::normalize(*here), glm::normalize(*next)));
@@ -204,123 +278,9 @@ double finestPixelRadians(const config::Rig& rig) {
     return finest;
 }
 
-namespace {
-
-// The samples of the screen that checkCovered() looks at.
-constexpr int kColumns = 481;
-constexpr int kRows = 121;
-// Beyond this a flat picture would need very many pixels at its sides.
-constexpr double kWidestDegrees = 150;
-
-[[noreturn]] void refuse(const std::string& source,
-                         config::SourcePlace place,
-                         const std::string& why) {
-    throw Error(config::placed(source, place, why));
-}
-
-std::string oneDecimal(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f", value);
-    return text;
-}
-
-// As in "12.0 degrees left", "3.5 degrees right".
-std::string sideways(double azimuth) {
-    return oneDecimal(std::abs(azimuth) / kRadiansPerDegree<double>) + " degrees " +
-           (azimuth < 0 ? "left" : "right");
-}
-
-// A projector must light some of the screen, and not too wide a part.
-void checkProjector(const config::Rig& rig,
-                    const config::Channel& channel,
-                    const std::string& source) {
-    const std::vector<glm::dvec3> lit = litOutline(rig.screen, Pinhole(channel), 0);
-    if (lit.empty())
-        refuse(source,
-               channel.place,
-               "projector \"" + channel.name +
-                   "\" misses the screen: aim it by yaw_deg, pitch_deg and principal_y_px, or "
-                   "move it");
-    const auto [low, high] =
-        std::ranges::minmax(lit, {}, [](glm::dvec3 point) { return azimuthOf(point); });
-    if (azimuthOf(high) - azimuthOf(low) > kWidestDegrees * kRadiansPerDegree<double>)
-        refuse(source,
-               channel.place,
-               "projector \"" + channel.name + "\" lights more than " + oneDecimal(kWidestDegrees) +
-                   " degrees of the screen: give it a longer focal_x_px, or share with another");
-}
-
-// Where sample `index` of `count` is between the edges of what has to be lit, as a share of the
-// screen.
-double sample(int index, int count) {
-    return kDarkBorder + (1 - 2 * kDarkBorder) * index / (count - 1);
-}
-
-// The dark points of one column of the screen, from top to bottom.
-std::vector<glm::dvec3> darkPoints(const config::Screen& screen,
-                                   const std::vector<Pinhole>& projectors,
-                                   int column) {
-    std::vector<glm::dvec3> dark;
-    for (int row = 0; row < kRows; ++row) {
-        const glm::dvec3 point =
-            screenPointAt(screen, {sample(column, kColumns), sample(row, kRows)});
-        const bool lit = std::ranges::any_of(projectors, [&](const Pinhole& projector) {
-            return lightsInside(projector, point) && projector.pixelOf(point);
-        });
-        if (!lit) dark.push_back(point);
-    }
-    return dark;
-}
-
-// All samples of the screen must be lit. Reports the first run of neighbouring columns that have a
-// dark point.
-void checkCovered(const config::Rig& rig, const std::string& source) {
-    std::vector<Pinhole> projectors;
-    for (const config::Channel& channel : rig.channels) projectors.emplace_back(channel);
-    std::vector<glm::dvec3> hole;
-    bool reachesEdge = false;
-    for (int column = 0; column < kColumns; ++column) {
-        const auto dark = darkPoints(rig.screen, projectors, column);
-        if (dark.empty() && !hole.empty()) break;
-        if (dark.empty()) continue;
-        hole.insert(hole.end(), dark.begin(), dark.end());
-        reachesEdge = reachesEdge || column == 0 || column == kColumns - 1;
-    }
-    if (hole.empty()) return;
-    const auto [low, high] =
-        std::ranges::minmax(hole, {}, [](glm::dvec3 point) { return point.y; });
-    const bool fullHeight = low.y < 0 && high.y > 0;
-    const std::string where = "from " + sideways(azimuthOf(hole.front())) + " to " +
-                              sideways(azimuthOf(hole.back())) + " of the middle, " +
-                              oneDecimal(low.y) + " to " + oneDecimal(high.y) +
-                              " m above the sweet spot";
-    if (fullHeight && !reachesEdge)
-        refuse(source,
-               rig.screen.place,
-               "neighbours leave a gap " + where +
-                   ": turn them together, or shorten their focal_x_px");
-    refuse(source,
-           rig.screen.place,
-           "no projector lights the screen " + where +
-               ": aim one there, shorten its focal length, or make the screen smaller");
-}
-
-// The eyes must be in front of the screen, not beside or behind a part of it.
-void checkEyes(const config::Rig& rig, const std::string& source) {
-    for (std::size_t channel = 0; channel < rig.channels.size(); ++channel)
-        for (const EyeSide eye : {EyeSide::Left, EyeSide::Right}) try {
-                (void)channelFrustum(rig, channel, 0, eye);
-            } catch (const Error& error) {
-                refuse(source, rig.sweetSpotPlace, error.what());
-            }
-}
-
-}  // namespace
-
-void checkGeometry(const config::Rig& rig, const std::string& source) {
-    for (const config::Channel& channel : rig.channels) checkProjector(rig, channel, source);
-    checkCovered(rig, source);
-    checkEyes(rig, source);
+glm::dvec3 Wall::patternOrigin() const {
+    const bool isFar = screen_->patternGround().kind == PatternGround::Kind::Far;
+    return isFar ? rig_.sweetSpotMetres : glm::dvec3(0);
 }
 
 }  // namespace aquarama::wall

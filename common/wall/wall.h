@@ -3,17 +3,19 @@
 // and the frustum that it draws. Channels are indices into Rig::channels.
 #pragma once
 
+#include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "common/config/rig.h"
-#include "common/wall/pinhole.h"
+#include "common/wall/optics.h"
+#include "common/wall/surface.h"
 
 namespace aquarama::wall {
 
@@ -27,86 +29,74 @@ enum class EyeSide : std::uint8_t { Between, Left, Right };
 // The stereo settings of the rig, with what the channel's display sets differently.
 [[nodiscard]] config::Stereo stereoOf(const config::Rig& rig, std::size_t channel);
 
-// From projector pixel to screen point, and the blend between neighbours: analytic, for a cylinder.
-
-// Where a projector's pixel (continuous, top left corner of the picture is (0, 0), texel centres at
-// +0.5) lights the screen, wall frame; nothing where its ray misses the screen.
-[[nodiscard]] std::optional<glm::dvec3> screenPoint(const config::Screen& screen,
-                                                    const config::Channel& channel,
-                                                    glm::dvec2 pixel);
-// The inverse of screenPoint(); nothing where the point is outside of the picture or behind the
-// projector.
-[[nodiscard]] std::optional<glm::dvec2> projectorPixel(const config::Channel& channel,
-                                                       glm::dvec3 screenPointMetres);
-
-// The unrolled screen: u from its left edge (0) to its right (1), v from its top (0) to its bottom
-// (1).
-[[nodiscard]] glm::dvec2 unrolled(const config::Screen& screen, glm::dvec3 screenPointMetres);
-// The inverse of unrolled().
-[[nodiscard]] glm::dvec3 screenPointAt(const config::Screen& screen, glm::dvec2 unrolledPosition);
-
-// The share of the light at a screen point that a channel gives: smooth, 0 at its picture's border.
-// The shares of all channels that reach the point sum to one in linear light. For many points, use
-// a Blend.
-[[nodiscard]] double blendWeight(const config::Rig& rig,
-                                 std::size_t channel,
-                                 glm::dvec3 screenPointMetres);
-
-// Light is drawn this far beyond the edges of the screen, a few pixels, where the frame of the
-// screen cuts it off. Without it, pixels whose centres lie just past an edge would leave a dark
-// line along it.
-inline constexpr double kSpillMetres = 0.015;
-
-// The warp of a channel: for each projector pixel, top row first, the point that it lights and its
-// blend weight.
+// The warp of a channel: for each pixel, top row first, the point that it lights and its blend
+// weight.
 struct WarpMap {
     glm::ivec2 sizePixels{};
     // Wall frame, metres; all 0 where the ray misses the screen and its spill.
     std::vector<glm::vec4> pointAndWeight;
+    // Of wall files that have them, in linear light: a blend with colours, in place of the weight,
+    // which is one then, and the least light of each pixel. Empty, or one for each pixel.
+    std::vector<glm::vec3> blend = {}, black = {};
 };
-// Cost: each pixel is tested against all projectors.
-[[nodiscard]] WarpMap warpMap(const config::Rig& rig, std::size_t channel);
 
-// An off-axis frustum from an eye that just holds what the channel lights, enlarged by
-// `marginRadians`. Both eyes and the place between them look the same way. Camera frame: x right, y
-// up, looking along -Z. The extents are tangents, at distance one.
+// An off-axis frustum from an eye that just holds what the channel lights, and a margin. Both eyes
+// and the place between them look the same way. Camera frame: x right, y up, looking along -Z. The
+// extents are tangents, at distance one.
 struct ChannelFrustum {
     glm::dmat4 cameraFromWall{1.0};
     double left = 0, right = 0, bottom = 0, top = 0;
+    // Of a panel: the size of the picture whose pixels are the panel's, with the margin.
+    std::optional<glm::ivec2> sizePixels = {};
 };
-// The channel must light some of the screen (checkGeometry()). Throws Error where it lights
-// something beside or behind the eye.
-[[nodiscard]] ChannelFrustum channelFrustum(const config::Rig& rig,
-                                            std::size_t channel,
-                                            double marginRadians,
-                                            EyeSide eye = EyeSide::Between);
 // Reversed depth: 1 at the near plane, 0 at infinity; there is no far plane.
 [[nodiscard]] glm::mat4 clipFromCamera(const ChannelFrustum& frustum, float nearMetres);
 
-// The angle, seen from the wall's origin, of the finest pixel that any channel throws on the
-// screen; radians. Samples 5 x 5 pixels of each channel.
-[[nodiscard]] double finestPixelRadians(const config::Rig& rig);
+// A rig's geometry, set up once for many points. Immutable; for any thread.
+class Wall {
+  public:
+    // Throws Error where a measured screen or a wall file cannot be used.
+    explicit Wall(const config::Rig& rig);
+    ~Wall();
+
+    [[nodiscard]] const ScreenSurface& screen() const { return *screen_; }
+    [[nodiscard]] const Optics& channel(std::size_t channel) const { return *channels_[channel]; }
+    [[nodiscard]] std::size_t channels() const { return channels_.size(); }
+
+    // The share of the light at a point of the screen that a channel gives: smooth, 0 at its
+    // picture's border. The shares of all channels that reach the point sum to one in linear light.
+    // Panels share nothing. Of a wall file with a blend of its own: that.
+    [[nodiscard]] double weight(std::size_t channel, glm::dvec3 point) const;
+    // Cost: each pixel is tested against all channels.
+    [[nodiscard]] WarpMap warp(std::size_t channel) const;
+    // Throws Error where the channel lights nothing, or something beside or behind the eye.
+    [[nodiscard]] ChannelFrustum frustum(std::size_t channel,
+                                         double marginRadians,
+                                         EyeSide eye = EyeSide::Between) const;
+    // The angle, seen from the wall's origin, of the finest pixel that any channel throws on the
+    // screen; radians. Samples 5 x 5 pixels of each channel.
+    [[nodiscard]] double finestPixelRadians() const;
+    // From where test patterns are seen as lines of equal azimuth and elevation.
+    [[nodiscard]] glm::dvec3 patternOrigin() const;
+
+  private:
+    [[nodiscard]] double pull(std::size_t channel, glm::dvec3 point) const;
+    [[nodiscard]] double ownWeight(std::size_t channel, glm::dvec2 pixel) const;
+
+    config::Rig rig_;
+    std::unique_ptr<const ScreenSurface> screen_;
+    std::vector<std::unique_ptr<const Optics>> channels_;
+};
 
 // A strip of this share of the screen's width or height may stay dark at each of its edges.
 inline constexpr double kDarkBorder = 0.005;
 
-// Throws Error, naming the place in the file `source`, when a projector misses the screen or
-// spreads too wide, a part of the screen stays dark, or an eye is beside or behind what a channel
-// lights.
+// The share of the panorama's screen that no channel lights, without the border.
+[[nodiscard]] double darkShare(const Wall& wall);
+
+// Throws Error, naming the place in the file `source`, when a channel misses the screen or spreads
+// too wide, a part of the screen stays dark (unless the screen or a channel is measured), or an eye
+// is beside or behind what a channel lights.
 void checkGeometry(const config::Rig& rig, const std::string& source);
-
-// The blend of a whole rig for many points: blendWeight() with the projectors set up once.
-// Immutable.
-class Blend {
-  public:
-    explicit Blend(const config::Rig& rig);
-    [[nodiscard]] double weight(std::size_t channel, glm::dvec3 screenPointMetres) const;
-    [[nodiscard]] const Pinhole& projector(std::size_t channel) const {
-        return projectors_[channel];
-    }
-
-  private:
-    std::vector<Pinhole> projectors_;
-};
 
 }  // namespace aquarama::wall

@@ -88,10 +88,17 @@ bool isCast(const v1::Look& m) {
     return m.cast_size() <= int{kMostSpecies} && std::cmp_equal(fish, m.fish_ids_size());
 }
 
+bool areRigFiles(const v1::Look& m) {
+    return m.rig_files_size() <= kMostRigFiles &&
+           std::ranges::all_of(m.rig_files(), [](const v1::RigFile& file) {
+               return isText(file.name(), kMostReasonBytes) && isDigest(file.digest());
+           });
+}
+
 bool isValid(const v1::Look& m) {
     return m.has_number() && m.scene_text().size() <= kMostSceneTextBytes && m.has_seed() &&
            m.has_world() && (!m.has_quality() || config::tierAt(m.quality())) && isSchool(m) &&
-           isCast(m);
+           isCast(m) && areRigFiles(m);
 }
 
 bool isValid(const v1::Welcome& m) {
@@ -367,6 +374,12 @@ Digest digestIn(const std::string& bytes) {
     std::ranges::transform(
         bytes, digest.bytes.begin(), [](char c) { return static_cast<std::uint8_t>(c); });
     return digest;
+}
+
+std::uint64_t calibrationOf(const std::string& rigText, const v1::Look& look) {
+    std::string all = toHex(digestOf(rigText));
+    for (const v1::RigFile& file : look.rig_files()) all += file.name() + file.digest();
+    return shortHash(digestOf(all));
 }
 
 }  // namespace aquarama::wire

@@ -35,6 +35,7 @@ inline constexpr std::size_t kMostSceneTextBytes = std::size_t{1} << 20U;
 inline constexpr std::size_t kMostBlobBytes = std::size_t{64} << 20U;
 inline constexpr std::size_t kBlobChunkBytes = std::size_t{256} << 10U;
 inline constexpr int kMostNodes = 256;
+inline constexpr int kMostRigFiles = 65;  // of each channel, and the screen's
 inline constexpr int kMostMonitors = 16;
 inline constexpr std::size_t kMostLineBytes = 256;  // of a report
 inline constexpr float kMostInputMetres = 10'000;   // of a position, on each axis
@@ -74,5 +75,8 @@ void writeShow(const Show& show, v1::Show& message);
 // A digest as the bytes of a field, and back; the bytes are 32, as decode() has checked.
 [[nodiscard]] std::string bytesOf(const Digest& digest);
 [[nodiscard]] Digest digestIn(const std::string& bytes);
+
+// Names what a node's geometry follows from: the rig's text and the files that it names.
+[[nodiscard]] std::uint64_t calibrationOf(const std::string& rigText, const v1::Look& look);
 
 }  // namespace aquarama::wire

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a show comes to show what is set: another world is made beside the present one, nodes build
 // its look behind their pictures, and the wall goes through black to it.
+#include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <span>
 #include <utility>
 
 #include "common/base/log.h"
@@ -89,12 +91,42 @@ void Conductor::set(const net::FromPeer& from, const v1::Set& set) {
 }
 
 void Conductor::changeShow(net::Instant now) {
+    if (control_.phase() == Phase::Steady) watchRigFiles(now);
     if (control_.phase() == Phase::Making) makeNextWorld();
     if (control_.phase() == Phase::Preparing) prepareNodes(now);
     if (control_.phase() == Phase::Switching) switchLook();
     // Nobody draws, so nobody has to see black.
     if (control_.phase() == Phase::Fading && !barrier_.hasMembers()) control_.blackShown();
     keepWhatWasSet();
+}
+
+void Conductor::watchRigFiles(net::Instant now) {
+    constexpr net::Instant kBetween = std::chrono::seconds(1);
+    if (!options_.changedRig || isLockstep()) return;
+    if (!rereading_.valid() && now - lastReread_ > kBetween) {
+        lastReread_ = now;
+        rereading_ = std::async(std::launch::async, options_.changedRig);
+    }
+    if (!isReady(rereading_)) return;
+    try {
+        auto rig = rereading_.get();
+        if (!rig || !control_.renew()) return;
+        rigFiles_ = std::move(rig->files);
+        logInfo("the files of the wall have changed; nodes build them");
+    } catch (const Error& problem) {
+        logWarning("the wall stays as it is: {}", problem.what());
+    }
+}
+
+void Conductor::giveRigFiles(v1::Look& look) {
+    look.clear_rig_files();
+    for (const auto& [name, content] : rigFiles_) {
+        const Digest digest = digestOf(std::span{content});
+        v1::RigFile& file = *look.add_rig_files();
+        file.set_name(name);
+        file.set_digest(wire::bytesOf(digest));
+        blobs_.emplace(digest, content);
+    }
 }
 
 void Conductor::makeNextWorld() {
@@ -115,6 +147,7 @@ void Conductor::makeNextWorld() {
 
 void Conductor::announceNextLook(net::Instant now) {
     nextLook_ = std::make_unique<v1::Look>(made_ ? lookOf(made_->assets, made_->school) : *look_);
+    giveRigFiles(*nextLook_);
     nextLook_->set_number(control_.nextLook());
     nextLook_->set_world(control_.nextHasWorld());
     const auto& quality = control_.next().quality;
@@ -153,6 +186,11 @@ void Conductor::giveUpNextLook(const std::string& missing) {
 
 void Conductor::switchLook() {
     assert(nextLook_);
+    for (const v1::RigFile& old : look_->rig_files())  // large, and asked for no more
+        if (std::ranges::none_of(nextLook_->rig_files(), [&](const v1::RigFile& file) {
+                return file.digest() == old.digest();
+            }))
+            blobs_.erase(wire::digestIn(old.digest()));
     look_ = std::move(nextLook_);
     if (made_) {
         simulationThread_.reset();
@@ -185,6 +223,7 @@ void Conductor::startSimulation() {
 void Conductor::welcomeToLook() {
     v1::Envelope message;
     v1::Welcome& welcome = *message.mutable_welcome();
+    calibration_ = wire::calibrationOf(rigText_, *look_);
     welcome.set_rig_text(rigText_);
     welcome.set_state_address(channels_->stateAddress());
     welcome.set_pace(static_cast<v1::Pace>(options_.pace));

@@ -64,6 +64,10 @@ struct ConductorOptions {
     // its scene, for the reason that follows.
     std::function<NextWorld(const std::string& scene)> makeWorld;
     std::string whyOneScene = "this master has one scene only";
+    // The rig with the files that it names, where they are others than at the call before; called
+    // once a second from a thread of its own. Throws Error where they cannot be used. Null: they
+    // never change.
+    std::function<std::optional<config::Rig>()> changedRig;
     std::optional<std::uint64_t> frames;   // the show ends after so many
     std::vector<std::string> expected;     // the channels that take part; empty: all of the rig
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
@@ -205,6 +209,10 @@ class Conductor {
     // Changes of the show (changes.cpp), a step at each turn of the loop.
     void changeShow(net::Instant now);
     void makeNextWorld();
+    // Measured screens and wall files are looked at once a second, and taken where they changed.
+    void watchRigFiles(net::Instant now);
+    // The files that the rig names become blobs, named in the look.
+    void giveRigFiles(v1::Look& look);
     void announceNextLook(net::Instant now);
     void prepareNodes(net::Instant now);
     void giveUpNextLook(const std::string& missing);
@@ -250,7 +258,8 @@ class Conductor {
     std::unique_ptr<Simulation> own_;  // simulation_, after a change of scene
     std::uint32_t fishOfSchool_;
     std::string rigText_;
-    std::uint64_t calibration_;
+    std::map<std::string, net::ByteVector> rigFiles_;  // of the look under way, else of the shown
+    std::uint64_t calibration_ = 0;                    // of the shown
     ShowControl control_;
     std::unique_ptr<v1::Look> look_;  // that is shown
     std::string sceneName_;           // of it
@@ -292,6 +301,8 @@ class Conductor {
     float speedMetresPerSecond_ = 0;
     std::optional<std::pair<Frame, wire::Packet>> lastPresent_;
     net::Instant lastRelease_{};
+    std::future<std::optional<config::Rig>> rereading_;
+    net::Instant lastReread_{};
     std::future<NextWorld> making_;
     std::optional<NextWorld> made_;
     std::unique_ptr<v1::Look> nextLook_;  // that nodes are told to build

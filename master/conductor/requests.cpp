@@ -60,13 +60,15 @@ std::string showText(const v1::StatusReply& status) {
     const wire::Show show = wire::readShow(status.show()).value_or(wire::Show{});
     const auto onOff = [](bool on) { return on ? "on" : "off"; };
     std::string text = fmt::format(
-        "show          scene {}   quality {}   pattern {}   black {}   freeze {}   version {}\n",
+        "show          scene {}   quality {}   pattern {}   black {}   freeze {}   version {}   "
+        "calibration {:016x}\n",
         show.scene,
         config::nameOf(show.quality),
         wire::nameOf(show.pattern),
         onOff(show.black),
         onOff(show.frozen),
-        show.version);
+        show.version,
+        show.calibration);
     if (!status.change().empty()) text += fmt::format("to come       {}\n", status.change());
     return text;
 }

@@ -64,6 +64,18 @@ Answer ShowControl::begin(std::uint64_t request, const WantedShow& goal, const S
     return remember(request, {Outcome::Preparing, waitingFor_});
 }
 
+bool ShowControl::renew() {
+    if (phase_ != Phase::Steady) return false;
+    next_ = wanted_;
+    change_ = {};
+    underWay_ = 0;
+    ++nextLook_;
+    nextHasWorld_ = hasWorld_;
+    phase_ = Phase::Preparing;
+    waitingFor_ = "nodes build the wall's new files";
+    return true;
+}
+
 void ShowControl::made() {
     assert(phase_ == Phase::Making);
     phase_ = Phase::Preparing;
@@ -106,6 +118,7 @@ Answer ShowControl::remember(std::uint64_t request, const Answer& answer) {
 
 void ShowControl::settle(const Answer& answer) {
     waitingFor_.clear();
+    if (underWay_ == 0) return;
     const auto known = std::ranges::find(answers_, underWay_, &RequestAndAnswer::first);
     if (known != answers_.end())
         known->second = answer;

@@ -35,6 +35,9 @@ class ShowControl {
     // Applies a change, or begins it. `request` is its sender's number: a change that is said again
     // is answered again, and not begun anew.
     Answer set(std::uint64_t request, const ShowChange& change);
+    // The files of the wall are others: the same is to be shown by another look, without black.
+    // False while another change is under way.
+    bool renew();
     // Of the change that is under way; empty where there is none.
     [[nodiscard]] const std::string& waitingFor() const { return waitingFor_; }
     void setWaitingFor(std::string what) { waitingFor_ = std::move(what); }
@@ -84,7 +87,7 @@ class ShowControl {
     bool hasWorld_, nextHasWorld_ = false;
     std::uint32_t look_ = 1, nextLook_ = 1;
     std::uint64_t version_ = 1;
-    std::uint64_t underWay_ = 0;  // request
+    std::uint64_t underWay_ = 0;  // request; 0: of nobody
     std::string waitingFor_;
     std::deque<RequestAndAnswer> answers_;  // the last few
     float brightness_;

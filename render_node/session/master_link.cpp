@@ -58,6 +58,17 @@ float gpuCelsius() {
     return hottest;
 }
 
+// All that a node fetches for a look.
+std::vector<Digest> blobsIn(const v1::Look& look) {
+    std::vector<Digest> digests;
+    for (const v1::SpeciesBlobs& species : look.cast())
+        for (const std::string* bytes : {&species.species(), &species.repertoire()})
+            digests.push_back(wire::digestIn(*bytes));
+    for (const v1::RigFile& file : look.rig_files())
+        digests.push_back(wire::digestIn(file.digest()));
+    return digests;
+}
+
 v1::LogSeverity wireSeverity(Severity severity) {
     return static_cast<v1::LogSeverity>(static_cast<int>(severity) + v1::LOG_INFO);
 }
@@ -401,7 +412,9 @@ void MasterLink::readState(const net::ByteVector& bytes) {
     if (!message->has_state()) return;
     auto state = wire::readState(message->state());
     if (!state) return;
-    if (state->show.calibration != calibration_) return lose("the wall is calibrated anew");
+    const bool isOurLook = state->show.look == admitted_.welcome.look().number();
+    if (isOurLook && state->show.calibration != calibration_)
+        return lose("the wall is calibrated anew");
     compareHash(*state);
     mailbox_.put({*std::move(state), lastHeard_});
 }
@@ -423,7 +436,7 @@ void MasterLink::beWelcomed(const v1::Envelope& message) {
     session_ = message.session();
     phase_ = Phase::Fetching;
     admitted_ = {message.welcome(), {}};
-    calibration_ = shortHash(digestOf(admitted_.welcome.rig_text()));
+    calibration_ = wire::calibrationOf(admitted_.welcome.rig_text(), admitted_.welcome.look());
     assembly_.reset();
     clock_ = {};
     pings_.clear();
@@ -437,17 +450,14 @@ void MasterLink::beWelcomed(const v1::Envelope& message) {
 
 // Takes from the cache what is there, and asks for the first that is not.
 void MasterLink::fetchNext() {
-    for (const v1::SpeciesBlobs& blobs : admitted_.welcome.look().cast()) {
-        for (const std::string* bytes : {&blobs.species(), &blobs.repertoire()}) {
-            const Digest digest = wire::digestIn(*bytes);
-            if (admitted_.blobs.contains(digest)) continue;
-            auto cached = cache_.find(digest);
-            if (!cached) {
-                assembly_.emplace(digest);
-                return requestChunk();
-            }
-            admitted_.blobs.emplace(digest, std::move(*cached));
+    for (const Digest& digest : blobsIn(admitted_.welcome.look())) {
+        if (admitted_.blobs.contains(digest)) continue;
+        auto cached = cache_.find(digest);
+        if (!cached) {
+            assembly_.emplace(digest);
+            return requestChunk();
         }
+        admitted_.blobs.emplace(digest, std::move(*cached));
     }
     admit();
 }
@@ -485,6 +495,7 @@ void MasterLink::prepare(const v1::Look& look) {
     if (look.number() == built_.look) return sayPrepared();
     if (look.number() == admitted_.welcome.look().number()) return;
     *admitted_.welcome.mutable_look() = look;
+    calibration_ = wire::calibrationOf(admitted_.welcome.rig_text(), look);
     fetchesNextLook_ = true;
     fetchNext();
 }

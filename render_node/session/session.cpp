@@ -46,13 +46,21 @@ Digest showOf(v1::Welcome welcome) {
     return digestOf(welcome.SerializeAsString());
 }
 
+// With the files that it names, which were fetched.
+config::Rig rigOf(const Admitted& admitted) {
+    config::Rig rig = config::parseRig(admitted.welcome.rig_text(), "the master's rig");
+    for (const v1::RigFile& file : admitted.welcome.look().rig_files())
+        rig.files[file.name()] = admitted.blobs.at(wire::digestIn(file.digest()));
+    return rig;
+}
+
 // Throws Error where the master's rig or scene cannot be read.
 Admission admissionOf(const Admitted& admitted) {
     const v1::Welcome& welcome = admitted.welcome;
     const v1::Look& look = welcome.look();
     return {.look = look.number(),
             .show = showOf(welcome),
-            .rig = config::parseRig(welcome.rig_text(), "the master's rig"),
+            .rig = rigOf(admitted),
             .scene = config::parseScene(look.scene_text(), "the master's scene"),
             .seed = look.seed(),
             .world = look.world(),

@@ -1,4 +1,4 @@
-// A test pattern that lies on the screen, as a function of the direction from the wall's origin: the
+// A test pattern that lies on the screen, as a function of the direction from its origin: the
 // formulas of common/wall/pattern.h.
 // In: uv, 0 to 1 over the frustum's picture. Out: linear light, 1 is full white. Directions in the
 // wall's frame, angles in degrees.
@@ -7,37 +7,55 @@ layout(location = kWallFromCameraLocation) uniform mat3 wallFromCamera;
 layout(location = kExtentsLocation) uniform vec4 extents;  // left, bottom, right, top: tangents
 layout(location = kGreyLightLocation) uniform float greyLight;  // negative: the grid
 layout(location = kGridLinesLocation) uniform vec4 gridLines;   // degrees between lines, between bright ones; light of the others; sigma, degrees
-layout(location = kEyeAndRadiusLocation) uniform vec4 eyeAndRadius;  // wall frame; w: of the screen
+// As wall::PatternGround: the eye in its local frame, and w its size.
+layout(location = kEyeAndSizeLocation) uniform vec4 eyeAndSize;
+layout(location = kGroundLocation) uniform int ground;
+layout(location = kLocalFromWallLocation) uniform mat3 localFromWall;
+
+const int kSphere = 1, kPlane = 2, kFar = 3;  // else a cylinder
 
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 light;
 
-// A Gaussian about each multiple of `spacing`, degrees.
-float lines(float at, float spacing) {
-    float off = at - spacing * floor(at / spacing + 0.5);
+// A Gaussian about each multiple of `spacing`, degrees; `scale`: of one of them, as an arc.
+float lines(float at, float spacing, float scale) {
+    float off = scale * (at - spacing * floor(at / spacing + 0.5));
     return exp(-off * off / (2.0 * gridLines.w * gridLines.w));
 }
 
-float majorAndMinor(float at) {
-    return max(gridLines.z * lines(at, gridLines.x), lines(at, gridLines.y));
+float majorAndMinor(float at, float scale) {
+    return max(gridLines.z * lines(at, gridLines.x, scale), lines(at, gridLines.y, scale));
 }
 
 float gridLight(vec3 direction) {
     float azimuth = degrees(atan(direction.x, -direction.z));
     float elevation = degrees(atan(direction.y, length(direction.xz)));
-    return max(majorAndMinor(azimuth), majorAndMinor(elevation));
+    bool isAround = ground == kSphere || ground == kFar;
+    float scale = isAround ? length(direction.xz) / length(direction) : 1.0;
+    return max(majorAndMinor(azimuth, scale), majorAndMinor(elevation, 1.0));
 }
 
-// Where a ray from the eye, inside the cylinder, meets it.
-vec3 onScreen(vec3 ray) {
-    vec2 eye = eyeAndRadius.xz;
-    float a = dot(ray.xz, ray.xz), b = dot(eye, ray.xz);
-    float c = dot(eye, eye) - eyeAndRadius.w * eyeAndRadius.w;
-    return eyeAndRadius.xyz + ray * ((sqrt(max(b * b - a * c, 0.0)) - b) / a);
+// The way along a ray from the eye to the ground, in lengths of the ray; the eye is inside of it.
+float wayToRound(float rayRay, float eyeRay, float eyeEye) {
+    float c = eyeEye - eyeAndSize.w * eyeAndSize.w;
+    return (sqrt(max(eyeRay * eyeRay - rayRay * c, 0.0)) - eyeRay) / rayRay;
+}
+
+// From the pattern's origin to where a ray of the wall's frame meets the ground.
+vec3 onGround(vec3 ray) {
+    vec3 eye = eyeAndSize.xyz, local = localFromWall * ray;
+    if (ground == kFar) return ray;
+    float way;
+    if (ground == kSphere)
+        way = wayToRound(dot(local, local), dot(eye, local), dot(eye, eye));
+    else if (ground == kPlane)
+        way = (-eyeAndSize.w - eye.z) / local.z;
+    else
+        way = wayToRound(dot(local.xz, local.xz), dot(eye.xz, local.xz), dot(eye.xz, eye.xz));
+    return (eye + local * way) * localFromWall;  // the transpose, applied
 }
 
 void main() {
     vec3 ray = wallFromCamera * vec3(mix(extents.xy, extents.zw, uv), -1.0);
-    vec3 direction = onScreen(ray);
-    light = vec4(vec3(greyLight < 0.0 ? gridLight(direction) : greyLight), 1.0);
+    light = vec4(vec3(greyLight < 0.0 ? gridLight(onGround(ray)) : greyLight), 1.0);
 }

@@ -71,6 +71,8 @@ AQUARAMA_CONSTANT int kMomentDepthsUnit = 0;
 AQUARAMA_CONSTANT int kPlacesUnit = 1;
 AQUARAMA_CONSTANT int kRightSceneUnit = 2;
 AQUARAMA_CONSTANT int kRightPlacesUnit = 3;
+AQUARAMA_CONSTANT int kBlendUnit = 2;
+AQUARAMA_CONSTANT int kBlackUnit = 3;
 
 // Locations of uniforms: fish kernels.
 AQUARAMA_CONSTANT int kFractionLocation = 0;
@@ -117,13 +119,16 @@ AQUARAMA_CONSTANT int kDitheredLocation = 2;
 AQUARAMA_CONSTANT int kBlendMaskLocation = 3;
 AQUARAMA_CONSTANT int kModeLocation = 4;
 AQUARAMA_CONSTANT int kBrightnessLocation = 5;
+AQUARAMA_CONSTANT int kMasksLocation = 6;
 
 // Locations of uniforms: pattern.
 AQUARAMA_CONSTANT int kWallFromCameraLocation = 0;
 AQUARAMA_CONSTANT int kExtentsLocation = 3;
 AQUARAMA_CONSTANT int kGreyLightLocation = 4;
 AQUARAMA_CONSTANT int kGridLinesLocation = 5;
-AQUARAMA_CONSTANT int kEyeAndRadiusLocation = 6;
+AQUARAMA_CONSTANT int kEyeAndSizeLocation = 6;
+AQUARAMA_CONSTANT int kGroundLocation = 7;
+AQUARAMA_CONSTANT int kLocalFromWallLocation = 8;
 
 // Locations of uniforms: text.
 AQUARAMA_CONSTANT int kPictureSizeLocation = 0;

@@ -96,41 +96,44 @@ std::size_t channelIndex(const config::Rig& rig, const std::string& name) {
 
 ChannelPicture::Viewing::Viewing(const wall::ChannelFrustum& from,
                                  const wall::WarpMap& warp,
-                                 const config::Screen& screen,
+                                 const wall::PatternGround& ground,
                                  std::uint32_t channelId)
-    : frustum{from}, pattern{from, screen}, projection{projectionMap(warp, from), channelId} {}
+    : frustum{from}, pattern{from, ground}, projection{projectionMap(warp, from), channelId} {}
 
 ChannelPicture::ChannelPicture(const session::Admission& admission,
                                std::size_t channel,
-                               config::QualityTier quality)
+                               config::QualityTier quality,
+                               std::shared_ptr<const wall::Wall> wall)
     : stereo_{wall::stereoOf(admission.rig, channel)}, school_{admission.school} {
     assert(channel < admission.rig.channels.size());
     const config::Rig& rig = admission.rig;
     const std::uint32_t id = rig.channels[channel].id;
-    const wall::WarpMap warp = wall::warpMap(rig, channel);
-    map_ = projectionMap(warp, wall::channelFrustum(rig, channel, kMarginRadians));
-    patternSize_ = scenePictureSize(map_);
+    if (!wall) wall = std::make_shared<const wall::Wall>(rig);
+    const wall::WarpMap warp = wall->warp(channel);
+    const wall::PatternGround ground = wall->screen().patternGround();
+    const wall::ChannelFrustum between = wall->frustum(channel, kMarginRadians);
+    map_ = projectionMap(warp, between);
+    patternSize_ = between.sizePixels ? *between.sizePixels : scenePictureSize(map_);
     worldSize_ = glm::ceil(glm::vec2(patternSize_) * scene::qualityOf(quality).pictureShare);
     sceneSize_ = worldSize_;
     // Two eyes for any stereo mode, else one between them.
     const bool two = stereo_.mode != config::StereoMode::Mono;
     for (const wall::EyeSide side : two ? std::vector{wall::EyeSide::Left, wall::EyeSide::Right}
                                         : std::vector{wall::EyeSide::Between})
-        eyes_.emplace_back(
-            wall::channelFrustum(rig, channel, kMarginRadians, side), warp, rig.screen, id);
+        eyes_.emplace_back(wall->frustum(channel, kMarginRadians, side), warp, ground, id);
     if (two && stereo_.mode != config::StereoMode::QuadBuffer)
         together_.emplace(map_.sizePixels, id, stereo_.mode);
     // The scene has one texture: all eyes but the last need a copy.
     for (Viewing& eye : eyes_)
         if (&eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, worldSize_);
     if (admission.world)
-        scene_.emplace(scene::SceneOptions{.seed = admission.seed,
-                                           .place = admission.scene.place,
-                                           .water = admission.scene.water.jerlov,
-                                           .quality = quality,
-                                           .pixelRadians = static_cast<float>(
-                                               wall::finestPixelRadians(admission.rig))},
-                       castOf(admission));
+        scene_.emplace(
+            scene::SceneOptions{.seed = admission.seed,
+                                .place = admission.scene.place,
+                                .water = admission.scene.water.jerlov,
+                                .quality = quality,
+                                .pixelRadians = static_cast<float>(wall->finestPixelRadians())},
+            castOf(admission));
 }
 
 void ChannelPicture::drawScene(const wire::StateFrame& frame,

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,9 +37,11 @@ class ChannelPicture {
   public:
     // channel: index in admission.rig.channels. Throws Error: the channel does not aim at the
     // screen, a driver that cannot draw what is needed.
+    // wall: of admission.rig; null: made here.
     ChannelPicture(const session::Admission& admission,
                    std::size_t channel,
-                   config::QualityTier quality);
+                   config::QualityTier quality,
+                   std::shared_ptr<const wall::Wall> wall = nullptr);
 
     // Draws the picture of each eye's frustum in linear light, the world or the frame's pattern,
     // with the overlays that belong to the world: grid, fish numbers, a mind. A frame without light
@@ -68,7 +71,7 @@ class ChannelPicture {
     struct Viewing {
         Viewing(const wall::ChannelFrustum& from,
                 const wall::WarpMap& warp,
-                const config::Screen& screen,
+                const wall::PatternGround& ground,
                 std::uint32_t channelId);
 
         wall::ChannelFrustum frustum;

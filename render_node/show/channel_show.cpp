@@ -60,6 +60,7 @@ void copyToWindow(const gl::Target& picture, glm::ivec2 window, GLenum buffer) {
 BuiltLook::BuiltLook(gl::Context& context, const std::string& channel, session::Admission admission)
     : admission_{std::move(admission)},
       channel_{channelIndex(admission_.rig, channel)},
+      wall_{std::make_shared<const wall::Wall>(admission_.rig)},
       workspace_{context.makeWorkspace()} {
     const glm::ivec2 size = admission_.rig.channels[channel_].sizePixels;
     workspace_->makeCurrent();
@@ -87,7 +88,7 @@ void BuiltLook::bringTo(config::QualityTier quality) {
     if (picture_ && quality_ == quality) return;
     // The old picture goes first, so that the GPU need not hold both.
     picture_.reset();
-    picture_.emplace(admission_, channel_, quality);
+    picture_.emplace(admission_, channel_, quality, wall_);
     quality_ = quality;
 }
 
@@ -178,7 +179,8 @@ void ChannelShow::enter(std::unique_ptr<BuiltLook> stage) {
     stage_ = std::move(stage);
     session_.describe({options_.build, stage_->renderer(), options_.monitors});
     pointing_.emplace(stage_->admission().rig,
-                      channelIndex(stage_->admission().rig, options_.channel));
+                      channelIndex(stage_->admission().rig, options_.channel),
+                      stage_->wall());
     watched_.reset();
 }
 

@@ -71,6 +71,7 @@ class BuiltLook {
     void renumber(std::uint32_t look) { admission_.look = look; }
     [[nodiscard]] gl::Workspace& workspace() { return *workspace_; }
     [[nodiscard]] ChannelPicture& picture() { return *picture_; }
+    [[nodiscard]] const std::shared_ptr<const wall::Wall>& wall() const { return wall_; }
     // What is shown, of one eye where the window shows both.
     [[nodiscard]] const gl::Target& target(Shown shown = Shown::Display) const {
         return shown == Shown::RightEye ? targets_.back() : targets_.front();
@@ -90,6 +91,7 @@ class BuiltLook {
 
     session::Admission admission_;
     std::size_t channel_;
+    std::shared_ptr<const wall::Wall> wall_;  // of admission_.rig
     std::string renderer_;
     std::unique_ptr<gl::Workspace> workspace_;
     std::optional<ChannelPicture> picture_;

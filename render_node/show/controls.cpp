@@ -177,8 +177,8 @@ constexpr float kLeastDepthMetres = 0.25F;
 }  // namespace
 
 std::optional<glm::vec3> Pointing::directionOf(glm::vec2 pixel, const wire::Eye& eye) const {
-    const glm::vec2 own = pixelOfEye(mode_, channel_.sizePixels, pixel);
-    const auto point = wall::screenPoint(screen_, channel_, glm::dvec2(own));
+    const glm::vec2 own = pixelOfEye(mode_, sizePixels_, pixel);
+    const auto point = wall_->channel(channel_).pointOf(glm::dvec2(own), 0);
     if (!point) return std::nullopt;
     return eye.worldFromWall * glm::vec3(glm::normalize(*point - sweetSpot_));
 }

@@ -7,9 +7,11 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -132,9 +134,13 @@ class Controls {
 class Pointing {
   public:
     // channel: index in rig.channels.
-    Pointing(const config::Rig& rig, std::size_t channel)
-        : screen_{rig.screen},
-          channel_{rig.channels.at(channel)},
+    // wall: of this rig; null: made here.
+    Pointing(const config::Rig& rig,
+             std::size_t channel,
+             std::shared_ptr<const wall::Wall> wall = nullptr)
+        : wall_{wall ? std::move(wall) : std::make_shared<const wall::Wall>(rig)},
+          channel_{channel},
+          sizePixels_{rig.channels.at(channel).sizePixels},
           mode_{wall::stereoOf(rig, channel).mode},
           sweetSpot_{rig.sweetSpotMetres} {}
 
@@ -146,11 +152,12 @@ class Pointing {
     // the viewer, always under water. World frame, metres.
     [[nodiscard]] std::optional<glm::vec3> pinchAt(glm::vec2 pixel, const wire::Eye& eye) const;
     // The middle of the channel's picture, pixels.
-    [[nodiscard]] glm::vec2 middle() const { return glm::vec2(channel_.sizePixels) * 0.5F; }
+    [[nodiscard]] glm::vec2 middle() const { return glm::vec2(sizePixels_) * 0.5F; }
 
   private:
-    config::Screen screen_;
-    config::Channel channel_;
+    std::shared_ptr<const wall::Wall> wall_;
+    std::size_t channel_;
+    glm::ivec2 sizePixels_;
     config::StereoMode mode_;
     // Wall frame, metres.
     glm::dvec3 sweetSpot_;

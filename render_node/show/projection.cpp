@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -62,6 +63,13 @@ Projection::Projection(const ProjectionMap& map, std::uint32_t channelId)
     glTextureSubImage2D(
         map_.name(), 0, 0, 0, size_.x, size_.y, GL_RGBA, GL_FLOAT, map.placeAndWeight.data());
     glObjectLabel(GL_TEXTURE, map_.name(), -1, "projection map");
+    for (const auto& [texture, light] : {std::pair{&blend_, &map.blend}, {&black_, &map.black}}) {
+        if (light->empty()) continue;
+        texture->emplace(GL_TEXTURE_2D);
+        glTextureStorage2D((*texture)->name(), 1, GL_RGB32F, size_.x, size_.y);
+        glTextureSubImage2D(
+            (*texture)->name(), 0, 0, 0, size_.x, size_.y, GL_RGB, GL_FLOAT, light->data());
+    }
     makeBilinear(bilinear_);
 }
 
@@ -70,6 +78,9 @@ void Projection::draw(const Draw& what) const {
     glBindTextureUnit(shaders::kSceneUnit, what.sceneTexture);
     glBindSampler(shaders::kSceneUnit, bilinear_.name());
     glBindTextureUnit(shaders::kPlacesUnit, map_.name());
+    if (blend_) glBindTextureUnit(shaders::kBlendUnit, blend_->name());
+    if (black_) glBindTextureUnit(shaders::kBlackUnit, black_->name());
+    glUniform2i(shaders::kMasksLocation, blend_.has_value(), black_.has_value());
     glBindVertexArray(noVertices_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindSampler(shaders::kSceneUnit, 0);
@@ -129,7 +140,10 @@ glm::vec4 place(const glm::vec4& pointAndWeight, const wall::ChannelFrustum& fru
 ProjectionMap projectionMap(const wall::WarpMap& warp, const wall::ChannelFrustum& frustum) {
     assert(frustum.right > frustum.left);
     assert(frustum.top > frustum.bottom);
-    ProjectionMap map{.sizePixels = warp.sizePixels, .placeAndWeight = {}};
+    ProjectionMap map{.sizePixels = warp.sizePixels,
+                      .placeAndWeight = {},
+                      .blend = warp.blend,
+                      .black = warp.black};
     map.placeAndWeight.reserve(warp.pointAndWeight.size());
     for (const glm::vec4& point : warp.pointAndWeight)
         map.placeAndWeight.push_back(place(point, frustum));
@@ -163,9 +177,11 @@ constexpr float kNoGrey = -1;
 
 }  // namespace
 
-PatternPass::PatternPass(const wall::ChannelFrustum& frustum, const config::Screen& screen)
+PatternPass::PatternPass(const wall::ChannelFrustum& frustum, const wall::PatternGround& ground)
     : frustum_{frustum},
-      eyeAndRadius_{glm::dvec3(glm::inverse(frustum.cameraFromWall)[3]), screen.radiusMetres},
+      ground_{ground},
+      eyeAndSize_{ground.localFromWall * glm::dvec3(glm::inverse(frustum.cameraFromWall)[3]),
+                  ground.size},
       program_{gl::makeProgram({"quad.vert", "pattern.frag"})} {}
 
 void PatternPass::drawGrid(unsigned framebuffer, glm::ivec2 sizePixels) const {
@@ -201,7 +217,10 @@ void PatternPass::draw(unsigned framebuffer, glm::ivec2 sizePixels, float greyLi
     glUniform4fv(shaders::kExtentsLocation, 1, glm::value_ptr(extents));
     glUniform1f(shaders::kGreyLightLocation, greyLight);
     glUniform4fv(shaders::kGridLinesLocation, 1, glm::value_ptr(gridLines));
-    glUniform4fv(shaders::kEyeAndRadiusLocation, 1, glm::value_ptr(eyeAndRadius_));
+    const glm::mat3 localFromWall(ground_.localFromWall);
+    glUniformMatrix3fv(shaders::kLocalFromWallLocation, 1, GL_FALSE, glm::value_ptr(localFromWall));
+    glUniform1i(shaders::kGroundLocation, static_cast<GLint>(ground_.kind));
+    glUniform4fv(shaders::kEyeAndSizeLocation, 1, glm::value_ptr(eyeAndSize_));
     glBindVertexArray(noVertices_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -22,6 +23,8 @@ struct ProjectionMap {
     // One entry for each pixel, top row first: texture coordinate in the frustum's picture (origin
     // at its bottom left), blend weight, 0. All 0 for a pixel that lights no part of the screen.
     std::vector<glm::vec4> placeAndWeight;
+    // As in wall::WarpMap; of both, or empty.
+    std::vector<glm::vec3> blend = {}, black = {};
 };
 
 // Projects each screen point of the warp into the frustum's picture, for the frustum's eye.
@@ -69,6 +72,7 @@ class Projection {
     std::uint32_t channelId_;
     gl::ProgramHandle program_;
     gl::Texture map_;
+    std::optional<gl::Texture> blend_, black_;
     gl::Sampler bilinear_;
     gl::VertexArray noVertices_;
 };
@@ -106,9 +110,9 @@ class PairProjection {
 // Owns its GL objects; construct, use and destroy with the same context current.
 class PatternPass {
   public:
-    PatternPass(const wall::ChannelFrustum& frustum, const config::Screen& screen);
+    PatternPass(const wall::ChannelFrustum& frustum, const wall::PatternGround& ground);
 
-    // Draws lines of equal azimuth and elevation, seen from the wall's origin.
+    // Draws lines of equal azimuth and elevation, seen from Wall::patternOrigin().
     void drawGrid(unsigned framebuffer, glm::ivec2 sizePixels) const;
     // Draws an even grey of wall::kGreyLight.
     void drawGrey(unsigned framebuffer, glm::ivec2 sizePixels) const;
@@ -119,8 +123,8 @@ class PatternPass {
     void draw(unsigned framebuffer, glm::ivec2 sizePixels, float greyLight) const;
 
     wall::ChannelFrustum frustum_;
-    // Wall frame, metres: the eye, and the radius of the screen.
-    glm::vec4 eyeAndRadius_;
+    wall::PatternGround ground_;
+    glm::vec4 eyeAndSize_;  // local frame of the ground, metres: the eye, and its size
     gl::ProgramHandle program_;
     gl::VertexArray noVertices_;
 };

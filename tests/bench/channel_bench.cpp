@@ -46,8 +46,8 @@ std::vector<motion::PresentedFish> schoolAround() {
 void channelFrame(benchmark::State& state, bool culling, bool levelsOfDetail) {
     const config::Rig rig = wall::shippedRig("desk");
     const auto context = gl::makeOffscreenContext("auto", rig.channels[kMiddle].sizePixels);
-    const wall::ChannelFrustum frustum = wall::channelFrustum(rig, kMiddle, kMarginRadians);
-    const show::ProjectionMap map = show::projectionMap(wall::warpMap(rig, kMiddle), frustum);
+    const wall::ChannelFrustum frustum = wall::Wall(rig).frustum(kMiddle, kMarginRadians);
+    const show::ProjectionMap map = show::projectionMap(wall::Wall(rig).warp(kMiddle), frustum);
     const body::FishBody body = test::scadBody();
     const show::Projection projection(map, 0);
     const gl::Target target(GL_RGBA8, map.sizePixels);
@@ -80,7 +80,7 @@ void projectPass(benchmark::State& state, const char* rigName) {
     const config::Rig rig = wall::shippedRig(rigName);
     const auto context = gl::makeOffscreenContext("auto", rig.channels[kMiddle].sizePixels);
     const show::ProjectionMap map = show::projectionMap(
-        wall::warpMap(rig, kMiddle), wall::channelFrustum(rig, kMiddle, kMarginRadians));
+        wall::Wall(rig).warp(kMiddle), wall::Wall(rig).frustum(kMiddle, kMarginRadians));
     const show::Projection projection(map, 0);
     const gl::Target scene(GL_RGBA16F, show::scenePictureSize(map));
     const gl::Target target(GL_RGBA8, map.sizePixels);

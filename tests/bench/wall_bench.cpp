@@ -22,7 +22,7 @@ std::vector<Light> greyChannels(const config::Rig& rig) {
 
 void warpMapOfTheatre(benchmark::State& state) {
     const config::Rig rig = theatre();
-    for (auto _ : state) benchmark::DoNotOptimize(wall::warpMap(rig, 1));
+    for (auto _ : state) benchmark::DoNotOptimize(wall::Wall(rig).warp(1));
 }
 BENCHMARK(warpMapOfTheatre)->Name("warp_map")->Unit(benchmark::kMillisecond);
 

@@ -45,7 +45,7 @@ session::Admission admissionToTheSea() {
 class Projected {
   public:
     Projected(const config::Rig& rig, std::size_t channel, show::ChannelPicture& picture)
-        : rig_{rig}, channel_{channel} {
+        : rig_{rig}, wall_{rig}, channel_{channel} {
         const gl::Target target(GL_RGBA16, picture.sizePixels());
         picture.project(target.framebuffer(), show::Encoding::Plain, show::Overlays{});
         const auto pixels = gl::readRgb<std::uint16_t>(target);
@@ -56,7 +56,7 @@ class Projected {
     }
     [[nodiscard]] double weight(glm::ivec2 at) const {
         const glm::dvec2 place = (glm::dvec2(at) + 0.5) / glm::dvec2(rig_.panoramaPixels);
-        return wall::blendWeight(rig_, channel_, wall::screenPointAt(rig_.screen, place));
+        return wall_.weight(channel_, wall_.screen().at(place).value());
     }
     // sRGB codes: what the eye weighs alike.
     [[nodiscard]] double code(glm::ivec2 at) const {
@@ -66,6 +66,7 @@ class Projected {
 
   private:
     const config::Rig& rig_;
+    wall::Wall wall_;
     std::size_t channel_;
     std::vector<Light> lights_;
     Light panorama_;
@@ -104,10 +105,10 @@ class Crossing : public testing::Test {
     // The azimuths at the eye's height that both channels light well.
     [[nodiscard]] std::vector<float> overlap() const {
         std::vector<float> azimuths;
+        const wall::Wall wall(admission_.rig);
         for (int i = 0; i < 4000; ++i) {
-            const glm::dvec3 point = wall::screenPointAt(admission_.rig.screen, {i / 4000.0, 0.5});
-            if (std::min(wall::blendWeight(admission_.rig, kLeft, point),
-                         wall::blendWeight(admission_.rig, kMiddle, point)) > 0.2)
+            const glm::dvec3 point = wall.screen().at({i / 4000.0, 0.5}).value();
+            if (std::min(wall.weight(kLeft, point), wall.weight(kMiddle, point)) > 0.2)
                 azimuths.push_back(static_cast<float>(std::atan2(point.x, -point.z)));
         }
         return azimuths;

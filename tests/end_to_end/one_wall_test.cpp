@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "calibration/theatre/compose.h"
+#include "common/base/units.h"
 #include "common/config/rig.h"
 #include "common/wall/wall.h"
 #include "tests/end_to_end/free_port.h"
@@ -85,11 +86,51 @@ TEST_P(OneWall, flatGreyStaysFlatAcrossTheOverlaps) {
 
 INSTANTIATE_TEST_SUITE_P(Rigs, OneWall, testing::Values("theatre", "touring"));
 
+// Screens of other shapes, and panels.
+class AnyScreen : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(
+    Rigs, AnyScreen, testing::Values("flat_3", "wall_2x2", "dome_5", "cave_4", "televisions_3"));
+
+// Light where the panorama shows screen. What surrounds the eye is left out near its poles, where a
+// pixel of the panorama is a small part of one on the screen, and the lines run together.
+Light measuredPart(const config::Rig& rig) {
+    constexpr double kHighest = 75 * kRadiansPerDegree<double>;
+    Light part = test::directPanorama(rig, wall::TestPattern::Grey);
+    const wall::Wall wall(rig);
+    if (rig.screen.shape != config::ScreenShape::Panels) return part;
+    for (int y = 0; y < part.sizePixels.y; ++y)
+        for (int x = 0; x < part.sizePixels.x; ++x) {
+            const auto point =
+                wall.screen().at((glm::dvec2(x, y) + 0.5) / glm::dvec2(part.sizePixels));
+            if (point && std::abs(wall::elevationOf(*point - rig.sweetSpotMetres)) > kHighest)
+                part.at(x, y) = glm::vec3(0);
+        }
+    return part;
+}
+
+TEST_P(AnyScreen, everyLineOfTheGridIsWhereADirectRenderHasItAndGreyIsFlat) {
+    const Installation installation(GetParam());
+    const config::Rig& rig = installation.rig();
+    const Light grid =
+        theatre::composePanorama(rig, installation.show("--frames 2 --pattern grid --deep"));
+    const Light screen = measuredPart(rig);
+    const auto offsets =
+        test::windowOffsets(grid, test::directPanorama(rig, wall::TestPattern::Grid), screen);
+    ASSERT_GT(offsets.size(), 500U);
+    double worst = 0;
+    for (const double offset : offsets) worst = std::max(worst, std::abs(offset));
+    RecordProperty("worst_px", std::to_string(worst));
+    EXPECT_LT(worst, 0.5);
+    const Light grey =
+        theatre::composePanorama(rig, installation.show("--frames 2 --pattern grey --deep"));
+    EXPECT_LT(test::unevennessOn(grey, screen), 0.01);
+}
+
 // The scene as one channel alone shows it on the panorama: its light, freed of its blend.
 class Alone {
   public:
     Alone(const config::Rig& rig, const std::vector<Light>& channels, std::size_t channel)
-        : rig_{rig}, channel_{channel} {
+        : rig_{rig}, wall_{rig}, channel_{channel} {
         std::vector<Light> only = channels;
         for (std::size_t other = 0; other < only.size(); ++other) {
             if (other != channel) only[other] = darkness(only[other].sizePixels);
@@ -98,7 +139,7 @@ class Alone {
     }
     [[nodiscard]] double weight(glm::ivec2 at) const {
         const glm::dvec2 unrolledAt = (glm::dvec2(at) + 0.5) / glm::dvec2(rig_.panoramaPixels);
-        return wall::blendWeight(rig_, channel_, wall::screenPointAt(rig_.screen, unrolledAt));
+        return wall_.weight(channel_, wall_.screen().at(unrolledAt).value());
     }
     [[nodiscard]] double green(glm::ivec2 at) const {
         return static_cast<double>(panorama_.at(at.x, at.y).g) / weight(at);
@@ -106,6 +147,7 @@ class Alone {
 
   private:
     const config::Rig& rig_;
+    wall::Wall wall_;
     std::size_t channel_;
     Light panorama_;
 };

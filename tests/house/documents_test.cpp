@@ -113,7 +113,7 @@ TEST(Documents, eachPictureIsShownAndDrawn) {
             shown.insert(picture);
     const std::string script = textOf(kRoot / "docs/draw_pictures.sh");
     std::set<std::string> drawn;
-    for (const std::string& picture : matches(script, R"(\n\s*\[([a-z_]+\.[a-z]+)\]=)"))
+    for (const std::string& picture : matches(script, R"(\n\s*\[([a-z_0-9]+\.[a-z]+)\]=)"))
         drawn.insert(picture);
     std::set<std::string> kept;
     for (const auto& entry : fs::directory_iterator(kRoot / "docs/pictures"))

@@ -186,6 +186,11 @@ TEST(House, ffmpegStaysInTheTheatre) {
               std::vector<std::string>{});
 }
 
+TEST(House, xmlAndArchivesStayInFormats) {
+    EXPECT_EQ(strangers(std::regex("^(pugixml|pugiconfig|zip)\\.h"), {"common/formats/"}),
+              std::vector<std::string>{});
+}
+
 TEST(House, openGlStaysInTheRenderNode) {
     const std::regex library("^(epoxy|GL|EGL|GLFW)/");
     EXPECT_EQ(strangers(library, {"render_node/"}), std::vector<std::string>{});
@@ -213,7 +218,8 @@ TEST(House, commonIsLayered) {
         {"common/skin/", {"common/base/", "common/body/"}},
         {"common/motion/", {"common/base/", "common/body/"}},
         {"common/place/", {"common/base/", "common/config/"}},
-        {"common/wall/", {"common/base/", "common/config/"}},
+        {"common/wall/", {"common/base/", "common/config/", "common/formats/"}},
+        {"common/formats/", {"common/base/"}},
         {"common/wire/",
          {"common/base/", "common/motion/", "common/body/", "common/wall/", "common/config/"}},
         {"common/net/", {"common/base/"}},

@@ -5,6 +5,10 @@
 #include <limits>
 #include <optional>
 
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
 #include "common/base/units.h"
 #include "common/wall/pattern.h"
 #include "common/wall/wall.h"
@@ -118,6 +122,89 @@ std::vector<LineOffset> lineOffsets(const config::Rig& rig,
             measureLine(rig, composed, direct, line, window, found);
         }
     return found;
+}
+
+namespace {
+
+constexpr int kWindow = 9;  // pixels each way
+
+// Sums over a window of both pictures.
+struct WindowSums {
+    glm::dmat2 slopes{0.0};       // of the direct one, products
+    glm::dvec2 differences{0};    // slope times (composed - direct)
+    double both = 0, square = 0;  // direct times composed, and itself
+    double least = 1;             // direct
+};
+
+WindowSums sumsOf(const Light& composed, const Light& direct, glm::ivec2 corner) {
+    WindowSums sums;
+    const auto at = [](const Light& light, int x, int y) {
+        return static_cast<double>(light.at(x, y).y);
+    };
+    for (int y = corner.y; y < corner.y + kWindow; ++y)
+        for (int x = corner.x; x < corner.x + kWindow; ++x) {
+            const double here = at(direct, x, y);
+            const double shown = at(composed, x, y);
+            const glm::dvec2 slope((at(direct, x + 1, y) - at(direct, x - 1, y)) / 2,
+                                   (at(direct, x, y + 1) - at(direct, x, y - 1)) / 2);
+            sums.slopes += glm::outerProduct(slope, slope);
+            sums.differences += slope * (shown - here);
+            sums.both += here * shown;
+            sums.square += here * here;
+            sums.least = std::min(sums.least, here);
+        }
+    return sums;
+}
+
+// Whether a rectangle has light everywhere.
+bool isLit(const Light& screen, glm::ivec2 corner, glm::ivec2 size) {
+    for (int y = corner.y; y < corner.y + size.y; ++y)
+        for (int x = corner.x; x < corner.x + size.x; ++x)
+            if (screen.at(x, y).y <= 0) return false;
+    return true;
+}
+
+}  // namespace
+
+std::vector<double> windowOffsets(const Light& composed, const Light& direct, const Light& screen) {
+    constexpr double kLeastSlope = 0.5;   // squared, summed: a window that a line passes
+    constexpr double kLeastSeen = 0.4;    // of the direct light, where the line ought to be
+    constexpr double kMostBetween = 0.1;  // light between lines that are not run into one
+    constexpr int kMargin = 3;
+    std::vector<double> offsets;
+    for (int y = kMargin; y + kWindow + kMargin < direct.sizePixels.y; y += kWindow)
+        for (int x = kMargin; x + kWindow + kMargin < direct.sizePixels.x; x += kWindow) {
+            const glm::ivec2 corner(x, y);
+            if (!isLit(screen, corner - kMargin, glm::ivec2(kWindow + 2 * kMargin))) continue;
+            const WindowSums sums = sumsOf(composed, direct, corner);
+            // The direction in which the pattern changes most: across the line.
+            const double trace = sums.slopes[0][0] + sums.slopes[1][1];
+            if (trace < kLeastSlope || sums.least > kMostBetween) continue;
+            const double angle =
+                0.5 * std::atan2(2 * sums.slopes[0][1], sums.slopes[0][0] - sums.slopes[1][1]);
+            const glm::dvec2 across(std::cos(angle), std::sin(angle));
+            const double slope = glm::dot(across, sums.slopes * across);
+            const bool isSeen = sums.both > kLeastSeen * sums.square;
+            offsets.push_back(isSeen ? -glm::dot(across, sums.differences) / slope
+                                     : std::numeric_limits<double>::infinity());
+        }
+    return offsets;
+}
+
+double unevennessOn(const Light& composed, const Light& screen) {
+    constexpr int kMargin = 2;
+    std::vector<double> pixels;
+    double sum = 0;
+    for (int y = kMargin; y + kMargin < screen.sizePixels.y; ++y)
+        for (int x = kMargin; x + kMargin < screen.sizePixels.x; ++x) {
+            if (!isLit(screen, glm::ivec2(x, y) - kMargin, glm::ivec2(1 + 2 * kMargin))) continue;
+            pixels.push_back(static_cast<double>(composed.at(x, y).y));
+            sum += pixels.back();
+        }
+    const double mean = sum / static_cast<double>(pixels.size());
+    double worst = 0;
+    for (const double pixel : pixels) worst = std::max(worst, std::abs(pixel / mean - 1));
+    return worst;
 }
 
 double unevenness(const Light& panorama, int blockPixels) {

@@ -22,6 +22,17 @@ struct LineOffset {
                                                   const Light& composed,
                                                   const Light& direct);
 
+// The same for a screen of any shape, by windows along the lines: by how much, across the line, the
+// composed pattern is displaced (one step of least squares, Lucas and Kanade 1981), infinite where
+// no line is seen in a window of the direct one. `screen` is light where the panorama shows screen;
+// windows that are not wholly on it are left out.
+[[nodiscard]] std::vector<double> windowOffsets(const Light& composed,
+                                                const Light& direct,
+                                                const Light& screen);
+// The largest relative deviation from the mean of any pixel that lies, with two pixels about it, on
+// the screen.
+[[nodiscard]] double unevennessOn(const Light& composed, const Light& screen);
+
 // The largest relative deviation from the mean of any block of `blockPixels` squared, without the
 // border that may stay dark (kDarkBorder of wall.h).
 [[nodiscard]] double unevenness(const Light& panorama, int blockPixels);

@@ -121,7 +121,7 @@ TEST_F(Program, composeNamesAPictureThatIsMissingOrOfAnotherSize) {
     const std::string compose = "compose " AQUARAMA_SOURCE_DIR "/config/desk.txtpb " + folder();
     const Outcome missing = calibrate(compose);
     EXPECT_EQ(missing.status, 1);
-    EXPECT_THAT(missing.said, testing::HasSubstr("channel-left.png: cannot be opened"));
+    EXPECT_THAT(missing.said, testing::HasSubstr("channel-left.png: cannot be read"));
     writePng(folder() + "/channel-left.png", pictureOf(darkness({7, 5}), 8, 0));
     const Outcome small = calibrate(compose);
     EXPECT_EQ(small.status, 1);

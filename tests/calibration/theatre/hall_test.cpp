@@ -57,14 +57,14 @@ TEST(Hall, theRoomGivesBackLessThanItGets) {
 
 TEST(Survey, theTheatreSharesAboutAHundredPixelsAndTheTouringRigASixth) {
     const config::Rig theatre = config::readRig(AQUARAMA_SOURCE_DIR "/config/theatre.txtpb");
-    const ChannelSurvey left = surveyChannel(theatre, 0);
+    const ChannelSurvey left = surveyChannel(theatre, wall::Wall(theatre), 0);
     EXPECT_NEAR(left.leftDegrees, -60, 0.01);
     ASSERT_EQ(left.overlaps.size(), 1U);
     EXPECT_EQ(left.overlaps[0].with, "middle");
     EXPECT_NEAR(left.overlaps[0].pixels, 100, 15);
 
     const config::Rig touring = config::readRig(AQUARAMA_SOURCE_DIR "/config/touring.txtpb");
-    const ChannelSurvey middle = surveyChannel(touring, 1);
+    const ChannelSurvey middle = surveyChannel(touring, wall::Wall(touring), 1);
     ASSERT_EQ(middle.overlaps.size(), 2U);
     for (const ChannelOverlap& overlap : middle.overlaps) {
         EXPECT_GT(overlap.pixels, 0.15 * 1920);

@@ -213,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"radiusZero", "radius_m: 2", "radius_m: 0", "radius_m", "must be from"},
         Mistake{"radiusNan", "radius_m: 2", "radius_m: nan", "radius_m", "must be from"},
         Mistake{"arcNegative", "arc_deg: 90", "arc_deg: -90", "arc_deg", "must be from"},
-        Mistake{"arcPastHalfTurn", "arc_deg: 90", "arc_deg: 181", "arc_deg", "must be from"},
+        Mistake{"arcPastAlmostRound", "arc_deg: 90", "arc_deg: 301", "arc_deg", "must be from"},
         Mistake{"heightInfinite", "height_m: 1", "height_m: inf", "height_m", "must be from"},
         Mistake{"windowOfNoWidth", "width_px: 320", "width_px: 0", "width_px", "must be from"},
         Mistake{"windowOfNoHeight", "height_px: 241", "height_px: 0", "height_px", "must be from"},

@@ -12,13 +12,14 @@ INSTANTIATE_TEST_SUITE_P(Shipped, BlendOfRig, testing::Values("theatre", "tourin
 
 TEST_P(BlendOfRig, theSharesOfEveryPointOfTheScreenSumToOne) {
     const config::Rig rig = shippedRig(GetParam());
+    const Wall wall(rig);
     Dice dice;
     for (int i = 0; i < 20000; ++i) {
         const glm::dvec3 point =
-            screenPointAt(rig.screen, {dice.between(0.001, 0.999), dice.between(0.001, 0.999)});
+            wall.screen().at({dice.between(0.001, 0.999), dice.between(0.001, 0.999)}).value();
         double sum = 0;
         for (std::size_t c = 0; c < rig.channels.size(); ++c) {
-            const double weight = blendWeight(rig, c, point);
+            const double weight = wall.weight(c, point);
             EXPECT_GE(weight, 0);
             sum += weight;
         }
@@ -28,13 +29,14 @@ TEST_P(BlendOfRig, theSharesOfEveryPointOfTheScreenSumToOne) {
 
 TEST_P(BlendOfRig, aShareFadesToNothingAtThePicturesBorderInsideAnOverlap) {
     const config::Rig rig = shippedRig(GetParam());
+    const Wall wall(rig);
     const config::Channel& left = rig.channels[0];
     for (int tenth = 1; tenth < 10; ++tenth) {
         const glm::dvec2 pixel(left.sizePixels.x - 1e-6, 0.1 * tenth * left.sizePixels.y);
-        const auto border = screenPoint(rig.screen, left, pixel);
+        const auto border = wall.channel(0).pointOf(pixel, 0);
         ASSERT_TRUE(border);
-        EXPECT_LT(blendWeight(rig, 0, *border), 1e-9);
-        EXPECT_NEAR(blendWeight(rig, 1, *border), 1, 1e-9);
+        EXPECT_LT(wall.weight(0, *border), 1e-9);
+        EXPECT_NEAR(wall.weight(1, *border), 1, 1e-9);
     }
 }
 
@@ -42,12 +44,13 @@ TEST_P(BlendOfRig, aShareFadesToNothingAtThePicturesBorderInsideAnOverlap) {
 // stay what it is.
 TEST_P(BlendOfRig, aShareHasNoKinkAlongTheScreen) {
     const config::Rig rig = shippedRig(GetParam());
+    const Wall wall(rig);
     const auto largestBend = [&](int steps) {
         const double step = 1.0 / steps;
         double largest = 0;
         for (int i = 2; i + 2 < steps; ++i) {
             const auto weight = [&](int at) {
-                return blendWeight(rig, 1, screenPointAt(rig.screen, {at * step, 0.37}));
+                return wall.weight(1, wall.screen().at({at * step, 0.37}).value());
             };
             const double slopeBefore = (weight(i) - weight(i - 1)) / step;
             const double slopeAfter = (weight(i + 1) - weight(i)) / step;
@@ -62,9 +65,10 @@ TEST_P(BlendOfRig, aShareHasNoKinkAlongTheScreen) {
 
 TEST_P(BlendOfRig, outsideAnOverlapOneProjectorGivesAll) {
     const config::Rig rig = shippedRig(GetParam());
-    EXPECT_EQ(blendWeight(rig, 1, screenPointAt(rig.screen, {0.5, 0.5})), 1);
-    EXPECT_EQ(blendWeight(rig, 0, screenPointAt(rig.screen, {0.5, 0.5})), 0);
-    EXPECT_EQ(blendWeight(rig, 0, screenPointAt(rig.screen, {0.1, 0.2})), 1);
+    const Wall wall(rig);
+    EXPECT_EQ(wall.weight(1, wall.screen().at({0.5, 0.5}).value()), 1);
+    EXPECT_EQ(wall.weight(0, wall.screen().at({0.5, 0.5}).value()), 0);
+    EXPECT_EQ(wall.weight(0, wall.screen().at({0.1, 0.2}).value()), 1);
 }
 
 }  // namespace

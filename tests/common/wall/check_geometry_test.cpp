@@ -52,7 +52,7 @@ TEST(CheckGeometry, aGapBetweenNeighboursIsNamedInDegrees) {
     // The left one's light ends where its last column falls, the middle one's where its first does.
     const auto azimuth = [&](std::size_t channel, double x) {
         const double middleRow = rig.channels[channel].sizePixels.y / 2.0;
-        const auto point = screenPoint(rig.screen, rig.channels[channel], {x, middleRow});
+        const auto point = Wall(rig).channel(channel).pointOf({x, middleRow}, 0);
         return std::atan2(-point->x, -point->z) / kRadiansPerDegree<double>;
     };
     EXPECT_NEAR(from, azimuth(0, rig.channels[0].sizePixels.x), 0.8);

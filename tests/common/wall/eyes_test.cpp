@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "common/base/log.h"
-#include "common/wall/pinhole.h"
 #include "common/wall/wall.h"
 #include "rigs.h"
 
@@ -22,7 +21,7 @@ config::Rig stereoRig() {
 // Where the line from an eye to a point meets the screen.
 glm::dvec3 onScreen(const config::Rig& rig, EyeSide side, glm::dvec3 point) {
     const glm::dvec3 eye = eyePosition(rig, side);
-    return screenHit(rig.screen, {eye, point - eye}, 1.0).value();
+    return makeSurface(rig)->hit({eye, point - eye}, 1.0).value();
 }
 
 // At the height of the eyes, so far from the origin and so far to the right.
@@ -59,9 +58,9 @@ TEST(Eyes, seeAPointAsFarApartOnTheScreenAsTheGeometrySays) {
 TEST(Eyes, lookTheSameWayThroughEveryChannel) {
     const config::Rig rig = stereoRig();
     for (std::size_t c = 0; c < rig.channels.size(); ++c) {
-        const auto between = channelFrustum(rig, c, 0.01);
+        const auto between = Wall(rig).frustum(c, 0.01);
         for (const EyeSide side : {EyeSide::Left, EyeSide::Right}) {
-            const auto frustum = channelFrustum(rig, c, 0.01, side);
+            const auto frustum = Wall(rig).frustum(c, 0.01, side);
             EXPECT_EQ(glm::dmat3(frustum.cameraFromWall), glm::dmat3(between.cameraFromWall));
             const glm::dvec4 seen = frustum.cameraFromWall * glm::dvec4(eyePosition(rig, side), 1);
             EXPECT_LT(glm::length(glm::dvec3(seen)), 1e-15) << "the camera is not at the eye";
@@ -72,8 +71,8 @@ TEST(Eyes, lookTheSameWayThroughEveryChannel) {
 TEST(Eyes, ofNoSeparationSeeAsOne) {
     config::Rig rig = stereoRig();
     rig.stereo.eyeSeparationMetres = 0;
-    const auto left = channelFrustum(rig, 0, 0.01, EyeSide::Left);
-    const auto between = channelFrustum(shippedRig("theatre"), 0, 0.01);
+    const auto left = Wall(rig).frustum(0, 0.01, EyeSide::Left);
+    const auto between = Wall(shippedRig("theatre")).frustum(0, 0.01);
     EXPECT_EQ(left.cameraFromWall, between.cameraFromWall);
     EXPECT_EQ(left.left, between.left);
     EXPECT_EQ(left.top, between.top);
@@ -83,8 +82,8 @@ TEST(Eyes, holdAllThatTheChannelLightsWhereverTheyAre) {
     config::Rig rig = stereoRig();
     rig.sweetSpotMetres = {0.4, 0.3, 0.8};
     for (const EyeSide side : {EyeSide::Left, EyeSide::Right}) {
-        const auto frustum = channelFrustum(rig, 2, 0, side);
-        for (const glm::vec4& entry : warpMap(rig, 2).pointAndWeight) {
+        const auto frustum = Wall(rig).frustum(2, 0, side);
+        for (const glm::vec4& entry : Wall(rig).warp(2).pointAndWeight) {
             if (entry.w <= 0) continue;
             const glm::dvec4 seen = frustum.cameraFromWall * glm::dvec4(glm::dvec3(entry), 1);
             ASSERT_GT(seen.x / -seen.z, frustum.left - 1e-6);

@@ -17,10 +17,11 @@ INSTANTIATE_TEST_SUITE_P(Shipped, FrustumOfRig, testing::Values("theatre", "tour
 
 TEST_P(FrustumOfRig, holdsEveryLitPointAndTouchesTheOutermost) {
     const config::Rig rig = shippedRig(GetParam());
+    const Wall wall(rig);
     for (std::size_t c = 0; c < rig.channels.size(); ++c) {
-        const ChannelFrustum frustum = channelFrustum(rig, c, 0);
+        const ChannelFrustum frustum = wall.frustum(c, 0);
         double left = 1e9, right = -1e9, bottom = 1e9, top = -1e9;
-        for (const glm::vec4& entry : warpMap(rig, c).pointAndWeight) {
+        for (const glm::vec4& entry : wall.warp(c).pointAndWeight) {
             if (entry.w <= 0) continue;
             const glm::dvec4 seen = frustum.cameraFromWall * glm::dvec4(glm::dvec3(entry), 1);
             ASSERT_LT(seen.z, 0);
@@ -43,8 +44,9 @@ TEST_P(FrustumOfRig, holdsEveryLitPointAndTouchesTheOutermost) {
 
 TEST_P(FrustumOfRig, growsByTheMarginAtEverySide) {
     const config::Rig rig = shippedRig(GetParam());
-    const ChannelFrustum tight = channelFrustum(rig, 0, 0);
-    const ChannelFrustum wide = channelFrustum(rig, 0, kMargin);
+    const Wall wall(rig);
+    const ChannelFrustum tight = wall.frustum(0, 0);
+    const ChannelFrustum wide = wall.frustum(0, kMargin);
     EXPECT_NEAR(std::atan(tight.left) - std::atan(wide.left), kMargin, 1e-12);
     EXPECT_NEAR(std::atan(wide.right) - std::atan(tight.right), kMargin, 1e-12);
     EXPECT_NEAR(std::atan(tight.bottom) - std::atan(wide.bottom), kMargin, 1e-12);
@@ -54,7 +56,7 @@ TEST_P(FrustumOfRig, growsByTheMarginAtEverySide) {
 TEST(Frustum, ofAnAxisProjectorIsItsPicture) {
     config::Rig rig = axisRig();
     rig.channels[0].projector.focalPixels = {100, 100};  // all of the picture falls on the screen
-    const ChannelFrustum frustum = channelFrustum(rig, 0, 0);
+    const ChannelFrustum frustum = Wall(rig).frustum(0, 0);
     EXPECT_NEAR(frustum.left, -0.5, 1e-9);
     EXPECT_NEAR(frustum.right, 0.5, 1e-9);
     EXPECT_NEAR(frustum.bottom, -0.5, 1e-9);

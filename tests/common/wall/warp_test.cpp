@@ -16,14 +16,14 @@ double distance(glm::dvec3 a, glm::dvec3 b) {
 
 TEST(Warp, aProjectorOnTheAxisHitsTheMiddle) {
     const config::Rig rig = axisRig();
-    const auto point = screenPoint(rig.screen, rig.channels[0], {50, 50});
+    const auto point = Wall(rig).channel(0).pointOf({50, 50}, 0);
     ASSERT_TRUE(point);
     EXPECT_LT(distance(*point, {0, 0, -2}), 1e-12);
 }
 
 TEST(Warp, aPixelAtTangentTLightsTheAzimuthWhoseTangentIsT) {
     const config::Rig rig = axisRig();
-    const auto point = screenPoint(rig.screen, rig.channels[0], {50 + 50 * 0.5, 50 - 50 * 0.25});
+    const auto point = Wall(rig).channel(0).pointOf({50 + 50 * 0.5, 50 - 50 * 0.25}, 0);
     ASSERT_TRUE(point);
     const double azimuth = std::atan(0.5);  // the projector is on the axis
     EXPECT_LT(
@@ -35,12 +35,12 @@ TEST(Warp, aPixelAtTangentTLightsTheAzimuthWhoseTangentIsT) {
 TEST(Warp, yawTurnsLeftPitchTurnsUpRollTurnsCounterClockwise) {
     config::Rig rig = axisRig();
     rig.channels[0].projector.yawPitchRollRadians = {0.3, 0.1, 0};
-    const auto aimed = screenPoint(rig.screen, rig.channels[0], {50, 50});
+    const auto aimed = Wall(rig).channel(0).pointOf({50, 50}, 0);
     ASSERT_TRUE(aimed);
     EXPECT_LT(distance(*aimed, {-2 * std::sin(0.3), 2 * std::tan(0.1), -2 * std::cos(0.3)}), 1e-12);
 
     rig.channels[0].projector.yawPitchRollRadians = {0, 0, 0.2};
-    const auto rolled = screenPoint(rig.screen, rig.channels[0], {60, 50});  // right of the middle
+    const auto rolled = Wall(rig).channel(0).pointOf({60, 50}, 0);  // right of the middle
     ASSERT_TRUE(rolled);
     EXPECT_GT(rolled->y, 0);  // a counter-clockwise picture has its right side higher
 }
@@ -48,21 +48,21 @@ TEST(Warp, yawTurnsLeftPitchTurnsUpRollTurnsCounterClockwise) {
 TEST(Warp, aProjectorBehindTheScreenOrLookingAwayLightsNothing) {
     config::Rig rig = axisRig();
     rig.channels[0].projector.positionMetres = {0, 0, -5};
-    EXPECT_FALSE(screenPoint(rig.screen, rig.channels[0], {50, 50}));
+    EXPECT_FALSE(Wall(rig).channel(0).pointOf({50, 50}, 0));
     rig.channels[0].projector.yawPitchRollRadians.x = 3.14159265;
-    EXPECT_FALSE(screenPoint(rig.screen, rig.channels[0], {50, 50}));  // would light the outside
-    EXPECT_EQ(blendWeight(rig, 0, {0, 0, -2}), 0);
+    EXPECT_FALSE(Wall(rig).channel(0).pointOf({50, 50}, 0));  // would light the outside
+    EXPECT_EQ(Wall(rig).weight(0, {0, 0, -2}), 0);
 }
 
 TEST(Warp, unrolledPositionsRunFromTheTopLeftCorner) {
-    const config::Screen screen = axisRig().screen;
-    EXPECT_LT(glm::length(unrolled(screen, {0, 0, -2}) - glm::dvec2(0.5)), 1e-12);
-    const glm::dvec3 corner = screenPointAt(screen, {0, 0});
+    const auto screen = makeSurface(axisRig());
+    EXPECT_LT(glm::length(screen->unrolled({0, 0, -2}) - glm::dvec2(0.5)), 1e-12);
+    const glm::dvec3 corner = screen->at({0, 0}).value();
     EXPECT_LT(distance(corner, {-2 * std::sin(0.75), 1.5, -2 * std::cos(0.75)}), 1e-12);
     Dice dice;
     for (int i = 0; i < 1000; ++i) {
         const glm::dvec2 there(dice.between(0, 1), dice.between(0, 1));
-        EXPECT_LT(glm::length(unrolled(screen, screenPointAt(screen, there)) - there), 1e-12);
+        EXPECT_LT(glm::length(screen->unrolled(screen->at(there).value()) - there), 1e-12);
     }
 }
 
@@ -71,17 +71,18 @@ INSTANTIATE_TEST_SUITE_P(Shipped, WarpOfRig, testing::Values("theatre", "touring
 
 TEST_P(WarpOfRig, projectingAndUnprojectingAnyPixelReturnsIt) {
     const config::Rig rig = shippedRig(GetParam());
+    const Wall wall(rig);
     Dice dice;
     int lit = 0;
-    for (const config::Channel& channel : rig.channels)
+    for (std::size_t c = 0; c < rig.channels.size(); ++c)
         for (int i = 0; i < 2000; ++i) {
-            const glm::dvec2 pixel(dice.between(0, channel.sizePixels.x),
-                                   dice.between(0, channel.sizePixels.y));
-            const auto point = screenPoint(rig.screen, channel, pixel);
+            const glm::ivec2 size = rig.channels[c].sizePixels;
+            const glm::dvec2 pixel(dice.between(0, size.x), dice.between(0, size.y));
+            const auto point = wall.channel(c).pointOf(pixel, 0);
             if (!point) continue;
             ++lit;
             EXPECT_NEAR(std::hypot(point->x, point->z), rig.screen.radiusMetres, 1e-12);
-            const auto back = projectorPixel(channel, *point);
+            const auto back = wall.channel(c).pixelOf(*point);
             ASSERT_TRUE(back);
             EXPECT_LT(glm::length(*back - pixel), 1e-9);
         }
@@ -90,22 +91,22 @@ TEST_P(WarpOfRig, projectingAndUnprojectingAnyPixelReturnsIt) {
 
 TEST_P(WarpOfRig, neighboursPutTheSameWorldPointOnTheSameScreenPoint) {
     const config::Rig rig = shippedRig(GetParam());
+    const Wall wall(rig);
     const glm::dvec2 panorama(rig.panoramaPixels);
     Dice dice;
     int shared = 0;
     for (int i = 0; i < 20000; ++i) {
-        const glm::dvec3 point =
-            screenPointAt(rig.screen, {dice.between(0, 1), dice.between(0, 1)});
+        const glm::dvec3 point = wall.screen().at({dice.between(0, 1), dice.between(0, 1)}).value();
         for (std::size_t a = 0; a + 1 < rig.channels.size(); ++a) {
-            const auto left = projectorPixel(rig.channels[a], point);
-            const auto right = projectorPixel(rig.channels[a + 1], point);
+            const auto left = wall.channel(a).pixelOf(point);
+            const auto right = wall.channel(a + 1).pixelOf(point);
             if (!left || !right) continue;
             ++shared;
-            const auto fromLeft = screenPoint(rig.screen, rig.channels[a], *left);
-            const auto fromRight = screenPoint(rig.screen, rig.channels[a + 1], *right);
+            const auto fromLeft = wall.channel(a).pointOf(*left, 0);
+            const auto fromRight = wall.channel(a + 1).pointOf(*right, 0);
             ASSERT_TRUE(fromLeft && fromRight);
             const glm::dvec2 apart =
-                unrolled(rig.screen, *fromLeft) - unrolled(rig.screen, *fromRight);
+                wall.screen().unrolled(*fromLeft) - wall.screen().unrolled(*fromRight);
             EXPECT_LT(glm::length(apart * panorama), 1e-6);
         }
     }
@@ -114,26 +115,28 @@ TEST_P(WarpOfRig, neighboursPutTheSameWorldPointOnTheSameScreenPoint) {
 
 TEST_P(WarpOfRig, theMapSaysOfEachPixelWhatItsRaySays) {
     const config::Rig rig = shippedRig(GetParam());
-    const WarpMap map = warpMap(rig, 1);
+    const Wall wall(rig);
+    const WarpMap map = wall.warp(1);
     const config::Channel& channel = rig.channels[1];
     ASSERT_EQ(map.sizePixels, channel.sizePixels);
     for (int y = 0; y < channel.sizePixels.y; y += 37)
         for (int x = 0; x < channel.sizePixels.x; x += 41) {
-            const auto point = screenPoint(rig.screen, channel, {x + 0.5, y + 0.5});
+            const auto point = wall.channel(1).pointOf({x + 0.5, y + 0.5}, 0);
             if (!point) continue;
             const int index = y * channel.sizePixels.x + x;
             const glm::vec4 entry = map.pointAndWeight[static_cast<std::size_t>(index)];
             EXPECT_LT(distance(glm::dvec3(entry), *point), 1e-6);
-            EXPECT_NEAR(static_cast<double>(entry.w), blendWeight(rig, 1, *point), 1e-7);
+            EXPECT_NEAR(static_cast<double>(entry.w), wall.weight(1, *point), 1e-7);
         }
 }
 
 // The float map is what the nodes draw by: its rounding must not be seen where pictures overlap.
 TEST_P(WarpOfRig, theMapIsExactToAHundredthOfAPanoramaPixel) {
     const config::Rig rig = shippedRig(GetParam());
+    const Wall wall(rig);
     const glm::dvec2 panorama(rig.panoramaPixels);
     for (std::size_t c = 0; c < rig.channels.size(); ++c) {
-        const WarpMap map = warpMap(rig, c);
+        const WarpMap map = wall.warp(c);
         for (std::size_t i = 0; i < map.pointAndWeight.size(); i += 101) {
             const glm::vec4 entry = map.pointAndWeight[i];
             if (entry.w <= 0) continue;
@@ -141,10 +144,10 @@ TEST_P(WarpOfRig, theMapIsExactToAHundredthOfAPanoramaPixel) {
             const std::size_t row = i / width;
             const glm::dvec2 pixel(static_cast<double>(i % width) + 0.5,
                                    static_cast<double>(row) + 0.5);
-            const auto point = screenPoint(rig.screen, rig.channels[c], pixel);
+            const auto point = wall.channel(c).pointOf(pixel, 0);
             if (!point) continue;
             const glm::dvec2 off =
-                unrolled(rig.screen, glm::dvec3(entry)) - unrolled(rig.screen, *point);
+                wall.screen().unrolled(glm::dvec3(entry)) - wall.screen().unrolled(*point);
             ASSERT_LT(glm::length(off * panorama), 0.01);
         }
     }

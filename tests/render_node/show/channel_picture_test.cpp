@@ -51,8 +51,9 @@ session::Admission admissionToTheWorld() {
 glm::dvec2 pixelOf(const config::Rig& rig, std::size_t channel, glm::dvec3 world) {
     const glm::dvec3 direction = world - glm::dvec3(place::kEyePosition);
     const double level = glm::length(glm::dvec2(direction.x, direction.z));
-    return wall::projectorPixel(rig.channels[channel],
-                                direction * (rig.screen.radiusMetres / level))
+    return wall::Wall(rig)
+        .channel(channel)
+        .pixelOf(direction * (rig.screen.radiusMetres / level))
         .value_or(glm::dvec2(-1));
 }
 
@@ -60,10 +61,10 @@ glm::dvec2 pixelOf(const config::Rig& rig, std::size_t channel, glm::dvec3 world
 double seamBetween(const config::Rig& rig, std::size_t left, std::size_t right) {
     double best = 0;
     double u = 0;
+    const wall::Wall wall(rig);
     for (int i = 0; i < 2000; ++i) {
-        const glm::dvec3 point = wall::screenPointAt(rig.screen, {i / 2000.0, 0.5});
-        const double both =
-            wall::blendWeight(rig, left, point) * wall::blendWeight(rig, right, point);
+        const glm::dvec3 point = wall.screen().at({i / 2000.0, 0.5}).value();
+        const double both = wall.weight(left, point) * wall.weight(right, point);
         if (both <= best) continue;
         best = both;
         u = i / 2000.0;
@@ -110,7 +111,8 @@ class ChannelPictureTest : public testing::Test {
                                  std::size_t channel,
                                  const wire::StateFrame& fish) {
         const config::Rig& rig = stage->admission.rig;
-        const wall::WarpMap warp = wall::warpMap(rig, channel);
+        const wall::Wall wall(rig);
+        const wall::WarpMap warp = wall.warp(channel);
         const Light with = lightOfFrame(picture, fish);
         const Light without = lightOfFrame(picture, emptySea());
         glm::dvec2 sum(0);
@@ -120,8 +122,8 @@ class ChannelPictureTest : public testing::Test {
             if (point.w < 0.02) continue;
             const glm::dvec3 change = glm::abs(with.rgb[i] - without.rgb[i]);
             const double share = (change.x + change.y + change.z) / point.w;
-            sum += share * wall::unrolled(rig.screen, glm::dvec3(point)) *
-                   glm::dvec2(rig.panoramaPixels);
+            sum +=
+                share * wall.screen().unrolled(glm::dvec3(point)) * glm::dvec2(rig.panoramaPixels);
             total += share;
         }
         EXPECT_GT(total, 1) << "channel " << channel << " does not show the fish";
@@ -230,7 +232,7 @@ TEST_F(ChannelPictureTest, neighboursShowAFishInTheirOverlapAtOnePlace) {
     glm::dvec2 sum(0);
     constexpr int kFish = 8;
     for (int i = 0; i < kFish; ++i) {
-        const glm::dvec3 point = wall::screenPointAt(rig.screen, {seam, 0.3 + 0.05 * i});
+        const glm::dvec3 point = wall::makeSurface(rig)->at({seam, 0.3 + 0.05 * i}).value();
         const auto towardsTheWall = static_cast<float>(std::atan2(-point.z, point.x));
         const wire::StateFrame fish = frameWithAFish(
             {.position = place::kEyePosition + glm::vec3(glm::normalize(point) * 2.5),

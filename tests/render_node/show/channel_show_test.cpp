@@ -121,7 +121,7 @@ TEST_F(ChannelShowTest, theSnapshotIsTheGreyOfTheWall) {
     show(session, options(/*deep=*/true));
     const Picture picture = readPng(folder_ + "/channel-middle.png");
     const config::Rig rig = wall::shippedRig("desk");
-    const wall::WarpMap warp = wall::warpMap(rig, channelIndex(rig, "middle"));
+    const wall::WarpMap warp = wall::Wall(rig).warp(channelIndex(rig, "middle"));
     ASSERT_EQ(picture.sizePixels, warp.sizePixels);
     ASSERT_EQ(picture.bits, 16);
     for (std::size_t i = 0; i < warp.pointAndWeight.size(); ++i) {
@@ -179,7 +179,7 @@ TEST_F(ChannelShowTest, withoutLightAPictureIsBlackAndHalfTheLightIsHalf) {
         show(session, options(/*deep=*/true));
         const Picture picture = readPng(folder_ + "/channel-middle.png");
         const config::Rig rig = wall::shippedRig("desk");
-        const wall::WarpMap warp = wall::warpMap(rig, channelIndex(rig, "middle"));
+        const wall::WarpMap warp = wall::Wall(rig).warp(channelIndex(rig, "middle"));
         for (std::size_t i = 0; i < warp.pointAndWeight.size(); ++i) {
             const double light = kGrey * double{brightness} * double{warp.pointAndWeight[i].w};
             ASSERT_NEAR(picture.rgb[3 * i], 65535 * srgbOf(light), brightness == 0 ? 0 : 10);
@@ -215,9 +215,9 @@ TEST_F(ChannelShowTest, aSeaWithoutFishHasNoMinds) {
 
 // What a pixel of the middle channel should show of the grid, by closed forms alone; 0 off the
 // screen.
-double gridOfTheWall(const config::Rig& rig, glm::dvec2 pixel) {
-    const auto point = wall::screenPoint(rig.screen, rig.channels[1], pixel);
-    return point ? wall::gridLight(*point) * wall::blendWeight(rig, 1, *point) : 0;
+double gridOfTheWall(const wall::Wall& wall, glm::dvec2 pixel) {
+    const auto point = wall.channel(1).pointOf(pixel, 0);
+    return point ? wall::gridLight(*point) * wall.weight(1, *point) : 0;
 }
 
 // How far a picture is displaced from what it should be, by least squares: the reference's slope
@@ -227,18 +227,18 @@ TEST_F(ChannelShowTest, theGridLiesOnTheWallToATenthOfAPixel) {
                         {{frameNumber(0, wire::Pattern::Grid), session::Release::Present}});
     show(session, options(/*deep=*/true), wire::Pattern::Grid);
     const Light light = lightOf(readPng(folder_ + "/channel-middle.png"));
-    const config::Rig rig = wall::shippedRig("desk");
+    const wall::Wall wall(wall::shippedRig("desk"));
     glm::dvec2 slopeTimesDifference(0);
     glm::dvec2 slopeSquared(0);
     for (int y = 0; y < light.sizePixels.y; ++y)
         for (int x = 0; x < light.sizePixels.x; ++x) {
             const glm::dvec2 centre(x + 0.5, y + 0.5);
             const double difference =
-                static_cast<double>(light.at(x, y).x) - gridOfTheWall(rig, centre);
-            const glm::dvec2 slope(gridOfTheWall(rig, centre + glm::dvec2(0.5, 0)) -
-                                       gridOfTheWall(rig, centre - glm::dvec2(0.5, 0)),
-                                   gridOfTheWall(rig, centre + glm::dvec2(0, 0.5)) -
-                                       gridOfTheWall(rig, centre - glm::dvec2(0, 0.5)));
+                static_cast<double>(light.at(x, y).x) - gridOfTheWall(wall, centre);
+            const glm::dvec2 slope(gridOfTheWall(wall, centre + glm::dvec2(0.5, 0)) -
+                                       gridOfTheWall(wall, centre - glm::dvec2(0.5, 0)),
+                                   gridOfTheWall(wall, centre + glm::dvec2(0, 0.5)) -
+                                       gridOfTheWall(wall, centre - glm::dvec2(0, 0.5)));
             slopeTimesDifference += slope * difference;
             slopeSquared += slope * slope;
         }

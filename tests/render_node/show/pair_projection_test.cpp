@@ -24,8 +24,8 @@ class PairProjectionTest : public testing::Test {
   protected:
     struct EyeStage {
         explicit EyeStage(const config::Rig& rig, wall::EyeSide side, float turn)
-            : map{projectionMap(wall::warpMap(rig, kChannel),
-                                wall::channelFrustum(rig, kChannel, kMarginRadians, side))},
+            : map{projectionMap(wall::Wall(rig).warp(kChannel),
+                                wall::Wall(rig).frustum(kChannel, kMarginRadians, side))},
               projection{map, kChannelId},
               scene{GL_RGBA16F, scenePictureSize(map)} {
             std::vector<float> rgb;

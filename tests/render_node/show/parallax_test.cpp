@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "common/wall/pinhole.h"
 #include "render_node/show/projection.h"
 #include "tests/common/wall/rigs.h"
 
@@ -43,18 +42,18 @@ TEST_P(Parallax, ofEveryEyeEndsOnTheScreenWhereItsLineOfSightDoes) {
     config::Rig rig = wall::shippedRig("desk_stereo");
     rig.sweetSpotMetres = {0.1, -0.05, 0.2};
     const config::Channel& channel = rig.channels[GetParam()];
-    const glm::dvec3 middle =
-        wall::screenPoint(rig.screen, channel, glm::dvec2(channel.sizePixels) / 2.0).value();
-    const wall::WarpMap warp = wall::warpMap(rig, GetParam());
+    const wall::Wall wall(rig);
+    const wall::Optics& optics = wall.channel(GetParam());
+    const glm::dvec3 middle = optics.pointOf(glm::dvec2(channel.sizePixels) / 2.0, 0).value();
+    const wall::WarpMap warp = wall.warp(GetParam());
     for (const wall::EyeSide side : {wall::EyeSide::Left, wall::EyeSide::Right}) {
-        const wall::ChannelFrustum frustum =
-            wall::channelFrustum(rig, GetParam(), kMarginRadians, side);
+        const wall::ChannelFrustum frustum = wall.frustum(GetParam(), kMarginRadians, side);
         const ProjectionMap map = projectionMap(warp, frustum);
         const glm::dvec3 eye = wall::eyePosition(rig, side);
         for (const double away : {0.4, 1.0, 2.5, 100.0}) {
             const glm::dvec3 point = middle * away;  // before, on and behind the screen
-            const auto lit = wall::screenHit(rig.screen, {eye, point - eye}, 1).value();
-            const auto pixel = wall::projectorPixel(channel, lit).value();
+            const auto lit = wall.screen().hit({eye, point - eye}, 1).value();
+            const auto pixel = optics.pixelOf(lit).value();
             const glm::dvec2 off = placeAt(map, pixel) - seenAt(frustum, point);
             EXPECT_LT(glm::length(off * glm::dvec2(scenePictureSize(map))), 0.02)
                 << "channel " << channel.name << ", " << away << " of the way to the screen";

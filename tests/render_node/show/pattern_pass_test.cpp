@@ -28,9 +28,9 @@ class PatternPassTest : public testing::Test {
 
     static constexpr glm::ivec2 kSize{500, 380};
     std::unique_ptr<gl::Context> context_ = gl::makeOffscreenContext("auto", kSize);
-    wall::ChannelFrustum frustum_ = wall::channelFrustum(wall::shippedRig("desk"), 2, 0.01);
+    wall::ChannelFrustum frustum_ = wall::Wall(wall::shippedRig("desk")).frustum(2, 0.01);
     gl::Target target_{GL_RGBA32F, kSize};
-    PatternPass pass_{frustum_, wall::shippedRig("desk").screen};
+    PatternPass pass_{frustum_, wall::makeSurface(wall::shippedRig("desk"))->patternGround()};
 };
 
 TEST_F(PatternPassTest, theGridIsTheReferences) {

@@ -34,7 +34,7 @@ TEST(Pointing, aPinchFallsBehindThePixelThatIsPointedAt) {
         const Pointing pointing(rig, channel);
         for (const glm::dvec2 share : {glm::dvec2(0.5, 0.5), {0.2, 0.7}, {0.8, 0.3}}) {
             const glm::dvec2 pixel = share * glm::dvec2(rig.channels[channel].sizePixels);
-            const auto lit = wall::screenPoint(rig.screen, rig.channels[channel], pixel);
+            const auto lit = wall::Wall(rig).channel(channel).pointOf(pixel, 0);
             ASSERT_TRUE(lit);
             const auto pinch = pointing.pinchAt(glm::vec2(pixel), kEye);
             ASSERT_TRUE(pinch);

@@ -29,8 +29,8 @@ TEST(ProjectionMap, leadsEachPixelToTheRayThroughThePointThatItLights) {
     for (const char* name : {"desk", "theatre", "touring"}) {
         const config::Rig rig = wall::shippedRig(name);
         for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
-            const wall::WarpMap warp = wall::warpMap(rig, channel);
-            const wall::ChannelFrustum frustum = wall::channelFrustum(rig, channel, kMarginRadians);
+            const wall::WarpMap warp = wall::Wall(rig).warp(channel);
+            const wall::ChannelFrustum frustum = wall::Wall(rig).frustum(channel, kMarginRadians);
             const ProjectionMap map = projectionMap(warp, frustum);
             const glm::dvec2 size(scenePictureSize(map));
             const double pixelRadians = (frustum.right - frustum.left) / size.x;
@@ -66,25 +66,27 @@ glm::dvec2 placeAt(const ProjectionMap& map, glm::dvec2 pixel) {
 // wall on the way to the eye: so neighbours agree about it.
 TEST(ProjectionMap, everyChannelShowsAPointOfTheWorldAtOnePlaceOfTheWall) {
     wall::Dice dice;
-    for (const char* name : {"desk", "theatre", "touring"}) {
+    for (const char* name : {"desk", "theatre", "touring", "flat_3", "wall_2x2", "dome_5"}) {
         const config::Rig rig = wall::shippedRig(name);
-        std::vector<glm::dvec3> directions(1000);
-        for (glm::dvec3& direction : directions)
-            direction = wall::screenPointAt(rig.screen,
-                                            {dice.between(0.01, 0.99), dice.between(0.05, 0.95)});
+        const wall::Wall wall(rig);
+        std::vector<glm::dvec3> directions;
+        while (directions.size() < 1000)
+            if (const auto point =
+                    wall.screen().at({dice.between(0.01, 0.99), dice.between(0.05, 0.95)}))
+                directions.push_back(*point);
         std::vector<std::size_t> channelsOf(directions.size(), 0);
         for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
-            const wall::ChannelFrustum frustum = wall::channelFrustum(rig, channel, kMarginRadians);
-            const ProjectionMap map = projectionMap(wall::warpMap(rig, channel), frustum);
+            const wall::ChannelFrustum frustum = wall.frustum(channel, kMarginRadians);
+            const ProjectionMap map = projectionMap(wall.warp(channel), frustum);
             const glm::dvec2 size(scenePictureSize(map));
             for (std::size_t i = 0; i < directions.size(); ++i) {
-                if (wall::blendWeight(rig, channel, directions[i]) < 0.01) continue;
+                if (wall.weight(channel, directions[i]) < 0.01) continue;
                 ++channelsOf[i];
                 const glm::dvec3 fish = directions[i] * dice.between(0.5, 8);
                 const glm::dvec4 clip = glm::dmat4(wall::clipFromCamera(frustum, 0.05F)) *
                                         frustum.cameraFromWall * glm::dvec4(fish, 1);
                 const glm::dvec2 drawn = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size;
-                const auto pixel = wall::projectorPixel(rig.channels[channel], directions[i]);
+                const auto pixel = wall.channel(channel).pixelOf(directions[i]);
                 ASSERT_TRUE(pixel);
                 EXPECT_LT(glm::distance(drawn, placeAt(map, *pixel) * size), 0.05) << name;
             }
@@ -96,7 +98,7 @@ TEST(ProjectionMap, everyChannelShowsAPointOfTheWorldAtOnePlaceOfTheWall) {
 TEST(ProjectionMap, staysInsideThePictureWithRoomForTheFilter) {
     const config::Rig rig = wall::shippedRig("desk");
     const ProjectionMap map =
-        projectionMap(wall::warpMap(rig, 0), wall::channelFrustum(rig, 0, kMarginRadians));
+        projectionMap(wall::Wall(rig).warp(0), wall::Wall(rig).frustum(0, kMarginRadians));
     const glm::vec2 texel = 1.0F / glm::vec2(scenePictureSize(map));
     for (const glm::vec4& place : map.placeAndWeight) {
         if (place.z <= 0) continue;
@@ -111,7 +113,7 @@ TEST(ProjectionMap, scenePictureIsAsFineAsTheProjector) {
     for (const char* name : {"desk", "theatre", "touring"}) {
         const config::Rig rig = wall::shippedRig(name);
         const ProjectionMap map =
-            projectionMap(wall::warpMap(rig, 1), wall::channelFrustum(rig, 1, kMarginRadians));
+            projectionMap(wall::Wall(rig).warp(1), wall::Wall(rig).frustum(1, kMarginRadians));
         const glm::dvec2 size(scenePictureSize(map));
         const auto width = static_cast<std::size_t>(map.sizePixels.x);
         const auto stepAt = [&](std::size_t i) {

@@ -68,7 +68,7 @@ class ProjectionTest : public testing::Test {
     std::unique_ptr<gl::Context> context_ = gl::makeOffscreenContext("auto", {480, 360});
     config::Rig rig_ = wall::shippedRig("desk");
     ProjectionMap map_ =
-        projectionMap(wall::warpMap(rig_, 0), wall::channelFrustum(rig_, 0, kMarginRadians));
+        projectionMap(wall::Wall(rig_).warp(0), wall::Wall(rig_).frustum(0, kMarginRadians));
     glm::ivec2 sceneSize_ = scenePictureSize(map_);
     gl::Target scene_{GL_RGBA16F, sceneSize_};
     LightPicture light_;

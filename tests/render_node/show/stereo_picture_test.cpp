@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "common/place/place.h"
-#include "common/wall/pinhole.h"
 #include "common/wall/wall.h"
 #include "render_node/show/channel_picture.h"
 #include "tests/render_node/show/fake_session.h"
@@ -145,8 +144,8 @@ class Watched {
         const glm::dvec3 eye = wall::eyePosition(rig, side);
         double sum = 0;
         for (const glm::dvec3& crumb : crumbs) {
-            const auto lit = wall::screenHit(rig.screen, {eye, crumb - eye}, 1).value();
-            sum += wall::projectorPixel(rig.channels[channel_], lit).value().x;
+            const auto lit = wall::makeSurface(rig)->hit({eye, crumb - eye}, 1).value();
+            sum += wall::Wall(rig).channel(channel_).pixelOf(lit).value().x;
         }
         return sum / static_cast<double>(crumbs.size());
     }

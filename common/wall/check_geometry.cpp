@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether the channels of a rig make a wall.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "common/base/log.h"
+#include "common/base/units.h"
+#include "common/wall/wall.h"
+
+namespace aquarama::wall {
+
+namespace {
+
+// The samples of the screen that checkCovered() looks at.
+constexpr int kColumns = 481;
+constexpr int kRows = 121;
+// Beyond this a flat picture would need very many pixels at its sides.
+constexpr double kWidestDegrees = 150;
+
+[[noreturn]] void refuse(const std::string& source,
+                         config::SourcePlace place,
+                         const std::string& why) {
+    throw Error(config::placed(source, place, why));
+}
+
+std::string oneDecimal(double value) {
+    return fmt::format("{:.1f}", value);
+}
+
+// As in "12.0 degrees left", "3.5 degrees right".
+std::string sideways(double azimuth) {
+    return oneDecimal(std::abs(azimuth) / kRadiansPerDegree<double>) + " degrees " +
+           (azimuth < 0 ? "left" : "right");
+}
+
+// A channel must light some of the screen, and not too wide a part.
+void checkChannel(const config::Rig& rig,
+                  const Wall& wall,
+                  std::size_t index,
+                  const std::string& source) {
+    const config::Channel& channel = rig.channels[index];
+    const std::vector<glm::dvec3> lit = wall.channel(index).outline(0);
+    if (lit.empty())
+        refuse(source,
+               channel.place,
+               "projector \"" + channel.name +
+                   "\" misses the screen: aim it by yaw_deg, pitch_deg and principal_y_px, or "
+                   "move it");
+    if (rig.screen.shape != config::ScreenShape::Cylinder) return;  // checkEyes() sees it
+    const auto [low, high] = std::ranges::minmax(lit, {}, azimuthOf);
+    if (azimuthOf(high) - azimuthOf(low) > kWidestDegrees * kRadiansPerDegree<double>)
+        refuse(source,
+               channel.place,
+               "projector \"" + channel.name + "\" lights more than " + oneDecimal(kWidestDegrees) +
+                   " degrees of the screen: give it a longer focal_x_px, or share with another");
+}
+
+// Where sample `index` of `count` is between the edges of what has to be lit, as a share of the
+// screen.
+double sample(int index, int count) {
+    return kDarkBorder + (1 - 2 * kDarkBorder) * index / (count - 1);
+}
+
+bool isLit(const Wall& wall, glm::dvec3 point) {
+    for (std::size_t channel = 0; channel < wall.channels(); ++channel)
+        if (wall.channel(channel).pixelOf(point)) return true;
+    return false;
+}
+
+// Calls visit(point, whether it is lit, column) for samples of the screen, column by column.
+void walkScreen(const Wall& wall, const std::function<void(glm::dvec3, bool, int)>& visit) {
+    for (int column = 0; column < kColumns; ++column)
+        for (int row = 0; row < kRows; ++row) {
+            const auto point = wall.screen().at({sample(column, kColumns), sample(row, kRows)});
+            if (point) visit(*point, isLit(wall, *point), column);
+        }
+}
+
+// The first run of neighbouring columns that have a dark point.
+struct Hole {
+    std::vector<glm::dvec3> points;
+    int first = 0, last = 0;  // columns
+};
+
+Hole firstHole(const Wall& wall) {
+    Hole hole;
+    walkScreen(wall, [&](glm::dvec3 point, bool isLit, int column) {
+        if (isLit || (!hole.points.empty() && column > hole.last + 1)) return;
+        if (hole.points.empty()) hole.first = column;
+        hole.last = column;
+        hole.points.push_back(point);
+    });
+    return hole;
+}
+
+// The middle of a hole in a screen that surrounds the eye.
+std::string aroundMiddle(const Hole& hole) {
+    glm::dvec3 sum(0);
+    for (const glm::dvec3& point : hole.points) sum += point;
+    return "about " + sideways(azimuthOf(sum)) + ", " +
+           oneDecimal(elevationOf(sum) / kRadiansPerDegree<double>) + " degrees up";
+}
+
+// All samples of the screen must be lit.
+void checkCovered(const config::Rig& rig, const Wall& wall, const std::string& source) {
+    const Hole hole = firstHole(wall);
+    if (hole.points.empty()) return;
+    const std::string remedy =
+        ": aim one there, shorten its focal length, or make the screen smaller";
+    if (rig.screen.shape == config::ScreenShape::Dome)
+        refuse(source,
+               rig.screen.place,
+               "no projector lights the screen " + aroundMiddle(hole) + remedy);
+    const auto [low, high] = std::ranges::minmax(hole.points, {}, &glm::dvec3::y);
+    const bool fullHeight = low.y < 0 && high.y > 0;
+    const bool reachesEdge = hole.first == 0 || hole.last == kColumns - 1;
+    const std::string where = "from " + sideways(azimuthOf(hole.points.front())) + " to " +
+                              sideways(azimuthOf(hole.points.back())) + " of the middle, " +
+                              oneDecimal(low.y) + " to " + oneDecimal(high.y) +
+                              " m above the sweet spot";
+    if (fullHeight && !reachesEdge)
+        refuse(source,
+               rig.screen.place,
+               "neighbours leave a gap " + where +
+                   ": turn them together, or shorten their focal_x_px");
+    refuse(source, rig.screen.place, "no projector lights the screen " + where + remedy);
+}
+
+// The eyes must be in front of the screen, not beside or behind a part of it.
+void checkEyes(const config::Rig& rig, const Wall& wall, const std::string& source) {
+    for (std::size_t channel = 0; channel < rig.channels.size(); ++channel)
+        for (const EyeSide eye : {EyeSide::Left, EyeSide::Right}) try {
+                (void)wall.frustum(channel, 0, eye);
+            } catch (const Error& error) {
+                refuse(source, rig.sweetSpotPlace, error.what());
+            }
+}
+
+// What somebody has measured has ragged edges, and is taken as it is.
+bool isMeasured(const config::Rig& rig) {
+    return rig.screen.shape == config::ScreenShape::Measured ||
+           std::ranges::any_of(rig.channels, [](const config::Channel& channel) {
+               return channel.wallFile.has_value();
+           });
+}
+
+}  // namespace
+
+double darkShare(const Wall& wall) {
+    std::size_t dark = 0, all = 0;
+    walkScreen(wall, [&](glm::dvec3, bool isLit, int) {
+        ++all;
+        if (!isLit) ++dark;
+    });
+    return static_cast<double>(dark) / static_cast<double>(std::max<std::size_t>(all, 1));
+}
+
+void checkGeometry(const config::Rig& rig, const std::string& source) {
+    const Wall wall(rig);
+    for (std::size_t i = 0; i < rig.channels.size(); ++i) checkChannel(rig, wall, i, source);
+    if (!isMeasured(rig)) checkCovered(rig, wall, source);
+    checkEyes(rig, wall, source);
+}
+
+}  // namespace aquarama::wall

@@ -1,0 +1,94 @@
+"""Real processes: a rig whose channels have a wall file shows what the projectors did, and takes another file while it runs."""
+
+import re
+import shutil
+import sys
+import time
+import unittest
+from pathlib import Path
+
+from show import CHANNELS, ROOT, aquarama, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
+
+sys.path.insert(0, str(ROOT / "packaging"))
+from check_pictures import read_png  # noqa: E402
+
+
+def displacement(one, other):
+    """By how many pixels one picture must be moved, right and down, to lie on the other: a step of least squares each way."""
+    (size, before), (same, after) = read_png(one), read_png(other)
+    assert size == same
+    (width, height), ways = size, []
+    light = [code ** 2.2 for code in range(256)]  # that of codes, nearly
+    before, after = ([light[code] for code in picture[1::3]] for picture in (before, after))
+    for step in (1, width):
+        products = squares = 0
+        for i in range(width, width * (height - 1)):
+            slope = (before[i + step] - before[i - step]) / 2
+            products, squares = products + slope * (before[i] - after[i]), squares + slope * slope
+        ways.append(products / squares)
+    return ways
+
+
+class WallFile(unittest.TestCase):
+    def setUp(self):
+        self.folder = temporary_folder()
+        self.desk = rig_on_free_ports(self.folder.name)
+        self.file = Path(self.folder.name) / "hall.mpcdi"
+        made = aquarama("convert", self.desk, self.file)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        text = re.sub(r"  projector \{.*?\n  \}\n", '  wall_file { file: "hall.mpcdi" }\n', self.desk.read_text(), flags=re.S)
+        self.rig = Path(self.folder.name) / "hall.txtpb"
+        self.rig.write_text(text)
+        self.log = Path(self.folder.name) / "log"
+        self.processes = []
+
+    def tearDown(self):
+        end(self.processes)
+        self.folder.cleanup()
+
+    def snapshot(self, rig, name):
+        folder = Path(self.folder.name) / name
+        done = aquarama("run", rig, "--headless", "--frames", 2, "--pattern", "grid", "--snapshot", folder)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return folder
+
+    def test_the_file_of_a_rig_shows_what_the_rig_shows(self):
+        self.assertIn("good", aquarama("check", self.rig).stdout)
+        before, after = self.snapshot(self.desk, "before"), self.snapshot(self.rig, "after")
+        for name in [*(f"channel-{channel}" for channel in CHANNELS), "panorama"]:
+            right, down = displacement(before / f"{name}.png", after / f"{name}.png")
+            self.assertLess(max(abs(right), abs(down)), 0.05, name)
+
+    def calibration(self):
+        said = re.search(r"calibration (\w+)", aquarama("status", self.rig).stdout)
+        return said and said[1]
+
+    def test_another_file_comes_on_between_two_frames(self):
+        show = start("run", self.rig, "--headless", "--live", "--pattern", "grid", "--trace", self.folder.name, log=self.log)
+        self.processes = [show]
+        wait_until(lambda: self.log.read_text().count("showing") >= 3, 60, "the first frame of every node")
+        first = self.calibration()
+        self.assertTrue(first)
+
+        self.file.write_bytes(self.file.read_bytes()[:1000])
+        wait_until(lambda: "the wall stays as it is" in self.log.read_text(), 20, "the refusal of half a file")
+        self.assertEqual(self.calibration(), first)
+
+        moved = re.sub(r"yaw_deg: 39.2", "yaw_deg: 39.5", self.desk.read_text())
+        other = Path(self.folder.name) / "moved.txtpb"
+        other.write_text(moved)
+        made = aquarama("convert", other, Path(self.folder.name) / "moved.mpcdi")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        shutil.move(Path(self.folder.name) / "moved.mpcdi", self.file)
+        wait_until(lambda: "showing look 2" in self.log.read_text(), 60, "the new file on the wall")
+        wait_until(lambda: self.calibration() not in (None, first), 10, "its digest")
+        time.sleep(1)
+        log = self.log.read_text()
+        self.assertNotIn("joining again", log)
+        self.assertNotIn("through black", log)
+        frames = [set(frame for frame, row in trace(self.folder.name, name).items() if row[2]) for name in CHANNELS]
+        self.assertGreater(len(set.intersection(*frames)), 20)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
