@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <iostream>
 #include <limits>
 #include <optional>
@@ -108,16 +109,30 @@ formats::WallFile readAny(const ConvertOptions& options) {
     return wallFileOf(rig);
 }
 
+void requireSize(const formats::FileChannel& channel, const std::string& source) {
+    constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
+    const glm::ivec2 size = channel.sizePixels;
+    if (size.x < 1 || size.y < 1)
+        throw Error(source + ": does not say how many pixels \"" + channel.name +
+                    "\" has; give them by --size");
+    if (std::int64_t{size.x} * size.y > kMostPixels)
+        throw Error(fmt::format("{}: \"{}\" has {} x {} pixels, more than a display; correct it",
+                                source,
+                                channel.name,
+                                size.x,
+                                size.y));
+}
+
+bool isPlain(const formats::FileChannel& channel) {
+    return !channel.warp || (channel.warp->sampling == formats::Sampling::Centres &&
+                             channel.warp->size == channel.sizePixels);
+}
+
 // Other tools take every warp for samples at the centres of pixels.
 void resample(formats::WallFile& file, const std::string& source) {
     for (formats::FileChannel& channel : file.channels) {
-        if (channel.sizePixels.x < 1 || channel.sizePixels.y < 1)
-            throw Error(source + ": does not say how many pixels \"" + channel.name +
-                        "\" has; give them by --size");
-        const bool isPlain =
-            !channel.warp || (channel.warp->sampling == formats::Sampling::Centres &&
-                              channel.warp->size == channel.sizePixels);
-        if (!isPlain) channel.warp = formats::resampled(*channel.warp, channel.sizePixels);
+        requireSize(channel, source);
+        if (!isPlain(channel)) channel.warp = formats::resampled(*channel.warp, channel.sizePixels);
     }
 }
 

@@ -256,7 +256,7 @@ void lookAtNode(Findings& findings, const config::Rig& rig, const v1::NodeStatus
                    subject,
                    conductor::wordFor(node.condition()) + ", " + machine,
                    node.condition() == v1::NODE_ABSENT
-                       ? "start it there: aquarama node --key FILE; see its output"
+                       ? "start it there: aquarama-node --key FILE; see its output"
                        : "it draws more slowly than the others: see its frame times");
     findings.judge(node.hash_mismatches() == 0,
                    Verdict::Fail,

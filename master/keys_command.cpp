@@ -190,7 +190,10 @@ void bundleKey(const KeyOptions& options) {
     key.masterAddress = rig.controlAddress;
     const fs::path out =
         options.out.empty() ? config::keyFileIn("", key.name) : fs::path(options.out);
-    if (fs::exists(out)) throw Error(out.string() + ": is there already; choose another --out");
+    if (fs::exists(out))
+        throw Error(
+            out.string() +
+            ": is there already; remove it if its key was rotated, or choose another --out");
     config::writeKeyFile(out, key);
     std::cout << out.string() << ": carry it to its machine by a way that nobody reads\n";
     if (key.role == KeyRole::Node)

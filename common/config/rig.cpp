@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -268,7 +269,8 @@ Channel channelOf(const TextReader& file, const v1::Channel& in, const Stereo& s
     if (in.has_panel()) channel.panel = panelOf(in.panel());
     if (in.has_wall_file())
         channel.wallFile = {in.wall_file().file(),
-                            in.wall_file().has_region() ? in.wall_file().region() : in.name()};
+                            in.wall_file().has_region() ? in.wall_file().region() : in.name(),
+                            in.wall_file().frustum()};
     refuseOddHalves(file, in, channel.display.stereo.value_or(stereo.mode));
     return channel;
 }
@@ -276,7 +278,7 @@ Channel channelOf(const TextReader& file, const v1::Channel& in, const Stereo& s
 void refuseOverlaps(const TextReader& file, const v1::Rig& in) {
     std::set<std::uint32_t> ids;
     std::set<std::string> names;
-    std::set<std::uint32_t> monitors;
+    std::set<std::pair<std::string, std::uint32_t>> monitors;  // of a machine
     for (const v1::Channel& channel : in.channels()) {
         const auto giveOwn = ": give \"" + channel.name() + "\" its own";
         if (!ids.insert(channel.id()).second)
@@ -290,7 +292,8 @@ void refuseOverlaps(const TextReader& file, const v1::Rig& in) {
                 "name",
                 "name \"" + channel.name() + "\" is taken by another channel: give each its own");
         const v1::Display& display = channel.display();
-        if (display.mode() == v1::Display::FULLSCREEN && !monitors.insert(display.monitor()).second)
+        const bool isWhole = display.mode() == v1::Display::FULLSCREEN;
+        if (isWhole && !monitors.emplace(channel.machine(), display.monitor()).second)
             file.refuse(display,
                         "monitor",
                         "monitor " + std::to_string(display.monitor()) +
@@ -314,7 +317,26 @@ void takeScreen(const TextReader& file, const std::string& source, const v1::Rig
                    "a rig has panels or projectors, not both: give the panels a rig of their own"));
     file.require(in, "screen");
     rig.screen = screenOf(file, in.screen());
+}
+
+// Nodes are told the names of files.
+void requireFileName(const std::string& name, const std::string& source, SourcePlace place) {
+    constexpr std::size_t kMostNameBytes = 255;
+    const bool isPrintable = std::ranges::none_of(
+        name, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
+    if (!isPrintable || name.size() > kMostNameBytes)
+        throw Error(placed(source, place, "the name of a file has up to 255 printable letters"));
+}
+
+// Of the files that the rig names, before they are read.
+void nameFiles(Rig& rig, const std::string& source) {
     if (rig.screen.shape == ScreenShape::Measured) rig.files[rig.screen.meshFile];
+    for (const Channel& channel : rig.channels) {
+        if (!channel.wallFile) continue;
+        rig.files[channel.wallFile->file];
+        if (!channel.wallFile->frustum.empty()) rig.files[channel.wallFile->frustum];
+    }
+    for (const auto& [name, content] : rig.files) requireFileName(name, source, rig.screen.place);
 }
 
 }  // namespace
@@ -350,9 +372,8 @@ Rig parseRig(const std::string& text, const std::string& source) {
     if (in.has_sweet_spot()) rig.sweetSpotPlace = file.placeOf(in.sweet_spot());
     for (const v1::Channel& channel : in.channels())
         rig.channels.push_back(channelOf(file, channel, rig.stereo));
-    for (const Channel& channel : rig.channels)
-        if (channel.wallFile) rig.files[channel.wallFile->file];
     takeScreen(file, source, in, rig);
+    nameFiles(rig, source);
     refuseOverlaps(file, in);
     return rig;
 }

@@ -83,6 +83,7 @@ struct Panel {
 struct WallFileRegion {
     std::string file;  // name in Rig::files
     std::string region;
+    std::string frustum;  // another; empty: none
 };
 
 // What takes the picture of a channel: a window on a desktop, or a whole monitor.

@@ -95,8 +95,11 @@ WallFile readWith(Bytes bytes,
 
 }  // namespace
 
-WallFile readWallFile(Bytes bytes, const std::string& source, const ReadOptions& options) {
-    return readWith(bytes, source, options, {});
+WallFile readWallFile(Bytes bytes,
+                      const std::string& source,
+                      const ReadOptions& options,
+                      Bytes frustum) {
+    return readWith(bytes, source, options, {source + ", frustum", frustum});
 }
 
 WallFile readWallFile(const std::string& path, const ReadOptions& options) {

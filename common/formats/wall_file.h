@@ -128,10 +128,12 @@ struct ReadOptions {
 // Error.
 // Of a mesh or map with a frustum file beside it, that is read as well.
 [[nodiscard]] WallFile readWallFile(const std::string& path, const ReadOptions& options = {});
-// The same of its bytes alone; `source` names it in errors.
+// The same of its bytes; `source` names it in errors. `frustum`: the bytes of the frustum file,
+// none where there is none.
 [[nodiscard]] WallFile readWallFile(std::span<const std::byte> bytes,
                                     const std::string& source,
-                                    const ReadOptions& options = {});
+                                    const ReadOptions& options = {},
+                                    std::span<const std::byte> frustum = {});
 
 // The warp at a place of the picture (0 to 1, top left corner at (0, 0)), bilinear between samples;
 // beyond the outermost centres by the line through the last two. x is NaN where one of the samples

@@ -119,6 +119,10 @@ class PixelFinder {
     [[nodiscard]] std::optional<glm::dvec2> within(glm::ivec2 pixel, glm::dvec2 place) const {
         const glm::dvec2 a = corner(pixel), b = corner(pixel + glm::ivec2(1, 0));
         const glm::dvec2 c = corner(pixel + glm::ivec2(0, 1)), d = corner(pixel + 1);
+        constexpr double kMostOfPanorama = 0.5;  // more goes round its back
+        if (std::max({std::abs(b.x - a.x), std::abs(c.x - a.x), std::abs(d.x - a.x)}) >
+            kMostOfPanorama)
+            return std::nullopt;
         if (const auto t = share(a, b - a, c - a, place)) return t;
         if (const auto t = share(d, c - d, b - d, place)) return 1.0 - *t;
         return std::nullopt;
@@ -230,6 +234,10 @@ std::unique_ptr<const Optics> makeCalibratedOptics(const config::Rig& rig,
         throw Error(
             source + ": region \"" + region.name +
             "\" has no frustum, so its warp says nothing of the screen; export it with one");
+    if (region.distortion)
+        logWarning("{}: the distortionMap of region {} is not used; bake it into the warp",
+                   source,
+                   region.name);
     if (!needsFrustum && !region.warp)
         throw Error(source + ": region \"" + region.name +
                     "\" has no warp; export it with its geometry");

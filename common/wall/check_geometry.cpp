@@ -51,7 +51,9 @@ void checkChannel(const config::Rig& rig,
                "projector \"" + channel.name +
                    "\" misses the screen: aim it by yaw_deg, pitch_deg and principal_y_px, or "
                    "move it");
-    if (rig.screen.shape != config::ScreenShape::Cylinder) return;  // checkEyes() sees it
+    const bool isUpright =
+        rig.screen.shape == config::ScreenShape::Cylinder && rig.screen.tiltRadians == 0;
+    if (!isUpright) return;  // by the view of checkEyes()
     const auto [low, high] = std::ranges::minmax(lit, {}, azimuthOf);
     if (azimuthOf(high) - azimuthOf(low) > kWidestDegrees * kRadiansPerDegree<double>)
         refuse(source,
@@ -131,13 +133,25 @@ void checkCovered(const config::Rig& rig, const Wall& wall, const std::string& s
     refuse(source, rig.screen.place, "no projector lights the screen " + where + remedy);
 }
 
-// The eyes must be in front of the screen, not beside or behind a part of it.
+// The eyes must be in front of the screen, not beside or behind a part of it, and see no channel so
+// wide that its picture would need very many pixels.
 void checkEyes(const config::Rig& rig, const Wall& wall, const std::string& source) {
+    constexpr double kWidest = kWidestDegrees * kRadiansPerDegree<double>;
     for (std::size_t channel = 0; channel < rig.channels.size(); ++channel)
         for (const EyeSide eye : {EyeSide::Left, EyeSide::Right}) try {
-                (void)wall.frustum(channel, 0, eye);
+                const ChannelFrustum seen = wall.frustum(channel, 0, eye);
+                const double across = std::atan(seen.right) - std::atan(seen.left);
+                const double upright = std::atan(seen.top) - std::atan(seen.bottom);
+                if (std::max(across, upright) > kWidest)
+                    throw Error(
+                        "channel \"" + rig.channels[channel].name + "\" spans more than " +
+                        oneDecimal(kWidestDegrees) +
+                        " degrees of the view: share with another, or move sweet_spot back");
             } catch (const Error& error) {
-                refuse(source, rig.sweetSpotPlace, error.what());
+                const bool isElsewhere = rig.sweetSpotPlace.line > 0;
+                refuse(source,
+                       isElsewhere ? rig.sweetSpotPlace : rig.channels[channel].place,
+                       error.what());
             }
 }
 

@@ -71,7 +71,9 @@ class BoxTree {
     }
 
     [[nodiscard]] Crossing nearest(const Ray& ray) const {
-        const glm::dvec3 inverse = 1.0 / ray.direction;
+        glm::dvec3 inverse;  // of zeros: large, but times nothing still nothing
+        for (int i = 0; i < 3; ++i)
+            inverse[i] = 1 / (ray.direction[i] != 0 ? ray.direction[i] : 1e-300);
         Crossing best;
         std::array<std::size_t, kDeepest> open{0};
         std::size_t count = 1;

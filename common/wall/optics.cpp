@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -28,18 +29,27 @@ Lens::Lens(const config::Projector& projector, glm::ivec2 sizePixels)
     }
 }
 
-// Newton's method along the radius: r (1 + k1 r^2 + k2 r^4) = the thrown tangent.
+// The least r with r (1 + k1 r^2 + k2 r^4) = the thrown tangent: by Newton's method, within bounds.
 glm::dvec2 Lens::undistorted(glm::dvec2 tangent) const {
     if (radial_ == glm::dvec2(0)) return tangent;
     const double thrown = glm::length(tangent);
     if (thrown == 0) return tangent;
-    double r = thrown;
-    for (int i = 0; i < 20; ++i) {
+    constexpr int kSteps = 64;
+    double low = 0, high = thrown / kSteps;
+    // It grows up to the picture's corners, so the first crossing is the one.
+    for (int i = 0; high * stretch(high * high) < thrown && i < 64 * kSteps; ++i) {
+        low = high;
+        high += thrown / kSteps;
+    }
+    double r = (low + high) / 2;
+    for (int i = 0; i < 60 && high - low > 1e-15 * thrown; ++i) {
         const double square = r * r;
+        const double off = r * stretch(square) - thrown;
+        (off < 0 ? low : high) = r;
         const double slope = 1 + square * (3 * radial_.x + 5 * square * radial_.y);
-        const double step = (r * stretch(square) - thrown) / slope;
-        r -= step;
-        if (std::abs(step) < 1e-14) break;
+        const double next = r - off / slope;
+        if (std::abs(next - r) < 1e-15 * thrown) break;
+        r = next > low && next < high ? next : (low + high) / 2;
     }
     return tangent * (r / thrown);
 }
@@ -156,8 +166,14 @@ WallFiles readWallFiles(const config::Rig& rig) {
     for (const config::Channel& channel : rig.channels) {
         if (!channel.wallFile) continue;
         const std::string& name = channel.wallFile->file;
-        if (!files.contains(name))
-            files.emplace(name, formats::readWallFile(rig.files.at(name), name));
+        if (files.contains(name)) continue;
+        const std::string& frustum = channel.wallFile->frustum;
+        files.emplace(name,
+                      formats::readWallFile(
+                          rig.files.at(name),
+                          name,
+                          {.sizePixels = channel.sizePixels},
+                          frustum.empty() ? std::span<const std::byte>{} : rig.files.at(frustum)));
     }
     return files;
 }

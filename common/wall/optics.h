@@ -71,7 +71,8 @@ class Optics {
     [[nodiscard]] static const std::vector<glm::vec3>& nothing();
 };
 
-// The wall files of a rig as they were read, by their name in the rig.
+// The wall files of a rig as they were read, by their name in the rig; uneven meshes were brought
+// to the pixels of the channel.
 using WallFiles = std::map<std::string, formats::WallFile>;
 // Throws Error where one cannot be read.
 [[nodiscard]] WallFiles readWallFiles(const config::Rig& rig);

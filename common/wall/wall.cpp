@@ -186,21 +186,31 @@ Extents widened(const Extents& extents, double byRadians) {
             {widened(extents.high.x, byRadians), widened(extents.high.y, byRadians)}};
 }
 
-// A margin of whole pixels of a panel, so that each of them is one of the picture's.
-void takePanelMargin(ChannelFrustum& frustum,
-                     const Extents& panel,
-                     const Extents& least,
-                     glm::ivec2 sizePixels) {
+// The pixels of a panel that make a margin before (left, below) and after it.
+struct PanelMargin {
+    glm::dvec2 before{0}, after{0};
+};
+
+PanelMargin marginOf(const Extents& panel, double byRadians, glm::ivec2 sizePixels) {
     const glm::dvec2 pixel = (panel.high - panel.low) / glm::dvec2(sizePixels);
-    const glm::dvec2 before = glm::ceil((panel.low - least.low) / pixel);
-    const glm::dvec2 after = glm::ceil((least.high - panel.high) / pixel);
-    const glm::dvec2 low = panel.low - before * pixel;
-    const glm::dvec2 high = panel.high + after * pixel;
+    const Extents least = widened(panel, byRadians);
+    return {glm::ceil((panel.low - least.low) / pixel),
+            glm::ceil((least.high - panel.high) / pixel)};
+}
+
+// The extents with a margin of whole pixels, so that each of the panel's is one of the picture's.
+void takeMargin(ChannelFrustum& frustum,
+                const Extents& panel,
+                const PanelMargin& margin,
+                glm::ivec2 sizePixels) {
+    const glm::dvec2 pixel = (panel.high - panel.low) / glm::dvec2(sizePixels);
+    const glm::dvec2 low = panel.low - margin.before * pixel;
+    const glm::dvec2 high = panel.high + margin.after * pixel;
     frustum.left = low.x;
     frustum.bottom = low.y;
     frustum.right = high.x;
     frustum.top = high.y;
-    frustum.sizePixels = sizePixels + glm::ivec2(before + after);
+    frustum.sizePixels = sizePixels + glm::ivec2(margin.before + margin.after);
 }
 
 // What must be lit is so far in front of the eye.
@@ -208,32 +218,55 @@ constexpr double kLeastAheadMetres = 0.1;
 
 }  // namespace
 
-ChannelFrustum Wall::frustum(std::size_t channel, double marginRadians, EyeSide eye) const {
-    assert(channel < channels_.size());
-    const std::string& name = rig_.channels[channel].name;
-    const Optics& optics = *channels_[channel];
-    const std::vector<glm::dvec3> lit = optics.outline(kSpillMetres);
-    if (lit.empty()) throw Error("channel \"" + name + "\" misses the screen; aim it there");
-    const auto panel = optics.wallFromPanel();
-    ChannelFrustum frustum;
-    frustum.cameraFromWall =
-        cameraAt(eyePosition(rig_, eye), panel ? *panel : axesFor(lit, rig_.sweetSpotMetres));
+namespace {
+
+// Of what is lit, seen by a camera. Throws Error, which names the channel, where some of it is
+// beside or behind it.
+Extents extentsOf(const std::vector<glm::dvec3>& lit,
+                  const glm::dmat4& cameraFromWall,
+                  const std::string& channel) {
     Extents extents;
     for (const glm::dvec3& point : lit) {
-        const glm::dvec4 seen = frustum.cameraFromWall * glm::dvec4(point, 1);
+        const glm::dvec4 seen = cameraFromWall * glm::dvec4(point, 1);
         if (-seen.z < kLeastAheadMetres)
-            throw Error("channel \"" + name +
+            throw Error("channel \"" + channel +
                         "\" lights what is beside or behind the eyes; move sweet_spot back");
         const glm::dvec2 tangent = glm::dvec2(seen) / -seen.z;
         extents.low = glm::min(extents.low, tangent);
         extents.high = glm::max(extents.high, tangent);
+    }
+    return extents;
+}
+
+}  // namespace
+
+ChannelFrustum Wall::frustum(std::size_t channel, double marginRadians, EyeSide eye) const {
+    assert(channel < channels_.size());
+    const config::Channel& what = rig_.channels[channel];
+    const Optics& optics = *channels_[channel];
+    const std::vector<glm::dvec3> lit = optics.outline(kSpillMetres);
+    if (lit.empty()) throw Error("channel \"" + what.name + "\" misses the screen; aim it there");
+    const auto panel = optics.wallFromPanel();
+    const glm::dmat3 axes = panel ? *panel : axesFor(lit, rig_.sweetSpotMetres);
+    ChannelFrustum frustum;
+    frustum.cameraFromWall = cameraAt(eyePosition(rig_, eye), axes);
+    const Extents extents = extentsOf(lit, frustum.cameraFromWall, what.name);
+    if (panel) {
+        PanelMargin margin;  // the same for all eyes, whose pictures have one size
+        for (const EyeSide side : {EyeSide::Left, EyeSide::Between, EyeSide::Right}) {
+            const Extents seen = extentsOf(lit, cameraAt(eyePosition(rig_, side), axes), what.name);
+            const PanelMargin least = marginOf(seen, marginRadians, what.sizePixels);
+            margin.before = glm::max(margin.before, least.before);
+            margin.after = glm::max(margin.after, least.after);
+        }
+        takeMargin(frustum, extents, margin, what.sizePixels);
+        return frustum;
     }
     const Extents wide = widened(extents, marginRadians);
     frustum.left = wide.low.x;
     frustum.bottom = wide.low.y;
     frustum.right = wide.high.x;
     frustum.top = wide.high.y;
-    if (panel) takePanelMargin(frustum, extents, wide, rig_.channels[channel].sizePixels);
     return frustum;
 }
 
@@ -271,7 +304,8 @@ double Wall::finestPixelRadians() const {
                 if (!here || !next) continue;
                 const double angle =
                     glm::length(glm::cross(glm::normalize(*here), glm::normalize(*next)));
-                finest = std::min(finest, angle);
+                constexpr double kSame = 1e-6;  // of a wall file that is cut off at an edge
+                if (angle > kSame) finest = std::min(finest, angle);
             }
         }
     }

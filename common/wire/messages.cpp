@@ -377,6 +377,7 @@ Digest digestIn(const std::string& bytes) {
 }
 
 std::uint64_t calibrationOf(const std::string& rigText, const v1::Look& look) {
+    if (look.rig_files().empty()) return shortHash(digestOf(rigText));
     std::string all = toHex(digestOf(rigText));
     for (const v1::RigFile& file : look.rig_files()) all += file.name() + file.digest();
     return shortHash(digestOf(all));

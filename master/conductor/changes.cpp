@@ -26,6 +26,17 @@ bool isReady(const std::future<Result>& future) {
     return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
+// The files of a rig that has changed, with their digests; none where it has not.
+std::map<std::string, std::pair<Digest, net::ByteVector>> filesOf(std::optional<config::Rig> rig) {
+    std::map<std::string, std::pair<Digest, net::ByteVector>> files;
+    if (!rig) return files;
+    for (auto& [name, content] : rig->files) {
+        const Digest digest = digestOf(std::span{content});
+        files.emplace(name, std::pair{digest, std::move(content)});
+    }
+    return files;
+}
+
 // Of a message to which there is no objection.
 ShowChange changeIn(const v1::Set& set) {
     ShowChange change;
@@ -105,28 +116,37 @@ void Conductor::watchRigFiles(net::Instant now) {
     if (!options_.changedRig || isLockstep()) return;
     if (!rereading_.valid() && now - lastReread_ > kBetween) {
         lastReread_ = now;
-        rereading_ = std::async(std::launch::async, options_.changedRig);
+        rereading_ = std::async(std::launch::async,
+                                [&changed = options_.changedRig] { return filesOf(changed()); });
     }
     if (!isReady(rereading_)) return;
     try {
-        auto rig = rereading_.get();
-        if (!rig || !control_.renew()) return;
-        rigFiles_ = std::move(rig->files);
+        auto files = rereading_.get();
+        if (files.empty() || !control_.renew()) return;
+        nextRigFiles_.emplace();
+        for (auto& [name, file] : files) {
+            nextRigFiles_->emplace(name, file.first);
+            blobs_.try_emplace(file.first, std::move(file.second));
+        }
         logInfo("the files of the wall have changed; nodes build them");
     } catch (const Error& problem) {
         logWarning("the wall stays as it is: {}", problem.what());
     }
 }
 
-void Conductor::giveRigFiles(v1::Look& look) {
+void Conductor::nameRigFiles(v1::Look& look, const RigFiles& files) {
     look.clear_rig_files();
-    for (const auto& [name, content] : rigFiles_) {
-        const Digest digest = digestOf(std::span{content});
+    for (const auto& [name, digest] : files) {
         v1::RigFile& file = *look.add_rig_files();
         file.set_name(name);
         file.set_digest(wire::bytesOf(digest));
-        blobs_.emplace(digest, content);
     }
+}
+
+void Conductor::forgetRigFiles(const RigFiles& old, const RigFiles& kept) {
+    for (const auto& [name, digest] : old)
+        if (std::ranges::none_of(kept, [&](const auto& file) { return file.second == digest; }))
+            blobs_.erase(digest);
 }
 
 void Conductor::makeNextWorld() {
@@ -147,7 +167,7 @@ void Conductor::makeNextWorld() {
 
 void Conductor::announceNextLook(net::Instant now) {
     nextLook_ = std::make_unique<v1::Look>(made_ ? lookOf(made_->assets, made_->school) : *look_);
-    giveRigFiles(*nextLook_);
+    nameRigFiles(*nextLook_, nextRigFiles_.value_or(rigFiles_));
     nextLook_->set_number(control_.nextLook());
     nextLook_->set_world(control_.nextHasWorld());
     const auto& quality = control_.next().quality;
@@ -178,7 +198,9 @@ void Conductor::prepareNodes(net::Instant now) {
 }
 
 void Conductor::giveUpNextLook(const std::string& missing) {
-    logWarning("the scene stays: {} did not prepare the next in time", missing);
+    logWarning("the wall stays as it is: {} did not build the next look in time", missing);
+    if (nextRigFiles_) forgetRigFiles(*nextRigFiles_, rigFiles_);
+    nextRigFiles_.reset();
     control_.fail("not prepared within two minutes by " + missing + "; see its log");
     nextLook_.reset();
     made_.reset();
@@ -186,11 +208,11 @@ void Conductor::giveUpNextLook(const std::string& missing) {
 
 void Conductor::switchLook() {
     assert(nextLook_);
-    for (const v1::RigFile& old : look_->rig_files())  // large, and asked for no more
-        if (std::ranges::none_of(nextLook_->rig_files(), [&](const v1::RigFile& file) {
-                return file.digest() == old.digest();
-            }))
-            blobs_.erase(wire::digestIn(old.digest()));
+    if (nextRigFiles_) {
+        forgetRigFiles(rigFiles_, *nextRigFiles_);
+        rigFiles_ = std::move(*nextRigFiles_);
+        nextRigFiles_.reset();
+    }
     look_ = std::move(nextLook_);
     if (made_) {
         simulationThread_.reset();

@@ -105,7 +105,6 @@ Conductor::Conductor(const config::Rig& rig,
       simulation_(&simulation),
       fishOfSchool_(static_cast<std::uint32_t>(school.size())),
       rigText_(rig.text),
-      rigFiles_(rig.files),
       control_(options_.wanted, options_.kept),
       look_(std::make_unique<v1::Look>(lookOf(assets, school))),
       blobs_(blobsOf(assets)),
@@ -124,7 +123,12 @@ Conductor::Conductor(const config::Rig& rig,
         slots_.back().machine = channel->machine;
     }
     figures_ = makeFigures();
-    giveRigFiles(*look_);
+    for (const auto& [name, content] : rig.files) {
+        const Digest digest = digestOf(std::span{content});
+        rigFiles_.emplace(name, digest);
+        blobs_.emplace(digest, content);
+    }
+    nameRigFiles(*look_, rigFiles_);
     look_->set_number(control_.look());
     look_->set_world(control_.hasWorld());
     if (const auto& quality = control_.wanted().quality)

@@ -211,8 +211,11 @@ class Conductor {
     void makeNextWorld();
     // Measured screens and wall files are looked at once a second, and taken where they changed.
     void watchRigFiles(net::Instant now);
-    // The files that the rig names become blobs, named in the look.
-    void giveRigFiles(v1::Look& look);
+    // The files that the rig names, by name.
+    using RigFiles = std::map<std::string, Digest>;
+    static void nameRigFiles(v1::Look& look, const RigFiles& files);
+    // Large, and asked for no more: what `old` names and `kept` does not.
+    void forgetRigFiles(const RigFiles& old, const RigFiles& kept);
     void announceNextLook(net::Instant now);
     void prepareNodes(net::Instant now);
     void giveUpNextLook(const std::string& missing);
@@ -258,8 +261,9 @@ class Conductor {
     std::unique_ptr<Simulation> own_;  // simulation_, after a change of scene
     std::uint32_t fishOfSchool_;
     std::string rigText_;
-    std::map<std::string, net::ByteVector> rigFiles_;  // of the look under way, else of the shown
-    std::uint64_t calibration_ = 0;                    // of the shown
+    RigFiles rigFiles_;                     // of the look that is shown
+    std::optional<RigFiles> nextRigFiles_;  // of the one under way, where they are others
+    std::uint64_t calibration_ = 0;         // of the shown
     ShowControl control_;
     std::unique_ptr<v1::Look> look_;  // that is shown
     std::string sceneName_;           // of it
@@ -301,7 +305,8 @@ class Conductor {
     float speedMetresPerSecond_ = 0;
     std::optional<std::pair<Frame, wire::Packet>> lastPresent_;
     net::Instant lastRelease_{};
-    std::future<std::optional<config::Rig>> rereading_;
+    // The changed files by name, with their digests.
+    std::future<std::map<std::string, std::pair<Digest, net::ByteVector>>> rereading_;
     net::Instant lastReread_{};
     std::future<NextWorld> making_;
     std::optional<NextWorld> made_;

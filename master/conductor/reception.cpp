@@ -337,7 +337,11 @@ void Conductor::admit(std::size_t node) {
 
 void Conductor::giveChunk(const net::PeerId& peer, const v1::BlobRequest& request) {
     const auto blob = blobs_.find(wire::digestIn(request.digest()));
-    if (blob == blobs_.end() || request.offset() > blob->second.size()) {
+    if (blob == blobs_.end()) {
+        ++report_.refusedPackets;
+        return dismiss(peer, "the wall shows another look by now");
+    }
+    if (request.offset() > blob->second.size()) {
         ++report_.refusedPackets;
         return;
     }

@@ -496,6 +496,10 @@ void MasterLink::prepare(const v1::Look& look) {
     if (look.number() == admitted_.welcome.look().number()) return;
     *admitted_.welcome.mutable_look() = look;
     calibration_ = wire::calibrationOf(admitted_.welcome.rig_text(), look);
+    const std::vector<Digest> needed = blobsIn(look);
+    std::erase_if(admitted_.blobs, [&](const auto& blob) {
+        return std::ranges::find(needed, blob.first) == needed.end();
+    });
     fetchesNextLook_ = true;
     fetchNext();
 }
@@ -646,7 +650,9 @@ void MasterLink::greet(net::Instant now) {
     lastComplaint_ = now;
     logWarning("{}: {}; still trying",
                name_,
-               lastDismissal_.empty() ? "no master answers" : std::exchange(lastDismissal_, {}));
+               lastDismissal_.empty() ? "no master answers (not started, another address, a "
+                                        "firewall, or a key that is revoked)"
+                                      : std::exchange(lastDismissal_, {}));
     handle(Join{});  // ZeroMQ gives up a connection for good whose key was refused once
 }
 

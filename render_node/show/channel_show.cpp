@@ -196,7 +196,12 @@ void ChannelShow::buildNext() {
         building_ = std::async(std::launch::async, build, std::move(*admission));
     }
     if (building_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-    next_ = building_.get();
+    try {
+        next_ = building_.get();
+    } catch (const Error& problem) {  // the wall goes on with the present one
+        logError("the next look cannot be built: {}", problem.what());
+        return;
+    }
     if (std::exchange(isStale_, false)) return next_.reset();
     session_.prepared(next_->admission().look, next_->bears());
 }

@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -150,17 +151,44 @@ ProjectionMap projectionMap(const wall::WarpMap& warp, const wall::ChannelFrustu
     return map;
 }
 
+namespace {
+
+// The pixel nearest to the middle that lights the screen, as its neighbours to the right and below
+// do, each another place of it; the number of pixels where there is none.
+std::size_t litNearMiddle(const ProjectionMap& map) {
+    const glm::ivec2 size = map.sizePixels;
+    const auto isLit = [&](std::size_t i) { return map.placeAndWeight[i].z > 0; };
+    std::size_t best = map.placeAndWeight.size();
+    int least = std::numeric_limits<int>::max();
+    for (int y = 0; y + 1 < size.y; ++y)
+        for (int x = 0; x + 1 < size.x; ++x) {
+            const glm::ivec2 off = glm::ivec2(x, y) - size / 2;
+            const int distance = off.x * off.x + off.y * off.y;
+            if (distance >= least) continue;
+            const auto i = static_cast<std::size_t>(y * size.x + x);
+            const std::size_t below = i + static_cast<std::size_t>(size.x);
+            if (!isLit(i) || !isLit(i + 1) || !isLit(below)) continue;
+            const glm::vec2 here(map.placeAndWeight[i]);
+            if (here.x == map.placeAndWeight[i + 1].x || here.y == map.placeAndWeight[below].y)
+                continue;
+            best = i;
+            least = distance;
+        }
+    return best;
+}
+
+}  // namespace
+
 glm::ivec2 scenePictureSize(const ProjectionMap& map) {
     if (map.sizePixels.x < 2 || map.sizePixels.y < 2)
         throw Error("channel: a picture of less than 2 x 2 pixels; give it the projector's size");
     const auto width = static_cast<std::size_t>(map.sizePixels.x);
-    const std::size_t middle = static_cast<std::size_t>(map.sizePixels.y) / 2 * width + width / 2;
+    const std::size_t middle = litNearMiddle(map);
+    if (middle == map.placeAndWeight.size())
+        throw Error("channel: no part of its picture meets the screen; aim its projector at it");
     const glm::vec4& at = map.placeAndWeight[middle];
     const glm::vec4& right = map.placeAndWeight[middle + 1];
     const glm::vec4& below = map.placeAndWeight[middle + width];
-    if (at.z <= 0 || right.z <= 0 || below.z <= 0)
-        throw Error(
-            "channel: the middle of its picture misses the screen; aim its projector at it");
     // The derivative of the map in the middle. The size along an axis of the scene's picture is 1 /
     // (the length of the step, along that axis, for one projector pixel).
     const glm::dvec2 acrossColumns = glm::dvec2(right) - glm::dvec2(at);

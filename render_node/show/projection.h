@@ -33,8 +33,8 @@ struct ProjectionMap {
 
 // The size, in pixels, at which the frustum's picture is as fine as the projector's pixels in the
 // middle of its lit area. Elsewhere a flat picture of a concave screen is finer, as the tangent
-// grows faster than the angle. Throws Error: fewer than 2 x 2 pixels, or a middle that misses the
-// screen.
+// grows faster than the angle; where the middle lights nothing, near it. Throws Error: fewer than
+// 2 x 2 pixels, or a picture that misses the screen.
 [[nodiscard]] glm::ivec2 scenePictureSize(const ProjectionMap& map);
 
 // The last pass of a channel: from the scene's picture to projector pixels, blended and encoded.

@@ -13,6 +13,7 @@ from show import BIN, CHANNELS, ROOT, aquarama, children_of, control_address, en
 # A node is passed over within a quarter of a second, and back with a picture in two; a busy machine has three times as long.
 SECONDS_TO_BE_PASSED_OVER = 3 * 0.25
 SECONDS_TO_BE_BACK = 3 * 2
+DEADLINE_NS = 1e9 / 60  # of the theatre: one refresh
 
 
 class LiveShow:
@@ -47,11 +48,16 @@ class LiveShow:
                        f"{name} to show {frames} more frames\n{Path(self.log).read_text()[-2000:]}")
 
     def in_step_since(self, names, frame):
-        """Of the frames after `frame` that all of `names` presented: none before all of these were ready."""
+        """The frames after `frame` that all of `names` presented; and those of them that one presented before all were ready,
+        though all were so within the deadline for which the first is to wait: who is later is not waited for."""
         traces = [trace(self.folder, name) for name in names]
         shared = sorted(set.intersection(*(set(rows) for rows in traces)) - set(range(frame + 1)))
-        late = [f for f in shared if max(rows[f][1] for rows in traces) > min(rows[f][2] for rows in traces)]
-        return shared, late
+        mixed = []
+        for f in shared:
+            ready, presented = ([rows[f][column] for rows in traces] for column in (1, 2))
+            if max(ready) > min(presented) and max(ready) - min(ready) < DEADLINE_NS:
+                mixed.append(f)
+        return shared, mixed
 
 
 class Faults(unittest.TestCase):

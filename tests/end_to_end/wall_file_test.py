@@ -82,8 +82,10 @@ class WallFile(unittest.TestCase):
         shutil.move(Path(self.folder.name) / "moved.mpcdi", self.file)
         wait_until(lambda: "showing look 2" in self.log.read_text(), 60, "the new file on the wall")
         wait_until(lambda: self.calibration() not in (None, first), 10, "its digest")
-        time.sleep(1)
+        time.sleep(4)  # it looks at the files once a second
         log = self.log.read_text()
+        self.assertNotIn("showing look 3", log)
+        self.assertEqual(log.count("the wall stays as it is"), 1)
         self.assertNotIn("joining again", log)
         self.assertNotIn("through black", log)
         frames = [set(frame for frame, row in trace(self.folder.name, name).items() if row[2]) for name in CHANNELS]

@@ -73,7 +73,8 @@ formats::WallFile fileOf(const config::Rig& rig, Profile profile) {
 // The rig with the file in place of its projectors.
 config::Rig calibrated(config::Rig rig, const std::vector<std::byte>& file) {
     rig.files["hall.mpcdi"] = file;
-    for (config::Channel& channel : rig.channels) channel.wallFile = {"hall.mpcdi", channel.name};
+    for (config::Channel& channel : rig.channels)
+        channel.wallFile = {"hall.mpcdi", channel.name, ""};
     return rig;
 }
 

@@ -187,6 +187,28 @@ TEST(Lens, bendsATangentAsItsFormulaSays) {
     EXPECT_NEAR(pixel->y, 100 + 400 * 0.2 * stretch, 1e-9);
 }
 
+// Beyond the picture this lens folds: two tangents are thrown at one place, and the nearer is
+// meant.
+TEST(Lens, takesTheTangentBeforeAFold) {
+    config::Projector projector;
+    projector.focalPixels = {100, 100};
+    projector.radial = {0.5, -0.3};
+    const Lens lens(projector, {120, 10});
+    const Ray ray = lens.ray({120, 0});  // thrown at 1.2: 1 + 0.5 - 0.3
+    EXPECT_NEAR(ray.direction.x, 1, 1e-12);
+}
+
+// Rays along a plane between two boxes of the tree.
+TEST(Screens, aMeasuredOneHasNoGapAheadOfTheEye) {
+    config::Rig rig;
+    rig.screen.shape = config::ScreenShape::Measured;
+    rig.screen.meshFile = "canvas.obj";
+    rig.files["canvas.obj"] = stripsOfCylinder(80);
+    const auto measured = makeSurface(rig);
+    for (double y = -1.4; y < 1.4; y += 0.05)
+        EXPECT_TRUE(measured->hit({{0, 0, 0}, {0, y, -2}}, 0)) << y;
+}
+
 TEST(Lens, leadsEveryPixelBackToItself) {
     Dice dice;
     for (int rig = 0; rig < 50; ++rig) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole shows over real sockets: order, faults, start orders.
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -233,13 +234,15 @@ std::size_t residentMebibytes() {
 
 // A node that counts its frames and keeps nothing. True where it saw each of them, once and in
 // order.
-bool seesAllFrames(session::Session& session, std::uint64_t frames) {
+bool seesAllFrames(session::Session& session,
+                   std::uint64_t frames,
+                   std::atomic<std::uint64_t>& seen) {
     std::uint64_t next = 0;
     while (session.join()) {
         session.prepared(1, config::QualityTier::Low);
         while (const auto state = session.nextFrame()) {
             if (state->frame.value != next || state->tick.value != next) return false;
-            if (session.readyThenWait(state->frame) == session::Release::Present) ++next;
+            if (session.readyThenWait(state->frame) == session::Release::Present) seen = ++next;
         }
         if (session.interruption() == session::Release::Quit) break;
     }
@@ -255,13 +258,16 @@ TEST(Show, aDayOfFramesKeepsItsMemoryAndItsCounts) {
     test::StageMaster master(lockstep(frames), net.master());
     const auto blobs = test::freshDirectory();
     std::vector<std::future<bool>> nodes;
+    std::atomic<std::uint64_t> seen = 0;
     for (const std::string& name : kNames)
-        nodes.push_back(std::async(std::launch::async, [&net, &blobs, name, frames] {
+        nodes.push_back(std::async(std::launch::async, [&net, &blobs, &seen, name, frames] {
             const auto session = session::makeSession(
                 name, [&net] { return net.node(); }, blobs);
-            return seesAllFrames(*session, frames);
+            return seesAllFrames(*session, frames, seen);
         }));
-    std::this_thread::sleep_for(std::chrono::seconds(1));
+    // Everybody has come, and every buffer has its size.
+    while (seen < frames / 2 && seen < 60U * 60U)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const std::size_t before = residentMebibytes();
     const ShowReport report = master.report();
     for (std::future<bool>& node : nodes) EXPECT_TRUE(node.get());
