@@ -2,9 +2,7 @@
 // `aquarama convert`: a wall file of any known format, or what a rig's own geometry gives, as
 // MPCDI.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <iostream>
 #include <limits>
 #include <optional>
@@ -19,6 +17,7 @@
 #include "common/config/rig.h"
 #include "common/config/text_file.h"
 #include "common/formats/mpcdi.h"
+#include "common/formats/vendors.h"
 #include "common/formats/wall_file.h"
 #include "common/wall/wall.h"
 #include "master/commands.h"
@@ -35,23 +34,15 @@ struct ConvertOptions {
     int version = 2;
 };
 
-int numberIn(std::string_view text) {
-    int number = 0;
-    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return failure == std::errc{} && end == text.data() + text.size() ? number : 0;
-}
-
 glm::ivec2 sizeIn(const std::string& text) {
-    constexpr int kMost = 16384;
-    const std::size_t cross = text.find('x');
-    const glm::ivec2 size = cross == std::string::npos
-                                ? glm::ivec2(0)
-                                : glm::ivec2(numberIn(std::string_view(text).substr(0, cross)),
-                                             numberIn(std::string_view(text).substr(cross + 1)));
-    if (size.x < 1 || size.y < 1 || size.x > kMost || size.y > kMost)
-        throw Error("--size \"" + text +
-                    "\" is no size; write it as 1920x1080, up to 16384 a side");
-    return size;
+    const std::size_t cross = std::min(text.find('x'), text.size());
+    const std::string_view width = std::string_view(text).substr(0, cross);
+    const std::string_view height = std::string_view(text).substr(std::min(cross + 1, text.size()));
+    const auto size = formats::pictureSize(formats::numberIn(width).value_or(0),
+                                           formats::numberIn(height).value_or(0));
+    if (!size)
+        throw Error("--size \"" + text + "\" is no size of a picture; write it as 1920x1080");
+    return *size;
 }
 
 formats::ReadOptions readOptionsOf(const ConvertOptions& options) {
@@ -110,12 +101,11 @@ formats::WallFile readAny(const ConvertOptions& options) {
 }
 
 void requireSize(const formats::FileChannel& channel, const std::string& source) {
-    constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
     const glm::ivec2 size = channel.sizePixels;
     if (size.x < 1 || size.y < 1)
         throw Error(source + ": does not say how many pixels \"" + channel.name +
                     "\" has; give them by --size");
-    if (std::int64_t{size.x} * size.y > kMostPixels)
+    if (!formats::pictureSize(size.x, size.y))
         throw Error(fmt::format("{}: \"{}\" has {} x {} pixels, more than a display; correct it",
                                 source,
                                 channel.name,

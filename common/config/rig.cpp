@@ -94,33 +94,27 @@ Screen cylinderOf(const TextReader& file, const v1::Screen& in) {
     return {.shape = ScreenShape::Cylinder,
             .radiusMetres = in.radius_m(),
             .arcRadians = in.arc_deg() * kDegree,
-            .heightMetres = in.height_m(),
-            .meshFile = {},
-            .place = {}};
+            .heightMetres = in.height_m()};
 }
 
 Screen flatOf(const v1::FlatScreen& in) {
     return {.shape = ScreenShape::Flat,
             .widthMetres = in.width_m(),
             .heightMetres = in.height_m(),
-            .distanceMetres = in.distance_m(),
-            .meshFile = {},
-            .place = {}};
+            .distanceMetres = in.distance_m()};
 }
 
 Screen domeOf(const v1::DomeScreen& in) {
     return {.shape = ScreenShape::Dome,
             .radiusMetres = in.radius_m(),
-            .arcRadians = in.opening_deg() * kDegree,
-            .meshFile = {},
-            .place = {}};
+            .arcRadians = in.opening_deg() * kDegree};
 }
 
 Screen shapeOf(const TextReader& file, const v1::Screen& in) {
     if (in.has_flat()) return flatOf(in.flat());
     if (in.has_dome()) return domeOf(in.dome());
     if (in.has_measured())
-        return {.shape = ScreenShape::Measured, .meshFile = in.measured().file(), .place = {}};
+        return {.shape = ScreenShape::Measured, .meshFile = in.measured().file()};
     return cylinderOf(file, in);
 }
 
@@ -319,24 +313,28 @@ void takeScreen(const TextReader& file, const std::string& source, const v1::Rig
     rig.screen = screenOf(file, in.screen());
 }
 
-// Nodes are told the names of files.
-void requireFileName(const std::string& name, const std::string& source, SourcePlace place) {
+// Makes room for a file that the rig names; nodes are told the name.
+void nameFile(Rig& rig, const std::string& name, const std::string& source, SourcePlace place) {
     constexpr std::size_t kMostNameBytes = 255;
     const bool isPrintable = std::ranges::none_of(
         name, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
     if (!isPrintable || name.size() > kMostNameBytes)
-        throw Error(placed(source, place, "the name of a file has up to 255 printable letters"));
+        throw Error(placed(source,
+                           place,
+                           "the name of a file has control characters or more than 255 bytes: "
+                           "rename the file"));
+    rig.files[name];
 }
 
-// Of the files that the rig names, before they are read.
 void nameFiles(Rig& rig, const std::string& source) {
-    if (rig.screen.shape == ScreenShape::Measured) rig.files[rig.screen.meshFile];
+    if (rig.screen.shape == ScreenShape::Measured)
+        nameFile(rig, rig.screen.meshFile, source, rig.screen.place);
     for (const Channel& channel : rig.channels) {
         if (!channel.wallFile) continue;
-        rig.files[channel.wallFile->file];
-        if (!channel.wallFile->frustum.empty()) rig.files[channel.wallFile->frustum];
+        nameFile(rig, channel.wallFile->file, source, channel.place);
+        if (!channel.wallFile->frustum.empty())
+            nameFile(rig, channel.wallFile->frustum, source, channel.place);
     }
-    for (const auto& [name, content] : rig.files) requireFileName(name, source, rig.screen.place);
 }
 
 }  // namespace

@@ -57,8 +57,8 @@ struct Screen {
     double heightMetres = 0;    // cylinder, flat
     double distanceMetres = 0;  // flat
     double tiltRadians = 0;     // about +X, the front going down; not of measured ones and panels
-    std::string meshFile;       // measured: name in Rig::files
-    SourcePlace place;
+    std::string meshFile = {};  // measured: name in Rig::files
+    SourcePlace place = {};
 };
 
 // A pinhole with a lens: x right, y up, looking along -Z of its own frame.

@@ -15,12 +15,12 @@ namespace aquarama::formats {
 
 namespace {
 
-// Deflate makes nothing smaller than this; what claims it does has a false size.
+// Deflate packs at most 1032 bytes into one: an entry that claims more has a false size.
 constexpr std::uint64_t kMostRatio = 1100;
 constexpr std::size_t kMostNameBytes = 512;
 // 1980-01-02, which the clock of a zip can say in every time zone.
 constexpr std::time_t kTimeOfEntries = 315619200;
-// Floats hardly become smaller at more.
+// The least level: higher ones hardly make floats smaller.
 constexpr zip_uint32_t kCompression = 1;
 
 char lower(char c) {

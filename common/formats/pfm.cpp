@@ -178,7 +178,7 @@ float texelOf(float sample, double at, double by) {
 glm::vec3 litTexel(glm::vec3 sample, const Affine& affine, Stored stored) {
     glm::vec3 texel{};
     for (int i = 0; i < 3; ++i) texel[i] = texelOf(sample[i], affine.at[i], affine.by[i]);
-    // No number of three is legal zero where the third is none.
+    // Three zeros would be read as unlit. A third number that is none prevents that.
     if (stored == Stored::Offsets)
         texel.z = kNothing;
     else if (isZero(texel))
@@ -324,7 +324,7 @@ bool isPfm(std::span<const std::byte> bytes) {
 
 namespace {
 
-// Points of a screen reach beyond a picture, and none of their numbers means nothing.
+// Whether the texels are points of a screen: three finite numbers each, some beyond a picture.
 bool areInSpace(const Pfm& pfm) {
     constexpr float kBeyondPicture = 2;
     bool isBeyond = false;

@@ -24,7 +24,7 @@ namespace {
 
 using Bytes = std::span<const std::byte>;
 
-// A wall of forty projectors of 4K has so many.
+// The largest file: forty 4K projectors.
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 32;
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 

@@ -45,6 +45,11 @@ void checkChannel(const config::Rig& rig,
                   const std::string& source) {
     const config::Channel& channel = rig.channels[index];
     const std::vector<glm::dvec3> lit = wall.channel(index).outline(0);
+    if (lit.empty() && channel.wallFile)
+        refuse(source,
+               channel.place,
+               channel.wallFile->file + " lights nothing of the screen for channel \"" +
+                   channel.name + "\": see whether its region, unit and frame are this screen's");
     if (lit.empty())
         refuse(source,
                channel.place,

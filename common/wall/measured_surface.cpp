@@ -71,7 +71,7 @@ class BoxTree {
     }
 
     [[nodiscard]] Crossing nearest(const Ray& ray) const {
-        glm::dvec3 inverse;  // of zeros: large, but times nothing still nothing
+        glm::dvec3 inverse;  // finite for zeros too: infinity times zero is no number
         for (int i = 0; i < 3; ++i)
             inverse[i] = 1 / (ray.direction[i] != 0 ? ray.direction[i] : 1e-300);
         Crossing best;

@@ -35,8 +35,25 @@ bool isWithinUnit(glm::dvec2 place) {
     return place.x >= 0 && place.y >= 0 && place.x <= 1 && place.y <= 1;
 }
 
+// What unrolls to a rectangle.
+class UnrolledSurface : public ScreenSurface {
+  public:
+    [[nodiscard]] std::optional<glm::dvec3> at(glm::dvec2 position) const override {
+        return isWithinUnit(position) ? std::optional(pointAt(position, 0)) : std::nullopt;
+    }
+    [[nodiscard]] std::vector<glm::dvec3> border(double spill) const override {
+        std::vector<glm::dvec3> points;
+        walkUnitSquare([&](glm::dvec2 t) { points.push_back(pointAt(t, spill)); });
+        return points;
+    }
+
+  protected:
+    // At a place of the panorama, of the screen that is larger by `spill` metres at each edge.
+    [[nodiscard]] virtual glm::dvec3 pointAt(glm::dvec2 position, double spill) const = 0;
+};
+
 // A piece of a cylinder about the y axis, its middle at (0, 0, -radius).
-class Cylinder final : public ScreenSurface {
+class Cylinder final : public UnrolledSurface {
   public:
     explicit Cylinder(const config::Screen& screen)
         : radius_{screen.radiusMetres}, arc_{screen.arcRadians}, height_{screen.heightMetres} {}
@@ -65,20 +82,12 @@ class Cylinder final : public ScreenSurface {
     [[nodiscard]] glm::dvec2 unrolled(glm::dvec3 point) const override {
         return {0.5 + azimuthOf(point) / arc_, 0.5 - point.y / height_};
     }
-    [[nodiscard]] std::optional<glm::dvec3> at(glm::dvec2 position) const override {
-        return isWithinUnit(position) ? std::optional(pointAt(position, 0)) : std::nullopt;
-    }
-    [[nodiscard]] std::vector<glm::dvec3> border(double spill) const override {
-        std::vector<glm::dvec3> points;
-        walkUnitSquare([&](glm::dvec2 t) { points.push_back(pointAt(t, spill)); });
-        return points;
-    }
     [[nodiscard]] PatternGround patternGround() const override {
         return {.kind = PatternGround::Kind::Cylinder, .size = radius_};
     }
 
   private:
-    [[nodiscard]] glm::dvec3 pointAt(glm::dvec2 position, double spill) const {
+    [[nodiscard]] glm::dvec3 pointAt(glm::dvec2 position, double spill) const override {
         const double azimuth = (position.x - 0.5) * (arc_ + 2 * spill / radius_);
         return {radius_ * std::sin(azimuth),
                 (0.5 - position.y) * (height_ + 2 * spill),
@@ -88,7 +97,7 @@ class Cylinder final : public ScreenSurface {
 };
 
 // A rectangle across the z axis, its middle at (0, 0, -distance).
-class FlatWall final : public ScreenSurface {
+class FlatWall final : public UnrolledSurface {
   public:
     explicit FlatWall(const config::Screen& screen)
         : size_{screen.widthMetres, screen.heightMetres}, distance_{screen.distanceMetres} {}
@@ -106,20 +115,12 @@ class FlatWall final : public ScreenSurface {
     [[nodiscard]] glm::dvec2 unrolled(glm::dvec3 point) const override {
         return {0.5 + point.x / size_.x, 0.5 - point.y / size_.y};
     }
-    [[nodiscard]] std::optional<glm::dvec3> at(glm::dvec2 position) const override {
-        return isWithinUnit(position) ? std::optional(pointAt(position, 0)) : std::nullopt;
-    }
-    [[nodiscard]] std::vector<glm::dvec3> border(double spill) const override {
-        std::vector<glm::dvec3> points;
-        walkUnitSquare([&](glm::dvec2 t) { points.push_back(pointAt(t, spill)); });
-        return points;
-    }
     [[nodiscard]] PatternGround patternGround() const override {
         return {.kind = PatternGround::Kind::Plane, .size = distance_};
     }
 
   private:
-    [[nodiscard]] glm::dvec3 pointAt(glm::dvec2 position, double spill) const {
+    [[nodiscard]] glm::dvec3 pointAt(glm::dvec2 position, double spill) const override {
         const glm::dvec2 size = size_ + 2 * spill;
         return {(position.x - 0.5) * size.x, (0.5 - position.y) * size.y, -distance_};
     }

@@ -393,20 +393,6 @@ TEST_F(Keyed, aKeyThatIsNoneIsRefused) {
         Error);
 }
 
-// ZeroMQ starts threads of its own with the first socket: they must not inherit what they may not
-// have. A node connects anew from its thread in real time whenever no master answers.
-TEST(ZmqChannels, areOpenedByAThreadInRealTime) {
-    bool isGranted = false;
-    bool heard = false;
-    std::thread([&] {
-        isGranted = runInRealTime();
-        auto [master, node] = overSockets();
-        heard = heardFrom(*node, *master, bytes("here")).has_value();
-    }).join();
-    EXPECT_TRUE(heard);
-    if (!isGranted) GTEST_SKIP() << "this user may not run threads in real time";
-}
-
 TEST(ZmqChannels, neitherAddressMayReachPastTheLoopback) {
     EXPECT_THAT(bindError("tcp://0.0.0.0:0", "tcp://127.0.0.1:*"), testing::HasSubstr("port"));
     EXPECT_THAT(bindError("tcp://0.0.0.0:*", "tcp://127.0.0.1:*"), testing::HasSubstr("keys"));

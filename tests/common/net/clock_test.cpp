@@ -5,8 +5,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <random>
+#include <thread>
 
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sched.h>
 
 namespace aquarama::net {
 namespace {
@@ -86,6 +89,26 @@ TEST(ClockOffset, ignoresAnEchoFromTheFuture) {
 }
 
 // Blanks are dated to 0.1 ms, and not all are seen.
+// libzmq's threads set again the policy that the C library tells them, and end the program where
+// the kernel refuses it: so the library must not remember what the kernel has reset for them.
+TEST(RealTime, isNoneOfThreadsThatAreStartedLaterAndTheLibraryKnows) {
+    bool isGranted = false;
+    int told = -1, real = -1, setAgain = -1;
+    std::thread([&] {
+        isGranted = runInRealTime();
+        std::thread([&] {
+            sched_param priority{};
+            pthread_getschedparam(pthread_self(), &told, &priority);
+            real = sched_getscheduler(0);
+            setAgain = pthread_setschedparam(pthread_self(), told, &priority);
+        }).join();
+    }).join();
+    EXPECT_EQ(real, SCHED_OTHER);
+    EXPECT_EQ(told, SCHED_OTHER);
+    EXPECT_EQ(setAgain, 0);
+    if (!isGranted) GTEST_SKIP() << "this user may not run threads in real time";
+}
+
 TEST(BlankMeter, findsThePeriodOfADisplay) {
     std::mt19937 random(7);
     BlankMeter meter;

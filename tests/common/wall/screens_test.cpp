@@ -126,12 +126,16 @@ std::vector<std::byte> stripsOfCylinder(int columns) {
     return {bytes.begin(), bytes.end()};
 }
 
-TEST(Screens, aMeasuredOneIsItsTriangles) {
+config::Rig rigWithMesh(const std::vector<std::byte>& obj) {
     config::Rig rig;
     rig.screen.shape = config::ScreenShape::Measured;
     rig.screen.meshFile = "canvas.obj";
-    rig.files["canvas.obj"] = stripsOfCylinder(80);
-    const auto measured = makeSurface(rig);
+    rig.files["canvas.obj"] = obj;
+    return rig;
+}
+
+TEST(Screens, aMeasuredOneIsItsTriangles) {
+    const auto measured = makeSurface(rigWithMesh(stripsOfCylinder(80)));
     const auto exact = surfaceOf(axisRig().screen);
     Dice dice;
     for (int i = 0; i < 2000; ++i) {
@@ -157,12 +161,9 @@ TEST(Screens, aMeasuredOneIsItsTriangles) {
 }
 
 TEST(Screens, aMeasuredOneWithoutFacesIsRefusedByName) {
-    config::Rig rig;
-    rig.screen.shape = config::ScreenShape::Measured;
-    rig.screen.meshFile = "canvas.obj";
     const std::string text = "v 0 0 0\nv 1 0 0\n";
     const auto bytes = std::as_bytes(std::span{text});
-    rig.files["canvas.obj"] = {bytes.begin(), bytes.end()};
+    const config::Rig rig = rigWithMesh({bytes.begin(), bytes.end()});
     try {
         (void)makeSurface(rig);
         FAIL() << "it was taken";
@@ -200,11 +201,7 @@ TEST(Lens, takesTheTangentBeforeAFold) {
 
 // Rays along a plane between two boxes of the tree.
 TEST(Screens, aMeasuredOneHasNoGapAheadOfTheEye) {
-    config::Rig rig;
-    rig.screen.shape = config::ScreenShape::Measured;
-    rig.screen.meshFile = "canvas.obj";
-    rig.files["canvas.obj"] = stripsOfCylinder(80);
-    const auto measured = makeSurface(rig);
+    const auto measured = makeSurface(rigWithMesh(stripsOfCylinder(80)));
     for (double y = -1.4; y < 1.4; y += 0.05)
         EXPECT_TRUE(measured->hit({{0, 0, 0}, {0, y, -2}}, 0)) << y;
 }
@@ -269,16 +266,19 @@ TEST_P(ScreenOfRig, pixelsAndPointsAreEachOthersInverse) {
     const config::Rig rig = shippedRig(GetParam());
     const Wall wall(rig);
     Dice dice;
+    int lit = 0;
     for (std::size_t c = 0; c < rig.channels.size(); ++c)
         for (int i = 0; i < 1000; ++i) {
             const glm::dvec2 size(rig.channels[c].sizePixels);
             const glm::dvec2 pixel(dice.between(0, size.x), dice.between(0, size.y));
             const auto point = wall.channel(c).pointOf(pixel, 0);
             if (!point) continue;
+            ++lit;
             const auto back = wall.channel(c).pixelOf(*point);
             ASSERT_TRUE(back);
             EXPECT_LT(glm::distance(*back, pixel), 1e-7);
         }
+    EXPECT_GT(lit, 700 * static_cast<int>(rig.channels.size()));
 }
 
 TEST_P(ScreenOfRig, everyFrustumHoldsWhatItsChannelLights) {
