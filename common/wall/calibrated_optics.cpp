@@ -219,6 +219,21 @@ const formats::FileChannel& channelNamed(const formats::WallFile& file,
                 channel.name + "\", only " + names + "; name one by wall_file.region");
 }
 
+// Throws Error where the region lacks what its profile needs to light a screen.
+void requireGeometry(const formats::FileChannel& region,
+                     formats::Profile profile,
+                     const std::string& source) {
+    const bool needsFrustum =
+        profile == formats::Profile::View || profile == formats::Profile::Projector;
+    if (needsFrustum && !region.frustum)
+        throw Error(
+            source + ": region \"" + region.name +
+            "\" has no frustum, so its warp says nothing of the screen; export it with one");
+    if (!needsFrustum && !region.warp)
+        throw Error(source + ": region \"" + region.name +
+                    "\" has no warp; export it with its geometry");
+}
+
 }  // namespace
 
 std::unique_ptr<const Optics> makeCalibratedOptics(const config::Rig& rig,
@@ -228,19 +243,11 @@ std::unique_ptr<const Optics> makeCalibratedOptics(const config::Rig& rig,
     const config::Channel& what = rig.channels.at(channel);
     const formats::FileChannel& region = channelNamed(file, what);
     const std::string& source = what.wallFile->file;
-    const bool needsFrustum =
-        file.profile == formats::Profile::View || file.profile == formats::Profile::Projector;
-    if (needsFrustum && !region.frustum)
-        throw Error(
-            source + ": region \"" + region.name +
-            "\" has no frustum, so its warp says nothing of the screen; export it with one");
+    requireGeometry(region, file.profile, source);
     if (region.distortion)
         logWarning("{}: the distortionMap of region {} is not used; bake it into the warp",
                    source,
                    region.name);
-    if (!needsFrustum && !region.warp)
-        throw Error(source + ": region \"" + region.name +
-                    "\" has no warp; export it with its geometry");
     return std::make_unique<CalibratedOptics>(
         what.sizePixels, rig.sweetSpotMetres, file.profile, region, screen);
 }

@@ -38,6 +38,19 @@ std::string sideways(double azimuth) {
            (azimuth < 0 ? "left" : "right");
 }
 
+// Of a channel that lights nothing of the screen.
+[[noreturn]] void refuseMiss(const config::Channel& channel, const std::string& source) {
+    if (channel.wallFile)
+        refuse(source,
+               channel.place,
+               channel.wallFile->file + " lights nothing of the screen for channel \"" +
+                   channel.name + "\": see whether its region, unit and frame are this screen's");
+    refuse(source,
+           channel.place,
+           "projector \"" + channel.name +
+               "\" misses the screen: aim it by yaw_deg, pitch_deg and principal_y_px, or move it");
+}
+
 // A channel must light some of the screen, and not too wide a part.
 void checkChannel(const config::Rig& rig,
                   const Wall& wall,
@@ -45,17 +58,7 @@ void checkChannel(const config::Rig& rig,
                   const std::string& source) {
     const config::Channel& channel = rig.channels[index];
     const std::vector<glm::dvec3> lit = wall.channel(index).outline(0);
-    if (lit.empty() && channel.wallFile)
-        refuse(source,
-               channel.place,
-               channel.wallFile->file + " lights nothing of the screen for channel \"" +
-                   channel.name + "\": see whether its region, unit and frame are this screen's");
-    if (lit.empty())
-        refuse(source,
-               channel.place,
-               "projector \"" + channel.name +
-                   "\" misses the screen: aim it by yaw_deg, pitch_deg and principal_y_px, or "
-                   "move it");
+    if (lit.empty()) refuseMiss(channel, source);
     const bool isUpright =
         rig.screen.shape == config::ScreenShape::Cylinder && rig.screen.tiltRadians == 0;
     if (!isUpright) return;  // by the view of checkEyes()

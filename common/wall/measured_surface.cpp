@@ -18,6 +18,11 @@ namespace aquarama::wall {
 
 namespace {
 
+struct Triangle {
+    glm::dvec3 corner, first, second;  // two edges from the corner
+    [[nodiscard]] glm::dvec3 normal() const { return glm::cross(first, second); }
+};
+
 struct Box {
     glm::dvec3 low{std::numeric_limits<double>::infinity()};
     glm::dvec3 high{-std::numeric_limits<double>::infinity()};
@@ -25,6 +30,10 @@ struct Box {
     void add(glm::dvec3 point) {
         low = glm::min(low, point);
         high = glm::max(high, point);
+    }
+    void add(const Triangle& triangle) {
+        for (const glm::dvec3 edge : {glm::dvec3(0), triangle.first, triangle.second})
+            add(triangle.corner + edge);
     }
     // Whether the ray passes it nearer than `most`, in lengths of the direction.
     [[nodiscard]] bool meets(glm::dvec3 origin, glm::dvec3 inverse, double most) const {
@@ -34,11 +43,6 @@ struct Box {
         const double in = std::max({near.x, near.y, near.z, 0.0});
         return in <= std::min({far.x, far.y, far.z, most});
     }
-};
-
-struct Triangle {
-    glm::dvec3 corner, first, second;  // two edges from the corner
-    [[nodiscard]] glm::dvec3 normal() const { return glm::cross(first, second); }
 };
 
 struct Crossing {
@@ -107,9 +111,7 @@ class BoxTree {
         Node node = nodes_[index];
         const auto begin = triangles_.begin() + static_cast<std::ptrdiff_t>(node.first);
         const auto end = begin + static_cast<std::ptrdiff_t>(node.count);
-        for (auto triangle = begin; triangle != end; ++triangle)
-            for (const glm::dvec3 edge : {glm::dvec3(0), triangle->first, triangle->second})
-                node.box.add(triangle->corner + edge);
+        for (auto triangle = begin; triangle != end; ++triangle) node.box.add(*triangle);
         if (node.count > kLeaf) {
             const glm::dvec3 size = node.box.high - node.box.low;
             const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;

@@ -287,26 +287,35 @@ glm::mat4 clipFromCamera(const ChannelFrustum& f, float nearMetres) {
     return clip;
 }
 
-// Angles between the directions of pixels next to each other, at a grid of places.
+namespace {
+
+// The least angle, seen from the wall's origin, between a pixel's point and those of its neighbours
+// to the right and below; that of a half turn where it has none.
+double pixelRadiansAt(const Optics& optics, glm::dvec2 pixel) {
+    constexpr double kSame = 1e-6;  // of a wall file that is cut off at an edge
+    double finest = std::numbers::pi;
+    const auto here = optics.pointOf(pixel, 0);
+    for (const glm::dvec2 step : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
+        const auto next = optics.pointOf(pixel + step, 0);
+        if (!here || !next) continue;
+        const double angle = glm::length(glm::cross(glm::normalize(*here), glm::normalize(*next)));
+        if (angle > kSame) finest = std::min(finest, angle);
+    }
+    return finest;
+}
+
+}  // namespace
+
+// At a grid of places of each channel.
 double Wall::finestPixelRadians() const {
-    // Places along each side of a picture.
-    constexpr int kProbes = 5;
+    constexpr int kProbes = 5;  // along each side of a picture
     double finest = std::numbers::pi;
     for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
-        const Optics& optics = *channels_[channel];
         const glm::dvec2 size(rig_.channels[channel].sizePixels);
         for (int i = 0; i < kProbes * kProbes; ++i) {
             const glm::dvec2 pixel =
                 size * (glm::dvec2(i % kProbes, i / kProbes) + 0.5) / double{kProbes};
-            const auto here = optics.pointOf(pixel, 0);
-            for (const glm::dvec2 step : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
-                const auto next = optics.pointOf(pixel + step, 0);
-                if (!here || !next) continue;
-                const double angle =
-                    glm::length(glm::cross(glm::normalize(*here), glm::normalize(*next)));
-                constexpr double kSame = 1e-6;  // of a wall file that is cut off at an edge
-                if (angle > kSame) finest = std::min(finest, angle);
-            }
+            finest = std::min(finest, pixelRadiansAt(*channels_[channel], pixel));
         }
     }
     return finest;
