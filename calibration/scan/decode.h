@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the pictures of a scan to what the camera sees: for each of its pixels, which place of which
+// channel's picture lights it, and how well that is known.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "calibration/scan/pictures.h"
+#include "common/base/picture.h"
+#include "common/config/rig.h"
+
+namespace aquarama::scan {
+
+// One channel in the camera's picture. All arrays have a value for each of the camera's pixels, top
+// row first.
+struct ChannelView {
+    // The place in the channel's picture (continuous; centres of pixels at +0.5); NaN where the
+    // channel is not seen or not understood.
+    std::vector<glm::vec2> place;
+    // Its standard deviation, in pixels of the channel: of the noise, without what is the same in
+    // all of a neighbourhood.
+    std::vector<glm::vec2> sigma;
+    // Linear light of its white without that of black; 1 is the camera's most.
+    std::vector<float> light;
+};
+
+// What is wrong with a scan, in words for a user: the name of a cause, and what to do.
+struct ScanFault {
+    std::string cause;    // "over_exposed", "dropped_frame", ...: one word for programs
+    std::string advice;   // a line: what, where, what to do
+    bool refuses = true;  // or a warning
+};
+
+// All that one camera sees.
+struct CameraView {
+    glm::ivec2 sizePixels{};
+    std::vector<ChannelView> channels;  // as the rig's; empty arrays where one was not scanned
+    Light room;   // linear, where the outline of the screen is best seen; empty where there is none
+    Light black;  // linear, all channels black; empty where there is none
+    double noise = 0;  // standard deviation of a linear value in the middle tones
+    std::vector<ScanFault> faults;
+};
+
+// Of the camera of this index in the scan. Reads one picture after the other, and keeps a few of
+// them as light. Throws Error where a picture cannot be read or patterns are missing.
+[[nodiscard]] CameraView decode(PictureSource& source,
+                                std::uint32_t camera,
+                                const config::Rig& rig);
+
+// Linear light of a camera's codes.
+[[nodiscard]] Light lightOf(const Picture& picture, config::ScanCamera::Response response);
+
+}  // namespace aquarama::scan

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scan of a wall: patterns that its channels show, one after the other, and the pictures that a
+// camera takes of them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace aquarama::config {
+
+// What the channels show while a picture is taken: in the projectors' own pixels, before any warp,
+// blend or correction. common/wall/scan_pattern.h has the formula.
+struct ScanPattern {
+    enum class Kind : std::uint8_t {
+        Level = 1,    // even light
+        GrayColumns,  // a bit of the Gray code of the column
+        GrayRows,
+        PhaseColumns,  // a cosine along the columns
+        PhaseRows,
+        Room  // black; the screen's outline is lit by the lamps of the room
+    };
+    Kind kind = Kind::Level;
+    std::uint8_t step = 0;  // Gray: bit, the coarsest is 0; phase: step of kScanPhaseSteps
+    std::uint16_t finestPixels = 16;  // width of the finest stripe of the Gray code
+    bool inverse = false;             // Gray: dark and lit are swapped
+    glm::vec3 light{1};               // linear, of what is lit
+    std::uint64_t lit = 0;            // bit i: channel i of the rig shows it; the others are black
+    std::uint16_t number = 0;         // of the picture in its scan, shown in its tag
+    bool tagged = true;
+
+    friend bool operator==(const ScanPattern&, const ScanPattern&) = default;
+};
+
+// A place that the camera stood at. Lens, exposure and focus stay as they are in all its pictures.
+struct ScanCamera {
+    enum class Response : std::uint8_t { Srgb = 1, Linear };
+    Response response = Response::Srgb;
+    std::optional<double> focalPixels = {};  // about
+};
+
+struct ScanPicture {
+    std::string file;  // in the folder of the scan
+    std::uint32_t camera = 0;
+    double exposureSeconds = 1;
+    std::uint64_t frame = 0;  // of the show; 0: not known
+    ScanPattern pattern;
+};
+
+struct Scan {
+    std::string rig;  // its name
+    std::vector<ScanCamera> cameras;
+    std::vector<ScanPicture> pictures;
+};
+
+// Of scan.txtpb. Channels are written by their names, in the order of `channels`. Throws Error with
+// file:line:column.
+[[nodiscard]] Scan parseScan(const std::string& text,
+                             const std::string& source,
+                             const std::vector<std::string>& channels);
+[[nodiscard]] std::string textOf(const Scan& scan, const std::vector<std::string>& channels);
+
+}  // namespace aquarama::config

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Patterns of a scan as pure functions of a projector's pixel. The render node's shader computes
+// the same formulas, and the tests compare its pictures with these.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "common/config/scan.h"
+
+namespace aquarama::wall {
+
+// Of the cosine: steps of a quarter of a period, and its length. The Gray code's finest stripe is
+// half of a period, so that the two together name every column.
+inline constexpr int kScanPhaseSteps = 4;
+inline constexpr int kScanPeriodPixels = 32;
+
+// Bits of the Gray code of so many pixels with stripes down to `finest`.
+[[nodiscard]] constexpr int scanGrayBits(int pixels, int finest) {
+    int bits = 0;
+    while ((finest << bits) < pixels) ++bits;
+    return bits;
+}
+
+// The tag: a row of square cells in the middle of the picture that says the number of the pattern:
+// lit, dark, then the bits of the number, the highest first, then lit where the number of lit bits
+// is odd.
+inline constexpr int kScanTagBits = 12;
+inline constexpr int kScanTagCells = kScanTagBits + 3;
+// The cells' side is this share of the picture's width.
+inline constexpr double kScanTagCellShare = 1.0 / 48;
+
+// Side of a cell and the top left corner of the row, in pixels of a picture.
+struct ScanTagPlace {
+    int cell = 0;
+    glm::ivec2 corner{};
+};
+[[nodiscard]] inline ScanTagPlace scanTagPlace(glm::ivec2 size) {
+    const int cell = std::max(1, static_cast<int>(size.x * kScanTagCellShare));
+    return {cell, (size - glm::ivec2(kScanTagCells * cell, cell)) / 2};
+}
+[[nodiscard]] inline bool scanTagIsLit(int cell, unsigned number) {
+    if (cell < 2) return cell == 0;
+    const int bit = kScanTagBits + 1 - cell;
+    if (bit >= 0) return ((number >> static_cast<unsigned>(bit)) & 1U) != 0;
+    bool odd = false;
+    for (; number != 0; number &= number - 1) odd = !odd;
+    return odd;
+}
+
+// How much of the pattern's light a place along its axis has, 0 to 1. `pixel`: a column or a row.
+[[nodiscard]] inline double scanShare(const config::ScanPattern& pattern, int pixel, int pixels) {
+    using Kind = config::ScanPattern::Kind;
+    switch (pattern.kind) {
+        case Kind::GrayColumns:
+        case Kind::GrayRows: {
+            const int bits = scanGrayBits(pixels, pattern.finestPixels);
+            const auto stripe = static_cast<unsigned>(pixel / pattern.finestPixels);
+            const unsigned code = stripe ^ (stripe >> 1U);
+            const bool lit = ((code >> static_cast<unsigned>(bits - 1 - pattern.step)) & 1U) != 0;
+            return lit != pattern.inverse ? 1 : 0;
+        }
+        case Kind::PhaseColumns:
+        case Kind::PhaseRows: {
+            constexpr double kTurn = 6.283185307179586;
+            const double phase = (pixel + 0.5) / kScanPeriodPixels -
+                                 static_cast<double>(pattern.step) / kScanPhaseSteps;
+            return 0.5 + 0.5 * std::cos(kTurn * phase);
+        }
+        case Kind::Level:
+            return 1;
+        case Kind::Room:
+            break;
+    }
+    return 0;
+}
+
+// Linear light at a pixel (column and row) of the picture of channel `channel`, of `size` pixels.
+[[nodiscard]] inline glm::vec3 scanLight(const config::ScanPattern& pattern,
+                                         std::size_t channel,
+                                         glm::ivec2 size,
+                                         glm::ivec2 pixel) {
+    using Kind = config::ScanPattern::Kind;
+    if (((pattern.lit >> channel) & 1U) == 0) return glm::vec3(0);
+    if (pattern.tagged) {
+        const auto [cell, corner] = scanTagPlace(size);
+        const glm::ivec2 at = pixel - corner;
+        if (at.x >= 0 && at.y >= 0 && at.y < cell && at.x < kScanTagCells * cell)
+            return scanTagIsLit(at.x / cell, pattern.number) ? pattern.light : glm::vec3(0);
+    }
+    const bool rows = pattern.kind == Kind::GrayRows || pattern.kind == Kind::PhaseRows;
+    return pattern.light * static_cast<float>(rows ? scanShare(pattern, pixel.y, size.y)
+                                                   : scanShare(pattern, pixel.x, size.x));
+}
+
+}  // namespace aquarama::wall
