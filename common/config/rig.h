@@ -124,7 +124,7 @@ struct Channel {
     std::uint32_t id = 0;
     std::string name;
     glm::ivec2 sizePixels{};  // of its picture
-    Projector projector;      // unless one of these stands in its place
+    Projector projector;      // all 0 where one of these stands in its place
     std::optional<Panel> panel = {};
     std::optional<WallFileRegion> wallFile = {};
     Display display;
@@ -172,6 +172,10 @@ struct Rig {
 // cannot be read or is larger than kMostWallFileBytes.
 void readRigFiles(Rig& rig, const std::string& rigPath);
 inline constexpr std::size_t kMostWallFileBytes = std::size_t{64} << 20U;
+
+// As its crew has hung it, about: without calibration and wall files, which need not be there.
+// Throws Error where a channel has no projector.
+[[nodiscard]] Rig readRigAsHung(const std::string& path);
 
 // Whether its master listens past its own machine, where everybody needs a key.
 [[nodiscard]] bool needsKeys(const Rig& rig);
