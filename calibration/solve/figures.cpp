@@ -7,25 +7,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "calibration/solve/statistics.h"
+
 namespace aquarama::solve {
 
 const char* nameOf(Verdict verdict) {
     constexpr std::array kNames{"pass", "warn", "refuse"};
     return kNames.at(static_cast<std::size_t>(verdict));
-}
-
-double quantile(std::vector<double> values, double share) {
-    if (values.empty()) return 0;
-    const auto at =
-        values.begin() + static_cast<long>(share * static_cast<double>(values.size() - 1));
-    std::ranges::nth_element(values, at);
-    return *at;
-}
-
-double rootMeanSquare(const std::vector<double>& values) {
-    double sum = 0;
-    for (const double value : values) sum += value * value;
-    return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
 namespace {

@@ -50,8 +50,4 @@ void setTrue(Figures& figures, WallErrors errors);
 // {"verdict": "pass", "cause": "", ...}
 [[nodiscard]] std::string jsonOf(const Figures& figures);
 
-[[nodiscard]] double rootMeanSquare(const std::vector<double>& values);
-// Of values in any order; 0 where there are none.
-[[nodiscard]] double quantile(std::vector<double> values, double share);
-
 }  // namespace aquarama::solve

@@ -59,11 +59,14 @@ double SmoothField::at(glm::dvec2 place) const {
 }
 
 glm::dvec3 BumpyScreen::baseAt(glm::dvec2& place) const {
+    constexpr int kSteps = 500;
     place = glm::clamp(place, 0.0, 1.0);
-    for (;;) {
+    for (int i = 0; i < kSteps; ++i) {
         if (const auto point = screen_.at(place)) return *point;
-        place = glm::mix(place, glm::dvec2(0.5), 0.002);
+        place = glm::mix(place, glm::dvec2(0.5), 1.0 / kSteps);
     }
+    place = glm::dvec2(0.5);  // also of what is not a number
+    return screen_.at(place).value_or(glm::dvec3(0));
 }
 
 LensParameters lensOf(const config::Projector& projector) {

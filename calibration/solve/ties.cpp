@@ -245,7 +245,7 @@ std::vector<OutlineTie> outlineTies(const Light& room,
         }
     if (outline.empty()) return ties;
     middle /= static_cast<double>(outline.size());
-    constexpr std::size_t kTies = 400;
+    constexpr std::size_t kTies = 1000;
     // Odd: edges may take turns in the order of the points.
     const std::size_t step = (outline.size() / kTies) | 1U;
     for (std::size_t i = 0; i < outline.size(); i += step) {
