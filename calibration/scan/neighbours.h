@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a pixel's neighbours know: it settles doubts, and finds what is wrong.
+#pragma once
+
+#include "calibration/scan/code.h"
+
+namespace aquarama::scan {
+
+// Places of the channel between neighbouring pixels of the camera, the median; 0 where nothing is
+// seen.
+[[nodiscard]] float stepOf(const ChannelView& view, int width);
+
+// Gives pixels without a place along `axis` another reading near the median of their neighbours.
+// `owned`: the channel's pixels.
+void settleDoubts(ChannelView& view,
+                  int axis,
+                  int width,
+                  const std::vector<std::size_t>& owned,
+                  const AxisReader& reader,
+                  WorkerPool& pool);
+
+// Drops pixels that few neighbours agree with, or several do not: errors, and edges of depth, where
+// a pixel sees two places at once. Then those by the border of the channel's picture and within its
+// tag, if it has one.
+void dropOutliers(ChannelView& view, int width, WorkerPool& pool);
+void dropBorders(ChannelView& view, float step, glm::ivec2 channelPixels, bool isTagged);
+
+}  // namespace aquarama::scan
