@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// A camera that sees the channels of a rig side by side through a slightly keystoned map, with
+// noise, blur and indirect light; and what may go wrong with it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include <glm/common.hpp>
+
+#include "calibration/scan/pictures.h"
+#include "common/wall/scan_pattern.h"
+
+namespace aquarama::scan {
+
+struct SyntheticSettings {
+    glm::ivec2 sizePixels{400, 250};
+    int bits = 16;
+    double white = 0.7, black = 0.02, noise = 0.007;  // linear; noise of a picture's pixel
+    double indirect = 0;  // share of white that comes from around the place itself
+    double bend = 0;      // of the response: light * (1 + bend * (1 - light))
+    // Of the picture of an index.
+    std::function<std::size_t(std::size_t)> shown = [](std::size_t i) { return i; };
+    std::function<double(std::size_t)> gain = [](std::size_t) { return 1.0; };
+    std::function<double(std::size_t)> lamp = [](std::size_t) { return 0.0; };
+    std::function<double(std::size_t)> shift = [](std::size_t) { return 0.0; };  // of the channels
+    double blockedTo = 0;  // share of the camera's columns that see something else
+    std::vector<std::size_t> dark = {};  // channels that are off
+};
+
+class SyntheticCamera final : public PictureSource {
+  public:
+    SyntheticCamera(const config::Rig& rig, SyntheticSettings settings)
+        : rig_{rig}, settings_{std::move(settings)} {
+        scan_.rig = rig.name;
+        scan_.cameras.resize(1);
+        for (const config::ScanPattern& pattern : sequenceOf(rig))
+            scan_.pictures.push_back({.file = "", .pattern = pattern});
+    }
+    [[nodiscard]] const config::Scan& scan() const override { return scan_; }
+    [[nodiscard]] Picture picture(std::size_t index) override {
+        const std::size_t shown = settings_.shown(index);
+        std::vector<double> light(count(), settings_.black + settings_.lamp(index));
+        for (std::size_t c = 0; c < rig_.channels.size(); ++c)
+            if (std::ranges::find(settings_.dark, c) == settings_.dark.end())
+                addChannel(light, scan_.pictures[shown].pattern, c, settings_.shift(index));
+        blur(light);
+        return encoded(light, index);
+    }
+
+    // Of a camera's pixel, continuous; channels overlap by a sixth.
+    [[nodiscard]] glm::dvec2 placeAt(std::size_t channel, glm::dvec2 pixel) const {
+        const auto channels = static_cast<double>(rig_.channels.size());
+        const glm::dvec2 size(rig_.channels[channel].sizePixels);
+        const double wide = settings_.sizePixels.x / (1 + (channels - 1) * 5 / 6) * 0.94;
+        const glm::dvec2 low(static_cast<double>(channel) * wide * 5 / 6 + 0.03 * wide,
+                             0.05 * settings_.sizePixels.y);
+        const glm::dvec2 at = (pixel - low) / glm::dvec2(wide, 0.9 * settings_.sizePixels.y);
+        const glm::dvec2 crooked(at.x + 0.02 * at.y, at.y - 0.015 * at.x);
+        return crooked / (0.97 + 0.05 * at.x + 0.02 * at.y) * size;
+    }
+
+  private:
+    [[nodiscard]] std::size_t count() const {
+        return static_cast<std::size_t>(settings_.sizePixels.x * settings_.sizePixels.y);
+    }
+
+    // Light along the axis of a pattern, and its mean around each place.
+    struct Line {
+        std::vector<double> light, around;
+        bool rows = false;
+    };
+    [[nodiscard]] Line lineOf(const config::ScanPattern& pattern, std::size_t c) const {
+        using Kind = config::ScanPattern::Kind;
+        constexpr int kReach = 300;
+        Line line;
+        line.rows = pattern.kind == Kind::GrayRows || pattern.kind == Kind::PhaseRows;
+        const glm::ivec2 size = rig_.channels[c].sizePixels;
+        const int pixels = line.rows ? size.y : size.x;
+        std::vector<double> sums{0};
+        for (int i = 0; i < pixels; ++i) {
+            const glm::ivec2 at = line.rows ? glm::ivec2(0, i) : glm::ivec2(i, 0);
+            const glm::vec3 light = wall::scanLight(pattern, c, size, at);
+            line.light.push_back(
+                double{0.25F * light.r + 0.5F * light.g + 0.25F * light.b});
+            sums.push_back(sums.back() + line.light.back());
+        }
+        for (int i = 0; i < pixels; ++i) {
+            const int low = std::max(0, i - kReach), high = std::min(pixels, i + kReach);
+            line.around.push_back((sums[static_cast<std::size_t>(high)] - sums[static_cast<std::size_t>(low)]) / (high - low));
+        }
+        return line;
+    }
+
+    void addChannel(std::vector<double>& light,
+                    const config::ScanPattern& pattern,
+                    std::size_t c,
+                    double shift) const {
+        if (((pattern.lit >> c) & 1U) == 0) return;
+        const Line line = lineOf(pattern, c);
+        for (int y = 0; y < settings_.sizePixels.y; ++y)
+            for (int x = static_cast<int>(settings_.blockedTo * settings_.sizePixels.x); x < settings_.sizePixels.x; ++x)
+                light[static_cast<std::size_t>(y * settings_.sizePixels.x + x)] +=
+                    settings_.white * seen(pattern, line, c, glm::dvec2(x, y), shift);
+    }
+    [[nodiscard]] double seen(const config::ScanPattern& pattern,
+                              const Line& line,
+                              std::size_t c,
+                              glm::dvec2 corner,
+                              double shift) const {
+        double sum = 0;
+        for (const double dy : {0.25, 0.75})
+            for (const double dx : {0.25, 0.75}) {
+                const glm::dvec2 place = placeAt(c, corner + glm::dvec2(dx, dy)) + shift;
+                const glm::ivec2 pixel(glm::floor(place));
+                const glm::ivec2 size = rig_.channels[c].sizePixels;
+                if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size.x || pixel.y >= size.y) continue;
+                sum += lightAt(pattern, line, c, pixel);
+            }
+        return sum / 4;
+    }
+    [[nodiscard]] double lightAt(const config::ScanPattern& pattern,
+                                 const Line& line,
+                                 std::size_t c,
+                                 glm::ivec2 pixel) const {
+        const glm::ivec2 size = rig_.channels[c].sizePixels;
+        const auto at = static_cast<std::size_t>(line.rows ? pixel.y : pixel.x);
+        const auto [cell, corner] = wall::scanTagPlace(size);
+        const glm::ivec2 off = pixel - corner;
+        double direct = line.light[at];
+        if (off.x >= 0 && off.y >= 0 && off.x < wall::kScanTagCells * cell && off.y < cell) {
+            const glm::vec3 tag = wall::scanLight(pattern, c, size, pixel);
+            direct = double{0.25F * tag.r + 0.5F * tag.g + 0.25F * tag.b};
+        }
+        return (1 - settings_.indirect) * direct + settings_.indirect * line.around[at];
+    }
+
+    void blur(std::vector<double>& light) const {
+        const auto width = static_cast<std::size_t>(settings_.sizePixels.x);
+        for (const std::size_t step : {std::size_t{1}, width}) {
+            const std::vector<double> sharp = light;
+            for (std::size_t p = step; p + step < light.size(); ++p)
+                light[p] = 0.15 * sharp[p - step] + 0.7 * sharp[p] + 0.15 * sharp[p + step];
+        }
+    }
+    [[nodiscard]] Picture encoded(const std::vector<double>& light, std::size_t index) const {
+        Picture picture{.sizePixels = settings_.sizePixels, .bits = settings_.bits, .rgb = {}};
+        const double most = (1 << settings_.bits) - 1;
+        std::minstd_rand random(static_cast<unsigned>(index + 1));
+        std::normal_distribution<double> noise(0, settings_.noise);
+        for (const double clean : light) {
+            double value = clean * settings_.gain(index) + noise(random);
+            value *= 1 + settings_.bend * (1 - value);
+            const double code = srgbFromLinear(std::clamp(value, 0.0, 1.0)) * most;
+            for (int i = 0; i < 3; ++i) picture.rgb.push_back(static_cast<std::uint16_t>(std::lround(code)));
+        }
+        return picture;
+    }
+
+    config::Rig rig_;
+    SyntheticSettings settings_;
+    config::Scan scan_;
+};
+
+}  // namespace aquarama::scan
