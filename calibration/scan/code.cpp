@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "calibration/scan/tag.h"
 #include "common/wall/scan_pattern.h"
 
 namespace aquarama::scan {
@@ -136,7 +137,7 @@ class PhaseReader final : public AxisReader {
     static constexpr float kSureContrast = 0.2F, kLeastMargin = 0.5F;
     // The share of the light that reaches the camera as waves: less is light of other ways.
     static constexpr float kLeastModulation = 0.1F;
-    static constexpr float kLeastSignal = 4;  // amplitude in standard deviations
+    static constexpr float kLeastSignal = 6;  // amplitude in standard deviations
 
     [[nodiscard]] float mostSum(const std::vector<std::size_t>& owned) const {
         float most = 0;
@@ -562,24 +563,29 @@ std::optional<double> stripeShift(const AxisSignals& signals,
                                   int pixelsOfAxis,
                                   const ChannelView& view,
                                   const std::vector<std::size_t>& owned) {
-    constexpr float kReach = 6;
+    constexpr double kReach = 5;
     constexpr int kLeastPixels = 500;
-    // Edges of this bit are so far apart, the first is half of that from the picture's border.
-    const auto apart =
-        static_cast<float>(signals.code.finestPixels << (codeOf(signals, pixelsOfAxis).bits - bit));
-    std::array<double, 2> sum{};
+    // Edges of this bit are so far apart, the first is half of that from the picture's border. Near
+    // a rising one the contrast is slope * (offset - shift), near a falling one the contrary; and
+    // light of other ways is the same for both.
+    const double apart = signals.code.finestPixels << (codeOf(signals, pixelsOfAxis).bits - bit);
+    LeastSquares<3> fit;
     std::array<int, 2> count{};
     for (const std::size_t p : owned) {
-        const float place = view.place[p][signals.code.axis];
-        if (!(place == place)) continue;
-        const float edges = place / apart - 0.5F;
-        if (std::abs(edges - std::round(edges)) * apart > kReach) continue;
-        const auto falls = static_cast<std::size_t>(static_cast<int>(std::round(edges)) & 1);
-        sum.at(falls) += double{contrastsOf(signals, p)[static_cast<std::size_t>(bit)]};
+        const double edges = double{view.place[p][signals.code.axis]} / apart - 0.5;
+        const double nearest = std::round(edges), offset = (edges - nearest) * apart;
+        if (!(std::abs(offset) < kReach)) continue;
+        const auto falls = static_cast<std::size_t>(static_cast<int>(nearest) & 1);
+        const double sign = falls == 0 ? 1 : -1;
+        const float contrast = contrastsOf(signals, p)[static_cast<std::size_t>(bit)];
+        fit.add({sign * offset, -sign, 1}, double{contrast});
         ++count.at(falls);
     }
-    if (std::min(count[0], count[1]) < kLeastPixels) return std::nullopt;
-    return -0.5 * double{kReach} * (sum[0] / count[0] - sum[1] / count[1]);
+    const auto found = fit.solve();
+    if (std::min(count[0], count[1]) < kLeastPixels || !found) return std::nullopt;
+    // More than that is no longer told from stripes of no use.
+    constexpr double kMost = wall::kScanPeriodPixels / 2;
+    return std::clamp((*found)[1] / std::max(1e-3, (*found)[0]), -kMost, kMost);
 }
 
 }  // namespace aquarama::scan

@@ -394,7 +394,9 @@ class Decoder {
         const int width = view_.sizePixels.x;
         dropOutliers(view, width, pool_);
         notes.step = stepOf(view, width);
-        dropBorders(view, notes.step, rig_.channels[channel].sizePixels, notes.isTagged);
+        const glm::ivec2 size = rig_.channels[channel].sizePixels;
+        dropBorders(view, notes.step, size);
+        if (notes.isTagged) dropTag(view, notes.step, view_.sizePixels, size);
     }
 
     PictureSource& source_;

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "calibration/scan/tag.h"
 #include "common/wall/scan_pattern.h"
 #include "common/wall/wall.h"
 
@@ -19,41 +20,6 @@ namespace {
 
 using config::ScanPattern;
 using Kind = ScanPattern::Kind;
-
-// Least squares with N unknowns.
-template <std::size_t N>
-class LeastSquares {
-  public:
-    void add(const std::array<double, N>& row, double value) {
-        for (std::size_t i = 0; i < N; ++i) {
-            for (std::size_t j = 0; j < N; ++j) matrix_[i][j] += row[i] * row[j];
-            matrix_[i][N] += row[i] * value;
-        }
-    }
-    // By elimination with pivots; nothing where the rows do not determine it.
-    [[nodiscard]] std::optional<std::array<double, N>> solve() const {
-        auto m = matrix_;
-        for (std::size_t i = 0; i < N; ++i) {
-            std::size_t pivot = i;
-            for (std::size_t j = i + 1; j < N; ++j)
-                if (std::abs(m[j][i]) > std::abs(m[pivot][i])) pivot = j;
-            std::swap(m[i], m[pivot]);
-            if (std::abs(m[i][i]) < 1e-12) return std::nullopt;
-            for (std::size_t j = 0; j < N; ++j)
-                if (j != i) subtract(m[j], m[i], m[j][i] / m[i][i]);
-        }
-        std::array<double, N> found{};
-        for (std::size_t i = 0; i < N; ++i) found[i] = m[i][N] / m[i][i];
-        return found;
-    }
-
-  private:
-    using Row = std::array<double, N + 1>;
-    static void subtract(Row& from, const Row& row, double factor) {
-        for (std::size_t k = 0; k <= N; ++k) from[k] -= factor * row[k];
-    }
-    std::array<Row, N> matrix_{};
-};
 
 bool isCode(Kind kind) {
     return kind != Kind::Level && kind != Kind::Room;
@@ -84,16 +50,20 @@ class FaultFinder {
 
     [[nodiscard]] std::vector<ScanFault> find() {
         findExposure();
-        for (std::size_t c = 0; c < channels_.size(); ++c)
-            if (isSeen(c)) findChannel(c);
         findRepeats();
         findLateChannels();
-        findBlackDrift();
-        findLightDrift();
+        findUnseen();
+        // What is wrong makes what follows look wrong.
+        if (!refused()) findBlackDrift();
+        if (!refused()) forSeen([this](std::size_t c) { findMoved(c); });
+        if (!refused()) findLightDrift();
+        if (!refused()) forSeen([this](std::size_t c) { findNoise(c); });
+        if (!refused()) forSeen([this](std::size_t c) { findBlocked(c); });
         return std::move(faults_);
     }
 
   private:
+    static constexpr float kLeastLight = 0.04F;  // linear, of white
     static constexpr float kLeastSeen = 0.05F;  // share of a channel's picture
     static constexpr glm::ivec2 kGrid{24, 15};  // of a channel's picture
 
@@ -114,6 +84,13 @@ class FaultFinder {
         const auto same = [&](const ScanFault& fault) { return fault.advice == advice; };
         if (std::ranges::none_of(faults_, same))
             faults_.push_back({cause, std::move(advice), refuses});
+    }
+
+    [[nodiscard]] bool refused() const { return std::ranges::any_of(faults_, &ScanFault::refuses); }
+    template <class Look>
+    void forSeen(const Look& look) {
+        for (std::size_t c = 0; c < channels_.size(); ++c)
+            if (isSeen(c)) look(c);
     }
 
     // Channels: what is seen of them.
@@ -144,60 +121,20 @@ class FaultFinder {
         seenShare_[c] = static_cast<float>(seen) / static_cast<float>(kGrid.x * kGrid.y);
     }
 
-    // Where the small copies show the cells of a tag: by the places around it, which a polynomial
-    // continues into it.
+    // Where the small copies show the cells of a tag.
     void findCells(std::size_t c, SmallChannel& small) const {
-        const glm::ivec2 size = evidence_.rig.channels[c].sizePixels;
-        const wall::ScanTagPlace tag = wall::scanTagPlace(size);
-        const glm::vec2 length(wall::kScanTagCells * tag.cell, tag.cell);
-        const glm::vec2 middle = glm::vec2(tag.corner) + 0.5F * length;
-        const glm::vec2 reach = 0.5F * length + 4.0F * static_cast<float>(tag.cell);
-        std::array<LeastSquares<6>, 2> fits;
-        glm::ivec2 low(1 << 20), high(-1);
-        const glm::ivec2 camera = evidence_.view.sizePixels;
-        for (int y = 0; y < camera.y; ++y)
-            for (int x = 0; x < camera.x; ++x) {
-                const glm::vec2 off = placeAt(c, x, y) - middle;
-                if (!(std::abs(off.x) < reach.x && std::abs(off.y) < reach.y)) continue;
-                low = glm::min(low, glm::ivec2(x, y));
-                high = glm::max(high, glm::ivec2(x, y));
-                for (int axis = 0; axis < 2; ++axis)
-                    fits.at(static_cast<std::size_t>(axis)).add(termsAt(x, y), double{off[axis]});
-            }
-        const auto across = fits[0].solve(), down = fits[1].solve();
-        if (!across || !down) return;
-        markCells(small, low, high, [&](double x, double y) {
-            const std::array<double, 6> terms = termsAt(x, y);
-            glm::dvec2 off(0);
-            for (std::size_t i = 0; i < terms.size(); ++i)
-                off += terms[i] * glm::dvec2((*across)[i], (*down)[i]);
-            return (off + glm::dvec2(0.5F * length)) / static_cast<double>(tag.cell);
-        });
-    }
-    [[nodiscard]] glm::vec2 placeAt(std::size_t c, int x, int y) const {
-        const auto index = static_cast<std::size_t>(y * evidence_.view.sizePixels.x + x);
-        return evidence_.view.channels[c].place[index];
-    }
-    [[nodiscard]] std::array<double, 6> termsAt(double x, double y) const {
-        const double u = x / evidence_.view.sizePixels.x - 0.5;
-        const double v = y / evidence_.view.sizePixels.x - 0.5;
-        return {1, u, v, u * u, u * v, v * v};
-    }
-    // `cellOf`: from a camera's pixel to cells from the corner of the tag.
-    template <class CellOf>
-    void markCells(SmallChannel& small,
-                   glm::ivec2 low,
-                   glm::ivec2 high,
-                   const CellOf& cellOf) const {
+        const auto map = TagMap::of(evidence_.view.channels[c],
+                                    evidence_.view.sizePixels,
+                                    evidence_.rig.channels[c].sizePixels);
+        if (!map) return;
         const int factor = evidence_.small.factor;
         const glm::ivec2 size = evidence_.small.sizePixels;
-        small.cells.assign(static_cast<std::size_t>(size.x * size.y), kBeside);
-        const glm::ivec2 first = low / factor, last = glm::min(high / factor, size - 1);
+        small.cells.assign(small.light.size(), kBeside);
+        const glm::ivec2 first = map->low() / factor, last = glm::min(map->high() / factor, size - 1);
         for (int y = first.y; y <= last.y; ++y)
             for (int x = first.x; x <= last.x; ++x) {
-                const double middle = 0.5 * (factor - 1);
-                const glm::dvec2 cell = cellOf(x * factor + middle, y * factor + middle);
-                small.cells[static_cast<std::size_t>(y * size.x + x)] = cellIndex(cell);
+                const glm::dvec2 middle = glm::dvec2(x, y) * double(factor) + 0.5 * (factor - 1);
+                small.cells[static_cast<std::size_t>(y * size.x + x)] = cellIndex(map->cellAt(middle));
             }
         small.hasTag = true;
         for (int cell = 0; cell < wall::kScanTagCells; ++cell)
@@ -220,37 +157,48 @@ class FaultFinder {
     void findExposure() {
         float most = 0;
         for (const SmallChannel& small : channels_) most = std::max(most, small.most);
-        constexpr float kLeastLight = 0.02F;
-        isDark_ = most < kLeastLight;
-        if (isDark_)
-            report(
-                "under_exposed",
-                fmt::format("white is only {:.1f} % of the camera's range: expose longer, or open "
-                            "the lens",
-                            100 * static_cast<double>(most)));
+        if (most < kLeastLight)
+            return report("under_exposed",
+                          fmt::format("white is only {:.1f} % of the camera's range: expose longer, or "
+                                      "open the lens",
+                                      100 * static_cast<double>(most)));
         for (std::size_t c = 0; c < channels_.size(); ++c)
-            if (isScanned(c) && !isSeen(c) && !isDark_)
-                report(
-                    "channel_not_seen",
-                    fmt::format("the camera does not see channel \"{}\": is its projector on, its "
-                                "cable right and the camera's view free?",
-                                nameOf(c)));
+            if (isScanned(c)) findClipped(c);
     }
 
-    void findChannel(std::size_t c) {
-        const ChannelNotes& notes = evidence_.channels[c];
+    void findClipped(std::size_t c) {
         constexpr double kMostClipped = 0.01;
+        const ChannelNotes& notes = evidence_.channels[c];
         if (notes.clipped > kMostClipped)
             report("over_exposed",
-                   fmt::format(
-                       "white of channel \"{}\" is too bright in {:.0f} % of its pixels: expose "
-                       "shorter, or close the lens",
-                       nameOf(c),
-                       100 * notes.clipped),
+                   fmt::format("white of channel \"{}\" is too bright in {:.0f} % of its pixels: expose "
+                               "shorter, or close the lens",
+                               nameOf(c),
+                               100 * notes.clipped),
                    notes.hasPhase);
-        findNoise(c);
-        findBlocked(c);
-        findMoved(c);
+    }
+
+    void findUnseen() {
+        if (refused()) return;
+        for (std::size_t c = 0; c < channels_.size(); ++c)
+            if (isScanned(c) && !isSeen(c)) reportUnseen(c);
+    }
+    // No places: too dark for its noise, or not there.
+    void reportUnseen(std::size_t c) {
+        constexpr double kLeastSignal = 12;
+        const double most = double{channels_[c].most};
+        if (most > double{kLeastLight} && most < kLeastSignal * evidence_.view.noise)
+            return reportFaint(c);
+        report("channel_not_seen",
+               fmt::format("the camera does not see channel \"{}\": is its projector on, its cable right "
+                           "and the camera's view free?",
+                           nameOf(c)));
+    }
+    void reportFaint(std::size_t c) {
+        report("under_exposed",
+               fmt::format("patterns of channel \"{}\" are faint in the camera's noise: expose longer, "
+                           "focus, or darken the room",
+                           nameOf(c)));
     }
 
     void findNoise(std::size_t c) {
@@ -258,16 +206,10 @@ class FaultFinder {
         Plane sigmas;
         for (const glm::vec2 sigma : evidence_.view.channels[c].sigma)
             if (sigma.x == sigma.x) sigmas.push_back(std::max(sigma.x, sigma.y));
-        if (sigmas.empty() || isDark_) return;
+        if (sigmas.empty()) return;
         const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
         std::nth_element(sigmas.begin(), middle, sigmas.end());
-        if (*middle > kMostSigma)
-            report("under_exposed",
-                   fmt::format(
-                       "patterns of channel \"{}\" are faint in the camera's noise ({:.1f} px): "
-                       "expose longer, focus, or darken the room",
-                       nameOf(c),
-                       static_cast<double>(*middle)));
+        if (*middle > kMostSigma) reportFaint(c);
     }
 
     // Cells of its picture that fall on the screen, by the rig, and are not seen.
@@ -327,10 +269,10 @@ class FaultFinder {
     [[nodiscard]] std::optional<double> movedSinceWhite(std::size_t c,
                                                         const SmallPicture& picture) const {
         const ScanPattern& pattern = evidence_.scan.pictures[picture.index].pattern;
-        constexpr float kLeastLight = 0.3F;
+        constexpr float kLeastLevel = 0.3F;
         const bool shows = pattern.kind == Kind::Level && ((pattern.lit >> c) & 1U) != 0;
         const SmallChannel& channel = channels_[c];
-        if (!shows || luminanceOf(pattern.light) < kLeastLight) return std::nullopt;
+        if (!shows || luminanceOf(pattern.light) < kLeastLevel) return std::nullopt;
         if (channel.cells.empty() && evidence_.channels[c].isTagged) return std::nullopt;
         LeastSquares<3> fit;
         const glm::ivec2 size = evidence_.small.sizePixels;
@@ -384,7 +326,7 @@ class FaultFinder {
         const Plane* second = evidence_.small.of(now);
         double changed = 0, light = 0;
         for (std::size_t c = 0; c < channels_.size(); ++c) {
-            if (!isSeen(c) || !mustDiffer(a, b, c)) continue;
+            if (channels_[c].most < kLeastLight || !mustDiffer(a, b, c)) continue;
             for (std::size_t p = 0; p < channels_[c].light.size(); ++p) {
                 if (channels_[c].light[p] < 0.3F * channels_[c].most) continue;
                 changed += double{std::abs((*second)[p] - (*first)[p])};
@@ -413,7 +355,7 @@ class FaultFinder {
             for (std::size_t c = 0; c < channels_.size(); ++c) {
                 if (((pattern.lit >> c) & 1U) == 0 || !channels_[c].hasTag) continue;
                 const auto number = tagOf(channels_[c], picture.light);
-                if (number && *number != pattern.number)
+                if (number && *number != pattern.number && isNear(*number, picture.index))
                     report("dropped_frame",
                            fmt::format(
                                "channel \"{}\" shows pattern {} instead of {} in {}: wait longer "
@@ -424,6 +366,15 @@ class FaultFinder {
                                pictureName(picture.index)));
             }
         }
+    }
+    // Whether a pattern with this number is shown about then: others are misread.
+    [[nodiscard]] bool isNear(unsigned number, std::size_t index) const {
+        constexpr std::size_t kReach = 6;
+        const std::vector<config::ScanPicture>& pictures = evidence_.scan.pictures;
+        const std::size_t last = std::min(pictures.size(), index + kReach + 1);
+        for (std::size_t i = index - std::min(index, kReach); i < last; ++i)
+            if (pictures[i].pattern.number == number) return true;
+        return false;
     }
     // Nothing where a cell is in doubt.
     [[nodiscard]] std::optional<unsigned> tagOf(const SmallChannel& small,
@@ -542,7 +493,6 @@ class FaultFinder {
     std::vector<std::vector<std::uint8_t>> seen_;  // of each channel's cells
     Plane seenShare_;
     std::vector<SmallChannel> channels_;
-    bool isDark_ = false;
     std::vector<ScanFault> faults_;
 };
 

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "calibration/scan/tag.h"
 #include "common/wall/scan_pattern.h"
 
 namespace aquarama::scan {
@@ -131,22 +132,30 @@ void dropOutliers(ChannelView& view, int width, WorkerPool& pool) {
         if (isDropped[p] != 0 || !isKnown(view.place[p])) forget(view, p);
 }
 
-void dropBorders(ChannelView& view, float step, glm::ivec2 channelPixels, bool isTagged) {
-    constexpr float kBorderSteps = 1.5F, kTagSteps = 2.5F;  // what a camera's lens mixes
-    const wall::ScanTagPlace tag = wall::scanTagPlace(channelPixels);
-    const glm::vec2 low = glm::vec2(tag.corner) - kTagSteps * step;
-    const glm::vec2 high = glm::vec2(tag.corner) + kTagSteps * step +
-                           glm::vec2(wall::kScanTagCells * tag.cell, tag.cell);
+void dropBorders(ChannelView& view, float step, glm::ivec2 channelPixels) {
+    constexpr float kBorderSteps = 1.5F;  // what a camera's lens mixes
     const glm::vec2 least(kBorderSteps * step);
     const glm::vec2 most = glm::vec2(channelPixels) - least;
     for (std::size_t p = 0; p < view.place.size(); ++p) {
         const glm::vec2 at = view.place[p];
         const bool inside =
             glm::all(glm::greaterThan(at, least)) && glm::all(glm::lessThan(at, most));
-        const bool inTag =
-            isTagged && glm::all(glm::greaterThan(at, low)) && glm::all(glm::lessThan(at, high));
-        if (!inside || inTag) forget(view, p);
+        if (!inside) forget(view, p);
     }
+}
+
+void dropTag(ChannelView& view, float step, glm::ivec2 cameraPixels, glm::ivec2 channelPixels) {
+    constexpr double kMarginSteps = 2.5;
+    const auto map = TagMap::of(view, cameraPixels, channelPixels);
+    if (!map) return;
+    const double margin = kMarginSteps * double{step} / map->cellPixels();
+    const glm::dvec2 least(-margin), most(wall::kScanTagCells + margin, 1 + margin);
+    for (int y = map->low().y; y <= map->high().y; ++y)
+        for (int x = map->low().x; x <= map->high().x; ++x) {
+            const glm::dvec2 cell = map->cellAt({x, y});
+            if (glm::all(glm::greaterThan(cell, least)) && glm::all(glm::lessThan(cell, most)))
+                forget(view, static_cast<std::size_t>(y * cameraPixels.x + x));
+        }
 }
 
 }  // namespace aquarama::scan

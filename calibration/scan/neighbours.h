@@ -20,9 +20,10 @@ void settleDoubts(ChannelView& view,
                   WorkerPool& pool);
 
 // Drops pixels that few neighbours agree with, or several do not: errors, and edges of depth, where
-// a pixel sees two places at once. Then those by the border of the channel's picture and within its
-// tag, if it has one.
+// a pixel sees two places at once.
 void dropOutliers(ChannelView& view, int width, WorkerPool& pool);
-void dropBorders(ChannelView& view, float step, glm::ivec2 channelPixels, bool isTagged);
+// Then those by the border of the channel's picture, and within its tag.
+void dropBorders(ChannelView& view, float step, glm::ivec2 channelPixels);
+void dropTag(ChannelView& view, float step, glm::ivec2 cameraPixels, glm::ivec2 channelPixels);
 
 }  // namespace aquarama::scan

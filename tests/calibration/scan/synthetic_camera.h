@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <random>
 
 #include <glm/common.hpp>
@@ -18,6 +19,7 @@ namespace aquarama::scan {
 struct SyntheticSettings {
     glm::ivec2 sizePixels{400, 250};
     int bits = 16;
+    config::ScanCamera::Response response = config::ScanCamera::Response::Linear;
     double white = 0.7, black = 0.02, noise = 0.007;  // linear; noise of a picture's pixel
     double indirect = 0;  // share of white that comes from around the place itself
     double bend = 0;      // of the response: light * (1 + bend * (1 - light))
@@ -35,7 +37,7 @@ class SyntheticCamera final : public PictureSource {
     SyntheticCamera(const config::Rig& rig, SyntheticSettings settings)
         : rig_{rig}, settings_{std::move(settings)} {
         scan_.rig = rig.name;
-        scan_.cameras.resize(1);
+        scan_.cameras = {{.response = settings_.response}};
         for (const config::ScanPattern& pattern : sequenceOf(rig))
             scan_.pictures.push_back({.file = "", .pattern = pattern});
     }
@@ -69,8 +71,17 @@ class SyntheticCamera final : public PictureSource {
 
     // Light along the axis of a pattern, and its mean around each place.
     struct Line {
-        std::vector<double> light, around;
+        std::vector<double> light, sums, around;
         bool rows = false;
+        // The mean of the light between two places; it is dark beyond the ends.
+        [[nodiscard]] double between(double low, double high) const {
+            return (sumTo(high) - sumTo(low)) / (high - low);
+        }
+        [[nodiscard]] double sumTo(double place) const {
+            const double at = std::clamp(place, 0.0, static_cast<double>(light.size()));
+            const auto pixel = std::min(light.size() - 1, static_cast<std::size_t>(at));
+            return sums[pixel] + (at - static_cast<double>(pixel)) * light[pixel];
+        }
     };
     [[nodiscard]] Line lineOf(const config::ScanPattern& pattern, std::size_t c) const {
         using Kind = config::ScanPattern::Kind;
@@ -79,19 +90,26 @@ class SyntheticCamera final : public PictureSource {
         line.rows = pattern.kind == Kind::GrayRows || pattern.kind == Kind::PhaseRows;
         const glm::ivec2 size = rig_.channels[c].sizePixels;
         const int pixels = line.rows ? size.y : size.x;
-        std::vector<double> sums{0};
         for (int i = 0; i < pixels; ++i) {
             const glm::ivec2 at = line.rows ? glm::ivec2(0, i) : glm::ivec2(i, 0);
             const glm::vec3 light = wall::scanLight(pattern, c, size, at);
             line.light.push_back(
                 double{0.25F * light.r + 0.5F * light.g + 0.25F * light.b});
-            sums.push_back(sums.back() + line.light.back());
         }
-        for (int i = 0; i < pixels; ++i) {
-            const int low = std::max(0, i - kReach), high = std::min(pixels, i + kReach);
-            line.around.push_back((sums[static_cast<std::size_t>(high)] - sums[static_cast<std::size_t>(low)]) / (high - low));
-        }
+        line.sums = {0};
+        for (const double value : line.light) line.sums.push_back(line.sums.back() + value);
+        line.around = smoothed(smoothed(line.light, kReach), kReach);
         return line;
+    }
+    [[nodiscard]] static std::vector<double> smoothed(const std::vector<double>& sharp, int reach) {
+        const auto pixels = static_cast<int>(sharp.size());
+        std::vector<double> sums{0}, smooth;
+        for (const double value : sharp) sums.push_back(sums.back() + value);
+        for (int i = 0; i < pixels; ++i) {
+            const int low = std::max(0, i - reach), high = std::min(pixels, i + reach);
+            smooth.push_back((sums[static_cast<std::size_t>(high)] - sums[static_cast<std::size_t>(low)]) / (high - low));
+        }
+        return smooth;
     }
 
     void addChannel(std::vector<double>& light,
@@ -105,36 +123,33 @@ class SyntheticCamera final : public PictureSource {
                 light[static_cast<std::size_t>(y * settings_.sizePixels.x + x)] +=
                     settings_.white * seen(pattern, line, c, glm::dvec2(x, y), shift);
     }
+    // By a pixel, which sees a square of the channel's picture.
     [[nodiscard]] double seen(const config::ScanPattern& pattern,
                               const Line& line,
                               std::size_t c,
                               glm::dvec2 corner,
                               double shift) const {
-        double sum = 0;
-        for (const double dy : {0.25, 0.75})
-            for (const double dx : {0.25, 0.75}) {
-                const glm::dvec2 place = placeAt(c, corner + glm::dvec2(dx, dy)) + shift;
-                const glm::ivec2 pixel(glm::floor(place));
-                const glm::ivec2 size = rig_.channels[c].sizePixels;
-                if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size.x || pixel.y >= size.y) continue;
-                sum += lightAt(pattern, line, c, pixel);
-            }
-        return sum / 4;
-    }
-    [[nodiscard]] double lightAt(const config::ScanPattern& pattern,
-                                 const Line& line,
-                                 std::size_t c,
-                                 glm::ivec2 pixel) const {
+        const glm::dvec2 place = placeAt(c, corner + 0.5) + shift;
         const glm::ivec2 size = rig_.channels[c].sizePixels;
-        const auto at = static_cast<std::size_t>(line.rows ? pixel.y : pixel.x);
+        const int across = line.rows ? 0 : 1;
+        if (place[across] < 0 || place[across] >= size[across]) return 0;
+        const double at = place[1 - across];
+        const double half = 0.5 * std::abs(placeAt(c, corner + 1.5)[1 - across] + shift - at);
+        const auto pixel = static_cast<std::size_t>(std::clamp(at, 0.0, size[1 - across] - 1.0));
+        double direct = line.between(at - half, at + half);
+        if (const auto tag = tagLight(pattern, c, glm::ivec2(glm::floor(place)))) direct = *tag;
+        return (1 - settings_.indirect) * direct + settings_.indirect * line.around[pixel];
+    }
+    [[nodiscard]] std::optional<double> tagLight(const config::ScanPattern& pattern,
+                                                 std::size_t c,
+                                                 glm::ivec2 pixel) const {
+        const glm::ivec2 size = rig_.channels[c].sizePixels;
         const auto [cell, corner] = wall::scanTagPlace(size);
         const glm::ivec2 off = pixel - corner;
-        double direct = line.light[at];
-        if (off.x >= 0 && off.y >= 0 && off.x < wall::kScanTagCells * cell && off.y < cell) {
-            const glm::vec3 tag = wall::scanLight(pattern, c, size, pixel);
-            direct = double{0.25F * tag.r + 0.5F * tag.g + 0.25F * tag.b};
-        }
-        return (1 - settings_.indirect) * direct + settings_.indirect * line.around[at];
+        if (off.x < 0 || off.y < 0 || off.x >= wall::kScanTagCells * cell || off.y >= cell)
+            return std::nullopt;
+        const glm::vec3 tag = wall::scanLight(pattern, c, size, pixel);
+        return double{0.25F * tag.r + 0.5F * tag.g + 0.25F * tag.b};
     }
 
     void blur(std::vector<double>& light) const {
@@ -153,7 +168,9 @@ class SyntheticCamera final : public PictureSource {
         for (const double clean : light) {
             double value = clean * settings_.gain(index) + noise(random);
             value *= 1 + settings_.bend * (1 - value);
-            const double code = srgbFromLinear(std::clamp(value, 0.0, 1.0)) * most;
+            value = std::clamp(value, 0.0, 1.0);
+            const bool linear = settings_.response == config::ScanCamera::Response::Linear;
+            const double code = (linear ? value : srgbFromLinear(value)) * most;
             for (int i = 0; i < 3; ++i) picture.rgb.push_back(static_cast<std::uint16_t>(std::lround(code)));
         }
         return picture;
