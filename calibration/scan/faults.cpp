@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include <glm/common.hpp>
@@ -449,43 +450,58 @@ class FaultFinder {
                         where));
     }
 
-    // What a picture of phase should look like from afar is known: half of its channels' white. How
-    // much more there is of it, and how much light came to it.
-    struct Drift {
-        double gain = 1, lamp = 0;
-    };
+    // From afar a picture of phase looks like half of its channels' white, by the response about:
+    // and all of them alike.
     void findLightDrift() {
-        constexpr double kMostGain = 0.15, kMostLamp = 0.04;
+        constexpr double kMostChange = 0.05, kMostOfWhite = 0.2;
+        std::map<std::uint64_t, double> first;  // by the channels that are lit
         for (const SmallPicture& picture : evidence_.small.pictures) {
             const ScanPattern& pattern = evidence_.scan.pictures[picture.index].pattern;
             if (!isPhase(pattern.kind)) continue;
-            const auto drift = driftOf(picture, pattern.lit);
-            if (!drift) continue;
-            if (std::abs(drift->gain - 1) > kMostGain)
-                return report(
-                    "auto_exposure",
-                    fmt::format("{} is exposed {:.2f} times as much as white and black: fix the "
-                                "camera's exposure, gain and white balance, and scan again",
-                                pictureName(picture.index),
-                                drift->gain));
-            if (std::abs(drift->lamp) > kMostLamp)
-                return reportLamp(pictureName(picture.index), std::abs(drift->lamp));
+            const Drift drift = driftOf(picture, pattern.lit);
+            const double before = first.emplace(pattern.lit, drift.gain).first->second;
+            if (std::abs(drift.gain - 1) < kMostOfWhite &&
+                std::abs(drift.gain / before - 1) < kMostChange)
+                continue;
+            if (drift.lamp > 0.5 * std::abs(drift.gain - 1))
+                return reportLamp(pictureName(picture.index), drift.lamp);
+            return report("auto_exposure",
+                          fmt::format("{} is exposed {:.2f} times as much as white and black: fix the "
+                                      "camera's exposure, gain and white balance, and scan again",
+                                      pictureName(picture.index),
+                                      drift.gain));
         }
     }
-    [[nodiscard]] std::optional<Drift> driftOf(const SmallPicture& picture,
-                                               std::uint64_t lit) const {
-        Plane expected(black_->size());
+    // How much more light there is than expected: in all, and where no channel gives any, both as a
+    // share of what is expected of lit places.
+    struct Drift {
+        double gain = 1, lamp = 0;
+    };
+    [[nodiscard]] Drift driftOf(const SmallPicture& picture, std::uint64_t lit) const {
+        constexpr float kUnlit = 0.1F;
+        double seen = 0, expected = 0, count = 0, beside = 0, besideCount = 0;
+        for (std::size_t p = 0; p < picture.light.size(); ++p) {
+            const float half = 0.5F * lightAt(p, lit);
+            const double more = double{picture.light[p] - (*black_)[p]};
+            if (half < kUnlit * static_cast<float>(mostLight())) {
+                beside += more - double{half};
+                ++besideCount;
+                continue;
+            }
+            seen += more;
+            expected += double{half};
+            ++count;
+        }
+        if (count == 0) return {};
+        const double mean = expected / count;
+        return {seen / expected, besideCount > 0 ? beside / besideCount / mean : 0};
+    }
+    // White of all of these channels.
+    [[nodiscard]] float lightAt(std::size_t p, std::uint64_t lit) const {
+        float light = 0;
         for (std::size_t c = 0; c < channels_.size(); ++c)
-            if (((lit >> c) & 1U) != 0 && !channels_[c].light.empty())
-                for (std::size_t p = 0; p < expected.size(); ++p)
-                    expected[p] += 0.5F * channels_[c].light[p];
-        const Tiles black = tilesOf(*black_), half = tilesOf(expected),
-                    seen = tilesOf(picture.light);
-        LeastSquares<2> fit;
-        for (std::size_t i = 0; i < half.size(); ++i) fit.add({half[i], 1}, seen[i] - black[i]);
-        const auto found = fit.solve();
-        if (!found) return std::nullopt;
-        return Drift{(*found)[0], (*found)[1] / mostLight()};
+            if (((lit >> c) & 1U) != 0 && !channels_[c].light.empty()) light += channels_[c].light[p];
+        return light;
     }
 
     const Evidence& evidence_;

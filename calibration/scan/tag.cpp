@@ -12,16 +12,11 @@ namespace aquarama::scan {
 
 namespace {
 
-struct Sample {
-    glm::ivec2 pixel{};
-    glm::dvec2 cell{};
-};
-
 // Places at most so many cells away from the tag.
-std::vector<Sample> samplesAround(const ChannelView& view, glm::ivec2 camera, glm::ivec2 channel) {
+std::vector<TagMap::Sample> samplesAround(const ChannelView& view, glm::ivec2 camera, glm::ivec2 channel) {
     constexpr double kReach = 4;
     const wall::ScanTagPlace tag = wall::scanTagPlace(channel);
-    std::vector<Sample> samples;
+    std::vector<TagMap::Sample> samples;
     for (int y = 0; y < camera.y; ++y)
         for (int x = 0; x < camera.x; ++x) {
             const glm::dvec2 place(view.place[static_cast<std::size_t>(y * camera.x + x)]);
@@ -39,30 +34,45 @@ std::optional<TagMap> TagMap::of(const ChannelView& view,
                                  glm::ivec2 cameraPixels,
                                  glm::ivec2 channelPixels) {
     constexpr std::size_t kLeast = 100;
-    constexpr double kMostError = 0.15;  // cells, RMS
-    const std::vector<Sample> samples = samplesAround(view, cameraPixels, channelPixels);
-    if (samples.size() < kLeast) return std::nullopt;
+    constexpr int kPasses = 4;
+    constexpr double kLeastShare = 0.7;
+    std::vector<Sample> samples = samplesAround(view, cameraPixels, channelPixels);
+    const std::size_t all = samples.size();
+    if (all < kLeast) return std::nullopt;
     TagMap map;
-    map.cell_ = wall::scanTagPlace(channelPixels).cell;
-    for (const Sample& sample : samples) {
-        map.low_ = glm::min(map.low_, sample.pixel);
-        map.high_ = glm::max(map.high_, sample.pixel);
+    map.frame(samples, wall::scanTagPlace(channelPixels).cell);
+    double allowed = 4;  // cells
+    for (int pass = 0; pass < kPasses; ++pass, allowed /= 2.5) {
+        if (!map.fit(samples)) return std::nullopt;
+        std::erase_if(samples, [&](const Sample& sample) {
+            const glm::dvec2 error = map.cellAt(sample.pixel) - sample.cell;
+            return glm::dot(error, error) > allowed * allowed;
+        });
+        if (static_cast<double>(samples.size()) < kLeastShare * static_cast<double>(all))
+            return std::nullopt;
     }
-    map.middle_ = 0.5 * glm::dvec2(map.low_ + map.high_);
-    map.scale_ = 2 / glm::length(glm::dvec2(map.high_ - map.low_));
+    return map;
+}
+
+void TagMap::frame(const std::vector<Sample>& samples, double cellPixels) {
+    cell_ = cellPixels;
+    for (const Sample& sample : samples) {
+        low_ = glm::min(low_, sample.pixel);
+        high_ = glm::max(high_, sample.pixel);
+    }
+    middle_ = 0.5 * glm::dvec2(low_ + high_);
+    scale_ = 2 / glm::length(glm::dvec2(high_ - low_));
+}
+
+bool TagMap::fit(const std::vector<Sample>& samples) {
     for (int axis = 0; axis < 2; ++axis) {
-        LeastSquares<6> fit;
-        for (const Sample& sample : samples) fit.add(map.termsAt(sample.pixel), sample.cell[axis]);
-        const auto found = fit.solve();
-        if (!found) return std::nullopt;
-        map.fit_.at(static_cast<std::size_t>(axis)) = *found;
+        LeastSquares<6> squares;
+        for (const Sample& sample : samples) squares.add(termsAt(sample.pixel), sample.cell[axis]);
+        const auto found = squares.solve();
+        if (!found) return false;
+        fit_.at(static_cast<std::size_t>(axis)) = *found;
     }
-    double square = 0;
-    for (const Sample& sample : samples) {
-        const glm::dvec2 error = map.cellAt(sample.pixel) - sample.cell;
-        square += glm::dot(error, error) / static_cast<double>(samples.size());
-    }
-    return square < kMostError * kMostError ? std::optional(map) : std::nullopt;
+    return true;
 }
 
 glm::dvec2 TagMap::cellAt(glm::dvec2 pixel) const {

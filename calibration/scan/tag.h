@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "calibration/scan/decode.h"
 
@@ -63,8 +64,15 @@ class TagMap {
     [[nodiscard]] glm::ivec2 high() const { return high_; }
     [[nodiscard]] double cellPixels() const { return cell_; }  // of the channel
 
+    struct Sample {
+        glm::ivec2 pixel{};
+        glm::dvec2 cell{};
+    };
+
   private:
     using Terms = std::array<double, 6>;  // of a polynomial of second order
+    void frame(const std::vector<Sample>& samples, double cellPixels);
+    [[nodiscard]] bool fit(const std::vector<Sample>& samples);
     [[nodiscard]] Terms termsAt(glm::dvec2 pixel) const;
 
     glm::ivec2 low_{1 << 20}, high_{-1};

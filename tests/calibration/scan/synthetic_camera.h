@@ -132,7 +132,7 @@ class SyntheticCamera final : public PictureSource {
         const glm::dvec2 place = placeAt(c, corner + 0.5) + shift;
         const glm::ivec2 size = rig_.channels[c].sizePixels;
         const int across = line.rows ? 0 : 1;
-        if (place[across] < 0 || place[across] >= size[across]) return 0;
+        if (place.x < 0 || place.y < 0 || place.x >= size.x || place.y >= size.y) return 0;
         const double at = place[1 - across];
         const double half = 0.5 * std::abs(placeAt(c, corner + 1.5)[1 - across] + shift - at);
         const auto pixel = static_cast<std::size_t>(std::clamp(at, 0.0, size[1 - across] - 1.0));
