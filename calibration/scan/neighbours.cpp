@@ -82,6 +82,19 @@ Votes votesOn(const ChannelView& view, std::size_t pixel, int width, float step)
     return votes;
 }
 
+// Between pixels that lie `apart` in the arrays.
+float medianStep(const ChannelView& view, std::size_t apart) {
+    constexpr std::size_t kStride = 3;
+    std::vector<float> steps;
+    for (std::size_t p = 0; p + apart < view.place.size(); p += kStride)
+        if (isKnown(view.place[p]) && isKnown(view.place[p + apart]))
+            steps.push_back(glm::length(view.place[p + apart] - view.place[p]));
+    if (steps.empty()) return 0;
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    return *middle;
+}
+
 void forget(ChannelView& view, std::size_t pixel) {
     view.place[pixel] = view.sigma[pixel] = glm::vec2(kUnknown);
 }
@@ -89,17 +102,7 @@ void forget(ChannelView& view, std::size_t pixel) {
 }  // namespace
 
 float stepOf(const ChannelView& view, int width) {
-    constexpr std::size_t kStride = 3;
-    std::vector<float> steps;
-    const std::size_t down = static_cast<std::size_t>(width);
-    for (std::size_t p = 0; p + down + 1 < view.place.size(); p += kStride)
-        for (const std::size_t other : {p + 1, p + down})
-            if (isKnown(view.place[p]) && isKnown(view.place[other]))
-                steps.push_back(glm::length(view.place[other] - view.place[p]));
-    if (steps.empty()) return 0;
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle;
+    return std::max(medianStep(view, 1), medianStep(view, static_cast<std::size_t>(width)));
 }
 
 void settleDoubts(ChannelView& view,
@@ -133,7 +136,7 @@ void dropOutliers(ChannelView& view, int width, WorkerPool& pool) {
 }
 
 void dropBorders(ChannelView& view, float step, glm::ivec2 channelPixels) {
-    constexpr float kBorderSteps = 1.5F;  // what a camera's lens mixes
+    constexpr float kBorderSteps = 2;  // what a camera's lens mixes
     const glm::vec2 least(kBorderSteps * step);
     const glm::vec2 most = glm::vec2(channelPixels) - least;
     for (std::size_t p = 0; p < view.place.size(); ++p) {

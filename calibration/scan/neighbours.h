@@ -6,8 +6,8 @@
 
 namespace aquarama::scan {
 
-// Places of the channel between neighbouring pixels of the camera, the median; 0 where nothing is
-// seen.
+// Pixels of the channel between neighbouring ones of the camera: the median, across or down,
+// whichever is more; 0 where nothing is seen.
 [[nodiscard]] float stepOf(const ChannelView& view, int width);
 
 // Gives pixels without a place along `axis` another reading near the median of their neighbours.
