@@ -72,7 +72,7 @@ formats::WallFile fileOf(const config::Rig& rig, Profile profile) {
 
 // The rig with the file in place of its projectors.
 config::Rig calibrated(config::Rig rig, const std::vector<std::byte>& file) {
-    rig.files["hall.mpcdi"] = file;
+    rig.files["hall.mpcdi"] = std::make_shared<const std::vector<std::byte>>(file);
     for (config::Channel& channel : rig.channels)
         channel.wallFile = {"hall.mpcdi", channel.name, ""};
     return rig;
@@ -188,10 +188,10 @@ TEST(WallFiles, aRegionThatIsNotThereIsNamed) {
 
 TEST(WallFiles, aFileThatIsCutOffIsRefusedByItsName) {
     config::Rig rig = shippedRig("desk");
-    rig = calibrated(rig, encodeMpcdi(fileOf(rig, Profile::Screen), 2));
-    rig.files["hall.mpcdi"].resize(rig.files["hall.mpcdi"].size() / 2);
+    std::vector<std::byte> file = encodeMpcdi(fileOf(rig, Profile::Screen), 2);
+    file.resize(file.size() / 2);
     try {
-        const Wall wall(rig);
+        const Wall wall(calibrated(rig, file));
         FAIL() << "it was taken";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr("hall.mpcdi"));

@@ -130,7 +130,7 @@ config::Rig rigWithMesh(const std::vector<std::byte>& obj) {
     config::Rig rig;
     rig.screen.shape = config::ScreenShape::Measured;
     rig.screen.meshFile = "canvas.obj";
-    rig.files["canvas.obj"] = obj;
+    rig.files["canvas.obj"] = std::make_shared<const std::vector<std::byte>>(obj);
     return rig;
 }
 
