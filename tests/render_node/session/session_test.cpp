@@ -214,6 +214,7 @@ TEST_F(SessionTest, answersWhileItChecksALargeBlob) {
         ASSERT_TRUE(master_.hear(v1::Envelope::kPing)) << "it has fallen silent";
     EXPECT_EQ(next->look, 2U);
     EXPECT_EQ(*next->rig.files.at("hall.pfm"), *map);
+    EXPECT_EQ(net::BlobCache(blobs_).find(digest), *map);
 }
 
 TEST_F(SessionTest, aRefusalIsAnErrorThatSaysWhy) {
