@@ -110,6 +110,32 @@ void pixelsOfWallFile(benchmark::State& state) {
 }
 BENCHMARK(pixelsOfWallFile)->Name("calibrated_optics_inverse");
 
+// Of a mask at each pixel of 1920 x 1200: by a table over its codes, and by the reference.
+template <typename Light>
+void lightOfMask(benchmark::State& state, const Light& makeLight) {
+    formats::Mask mask{.size = {1920, 1200}, .bits = 16, .gamma = 2.2, .codes = {}};
+    for (int i = 0; i < 1920 * 1200; ++i) mask.codes.push_back(static_cast<std::uint16_t>(i * 31));
+    for (auto _ : state) {
+        const auto light = makeLight(mask);
+        for (int y = 0; y < 1200; ++y)
+            for (int x = 0; x < 1920; ++x)
+                benchmark::DoNotOptimize(
+                    light(glm::dvec2(x + 0.5, y + 0.5) / glm::dvec2(mask.size)));
+    }
+}
+void lightByTable(benchmark::State& state) {
+    lightOfMask(state, [](const formats::Mask& mask) {
+        return [light = formats::MaskLight(mask)](glm::dvec2 place) { return light.at(place); };
+    });
+}
+BENCHMARK(lightByTable)->Name("mask_light")->Unit(benchmark::kMillisecond);
+void lightByPowers(benchmark::State& state) {
+    lightOfMask(state, [](const formats::Mask& mask) {
+        return [&mask](glm::dvec2 place) { return formats::lightAt(mask, place); };
+    });
+}
+BENCHMARK(lightByPowers)->Name("mask_light_reference")->Unit(benchmark::kMillisecond);
+
 // Of three channels, whose blends ask each other.
 void warpMap(benchmark::State& state, const config::Rig& rig) {
     const wall::Wall wall(rig);
