@@ -325,7 +325,7 @@ void nameFile(Rig& rig, const std::string& name, const std::string& source, Sour
                            place,
                            "the name of a file has control characters or more than 255 bytes: "
                            "rename the file"));
-    rig.files[name];
+    rig.files[name] = std::make_shared<const std::vector<std::byte>>();
 }
 
 // What a calibration says of all channels that have no wall file of their own.
@@ -390,7 +390,8 @@ Rig parseRig(const std::string& text, const std::string& source) {
 
 void readRigFiles(Rig& rig, const std::string& rigPath) {
     for (auto& [name, content] : rig.files)
-        content = readWhole(besideFile(rigPath, name), kMostWallFileBytes);
+        content = std::make_shared<const std::vector<std::byte>>(
+            readWhole(besideFile(rigPath, name), kMostWallFileBytes));
 }
 
 Rig readRig(const std::string& path) {
