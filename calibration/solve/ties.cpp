@@ -37,7 +37,7 @@ std::vector<Seen> seenIn(const scan::ChannelView& view, glm::ivec2 size, const W
             if (std::isnan(view.place[i].x)) continue;
             seen.push_back({glm::dvec2(x + 0.5, y + 0.5) - window.centre(),
                             view.place[i],
-                            0.5 * (view.sigma[i].x + view.sigma[i].y)});
+                            static_cast<double>(0.5F * (view.sigma[i].x + view.sigma[i].y))});
         }
     return seen;
 }
@@ -142,7 +142,7 @@ std::vector<Tie> tiesOf(const scan::CameraView& view, std::uint32_t camera, std:
 namespace {
 
 double luminance(const glm::vec3& light) {
-    return 0.2126 * light.r + 0.7152 * light.g + 0.0722 * light.b;
+    return glm::dot(glm::dvec3(light), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
 // Light along a line: samples in steps, from `from` steps before a place.
