@@ -65,8 +65,8 @@ class FaultFinder {
 
   private:
     static constexpr float kLeastLight = 0.04F;  // linear, of white
-    static constexpr float kLeastSeen = 0.05F;  // share of a channel's picture
-    static constexpr glm::ivec2 kGrid{24, 15};  // of a channel's picture
+    static constexpr float kLeastSeen = 0.05F;   // share of a channel's picture
+    static constexpr glm::ivec2 kGrid{24, 15};   // of a channel's picture
 
     [[nodiscard]] bool isScanned(std::size_t c) const {
         return !evidence_.view.channels[c].place.empty();
@@ -131,11 +131,13 @@ class FaultFinder {
         const int factor = evidence_.small.factor;
         const glm::ivec2 size = evidence_.small.sizePixels;
         small.cells.assign(small.light.size(), kBeside);
-        const glm::ivec2 first = map->low() / factor, last = glm::min(map->high() / factor, size - 1);
+        const glm::ivec2 first = map->low() / factor,
+                         last = glm::min(map->high() / factor, size - 1);
         for (int y = first.y; y <= last.y; ++y)
             for (int x = first.x; x <= last.x; ++x) {
                 const glm::dvec2 middle = glm::dvec2(x, y) * double(factor) + 0.5 * (factor - 1);
-                small.cells[static_cast<std::size_t>(y * size.x + x)] = cellIndex(map->cellAt(middle));
+                small.cells[static_cast<std::size_t>(y * size.x + x)] =
+                    cellIndex(map->cellAt(middle));
             }
         small.hasTag = true;
         for (int cell = 0; cell < wall::kScanTagCells; ++cell)
@@ -159,10 +161,11 @@ class FaultFinder {
         float most = 0;
         for (const SmallChannel& small : channels_) most = std::max(most, small.most);
         if (most < kLeastLight)
-            return report("under_exposed",
-                          fmt::format("white is only {:.1f} % of the camera's range: expose longer, or "
-                                      "open the lens",
-                                      100 * static_cast<double>(most)));
+            return report(
+                "under_exposed",
+                fmt::format("white is only {:.1f} % of the camera's range: expose longer, or "
+                            "open the lens",
+                            100 * static_cast<double>(most)));
         for (std::size_t c = 0; c < channels_.size(); ++c)
             if (isScanned(c)) findClipped(c);
     }
@@ -172,10 +175,11 @@ class FaultFinder {
         const ChannelNotes& notes = evidence_.channels[c];
         if (notes.clipped > kMostClipped)
             report("over_exposed",
-                   fmt::format("white of channel \"{}\" is too bright in {:.0f} % of its pixels: expose "
-                               "shorter, or close the lens",
-                               nameOf(c),
-                               100 * notes.clipped),
+                   fmt::format(
+                       "white of channel \"{}\" is too bright in {:.0f} % of its pixels: expose "
+                       "shorter, or close the lens",
+                       nameOf(c),
+                       100 * notes.clipped),
                    notes.hasPhase);
     }
 
@@ -191,15 +195,17 @@ class FaultFinder {
         if (most > double{kLeastLight} && most < kLeastSignal * evidence_.view.noise)
             return reportFaint(c);
         report("channel_not_seen",
-               fmt::format("the camera does not see channel \"{}\": is its projector on, its cable right "
-                           "and the camera's view free?",
-                           nameOf(c)));
+               fmt::format(
+                   "the camera does not see channel \"{}\": is its projector on, its cable right "
+                   "and the camera's view free?",
+                   nameOf(c)));
     }
     void reportFaint(std::size_t c) {
         report("under_exposed",
-               fmt::format("patterns of channel \"{}\" are faint in the camera's noise: expose longer, "
-                           "focus, or darken the room",
-                           nameOf(c)));
+               fmt::format(
+                   "patterns of channel \"{}\" are faint in the camera's noise: expose longer, "
+                   "focus, or darken the room",
+                   nameOf(c)));
     }
 
     void findNoise(std::size_t c) {
@@ -465,11 +471,12 @@ class FaultFinder {
                 continue;
             if (drift.lamp > 0.5 * std::abs(drift.gain - 1))
                 return reportLamp(pictureName(picture.index), drift.lamp);
-            return report("auto_exposure",
-                          fmt::format("{} is exposed {:.2f} times as much as white and black: fix the "
-                                      "camera's exposure, gain and white balance, and scan again",
-                                      pictureName(picture.index),
-                                      drift.gain));
+            return report(
+                "auto_exposure",
+                fmt::format("{} is exposed {:.2f} times as much as white and black: fix the "
+                            "camera's exposure, gain and white balance, and scan again",
+                            pictureName(picture.index),
+                            drift.gain));
         }
     }
     // How much more light there is than expected: in all, and where no channel gives any, both as a
@@ -500,7 +507,8 @@ class FaultFinder {
     [[nodiscard]] float lightAt(std::size_t p, std::uint64_t lit) const {
         float light = 0;
         for (std::size_t c = 0; c < channels_.size(); ++c)
-            if (((lit >> c) & 1U) != 0 && !channels_[c].light.empty()) light += channels_[c].light[p];
+            if (((lit >> c) & 1U) != 0 && !channels_[c].light.empty())
+                light += channels_[c].light[p];
         return light;
     }
 
