@@ -33,6 +33,10 @@ bool isPhase(Kind kind) {
     return kind == Kind::PhaseColumns || kind == Kind::PhaseRows;
 }
 
+bool isColour(const ScanPattern& pattern) {
+    return pattern.light.r != pattern.light.g || pattern.light.g != pattern.light.b;
+}
+
 float luminanceOf(glm::vec3 light) {
     return 0.25F * light.r + 0.5F * light.g + 0.25F * light.b;
 }
@@ -364,6 +368,7 @@ class FaultFinder {
         if (a.kind == Kind::Room || b.kind == Kind::Room || !(isLit(a, c) || isLit(b, c)))
             return false;
         if (isCode(a.kind) || isCode(b.kind)) return true;
+        if (isColour(a) || isColour(b)) return false;  // a camera's own mix may make them alike
         return std::abs(weightOf(a, c) - weightOf(b, c)) > 0.2F;
     }
 
