@@ -459,6 +459,17 @@ class StripeReader final : public AxisReader {
     double noise_ = 0;
 };
 
+// Its sum is one.
+std::vector<float> gaussOf(double deviation) {
+    const int reach = static_cast<int>(std::ceil(3 * deviation));
+    std::vector<float> kernel;
+    for (int i = -reach; i <= reach; ++i)
+        kernel.push_back(static_cast<float>(std::exp(-0.5 * std::pow(i / deviation, 2))));
+    const float whole = std::accumulate(kernel.begin(), kernel.end(), 0.0F);
+    for (float& weight : kernel) weight /= whole;
+    return kernel;
+}
+
 bool isGray(Kind kind) {
     return kind == Kind::GrayColumns || kind == Kind::GrayRows;
 }
@@ -518,29 +529,22 @@ void AxisSignals::addPhase(const Frame& frame, WorkerPool& pool) {
 
 StripeTable::StripeTable(int pixels, const AxisCode& code, int perPixel, double blurPixels)
     : bits_{code.bits}, perPixel_{perPixel}, samples_{pixels * perPixel} {
-    const auto bits = static_cast<std::size_t>(bits_);
-    const int reach = static_cast<int>(std::ceil(3 * blurPixels * perPixel));
-    std::vector<float> kernel;
-    for (int i = -reach; i <= reach; ++i)
-        kernel.push_back(
-            static_cast<float>(std::exp(-0.5 * std::pow(i / (blurPixels * perPixel), 2))));
-    const float whole = std::accumulate(kernel.begin(), kernel.end(), 0.0F);
-    values_.resize(static_cast<std::size_t>(samples_) * bits);
+    const std::vector<float> kernel = gaussOf(blurPixels * perPixel);
+    const int reach = static_cast<int>(kernel.size()) / 2;
+    values_.resize(static_cast<std::size_t>(samples_ * bits_));
     for (int k = 0; k < bits_; ++k) {
+        const config::ScanPattern stripes{
+            .kind = Kind::GrayColumns,
+            .step = static_cast<std::uint8_t>(k),
+            .finestPixels = static_cast<std::uint16_t>(code.finestPixels)};
         std::vector<float> sharp;
         for (int i = -reach; i < samples_ + reach; ++i) {
             const int pixel = std::clamp(i, 0, samples_ - 1) / perPixel;
-            const config::ScanPattern stripes{
-                .kind = Kind::GrayColumns,
-                .step = static_cast<std::uint8_t>(k),
-                .finestPixels = static_cast<std::uint16_t>(code.finestPixels)};
             sharp.push_back(static_cast<float>(2 * wall::scanShare(stripes, pixel, pixels) - 1));
         }
-        for (std::size_t i = 0; i < static_cast<std::size_t>(samples_); ++i) {
-            float sum = 0;
-            for (std::size_t j = 0; j < kernel.size(); ++j) sum += kernel[j] * sharp[i + j];
-            values_[i * bits + static_cast<std::size_t>(k)] = sum / whole;
-        }
+        for (int i = 0; i < samples_; ++i)
+            values_[static_cast<std::size_t>(i * bits_ + k)] =
+                std::inner_product(kernel.begin(), kernel.end(), sharp.begin() + i, 0.0F);
     }
 }
 

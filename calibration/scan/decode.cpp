@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <set>
 #include <thread>
+#include <tuple>
 
 #include "calibration/scan/code.h"
 #include "calibration/scan/faults.h"
@@ -28,6 +30,13 @@ constexpr float kShared = 0.6F;
 
 std::uint64_t bitOf(std::size_t channel) {
     return std::uint64_t{1} << channel;
+}
+
+Indices channelsIn(std::uint64_t set) {
+    Indices channels;
+    for (; set != 0; set &= set - 1)
+        channels.push_back(static_cast<std::size_t>(std::countr_zero(set)));
+    return channels;
 }
 
 int axisOf(Kind kind) {
@@ -114,24 +123,28 @@ AxisCode codeOf(const std::vector<config::ScanPicture>& pictures, const Indices&
 }
 
 // Each pattern of an axis once.
+bool isComplete(const std::vector<config::ScanPicture>& pictures,
+                const Indices& axis,
+                const AxisCode& code) {
+    std::set<std::tuple<bool, int, bool>> seen;
+    for (const std::size_t i : axis) {
+        const ScanPattern& pattern = pictures[i].pattern;
+        seen.emplace(isPhase(pattern.kind), pattern.step, pattern.inverse);
+    }
+    const int stripes = code.bits * (code.isPaired ? 2 : 1);
+    const int phases = code.hasPhase ? wall::kScanPhaseSteps : 0;
+    return code.bits > 0 && seen.size() == axis.size() &&
+           static_cast<int>(axis.size()) == stripes + phases;
+}
+
 void checkAxis(const std::vector<config::ScanPicture>& pictures,
                const Indices& axis,
                const AxisCode& code,
                int pixels) {
     const std::string name = code.axis == 0 ? "columns" : "rows";
-    const int expected =
-        code.bits * (code.isPaired ? 2 : 1) + (code.hasPhase ? wall::kScanPhaseSteps : 0);
-    std::vector<std::tuple<bool, int, bool>> seen;
-    for (const std::size_t i : axis) {
-        const ScanPattern& pattern = pictures[i].pattern;
-        seen.emplace_back(isPhase(pattern.kind), pattern.step, pattern.inverse);
-    }
-    std::ranges::sort(seen);
-    const bool isTwice = std::ranges::adjacent_find(seen) != seen.end();
-    if (code.bits == 0 || isTwice || static_cast<int>(axis.size()) != expected)
-        throw missing("complete set of patterns of " + name);
-    if (code.bits != wall::scanGrayBits(pixels, code.finestPixels) ||
-        (code.hasPhase && code.finestPixels > wall::kScanPeriodPixels / 2))
+    if (!isComplete(pictures, axis, code)) throw missing("complete set of patterns of " + name);
+    const int widest = code.hasPhase ? wall::kScanPeriodPixels / 2 : pixels;
+    if (code.bits != wall::scanGrayBits(pixels, code.finestPixels) || code.finestPixels > widest)
         throw Error("the scan's stripes do not name all " + name +
                     " of this rig's pictures; give the rig that was scanned");
 }
@@ -235,8 +248,7 @@ class Decoder {
         if (plan_.room) view_.room = lightOfFrame(next());
         for (const RoundPlan& round : plan_.rounds) decodeRound(round);
         for (std::size_t i = 0; i < plan_.rest.size(); ++i) static_cast<void>(next());
-        for (std::size_t c = 0; c < notes_.size(); ++c)
-            if ((plan_.scanned & bitOf(c)) != 0) tidy(c);
+        for (const std::size_t c : channelsIn(plan_.scanned)) tidy(c);
         view_.noise = noises_ > 0 ? view_.noise / noises_ : 0;
         view_.faults = faultsOf({.scan = source_.scan(),
                                  .rig = rig_,
@@ -293,22 +305,22 @@ class Decoder {
     }
 
     // The channel of a round that lights a pixel most, where no other lights it too.
-    [[nodiscard]] std::uint8_t ownerOf(std::uint64_t channels,
+    [[nodiscard]] std::uint8_t ownerOf(const Indices& channels,
                                        std::size_t pixel,
                                        bool hasPhase) const {
         float most = 0, second = 0;
-        std::uint8_t owner = Round::kNobody;
-        for (std::uint64_t left = channels; left != 0; left &= left - 1) {
-            const auto c = static_cast<std::size_t>(std::countr_zero(left));
+        std::size_t owner = Round::kNobody;
+        for (const std::size_t c : channels) {
             const float light = view_.channels[c].light[pixel];
             second = std::max(second, std::min(light, most));
-            if (light <= most) continue;
-            most = light;
-            owner = static_cast<std::uint8_t>(c);
+            if (light > most) owner = c;
+            most = std::max(light, most);
         }
         if (owner == Round::kNobody || most < litFrom_[owner] || second > kShared * most)
             return Round::kNobody;
-        return hasPhase && clipped_[owner][pixel] != 0 ? Round::kNobody : owner;
+        // Stripes are told from their inverse though white is clipped.
+        const bool isBroken = hasPhase && clipped_[owner][pixel] != 0;
+        return isBroken ? Round::kNobody : static_cast<std::uint8_t>(owner);
     }
 
     [[nodiscard]] Round roundOf(const RoundPlan& plan) {
@@ -316,13 +328,12 @@ class Decoder {
                     .owner = std::vector<std::uint8_t>(black_.size()),
                     .middle = black_};
         const bool hasPhase = plan.codes[0].hasPhase || plan.codes[1].hasPhase;
+        const Indices channels = channelsIn(plan.channels);
         forPixels(pool_, black_.size(), [&](std::size_t first, std::size_t last) {
             for (std::size_t p = first; p < last; ++p) {
-                round.owner[p] = ownerOf(plan.channels, p, hasPhase);
-                for (std::uint64_t left = plan.channels; left != 0; left &= left - 1)
-                    round.middle[p] +=
-                        0.5F *
-                        view_.channels[static_cast<std::size_t>(std::countr_zero(left))].light[p];
+                round.owner[p] = ownerOf(channels, p, hasPhase);
+                for (const std::size_t c : channels)
+                    round.middle[p] += 0.5F * view_.channels[c].light[p];
             }
         });
         return round;
@@ -333,16 +344,15 @@ class Decoder {
         std::vector<Indices> owned(rig_.channels.size());
         for (std::size_t p = 0; p < round.owner.size(); ++p)
             if (round.owner[p] != Round::kNobody) owned[round.owner[p]].push_back(p);
-        for (std::size_t c = 0; c < owned.size(); ++c)
-            if ((plan.channels & bitOf(c)) != 0) {
-                view_.channels[c].place.assign(black_.size(), glm::vec2(kUnknown));
-                view_.channels[c].sigma.assign(black_.size(), glm::vec2(kUnknown));
-            }
+        for (const std::size_t c : channelsIn(plan.channels)) {
+            view_.channels[c].place.assign(black_.size(), glm::vec2(kUnknown));
+            view_.channels[c].sigma.assign(black_.size(), glm::vec2(kUnknown));
+        }
         for (std::size_t axis = 0; axis < 2; ++axis) {
             AxisSignals signals(plan.codes.at(axis), black_.size());
             for (std::size_t i = 0; i < plan.pictures.at(axis).size(); ++i)
                 signals.add(next(), round, view_.channels, pool_);
-            for (std::size_t c = 0; c < owned.size(); ++c)
+            for (const std::size_t c : channelsIn(plan.channels))
                 if (!owned[c].empty()) readAxis(signals, plan.pictures.at(axis), c, owned[c]);
         }
     }
@@ -380,12 +390,14 @@ class Decoder {
             if ((pattern.lit & bitOf(channel)) == 0) continue;
             notes.isTagged |= pattern.tagged;
             if (!signals.code.hasPhase || isPhase(pattern.kind)) continue;
-            const auto shift =
-                stripeShift(signals, pattern.step, pixels, view_.channels[channel], owned);
-            if (!shift || std::abs(*shift) <= std::abs(notes.shift)) continue;
-            notes.shift = *shift;
-            notes.shiftedPicture = i;
+            const ChannelView& view = view_.channels[channel];
+            note(notes, i, stripeShift(signals, pattern.step, pixels, view, owned).value_or(0));
         }
+    }
+    static void note(ChannelNotes& notes, std::size_t picture, double shift) {
+        if (std::abs(shift) <= std::abs(notes.shift)) return;
+        notes.shift = shift;
+        notes.shiftedPicture = picture;
     }
 
     void tidy(std::size_t channel) {

@@ -29,7 +29,9 @@ struct ChannelView {
 
 // What is wrong with a scan, in words for a user: the name of a cause, and what to do.
 struct ScanFault {
-    std::string cause;    // "over_exposed", "dropped_frame", ...: one word for programs
+    // One word for programs: over_exposed, under_exposed, dropped_frame, channel_not_seen,
+    // ambient_light, auto_exposure, moved, blocked.
+    std::string cause;
     std::string advice;   // a line: what, where, what to do
     bool refuses = true;  // or a warning
 };
@@ -44,8 +46,11 @@ struct CameraView {
     std::vector<ScanFault> faults;
 };
 
-// Of the camera of this index in the scan. Reads one picture after the other, and keeps a few of
-// them as light. Throws Error where a picture cannot be read or patterns are missing.
+// Of the camera of this index in the scan. Reads each picture once, the next one while one is
+// worked on by another thread, and keeps what an axis of one round adds up to: with three channels
+// some 150 bytes for each of the camera's pixels, half of which is the result. The first fault is
+// the cause; what it makes look wrong is left out. Throws Error where a picture cannot be read or
+// patterns are missing.
 [[nodiscard]] CameraView decode(PictureSource& source,
                                 std::uint32_t camera,
                                 const config::Rig& rig);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -25,8 +26,15 @@ using Kind = ScanPattern::Kind;
 bool isCode(Kind kind) {
     return kind != Kind::Level && kind != Kind::Room;
 }
+bool isLit(const ScanPattern& pattern, std::size_t channel) {
+    return ((pattern.lit >> channel) & 1U) != 0;
+}
 bool isPhase(Kind kind) {
     return kind == Kind::PhaseColumns || kind == Kind::PhaseRows;
+}
+
+bool isColour(const ScanPattern& pattern) {
+    return pattern.light.r != pattern.light.g || pattern.light.g != pattern.light.b;
 }
 
 float luminanceOf(glm::vec3 light) {
@@ -65,8 +73,8 @@ class FaultFinder {
 
   private:
     static constexpr float kLeastLight = 0.04F;  // linear, of white
-    static constexpr float kLeastSeen = 0.05F;  // share of a channel's picture
-    static constexpr glm::ivec2 kGrid{24, 15};  // of a channel's picture
+    static constexpr float kLeastSeen = 0.05F;   // share of a channel's picture
+    static constexpr glm::ivec2 kGrid{24, 15};   // of a channel's picture
 
     [[nodiscard]] bool isScanned(std::size_t c) const {
         return !evidence_.view.channels[c].place.empty();
@@ -131,11 +139,13 @@ class FaultFinder {
         const int factor = evidence_.small.factor;
         const glm::ivec2 size = evidence_.small.sizePixels;
         small.cells.assign(small.light.size(), kBeside);
-        const glm::ivec2 first = map->low() / factor, last = glm::min(map->high() / factor, size - 1);
+        const glm::ivec2 first = map->low() / factor,
+                         last = glm::min(map->high() / factor, size - 1);
         for (int y = first.y; y <= last.y; ++y)
             for (int x = first.x; x <= last.x; ++x) {
                 const glm::dvec2 middle = glm::dvec2(x, y) * double(factor) + 0.5 * (factor - 1);
-                small.cells[static_cast<std::size_t>(y * size.x + x)] = cellIndex(map->cellAt(middle));
+                small.cells[static_cast<std::size_t>(y * size.x + x)] =
+                    cellIndex(map->cellAt(middle));
             }
         small.hasTag = true;
         for (int cell = 0; cell < wall::kScanTagCells; ++cell)
@@ -144,13 +154,15 @@ class FaultFinder {
     static constexpr int kBeside = -1, kEdge = -2;
     // The inner part of a cell; its edge is mixed with others'.
     [[nodiscard]] static int cellIndex(glm::dvec2 cell) {
-        constexpr double kInner = 0.3;
-        if (cell.x < -1 || cell.x > wall::kScanTagCells + 1 || cell.y < -1 || cell.y > 2)
+        constexpr double kInner = 0.3, kMargin = 1;
+        const glm::dvec2 cells(wall::kScanTagCells, 1);
+        if (glm::any(glm::greaterThan(glm::abs(cell - 0.5 * cells), 0.5 * cells + kMargin)))
             return kBeside;
-        const double within = std::floor(cell.x) + 0.5;
-        const bool isInner = std::abs(cell.x - within) < kInner && std::abs(cell.y - 0.5) < kInner;
-        if (!isInner || cell.x < 0 || cell.x > wall::kScanTagCells) return kEdge;
-        return static_cast<int>(within);
+        const glm::dvec2 within = glm::floor(cell);
+        const bool isInner =
+            glm::all(glm::lessThan(glm::abs(cell - within - 0.5), glm::dvec2(kInner)));
+        const bool isCell = within.y == 0 && within.x >= 0 && within.x < cells.x;
+        return isInner && isCell ? static_cast<int>(within.x) : kEdge;
     }
 
     // Faults of the exposure and of single channels.
@@ -159,10 +171,11 @@ class FaultFinder {
         float most = 0;
         for (const SmallChannel& small : channels_) most = std::max(most, small.most);
         if (most < kLeastLight)
-            return report("under_exposed",
-                          fmt::format("white is only {:.1f} % of the camera's range: expose longer, or "
-                                      "open the lens",
-                                      100 * static_cast<double>(most)));
+            return report(
+                "under_exposed",
+                fmt::format("white is only {:.1f} % of the camera's range: expose longer, or "
+                            "open the lens",
+                            100 * static_cast<double>(most)));
         for (std::size_t c = 0; c < channels_.size(); ++c)
             if (isScanned(c)) findClipped(c);
     }
@@ -172,10 +185,11 @@ class FaultFinder {
         const ChannelNotes& notes = evidence_.channels[c];
         if (notes.clipped > kMostClipped)
             report("over_exposed",
-                   fmt::format("white of channel \"{}\" is too bright in {:.0f} % of its pixels: expose "
-                               "shorter, or close the lens",
-                               nameOf(c),
-                               100 * notes.clipped),
+                   fmt::format(
+                       "white of channel \"{}\" is too bright in {:.0f} % of its pixels: expose "
+                       "shorter, or close the lens",
+                       nameOf(c),
+                       100 * notes.clipped),
                    notes.hasPhase);
     }
 
@@ -191,15 +205,17 @@ class FaultFinder {
         if (most > double{kLeastLight} && most < kLeastSignal * evidence_.view.noise)
             return reportFaint(c);
         report("channel_not_seen",
-               fmt::format("the camera does not see channel \"{}\": is its projector on, its cable right "
-                           "and the camera's view free?",
-                           nameOf(c)));
+               fmt::format(
+                   "the camera does not see channel \"{}\": is its projector on, its cable right "
+                   "and the camera's view free?",
+                   nameOf(c)));
     }
     void reportFaint(std::size_t c) {
         report("under_exposed",
-               fmt::format("patterns of channel \"{}\" are faint in the camera's noise: expose longer, "
-                           "focus, or darken the room",
-                           nameOf(c)));
+               fmt::format(
+                   "patterns of channel \"{}\" are faint in the camera's noise: expose longer, "
+                   "focus, or darken the room",
+                   nameOf(c)));
     }
 
     void findNoise(std::size_t c) {
@@ -242,13 +258,7 @@ class FaultFinder {
         constexpr double kMostShift = 0.7;
         const ChannelNotes& notes = evidence_.channels[c];
         if (std::abs(notes.shift) > kMostShift)
-            return report(
-                "moved",
-                fmt::format("channel \"{}\" or the camera has moved by {:.1f} px about {}: fix "
-                            "both and scan again",
-                            nameOf(c),
-                            std::abs(notes.shift),
-                            pictureName(notes.shiftedPicture)));
+            return reportMoved(c, notes.shift, "about", notes.shiftedPicture);
         double most = 0;
         std::size_t where = 0;
         for (const SmallPicture& small : evidence_.small.pictures)
@@ -256,52 +266,55 @@ class FaultFinder {
                 most = *moved;
                 where = small.index;
             }
-        if (most > kMostShift)
-            report("moved",
-                   fmt::format(
-                       "channel \"{}\" or the camera has moved by {:.1f} px between its white and "
-                       "{}: fix both and scan again",
-                       nameOf(c),
-                       most,
-                       pictureName(where)));
+        if (most > kMostShift) reportMoved(c, most, "between its white and", where);
     }
-    // How far an even level of light lies from the channel's white, in its pixels: what differs is
-    // the gradient times the movement.
+    void reportMoved(std::size_t c, double pixels, const char* when, std::size_t picture) {
+        report("moved",
+               fmt::format(
+                   "channel \"{}\" or the camera has moved by {:.1f} px {} {}: fix both and scan "
+                   "again",
+                   nameOf(c),
+                   std::abs(pixels),
+                   when,
+                   pictureName(picture)));
+    }
+    // How far an even level of light lies from the channel's white, in its pixels.
     [[nodiscard]] std::optional<double> movedSinceWhite(std::size_t c,
                                                         const SmallPicture& picture) const {
-        const ScanPattern& pattern = evidence_.scan.pictures[picture.index].pattern;
         constexpr float kLeastLevel = 0.3F;
-        const bool shows = pattern.kind == Kind::Level && ((pattern.lit >> c) & 1U) != 0;
-        const SmallChannel& channel = channels_[c];
-        if (!shows || luminanceOf(pattern.light) < kLeastLevel) return std::nullopt;
-        if (channel.cells.empty() && evidence_.channels[c].isTagged) return std::nullopt;
-        LeastSquares<3> fit;
-        const glm::ivec2 size = evidence_.small.sizePixels;
-        for (int y = 1; y + 1 < size.y; ++y)
-            for (int x = 1; x + 1 < size.x; ++x) {
-                const auto p = static_cast<std::size_t>(y * size.x + x);
-                if (!isOnlyOf(c, pattern.lit, p)) continue;
-                const auto row = static_cast<std::size_t>(size.x);
-                const double across = 0.5 * double{channel.light[p + 1] - channel.light[p - 1]};
-                const double down = 0.5 * double{channel.light[p + row] - channel.light[p - row]};
-                fit.add({double{channel.light[p]}, across, down},
-                        double{picture.light[p] - (*black_)[p]});
-            }
-        const auto found = fit.solve();
+        const ScanPattern& pattern = evidence_.scan.pictures[picture.index].pattern;
+        const bool isLevel = pattern.kind == Kind::Level && weightOf(pattern, c) > kLeastLevel;
+        if (!isLevel || (channels_[c].cells.empty() && evidence_.channels[c].isTagged))
+            return std::nullopt;
+        const auto found = differenceFrom(c, picture, pattern.lit).solve();
         if (!found || (*found)[0] <= 0) return std::nullopt;
-        const double pixels =
-            std::hypot((*found)[1], (*found)[2]) / (*found)[0] * evidence_.small.factor;
-        return pixels * double{evidence_.channels[c].step};
+        const double moved = std::hypot((*found)[1], (*found)[2]) / (*found)[0];
+        return moved * evidence_.small.factor * double{evidence_.channels[c].step};
     }
-    // About a pixel of small copies that this channel alone lights, tag aside.
+    // By the white's light and its gradient: what differs is the gradient times the movement.
+    [[nodiscard]] LeastSquares<3> differenceFrom(std::size_t c,
+                                                 const SmallPicture& picture,
+                                                 std::uint64_t lit) const {
+        LeastSquares<3> fit;
+        const Plane& white = channels_[c].light;
+        const auto row = static_cast<std::size_t>(evidence_.small.sizePixels.x);
+        for (std::size_t p = row; p + row < white.size(); ++p) {
+            if (!isOnlyOf(c, lit, p)) continue;
+            const double across = 0.5 * double{white[p + 1] - white[p - 1]};
+            const double down = 0.5 * double{white[p + row] - white[p - row]};
+            fit.add({double{white[p]}, across, down}, double{picture.light[p] - (*black_)[p]});
+        }
+        return fit;
+    }
+    // About a pixel of small copies that no other channel lights, tag aside.
     [[nodiscard]] bool isOnlyOf(std::size_t c, std::uint64_t lit, std::size_t p) const {
         constexpr float kShare = 0.05F;
         const SmallChannel& channel = channels_[c];
         if (!channel.cells.empty() && channel.cells[p] != kBeside) return false;
-        for (std::size_t other = 0; other < channels_.size(); ++other)
-            if (other != c && ((lit >> other) & 1U) != 0 && !channels_[other].light.empty() &&
-                channels_[other].light[p] > kShare * channels_[other].most)
-                return false;
+        for (std::uint64_t left = lit & ~(std::uint64_t{1} << c); left != 0; left &= left - 1) {
+            const SmallChannel& other = channels_[static_cast<std::size_t>(std::countr_zero(left))];
+            if (!other.light.empty() && other.light[p] > kShare * other.most) return false;
+        }
         return true;
     }
 
@@ -322,29 +335,40 @@ class FaultFinder {
         constexpr double kSame = 0.06;
         const ScanPattern& a = evidence_.scan.pictures[before].pattern;
         const ScanPattern& b = evidence_.scan.pictures[now].pattern;
-        if (a.kind == Kind::Room || b.kind == Kind::Room) return false;
-        const Plane* first = evidence_.small.of(before);
-        const Plane* second = evidence_.small.of(now);
         double changed = 0, light = 0;
         for (std::size_t c = 0; c < channels_.size(); ++c) {
             if (channels_[c].most < kLeastLight || !mustDiffer(a, b, c)) continue;
-            for (std::size_t p = 0; p < channels_[c].light.size(); ++p) {
-                if (channels_[c].light[p] < 0.3F * channels_[c].most) continue;
-                changed += double{std::abs((*second)[p] - (*first)[p])};
-                light += double{channels_[c].light[p]} *
-                         double{std::max(weightOf(a, c), weightOf(b, c))};
-            }
+            const auto [lit, apart] = differenceOf(c, before, now);
+            changed += apart;
+            light += lit * double{std::max(weightOf(a, c), weightOf(b, c))};
         }
         return light > 0 && changed < kSame * light;
     }
+    // A channel's white in its brighter places, and what differs there between two pictures.
+    [[nodiscard]] std::pair<double, double> differenceOf(std::size_t c,
+                                                         std::size_t before,
+                                                         std::size_t now) const {
+        constexpr float kBright = 0.3F;
+        const Plane& first = *evidence_.small.of(before);
+        const Plane& second = *evidence_.small.of(now);
+        double light = 0, apart = 0;
+        for (std::size_t p = 0; p < first.size(); ++p) {
+            if (channels_[c].light[p] < kBright * channels_[c].most) continue;
+            apart += double{std::abs(second[p] - first[p])};
+            light += double{channels_[c].light[p]};
+        }
+        return {light, apart};
+    }
     [[nodiscard]] static float weightOf(const ScanPattern& pattern, std::size_t c) {
-        return ((pattern.lit >> c) & 1U) != 0 ? luminanceOf(pattern.light) : 0.0F;
+        return isLit(pattern, c) ? luminanceOf(pattern.light) : 0.0F;
     }
     [[nodiscard]] static bool mustDiffer(const ScanPattern& a,
                                          const ScanPattern& b,
                                          std::size_t c) {
-        if (weightOf(a, c) == 0 && weightOf(b, c) == 0) return false;
+        if (a.kind == Kind::Room || b.kind == Kind::Room || !(isLit(a, c) || isLit(b, c)))
+            return false;
         if (isCode(a.kind) || isCode(b.kind)) return true;
+        if (isColour(a) || isColour(b)) return false;  // a camera's own mix may make them alike
         return std::abs(weightOf(a, c) - weightOf(b, c)) > 0.2F;
     }
 
@@ -353,20 +377,21 @@ class FaultFinder {
         for (const SmallPicture& picture : evidence_.small.pictures) {
             const ScanPattern& pattern = evidence_.scan.pictures[picture.index].pattern;
             if (!pattern.tagged || pattern.number == 0) continue;
-            for (std::size_t c = 0; c < channels_.size(); ++c) {
-                if (((pattern.lit >> c) & 1U) == 0 || !channels_[c].hasTag) continue;
-                const auto number = tagOf(channels_[c], picture.light);
-                if (number && *number != pattern.number && isNear(*number, picture.index))
-                    report("dropped_frame",
-                           fmt::format(
-                               "channel \"{}\" shows pattern {} instead of {} in {}: wait longer "
-                               "after each pattern, and scan again",
-                               nameOf(c),
-                               *number,
-                               pattern.number,
-                               pictureName(picture.index)));
-            }
+            for (std::size_t c = 0; c < channels_.size(); ++c)
+                if (isLit(pattern, c) && channels_[c].hasTag) checkTag(c, picture, pattern.number);
         }
+    }
+    void checkTag(std::size_t c, const SmallPicture& picture, unsigned expected) {
+        const auto number = tagOf(channels_[c], picture.light);
+        if (!number || *number == expected || !isNear(*number, picture.index)) return;
+        report("dropped_frame",
+               fmt::format(
+                   "channel \"{}\" shows pattern {} instead of {} in {}: wait longer after each "
+                   "pattern, and scan again",
+                   nameOf(c),
+                   *number,
+                   expected,
+                   pictureName(picture.index)));
     }
     // Whether a pattern with this number is shown about then: others are misread.
     [[nodiscard]] bool isNear(unsigned number, std::size_t index) const {
@@ -377,10 +402,9 @@ class FaultFinder {
             if (pictures[i].pattern.number == number) return true;
         return false;
     }
-    // Nothing where a cell is in doubt.
-    [[nodiscard]] std::optional<unsigned> tagOf(const SmallChannel& small,
-                                                const Plane& light) const {
-        std::array<double, wall::kScanTagCells> sums{}, counts{};
+    using TagLight = std::array<double, wall::kScanTagCells>;
+    [[nodiscard]] static TagLight lightOfCells(const SmallChannel& small, const Plane& light) {
+        TagLight sums{}, counts{};
         for (std::size_t p = 0; p < small.cells.size(); ++p) {
             if (small.cells[p] < 0) continue;
             const auto cell = static_cast<std::size_t>(small.cells[p]);
@@ -388,19 +412,25 @@ class FaultFinder {
             ++counts.at(cell);
         }
         for (std::size_t i = 0; i < sums.size(); ++i) sums.at(i) /= counts.at(i);
-        const double contrast = sums[0] - sums[1], middle = 0.5 * (sums[0] + sums[1]);
-        if (contrast < 0.03 * double{small.most} || contrast < 5 * evidence_.view.noise)
+        return sums;
+    }
+    // Nothing where a cell is in doubt.
+    [[nodiscard]] std::optional<unsigned> tagOf(const SmallChannel& small,
+                                                const Plane& light) const {
+        constexpr double kLeastContrast = 0.03, kLeastNoises = 5, kDoubt = 0.15;
+        const TagLight cells = lightOfCells(small, light);
+        const double contrast = cells[0] - cells[1], middle = 0.5 * (cells[0] + cells[1]);
+        if (contrast <
+            std::max(kLeastContrast * double{small.most}, kLeastNoises * evidence_.view.noise))
+            return std::nullopt;
+        if (std::ranges::any_of(
+                cells, [&](double cell) { return std::abs(cell - middle) < kDoubt * contrast; }))
             return std::nullopt;
         unsigned number = 0;
-        for (int cell = 0; cell < wall::kScanTagCells; ++cell) {
-            const double off = sums.at(static_cast<std::size_t>(cell)) - middle;
-            if (std::abs(off) < 0.15 * contrast) return std::nullopt;
-            if (cell >= 2 && cell < wall::kScanTagBits + 2)
-                number = 2 * number + (off > 0 ? 1U : 0U);
-        }
-        const bool isEven =
-            (sums.back() > middle) == wall::scanTagIsLit(wall::kScanTagCells - 1, number);
-        return isEven ? std::optional(number) : std::nullopt;
+        for (std::size_t i = 2; i < cells.size() - 1; ++i)
+            number = 2 * number + (cells.at(i) > middle ? 1U : 0U);
+        const bool isOdd = wall::scanTagIsLit(wall::kScanTagCells - 1, number);
+        return isOdd == (cells.back() > middle) ? std::optional(number) : std::nullopt;
     }
 
     // Light of the room: black again, and patterns that give half of the light on the whole.
@@ -465,11 +495,12 @@ class FaultFinder {
                 continue;
             if (drift.lamp > 0.5 * std::abs(drift.gain - 1))
                 return reportLamp(pictureName(picture.index), drift.lamp);
-            return report("auto_exposure",
-                          fmt::format("{} is exposed {:.2f} times as much as white and black: fix the "
-                                      "camera's exposure, gain and white balance, and scan again",
-                                      pictureName(picture.index),
-                                      drift.gain));
+            return report(
+                "auto_exposure",
+                fmt::format("{} is exposed {:.2f} times as much as white and black: fix the "
+                            "camera's exposure, gain and white balance, and scan again",
+                            pictureName(picture.index),
+                            drift.gain));
         }
     }
     // How much more light there is than expected: in all, and where no channel gives any, both as a
@@ -500,7 +531,8 @@ class FaultFinder {
     [[nodiscard]] float lightAt(std::size_t p, std::uint64_t lit) const {
         float light = 0;
         for (std::size_t c = 0; c < channels_.size(); ++c)
-            if (((lit >> c) & 1U) != 0 && !channels_[c].light.empty()) light += channels_[c].light[p];
+            if (((lit >> c) & 1U) != 0 && !channels_[c].light.empty())
+                light += channels_[c].light[p];
         return light;
     }
 

@@ -82,6 +82,13 @@ Votes votesOn(const ChannelView& view, std::size_t pixel, int width, float step)
     return votes;
 }
 
+bool isOutlier(const ChannelView& view, std::size_t pixel, int width, float step) {
+    constexpr int kLeastAgree = 3, kMostDiffer = 1;
+    if (!isKnown(view.place[pixel])) return true;
+    const Votes votes = votesOn(view, pixel, width, step);
+    return votes.agree < kLeastAgree || votes.differ > kMostDiffer;
+}
+
 // Between pixels that lie `apart` in the arrays.
 float medianStep(const ChannelView& view, std::size_t apart) {
     constexpr std::size_t kStride = 3;
@@ -121,18 +128,14 @@ void settleDoubts(ChannelView& view,
 }
 
 void dropOutliers(ChannelView& view, int width, WorkerPool& pool) {
-    constexpr int kLeastAgree = 3, kMostDiffer = 1;
     const float step = stepOf(view, width);
     std::vector<std::uint8_t> isDropped(view.place.size());
     forPixels(pool, view.place.size(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t p = first; p < last; ++p) {
-            if (!isKnown(view.place[p])) continue;
-            const Votes votes = votesOn(view, p, width, step);
-            isDropped[p] = votes.agree < kLeastAgree || votes.differ > kMostDiffer ? 1 : 0;
-        }
+        for (std::size_t p = first; p < last; ++p)
+            isDropped[p] = isOutlier(view, p, width, step) ? 1 : 0;
     });
     for (std::size_t p = 0; p < isDropped.size(); ++p)
-        if (isDropped[p] != 0 || !isKnown(view.place[p])) forget(view, p);
+        if (isDropped[p] != 0) forget(view, p);
 }
 
 void dropBorders(ChannelView& view, float step, glm::ivec2 channelPixels) {

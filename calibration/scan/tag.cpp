@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/scan/tag.h"
 
+#include <algorithm>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -13,14 +14,17 @@ namespace aquarama::scan {
 namespace {
 
 // Places at most so many cells away from the tag.
-std::vector<TagMap::Sample> samplesAround(const ChannelView& view, glm::ivec2 camera, glm::ivec2 channel) {
+std::vector<TagMap::Sample> samplesAround(const ChannelView& view,
+                                          glm::ivec2 camera,
+                                          glm::ivec2 channel) {
     constexpr double kReach = 4;
     const wall::ScanTagPlace tag = wall::scanTagPlace(channel);
     std::vector<TagMap::Sample> samples;
     for (int y = 0; y < camera.y; ++y)
         for (int x = 0; x < camera.x; ++x) {
             const glm::dvec2 place(view.place[static_cast<std::size_t>(y * camera.x + x)]);
-            const glm::dvec2 cell = (place - glm::dvec2(tag.corner)) / static_cast<double>(tag.cell);
+            const glm::dvec2 cell =
+                (place - glm::dvec2(tag.corner)) / static_cast<double>(tag.cell);
             if (cell.x > -kReach && cell.y > -kReach && cell.x < wall::kScanTagCells + kReach &&
                 cell.y < 1 + kReach)
                 samples.push_back({{x, y}, cell});
@@ -34,15 +38,14 @@ std::optional<TagMap> TagMap::of(const ChannelView& view,
                                  glm::ivec2 cameraPixels,
                                  glm::ivec2 channelPixels) {
     constexpr std::size_t kLeast = 100;
-    constexpr int kPasses = 4;
     constexpr double kLeastShare = 0.7;
     std::vector<Sample> samples = samplesAround(view, cameraPixels, channelPixels);
     const std::size_t all = samples.size();
     if (all < kLeast) return std::nullopt;
     TagMap map;
-    map.frame(samples, wall::scanTagPlace(channelPixels).cell);
-    double allowed = 4;  // cells
-    for (int pass = 0; pass < kPasses; ++pass, allowed /= 2.5) {
+    map.frame(samples, wall::scanTagPlace(channelPixels).cell, cameraPixels);
+    // Cells; an error of phase, as of a picture that came late, is less than the last.
+    for (const double allowed : {4.0, 2.0, 1.0, 0.5}) {
         if (!map.fit(samples)) return std::nullopt;
         std::erase_if(samples, [&](const Sample& sample) {
             const glm::dvec2 error = map.cellAt(sample.pixel) - sample.cell;
@@ -54,7 +57,7 @@ std::optional<TagMap> TagMap::of(const ChannelView& view,
     return map;
 }
 
-void TagMap::frame(const std::vector<Sample>& samples, double cellPixels) {
+void TagMap::frame(const std::vector<Sample>& samples, double cellPixels, glm::ivec2 cameraPixels) {
     cell_ = cellPixels;
     for (const Sample& sample : samples) {
         low_ = glm::min(low_, sample.pixel);
@@ -62,6 +65,10 @@ void TagMap::frame(const std::vector<Sample>& samples, double cellPixels) {
     }
     middle_ = 0.5 * glm::dvec2(low_ + high_);
     scale_ = 2 / glm::length(glm::dvec2(high_ - low_));
+    // Places may be seen on one side of the tag only.
+    const int more = std::max(high_.x - low_.x, high_.y - low_.y) / 4;
+    low_ = glm::max(low_ - more, glm::ivec2(0));
+    high_ = glm::min(high_ + more, cameraPixels - 1);
 }
 
 bool TagMap::fit(const std::vector<Sample>& samples) {

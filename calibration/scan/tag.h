@@ -59,7 +59,7 @@ class TagMap {
     // From a camera's pixel (its index, whole at the centre) to cells right and down of the corner
     // of the tag.
     [[nodiscard]] glm::dvec2 cellAt(glm::dvec2 pixel) const;
-    // The camera's pixels that it was found in.
+    // The camera's pixels that it holds for: around the tag.
     [[nodiscard]] glm::ivec2 low() const { return low_; }
     [[nodiscard]] glm::ivec2 high() const { return high_; }
     [[nodiscard]] double cellPixels() const { return cell_; }  // of the channel
@@ -71,7 +71,7 @@ class TagMap {
 
   private:
     using Terms = std::array<double, 6>;  // of a polynomial of second order
-    void frame(const std::vector<Sample>& samples, double cellPixels);
+    void frame(const std::vector<Sample>& samples, double cellPixels, glm::ivec2 cameraPixels);
     [[nodiscard]] bool fit(const std::vector<Sample>& samples);
     [[nodiscard]] Terms termsAt(glm::dvec2 pixel) const;
 

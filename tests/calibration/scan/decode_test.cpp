@@ -37,13 +37,16 @@ Errors errorsOf(const SyntheticCamera& camera, const CameraView& view, glm::ivec
     for (int y = 2; y + 2 < size.y; ++y)
         for (int x = 2; x + 2 < size.x; ++x) {
             const glm::dvec2 truth = camera.placeAt(0, glm::dvec2(x, y) + 0.5);
-            const bool inside = truth.x > 0 && truth.y > 0 && truth.x < channelPixels.x && truth.y < channelPixels.y;
+            const bool inside = truth.x > 0 && truth.y > 0 && truth.x < channelPixels.x &&
+                                truth.y < channelPixels.y;
             errors.inside += inside ? 1 : 0;
             const glm::dvec2 error = errorAt(x, y);
             if (std::isnan(error.x)) continue;
             ++errors.valid;
-            const glm::dvec2 sigma(view.channels[0].sigma[static_cast<std::size_t>(y * size.x + x)]);
-            errors.chiSquare += 0.5 * (error.x * error.x / sigma.x / sigma.x + error.y * error.y / sigma.y / sigma.y);
+            const glm::dvec2 sigma(
+                view.channels[0].sigma[static_cast<std::size_t>(y * size.x + x)]);
+            errors.chiSquare += 0.5 * (error.x * error.x / sigma.x / sigma.x +
+                                       error.y * error.y / sigma.y / sigma.y);
             if (std::max(std::abs(error.x), std::abs(error.y)) > 8) ++errors.wrong;
             if (x % 5 != 2 || y % 5 != 2) continue;
             glm::dvec2 mean(0);
@@ -86,11 +89,14 @@ TEST(DecodeTest, AResponseThatIsNotStraightShiftsNoPlaces) {
 }
 
 TEST(DecodeTest, EightBitsWillDo) {
-    EXPECT_LT(decodeWith({.bits = 8, .response = config::ScanCamera::Response::Srgb}).averagedRms, 0.06);
+    EXPECT_LT(decodeWith({.bits = 8, .response = config::ScanCamera::Response::Srgb}).averagedRms,
+              0.06);
 }
 
 // Causes of all faults, for three channels side by side or one.
-std::vector<std::string> causesOf(const config::Rig& rig, const SyntheticSettings& settings) {
+std::vector<std::string> causesOf(const config::Rig& rig, SyntheticSettings settings) {
+    settings.sizePixels.x = settings.sizePixels.x * 3 / 4;
+    settings.sizePixels.y = settings.sizePixels.y * 3 / 4;
     SyntheticCamera camera(rig, settings);
     std::vector<std::string> causes;
     for (const ScanFault& fault : decode(camera, 0, rig).faults) {
@@ -101,9 +107,12 @@ std::vector<std::string> causesOf(const config::Rig& rig, const SyntheticSetting
 
 std::size_t pictureOf(const config::Rig& rig, Kind kind, int step) {
     const std::vector<config::ScanPattern> sequence = sequenceOf(rig);
-    return static_cast<std::size_t>(std::ranges::find_if(sequence, [&](const auto& pattern) {
-               return pattern.kind == kind && pattern.step == step;
-           }) - sequence.begin());
+    return static_cast<std::size_t>(std::ranges::find_if(sequence,
+                                                         [&](const auto& pattern) {
+                                                             return pattern.kind == kind &&
+                                                                    pattern.step == step;
+                                                         }) -
+                                    sequence.begin());
 }
 
 TEST(DecodeTest, ThreeChannelsAreToldApartAndNothingIsWrong) {
@@ -115,10 +124,12 @@ TEST(DecodeTest, ThreeChannelsAreToldApartAndNothingIsWrong) {
         int valid = 0, wrong = 0;
         for (int y = 0; y < 240; ++y)
             for (int x = 0; x < 960; ++x) {
-                const glm::vec2 place = view.channels[c].place[static_cast<std::size_t>(y * 960 + x)];
+                const glm::vec2 place =
+                    view.channels[c].place[static_cast<std::size_t>(y * 960 + x)];
                 if (std::isnan(place.x)) continue;
                 ++valid;
-                const glm::dvec2 error = glm::dvec2(place) - camera.placeAt(c, glm::dvec2(x, y) + 0.5);
+                const glm::dvec2 error =
+                    glm::dvec2(place) - camera.placeAt(c, glm::dvec2(x, y) + 0.5);
                 wrong += std::max(std::abs(error.x), std::abs(error.y)) > 4 ? 1 : 0;
             }
         EXPECT_GT(valid, 50'000);
@@ -130,17 +141,19 @@ TEST(DecodeTest, OverExposureIsNamed) {
     EXPECT_THAT(causesOf(oneChannel(), {.white = 1.1}), testing::Contains("over_exposed"));
 }
 TEST(DecodeTest, UnderExposureIsNamed) {
-    EXPECT_THAT(causesOf(oneChannel(), {.white = 0.01, .black = 0.001}), testing::Contains("under_exposed"));
-    EXPECT_THAT(causesOf(oneChannel(), {.white = 0.1, .noise = 0.03}), testing::Contains("under_exposed"));
+    EXPECT_THAT(causesOf(oneChannel(), {.white = 0.01, .black = 0.001}),
+                testing::Contains("under_exposed"));
+    EXPECT_THAT(causesOf(oneChannel(), {.white = 0.1, .noise = 0.03}),
+                testing::Contains("under_exposed"));
 }
 TEST(DecodeTest, ARepeatedPictureIsNamed) {
     const config::Rig rig = oneChannel();
-    for (const Kind kind : {Kind::GrayColumns, Kind::PhaseRows, Kind::GrayRows})
-        for (const int step : {1, 3}) {
-            const std::size_t late = pictureOf(rig, kind, step);
-            EXPECT_THAT(causesOf(rig, {.shown = [=](std::size_t i) { return i == late ? i - 1 : i; }}),
-                        testing::Contains("dropped_frame"));
-        }
+    for (const std::size_t late : {pictureOf(rig, Kind::GrayColumns, 1),
+                                   pictureOf(rig, Kind::GrayRows, 5),
+                                   pictureOf(rig, Kind::PhaseRows, 1)})
+        EXPECT_THAT(
+            causesOf(rig, {.shown = [=](std::size_t i) { return i == late ? i - 1 : i; }}),
+            testing::AllOf(testing::Not(testing::IsEmpty()), testing::Each("dropped_frame")));
 }
 TEST(DecodeTest, ALostPictureIsNamed) {
     const config::Rig rig = oneChannel();
@@ -165,14 +178,24 @@ TEST(DecodeTest, ABlockedViewIsNamed) {
 }
 TEST(DecodeTest, MovementIsNamed) {
     const config::Rig rig = oneChannel();
-    for (const std::size_t first : {pictureOf(rig, Kind::PhaseColumns, 0), pictureOf(rig, Kind::GrayRows, 0), pictureOf(rig, Kind::GrayColumns, 3)})
-        for (const double shift : {3.0, -12.0, 40.0})
-            EXPECT_THAT(causesOf(rig, {.shift = [=](std::size_t i) { return i < first ? 0.0 : shift; }}),
-                        testing::Contains("moved"));
+    struct Move {
+        Kind kind;
+        int step;
+        double pixels;
+    };
+    for (const Move& move : {Move{Kind::PhaseColumns, 0, 3},
+                             Move{Kind::PhaseColumns, 0, -40},
+                             Move{Kind::GrayRows, 0, 3},
+                             Move{Kind::GrayColumns, 3, -12}}) {
+        const std::size_t first = pictureOf(rig, move.kind, move.step);
+        const auto shift = [=](std::size_t i) { return i < first ? 0.0 : move.pixels; };
+        EXPECT_THAT(causesOf(rig, {.shift = shift}), testing::Contains("moved"));
+    }
 }
 TEST(DecodeTest, ADarkChannelIsNamed) {
     const config::Rig rig = touring();
-    EXPECT_THAT(causesOf(rig, {.sizePixels = {480, 120}, .dark = {2}}), testing::Contains("channel_not_seen"));
+    EXPECT_THAT(causesOf(rig, {.sizePixels = {800, 200}, .dark = {2}}),
+                testing::Contains("channel_not_seen"));
 }
 
 }  // namespace
