@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // aquarama-solve: from pictures of a wall that a camera took, or a simulated one takes, to the
 // wall file that render nodes take.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -64,7 +65,11 @@ config::Hall hallFrom(const std::string& text, const config::Rig& rig) {
     unsigned long number = 0;
     if (!CLI::detail::lexical_cast(seed, number) || number > cli::kMostSeed)
         throw Error("--simulate: \"" + seed + "\" is no seed; give a whole number, as in random:7");
-    return hall::randomHall(rig, static_cast<std::uint32_t>(number));
+    // A camera that is as fine as the panorama, about.
+    constexpr double kFullPanorama = 4000;
+    return hall::randomHall(rig,
+                            static_cast<std::uint32_t>(number),
+                            std::clamp(rig.panoramaPixels.x / kFullPanorama, 0.1, 1.0));
 }
 
 std::size_t camerasOf(const config::Scan& scan) {
@@ -85,7 +90,10 @@ class Calibration {
 
     int run() {
         openPictures();
-        if (!options_.keep.empty()) scan::writeFolder(*source_, options_.keep, rig_);
+        if (!options_.keep.empty()) {
+            scan::writeFolder(*source_, options_.keep, rig_);
+            source_ = scan::openFolder(options_.keep, rig_);
+        }
         const auto begin = Clock::now();
         std::vector<scan::CameraView> views;
         for (std::uint32_t i = 0; i < camerasOf(source_->scan()); ++i) {
