@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/hall/true_screen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "calibration/hall/chance.h"
+#include "common/base/log.h"
+
+namespace aquarama::hall {
+
+namespace {
+
+constexpr std::uint32_t kWaves = 24;
+
+// A flat wall that fills the view of a curved one.
+config::Screen flattened(const config::Screen& curved) {
+    const bool isDome = curved.shape == config::ScreenShape::Dome;
+    const double arc = curved.arcRadians * curved.radiusMetres;
+    return {.shape = config::ScreenShape::Flat,
+            .widthMetres = arc,
+            .heightMetres = isDome ? arc : curved.heightMetres,
+            .distanceMetres = curved.radiusMetres,
+            // A dome's axis points up where a wall's middle is ahead.
+            .tiltRadians = curved.tiltRadians - (isDome ? std::numbers::pi / 2 : 0.0)};
+}
+
+config::Rig trueRig(config::Rig rig, const config::Hall& hall) {
+    config::Screen& screen = rig.screen;
+    if (screen.shape == config::ScreenShape::Panels)
+        throw Error(rig.name + ": a hall of panels is not simulated: give a rig of projectors");
+    const bool isCurved = screen.radiusMetres > 0;
+    if (hall.faults.flatScreen && isCurved) screen = flattened(screen);
+    screen.radiusMetres *= hall.screen.radiusFactor;
+    screen.distanceMetres *= hall.screen.radiusFactor;
+    screen.arcRadians *= hall.screen.sizeFactor;
+    screen.widthMetres *= hall.screen.sizeFactor;
+    screen.heightMetres *= hall.screen.sizeFactor;
+    screen.tiltRadians += hall.screen.tiltRadians;
+    return rig;
+}
+
+glm::dvec3 along(const wall::Ray& ray, double t) {
+    return ray.origin + t * ray.direction;
+}
+
+}  // namespace
+
+TrueScreen::TrueScreen(const config::Rig& rig, const config::Hall& hall)
+    : shape_{wall::makeSurface(trueRig(rig, hall))} {
+    addBumps(hall.screen);
+    addDents(hall.screen);
+}
+
+// Waves of any direction in space, so that no shape has a seam or a pole, as high as is asked where
+// they are highest.
+void TrueScreen::addBumps(const config::HallScreen& screen) {
+    if (screen.bumpMetres == 0) return;
+    Chance chance(screen.bumpSeed);
+    for (std::uint32_t i = 0; i < kWaves; ++i) {
+        const double length = screen.bumpDistanceMetres * chance.between(0.7, 1.5);
+        waves_.push_back({chance.direction() * (2 * std::numbers::pi / length),
+                          chance.between(0, 2 * std::numbers::pi),
+                          1.0});
+    }
+    double highest = 0;
+    constexpr int kSteps = 128;
+    for (int y = 0; y <= kSteps; ++y)
+        for (int x = 0; x <= kSteps; ++x)
+            if (const auto foot = shape_->at(glm::dvec2(x, y) / double{kSteps}))
+                highest = std::max(highest, std::abs(heightAt(*foot)));
+    for (Wave& wave : waves_) wave.metres = screen.bumpMetres / highest;
+}
+
+void TrueScreen::addDents(const config::HallScreen& screen) {
+    for (const config::HallDent& dent : screen.dents)
+        if (const auto middle = shape_->at(dent.place))
+            dents_.push_back({*middle, dent.radiusMetres, dent.depthMetres});
+}
+
+double TrueScreen::heightAt(glm::dvec3 foot) const {
+    double height = 0;
+    for (const Wave& wave : waves_)
+        height += wave.metres * std::sin(glm::dot(wave.number, foot) + wave.phase);
+    for (const Dent& dent : dents_) {
+        const glm::dvec3 off = foot - dent.middle;
+        const double share = 1 - glm::dot(off, off) / (dent.radius * dent.radius);
+        if (share > 0) height -= dent.depth * share * share;
+    }
+    return height;
+}
+
+glm::dvec3 TrueScreen::slopeAt(glm::dvec3 foot) const {
+    glm::dvec3 slope(0);
+    for (const Wave& wave : waves_)
+        slope += wave.metres * std::cos(glm::dot(wave.number, foot) + wave.phase) * wave.number;
+    for (const Dent& dent : dents_) {
+        const glm::dvec3 off = foot - dent.middle;
+        const double square = dent.radius * dent.radius;
+        const double share = 1 - glm::dot(off, off) / square;
+        if (share > 0) slope += 4 * dent.depth * share / square * off;
+    }
+    return slope;
+}
+
+// From a little before the screen back to it.
+std::optional<glm::dvec3> TrueScreen::footOf(glm::dvec3 point) const {
+    constexpr double kBefore = 0.3;  // more than any bump
+    const glm::dvec3 normal = glm::normalize(shape_->normalAt(point));
+    return shape_->hit({point + kBefore * normal, -normal}, kDrapeMetres);
+}
+
+std::optional<double> TrueScreen::gap(glm::dvec3 point, glm::dvec3& foot) const {
+    const auto found = footOf(point);
+    if (!found) return std::nullopt;
+    foot = *found;
+    return glm::dot(point - foot, glm::normalize(shape_->normalAt(foot))) - heightAt(foot);
+}
+
+// By the secant method, from where the ray meets the smooth shape.
+std::optional<TrueScreen::Meeting> TrueScreen::meet(const wall::Ray& ray) const {
+    const auto smooth = shape_->hit(ray, kDrapeMetres);
+    if (!smooth) return std::nullopt;
+    const double square = glm::dot(ray.direction, ray.direction);
+    double t = glm::dot(*smooth - ray.origin, ray.direction) / square;
+    double slope = glm::dot(ray.direction, glm::normalize(shape_->normalAt(*smooth)));
+    Meeting meeting;
+    std::optional<double> off = gap(along(ray, t), meeting.foot);
+    for (int i = 0; off && std::abs(*off) > 1e-10 && i < 30; ++i) {
+        const double step = -*off / slope;
+        t += step;
+        const auto next = gap(along(ray, t), meeting.foot);
+        if (next && *next != *off) slope = (*next - *off) / step;
+        off = next;
+    }
+    if (!off) return std::nullopt;
+    meeting.point = along(ray, t);
+    const glm::dvec3 normal = shape_->normalAt(meeting.foot);
+    meeting.isScreen =
+        shape_->hit({meeting.foot + 0.3 * glm::normalize(normal), -normal}, 0).has_value();
+    return meeting;
+}
+
+std::optional<glm::dvec3> TrueScreen::hit(const wall::Ray& ray) const {
+    const auto meeting = meet(ray);
+    return meeting && meeting->isScreen ? std::optional(meeting->point) : std::nullopt;
+}
+
+glm::dvec3 TrueScreen::normalAt(glm::dvec3 point) const {
+    const auto foot = footOf(point);
+    const glm::dvec3 normal = glm::normalize(shape_->normalAt(point));
+    if (!foot) return normal;
+    const glm::dvec3 slope = slopeAt(*foot);
+    return glm::normalize(normal - (slope - glm::dot(slope, normal) * normal));
+}
+
+glm::dvec3 TrueScreen::raised(glm::dvec3 foot) const {
+    return foot + heightAt(foot) * glm::normalize(shape_->normalAt(foot));
+}
+
+std::optional<glm::dvec3> TrueScreen::at(glm::dvec2 place) const {
+    const auto foot = shape_->at(place);
+    return foot ? std::optional(raised(*foot)) : std::nullopt;
+}
+
+std::vector<glm::dvec3> TrueScreen::border() const {
+    std::vector<glm::dvec3> points = shape_->border(0);
+    for (glm::dvec3& point : points) point = raised(point);
+    return points;
+}
+
+}  // namespace aquarama::hall

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The true screen: the rig's shape with other measures, bumps and dents. Wall frame, metres.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "common/config/hall.h"
+#include "common/config/rig.h"
+#include "common/wall/surface.h"
+
+namespace aquarama::hall {
+
+// Immutable.
+class TrueScreen {
+  public:
+    // The screen goes on this far past its edges, as what a drape hangs from.
+    static constexpr double kDrapeMetres = 1.5;
+
+    // Throws Error for panels, which nothing is projected on.
+    TrueScreen(const config::Rig& rig, const config::Hall& hall);
+
+    // Where a ray meets the screen or the drape.
+    struct Meeting {
+        glm::dvec3 point{}, foot{};  // the foot is on the smooth shape under the bumps
+        bool isScreen = false;
+    };
+    // Within 1e-6 metres along the ray.
+    [[nodiscard]] std::optional<Meeting> meet(const wall::Ray& ray) const;
+    [[nodiscard]] std::optional<glm::dvec3> hit(const wall::Ray& ray) const;
+    // Towards the audience, of length one, with the slopes of bumps and dents.
+    [[nodiscard]] glm::dvec3 normalAt(glm::dvec3 point) const;
+    // At a place of the unrolled smooth shape; nothing where it has none.
+    [[nodiscard]] std::optional<glm::dvec3> at(glm::dvec2 place) const;
+    // Points along the true edges.
+    [[nodiscard]] std::vector<glm::dvec3> border() const;
+    // Of bumps and dents, towards the audience.
+    [[nodiscard]] double heightAt(glm::dvec3 foot) const;
+    // Without bumps and dents.
+    [[nodiscard]] const wall::ScreenSurface& shape() const { return *shape_; }
+
+  private:
+    struct Wave {
+        glm::dvec3 number;  // radians per metre
+        double phase, metres;
+    };
+    struct Dent {
+        glm::dvec3 middle;
+        double radius, depth;
+    };
+    void addBumps(const config::HallScreen& screen);
+    void addDents(const config::HallScreen& screen);
+    [[nodiscard]] std::optional<glm::dvec3> footOf(glm::dvec3 point) const;
+    // How far a point is before the bumpy screen; nothing far beside it.
+    [[nodiscard]] std::optional<double> gap(glm::dvec3 point, glm::dvec3& foot) const;
+    [[nodiscard]] glm::dvec3 raised(glm::dvec3 foot) const;
+    [[nodiscard]] glm::dvec3 slopeAt(glm::dvec3 foot) const;
+
+    std::unique_ptr<const wall::ScreenSurface> shape_;
+    std::vector<Wave> waves_;
+    std::vector<Dent> dents_;
+};
+
+}  // namespace aquarama::hall
