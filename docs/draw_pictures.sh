@@ -14,6 +14,7 @@ declare -A way=(
     [screen_flat_3.webp]="screen flat_3"
     [screen_wall_2x2.webp]="screen wall_2x2"
     [screen_dome_5.webp]="screen dome_5"
+    [screen_measured_3.webp]="screen measured_3"
     [screen_televisions_3.webp]="screen televisions_3"
     [screen_cave_4.webp]="screen cave_4"
     [portraits.png]=portraits

@@ -2,6 +2,8 @@
 // `aquarama master`: joins a world, living or replayed, to the conductor, which shows it on the
 // wall.
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <sys/stat.h>
 
 #include "common/base/digest.h"
 #include "common/base/files.h"
@@ -133,15 +136,24 @@ class RigFileWatch {
     }
 
   private:
-    using Stamp = std::pair<fs::file_time_type, std::uintmax_t>;
-    // When each was written, and its size; while one is being replaced it may be missing.
+    // Which file it is, its size, and when it and what is known of it changed: one that takes its
+    // place may have its size and time of writing. While one is being replaced it may be missing.
+    using Stamp = std::array<std::int64_t, 7>;
+    static Stamp stampOf(const std::string& file) {
+        struct stat found {};
+        if (stat(file.c_str(), &found) != 0) return {};
+        return {static_cast<std::int64_t>(found.st_dev),
+                static_cast<std::int64_t>(found.st_ino),
+                found.st_size,
+                found.st_mtim.tv_sec,
+                found.st_mtim.tv_nsec,
+                found.st_ctim.tv_sec,
+                found.st_ctim.tv_nsec};
+    }
     [[nodiscard]] std::vector<Stamp> look() const {
         std::vector<Stamp> stamps;
-        for (const auto& [name, content] : rig_.files) {
-            const std::string file = config::besideFile(path_, name);
-            std::error_code none;
-            stamps.emplace_back(fs::last_write_time(file, none), fs::file_size(file, none));
-        }
+        for (const auto& [name, content] : rig_.files)
+            stamps.push_back(stampOf(config::besideFile(path_, name)));
         return stamps;
     }
 

@@ -24,6 +24,9 @@ struct Digest {
     friend auto operator<=>(const Digest&, const Digest&) = default;
 };
 
+// The largest content that is fetched by its digest: of wall files one of 4K, raw, has 100 MB.
+inline constexpr std::size_t kMostBlobBytes = std::size_t{256} << 20U;
+
 [[nodiscard]] Digest digestOf(std::span<const std::byte> content);
 [[nodiscard]] Digest digestOf(std::string_view content);
 [[nodiscard]] std::string toHex(const Digest& digest);  // 64 lower-case digits

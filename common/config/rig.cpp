@@ -252,10 +252,12 @@ Channel channelOf(const TextReader& file, const v1::Channel& in, const Stereo& s
                     .display = displayOf(file, in.display()),
                     .machine = in.machine(),
                     .place = file.placeOf(in)};
-    if (in.has_projector() + in.has_panel() + in.has_wall_file() != 1)
-        file.refuse(in,
-                    "channel \"" + in.name() +
-                        "\" needs one of projector, panel and wall_file: what shows it");
+    const bool isProjected = in.has_projector() || in.has_wall_file();
+    if (isProjected == in.has_panel())
+        file.refuse(
+            in,
+            "channel \"" + in.name() +
+                "\" needs a projector, a wall_file or both, or else a panel: what shows it");
     if (in.has_projector()) {
         channel.projector = projectorOf(in.projector(), sizeOf(in));
         checkLens(file, in.projector(), channel.projector, sizeOf(in));
@@ -323,7 +325,16 @@ void nameFile(Rig& rig, const std::string& name, const std::string& source, Sour
                            place,
                            "the name of a file has control characters or more than 255 bytes: "
                            "rename the file"));
-    rig.files[name];
+    rig.files[name] = std::make_shared<const std::vector<std::byte>>();
+}
+
+// What a calibration says of all channels that have no wall file of their own.
+void takeCalibration(const TextReader& file, const v1::Rig& in, Rig& rig) {
+    if (!in.has_calibration()) return;
+    if (rig.screen.shape == ScreenShape::Panels)
+        file.refuse(in, "calibration", "panels need no calibration: remove it");
+    for (Channel& channel : rig.channels)
+        if (!channel.wallFile) channel.wallFile = {in.calibration(), channel.name, ""};
 }
 
 void nameFiles(Rig& rig, const std::string& source) {
@@ -371,6 +382,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
     for (const v1::Channel& channel : in.channels())
         rig.channels.push_back(channelOf(file, channel, rig.stereo));
     takeScreen(file, source, in, rig);
+    takeCalibration(file, in, rig);
     nameFiles(rig, source);
     refuseOverlaps(file, in);
     return rig;
@@ -378,11 +390,28 @@ Rig parseRig(const std::string& text, const std::string& source) {
 
 void readRigFiles(Rig& rig, const std::string& rigPath) {
     for (auto& [name, content] : rig.files)
-        content = readWhole(besideFile(rigPath, name), kMostWallFileBytes);
+        content = std::make_shared<const std::vector<std::byte>>(
+            readWhole(besideFile(rigPath, name), kMostWallFileBytes));
 }
 
 Rig readRig(const std::string& path) {
     Rig rig = parseRig(readTextFile(path), path);
+    readRigFiles(rig, path);
+    return rig;
+}
+
+Rig readRigAsHung(const std::string& path) {
+    Rig rig = parseRig(readTextFile(path), path);
+    for (Channel& channel : rig.channels) {
+        if (channel.panel || channel.projector.focalPixels.x == 0)
+            throw Error(placed(
+                path,
+                channel.place,
+                "channel \"" + channel.name + "\" has no projector: say where it hangs, about"));
+        channel.wallFile.reset();
+    }
+    rig.files.clear();
+    nameFiles(rig, path);
     readRigFiles(rig, path);
     return rig;
 }

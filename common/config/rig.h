@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/base/digest.h"
 #include "common/config/text_file.h"
 
 namespace aquarama::config {
@@ -124,7 +126,7 @@ struct Channel {
     std::uint32_t id = 0;
     std::string name;
     glm::ivec2 sizePixels{};  // of its picture
-    Projector projector;      // unless one of these stands in its place
+    Projector projector;      // all 0 where one of these stands in its place
     std::optional<Panel> panel = {};
     std::optional<WallFileRegion> wallFile = {};
     Display display;
@@ -140,6 +142,9 @@ struct Timing {
 };
 
 // A whole installation. Where its file leaves something out it has what rig.proto says.
+// Of a file that a rig names; never null. Copies of a rig share it: it may be large.
+using FileContent = std::shared_ptr<const std::vector<std::byte>>;
+
 struct Rig {
     std::string text;  // of the file, as it was read: the nodes are sent it
     std::string name;
@@ -159,7 +164,7 @@ struct Rig {
     SourcePlace sweetSpotPlace;
     std::optional<QualityTier> quality;  // nothing: measured at start
     // Measured screens and wall files, whole, by the name that the rig has for them.
-    std::map<std::string, std::vector<std::byte>> files;
+    std::map<std::string, FileContent> files;
 };
 
 // Reads a rig and holds it to rig.proto and to what no single field can tell (overlapping ids, a
@@ -171,7 +176,11 @@ struct Rig {
 // Reads the files that a rig names from its folder, as readRig() does. Throws Error where one
 // cannot be read or is larger than kMostWallFileBytes.
 void readRigFiles(Rig& rig, const std::string& rigPath);
-inline constexpr std::size_t kMostWallFileBytes = std::size_t{64} << 20U;
+inline constexpr std::size_t kMostWallFileBytes = kMostBlobBytes;
+
+// As its crew has hung it, about: without calibration and wall files, which need not be there.
+// Throws Error where a channel has no projector.
+[[nodiscard]] Rig readRigAsHung(const std::string& path);
 
 // Whether its master listens past its own machine, where everybody needs a key.
 [[nodiscard]] bool needsKeys(const Rig& rig);

@@ -137,15 +137,23 @@ Warp resampled(const Warp& warp, glm::ivec2 size) {
     return fine;
 }
 
-glm::vec3 lightAt(const Mask& mask, glm::dvec2 place) {
+namespace {
+
+double lightOf(const Mask& mask, int code) {
+    const double most = mask.bits == 16 ? 65535 : 255;
+    return std::pow(code / most, mask.gamma);
+}
+
+// `lightOfCode`: of a code of the mask, linear.
+template <typename Light>
+glm::vec3 lightBetween(const Mask& mask, glm::dvec2 place, const Light& lightOfCode) {
     assert(!mask.codes.empty());
     const Between x = between(std::clamp(place.x, 0.0, 1.0), mask.size.x, Sampling::Centres);
     const Between y = between(std::clamp(place.y, 0.0, 1.0), mask.size.y, Sampling::Centres);
-    const double most = mask.bits == 16 ? 65535 : 255;
     const auto light = [&](int column, int row, int component) {
         const int pixel = row * mask.size.x + column;
         const int index = pixel * mask.components + (mask.components == 3 ? component : 0);
-        return std::pow(mask.codes[static_cast<std::size_t>(index)] / most, mask.gamma);
+        return lightOfCode(mask.codes[static_cast<std::size_t>(index)]);
     };
     const double tx = std::clamp(x.t, 0.0, 1.0), ty = std::clamp(y.t, 0.0, 1.0);
     glm::dvec3 sum;
@@ -153,6 +161,23 @@ glm::vec3 lightAt(const Mask& mask, glm::dvec2 place) {
         sum[i] = (1 - ty) * ((1 - tx) * light(x.low, y.low, i) + tx * light(x.high, y.low, i)) +
                  ty * ((1 - tx) * light(x.low, y.high, i) + tx * light(x.high, y.high, i));
     return glm::vec3(sum);
+}
+
+}  // namespace
+
+glm::vec3 lightAt(const Mask& mask, glm::dvec2 place) {
+    return lightBetween(mask, place, [&](int code) { return lightOf(mask, code); });
+}
+
+MaskLight::MaskLight(const Mask& mask) : mask_(mask) {
+    assert(!mask.codes.empty());
+    const int most = std::ranges::max(mask.codes);
+    for (int code = 0; code <= most; ++code) lightOfCode_.push_back(lightOf(mask, code));
+}
+
+glm::vec3 MaskLight::at(glm::dvec2 place) const {
+    return lightBetween(
+        mask_, place, [&](int code) { return lightOfCode_[static_cast<std::size_t>(code)]; });
 }
 
 }  // namespace aquarama::formats

@@ -142,6 +142,17 @@ struct ReadOptions {
 // Linear light that a mask lets through at a place, bilinear between the centres of its codes;
 // beyond them that of the border.
 [[nodiscard]] glm::vec3 lightAt(const Mask& mask, glm::dvec2 place);
+// lightAt() for many places: what each code is in linear light is computed once. Immutable.
+class MaskLight {
+  public:
+    // `mask` outlives it.
+    explicit MaskLight(const Mask& mask);
+    [[nodiscard]] glm::vec3 at(glm::dvec2 place) const;
+
+  private:
+    const Mask& mask_;
+    std::vector<double> lightOfCode_;
+};
 // The same warp at the centres of so many samples, stored as places: for tools that know nothing
 // else.
 [[nodiscard]] Warp resampled(const Warp& warp, glm::ivec2 size);

@@ -11,7 +11,7 @@
 namespace aquarama::net {
 namespace {
 
-constexpr std::uintmax_t kMostCachedBytes = std::uintmax_t{64} << 20U;
+constexpr std::size_t kPartBytes = std::size_t{4} << 20U;
 
 }  // namespace
 
@@ -30,15 +30,30 @@ bool BlobAssembly::take(std::uint64_t offset,
     if (offset != nextOffset() || total_.value_or(total) != total) return false;
     if (content.size() > total - offset || (content.empty() && total > 0)) return false;
     total_ = total;
-    bytes_.insert(bytes_.end(), content.begin(), content.end());
+    if (parts_.empty() || parts_.back().size() + content.size() > kPartBytes)
+        parts_.emplace_back().reserve(std::max(kPartBytes, content.size()));
+    parts_.back().insert(parts_.back().end(), content.begin(), content.end());
+    size_ += content.size();
     return true;
+}
+
+// Each part is let go as soon as it is copied, so that there is little more than one blob.
+std::vector<std::byte> BlobAssembly::joined() {
+    std::vector<std::byte> bytes;
+    bytes.reserve(std::exchange(size_, 0));
+    for (std::vector<std::byte>& part : parts_) {
+        bytes.insert(bytes.end(), part.begin(), part.end());
+        part = {};
+    }
+    parts_.clear();
+    return bytes;
 }
 
 // The bytes are given away, whether they are good or not: what is spoilt is fetched again.
 std::optional<std::vector<std::byte>> BlobAssembly::checked() {
     if (!whole()) return std::nullopt;
     total_.reset();
-    auto bytes = std::exchange(bytes_, {});
+    auto bytes = joined();
     if (digestOf(bytes) != digest_) return std::nullopt;
     return bytes;
 }
@@ -51,7 +66,7 @@ std::optional<std::vector<std::byte>> BlobCache::find(const Digest& digest) cons
     std::error_code error;
     if (!std::filesystem::exists(pathOf(digest), error)) return std::nullopt;
     try {
-        auto bytes = readWhole(pathOf(digest), kMostCachedBytes);
+        auto bytes = readWhole(pathOf(digest), kMostBlobBytes);
         if (digestOf(bytes) == digest) return bytes;
     } catch (const Error&) {  // no more than a cache: the blob is fetched again
     }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,6 +13,9 @@
 #include "common/base/digest.h"
 
 namespace aquarama::net {
+
+// Shared: it may be large.
+using Blob = std::shared_ptr<const std::vector<std::byte>>;
 
 // The part of a blob that starts at `offset`, at most `chunkBytes` of it; empty past its end.
 [[nodiscard]] std::span<const std::byte> chunkAt(std::span<const std::byte> blob,
@@ -27,15 +31,20 @@ class BlobAssembly {
     // False: not the chunk that comes next, or another total than before; it is not taken.
     bool take(std::uint64_t offset, std::uint64_t total, std::span<const std::byte> content);
     [[nodiscard]] const Digest& digest() const { return digest_; }
-    [[nodiscard]] std::uint64_t nextOffset() const { return bytes_.size(); }
-    [[nodiscard]] bool whole() const { return total_ && bytes_.size() == *total_; }
-    // The blob, where it is whole and has the digest that was asked for; starts afresh.
+    [[nodiscard]] std::uint64_t nextOffset() const { return size_; }
+    [[nodiscard]] bool whole() const { return total_ && size_ == *total_; }
+    // The blob, where it is whole and has the digest that was asked for; starts afresh. Takes a
+    // second for a large one.
     [[nodiscard]] std::optional<std::vector<std::byte>> checked();
 
   private:
     Digest digest_;
     std::optional<std::uint64_t> total_;
-    std::vector<std::byte> bytes_;
+    [[nodiscard]] std::vector<std::byte> joined();
+
+    std::uint64_t size_ = 0;
+    // Parts, so that a chunk never moves what came before it.
+    std::vector<std::vector<std::byte>> parts_;
 };
 
 // A directory of blobs. What it cannot write it does without: a cache only saves time.

@@ -31,6 +31,12 @@ glm::dvec3 directionIn(const formats::Frustum& frustum, glm::dvec2 place) {
     return formats::worldFromCamera(frustum) * camera;
 }
 
+// What is needed of a map to look into it: one of 4K has another 100 MB of its file's texels.
+std::optional<formats::Warp> samplesOf(const std::optional<formats::Warp>& warp) {
+    if (!warp) return std::nullopt;
+    return formats::Warp{.size = warp->size, .sampling = warp->sampling, .samples = warp->samples};
+}
+
 // What the samples of a file's warp mean on a screen.
 class Meaning {
   public:
@@ -40,17 +46,17 @@ class Meaning {
             const ScreenSurface& screen)
         : profile_(profile),
           frustum_(channel.frustum.value_or(formats::Frustum{})),
-          warp_(channel.warp),
+          warp_(samplesOf(channel.warp)),
           screen_(screen),
           eye_(sweetSpot) {
-        if (profile == formats::Profile::Projector && channel.coordinateFrame)
-            eye_ = channel.coordinateFrame->canonicalPosition();
+        if (profile != formats::Profile::Projector) return;
+        lens_ = samplesOf(channel.distortion);
+        if (channel.coordinateFrame) eye_ = channel.coordinateFrame->canonicalPosition();
     }
 
     // The point of the screen that a place of the picture (0 to 1) lights.
     [[nodiscard]] std::optional<glm::dvec3> pointAt(glm::dvec2 place, double spill) const {
-        const glm::dvec3 sample =
-            warp_ ? glm::dvec3(formats::warpAt(*warp_, place)) : glm::dvec3(place, 0);
+        const glm::dvec3 sample = sampleAt(place);
         if (std::isnan(sample.x)) return std::nullopt;
         if (profile_ == formats::Profile::Screen) return sample;
         if (profile_ == formats::Profile::Content) return screen_.at(glm::dvec2(sample));
@@ -58,9 +64,18 @@ class Meaning {
     }
 
   private:
+    // Of a projector first through its lens, which leads from its pixels into the picture of its
+    // frustum; the warp is of that picture.
+    [[nodiscard]] glm::dvec3 sampleAt(glm::dvec2 place) const {
+        glm::dvec3 sample(place, 0);
+        for (const auto* map : {&lens_, &warp_})
+            if (*map) sample = formats::warpAt(**map, glm::dvec2(sample));
+        return sample;
+    }
+
     formats::Profile profile_;
     formats::Frustum frustum_;
-    std::optional<formats::Warp> warp_;
+    std::optional<formats::Warp> lens_, warp_;
     const ScreenSurface& screen_;
     glm::dvec3 eye_;
 };
@@ -148,11 +163,12 @@ class PixelFinder {
 
 // Linear light of a mask at a pixel's centre.
 std::vector<glm::vec3> lightOf(const formats::Mask& mask, glm::ivec2 sizePixels) {
+    const formats::MaskLight maskLight(mask);
     std::vector<glm::vec3> light;
+    light.reserve(static_cast<std::size_t>(sizePixels.x) * static_cast<std::size_t>(sizePixels.y));
     for (int y = 0; y < sizePixels.y; ++y)
         for (int x = 0; x < sizePixels.x; ++x)
-            light.push_back(
-                formats::lightAt(mask, glm::dvec2(x + 0.5, y + 0.5) / glm::dvec2(sizePixels)));
+            light.push_back(maskLight.at(glm::dvec2(x + 0.5, y + 0.5) / glm::dvec2(sizePixels)));
     return light;
 }
 
@@ -244,8 +260,8 @@ std::unique_ptr<const Optics> makeCalibratedOptics(const config::Rig& rig,
     const formats::FileChannel& region = channelNamed(file, what);
     const std::string& source = what.wallFile->file;
     requireGeometry(region, file.profile, source);
-    if (region.distortion)
-        logWarning("{}: the distortionMap of region {} is not used; bake it into the warp",
+    if (region.distortion && file.profile != formats::Profile::Projector)
+        logWarning("{}: the distortionMap of region {} is not used: it is of profile sl alone",
                    source,
                    region.name);
     return std::make_unique<CalibratedOptics>(

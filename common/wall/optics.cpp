@@ -170,10 +170,10 @@ WallFiles readWallFiles(const config::Rig& rig) {
         const std::string& frustum = channel.wallFile->frustum;
         files.emplace(name,
                       formats::readWallFile(
-                          rig.files.at(name),
+                          *rig.files.at(name),
                           name,
                           {.sizePixels = channel.sizePixels},
-                          frustum.empty() ? std::span<const std::byte>{} : rig.files.at(frustum)));
+                          frustum.empty() ? std::span<const std::byte>{} : *rig.files.at(frustum)));
     }
     return files;
 }

@@ -32,7 +32,6 @@ inline constexpr std::size_t kMostReasonBytes = 1024;
 inline constexpr std::size_t kMostLogBytes = 1000;  // of a line of a node's log
 inline constexpr std::size_t kMostRigTextBytes = std::size_t{1} << 20U;
 inline constexpr std::size_t kMostSceneTextBytes = std::size_t{1} << 20U;
-inline constexpr std::size_t kMostBlobBytes = std::size_t{64} << 20U;
 inline constexpr std::size_t kBlobChunkBytes = std::size_t{256} << 10U;
 inline constexpr int kMostNodes = 256;
 inline constexpr int kMostRigFiles = 129;  // two of each channel, and the screen's

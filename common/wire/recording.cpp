@@ -22,7 +22,8 @@ constexpr std::string_view kMagic = "AQREC";
 // Of a header behind its length: the tag and the length of the entry's field, then of the magic's.
 constexpr std::size_t kMostBytesBeforeMagic = 16;
 constexpr std::size_t kMostLengthBytes = 5;
-constexpr std::size_t kMostEntryBytes = kMostBlobBytes + kMostSpeciesBytes + 4096;
+constexpr std::size_t kMostRepertoireBytes = std::size_t{64} << 20U;
+constexpr std::size_t kMostEntryBytes = kMostRepertoireBytes + kMostSpeciesBytes + 4096;
 constexpr std::size_t kMostSmallEntryBytes = 256;             // of inputs and hashes
 constexpr std::uint64_t kMostTick = std::uint64_t{1} << 32U;  // two years
 constexpr float kMostMetres = 10'000;
@@ -165,7 +166,7 @@ class Reader {
         const v1::RecordedSpecies& species = entry_.species();
         if (!entry_.has_species() || !species.has_fish() || species.fish() > kMostFish - fish_ ||
             species.text().size() > kMostSpeciesBytes ||
-            species.repertoire().size() > kMostBlobBytes)
+            species.repertoire().size() > kMostRepertoireBytes)
             fail("has a damaged species");
         fish_ += species.fish();
         const auto* first = reinterpret_cast<const std::byte*>(species.repertoire().data());

@@ -27,13 +27,11 @@ bool isReady(const std::future<Result>& future) {
 }
 
 // The files of a rig that has changed, with their digests; none where it has not.
-std::map<std::string, std::pair<Digest, net::ByteVector>> filesOf(std::optional<config::Rig> rig) {
-    std::map<std::string, std::pair<Digest, net::ByteVector>> files;
+std::map<std::string, std::pair<Digest, net::Blob>> filesOf(const std::optional<config::Rig>& rig) {
+    std::map<std::string, std::pair<Digest, net::Blob>> files;
     if (!rig) return files;
-    for (auto& [name, content] : rig->files) {
-        const Digest digest = digestOf(std::span{content});
-        files.emplace(name, std::pair{digest, std::move(content)});
-    }
+    for (const auto& [name, content] : rig->files)
+        files.emplace(name, std::pair{digestOf(std::span{*content}), content});
     return files;
 }
 
@@ -122,12 +120,11 @@ void Conductor::watchRigFiles(net::Instant now) {
     if (!isReady(rereading_)) return;
     try {
         auto files = rereading_.get();
-        if (files.empty() || !control_.renew()) return;
-        nextRigFiles_.emplace();
-        for (auto& [name, file] : files) {
-            nextRigFiles_->emplace(name, file.first);
-            blobs_.try_emplace(file.first, std::move(file.second));
-        }
+        RigFiles next;
+        for (const auto& [name, file] : files) next.emplace(name, file.first);
+        if (next.empty() || next == rigFiles_ || !control_.renew()) return;
+        nextRigFiles_ = std::move(next);
+        for (auto& [name, file] : files) blobs_.try_emplace(file.first, std::move(file.second));
         logInfo("the files of the wall have changed; nodes build them");
     } catch (const Error& problem) {
         logWarning("the wall stays as it is: {}", problem.what());

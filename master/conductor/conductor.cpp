@@ -72,8 +72,10 @@ Blobs blobsOf(const wire::AssetBundle& assets) {
     Blobs blobs;
     for (const wire::SpeciesAssets& species : assets.cast) {
         const auto text = std::as_bytes(std::span{species.text});
-        blobs.emplace(digestOf(text), net::ByteVector{text.begin(), text.end()});
-        blobs.emplace(digestOf(species.repertoire), species.repertoire);
+        blobs.emplace(digestOf(text),
+                      std::make_shared<const net::ByteVector>(text.begin(), text.end()));
+        blobs.emplace(digestOf(species.repertoire),
+                      std::make_shared<const net::ByteVector>(species.repertoire));
     }
     return blobs;
 }
@@ -124,7 +126,7 @@ Conductor::Conductor(const config::Rig& rig,
     }
     figures_ = makeFigures();
     for (const auto& [name, content] : rig.files) {
-        const Digest digest = digestOf(std::span{content});
+        const Digest digest = digestOf(std::span{*content});
         rigFiles_.emplace(name, digest);
         blobs_.emplace(digest, content);
     }

@@ -22,6 +22,7 @@
 #include "common/config/keys.h"
 #include "common/config/rig.h"
 #include "common/motion/motor.h"
+#include "common/net/blob.h"
 #include "common/net/channels.h"
 #include "common/net/metrics.h"
 #include "common/wire/recording.h"
@@ -77,7 +78,7 @@ struct ConductorOptions {
 };
 
 // What nodes fetch, by digest.
-using Blobs = std::map<Digest, net::ByteVector>;
+using Blobs = std::map<Digest, net::Blob>;
 // The species files and repertoires of a show.
 [[nodiscard]] Blobs blobsOf(const wire::AssetBundle& assets);
 
@@ -306,7 +307,7 @@ class Conductor {
     std::optional<std::pair<Frame, wire::Packet>> lastPresent_;
     net::Instant lastRelease_{};
     // The changed files by name, with their digests.
-    std::future<std::map<std::string, std::pair<Digest, net::ByteVector>>> rereading_;
+    std::future<std::map<std::string, std::pair<Digest, net::Blob>>> rereading_;
     net::Instant lastReread_{};
     std::future<NextWorld> making_;
     std::optional<NextWorld> made_;

@@ -341,16 +341,16 @@ void Conductor::giveChunk(const net::PeerId& peer, const v1::BlobRequest& reques
         ++report_.refusedPackets;
         return dismiss(peer, "the wall shows another look by now");
     }
-    if (request.offset() > blob->second.size()) {
+    if (request.offset() > blob->second->size()) {
         ++report_.refusedPackets;
         return;
     }
-    const auto content = net::chunkAt(blob->second, request.offset(), wire::kBlobChunkBytes);
+    const auto content = net::chunkAt(*blob->second, request.offset(), wire::kBlobChunkBytes);
     v1::Envelope message;
     v1::BlobChunk& chunk = *message.mutable_blob_chunk();
     chunk.set_digest(request.digest());
     chunk.set_offset(request.offset());
-    chunk.set_total(blob->second.size());
+    chunk.set_total(blob->second->size());
     chunk.set_content(content.data(), content.size());
     say(peer, std::move(message));
 }

@@ -448,18 +448,48 @@ void MasterLink::beWelcomed(const v1::Envelope& message) {
     fetchNext();
 }
 
-// Takes from the cache what is there, and asks for the first that is not.
+bool MasterLink::isFetching() const {
+    return phase_ == Phase::Fetching || fetchesNextLook_;
+}
+
+std::optional<Digest> MasterLink::firstMissing() const {
+    for (const Digest& digest : blobsIn(admitted_.welcome.look()))
+        if (!admitted_.blobs.contains(digest)) return digest;
+    return std::nullopt;
+}
+
+// Takes the first that is missing from the cache, if it is there: see Obtained.
 void MasterLink::fetchNext() {
-    for (const Digest& digest : blobsIn(admitted_.welcome.look())) {
-        if (admitted_.blobs.contains(digest)) continue;
-        auto cached = cache_.find(digest);
-        if (!cached) {
-            assembly_.emplace(digest);
-            return requestChunk();
-        }
-        admitted_.blobs.emplace(digest, std::move(*cached));
-    }
-    admit();
+    assembly_.reset();
+    if (isObtaining_) return;  // what comes of that leads here again
+    const auto digest = firstMissing();
+    if (!digest) return admit();
+    obtain(*digest, false, [cache = cache_, digest = *digest] { return cache.find(digest); });
+}
+
+void MasterLink::obtain(const Digest& digest,
+                        bool wasSent,
+                        std::function<std::optional<net::ByteVector>()> work) {
+    isObtaining_ = true;
+    obtaining_ = std::async(std::launch::async, [this, digest, wasSent, work = std::move(work)] {
+        auto bytes = work();
+        net::Blob blob;
+        if (bytes) blob = std::make_shared<const net::ByteVector>(std::move(*bytes));
+        post(Obtained{digest, std::move(blob), wasSent});
+    });
+}
+
+// Whatever look it was for: a blob is what its digest says.
+void MasterLink::handle(const Obtained& obtained) {
+    isObtaining_ = false;
+    if (!isFetching()) return;
+    if (obtained.blob) admitted_.blobs.emplace(obtained.digest, obtained.blob);
+    if (firstMissing() != obtained.digest) return fetchNext();
+    if (obtained.wasSent && ++spoiltBlobs_ >= kSpoiltBlobs)
+        return mailbox_.refuse("the master sends other bytes for blob " + toHex(obtained.digest) +
+                               " than its name says; restart the master");
+    assembly_.emplace(obtained.digest);
+    requestChunk();
 }
 
 void MasterLink::requestChunk() {
@@ -473,20 +503,15 @@ void MasterLink::requestChunk() {
 
 void MasterLink::takeChunk(const v1::BlobChunk& chunk) {
     const Digest digest = wire::digestIn(chunk.digest());
-    const bool isFetching = phase_ == Phase::Fetching || fetchesNextLook_;
-    if (!isFetching || !assembly_ || digest != assembly_->digest()) return;
+    if (!isFetching() || !assembly_ || digest != assembly_->digest()) return;
     const auto content = std::as_bytes(std::span{chunk.content()});
     if (!assembly_->take(chunk.offset(), chunk.total(), content)) return;
     if (!assembly_->whole()) return requestChunk();
-    const auto blob = assembly_->checked();
-    if (!blob) {
-        if (++spoiltBlobs_ < kSpoiltBlobs) return requestChunk();
-        return mailbox_.refuse("the master sends other bytes for blob " + toHex(digest) +
-                               " than its name says; restart the master");
-    }
-    cache_.keep(digest, *blob);
-    admitted_.blobs.emplace(digest, *blob);
-    fetchNext();
+    obtain(digest, true, [cache = cache_, assembly = *std::exchange(assembly_, {})]() mutable {
+        auto blob = assembly.checked();
+        if (blob) cache.keep(assembly.digest(), *blob);
+        return blob;
+    });
 }
 
 // The master says it again and again until it has heard that it is built.
@@ -559,8 +584,7 @@ void MasterLink::keepTime(net::Instant now) {
     if (now - lastPing_ >= kPing) sayPing(now);
     sayLog();
     if (phase_ == Phase::Member && now - lastReport_ >= kReport) sayReport(now);
-    const bool isFetching = phase_ == Phase::Fetching || fetchesNextLook_;
-    if (isFetching && now - lastRequest_ > kRepeat) requestChunk();
+    if (isFetching() && assembly_ && now - lastRequest_ > kRepeat) requestChunk();
     if (phase_ == Phase::Listening && hearsStates_) {
         sayPrepared();
         phase_ = Phase::Member;

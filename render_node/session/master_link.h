@@ -6,6 +6,8 @@
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
+#include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -38,7 +40,7 @@ struct ReleaseOrder {
 // What the master gave to a node that it welcomed.
 struct Admitted {
     v1::Welcome welcome;
-    std::map<Digest, net::ByteVector> blobs;  // all that the welcome names
+    std::map<Digest, net::Blob> blobs;  // all that the welcome names
 };
 // The master refuses the node, or no connection could be made.
 struct Refused {
@@ -118,9 +120,21 @@ class MasterLink {
         Severity severity;
         std::string text;
     };
+    struct Obtained {  // what came of looking for a blob, beside the net thread
+        Digest digest;
+        net::Blob blob;  // null: not in the cache, or what was sent is another
+        bool wasSent = false;
+    };
     // Inputs and questions; dropped while the node is not welcomed.
-    using Request = std::
-        variant<Join, Built, Finished, NodeFacts, Logged, v1::Input, v1::Set, v1::ExplainRequest>;
+    using Request = std::variant<Join,
+                                 Built,
+                                 Finished,
+                                 NodeFacts,
+                                 Logged,
+                                 Obtained,
+                                 v1::Input,
+                                 v1::Set,
+                                 v1::ExplainRequest>;
     void post(const Request& request);
     // From any thread, also the net thread; where too many wait, the line is lost.
     void log(Severity severity, const std::string& line);
@@ -150,6 +164,7 @@ class MasterLink {
     void handle(const Finished& finished);
     void handle(const NodeFacts& facts);
     void handle(const Logged& line);
+    void handle(const Obtained& obtained);
     void handle(const v1::Input& input);
     void handle(const v1::Set& set);
     void handle(const v1::ExplainRequest& request);
@@ -169,7 +184,15 @@ class MasterLink {
     void beDismissed(const std::string& reason);
     void end();
 
+    [[nodiscard]] bool isFetching() const;
+    // Of what is fetched.
+    [[nodiscard]] std::optional<Digest> firstMissing() const;
     void fetchNext();
+    // A large blob takes a second to read, to check or to write, and the master would take us for
+    // gone: a thread of its own does the work, one at a time.
+    void obtain(const Digest& digest,
+                bool wasSent,
+                std::function<std::optional<net::ByteVector>()> work);
     void requestChunk();
     void admit();  // every blob is there
     void sayPrepared();
@@ -201,6 +224,7 @@ class MasterLink {
     bool fetchesNextLook_ = false;
     std::uint64_t calibration_ = 0;              // of the rig that we were welcomed with
     std::optional<net::BlobAssembly> assembly_;  // of the blob that is being fetched
+    bool isObtaining_ = false;
     int spoiltBlobs_ = 0;
     bool hearsStates_ = false;
     Built built_;
@@ -216,6 +240,7 @@ class MasterLink {
     std::string lastDismissal_;
     net::Instant lastHeard_{}, lastPing_{}, lastHello_{}, lastReady_{}, lastRequest_{},
         lastReport_{}, lastComplaint_{}, lastCompared_{};
+    std::future<void> obtaining_;  // last: it uses all of the above
 };
 
 }  // namespace aquarama::session

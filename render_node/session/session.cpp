@@ -22,8 +22,8 @@ std::vector<wire::SpeciesAssets> castOf(const Admitted& admitted) {
     std::vector<wire::SpeciesAssets> cast;
     for (const v1::SpeciesBlobs& member : admitted.welcome.look().cast())
         cast.push_back({"the master's species file",
-                        textOf(admitted.blobs.at(wire::digestIn(member.species()))),
-                        admitted.blobs.at(wire::digestIn(member.repertoire())),
+                        textOf(*admitted.blobs.at(wire::digestIn(member.species()))),
+                        *admitted.blobs.at(wire::digestIn(member.repertoire())),
                         member.fish()});
     return cast;
 }

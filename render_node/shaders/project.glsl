@@ -9,6 +9,11 @@ layout(location = kDitheredLocation) uniform bool dithered;
 layout(location = kBlendMaskLocation) uniform bool blendMask;
 layout(location = kBrightnessLocation) uniform float brightness;  // share of the light, 0 black
 
+// Of a wall file, in linear light, a texel for each pixel: the display's, whatever eye sees it.
+layout(binding = kBlendUnit) uniform sampler2D fileBlend;
+layout(binding = kBlackUnit) uniform sampler2D fileBlack;
+layout(location = kMasksLocation) uniform bvec2 masks;  // which of them there are
+
 layout(location = 0) out vec4 encoded;
 
 // sRGB (IEC 61966-2-1), the curve of the projector that undoes it.
@@ -48,6 +53,13 @@ ivec2 projectorPixel() { return ivec2(gl_FragCoord.x, size.y - 1 - int(gl_FragCo
 vec3 projectedLight(sampler2D scene, sampler2D placeAndWeight, ivec2 pixel) {
     vec3 place = texelFetch(placeAndWeight, pixel, 0).xyz;
     return (blendMask ? vec3(1.0) : textureLod(scene, place.xy, 0.0).rgb) * place.z;
+}
+
+vec3 masked(vec3 light, ivec2 pixel) {
+    if (masks.x) light *= texelFetch(fileBlend, pixel, 0).rgb;
+    if (!masks.y) return light;
+    vec3 black = texelFetch(fileBlack, pixel, 0).rgb;
+    return min(light, 1.0) * (1.0 - black) + black;
 }
 
 vec4 finished(vec3 light, ivec2 pixel) {

@@ -21,7 +21,9 @@ const mat3 kRightToCyan = mat3(-0.0434706, 0.378476, -0.0721527,
 
 vec3 leftLight(ivec2 pixel) { return projectedLight(leftScene, leftPlaces, pixel); }
 vec3 rightLight(ivec2 pixel) { return projectedLight(rightScene, rightPlaces, pixel); }
-vec3 eyesLight(bool right, ivec2 pixel) { return right ? rightLight(pixel) : leftLight(pixel); }
+vec3 eyesLight(bool right, ivec2 pixel) {
+    return masked(right ? rightLight(pixel) : leftLight(pixel), pixel);
+}
 
 // In a half picture each pixel is the mean of two pixels of the eye's picture, which has the full
 // size.
@@ -43,6 +45,7 @@ void main() {
     } else if (mode == kInterlaced) {
         encoded = finished(eyesLight(pixel.y % 2 == 1, pixel), pixel);
     } else {
-        encoded = finished(kLeftToRed * leftLight(pixel) + kRightToCyan * rightLight(pixel), pixel);
+        vec3 mixed = kLeftToRed * leftLight(pixel) + kRightToCyan * rightLight(pixel);
+        encoded = finished(masked(max(mixed, 0.0), pixel), pixel);
     }
 }

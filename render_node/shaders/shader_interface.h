@@ -71,8 +71,8 @@ AQUARAMA_CONSTANT int kMomentDepthsUnit = 0;
 AQUARAMA_CONSTANT int kPlacesUnit = 1;
 AQUARAMA_CONSTANT int kRightSceneUnit = 2;
 AQUARAMA_CONSTANT int kRightPlacesUnit = 3;
-AQUARAMA_CONSTANT int kBlendUnit = 2;
-AQUARAMA_CONSTANT int kBlackUnit = 3;
+AQUARAMA_CONSTANT int kBlendUnit = 4;
+AQUARAMA_CONSTANT int kBlackUnit = 5;
 
 // Locations of uniforms: fish kernels.
 AQUARAMA_CONSTANT int kFractionLocation = 0;

@@ -268,7 +268,7 @@ void ChannelPicture::project(unsigned framebuffer,
                           .blendMask = overlays.blendMask,
                           .brightness = brightness_};
     const auto sceneAndMap = [](const Viewing& eye) {
-        return PairProjection::Eye{eye.sceneTexture, eye.projection.mapTexture()};
+        return PairProjection::Eye{eye.sceneTexture, eye.projection};
     };
     if (shown == Shown::Display && together_) {
         const Viewing& first = stereo_.swapEyes ? eyes_.back() : eyes_.front();

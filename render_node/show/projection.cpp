@@ -79,12 +79,16 @@ void Projection::draw(const Draw& what) const {
     glBindTextureUnit(shaders::kSceneUnit, what.sceneTexture);
     glBindSampler(shaders::kSceneUnit, bilinear_.name());
     glBindTextureUnit(shaders::kPlacesUnit, map_.name());
-    if (blend_) glBindTextureUnit(shaders::kBlendUnit, blend_->name());
-    if (black_) glBindTextureUnit(shaders::kBlackUnit, black_->name());
-    glUniform2i(shaders::kMasksLocation, blend_.has_value(), black_.has_value());
+    bindMasks();
     glBindVertexArray(noVertices_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindSampler(shaders::kSceneUnit, 0);
+}
+
+void Projection::bindMasks() const {
+    if (blend_) glBindTextureUnit(shaders::kBlendUnit, blend_->name());
+    if (black_) glBindTextureUnit(shaders::kBlackUnit, black_->name());
+    glUniform2i(shaders::kMasksLocation, blend_.has_value(), black_.has_value());
 }
 
 PairProjection::PairProjection(glm::ivec2 sizePixels,
@@ -103,9 +107,10 @@ void PairProjection::draw(const Eye& left, const Eye& right, const Projection::D
     beginPass(both, program_, size_, channelId_);
     glUniform1i(shaders::kModeLocation, static_cast<GLint>(mode_));
     glBindTextureUnit(shaders::kSceneUnit, left.sceneTexture);
-    glBindTextureUnit(shaders::kPlacesUnit, left.mapTexture);
+    glBindTextureUnit(shaders::kPlacesUnit, left.projection.mapTexture());
     glBindTextureUnit(shaders::kRightSceneUnit, right.sceneTexture);
-    glBindTextureUnit(shaders::kRightPlacesUnit, right.mapTexture);
+    glBindTextureUnit(shaders::kRightPlacesUnit, right.projection.mapTexture());
+    left.projection.bindMasks();
     glBindSampler(shaders::kSceneUnit, bilinear_.name());
     glBindSampler(shaders::kRightSceneUnit, bilinear_.name());
     glBindVertexArray(noVertices_.name());

@@ -64,6 +64,8 @@ class Projection {
         float brightness = 1.0F;
     };
     void draw(const Draw& what) const;
+    // Binds blend and black level of a wall file, where there are, for the program in use.
+    void bindMasks() const;
     // GL name of the projection map, for PairProjection.
     [[nodiscard]] unsigned mapTexture() const { return map_.name(); }
 
@@ -85,9 +87,11 @@ class PairProjection {
     // and bottom an even height.
     PairProjection(glm::ivec2 sizePixels, std::uint32_t channelId, config::StereoMode mode);
 
-    // GL names of the picture and of the projection map of one eye.
+    // GL name of the picture of one eye, and what projects it. A wall file's masks are of the
+    // display: those of the left eye are taken.
     struct Eye {
-        unsigned sceneTexture = 0, mapTexture = 0;
+        unsigned sceneTexture = 0;
+        const Projection& projection;
     };
     // Draws into both.framebuffer; both.sceneTexture is not read.
     void draw(const Eye& left, const Eye& right, const Projection::Draw& both) const;

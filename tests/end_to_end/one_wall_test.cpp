@@ -33,6 +33,9 @@ class Installation {
         fs::create_directories(folder_);
         rig_ = config::parseRig(rigOnFreePorts(name), name);
         std::ofstream(folder_ / "rig.txtpb") << rig_.text;
+        for (const auto& [file, content] : rig_.files)
+            fs::copy_file(fs::path(AQUARAMA_SOURCE_DIR "/config") / file, folder_ / file);
+        config::readRigFiles(rig_, (folder_ / "rig.txtpb").string());
     }
     ~Installation() { fs::remove_all(folder_); }
     Installation(const Installation&) = delete;
@@ -89,7 +92,9 @@ INSTANTIATE_TEST_SUITE_P(Rigs, OneWall, testing::Values("theatre", "touring"));
 // Screens of other shapes, and panels.
 class AnyScreen : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(
-    Rigs, AnyScreen, testing::Values("flat_3", "wall_2x2", "dome_5", "cave_4", "televisions_3"));
+    Rigs,
+    AnyScreen,
+    testing::Values("flat_3", "wall_2x2", "dome_5", "measured_3", "cave_4", "televisions_3"));
 
 // Light where the panorama shows screen. What surrounds the eye is left out near its poles, where a
 // pixel of the panorama is a small part of one on the screen, and the lines run together.

@@ -1,10 +1,13 @@
 """Real processes: a rig whose channels have a wall file shows what the projectors did, and takes another file while it runs."""
 
+import math
+import os
 import re
 import shutil
 import sys
 import time
 import unittest
+from array import array
 from pathlib import Path
 
 from show import CHANNELS, ROOT, aquarama, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
@@ -27,6 +30,20 @@ def displacement(one, other):
             products, squares = products + slope * (before[i] - after[i]), squares + slope * slope
         ways.append(products / squares)
     return ways
+
+
+def write_map_of_4k(path, turned_degrees):
+    """A raw float map: of each pixel of a 4K projector its point on the desk's screen, from left of its edge to beyond its middle."""
+    width, height, radius = 3840, 2160, 2.62
+    row = array("f", bytes(12 * width))
+    azimuths = [math.radians(-61 + 56 * column / width + turned_degrees) for column in range(width)]
+    row[0::3] = array("f", [radius * math.sin(azimuth) for azimuth in azimuths])
+    row[2::3] = array("f", [-radius * math.cos(azimuth) for azimuth in azimuths])
+    with open(path, "wb") as file:
+        file.write(b"PF\n%d %d\n-1.000000\n" % (width, height))
+        for line in range(height):
+            row[1::3] = array("f", [2.4 * (line / height - 0.5)]) * width
+            file.write(row.tobytes())
 
 
 class WallFile(unittest.TestCase):
@@ -63,12 +80,17 @@ class WallFile(unittest.TestCase):
         said = re.search(r"calibration (\w+)", aquarama("status", self.rig).stdout)
         return said and said[1]
 
-    def test_another_file_comes_on_between_two_frames(self):
+    def start_show(self):
+        """Returns the digest of its calibration."""
         show = start("run", self.rig, "--headless", "--live", "--pattern", "grid", "--trace", self.folder.name, log=self.log)
         self.processes = [show]
         wait_until(lambda: self.log.read_text().count("showing") >= 3, 60, "the first frame of every node")
         first = self.calibration()
         self.assertTrue(first)
+        return first
+
+    def test_another_file_comes_on_between_two_frames(self):
+        first = self.start_show()
 
         self.file.write_bytes(self.file.read_bytes()[:1000])
         wait_until(lambda: "the wall stays as it is" in self.log.read_text(), 20, "the refusal of half a file")
@@ -90,6 +112,26 @@ class WallFile(unittest.TestCase):
         self.assertNotIn("through black", log)
         frames = [set(frame for frame, row in trace(self.folder.name, name).items() if row[2]) for name in CHANNELS]
         self.assertGreater(len(set.intersection(*frames)), 20)
+
+    def test_a_raw_map_of_4k_and_another_of_its_size_and_time_come_on(self):
+        file, other = Path(self.folder.name) / "left.pfm", Path(self.folder.name) / "other.pfm"
+        write_map_of_4k(file, 0)
+        self.rig.write_text(self.rig.read_text().replace("hall.mpcdi", "left.pfm", 1))
+        self.assertIn("good", aquarama("check", self.rig).stdout)
+        first = self.start_show()
+
+        write_map_of_4k(other, 0.3)
+        self.assertEqual(other.stat().st_size, file.stat().st_size)
+        os.utime(other, ns=(file.stat().st_atime_ns, file.stat().st_mtime_ns))
+        other.replace(file)
+        wait_until(lambda: "showing look 2" in self.log.read_text(), 90, "the new map on the wall")
+        wait_until(lambda: self.calibration() not in (None, first), 10, "its digest")
+        file.touch()  # the same map
+        time.sleep(4)  # it looks at the files once a second
+        log = self.log.read_text()
+        self.assertEqual(log.count("files of the wall have changed"), 1)
+        self.assertNotIn("joining again", log)
+        self.assertNotIn("is not counted any more", log)
 
 
 if __name__ == "__main__":

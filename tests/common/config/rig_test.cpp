@@ -3,6 +3,7 @@
 #include "common/config/rig.h"
 
 #include <algorithm>
+#include <fstream>
 #include <numbers>
 #include <ostream>
 
@@ -275,6 +276,42 @@ INSTANTIATE_TEST_SUITE_P(
                 "membership_s",
                 "shorter"}),
     [](const auto& test) { return test.param.name; });
+
+// The small rig with something before its channels.
+std::string rigWith(const std::string& line) {
+    std::string text = kRig;
+    return text.insert(text.find("scene:"), line + "\n");
+}
+
+TEST(Rig, aCalibrationIsTheWallFileOfAllItsChannels) {
+    const Rig rig = parseRig(rigWith("calibration: \"walls/hall.mpcdi\""), "small.txtpb");
+    ASSERT_EQ(rig.channels.size(), 2U);
+    for (const Channel& channel : rig.channels) {
+        ASSERT_TRUE(channel.wallFile);
+        EXPECT_EQ(channel.wallFile->file, "walls/hall.mpcdi");
+        EXPECT_EQ(channel.wallFile->region, channel.name);
+        EXPECT_GT(channel.projector.focalPixels.x, 0) << "where the next calibration begins";
+    }
+    EXPECT_EQ(rig.files.count("walls/hall.mpcdi"), 1U);
+}
+
+TEST(Rig, aWallFileOfItsOwnGoesBeforeTheCalibration) {
+    std::string text = rigWith("calibration: \"hall.mpcdi\"");
+    text.insert(text.find("  projector"), "  wall_file { file: \"own.mpcdi\" region: \"A\" }\n");
+    const Rig rig = parseRig(text, "small.txtpb");
+    EXPECT_EQ(rig.channels[0].wallFile->file, "own.mpcdi");
+    EXPECT_EQ(rig.channels[0].wallFile->region, "A");
+    EXPECT_EQ(rig.channels[1].wallFile->file, "hall.mpcdi");
+}
+
+TEST(Rig, asHungItNeedsNoCalibration) {
+    const std::string path = testing::TempDir() + "/as_hung.txtpb";
+    std::ofstream(path) << rigWith("calibration: \"is_not_there.mpcdi\"");
+    EXPECT_THROW((void)readRig(path), Error);
+    const Rig rig = readRigAsHung(path);
+    EXPECT_FALSE(rig.channels[0].wallFile);
+    EXPECT_TRUE(rig.files.empty());
+}
 
 TEST(Rig, aFileThatIsNotThereIsRefusedByName) {
     for (const std::string path : {"config/none.txtpb", "config"}) try {

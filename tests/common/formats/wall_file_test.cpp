@@ -109,6 +109,25 @@ TEST(WarpAt, nodesBecomeCentresOfAFinerGrid) {
     EXPECT_NEAR(fine.samples[20 * 7 + 3].y, 7.5 / 10, 1e-6);
 }
 
+Mask maskOf(int components, int bits) {
+    Mask mask{.size = {8, 8}, .components = components, .bits = bits, .gamma = 2.2, .codes = {}};
+    const int step = bits == 16 ? 331 : 1;
+    for (int i = 0; i < 64 * components; ++i)
+        mask.codes.push_back(static_cast<std::uint16_t>(i * step));
+    return mask;
+}
+
+TEST(MaskLight, isTheLightOfItsCodes) {
+    for (const int components : {1, 3})
+        for (const int bits : {8, 16}) {
+            const Mask mask = maskOf(components, bits);
+            const MaskLight light(mask);
+            for (double y = -0.1; y < 1.1; y += 0.03)
+                for (double x = -0.1; x < 1.1; x += 0.03)
+                    ASSERT_EQ(light.at({x, y}), lightAt(mask, {x, y})) << x << ' ' << y;
+        }
+}
+
 // Two triangles over the left half of the picture, which show a whole one.
 WarpMesh halfPicture() {
     WarpMesh mesh;

@@ -26,7 +26,7 @@ class Blob : public testing::Test {
 };
 
 TEST_F(Blob, isTheSameAfterChunks) {
-    for (const std::size_t size : {0U, 1U, 999U, 1000U, 1001U, 12345U}) {
+    for (const std::size_t size : {0U, 1U, 999U, 1000U, 1001U, 12345U, 9U << 20U}) {
         const auto blob = someBlob(size);
         BlobAssembly assembly(digestOf(blob));
         do {

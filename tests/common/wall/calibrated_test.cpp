@@ -72,7 +72,7 @@ formats::WallFile fileOf(const config::Rig& rig, Profile profile) {
 
 // The rig with the file in place of its projectors.
 config::Rig calibrated(config::Rig rig, const std::vector<std::byte>& file) {
-    rig.files["hall.mpcdi"] = file;
+    rig.files["hall.mpcdi"] = std::make_shared<const std::vector<std::byte>>(file);
     for (config::Channel& channel : rig.channels)
         channel.wallFile = {"hall.mpcdi", channel.name, ""};
     return rig;
@@ -172,6 +172,63 @@ TEST(WallFiles, aColouredBlendAndABlackLevelAreLight) {
         EXPECT_TRUE(pixel.w == 0 || pixel.w == 1);
 }
 
+// A flat wall five metres ahead of a projector whose lens and whose warp are both known.
+constexpr double kThrowMetres = 5;
+const glm::dvec3 kProjector(0.2, -0.1, 1);
+glm::dvec2 throughLens(glm::dvec2 place) {
+    const glm::dvec2 off = place - 0.5;
+    return 0.5 + off * (1 - 0.2 * glm::dot(off, off));
+}
+glm::dvec2 warped(glm::dvec2 place) {
+    return place * glm::dvec2(0.8, 0.9) + 0.05;
+}
+
+formats::WallFile shaderLamp(glm::ivec2 sizePixels) {
+    formats::WallFile file;
+    file.profile = Profile::Projector;
+    formats::FileChannel& channel = file.channels.emplace_back();
+    channel.name = "lamp";
+    channel.sizePixels = sizePixels;
+    channel.frustum = {.left = -0.3, .right = 0.35, .down = -0.25, .up = 0.2};
+    channel.coordinateFrame = formats::CoordinateFrame{kProjector};
+    channel.warp = formats::Warp{.size = sizePixels, .samples = {}};
+    channel.distortion = channel.warp;
+    for (int y = 0; y < sizePixels.y; ++y)
+        for (int x = 0; x < sizePixels.x; ++x) {
+            const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / glm::dvec2(sizePixels);
+            channel.distortion->samples.emplace_back(throughLens(place), 0);
+            channel.warp->samples.emplace_back(warped(place), 0);
+        }
+    return file;
+}
+
+// The pixel's light goes through the lens first; what the warp says is of the picture behind it.
+TEST(WallFiles, aShaderLampThrowsThroughItsDistortionMap) {
+    config::Rig rig = shippedRig("flat_3");
+    rig.screen.distanceMetres = kThrowMetres - kProjector.z;
+    rig.screen.heightMetres = 4;
+    rig.channels.resize(1);
+    const glm::ivec2 size = rig.channels[0].sizePixels;
+    const formats::WallFile file = shaderLamp(size);
+    const Wall wall(calibrated(rig, encodeMpcdi(file, 2)));
+    const formats::Frustum& frustum = *file.channels[0].frustum;
+    const glm::dvec2 low(std::tan(frustum.left), std::tan(frustum.up));
+    const glm::dvec2 high(std::tan(frustum.right), std::tan(frustum.down));
+    for (int y = 0; y < size.y; y += 11)
+        for (int x = 0; x < size.x; x += 11) {
+            const glm::dvec2 pixel(x + 0.5, y + 0.5);
+            const auto point = wall.channel(0).pointOf(pixel, 0);
+            ASSERT_TRUE(point);
+            const glm::dvec2 seen = warped(throughLens(pixel / glm::dvec2(size)));
+            const glm::dvec2 there = kThrowMetres * glm::mix(low, high, seen);
+            EXPECT_LT(glm::distance(*point, kProjector + glm::dvec3(there, -kThrowMetres)), 1e-5)
+                << x << ' ' << y;
+            const auto back = wall.channel(0).pixelOf(*point);
+            ASSERT_TRUE(back);
+            EXPECT_LT(glm::distance(*back, pixel), 0.01);
+        }
+}
+
 TEST(WallFiles, aRegionThatIsNotThereIsNamed) {
     config::Rig rig = shippedRig("desk");
     rig = calibrated(rig, encodeMpcdi(fileOf(rig, Profile::Screen), 2));
@@ -188,10 +245,10 @@ TEST(WallFiles, aRegionThatIsNotThereIsNamed) {
 
 TEST(WallFiles, aFileThatIsCutOffIsRefusedByItsName) {
     config::Rig rig = shippedRig("desk");
-    rig = calibrated(rig, encodeMpcdi(fileOf(rig, Profile::Screen), 2));
-    rig.files["hall.mpcdi"].resize(rig.files["hall.mpcdi"].size() / 2);
+    std::vector<std::byte> file = encodeMpcdi(fileOf(rig, Profile::Screen), 2);
+    file.resize(file.size() / 2);
     try {
-        const Wall wall(rig);
+        const Wall wall(calibrated(rig, file));
         FAIL() << "it was taken";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr("hall.mpcdi"));

@@ -130,7 +130,7 @@ config::Rig rigWithMesh(const std::vector<std::byte>& obj) {
     config::Rig rig;
     rig.screen.shape = config::ScreenShape::Measured;
     rig.screen.meshFile = "canvas.obj";
-    rig.files["canvas.obj"] = obj;
+    rig.files["canvas.obj"] = std::make_shared<const std::vector<std::byte>>(obj);
     return rig;
 }
 
@@ -227,7 +227,9 @@ TEST(Lens, leadsEveryPixelBackToItself) {
 }
 
 class ScreenOfRig : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Shipped, ScreenOfRig, testing::Values("flat_3", "dome_5", "wall_2x2"));
+INSTANTIATE_TEST_SUITE_P(Shipped,
+                         ScreenOfRig,
+                         testing::Values("flat_3", "dome_5", "wall_2x2", "measured_3"));
 
 TEST_P(ScreenOfRig, theSharesOfEveryPointSumToOneAndFadeToNothingAtABorder) {
     const config::Rig rig = shippedRig(GetParam());

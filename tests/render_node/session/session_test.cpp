@@ -85,7 +85,7 @@ class ScriptedMaster {
             ASSERT_TRUE(request);
             const Digest digest = wire::digestIn(request->blob_request().digest());
             const std::uint64_t offset = request->blob_request().offset();
-            const auto& blob = blobs.at(digest);
+            const auto& blob = *blobs.at(digest);
             const auto chunk = net::chunkAt(blob, offset, wire::kBlobChunkBytes);
             say(test::blobChunk(digest, offset, blob.size(), chunk));
             if (offset + chunk.size() == blob.size()) --count;
@@ -182,12 +182,39 @@ TEST_F(SessionTest, takesFromItsCacheWhatItOnceFetched) {
 
 TEST_F(SessionTest, refusesABlobThatIsNotWhatItsNameSays) {
     conductor::Blobs altered = deskBlobs();
-    altered.at(digestOf(test::StageMaster::assets().cast[0].text)).front() ^= std::byte{1};
+    net::Blob& text = altered.at(digestOf(test::StageMaster::assets().cast[0].text));
+    text = std::make_shared<const net::ByteVector>(text->size(), std::byte{1});
     auto join = joining();
     master_.admit(altered);  // delivered twice here, and a third time below
     master_.giveBlobs(altered, 1);
     EXPECT_THAT(errorOf(std::move(join)), testing::HasSubstr("than its name says"));
     EXPECT_TRUE(std::filesystem::is_empty(blobs_));
+}
+
+// A member that is silent while it checks and writes a raw map of 4K is taken for gone.
+TEST_F(SessionTest, answersWhileItChecksALargeBlob) {
+    becomeMember(wire::Pace::Live, {5});
+    const auto map = std::make_shared<const net::ByteVector>(std::size_t{3840} * 2160 * 12 + 25);
+    const Digest digest = digestOf(std::span{*map});
+    v1::Envelope prepare;
+    v1::Look& look = *prepare.mutable_prepare()->mutable_look();
+    look = deskWelcome().look();
+    look.set_number(2);
+    look.add_rig_files()->set_name("hall.pfm");
+    look.mutable_rig_files(0)->set_digest(wire::bytesOf(digest));
+    master_.say(prepare);
+    master_.giveBlobs({{digest, map}}, 1);
+    look.set_number(1);  // which it has built, and says so at once
+    master_.say(prepare);
+    ASSERT_TRUE(master_.hear(v1::Envelope::kPrepared));
+    EXPECT_FALSE(session_->nextLook());
+    EXPECT_FALSE(std::filesystem::exists(blobs_ / toHex(digest)));  // it is still being checked
+    std::optional<Admission> next;
+    while (!(next = session_->nextLook()))
+        ASSERT_TRUE(master_.hear(v1::Envelope::kPing)) << "it has fallen silent";
+    EXPECT_EQ(next->look, 2U);
+    EXPECT_EQ(*next->rig.files.at("hall.pfm"), *map);
+    EXPECT_EQ(net::BlobCache(blobs_).find(digest), *map);
 }
 
 TEST_F(SessionTest, aRefusalIsAnErrorThatSaysWhy) {

@@ -20,6 +20,24 @@ constexpr double kMarginRadians = 0.01;
 constexpr std::size_t kChannel = 2;
 constexpr std::uint32_t kChannelId = 7;
 
+// Those of a wall file, another at each pixel.
+glm::vec3 blendAt(glm::vec2 share) {
+    return {0.2F + 0.6F * share.x, 0.9F, 0.5F + 0.4F * share.y};
+}
+glm::vec3 blackAt(glm::vec2 share) {
+    return {0.02F, 0.15F * share.x, 0.1F * share.y};
+}
+
+ProjectionMap withMasks(ProjectionMap map) {
+    for (int y = 0; y < map.sizePixels.y; ++y)
+        for (int x = 0; x < map.sizePixels.x; ++x) {
+            const glm::vec2 share = glm::vec2(x, y) / glm::vec2(map.sizePixels);
+            map.blend.push_back(blendAt(share));
+            map.black.push_back(blackAt(share));
+        }
+    return map;
+}
+
 class PairProjectionTest : public testing::Test {
   protected:
     struct EyeStage {
@@ -27,6 +45,7 @@ class PairProjectionTest : public testing::Test {
             : map{projectionMap(wall::Wall(rig).warp(kChannel),
                                 wall::Wall(rig).frustum(kChannel, kMarginRadians, side))},
               projection{map, kChannelId},
+              masked{withMasks(map), kChannelId},
               scene{GL_RGBA16F, scenePictureSize(map)} {
             std::vector<float> rgb;
             for (int y = 0; y < scene.sizePixels().y; ++y)
@@ -44,30 +63,38 @@ class PairProjectionTest : public testing::Test {
                                 GL_FLOAT,
                                 rgb.data());
         }
-        [[nodiscard]] PairProjection::Eye eye() const {
-            return {scene.texture(), projection.mapTexture()};
+        [[nodiscard]] PairProjection::Eye eye(bool hasMasks = false) const {
+            return {scene.texture(), hasMasks ? masked : projection};
         }
         ProjectionMap map;
-        Projection projection;
+        Projection projection, masked;
         gl::Target scene;
     };
 
     // As light, before dither: 16 bits.
-    [[nodiscard]] std::vector<std::uint16_t> packed(config::StereoMode mode) const {
+    [[nodiscard]] std::vector<std::uint16_t> packed(config::StereoMode mode,
+                                                    bool hasMasks = false) const {
         const gl::Target target(GL_RGBA16, size_);
         PairProjection(size_, kChannelId, mode)
-            .draw(left_.eye(),
-                  right_.eye(),
+            .draw(left_.eye(hasMasks),
+                  right_.eye(hasMasks),
                   {.framebuffer = target.framebuffer(), .frame = {}, .encoding = Encoding::Plain});
         return gl::readRgb<std::uint16_t>(target);
     }
-    [[nodiscard]] std::vector<std::uint16_t> alone(const EyeStage& eye) const {
+    [[nodiscard]] std::vector<std::uint16_t> alone(const EyeStage& eye,
+                                                   bool hasMasks = false) const {
         const gl::Target target(GL_RGBA16, size_);
-        eye.projection.draw({.sceneTexture = eye.scene.texture(),
-                             .framebuffer = target.framebuffer(),
-                             .frame = {},
-                             .encoding = Encoding::Plain});
+        eye.eye(hasMasks).projection.draw({.sceneTexture = eye.scene.texture(),
+                                           .framebuffer = target.framebuffer(),
+                                           .frame = {},
+                                           .encoding = Encoding::Plain});
         return gl::readRgb<std::uint16_t>(target);
+    }
+    // Of an eye at a pixel of its picture with the masks, from its picture without.
+    [[nodiscard]] glm::dvec3 masked(glm::dvec3 light, int x, int y) const {
+        const glm::vec2 share = glm::vec2(x, y) / glm::vec2(size_);
+        const glm::dvec3 black(blackAt(share));
+        return glm::min(light * glm::dvec3(blendAt(share)), 1.0) * (1.0 - black) + black;
     }
     [[nodiscard]] glm::dvec3 lightAt(const std::vector<std::uint16_t>& codes, int x, int y) const {
         const auto at = static_cast<std::size_t>(y * size_.x + x) * 3;
@@ -124,10 +151,8 @@ TEST_F(PairProjectionTest, rowsTakeTurnsFromTheLeftEyeOn) {
         ASSERT_EQ(both[i], (i / width) % 2 == 0 ? left[i] : right[i]) << "row " << i / width;
 }
 
-TEST_F(PairProjectionTest, redAndCyanAreDuboisLeastSquares) {
-    const auto both = packed(config::StereoMode::Anaglyph);
-    const auto left = alone(left_);
-    const auto right = alone(right_);
+// For red and cyan glasses (Dubois 2001).
+glm::dvec3 forGlasses(glm::dvec3 left, glm::dvec3 right) {
     const glm::dmat3 toRed = glm::transpose(glm::dmat3(0.4561,
                                                        0.500484,
                                                        0.176381,
@@ -146,11 +171,60 @@ TEST_F(PairProjectionTest, redAndCyanAreDuboisLeastSquares) {
                                                         -0.0721527,
                                                         -0.112961,
                                                         1.2264));
+    return glm::max(toRed * left + toCyan * right, 0.0);
+}
+
+TEST_F(PairProjectionTest, redAndCyanAreDuboisLeastSquares) {
+    const auto both = packed(config::StereoMode::Anaglyph);
+    const auto left = alone(left_);
+    const auto right = alone(right_);
     for (int y = 0; y < size_.y; y += 7)
         for (int x = 0; x < size_.x; x += 3) {
-            const glm::dvec3 light = toRed * lightAt(left, x, y) + toCyan * lightAt(right, x, y);
-            expectNear(lightAt(both, x, y), glm::clamp(light, 0.0, 1.0), x, y);
+            const glm::dvec3 light = forGlasses(lightAt(left, x, y), lightAt(right, x, y));
+            expectNear(lightAt(both, x, y), glm::min(light, 1.0), x, y);
         }
+}
+
+TEST_F(PairProjectionTest, aWallFilesMasksLieOnThePictureOfEachEye) {
+    using enum config::StereoMode;
+    for (const EyeStage* eye : {&left_, &right_}) {
+        const auto plain = alone(*eye), own = alone(*eye, true);
+        for (int y = 0; y < size_.y; y += 7)
+            for (int x = 0; x < size_.x; ++x)
+                expectNear(lightAt(own, x, y), masked(lightAt(plain, x, y), x, y), x, y);
+    }
+    const auto left = alone(left_, true), right = alone(right_, true);
+    const auto beside = packed(SideBySide, true), above = packed(TopBottom, true);
+    const auto rows = packed(Interlaced, true);
+    const glm::ivec2 half = size_ / 2;
+    for (int y = 0; y < half.y; y += 5)
+        for (int x = 0; x < half.x; x += 3)
+            for (const bool isRight : {false, true}) {
+                const auto& own = isRight ? right : left;
+                const auto at = [&](int ownX, int ownY) { return lightAt(own, ownX, ownY); };
+                expectNear(lightAt(beside, x + (isRight ? half.x : 0), y),
+                           0.5 * (at(2 * x, y) + at(2 * x + 1, y)),
+                           x,
+                           y);
+                expectNear(lightAt(above, x, y + (isRight ? half.y : 0)),
+                           0.5 * (at(x, 2 * y) + at(x, 2 * y + 1)),
+                           x,
+                           y);
+                const int row = 2 * y + (isRight ? 1 : 0);
+                expectNear(lightAt(rows, x, row), at(x, row), x, row);
+            }
+}
+
+// What the glasses let through is mixed before the display lends it its own black and colours.
+TEST_F(PairProjectionTest, aWallFilesMasksLieOnTheMixOfRedAndCyan) {
+    const auto both = packed(config::StereoMode::Anaglyph, true);
+    const auto left = alone(left_), right = alone(right_);
+    for (int y = 0; y < size_.y; y += 7)
+        for (int x = 0; x < size_.x; x += 3)
+            expectNear(lightAt(both, x, y),
+                       masked(forGlasses(lightAt(left, x, y), lightAt(right, x, y)), x, y),
+                       x,
+                       y);
 }
 
 // Else its grain would hang in the room at a depth of its own.

@@ -66,7 +66,8 @@ glm::dvec2 placeAt(const ProjectionMap& map, glm::dvec2 pixel) {
 // wall on the way to the eye: so neighbours agree about it.
 TEST(ProjectionMap, everyChannelShowsAPointOfTheWorldAtOnePlaceOfTheWall) {
     wall::Dice dice;
-    for (const char* name : {"desk", "theatre", "touring", "flat_3", "wall_2x2", "dome_5"}) {
+    for (const char* name :
+         {"desk", "theatre", "touring", "flat_3", "wall_2x2", "dome_5", "measured_3"}) {
         const config::Rig rig = wall::shippedRig(name);
         const wall::Wall wall(rig);
         std::vector<glm::dvec3> directions;

@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/scan/decode.h"
+
+#include <algorithm>
+#include <bit>
+#include <thread>
+
+#include "calibration/scan/code.h"
+#include "calibration/scan/faults.h"
+#include "calibration/scan/frames.h"
+#include "calibration/scan/neighbours.h"
+#include "common/base/log.h"
+#include "common/wall/scan_pattern.h"
+
+namespace aquarama::scan {
+
+namespace {
+
+using config::ScanPattern;
+using Kind = ScanPattern::Kind;
+using Indices = std::vector<std::size_t>;
+
+// A channel lights a pixel that gets this share of what its brightest pixels get, and at least so
+// much.
+constexpr float kLitShare = 0.05F, kLeastLight = 0.004F;
+// Two channels of a round light a pixel where the fainter gives this share of the brighter.
+constexpr float kShared = 0.6F;
+
+std::uint64_t bitOf(std::size_t channel) {
+    return std::uint64_t{1} << channel;
+}
+
+int axisOf(Kind kind) {
+    if (kind == Kind::GrayColumns || kind == Kind::PhaseColumns) return 0;
+    return kind == Kind::GrayRows || kind == Kind::PhaseRows ? 1 : -1;
+}
+
+bool isPhase(Kind kind) {
+    return kind == Kind::PhaseColumns || kind == Kind::PhaseRows;
+}
+
+bool isBlack(const ScanPattern& pattern) {
+    return pattern.kind == Kind::Level && (pattern.lit == 0 || pattern.light == glm::vec3(0));
+}
+
+bool isWhiteOf(const ScanPattern& pattern, std::size_t channel) {
+    return pattern.kind == Kind::Level && pattern.lit == bitOf(channel) &&
+           pattern.light == glm::vec3(1);
+}
+
+struct RoundPlan {
+    std::uint64_t channels = 0;
+    std::array<AxisCode, 2> codes;
+    std::array<Indices, 2> pictures;
+};
+
+// Which pictures are read for what, in the order of reading.
+struct Plan {
+    std::size_t black = 0;
+    std::vector<std::optional<std::size_t>> whites;  // of the channels
+    std::optional<std::size_t> room;
+    std::vector<RoundPlan> rounds;
+    Indices rest;  // only looked at for faults
+    std::uint64_t scanned = 0;
+
+    [[nodiscard]] Indices order() const {
+        Indices order{black};
+        for (const auto& white : whites)
+            if (white) order.push_back(*white);
+        if (room) order.push_back(*room);
+        for (const RoundPlan& round : rounds)
+            for (const Indices& axis : round.pictures)
+                order.insert(order.end(), axis.begin(), axis.end());
+        order.insert(order.end(), rest.begin(), rest.end());
+        return order;
+    }
+};
+
+Error missing(const std::string& what) {
+    return Error("the scan has no " + what + "; take it again with all of its patterns");
+}
+
+// Channels that any picture of columns or rows shows together.
+std::vector<RoundPlan> roundsOf(const std::vector<config::ScanPicture>& pictures,
+                                const Indices& own) {
+    std::vector<RoundPlan> rounds;
+    for (const std::size_t i : own) {
+        const ScanPattern& pattern = pictures[i].pattern;
+        if (axisOf(pattern.kind) < 0 || pattern.lit == 0) continue;
+        RoundPlan joined{.channels = pattern.lit, .codes = {}, .pictures = {}};
+        std::erase_if(rounds, [&](const RoundPlan& round) {
+            const bool shares = (round.channels & pattern.lit) != 0;
+            if (shares) joined.channels |= round.channels;
+            return shares;
+        });
+        rounds.push_back(joined);
+    }
+    return rounds;
+}
+
+AxisCode codeOf(const std::vector<config::ScanPicture>& pictures, const Indices& axis, int index) {
+    AxisCode code{.axis = index};
+    for (const std::size_t i : axis) {
+        const ScanPattern& pattern = pictures[i].pattern;
+        if (isPhase(pattern.kind)) {
+            code.hasPhase = true;
+            continue;
+        }
+        code.bits = std::max(code.bits, pattern.step + 1);
+        code.finestPixels = pattern.finestPixels;
+        code.isPaired |= pattern.inverse;
+    }
+    return code;
+}
+
+// Each pattern of an axis once.
+void checkAxis(const std::vector<config::ScanPicture>& pictures,
+               const Indices& axis,
+               const AxisCode& code,
+               int pixels) {
+    const std::string name = code.axis == 0 ? "columns" : "rows";
+    const int expected =
+        code.bits * (code.isPaired ? 2 : 1) + (code.hasPhase ? wall::kScanPhaseSteps : 0);
+    std::vector<std::tuple<bool, int, bool>> seen;
+    for (const std::size_t i : axis) {
+        const ScanPattern& pattern = pictures[i].pattern;
+        seen.emplace_back(isPhase(pattern.kind), pattern.step, pattern.inverse);
+    }
+    std::ranges::sort(seen);
+    const bool isTwice = std::ranges::adjacent_find(seen) != seen.end();
+    if (code.bits == 0 || isTwice || static_cast<int>(axis.size()) != expected)
+        throw missing("complete set of patterns of " + name);
+    if (code.bits != wall::scanGrayBits(pixels, code.finestPixels) ||
+        (code.hasPhase && code.finestPixels > wall::kScanPeriodPixels / 2))
+        throw Error("the scan's stripes do not name all " + name +
+                    " of this rig's pictures; give the rig that was scanned");
+}
+
+int mostPixels(const config::Rig& rig, std::uint64_t channels, int axis) {
+    int most = 0;
+    for (std::size_t c = 0; c < rig.channels.size(); ++c)
+        if ((channels & bitOf(c)) != 0) most = std::max(most, rig.channels[c].sizePixels[axis]);
+    return most;
+}
+
+void fillRound(RoundPlan& round,
+               const std::vector<config::ScanPicture>& pictures,
+               const Indices& own,
+               const config::Rig& rig) {
+    for (const std::size_t i : own) {
+        const int axis = axisOf(pictures[i].pattern.kind);
+        if (axis >= 0 && (pictures[i].pattern.lit & round.channels) != 0)
+            round.pictures.at(static_cast<std::size_t>(axis)).push_back(i);
+    }
+    for (int axis = 0; axis < 2; ++axis) {
+        const auto at = static_cast<std::size_t>(axis);
+        round.codes.at(at) = codeOf(pictures, round.pictures.at(at), axis);
+        checkAxis(pictures,
+                  round.pictures.at(at),
+                  round.codes.at(at),
+                  mostPixels(rig, round.channels, axis));
+    }
+}
+
+void findLevels(Plan& plan,
+                const std::vector<config::ScanPicture>& pictures,
+                const Indices& own,
+                const config::Rig& rig) {
+    const auto find = [&](const auto& fits) -> std::optional<std::size_t> {
+        const auto found =
+            std::ranges::find_if(own, [&](auto i) { return fits(pictures[i].pattern); });
+        return found == own.end() ? std::nullopt : std::optional(*found);
+    };
+    const auto black = find(isBlack);
+    if (!black) throw missing("picture of black");
+    plan.black = *black;
+    plan.room = find([](const ScanPattern& pattern) { return pattern.kind == Kind::Room; });
+    for (std::size_t c = 0; c < rig.channels.size(); ++c) {
+        plan.whites.push_back(
+            find([c](const ScanPattern& pattern) { return isWhiteOf(pattern, c); }));
+        if ((plan.scanned & bitOf(c)) != 0 && !plan.whites.back())
+            throw missing("white of channel \"" + rig.channels[c].name + "\" alone");
+    }
+}
+
+Plan planOf(const config::Scan& scan, std::uint32_t camera, const config::Rig& rig) {
+    Plan plan;
+    Indices own;
+    for (std::size_t i = 0; i < scan.pictures.size(); ++i)
+        if (scan.pictures[i].camera == camera) own.push_back(i);
+    plan.rounds = roundsOf(scan.pictures, own);
+    if (plan.rounds.empty()) throw missing("patterns of columns and rows by this camera");
+    for (RoundPlan& round : plan.rounds) {
+        fillRound(round, scan.pictures, own, rig);
+        plan.scanned |= round.channels;
+    }
+    findLevels(plan, scan.pictures, own, rig);
+    Indices used = plan.order();
+    std::ranges::sort(used);
+    std::ranges::set_difference(own, used, std::back_inserter(plan.rest));
+    return plan;
+}
+
+float quantile(const Plane& values, double share) {
+    constexpr std::size_t kStride = 5;
+    Plane some;
+    for (std::size_t i = 0; i < values.size(); i += kStride) some.push_back(values[i]);
+    const auto at =
+        some.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(some.size() - 1));
+    std::nth_element(some.begin(), at, some.end());
+    return *at;
+}
+
+// Decodes one camera, picture by picture in the order of a plan.
+class Decoder {
+  public:
+    Decoder(PictureSource& source, std::uint32_t camera, const config::Rig& rig)
+        : source_{source},
+          rig_{rig},
+          camera_{camera},
+          plan_{planOf(source.scan(), camera, rig)},
+          order_{plan_.order()},
+          pool_{std::max(1U, std::thread::hardware_concurrency())},
+          reader_{source, camera, pool_},
+          notes_(rig.channels.size()),
+          clipped_(rig.channels.size()),
+          litFrom_(rig.channels.size()) {
+        view_.channels.resize(rig.channels.size());
+    }
+
+    [[nodiscard]] CameraView run() {
+        readBlack();
+        for (std::size_t c = 0; c < plan_.whites.size(); ++c)
+            if (plan_.whites[c]) readWhite(c);
+        if (plan_.room) view_.room = lightOfFrame(next());
+        for (const RoundPlan& round : plan_.rounds) decodeRound(round);
+        for (std::size_t i = 0; i < plan_.rest.size(); ++i) static_cast<void>(next());
+        for (std::size_t c = 0; c < notes_.size(); ++c)
+            if ((plan_.scanned & bitOf(c)) != 0) tidy(c);
+        view_.noise = noises_ > 0 ? view_.noise / noises_ : 0;
+        view_.faults = faultsOf({.scan = source_.scan(),
+                                 .rig = rig_,
+                                 .camera = camera_,
+                                 .view = view_,
+                                 .small = reader_.small(),
+                                 .firstBlack = plan_.black,
+                                 .channels = notes_});
+        return std::move(view_);
+    }
+
+  private:
+    [[nodiscard]] Frame next() {
+        const std::size_t index = order_[read_++];
+        return reader_.read(index,
+                            read_ < order_.size() ? std::optional(order_[read_]) : std::nullopt);
+    }
+    [[nodiscard]] Light lightOfFrame(const Frame& frame) const {
+        Light light = lightOf(frame.picture, source_.scan().cameras[camera_].response);
+        const float scale = reader_.exposureScale(frame.index);
+        for (glm::vec3& rgb : light.rgb) rgb *= scale;
+        return light;
+    }
+
+    void readBlack() {
+        Frame frame = next();
+        view_.sizePixels = reader_.sizePixels();
+        view_.black = lightOfFrame(frame);
+        black_ = std::move(frame.luminance);
+    }
+
+    void readWhite(std::size_t channel) {
+        const Frame frame = next();
+        const auto most = static_cast<float>((1 << frame.picture.bits) - 1);
+        const auto full = static_cast<std::uint16_t>(0.995F * most);
+        ChannelView& view = view_.channels[channel];
+        view.light.resize(black_.size());
+        clipped_[channel].resize(black_.size());
+        forPixels(pool_, black_.size(), [&](std::size_t first, std::size_t last) {
+            for (std::size_t p = first; p < last; ++p) {
+                view.light[p] = frame.luminance[p] - black_[p];
+                const std::uint16_t* code = &frame.picture.rgb[3 * p];
+                clipped_[channel][p] = std::max({code[0], code[1], code[2]}) >= full ? 1 : 0;
+            }
+        });
+        litFrom_[channel] = std::max(kLeastLight, kLitShare * quantile(view.light, 0.98));
+        double lit = 0, clipped = 0;
+        for (std::size_t p = 0; p < black_.size(); ++p) {
+            if (view.light[p] < litFrom_[channel]) continue;
+            ++lit;
+            clipped += clipped_[channel][p];
+        }
+        notes_[channel].clipped = lit > 0 ? clipped / lit : 0;
+    }
+
+    // The channel of a round that lights a pixel most, where no other lights it too.
+    [[nodiscard]] std::uint8_t ownerOf(std::uint64_t channels,
+                                       std::size_t pixel,
+                                       bool hasPhase) const {
+        float most = 0, second = 0;
+        std::uint8_t owner = Round::kNobody;
+        for (std::uint64_t left = channels; left != 0; left &= left - 1) {
+            const auto c = static_cast<std::size_t>(std::countr_zero(left));
+            const float light = view_.channels[c].light[pixel];
+            second = std::max(second, std::min(light, most));
+            if (light <= most) continue;
+            most = light;
+            owner = static_cast<std::uint8_t>(c);
+        }
+        if (owner == Round::kNobody || most < litFrom_[owner] || second > kShared * most)
+            return Round::kNobody;
+        return hasPhase && clipped_[owner][pixel] != 0 ? Round::kNobody : owner;
+    }
+
+    [[nodiscard]] Round roundOf(const RoundPlan& plan) {
+        Round round{.channels = plan.channels,
+                    .owner = std::vector<std::uint8_t>(black_.size()),
+                    .middle = black_};
+        const bool hasPhase = plan.codes[0].hasPhase || plan.codes[1].hasPhase;
+        forPixels(pool_, black_.size(), [&](std::size_t first, std::size_t last) {
+            for (std::size_t p = first; p < last; ++p) {
+                round.owner[p] = ownerOf(plan.channels, p, hasPhase);
+                for (std::uint64_t left = plan.channels; left != 0; left &= left - 1)
+                    round.middle[p] +=
+                        0.5F *
+                        view_.channels[static_cast<std::size_t>(std::countr_zero(left))].light[p];
+            }
+        });
+        return round;
+    }
+
+    void decodeRound(const RoundPlan& plan) {
+        const Round round = roundOf(plan);
+        std::vector<Indices> owned(rig_.channels.size());
+        for (std::size_t p = 0; p < round.owner.size(); ++p)
+            if (round.owner[p] != Round::kNobody) owned[round.owner[p]].push_back(p);
+        for (std::size_t c = 0; c < owned.size(); ++c)
+            if ((plan.channels & bitOf(c)) != 0) {
+                view_.channels[c].place.assign(black_.size(), glm::vec2(kUnknown));
+                view_.channels[c].sigma.assign(black_.size(), glm::vec2(kUnknown));
+            }
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            AxisSignals signals(plan.codes.at(axis), black_.size());
+            for (std::size_t i = 0; i < plan.pictures.at(axis).size(); ++i)
+                signals.add(next(), round, view_.channels, pool_);
+            for (std::size_t c = 0; c < owned.size(); ++c)
+                if (!owned[c].empty()) readAxis(signals, plan.pictures.at(axis), c, owned[c]);
+        }
+    }
+
+    void readAxis(const AxisSignals& signals,
+                  const Indices& pictures,
+                  std::size_t channel,
+                  const Indices& owned) {
+        ChannelView& view = view_.channels[channel];
+        const int axis = signals.code.axis;
+        const int pixels = rig_.channels[channel].sizePixels[axis];
+        const auto reader = makeAxisReader(signals, view.light, owned, pixels);
+        forPixels(pool_, owned.size(), [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                const Reading reading = reader->read(owned[i]);
+                view.place[owned[i]][axis] = reading.place;
+                view.sigma[owned[i]][axis] = reading.sigma;
+            }
+        });
+        settleDoubts(view, axis, view_.sizePixels.x, owned, *reader, pool_);
+        view_.noise += reader->noise();
+        ++noises_;
+        notes_[channel].hasPhase |= signals.code.hasPhase;
+        noteStripes(signals, pictures, channel, owned);
+    }
+
+    void noteStripes(const AxisSignals& signals,
+                     const Indices& pictures,
+                     std::size_t channel,
+                     const Indices& owned) {
+        ChannelNotes& notes = notes_[channel];
+        const int pixels = rig_.channels[channel].sizePixels[signals.code.axis];
+        for (const std::size_t i : pictures) {
+            const ScanPattern& pattern = source_.scan().pictures[i].pattern;
+            if ((pattern.lit & bitOf(channel)) == 0) continue;
+            notes.isTagged |= pattern.tagged;
+            if (!signals.code.hasPhase || isPhase(pattern.kind)) continue;
+            const auto shift =
+                stripeShift(signals, pattern.step, pixels, view_.channels[channel], owned);
+            if (!shift || std::abs(*shift) <= std::abs(notes.shift)) continue;
+            notes.shift = *shift;
+            notes.shiftedPicture = i;
+        }
+    }
+
+    void tidy(std::size_t channel) {
+        ChannelView& view = view_.channels[channel];
+        ChannelNotes& notes = notes_[channel];
+        const int width = view_.sizePixels.x;
+        dropOutliers(view, width, pool_);
+        notes.step = stepOf(view, width);
+        const glm::ivec2 size = rig_.channels[channel].sizePixels;
+        dropBorders(view, notes.step, size);
+        if (notes.isTagged) dropTag(view, notes.step, view_.sizePixels, size);
+    }
+
+    PictureSource& source_;
+    const config::Rig& rig_;
+    std::uint32_t camera_;
+    Plan plan_;
+    Indices order_;
+    std::size_t read_ = 0;  // pictures of the order
+    WorkerPool pool_;
+    FrameReader reader_;
+    CameraView view_;
+    Plane black_;
+    std::vector<ChannelNotes> notes_;
+    std::vector<std::vector<std::uint8_t>> clipped_;  // of each channel's white
+    Plane litFrom_;                                   // of each channel
+    int noises_ = 0;
+};
+
+}  // namespace
+
+CameraView decode(PictureSource& source, std::uint32_t camera, const config::Rig& rig) {
+    return Decoder(source, camera, rig).run();
+}
+
+}  // namespace aquarama::scan

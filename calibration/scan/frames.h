@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pictures of one camera, one after the other, as linear luminance; and small copies of all of
+// them, which stay.
+#pragma once
+
+#include <future>
+#include <optional>
+#include <vector>
+
+#include "calibration/scan/pictures.h"
+#include "common/base/worker_pool.h"
+
+namespace aquarama::scan {
+
+// Values for each pixel of a camera, top row first.
+using Plane = std::vector<float>;
+
+// Linear light of every code.
+[[nodiscard]] std::vector<float> lightOfCodes(int bits, config::ScanCamera::Response response);
+
+// Work in pieces of some thousand pixels: work(first, last).
+template <class Work>
+void forPixels(WorkerPool& pool, std::size_t pixels, const Work& work) {
+    constexpr std::size_t kPiece = 16384;
+    pool.run((pixels + kPiece - 1) / kPiece, [&](std::size_t piece) {
+        work(piece * kPiece, std::min(pixels, (piece + 1) * kPiece));
+    });
+}
+
+// The mean of blocks of pixels: fine enough for a tag's cells, small enough to keep for all
+// pictures.
+struct SmallPicture {
+    std::size_t index = 0;  // in the scan
+    Plane light;
+};
+struct SmallPictures {
+    glm::ivec2 sizePixels{};
+    int factor = 1;  // camera pixels along the side of a block
+    std::vector<SmallPicture> pictures;
+
+    [[nodiscard]] Plane shrunk(const Plane& full, int fullWidth) const;
+    [[nodiscard]] const Plane* of(std::size_t index) const;
+};
+
+// A picture as it was taken, and its luminance; light of all exposures is brought to that of the
+// first picture.
+struct Frame {
+    std::size_t index = 0;  // in the scan
+    const config::ScanPattern* pattern = nullptr;
+    Picture picture;
+    Plane luminance;
+};
+
+// Reads pictures in a given order; while one is worked on, the next is read. Keeps a small copy of
+// each.
+class FrameReader {
+  public:
+    FrameReader(PictureSource& source, std::uint32_t camera, WorkerPool& pool);
+    // Throws Error as the source does.
+    [[nodiscard]] Frame read(std::size_t index, std::optional<std::size_t> next);
+    [[nodiscard]] glm::ivec2 sizePixels() const { return size_; }
+    [[nodiscard]] SmallPictures& small() { return small_; }
+    [[nodiscard]] float exposureScale(std::size_t index) const;
+
+  private:
+    void measure(Frame& frame);
+
+    PictureSource& source_;
+    config::ScanCamera camera_;
+    WorkerPool& pool_;
+    std::optional<double> exposure_;
+    glm::ivec2 size_{};
+    std::vector<float> table_;
+    int tableBits_ = 0;
+    std::size_t aheadIndex_ = 0;
+    std::future<Picture> ahead_;  // last: it uses the source until it is destroyed
+    SmallPictures small_;
+};
+
+}  // namespace aquarama::scan

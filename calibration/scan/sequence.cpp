@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+
+#include "calibration/scan/pictures.h"
+#include "common/wall/scan_pattern.h"
+#include "common/wall/wall.h"
+
+namespace aquarama::scan {
+
+namespace {
+
+using config::ScanPattern;
+using Kind = ScanPattern::Kind;
+
+// The panorama in cells, each with a bit for every channel that lights it.
+constexpr glm::ivec2 kCells{128, 32};
+// Rigs hang crooked: what a channel lights is taken for so much wider, as a share of the panorama.
+constexpr double kSlack = 0.02;
+
+using Cells = std::vector<std::uint64_t>;
+
+std::size_t cellAt(int x, int y) {
+    return static_cast<std::size_t>(y * kCells.x + x);
+}
+
+std::uint64_t litAt(const wall::Wall& wall, glm::dvec3 point) {
+    std::uint64_t lit = 0;
+    for (std::size_t c = 0; c < wall.channels(); ++c)
+        if (wall.channel(c).pixelOf(point)) lit |= std::uint64_t{1} << c;
+    return lit;
+}
+
+Cells litCells(const wall::Wall& wall) {
+    Cells cells(static_cast<std::size_t>(kCells.x * kCells.y));
+    for (int y = 0; y < kCells.y; ++y)
+        for (int x = 0; x < kCells.x; ++x) {
+            const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / glm::dvec2(kCells);
+            if (const auto point = wall.screen().at(place))
+                cells[cellAt(x, y)] = litAt(wall, *point);
+        }
+    return cells;
+}
+
+std::uint64_t litAround(const Cells& cells, int x, int y) {
+    const int reach = static_cast<int>(kSlack * kCells.x + 0.5);
+    std::uint64_t lit = 0;
+    for (int j = std::max(0, y - reach); j <= std::min(kCells.y - 1, y + reach); ++j)
+        for (int i = std::max(0, x - reach); i <= std::min(kCells.x - 1, x + reach); ++i)
+            lit |= cells[cellAt(i, j)];
+    return lit;
+}
+
+// For each channel, those that may share light with it.
+std::vector<std::uint64_t> neighboursOf(const config::Rig& rig) {
+    const Cells cells = litCells(wall::Wall(rig));
+    std::vector<std::uint64_t> neighbours(rig.channels.size());
+    for (int y = 0; y < kCells.y; ++y)
+        for (int x = 0; x < kCells.x; ++x) {
+            const std::uint64_t lit = litAround(cells, x, y);
+            for (std::size_t c = 0; c < neighbours.size(); ++c)
+                if (((lit >> c) & 1U) != 0) neighbours[c] |= lit;
+        }
+    return neighbours;
+}
+
+// Sets of channels that show their patterns together: each channel joins the first set where it has
+// no neighbour.
+std::vector<std::uint64_t> roundsOf(const config::Rig& rig) {
+    const std::vector<std::uint64_t> neighbours = neighboursOf(rig);
+    std::vector<std::uint64_t> rounds;
+    for (std::size_t c = 0; c < neighbours.size(); ++c) {
+        const auto free = std::ranges::find_if(
+            rounds, [&](std::uint64_t round) { return (round & neighbours[c]) == 0; });
+        std::uint64_t& round = free == rounds.end() ? rounds.emplace_back(0) : *free;
+        round |= std::uint64_t{1} << c;
+    }
+    return rounds;
+}
+
+// Columns or rows of a channel's picture.
+int linesOf(const config::Channel& channel, Kind kind) {
+    return kind == Kind::GrayColumns ? channel.sizePixels.x : channel.sizePixels.y;
+}
+
+// Those of a round whose Gray code has this bit: a smaller picture has fewer.
+std::uint64_t withBit(const config::Rig& rig, std::uint64_t round, Kind kind, int bit) {
+    std::uint64_t lit = 0;
+    for (std::size_t c = 0; c < rig.channels.size(); ++c)
+        if (wall::scanGrayBits(linesOf(rig.channels[c], kind), wall::kScanPeriodPixels / 2) > bit)
+            lit |= round & (std::uint64_t{1} << c);
+    return lit;
+}
+
+void addAxis(std::vector<ScanPattern>& sequence,
+             const config::Rig& rig,
+             std::uint64_t round,
+             Kind gray,
+             Kind phase) {
+    for (int bit = 0; const std::uint64_t lit = withBit(rig, round, gray, bit); ++bit)
+        sequence.push_back({.kind = gray, .step = static_cast<std::uint8_t>(bit), .lit = lit});
+    for (int step = 0; step < wall::kScanPhaseSteps; ++step)
+        sequence.push_back({.kind = phase, .step = static_cast<std::uint8_t>(step), .lit = round});
+}
+
+void addRound(std::vector<ScanPattern>& sequence, const config::Rig& rig, std::uint64_t round) {
+    addAxis(sequence, rig, round, Kind::GrayColumns, Kind::PhaseColumns);
+    addAxis(sequence, rig, round, Kind::GrayRows, Kind::PhaseRows);
+    constexpr std::array<glm::vec3, 5> kLevels{
+        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, glm::vec3(0.18F), glm::vec3(0.5F)}};
+    for (const glm::vec3 light : kLevels) sequence.push_back({.light = light, .lit = round});
+}
+
+ScanPattern black() {
+    return {.light = glm::vec3(0), .lit = 0, .tagged = false};
+}
+
+}  // namespace
+
+std::vector<ScanPattern> sequenceOf(const config::Rig& rig) {
+    std::vector<ScanPattern> sequence{{.kind = Kind::Room, .lit = 0, .tagged = false}, black()};
+    for (std::size_t c = 0; c < rig.channels.size(); ++c)
+        sequence.push_back({.lit = std::uint64_t{1} << c});
+    for (const std::uint64_t round : roundsOf(rig)) addRound(sequence, rig, round);
+    sequence.push_back(black());  // tells of light that came or went
+    for (std::size_t i = 0; i < sequence.size(); ++i)
+        sequence[i].number = static_cast<std::uint16_t>(i + 1);
+    return sequence;
+}
+
+}  // namespace aquarama::scan

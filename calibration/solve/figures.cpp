@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/solve/figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "calibration/solve/statistics.h"
+
+namespace aquarama::solve {
+
+const char* nameOf(Verdict verdict) {
+    constexpr std::array kNames{"pass", "warn", "refuse"};
+    return kNames.at(static_cast<std::size_t>(verdict));
+}
+
+namespace {
+
+// The places of the panorama where each channel shows a point, where it reaches it.
+std::vector<glm::dvec2> shownAt(const hall::TrueHall& truth,
+                                const wall::ScreenSurface& screen,
+                                const formats::WallFile& file,
+                                glm::ivec2 panorama,
+                                glm::dvec3 point) {
+    std::vector<glm::dvec2> shown;
+    for (std::size_t channel = 0; channel < file.channels.size(); ++channel) {
+        const auto pixel = truth.pixelOf(channel, point);
+        if (!pixel) continue;
+        const formats::FileChannel& region = file.channels[channel];
+        const glm::vec3 lit = formats::warpAt(*region.warp, *pixel / glm::dvec2(region.sizePixels));
+        if (std::isnan(lit.x)) continue;
+        shown.push_back(screen.unrolled(lit) * glm::dvec2(panorama));
+    }
+    return shown;
+}
+
+}  // namespace
+
+WallErrors errorsOf(const hall::TrueHall& truth,
+                    const config::Rig& rig,
+                    const formats::WallFile& file,
+                    std::size_t points) {
+    const auto screen = wall::makeSurface(rig);
+    WallErrors errors;
+    for (const glm::dvec3& point : truth.screenPoints(points)) {
+        const glm::dvec2 place = truth.unrolled(point) * glm::dvec2(rig.panoramaPixels);
+        if (std::isnan(place.x)) continue;
+        const auto shown = shownAt(truth, *screen, file, rig.panoramaPixels, point);
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            errors.absolute.push_back(glm::distance(shown[i], place));
+            for (std::size_t j = i + 1; j < shown.size(); ++j)
+                errors.overlap.push_back(glm::distance(shown[i], shown[j]));
+        }
+    }
+    return errors;
+}
+
+namespace {
+
+// Bounds of what is good, and of what may still be used, in panorama pixels.
+struct Bounds {
+    double rms, p95, most;
+};
+constexpr Bounds kGood{0.2, 0.45, 1.0};
+constexpr Bounds kUsable{0.6, 1.4, 3.0};
+
+bool isWithin(const SolveFigures& figures, const Bounds& bounds) {
+    return figures.overlapRms <= bounds.rms && figures.overlapP95 <= bounds.p95 &&
+           figures.overlapMax <= bounds.most;
+}
+
+void take(Figures& figures, Verdict verdict, const scan::ScanFault& fault) {
+    if (verdict <= figures.verdict && !figures.cause.empty()) return;
+    figures.verdict = std::max(verdict, figures.verdict);
+    figures.cause = fault.cause;
+    figures.advice = fault.advice;
+}
+
+void judgeOverlaps(Figures& figures, const SolveFigures& solved) {
+    constexpr std::size_t kLeastPoints = 8;
+    if (solved.overlapPoints < kLeastPoints)
+        return take(figures,
+                    Verdict::Refuse,
+                    {"no_overlap",
+                     "the camera sees no place that two channels light: let neighbours overlap by "
+                     "a tenth of their pictures"});
+    if (isWithin(solved, kGood)) return;
+    take(figures,
+         isWithin(solved, kUsable) ? Verdict::Warn : Verdict::Refuse,
+         {"misregistration",
+          fmt::format("neighbours part by {:.2f} panorama pixels (RMS) at places that were kept "
+                      "from the solve: let nothing move during the scan, focus the camera and scan "
+                      "again",
+                      solved.overlapRms)});
+}
+
+void judgeOutline(Figures& figures, const SolveFigures& solved) {
+    constexpr std::size_t kLeastPoints = 150;
+    constexpr double kMostPixels = 1.5;
+    if (solved.outlinePoints < kLeastPoints)
+        take(figures,
+             Verdict::Warn,
+             {"outline_not_seen",
+              "the outline of the screen is not seen all round, so the whole picture may be off: "
+              "show all of the screen to the camera, and light the room for the first picture"});
+    else if (solved.outlineRms > kMostPixels)
+        take(figures,
+             Verdict::Refuse,
+             {"wrong_screen",
+              fmt::format("the screen's outline is {:.1f} camera pixels off (RMS) from what the "
+                          "rig says: measure the screen and correct the rig",
+                          solved.outlineRms)});
+}
+
+}  // namespace
+
+Figures judged(const std::vector<scan::CameraView>& views, const Solved& solved) {
+    Figures figures{.verdict = Verdict::Pass, .cause = {}, .advice = {}};
+    for (const scan::CameraView& view : views)
+        for (const scan::ScanFault& fault : view.faults)
+            take(figures, fault.refuses ? Verdict::Refuse : Verdict::Warn, fault);
+    for (const scan::ScanFault& fault : solved.faults)
+        take(figures, fault.refuses ? Verdict::Refuse : Verdict::Warn, fault);
+    if (solved.faults.empty()) {
+        judgeOverlaps(figures, solved.figures);
+        judgeOutline(figures, solved.figures);
+    }
+    figures.overlapRms = solved.figures.overlapRms;
+    figures.overlapP95 = solved.figures.overlapP95;
+    figures.overlapMax = solved.figures.overlapMax;
+    figures.overlapPoints = solved.figures.overlapPoints;
+    figures.outlineRms = solved.figures.outlineRms;
+    figures.fitRms = solved.figures.fitRms;
+    return figures;
+}
+
+void setTrue(Figures& figures, WallErrors errors) {
+    figures.isTrue = true;
+    figures.overlapPoints = errors.overlap.size();
+    figures.overlapRms = rootMeanSquare(errors.overlap);
+    figures.overlapP95 = quantile(errors.overlap, 0.95);
+    figures.overlapMax = quantile(std::move(errors.overlap), 1);
+    figures.absoluteRms = rootMeanSquare(errors.absolute);
+}
+
+std::string jsonOf(const Figures& figures) {
+    return nlohmann::ordered_json{{"verdict", nameOf(figures.verdict)},
+                                  {"cause", figures.cause},
+                                  {"advice", figures.advice},
+                                  {"from_ground_truth", figures.isTrue},
+                                  {"overlap_rms_px", figures.overlapRms},
+                                  {"overlap_p95_px", figures.overlapP95},
+                                  {"overlap_max_px", figures.overlapMax},
+                                  {"overlap_points", figures.overlapPoints},
+                                  {"absolute_rms_px", figures.absoluteRms},
+                                  {"outline_rms_camera_px", figures.outlineRms},
+                                  {"fit_rms_projector_px", figures.fitRms},
+                                  {"seconds", figures.seconds},
+                                  {"pictures", figures.pictures},
+                                  {"peak_megabytes", figures.peakMegabytes}}
+               .dump(2) +
+           "\n";
+}
+
+}  // namespace aquarama::solve

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// How good a calibration is, and whether it may be used.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/hall/true_hall.h"
+#include "calibration/solve/solve.h"
+#include "common/formats/wall_file.h"
+
+namespace aquarama::solve {
+
+enum class Verdict : std::uint8_t { Pass, Warn, Refuse };
+[[nodiscard]] const char* nameOf(Verdict verdict);
+
+// Errors of a wall in panorama pixels: between two channels that show one point, and between what
+// a channel shows at a point and what belongs there.
+struct WallErrors {
+    std::vector<double> overlap, absolute;
+};
+
+// Of a wall file in a hall whose truth is known, at so many points of the screen.
+[[nodiscard]] WallErrors errorsOf(const hall::TrueHall& truth,
+                                  const config::Rig& rig,
+                                  const formats::WallFile& file,
+                                  std::size_t points);
+
+struct Figures {
+    Verdict verdict = Verdict::Refuse;
+    std::string cause, advice;  // empty where it passes
+    double overlapRms = 0, overlapP95 = 0, overlapMax = 0;
+    // Known in a simulated hall alone; else what the solve thinks of itself.
+    double absoluteRms = 0;
+    bool isTrue = false;  // from ground truth
+    std::size_t overlapPoints = 0;
+    double outlineRms = 0, fitRms = 0;
+    double seconds = 0;
+    std::size_t pictures = 0;
+    double peakMegabytes = 0;
+};
+
+// What the scan and the solve say of themselves; truth is no part of it.
+[[nodiscard]] Figures judged(const std::vector<scan::CameraView>& views, const Solved& solved);
+// Sets the errors from the truth; the verdict stays.
+void setTrue(Figures& figures, WallErrors errors);
+
+// {"verdict": "pass", "cause": "", ...}
+[[nodiscard]] std::string jsonOf(const Figures& figures);
+
+}  // namespace aquarama::solve

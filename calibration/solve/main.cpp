@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// aquarama-solve: from pictures of a wall that a camera took, or a simulated one takes, to the
+// wall file that render nodes take.
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "calibration/hall/random_hall.h"
+#include "calibration/hall/simulated_camera.h"
+#include "calibration/hall/true_hall.h"
+#include "calibration/scan/decode.h"
+#include "calibration/scan/pictures.h"
+#include "calibration/solve/figures.h"
+#include "calibration/solve/solve.h"
+#include "calibration/solve/wall_of.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/cli/command_line.h"
+#include "common/cli/outputs.h"
+#include "common/config/hall.h"
+#include "common/config/rig.h"
+#include "common/config/text_file.h"
+#include "common/formats/mpcdi.h"
+#include "common/wall/wall.h"
+
+namespace aquarama {
+namespace {
+
+struct Options {
+    std::string rig, from, simulate, out, report, keep;
+};
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+void say(const std::string& text) {
+    std::puts(text.c_str());
+    std::fflush(stdout);
+}
+
+std::vector<std::string> channelNames(const config::Rig& rig) {
+    std::vector<std::string> names;
+    for (const config::Channel& channel : rig.channels) names.push_back(channel.name);
+    return names;
+}
+
+constexpr const char* kRandom = "random:";
+
+// What FILE or random:SEED says is true of the hall.
+config::Hall hallFrom(const std::string& text, const config::Rig& rig) {
+    if (!text.starts_with(kRandom))
+        return config::parseHall(config::readTextFile(text), text, channelNames(rig));
+    const std::string seed = text.substr(std::string(kRandom).size());
+    unsigned long number = 0;
+    if (!CLI::detail::lexical_cast(seed, number) || number > cli::kMostSeed)
+        throw Error("--simulate: \"" + seed + "\" is no seed; give a whole number, as in random:7");
+    return hall::randomHall(rig, static_cast<std::uint32_t>(number));
+}
+
+std::size_t camerasOf(const config::Scan& scan) {
+    return scan.cameras.size();
+}
+
+double peakMegabytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+// One calibration, from the pictures to the files.
+class Calibration {
+  public:
+    explicit Calibration(const Options& options)
+        : options_(options), rig_(config::readRigAsHung(options.rig)), wall_(rig_) {}
+
+    int run() {
+        openPictures();
+        if (!options_.keep.empty()) scan::writeFolder(*source_, options_.keep, rig_);
+        const auto begin = Clock::now();
+        std::vector<scan::CameraView> views;
+        for (std::uint32_t i = 0; i < camerasOf(source_->scan()); ++i) {
+            say(fmt::format("reading {} pictures", source_->scan().pictures.size()));
+            views.push_back(scan::decode(*source_, i, rig_));
+        }
+        const solve::Solved solved = solve::solveHall(rig_, wall_, views, say);
+        solve::Figures figures = solve::judged(views, solved);
+        if (figures.verdict != solve::Verdict::Refuse) write(solved, figures);
+        figures.seconds = secondsSince(begin);
+        figures.pictures = source_->scan().pictures.size();
+        figures.peakMegabytes = peakMegabytes();
+        report(figures);
+        return figures.verdict == solve::Verdict::Refuse ? 1 : 0;
+    }
+
+  private:
+    void openPictures() {
+        if (!options_.from.empty()) {
+            source_ = scan::openFolder(options_.from, rig_);
+            return;
+        }
+        const config::Hall hall = hallFrom(options_.simulate, rig_);
+        truth_ = std::make_unique<hall::TrueHall>(rig_, hall);
+        source_ = std::make_unique<hall::SimulatedCamera>(*truth_, scan::sequenceOf(rig_));
+    }
+
+    void write(const solve::Solved& solved, solve::Figures& figures) {
+        say("writing the wall file");
+        const formats::WallFile file = solve::wallFileOf(*solved.hall);
+        formats::writeMpcdi(options_.out, file, 2);
+        constexpr std::size_t kPoints = 20000;
+        if (truth_) solve::setTrue(figures, solve::errorsOf(*truth_, rig_, file, kPoints));
+    }
+
+    void report(const solve::Figures& figures) const {
+        if (!options_.report.empty()) {
+            const std::string text = solve::jsonOf(figures);
+            writeWhole(std::filesystem::path(options_.report) / "figures.json",
+                       std::as_bytes(std::span(text)));
+        }
+        say(fmt::format("{}{}{}",
+                        solve::nameOf(figures.verdict),
+                        figures.cause.empty() ? "" : ": " + figures.cause + ": ",
+                        figures.advice));
+        if (figures.verdict == solve::Verdict::Refuse) return;
+        say(fmt::format("neighbours part by {:.2f} panorama pixels (RMS; 95 % {:.2f}, most {:.2f})",
+                        figures.overlapRms,
+                        figures.overlapP95,
+                        figures.overlapMax));
+        if (figures.isTrue)
+            say(fmt::format("the picture is {:.2f} panorama pixels off (RMS)",
+                            figures.absoluteRms));
+        say(options_.out);
+    }
+
+    const Options& options_;
+    config::Rig rig_;
+    wall::Wall wall_;
+    std::unique_ptr<hall::TrueHall> truth_;
+    std::unique_ptr<scan::PictureSource> source_;
+};
+
+int calibrate(const Options& options) {
+    cli::requireFile("--out", options.out);
+    cli::requireFolder("--report", options.report);
+    return Calibration(options).run();
+}
+
+}  // namespace
+}  // namespace aquarama
+
+// NOLINTNEXTLINE(bugprone-exception-escape): outside runProgram() only a lack of memory throws
+int main(int count, char** arguments) {
+    using namespace aquarama;
+    CLI::App app("Finds how projectors hang before their screen, from pictures of patterns.",
+                 "aquarama calibrate");
+    Options options;
+    app.add_option("--rig", options.rig, "the rig, with its projectors about where they hang")
+        ->required();
+    auto& source = *app.add_option_group("pictures", "where the pictures come from");
+    source.add_option("--from", options.from, "a folder of pictures that were taken before");
+    source.add_option("--simulate",
+                      options.simulate,
+                      "a simulated hall: a file that tells what is wrong in it, or random:SEED");
+    source.require_option(1);
+    app.add_option("--out", options.out, "the wall file to write (.mpcdi)")->required();
+    app.add_option("--report", options.report, "folder for a page with pictures and figures");
+    app.add_option("--keep", options.keep, "folder for the pictures, to solve them again");
+    return cli::runProgram(app, count, arguments, [&] { return calibrate(options); });
+}

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/solve/solve.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "calibration/solve/begin.h"
+#include "calibration/solve/correct.h"
+#include "calibration/solve/joint.h"
+#include "calibration/solve/statistics.h"
+
+namespace aquarama::solve {
+
+namespace {
+
+// A cell of the displacement for each so many metres of the screen.
+glm::ivec2 cellsFor(const wall::ScreenSurface& screen) {
+    constexpr double kMetres = 0.30;
+    constexpr int kSteps = 32;
+    glm::dvec2 length(0);
+    for (int i = 0; i < kSteps; ++i) {
+        const auto far = [&](glm::dvec2 from, glm::dvec2 to) {
+            const auto a = screen.at(from), b = screen.at(to);
+            return a && b ? glm::distance(*a, *b) : 0.0;
+        };
+        const double t = static_cast<double>(i) / kSteps, next = t + 1.0 / kSteps;
+        length.x += far({t, 0.5}, {next, 0.5});
+        length.y += far({0.5, t}, {0.5, next});
+    }
+    return glm::clamp(glm::ivec2(glm::round(length / kMetres)), glm::ivec2(4), glm::ivec2(40));
+}
+
+// How far apart two channels show what a camera sees at one place: held-out windows alone.
+std::vector<double> overlapErrors(const SolvedHall& hall, const std::vector<Tie>& ties) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<const Tie*>> windows;
+    for (const Tie& tie : ties)
+        if (tie.heldOut) windows[{tie.camera, tie.window}].push_back(&tie);
+    std::vector<double> errors;
+    for (const auto& [key, seen] : windows)
+        for (std::size_t i = 0; i < seen.size(); ++i)
+            for (std::size_t j = i + 1; j < seen.size(); ++j) {
+                const auto a = hall.placeOf(seen[i]->channel, seen[i]->place);
+                const auto b = hall.placeOf(seen[j]->channel, seen[j]->place);
+                if (!a || !b) continue;
+                errors.push_back(
+                    glm::distance(hall.panoramaPixel(a->point), hall.panoramaPixel(b->point)));
+            }
+    return errors;
+}
+
+double fitRms(const SolvedHall& hall, const std::vector<Tie>& ties) {
+    std::vector<double> errors;
+    for (const Tie& tie : ties)
+        if (!tie.heldOut)
+            if (const auto place = hall.modelled(tie))
+                errors.push_back(glm::distance(*place, tie.place));
+    return rootMeanSquare(errors);
+}
+
+std::vector<OutlineTie> outlinesOf(const SolvedHall& hall,
+                                   const std::vector<scan::CameraView>& views,
+                                   double reachShare) {
+    std::vector<OutlineTie> ties;
+    for (std::uint32_t i = 0; i < views.size(); ++i) {
+        const auto more = outlineTies(views[i].room,
+                                      i,
+                                      hall.screen,
+                                      hall.cameras[i].lens,
+                                      hall.cameras[i].pose,
+                                      reachShare * views[i].sizePixels.x);
+        ties.insert(ties.end(), more.begin(), more.end());
+    }
+    return ties;
+}
+
+// One pass of the joint solve: what is free, where the outline is looked for, and how far off
+// outline and ties may be, beside their own noise.
+struct Round {
+    Stage stage;
+    double outlineReach;  // of the picture's width
+    double outlinePixels, tiePixels;
+    int mostSteps;
+};
+// What models of lenses do not know is a tenth of a pixel in the end.
+constexpr std::array kRounds{Round{Stage::Poses, 0.04, 8, 4, 25},
+                             Round{Stage::Lenses, 0.015, 2, 1, 20},
+                             Round{Stage::Bumps, 0.006, 0.7, 0.3, 20},
+                             Round{Stage::Bumps, 0.003, 0.2, 0.12, 25}};
+
+double outlineRms(const SolvedHall& hall, const std::vector<OutlineTie>& outline) {
+    std::vector<double> off;
+    for (const OutlineTie& tie : outline) {
+        const Device& camera = hall.cameras[tie.camera];
+        const glm::dvec3 point = hall.screen.at(tie.unrolled).point;
+        const Two<double> seen = pixelOf(
+            camera.lens.data(), camera.pose.data(), Three<double>{point.x, point.y, point.z});
+        off.push_back(glm::dot(glm::dvec2(seen[0], seen[1]) - tie.seen, tie.across));
+    }
+    return rootMeanSquare(off);
+}
+
+// Places of the first camera's picture all over the screen.
+std::vector<glm::dvec2> someSeen(const std::vector<Tie>& ties) {
+    constexpr std::size_t kPlaces = 60;
+    std::vector<glm::dvec2> seen;
+    const std::size_t step = std::max<std::size_t>(1, ties.size() / kPlaces);
+    for (std::size_t i = 0; i < ties.size(); i += step)
+        if (ties[i].camera == 0) seen.push_back(ties[i].seen);
+    return seen;
+}
+
+void fit(Solved& solved, const std::vector<scan::CameraView>& views) {
+    SolvedHall& hall = *solved.hall;
+    const std::vector<Device> expected = hall.projectors;
+    std::vector<glm::ivec2> sizes;
+    for (const scan::CameraView& view : views) sizes.push_back(view.sizePixels);
+    for (const Round& round : kRounds) {
+        Joint joint(hall, expected, sizes);
+        for (const Tie& tie : solved.ties)
+            if (!tie.heldOut) joint.add(tie, round.tiePixels);
+        const std::vector<OutlineTie> outline = outlinesOf(hall, views, round.outlineReach);
+        for (const OutlineTie& tie : outline) joint.add(tie, round.outlinePixels);
+        joint.solve(round.stage, round.mostSteps);
+        if (&round != &kRounds.back()) continue;
+        solved.figures.outlinePoints = outline.size();
+        solved.figures.outlineRms = outlineRms(hall, outline);
+        solved.figures.absoluteSigma = rootMeanSquare(joint.uncertainty(0, someSeen(solved.ties)));
+    }
+}
+
+// Finds the cameras by what the rig says of the projectors. False where cables are exchanged.
+bool begin(Solved& solved, const std::vector<scan::CameraView>& views) {
+    SolvedHall& hall = *solved.hall;
+    std::vector<std::size_t> order(hall.rig.channels.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (std::uint32_t i = 0; i < views.size(); ++i) {
+        const Sighted camera =
+            bestSighted(solved.ties, i, hall.nominal, views[i].sizePixels, order);
+        hall.cameras.push_back(camera.camera);
+        if (i > 0) continue;
+        const auto swapped =
+            swappedPair(hall.rig, hall.nominal, solved.ties, views[i].sizePixels, camera.loss);
+        if (!swapped) continue;
+        solved.faults.push_back(
+            {"swapped_outputs",
+             fmt::format("channel \"{}\" is seen where \"{}\" hangs: exchange their cables",
+                         hall.rig.channels[swapped->first].name,
+                         hall.rig.channels[swapped->second].name)});
+        return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+Solved solveHall(const config::Rig& rig,
+                 const wall::Wall& wall,
+                 const std::vector<scan::CameraView>& views,
+                 const std::function<void(const std::string&)>& progress) {
+    constexpr std::size_t kMostWindows = 2500;
+    Solved solved{.hall = std::make_unique<SolvedHall>(rig, wall, cellsFor(wall.screen())),
+                  .ties = {},
+                  .figures = {},
+                  .faults = {}};
+    for (std::uint32_t i = 0; i < views.size(); ++i) {
+        const std::vector<Tie> ties = tiesOf(views[i], i, kMostWindows);
+        solved.ties.insert(solved.ties.end(), ties.begin(), ties.end());
+    }
+    progress("finding the camera");
+    if (!begin(solved, views)) return solved;
+    progress("fitting projectors, camera and screen");
+    fit(solved, views);
+    progress("fitting what is left of the lenses");
+    solved.figures.fitRms = fitRms(*solved.hall, solved.ties);
+    correct(*solved.hall, solved.ties);
+    const std::vector<double> errors = overlapErrors(*solved.hall, solved.ties);
+    solved.figures.overlapPoints = errors.size();
+    solved.figures.overlapRms = rootMeanSquare(errors);
+    solved.figures.overlapP95 = quantile(errors, 0.95);
+    solved.figures.overlapMax = quantile(errors, 1);
+    return solved;
+}
+
+}  // namespace aquarama::solve

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The joint solve: cameras, projectors and the screen's bumps from what the cameras have seen.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "calibration/scan/decode.h"
+#include "calibration/solve/solved_hall.h"
+#include "common/config/rig.h"
+#include "common/wall/wall.h"
+
+namespace aquarama::solve {
+
+// What the solve says of itself. Panorama pixels unless said otherwise.
+struct SolveFigures {
+    double fitRms = 0;  // of the ties that were fitted, pixels of the projectors
+    double overlapRms = 0, overlapP95 = 0, overlapMax = 0;  // held out: between two channels
+    std::size_t overlapPoints = 0;
+    double outlineRms = 0;  // pixels of the camera
+    std::size_t outlinePoints = 0;
+    // How well the whole picture's place is known, by the noise alone.
+    double absoluteSigma = 0;
+};
+
+struct Solved {
+    std::unique_ptr<SolvedHall> hall;
+    std::vector<Tie> ties;  // held-out ones too
+    SolveFigures figures;
+    std::vector<scan::ScanFault> faults;
+};
+
+// `wall` is rig's without any wall file: where the crew hung it, about. `progress` is called with
+// what is done now. Takes seconds and uses all processors. Throws Error where there is too little
+// to begin with.
+[[nodiscard]] Solved solveHall(const config::Rig& rig,
+                               const wall::Wall& wall,
+                               const std::vector<scan::CameraView>& views,
+                               const std::function<void(const std::string&)>& progress);
+
+}  // namespace aquarama::solve

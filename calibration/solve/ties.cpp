@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/solve/ties.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <Eigen/Dense>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace aquarama::solve {
+
+namespace {
+
+// A square of the camera's picture.
+struct Window {
+    glm::ivec2 corner{};
+    int side = 0;
+    [[nodiscard]] glm::dvec2 centre() const { return glm::dvec2(corner) + 0.5 * side; }
+};
+
+// One pixel of a window: where it lies from the centre, and what is seen there.
+struct Seen {
+    glm::dvec2 at, place;
+    double sigma;
+};
+
+std::vector<Seen> seenIn(const scan::ChannelView& view, glm::ivec2 size, const Window& window) {
+    std::vector<Seen> seen;
+    for (int y = window.corner.y; y < window.corner.y + window.side; ++y)
+        for (int x = window.corner.x; x < window.corner.x + window.side; ++x) {
+            const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) +
+                           static_cast<std::size_t>(x);
+            if (std::isnan(view.place[i].x)) continue;
+            seen.push_back({glm::dvec2(x + 0.5, y + 0.5) - window.centre(),
+                            view.place[i],
+                            0.5 * (view.sigma[i].x + view.sigma[i].y)});
+        }
+    return seen;
+}
+
+// Of a surface of second degree through the places of a window.
+struct Fit {
+    glm::dvec2 centre{};
+    double residual = 0;  // root of the mean square of both coordinates
+};
+
+Fit fitted(const std::vector<Seen>& seen, double scale) {
+    Eigen::Matrix<double, Eigen::Dynamic, 6> terms(static_cast<Eigen::Index>(seen.size()), 6);
+    Eigen::Matrix<double, Eigen::Dynamic, 2> places(static_cast<Eigen::Index>(seen.size()), 2);
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        const glm::dvec2 at = seen[i].at / scale;
+        const auto row = static_cast<Eigen::Index>(i);
+        terms.row(row) << 1, at.x, at.y, at.x * at.x, at.x * at.y, at.y * at.y;
+        places.row(row) << seen[i].place.x, seen[i].place.y;
+    }
+    const Eigen::Matrix<double, 6, 6> normal = terms.transpose() * terms;
+    const Eigen::Matrix<double, 6, 2> factors = normal.ldlt().solve(terms.transpose() * places);
+    const double square = (terms * factors - places).squaredNorm();
+    return {{factors(0, 0), factors(0, 1)},
+            std::sqrt(square / (2.0 * static_cast<double>(seen.size())))};
+}
+
+// What lies farther from the median step than its neighbours do is dropped by one pass over the
+// residuals of a first fit.
+std::vector<Seen> withoutOutliers(const std::vector<Seen>& seen, double scale, const Fit& first) {
+    if (first.residual < 0.3) return seen;
+    const auto middle = [&](auto get) {
+        std::vector<double> values;
+        for (const Seen& one : seen) values.push_back(get(one));
+        std::ranges::nth_element(values, values.begin() + static_cast<long>(values.size() / 2));
+        return values[values.size() / 2];
+    };
+    const glm::dvec2 median(middle([](const Seen& one) { return one.place.x; }),
+                            middle([](const Seen& one) { return one.place.y; }));
+    std::vector<Seen> kept;
+    for (const Seen& one : seen)
+        if (glm::distance(one.place, median) < 4 * scale) kept.push_back(one);
+    return kept;
+}
+
+std::optional<Tie> tieIn(const scan::ChannelView& view, glm::ivec2 size, const Window& window) {
+    constexpr double kLeastShare = 0.7;    // of the window
+    constexpr double kMostResidual = 0.6;  // pixels: more is an edge, not a surface
+    const double scale = 0.5 * window.side;
+    std::vector<Seen> seen = seenIn(view, size, window);
+    const auto isEnough = [&] {
+        return static_cast<double>(seen.size()) >= kLeastShare * window.side * window.side;
+    };
+    if (!isEnough()) return std::nullopt;
+    Fit fit = fitted(seen, scale);
+    seen = withoutOutliers(seen, scale, fit);
+    if (!isEnough()) return std::nullopt;
+    fit = fitted(seen, scale);
+    if (fit.residual > kMostResidual) return std::nullopt;
+    // The centre of a surface of second degree knows about as much as a third of its pixels.
+    const double sigma = std::sqrt(3.0 / static_cast<double>(seen.size())) *
+                         std::max(fit.residual, seen.front().sigma);
+    return Tie{.seen = window.centre(), .place = fit.centre, .sigma = sigma};
+}
+
+// Of pixels where any channel is seen, about.
+double seenPixels(const scan::CameraView& view) {
+    double count = 0;
+    const auto pixels =
+        static_cast<std::size_t>(view.sizePixels.x) * static_cast<std::size_t>(view.sizePixels.y);
+    for (std::size_t i = 0; i < pixels; ++i)
+        count += std::ranges::any_of(view.channels, [i](const scan::ChannelView& channel) {
+            return !channel.place.empty() && !std::isnan(channel.place[i].x);
+        });
+    return count;
+}
+
+}  // namespace
+
+std::vector<Tie> tiesOf(const scan::CameraView& view, std::uint32_t camera, std::size_t most) {
+    constexpr int kHeldOutOf = 5;
+    const int side =
+        std::max(4, static_cast<int>(std::sqrt(seenPixels(view) / static_cast<double>(most))));
+    const glm::ivec2 windows = view.sizePixels / side;
+    std::vector<Tie> ties;
+    for (int row = 0; row < windows.y; ++row)
+        for (int column = 0; column < windows.x; ++column)
+            for (std::uint32_t channel = 0; channel < view.channels.size(); ++channel) {
+                if (view.channels[channel].place.empty()) continue;
+                auto tie = tieIn(view.channels[channel],
+                                 view.sizePixels,
+                                 {glm::ivec2(column, row) * side, side});
+                if (!tie) continue;
+                tie->camera = camera;
+                tie->channel = channel;
+                tie->heldOut = (column + 2 * row) % kHeldOutOf == 0;
+                tie->window = static_cast<std::uint32_t>(row * windows.x + column);
+                ties.push_back(*tie);
+            }
+    return ties;
+}
+
+namespace {
+
+double luminance(const glm::vec3& light) {
+    return 0.2126 * light.r + 0.7152 * light.g + 0.0722 * light.b;
+}
+
+// Light along a line: samples in steps, from `from` steps before a place.
+struct Profile {
+    std::vector<double> light;
+    long from = 0;
+};
+constexpr double kProfileStep = 0.5;  // pixels
+
+// As far as the line lies in the picture.
+Profile profileAlong(const Light& room, glm::dvec2 at, glm::dvec2 outwards, double reach) {
+    const glm::dvec2 size(room.sizePixels);
+    const auto steps = static_cast<long>(reach / kProfileStep);
+    Profile profile;
+    for (long i = -steps; i <= steps; ++i) {
+        const glm::dvec2 place = at + outwards * (kProfileStep * static_cast<double>(i));
+        const bool isInside =
+            place.x >= 0 && place.y >= 0 && place.x <= size.x && place.y <= size.y;
+        if (!isInside && profile.light.empty()) continue;
+        if (!isInside) break;
+        if (profile.light.empty()) profile.from = i;
+        profile.light.push_back(luminance(bilinear(room, place)));
+    }
+    return profile;
+}
+
+// The strongest fall of light from inside to outside along a line through `at`; pixels along it.
+std::optional<double> edgeAlong(const Light& room,
+                                glm::dvec2 at,
+                                glm::dvec2 outwards,
+                                double reach) {
+    constexpr long kHalf = 3;               // samples that a side of an edge is averaged over
+    constexpr double kLeastContrast = 0.3;  // of the light inside
+    const Profile profile =
+        profileAlong(room, at, outwards, reach + kProfileStep * static_cast<double>(kHalf + 1));
+    const auto samples = static_cast<long>(profile.light.size());
+    const auto light = [&](long i) { return profile.light[static_cast<std::size_t>(i)]; };
+    std::vector<double> fall(profile.light.size(), 0.0);
+    for (long i = kHalf; i < samples - kHalf; ++i)
+        for (long k = 1; k <= kHalf; ++k)
+            fall[static_cast<std::size_t>(i)] += light(i - k) - light(i + k);
+    const auto best = std::ranges::max_element(fall);
+    const long index = best - fall.begin();
+    if (index <= kHalf || index >= samples - kHalf - 1) return std::nullopt;
+    const double inside = light(std::max(0L, index - 2 * kHalf));
+    if (*best < kLeastContrast * static_cast<double>(kHalf) * inside || inside <= 0)
+        return std::nullopt;
+    // The top of the parabola through three samples.
+    const double before = *(best - 1), after = *(best + 1);
+    const double bend = before - 2 * *best + after;
+    const double shift = bend < 0 ? 0.5 * (before - after) / bend : 0;
+    return kProfileStep * (static_cast<double>(index + profile.from) + shift);
+}
+
+// A point of the outline in the camera's picture.
+struct OutlinePoint {
+    glm::dvec3 base;
+    glm::dvec2 seen;
+};
+
+std::optional<glm::dvec2> seenBy(const LensParameters& lens,
+                                 const PoseParameters& pose,
+                                 glm::dvec3 point) {
+    const Three<double> there{point.x, point.y, point.z};
+    if (inFrame(pose.data(), there)[2] <= 0) return std::nullopt;
+    const Two<double> seen = pixelOf(lens.data(), pose.data(), there);
+    return glm::dvec2(seen[0], seen[1]);
+}
+
+// The direction of the outline at one of its points, by its nearest neighbour that is not too near.
+glm::dvec2 alongOutline(const std::vector<OutlinePoint>& outline, const OutlinePoint& at) {
+    constexpr double kNearest = 1.5;  // pixels
+    double least = std::numeric_limits<double>::infinity();
+    glm::dvec2 way(1, 0);
+    for (const OutlinePoint& other : outline) {
+        const double distance = glm::distance(other.seen, at.seen);
+        if (distance < kNearest || distance >= least) continue;
+        least = distance;
+        way = (other.seen - at.seen) / distance;
+    }
+    return way;
+}
+
+}  // namespace
+
+std::vector<OutlineTie> outlineTies(const Light& room,
+                                    std::uint32_t camera,
+                                    const BumpyScreen& screen,
+                                    const LensParameters& lens,
+                                    const PoseParameters& pose,
+                                    double reach) {
+    std::vector<OutlineTie> ties;
+    if (room.rgb.empty()) return ties;
+    std::vector<OutlinePoint> outline;
+    glm::dvec2 middle(0);
+    for (const glm::dvec3& base : screen.screen().border(0))
+        if (const auto seen = seenBy(lens, pose, screen.at(screen.screen().unrolled(base)).point)) {
+            outline.push_back({base, *seen});
+            middle += *seen;
+        }
+    if (outline.empty()) return ties;
+    middle /= static_cast<double>(outline.size());
+    constexpr std::size_t kTies = 1000;
+    // Odd: edges may take turns in the order of the points.
+    const std::size_t step = (outline.size() / kTies) | 1U;
+    for (std::size_t i = 0; i < outline.size(); i += step) {
+        const glm::dvec2 along = alongOutline(outline, outline[i]);
+        glm::dvec2 across(-along.y, along.x);
+        const BumpyScreen::Place inside =
+            screen.at(glm::mix(screen.screen().unrolled(outline[i].base), glm::dvec2(0.5), 0.02));
+        const auto seenInside = seenBy(lens, pose, inside.point);
+        if (!seenInside) continue;
+        if (glm::dot(across, outline[i].seen - *seenInside) < 0) across = -across;
+        const auto off = edgeAlong(room, outline[i].seen, across, reach);
+        if (!off) continue;
+        const glm::dvec2 unrolled = screen.screen().unrolled(outline[i].base);
+        ties.push_back({.camera = camera,
+                        .unrolled = unrolled,
+                        .base = outline[i].base,
+                        .baseNormal = glm::normalize(screen.screen().normalAt(outline[i].base)),
+                        .seen = outline[i].seen + *off * across,
+                        .across = across});
+    }
+    return ties;
+}
+
+}  // namespace aquarama::solve

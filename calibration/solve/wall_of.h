@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a solved hall to the wall file that render nodes take.
+#pragma once
+
+#include "calibration/solve/solve.h"
+#include "common/formats/wall_file.h"
+
+namespace aquarama::solve {
+
+// A region for each channel, by its name: for every pixel the point of the rig's screen behind
+// which a viewer at the sweet spot sees what it lights (profile a3). Seen from there the bumps of
+// the screen are undone; x is NaN where the light passes the screen. Uses all processors.
+[[nodiscard]] formats::WallFile wallFileOf(const SolvedHall& hall);
+
+}  // namespace aquarama::solve

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/solve/solve.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "common/config/rig.h"
+#include "tests/support/source_folder.h"
+
+namespace aquarama::solve {
+namespace {
+
+// A camera behind and beside the sweet spot that sees the whole of a screen.
+Device cameraAt(glm::dvec3 position, glm::dvec3 yawPitchRoll, double focal, glm::ivec2 size) {
+    Device camera;
+    camera.lens[lens::Focal] = focal;
+    camera.lens[lens::Aspect] = 1;
+    camera.lens[lens::CentreX] = 0.5 * size.x + 7;
+    camera.lens[lens::CentreY] = 0.5 * size.y - 5;
+    camera.lens[lens::K1] = -0.06;
+    camera.lens[lens::K2] = 0.02;
+    camera.pose = poseOf(position, wall::turned(yawPitchRoll));
+    return camera;
+}
+
+// A hall that hangs crooked before a bumpy screen.
+std::unique_ptr<SolvedHall> crookedHall(const config::Rig& rig, const wall::Wall& wall) {
+    auto hall = std::make_unique<SolvedHall>(rig, wall, glm::ivec2(12, 6));
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    for (Device& projector : hall->projectors) {
+        for (std::size_t i = 0; i < 3; ++i) projector.pose[i] += 0.01 * normal(random);
+        for (std::size_t i = 3; i < 6; ++i) projector.pose[i] += 0.02 * normal(random);
+        projector.lens[lens::Focal] *= 1 + 0.01 * normal(random);
+        projector.lens[lens::CentreY] += 4 * normal(random);
+        projector.lens[lens::K1] = 0.02 * normal(random);
+        projector.lens[lens::P1] = 0.001 * normal(random);
+    }
+    for (double& control : hall->screen.displacement().controls()) control = 0.01 * normal(random);
+    return hall;
+}
+
+scan::CameraView viewOf(const SolvedHall& hall, glm::ivec2 size, double noise) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    scan::CameraView view;
+    view.sizePixels = size;
+    view.room = darkness(size);
+    const auto pixels = static_cast<std::size_t>(size.x * size.y);
+    for (std::size_t i = 0; i < hall.projectors.size(); ++i)
+        view.channels.push_back({.place = std::vector<glm::vec2>(pixels, glm::vec2(NAN)),
+                                 .sigma = std::vector<glm::vec2>(pixels, glm::vec2(noise)),
+                                 .light = std::vector<float>(pixels, 0.5F)});
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const auto index = static_cast<std::size_t>(y * size.x + x);
+            const auto place = hall.placeSeen(0, {x + 0.5, y + 0.5});
+            if (!place || place->unrolled.x < 0 || place->unrolled.x > 1 || place->unrolled.y < 0 ||
+                place->unrolled.y > 1) {
+                view.room.rgb[index] = glm::vec3(0.01F);
+                continue;
+            }
+            view.room.rgb[index] = glm::vec3(0.4F);
+            for (std::uint32_t i = 0; i < hall.projectors.size(); ++i) {
+                const Tie tie{.camera = 0, .channel = i, .seen = {x + 0.5, y + 0.5}};
+                const auto pixel = hall.modelled(tie);
+                const glm::dvec2 picture(hall.rig.channels[i].sizePixels);
+                if (!pixel || pixel->x < 0 || pixel->y < 0 || pixel->x > picture.x ||
+                    pixel->y > picture.y)
+                    continue;
+                view.channels[i].place[index] =
+                    glm::vec2(*pixel + noise * glm::dvec2(normal(random), normal(random)));
+            }
+        }
+    return view;
+}
+
+TEST(Solve, findsACrookedHallOfItsOwnModel) {
+    const config::Rig rig = config::readRig(test::sourceFolder() + "/config/desk.txtpb");
+    const wall::Wall wall(rig);
+    const auto truth = crookedHall(rig, wall);
+    const glm::ivec2 size(1280, 720);
+    truth->cameras = {cameraAt({0.4, 0.2, 2.2}, {0.05, -0.03, 0.01}, 0.485 * size.x, size)};
+    const Solved solved = solveHall(rig, wall, {viewOf(*truth, size, 0.1)}, [](const auto&) {});
+    ASSERT_TRUE(solved.faults.empty());
+    double sum = 0, worst = 0;
+    int count = 0;
+    for (int y = 10; y < size.y; y += 10)
+        for (int x = 10; x < size.x; x += 10) {
+            const auto place = truth->placeSeen(0, {x + 0.5, y + 0.5});
+            if (!place || place->unrolled.x < 0.01 || place->unrolled.x > 0.99 ||
+                place->unrolled.y < 0.01 || place->unrolled.y > 0.99)
+                continue;
+            const auto found = solved.hall->placeSeen(0, {x + 0.5, y + 0.5});
+            ASSERT_TRUE(found);
+            const double off = glm::distance(truth->panoramaPixel(place->point),
+                                             truth->panoramaPixel(found->point));
+            sum += off * off;
+            worst = std::max(worst, off);
+            ++count;
+        }
+    std::printf(
+        "fit %.3f overlap rms %.3f p95 %.3f max %.3f n %zu outline %.3f (%zu) absolute %.3f worst "
+        "%.3f\n",
+        solved.figures.fitRms,
+        solved.figures.overlapRms,
+        solved.figures.overlapP95,
+        solved.figures.overlapMax,
+        solved.figures.overlapPoints,
+        solved.figures.outlineRms,
+        solved.figures.outlinePoints,
+        std::sqrt(sum / count),
+        worst);
+    ASSERT_GT(count, 300);
+    EXPECT_LT(solved.figures.overlapRms, 0.1);
+    EXPECT_LT(std::sqrt(sum / count), 0.5);
+}
+
+}  // namespace
+}  // namespace aquarama::solve
