@@ -2,390 +2,241 @@
 #include "calibration/hall/simulated_camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <optional>
-#include <thread>
+#include <set>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "common/base/hash.h"
-#include "common/base/worker_pool.h"
-#include "common/wall/scan_pattern.h"
 
 namespace aquarama::hall {
 
 namespace {
 
-constexpr float kDrapeAlbedo = 0.03F;
-constexpr glm::ivec2 kPatches(16, 8);
-constexpr int kPatchSamples = 4;  // each way
-// The middle of a dome's front edge has a mark of black tape, half so wide and so far inwards.
-constexpr double kMarkMetres = 0.06;
+constexpr float kWhite = 0.8F;        // of the most light that the sensor counts
+constexpr float kMean = 0.15F;        // what an automatic exposure makes of every picture
+constexpr float kHandAlbedo = 0.02F;  // of what is in the camera's way
+constexpr std::size_t kLevels = 65536;
 
-unsigned threads() {
-    return std::max(1U, std::thread::hardware_concurrency());
-}
-
-// From codes to linear Rec. 709 light of a projector.
-class Response {
-  public:
-    explicit Response(const config::HallProjector& truth) : truth_{truth} {}
-
-    [[nodiscard]] glm::vec3 operator()(glm::vec3 codes) const {
-        glm::dvec3 own;
-        for (int i = 0; i < 3; ++i) own[i] = channel(i, static_cast<double>(codes[i]));
-        return glm::vec3(truth_.primaries * own + truth_.black);
-    }
-
-  private:
-    // A power, lifted at its dark end and bent down at its bright one; 1 stays 1.
-    [[nodiscard]] double channel(int i, double code) const {
-        const double power =
-            truth_.gamma ? std::pow(code, (*truth_.gamma)[i]) : linearFromSrgb(code);
-        const double light = (1 - truth_.toe) * power + truth_.toe * code;
-        return light * (1 + truth_.knee * (1 - light));
-    }
-    const config::HallProjector& truth_;
-};
-
-// Between the centres of pixels of a picture that may be one row or one column.
-glm::vec3 sampled(const Light& light, glm::vec2 place) {
-    const glm::dvec2 size(light.sizePixels);
-    return bilinear(light, glm::min(glm::dvec2(place), size));
-}
-
-std::size_t indexIn(glm::ivec2 size, int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) +
-           static_cast<std::size_t>(x);
-}
-
-}  // namespace
-
-SeenHall::SeenHall(const TrueHall& hall) : hall_{hall}, size_{hall.hall().camera.sizePixels} {
-    const std::size_t pixels =
-        static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y);
-    albedo_.assign(pixels, kDrapeAlbedo);
-    unrolled_.assign(pixels, glm::vec2(std::numeric_limits<float>::quiet_NaN()));
-    first_.assign(pixels + 1, 0);
-    std::vector<std::vector<Ray>> rows(static_cast<std::size_t>(size_.y));
-    WorkerPool(threads()).run(rows.size(), [&](std::size_t row) { findRays(row, rows); });
-    for (std::size_t i = 0; i < pixels; ++i) first_[i + 1] += first_[i];
-    for (const std::vector<Ray>& row : rows) rays_.insert(rays_.end(), row.begin(), row.end());
-    if (hall.hall().screen.bounces) findPatches();
-}
-
-// The edge of the screen is found by four samples to a pixel; light changes slowly and has one.
-void SeenHall::findRays(std::size_t row, std::vector<std::vector<Ray>>& rows) {
-    for (int x = 0; x < size_.x; ++x) {
-        const std::size_t index = indexIn(size_, x, static_cast<int>(row));
-        const glm::dvec2 centre(x + 0.5, static_cast<double>(row) + 0.5);
-        double covered = 0;
-        for (int k = 0; k < 4; ++k) {
-            const glm::dvec2 at = centre + glm::dvec2(k % 2, k / 2) * 0.5 - 0.25;
-            const auto meeting = hall_.screen().meet(hall_.cameraLens().ray(at));
-            if (meeting && meeting->isScreen && !isMark(meeting->point)) covered += 0.25;
-        }
-        albedo_[index] =
-            static_cast<float>(glm::mix(double{kDrapeAlbedo}, hall_.hall().screen.albedo, covered));
-        const auto meeting = hall_.screen().meet(hall_.cameraLens().ray(centre));
-        if (!meeting) continue;
-        if (meeting->isScreen)
-            unrolled_[index] =
-                glm::vec2(glm::clamp(hall_.screen().shape().unrolled(meeting->foot), 0.0, 1.0));
-        for (std::size_t channel = 0; channel < hall_.channels(); ++channel) {
-            const auto place = hall_.pixelOf(channel, meeting->point);
-            if (!place) continue;
-            const double white =
-                hall_.whiteAt(channel, meeting->point) / hall_.hall().screen.albedo;
-            rows[row].push_back({static_cast<std::uint32_t>(channel),
-                                 static_cast<float>(white),
-                                 glm::vec2(*place)});
-            ++first_[index + 1];
-        }
-    }
-}
-
-bool SeenHall::isMark(glm::dvec3 point) const {
-    if (hall_.rig().screen.shape != config::ScreenShape::Dome) return false;
-    const auto front = hall_.screen().at({0.5, 1});
-    return front && glm::distance(*front, point) < kMarkMetres;
-}
-
-// Light that a patch gets of all others by one bounce: two cosines over pi r squared.
-void SeenHall::findPatches() {
-    struct Centre {
-        glm::dvec3 point, normal;
-        double squareMetres;
-    };
-    std::vector<std::optional<Centre>> centres;
-    const TrueScreen& screen = hall_.screen();
-    for (int y = 0; y < kPatches.y; ++y)
-        for (int x = 0; x < kPatches.x; ++x) {
-            Patch patch;
-            for (int k = 0; k < kPatchSamples * kPatchSamples; ++k) {
-                const glm::dvec2 at =
-                    (glm::dvec2(x, y) + (glm::dvec2(k % kPatchSamples, k / kPatchSamples) + 0.5) /
-                                            double{kPatchSamples}) /
-                    glm::dvec2(kPatches);
-                const auto point = screen.at(at);
-                if (!point) continue;
-                patch.share += 1.0 / (kPatchSamples * kPatchSamples);
-                for (std::uint32_t channel = 0; channel < hall_.channels(); ++channel)
-                    if (const auto place = hall_.pixelOf(channel, *point))
-                        patch.rays.push_back({channel,
-                                              static_cast<float>(hall_.whiteAt(channel, *point) /
-                                                                 (kPatchSamples * kPatchSamples)),
-                                              glm::vec2(*place)});
+// Standard normal numbers at equal steps of their probability: a draw is one look-up.
+const std::array<float, 4096>& normals() {
+    static const std::array<float, 4096> table = [] {
+        std::array<float, 4096> numbers{};
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            const double share = (double(i) + 0.5) / double(numbers.size());
+            double low = -6, high = 6;
+            for (int step = 0; step < 60; ++step) {
+                const double middle = (low + high) / 2;
+                const bool isLow = 0.5 * std::erfc(-middle / std::numbers::sqrt2) < share;
+                (isLow ? low : high) = middle;
             }
-            patches_.push_back(std::move(patch));
-            const glm::dvec2 at = (glm::dvec2(x, y) + 0.5) / glm::dvec2(kPatches);
-            const glm::dvec2 step = 0.2 / glm::dvec2(kPatches);
-            const auto here = screen.at(at), right = screen.at(at + glm::dvec2(step.x, 0)),
-                       down = screen.at(at + glm::dvec2(0, step.y));
-            if (!here || !right || !down) {
-                centres.emplace_back();
-                continue;
-            }
-            centres.push_back(Centre{*here,
-                                     screen.normalAt(*here),
-                                     25 * glm::length(glm::cross(*right - *here, *down - *here))});
+            numbers[i] = static_cast<float>(low);
         }
-    given_.assign(patches_.size(), std::vector<float>(patches_.size(), 0.0F));
-    for (std::size_t to = 0; to < centres.size(); ++to)
-        for (std::size_t from = 0; from < centres.size(); ++from) {
-            if (to == from || !centres[to] || !centres[from]) continue;
-            const glm::dvec3 way = centres[from]->point - centres[to]->point;
-            const double square = glm::dot(way, way);
-            const double cosines = std::max(0.0, glm::dot(way, centres[to]->normal)) *
-                                   std::max(0.0, -glm::dot(way, centres[from]->normal));
-            given_[to][from] = static_cast<float>(
-                hall_.hall().screen.albedo * cosines * centres[from]->squareMetres /
-                (square * (std::numbers::pi * square + centres[from]->squareMetres)));
+        return numbers;
+    }();
+    return table;
+}
+
+// From linear light in kLevels steps to codes.
+std::vector<std::uint16_t> codesOf(const config::HallCamera& camera) {
+    std::vector<std::uint16_t> codes(kLevels);
+    const double most = (1 << camera.bits) - 1;
+    const double stored = camera.bits == 8 ? 255 : 65535;  // more than 8 bits are kept in 16
+    for (std::size_t i = 0; i < kLevels; ++i) {
+        double value = double(i) / double(kLevels - 1);
+        if (camera.response == config::ScanCamera::Response::Srgb) {
+            value = srgbFromLinear(value);
+            const double turn = 2 * std::numbers::pi;
+            value += camera.responseBend * std::sin(turn * value) / turn;
         }
-}
-
-glm::vec3 SeenHall::sum(const Ray* begin, const Ray* end, const std::vector<Light>& lights) const {
-    glm::vec3 light(0);
-    for (const Ray* ray = begin; ray != end; ++ray)
-        light += ray->white * sampled(lights[ray->channel], ray->place);
-    return light;
-}
-
-std::vector<glm::vec3> SeenHall::bounced(const std::vector<Light>& lights) const {
-    std::vector<glm::vec3> direct, bounced(patches_.size(), glm::vec3(0));
-    for (const Patch& patch : patches_)
-        direct.push_back(sum(patch.rays.data(), patch.rays.data() + patch.rays.size(), lights));
-    for (std::size_t to = 0; to < patches_.size(); ++to)
-        for (std::size_t from = 0; from < patches_.size(); ++from)
-            bounced[to] += given_[to][from] * direct[from];
-    return bounced;
-}
-
-Light SeenHall::lit(const std::vector<Light>& codes) const {
-    std::vector<Light> lights;
-    for (std::size_t channel = 0; channel < codes.size(); ++channel) {
-        const Response response(hall_.hall().projectors[hall_.projectorOf(channel)]);
-        Light light = codes[channel];
-        for (glm::vec3& rgb : light.rgb) rgb = response(rgb);
-        lights.push_back(std::move(light));
+        codes[i] =
+            static_cast<std::uint16_t>(std::lround(std::round(value * most) / most * stored));
     }
-    Light seen = darkness(size_);
-    Light indirect = darkness(kPatches);
-    if (!patches_.empty()) indirect.rgb = bounced(lights);
-    WorkerPool(threads()).run(static_cast<std::size_t>(size_.y), [&](std::size_t row) {
-        for (int x = 0; x < size_.x; ++x) {
-            const std::size_t i = indexIn(size_, x, static_cast<int>(row));
-            glm::vec3 light = albedo_[i] * sum(&rays_[first_[i]], &rays_[first_[i + 1]], lights);
-            if (!patches_.empty() && !std::isnan(unrolled_[i].x))
-                light += bilinear(indirect, glm::dvec2(unrolled_[i]) * glm::dvec2(kPatches));
-            seen.rgb[i] = light;
-        }
-    });
-    return seen;
-}
-
-Light SeenHall::lampLit(double light) const {
-    Light seen = darkness(size_);
-    for (std::size_t i = 0; i < seen.rgb.size(); ++i)
-        seen.rgb[i] = glm::vec3(albedo_[i] * static_cast<float>(light));
-    return seen;
-}
-
-namespace {
-
-// The codes that a channel shows: of a pattern along one axis one row or column is enough, but for
-// its tag.
-Light codesOf(const config::ScanPattern& pattern, std::size_t channel, glm::ivec2 size) {
-    Light codes = darkness(size);
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) {
-            const glm::vec3 light = wall::scanLight(pattern, channel, size, {x, y});
-            for (int i = 0; i < 3; ++i)
-                codes.at(x, y)[i] = static_cast<float>(
-                    std::round(255 * srgbFromLinear(static_cast<double>(light[i]))) / 255);
-        }
     return codes;
 }
 
-// Two passes of a Gaussian.
-void blur(Light& light, double sigma) {
-    if (sigma <= 0) return;
+// The weights of a point's light on the pixels beside it, the middle first.
+std::vector<float> blurWeights(double sigma) {
     const int reach = static_cast<int>(std::ceil(3 * sigma));
     std::vector<float> weights;
-    float total = 0;
-    for (int i = -reach; i <= reach; ++i) {
-        weights.push_back(static_cast<float>(std::exp(-i * i / (2 * sigma * sigma))));
-        total += weights.back();
+    double sum = 0;
+    for (int i = 0; i <= reach; ++i) {
+        const double weight = std::exp(-0.5 * i * i / (sigma * sigma));
+        weights.push_back(static_cast<float>(weight));
+        sum += i == 0 ? weight : 2 * weight;
     }
-    for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(0, 1)}) {
-        const Light sharp = light;
-        WorkerPool(threads()).run(
-            static_cast<std::size_t>(light.sizePixels.y), [&](std::size_t row) {
-                for (int x = 0; x < light.sizePixels.x; ++x) {
-                    glm::vec3 sum(0);
-                    for (int i = -reach; i <= reach; ++i) {
-                        const glm::ivec2 at =
-                            glm::clamp(glm::ivec2(x, static_cast<int>(row)) + i * step,
-                                       glm::ivec2(0),
-                                       light.sizePixels - 1);
-                        sum += weights[static_cast<std::size_t>(i + reach)] * sharp.at(at.x, at.y);
-                    }
-                    light.at(x, static_cast<int>(row)) = sum / total;
-                }
-            });
+    for (float& weight : weights) weight /= static_cast<float>(sum);
+    return weights;
+}
+
+// A row or column of a picture, with its border's colour past its ends.
+void blurLine(glm::vec3* first,
+              std::ptrdiff_t step,
+              int count,
+              const std::vector<float>& weights,
+              std::vector<glm::vec3>& copy) {
+    const int reach = static_cast<int>(weights.size()) - 1;
+    copy.resize(static_cast<std::size_t>(count + 2 * reach));
+    for (int i = 0; i < count + 2 * reach; ++i)
+        copy[static_cast<std::size_t>(i)] = first[step * std::clamp(i - reach, 0, count - 1)];
+    for (int i = 0; i < count; ++i) {
+        const glm::vec3* here = &copy[static_cast<std::size_t>(i + reach)];
+        glm::vec3 sum = weights[0] * here[0];
+        for (int off = 1; off <= reach; ++off)
+            sum += weights[static_cast<std::size_t>(off)] * (here[off] + here[-off]);
+        first[step * i] = sum;
     }
 }
 
-// A normal deviate, the same for the same place, channel and picture: after Box and Muller.
-double noiseAt(std::uint32_t seed, std::size_t place) {
-    const std::uint32_t key = hashOf(seed, static_cast<std::uint32_t>(place));
-    const double u = std::max(1e-9, static_cast<double>(unitOf(key)));
-    const double v = static_cast<double>(unitOf(hashOf(key, 1U)));
-    return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
-}
-
-// What the sensor and its file make of light, of which 1 is the most.
-double codeOf(double light, const config::HallCamera& camera, double deviate) {
-    const double shot = camera.fullWell > 0 ? std::max(0.0, light) / camera.fullWell : 0;
-    const double noisy = light + deviate * std::sqrt(shot + camera.readNoise * camera.readNoise);
-    const double clipped = std::clamp(noisy, 0.0, 1.0);
-    if (camera.response == config::ScanCamera::Response::Linear) return clipped;
-    const double code = srgbFromLinear(clipped);
-    return std::clamp(code + camera.responseBend * code * (1 - code), 0.0, 1.0);
-}
-
-config::Hall beforeMove(config::Hall hall) {
+// Without the push that a projector gets in the scan.
+config::Hall unmoved(config::Hall hall) {
     hall.faults.moved.reset();
     return hall;
 }
 
 }  // namespace
 
+SimulatedCamera::Earlier::Earlier(const TrueHall& now, WorkerPool& pool)
+    : hall{now.rig(), unmoved(now.hall())}, view{hall, hall.cameraLens(), pool} {}
+
 SimulatedCamera::SimulatedCamera(const TrueHall& hall,
                                  const std::vector<config::ScanPattern>& patterns,
                                  std::uint32_t seed)
-    : hall_{hall}, seed_{seed}, seen_{std::make_unique<SeenHall>(hall)} {
-    scan_.rig = hall.rig().name;
-    scan_.cameras.push_back({.response = hall.hall().camera.response, .focalPixels = {}});
+    : hall_{hall},
+      seed_{seed},
+      pool_{std::thread::hardware_concurrency()},
+      bounce_{hall},
+      view_{hall, hall.cameraLens(), pool_},
+      codes_{codesOf(hall.hall().camera)} {
+    listPictures(patterns);
+    if (hall.hall().faults.moved) earlier_ = std::make_unique<Earlier>(hall, pool_);
+    std::set<std::uint64_t> shown;
+    for (const config::ScanPattern& pattern : patterns) shown.insert(pattern.lit);
+    float brightest = 0;
+    for (const std::uint64_t lit : shown) brightest = std::max(brightest, view_.brightestOf(lit));
+    if (brightest > 0) gain_ = kWhite / brightest * static_cast<float>(hall.hall().camera.exposure);
+}
+
+void SimulatedCamera::listPictures(const std::vector<config::ScanPattern>& patterns) {
+    scan_.rig = hall_.rig().name;
+    scan_.cameras.push_back(
+        {.response = hall_.hall().camera.response, .focalPixels = hall_.hall().camera.focalPixels});
     for (const config::ScanPattern& pattern : patterns)
-        scan_.pictures.push_back(
-            {.file = fmt::format("picture_{:03}.png", scan_.pictures.size()), .pattern = pattern});
-    if (hall.hall().faults.moved) {
-        before_ = std::make_unique<TrueHall>(hall.rig(), beforeMove(hall.hall()));
-        seenBefore_ = std::make_unique<SeenHall>(*before_);
-    }
-    gain_ = exposure() * hall.hall().camera.exposure;
+        scan_.pictures.push_back({.file = fmt::format("{:04}.png", scan_.pictures.size()),
+                                  .camera = 0,
+                                  .exposureSeconds = 1,
+                                  .pattern = pattern});
 }
 
-// So that the brightest of the whites comes to 0.8.
-double SimulatedCamera::exposure() const {
-    std::vector<Light> white;
-    for (const config::Channel& channel : hall_.rig().channels) {
-        white.push_back(darkness(channel.sizePixels));
-        std::ranges::fill(white.back().rgb, glm::vec3(1));
-    }
-    std::vector<float> all;
-    for (const glm::vec3& rgb : seen_->lit(white).rgb)
-        all.push_back(std::max({rgb.x, rgb.y, rgb.z}));
-    const auto bright = all.begin() + static_cast<long>(0.999 * static_cast<double>(all.size()));
-    std::ranges::nth_element(all, bright);
-    return 0.8 / std::max(1e-6, static_cast<double>(*bright));
+const config::ScanPattern& SimulatedCamera::shownIn(std::size_t index) const {
+    const bool isLate = hall_.hall().faults.latePicture == index && index > 0;
+    return scan_.pictures[isLate ? index - 1 : index].pattern;
 }
 
-void SimulatedCamera::addLamp(std::size_t index, Light& light) const {
+const HallView& SimulatedCamera::viewAt(std::size_t index) const {
+    const auto& moved = hall_.hall().faults.moved;
+    return moved && index < moved->fromPicture ? earlier_->view : view_;
+}
+
+Light SimulatedCamera::lightOf(std::size_t index) const {
+    const config::ScanPattern& pattern = shownIn(index);
+    std::vector<ThrownPicture> pictures(hall_.channels());
+    pool_.run(pictures.size(),
+              [&](std::size_t channel) { pictures[channel] = thrown(hall_, channel, pattern); });
     const auto& lamp = hall_.hall().faults.lamp;
-    if (!lamp || index < lamp->fromPicture) return;
-    const auto middle = hall_.screen().at(lamp->place);
-    if (!middle) return;
+    HallLamps lamps;
+    lamps.room = scan_.pictures[index].pattern.kind == config::ScanPattern::Kind::Room ? 1 : 0;
+    lamps.spot = lamp && index >= lamp->fromPicture ? 1 : 0;
+    return viewAt(index).of(pictures, bounce_.of(pictures), lamps);
+}
+
+// Something dark before the lens, out of focus.
+void SimulatedCamera::hide(Light& light) const {
+    const auto& block = hall_.hall().faults.blocked;
+    if (!block) return;
+    constexpr double kSoft = 0.15;  // of its radius
     for (int y = 0; y < light.sizePixels.y; ++y)
         for (int x = 0; x < light.sizePixels.x; ++x) {
-            const auto point = hall_.pointSeen({x + 0.5, y + 0.5});
-            if (!point) continue;
-            const double off = glm::distance(*point, *middle) / lamp->radiusMetres;
-            light.at(x, y) += static_cast<float>(lamp->light * std::exp(-off * off));
+            const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / glm::dvec2(light.sizePixels);
+            const double radius = glm::length((place - block->place) / block->radius);
+            const auto free = static_cast<float>(glm::smoothstep(1 - kSoft, 1 + kSoft, radius));
+            light.at(x, y) *= glm::mix(kHandAlbedo, 1.0F, free);
         }
 }
 
-// Before the sensor, as a share of the most that it takes.
-Light SimulatedCamera::arriving(std::size_t index) const {
-    const config::HallFaults& faults = hall_.hall().faults;
-    const std::size_t shown = faults.latePicture == index && index > 0 ? index - 1 : index;
-    const config::ScanPattern& pattern = scan_.pictures[shown].pattern;
-    const bool isBefore = faults.moved && index < faults.moved->fromPicture;
-    const SeenHall& seen = isBefore ? *seenBefore_ : *seen_;
-    std::vector<Light> codes;
-    for (std::size_t i = 0; i < hall_.channels(); ++i)
-        codes.push_back(codesOf(pattern, i, hall_.rig().channels[i].sizePixels));
-    Light light = seen.lit(codes);
-    const bool isRoom = pattern.kind == config::ScanPattern::Kind::Room;
-    const Light lamps = seen.lampLit(isRoom ? hall_.hall().roomLight : hall_.hall().darkLight);
-    for (std::size_t i = 0; i < light.rgb.size(); ++i) light.rgb[i] += lamps.rgb[i];
-    addLamp(index, light);
-    return light;
+void SimulatedCamera::blur(Light& light) const {
+    if (hall_.hall().camera.blurPixels == 0) return;
+    const std::vector<float> weights = blurWeights(hall_.hall().camera.blurPixels);
+    const glm::ivec2 size = light.sizePixels;
+    pool_.run(static_cast<std::size_t>(size.y), [&](std::size_t y) {
+        std::vector<glm::vec3> copy;
+        blurLine(&light.at(0, static_cast<int>(y)), 1, size.x, weights, copy);
+    });
+    // Columns, a few at a time by each thread.
+    constexpr int kColumns = 16;
+    const int chunks = (size.x + kColumns - 1) / kColumns;
+    pool_.run(static_cast<std::size_t>(chunks), [&](std::size_t chunk) {
+        std::vector<glm::vec3> copy;
+        const int first = static_cast<int>(chunk) * kColumns;
+        for (int x = first; x < std::min(size.x, first + kColumns); ++x)
+            blurLine(&light.at(x, 0), size.x, size.y, weights, copy);
+    });
+}
+
+void SimulatedCamera::dim(Light& light) const {
+    if (hall_.hall().camera.lens.vignetting == 0) return;
+    pool_.run(static_cast<std::size_t>(light.sizePixels.y), [&](std::size_t y) {
+        for (int x = 0; x < light.sizePixels.x; ++x) {
+            const glm::dvec2 pixel(x + 0.5, static_cast<double>(y) + 0.5);
+            light.at(x, static_cast<int>(y)) *=
+                static_cast<float>(hall_.cameraLens().vignetted(pixel));
+        }
+    });
+}
+
+// An automatic one makes all pictures of the same mean, as far as it can.
+float SimulatedCamera::gainFor(const Light& light) const {
+    if (!hall_.hall().faults.autoExposure) return gain_;
+    constexpr float kFarthest = 16;  // of the exposure that would be right for white
+    glm::dvec3 sum(0);
+    for (const glm::vec3& rgb : light.rgb) sum += rgb;
+    const auto mean = static_cast<float>((sum.x + sum.y + sum.z) / 3 / double(light.rgb.size()));
+    return std::clamp(kMean / std::max(mean, 1e-6F), gain_ / kFarthest, gain_ * kFarthest);
+}
+
+Picture SimulatedCamera::counted(const Light& light, float gain, std::uint32_t seed) const {
+    const config::HallCamera& camera = hall_.hall().camera;
+    Picture picture{.sizePixels = light.sizePixels, .bits = camera.bits == 8 ? 8 : 16, .rgb = {}};
+    picture.rgb.resize(3 * light.rgb.size());
+    const auto read = static_cast<float>(camera.readNoise * camera.readNoise);
+    const float shot = camera.fullWell > 0 ? static_cast<float>(1 / camera.fullWell) : 0.0F;
+    const auto& normal = normals();
+    const auto width = static_cast<std::size_t>(light.sizePixels.x);
+    pool_.run(light.rgb.size() / width, [&](std::size_t y) {
+        for (std::size_t i = y * width; i < (y + 1) * width; ++i)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const float mean = gain * light.rgb[i][static_cast<int>(c)];
+                const std::uint32_t draw =
+                    aquarama::hashOf(seed, static_cast<std::uint32_t>(3 * i + c));
+                const float noise = std::sqrt(shot * mean + read) * normal[draw >> 20U];
+                const float level = std::clamp(mean + noise, 0.0F, 1.0F) * float{kLevels - 1};
+                picture.rgb[3 * i + c] = codes_[static_cast<std::size_t>(level + 0.5F)];
+            }
+    });
+    return picture;
 }
 
 Picture SimulatedCamera::picture(std::size_t index) {
-    const config::HallCamera& camera = hall_.hall().camera;
-    const config::HallFaults& faults = hall_.hall().faults;
-    Light light = arriving(index);
-    blur(light, camera.blurPixels);
-    double gain = gain_;
-    if (faults.autoExposure) {
-        double mean = 0;
-        for (const glm::vec3& rgb : light.rgb)
-            mean += static_cast<double>(rgb.y) / static_cast<double>(light.rgb.size());
-        gain = 0.2 / std::max(1e-4, mean);
-    }
-    const glm::ivec2 size = light.sizePixels;
-    Picture picture{.sizePixels = size, .bits = camera.bits > 8 ? 16 : 8, .rgb = {}};
-    picture.rgb.resize(3 * light.rgb.size());
-    const double most = std::exp2(camera.bits) - 1;
-    const double scale = (std::exp2(picture.bits) - 1) / most;
-    const std::uint32_t seed = hashOf(seed_, static_cast<std::uint32_t>(index));
-    WorkerPool(threads()).run(static_cast<std::size_t>(size.y), [&](std::size_t row) {
-        for (int x = 0; x < size.x; ++x) {
-            const std::size_t i = indexIn(size, x, static_cast<int>(row));
-            const glm::dvec2 pixel(x + 0.5, static_cast<double>(row) + 0.5);
-            const double dimmed = gain * hall_.cameraLens().vignetted(pixel);
-            const glm::dvec2 off =
-                faults.blocked
-                    ? (pixel / glm::dvec2(size) - faults.blocked->place) / faults.blocked->radius
-                    : glm::dvec2(2);
-            const double blocked = glm::dot(off, off) < 1 ? 0 : 1;
-            for (std::size_t c = 0; c < 3; ++c) {
-                const double arrived =
-                    blocked * dimmed * static_cast<double>(light.rgb[i][static_cast<int>(c)]);
-                const double code = codeOf(arrived, camera, noiseAt(seed, 3 * i + c));
-                picture.rgb[3 * i + c] =
-                    static_cast<std::uint16_t>(std::lround(std::round(code * most) * scale));
-            }
-        }
-    });
-    return picture;
+    Light light = lightOf(index);
+    hide(light);
+    dim(light);
+    blur(light);
+    const std::uint32_t seed = aquarama::hashOf(seed_, static_cast<std::uint32_t>(index));
+    return counted(light, gainFor(light), seed);
 }
 
 }  // namespace aquarama::hall

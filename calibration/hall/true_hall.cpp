@@ -129,11 +129,15 @@ std::vector<glm::dvec3> TrueHall::screenPoints(std::size_t count) const {
 }
 
 double TrueHall::whiteAt(std::size_t channel, glm::dvec3 point) const {
+    return hall_.screen.albedo * whiteOn(channel, point, screen_.normalAt(point));
+}
+
+double TrueHall::whiteOn(std::size_t channel, glm::dvec3 point, glm::dvec3 normal) const {
     const std::size_t projector = projectorOf(channel);
     const glm::dvec3 way = glm::normalize(lenses_[projector].truth().position - point);
-    const double cosine = std::max(0.0, glm::dot(way, screen_.normalAt(point)));
-    return hall_.screen.albedo * hall_.projectors[projector].brightness * cosine *
-           lenses_[projector].lightAt(point) / unitLight_[projector];
+    const double cosine = std::max(0.0, glm::dot(way, normal));
+    return hall_.projectors[projector].brightness * cosine * lenses_[projector].lightAt(point) /
+           unitLight_[projector];
 }
 
 }  // namespace aquarama::hall

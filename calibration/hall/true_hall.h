@@ -43,6 +43,8 @@ class TrueHall {
     // What the screen sends back of a projector's full white at a point that it lights; the white
     // of brightness one in the middle of the picture that the rig means is the albedo.
     [[nodiscard]] double whiteAt(std::size_t channel, glm::dvec3 point) const;
+    // The same as it falls on a surface there, whose normal has length one.
+    [[nodiscard]] double whiteOn(std::size_t channel, glm::dvec3 point, glm::dvec3 normal) const;
 
     [[nodiscard]] std::size_t channels() const { return cables_.size(); }
     // The projector that a channel's cable leads to.

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/hall/hall_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace aquarama::hall {
+
+namespace {
+
+constexpr float kDrapeAlbedo = 0.03F;
+constexpr int kWidest = 1500;     // of a picture whose rays are all followed
+constexpr int kStride = 4;        // between those of others
+constexpr float kPerStep = 2048;  // of a beam's steps
+
+// The room's lamps: one over the audience, and what comes back from everywhere.
+double roomLightAt(const TrueHall& hall, glm::dvec3 point, glm::dvec3 normal) {
+    constexpr double kEverywhere = 0.4;
+    const glm::dvec3 lamp = hall.rig().sweetSpotMetres + glm::dvec3(0.5, 0.6, 1.0);
+    const auto shareAt = [&](glm::dvec3 at, glm::dvec3 facing) {
+        const glm::dvec3 way = lamp - at;
+        return std::max(0.0, glm::dot(facing, glm::normalize(way))) / glm::dot(way, way);
+    };
+    const glm::dvec3 middle = *hall.screen().shape().at(glm::dvec2(0.5));
+    const glm::dvec3 facing = glm::normalize(hall.screen().shape().normalAt(middle));
+    return kEverywhere +
+           (1 - kEverywhere) * shareAt(point, normal) / std::max(1e-6, shareAt(middle, facing));
+}
+
+// A round spot with soft edges.
+float spotAt(const TrueHall& hall, glm::dvec3 point) {
+    const auto& lamp = hall.hall().faults.lamp;
+    const auto middle = hall.screen().at(lamp->place);
+    if (!middle) return 0;
+    const glm::dvec3 off = point - *middle;
+    const double square = glm::dot(off, off) / (lamp->radiusMetres * lamp->radiusMetres);
+    return static_cast<float>(lamp->light * std::exp(-2 * square * square));
+}
+
+std::array<std::int16_t, 2> stepOf(glm::vec2 from, glm::vec2 to) {
+    const glm::vec2 step = glm::clamp((to - from) * kPerStep, -32767.0F, 32767.0F);
+    return {static_cast<std::int16_t>(step.x), static_cast<std::int16_t>(step.y)};
+}
+
+glm::vec2 vectorOf(std::array<std::int16_t, 2> step) {
+    return glm::vec2(step[0], step[1]) / kPerStep;
+}
+
+}  // namespace
+
+HallView::HallView(const TrueHall& hall, const TrueLens& eye, WorkerPool& pool)
+    : hall_{hall},
+      eye_{eye},
+      pool_{pool},
+      size_{eye.truth().size},
+      step_{size_.x > kWidest ? kStride : 1},
+      gridWidth_{(size_.x - 1) / step_ + 2} {
+    const int gridHeight = (size_.y - 1) / step_ + 2;
+    std::vector<Arrival> grid(static_cast<std::size_t>(gridWidth_ * gridHeight));
+    const auto rows = static_cast<std::size_t>(size_.y);
+    pool_.run(static_cast<std::size_t>(gridHeight), [&](std::size_t y) {
+        for (std::size_t x = 0; x < static_cast<std::size_t>(gridWidth_); ++x)
+            grid[y * static_cast<std::size_t>(gridWidth_) + x] =
+                arrivalAt(double(step_) * glm::dvec2(x, y) + 0.5);
+    });
+    rows_.resize(rows);
+    pool_.run(rows, [&](std::size_t y) { rows_[y] = rowOf(grid, static_cast<int>(y)); });
+    std::vector<std::vector<std::uint8_t>> coverage(rows);
+    pool_.run(rows, [&](std::size_t y) {
+        coverage[y] = smoothed(static_cast<int>(y));
+        setSteps(static_cast<int>(y));
+    });
+    for (std::size_t y = 0; y < rows; ++y) rows_[y].coverage = std::move(coverage[y]);
+}
+
+HallView::Arrival HallView::arrivalAt(glm::dvec2 pixel) const {
+    const auto meeting = hall_.screen().meet(eye_.ray(pixel));
+    if (!meeting) return {};
+    return {.point = meeting->point,
+            .normal = hall_.screen().normalAt(meeting->point),
+            .place = hall_.screen().shape().unrolled(meeting->foot),
+            .isThere = true,
+            .isScreen = meeting->isScreen};
+}
+
+HallView::Arrival HallView::arrivalIn(const std::vector<Arrival>& grid, int x, int y) const {
+    const auto first = static_cast<std::size_t>(y / step_ * gridWidth_ + x / step_);
+    if (step_ == 1) return grid[first];
+    const Arrival &a = grid[first], &b = grid[first + 1];
+    const Arrival &c = grid[first + static_cast<std::size_t>(gridWidth_)],
+                  &d = grid[first + static_cast<std::size_t>(gridWidth_) + 1];
+    const int screens = a.isScreen + b.isScreen + c.isScreen + d.isScreen;
+    const bool areThere = a.isThere && b.isThere && c.isThere && d.isThere;
+    if (!areThere || screens % 4 != 0) return arrivalAt(glm::dvec2(x, y) + 0.5);
+    const double s = double(x % step_) / step_, t = double(y % step_) / step_;
+    const auto between = [&](auto member) {
+        return glm::mix(glm::mix(a.*member, b.*member, s), glm::mix(c.*member, d.*member, s), t);
+    };
+    return {.point = between(&Arrival::point),
+            .normal = glm::normalize(between(&Arrival::normal)),
+            .place = between(&Arrival::place),
+            .isThere = true,
+            .isScreen = screens == 4};
+}
+
+HallView::Row HallView::rowOf(const std::vector<Arrival>& grid, int y) const {
+    Row row;
+    row.beams.resize(hall_.channels());
+    for (int x = 0; x < size_.x; ++x) add(arrivalIn(grid, x, y), x, row);
+    return row;
+}
+
+void HallView::add(const Arrival& arrival, int column, Row& row) const {
+    row.coverage.push_back(arrival.isScreen ? kFullCoverage : 0);
+    row.place.emplace_back(arrival.place);
+    row.room.push_back(arrival.isThere
+                           ? static_cast<float>(roomLightAt(hall_, arrival.point, arrival.normal))
+                           : 0.4F);
+    if (hall_.hall().faults.lamp)
+        row.spot.push_back(arrival.isThere ? spotAt(hall_, arrival.point) : 0.0F);
+    if (!arrival.isThere) return;
+    for (std::size_t channel = 0; channel < row.beams.size(); ++channel) {
+        const auto pixel = hall_.lens(hall_.projectorOf(channel)).pixelOf(arrival.point);
+        if (!pixel) continue;
+        const double white = hall_.whiteOn(channel, arrival.point, arrival.normal);
+        if (white <= 0) continue;
+        row.beams[channel].push_back({.panelPixel = glm::vec2(*pixel),
+                                      .white = static_cast<float>(white),
+                                      .column = static_cast<std::uint16_t>(column)});
+    }
+}
+
+// At the screen's edges, how much of a pixel is screen.
+std::vector<std::uint8_t> HallView::smoothed(int y) const {
+    std::vector<std::uint8_t> coverage = rows_[static_cast<std::size_t>(y)].coverage;
+    const auto isScreen = [&](int x, int row) {
+        const glm::ivec2 at = glm::clamp(glm::ivec2(x, row), glm::ivec2(0), size_ - 1);
+        return rows_[static_cast<std::size_t>(at.y)].coverage[static_cast<std::size_t>(at.x)] > 0;
+    };
+    for (int x = 0; x < size_.x; ++x) {
+        const int screens = isScreen(x, y) + isScreen(x - 1, y) + isScreen(x + 1, y) +
+                            isScreen(x, y - 1) + isScreen(x, y + 1);
+        if (screens % 5 == 0) continue;
+        int parts = 0;
+        for (int i = 0; i < kFullCoverage; ++i) {
+            const glm::dvec2 part(i % 4 + 0.5, i / 4 + 0.5);
+            parts += hall_.screen().hit(eye_.ray(glm::dvec2(x, y) + part / 4.0)) ? 1 : 0;
+        }
+        coverage[static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(parts);
+    }
+    return coverage;
+}
+
+// From the beams of the pixels to the right and below; where there is none those before it.
+void HallView::setSteps(int y) {
+    const bool isLast = y + 1 == size_.y;
+    const Row& other = rows_[static_cast<std::size_t>(isLast ? y - 1 : y + 1)];
+    Row& row = rows_[static_cast<std::size_t>(y)];
+    for (std::size_t channel = 0; channel < row.beams.size(); ++channel) {
+        std::vector<Beam>& beams = row.beams[channel];
+        auto near = other.beams[channel].begin();
+        for (std::size_t i = 0; i < beams.size(); ++i) {
+            Beam& beam = beams[i];
+            const bool goesOn = i + 1 < beams.size() && beams[i + 1].column == beam.column + 1;
+            if (goesOn)
+                beam.right = stepOf(beam.panelPixel, beams[i + 1].panelPixel);
+            else if (i > 0)
+                beam.right = beams[i - 1].right;
+            near = std::find_if(near, other.beams[channel].end(), [&](const Beam& below) {
+                return below.column >= beam.column;
+            });
+            if (near != other.beams[channel].end() && near->column == beam.column)
+                beam.down = isLast ? stepOf(near->panelPixel, beam.panelPixel)
+                                   : stepOf(beam.panelPixel, near->panelPixel);
+            else if (i > 0)
+                beam.down = beams[i - 1].down;
+        }
+    }
+}
+
+// Two by two samples of each pixel.
+void HallView::light(const Row& row,
+                     const std::vector<ThrownPicture>& pictures,
+                     std::vector<glm::vec4>& sum) const {
+    for (std::size_t channel = 0; channel < row.beams.size(); ++channel)
+        for (const Beam& beam : row.beams[channel]) {
+            const glm::vec2 right = 0.25F * vectorOf(beam.right),
+                            down = 0.25F * vectorOf(beam.down);
+            const ThrownPicture& picture = pictures[channel];
+            const glm::vec4 light = picture.at(beam.panelPixel + right + down) +
+                                    picture.at(beam.panelPixel + right - down) +
+                                    picture.at(beam.panelPixel - right + down) +
+                                    picture.at(beam.panelPixel - right - down);
+            sum[beam.column] += 0.25F * beam.white * light;
+        }
+}
+
+float HallView::albedo(std::uint8_t coverage) const {
+    const float share = static_cast<float>(coverage) / kFullCoverage;
+    return glm::mix(kDrapeAlbedo, static_cast<float>(hall_.hall().screen.albedo), share);
+}
+
+Light HallView::of(const std::vector<ThrownPicture>& pictures,
+                   const Light& bounced,
+                   HallLamps lamps) const {
+    Light seen = darkness(size_);
+    const auto dark = lamps.dark * static_cast<float>(hall_.hall().darkLight);
+    const auto room = lamps.room * static_cast<float>(hall_.hall().roomLight);
+    const bool bounces = bounced.rgb.size() > 1;
+    pool_.run(rows_.size(), [&](std::size_t y) {
+        const Row& row = rows_[y];
+        std::vector<glm::vec4> sum(row.coverage.size());
+        light(row, pictures, sum);
+        for (std::size_t x = 0; x < sum.size(); ++x) {
+            glm::vec3 falls = glm::vec3(sum[x]) + dark + room * row.room[x];
+            if (!row.spot.empty()) falls += lamps.spot * row.spot[x];
+            if (bounces)
+                falls +=
+                    bilinear(bounced, glm::dvec2(row.place[x]) * glm::dvec2(bounced.sizePixels));
+            seen.rgb[y * sum.size() + x] = albedo(row.coverage[x]) * falls;
+        }
+    });
+    return seen;
+}
+
+float HallView::brightestOf(std::uint64_t channels) const {
+    constexpr std::size_t kRows = 4;  // of so many one is looked at
+    std::vector<float> lit;
+    for (std::size_t y = 0; y < rows_.size(); y += kRows) {
+        std::vector<float> sum(rows_[y].coverage.size());
+        for (std::size_t channel = 0; channel < rows_[y].beams.size(); ++channel)
+            if (((channels >> channel) & 1U) != 0)
+                for (const Beam& beam : rows_[y].beams[channel]) sum[beam.column] += beam.white;
+        for (std::size_t x = 0; x < sum.size(); ++x)
+            if (sum[x] > 0) lit.push_back(sum[x] * albedo(rows_[y].coverage[x]));
+    }
+    if (lit.empty()) return 0;
+    const auto brightest = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() * 999 / 1000);
+    std::nth_element(lit.begin(), brightest, lit.end());
+    return *brightest;
+}
+
+TrueLens eyeAt(glm::dvec3 position, glm::dvec3 lookAt, glm::ivec2 sizePixels, double halfWidth) {
+    const config::HallCamera camera{.positionMetres = position,
+                                    .lookAtMetres = lookAt,
+                                    .sizePixels = sizePixels,
+                                    .focalPixels = sizePixels.x / 2.0 / halfWidth,
+                                    .principalPixels = glm::dvec2(sizePixels) / 2.0};
+    return TrueLens(lensOf(camera));
+}
+
+namespace {
+
+std::vector<ThrownPicture> allThrown(const TrueHall& hall, std::span<const Light> channels) {
+    std::vector<ThrownPicture> pictures;
+    for (std::size_t i = 0; i < hall.channels(); ++i)
+        pictures.push_back(thrown(hall, i, channels[i]));
+    return pictures;
+}
+
+}  // namespace
+
+Light seen(const TrueHall& hall, std::span<const Light> channels, const TrueLens& eye) {
+    WorkerPool pool(std::thread::hardware_concurrency());
+    const std::vector<ThrownPicture> pictures = allThrown(hall, channels);
+    return HallView(hall, eye, pool).of(pictures, Bounce(hall).of(pictures), {});
+}
+
+LitScreen::LitScreen(const TrueHall& hall, std::span<const Light> channels)
+    : hall_{hall}, pictures_{allThrown(hall, channels)}, bounced_{Bounce(hall).of(pictures_)} {}
+
+glm::vec3 LitScreen::at(glm::dvec3 point) const {
+    const glm::dvec2 place = hall_.screen().shape().unrolled(point);
+    const glm::dvec3 there = hall_.screen().at(place).value_or(point);
+    const glm::dvec3 normal = hall_.screen().normalAt(there);
+    glm::vec3 falls(static_cast<float>(hall_.hall().darkLight));
+    for (std::size_t channel = 0; channel < pictures_.size(); ++channel)
+        if (const auto pixel = hall_.lens(hall_.projectorOf(channel)).pixelOf(there))
+            falls += static_cast<float>(hall_.whiteOn(channel, there, normal)) *
+                     glm::vec3(pictures_[channel].at(glm::vec2(*pixel)));
+    if (bounced_.rgb.size() > 1)
+        falls += bilinear(bounced_, place * glm::dvec2(bounced_.sizePixels));
+    return static_cast<float>(hall_.hall().screen.albedo) * falls;
+}
+
+}  // namespace aquarama::hall

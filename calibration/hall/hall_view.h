@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an eye in a simulated hall sees: screen and drape, lit by projectors and lamps. Worked out
+// once, for many pictures.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "calibration/hall/bounce.h"
+#include "calibration/hall/thrown_light.h"
+#include "calibration/hall/true_hall.h"
+#include "common/base/picture.h"
+#include "common/base/worker_pool.h"
+
+namespace aquarama::hall {
+
+// Lamps that shine, as shares of their full light.
+struct HallLamps {
+    float dark = 1, room = 0, spot = 0;
+};
+
+// Keeps references to the hall and the pool. Some 30 bytes for each pixel and projector that lights
+// it. Of pictures wider than 1500 pixels every fourth ray is followed, and those between them are
+// interpolated, to 0.005 of a projector's pixels.
+class HallView {
+  public:
+    HallView(const TrueHall& hall, const TrueLens& eye, WorkerPool& pool);
+
+    // Linear light; 1 is a projector's white on a white screen. One picture for each channel.
+    [[nodiscard]] Light of(const std::vector<ThrownPicture>& pictures,
+                           const Light& bounced,
+                           HallLamps lamps) const;
+    // The brightest that white of these channels gets, but for the brightest thousandth.
+    [[nodiscard]] float brightestOf(std::uint64_t channels) const;
+
+  private:
+    // A pixel that a projector lights.
+    struct Beam {
+        glm::vec2 panelPixel{};
+        float white = 0;  // as it falls on the screen
+        std::array<std::int16_t, 2> right{},
+            down{};                // of panelPixel, to the next pixel of the view
+        std::uint16_t column = 0;  // of the view
+    };
+    struct Row {
+        std::vector<std::vector<Beam>> beams;  // of each channel
+        std::vector<std::uint8_t> coverage;    // by the screen, in parts of kFullCoverage
+        std::vector<float> room, spot;         // light of lamps; spot may be empty
+        std::vector<glm::vec2> place;          // on the unrolled smooth screen
+    };
+    // Where a ray arrives.
+    struct Arrival {
+        glm::dvec3 point{}, normal{};
+        glm::dvec2 place{};
+        bool isThere = false, isScreen = false;
+    };
+    [[nodiscard]] Arrival arrivalAt(glm::dvec2 pixel) const;
+    [[nodiscard]] Arrival arrivalIn(const std::vector<Arrival>& grid, int x, int y) const;
+    [[nodiscard]] Row rowOf(const std::vector<Arrival>& grid, int y) const;
+    void add(const Arrival& arrival, int column, Row& row) const;
+    [[nodiscard]] std::vector<std::uint8_t> smoothed(int y) const;
+    void setSteps(int y);
+    void light(const Row& row,
+               const std::vector<ThrownPicture>& pictures,
+               std::vector<glm::vec4>& sum) const;
+    [[nodiscard]] float albedo(std::uint8_t coverage) const;
+
+    static constexpr int kFullCoverage = 16;
+
+    const TrueHall& hall_;
+    TrueLens eye_;
+    WorkerPool& pool_;
+    glm::ivec2 size_;
+    int step_ = 1;  // pixels between the rays that are followed
+    int gridWidth_ = 0;
+    std::vector<Row> rows_;
+};
+
+// The eye of a camera without faults at a place, that looks at a point and sees so far to each side
+// of it: `halfWidth` is a tangent.
+[[nodiscard]] TrueLens eyeAt(glm::dvec3 position,
+                             glm::dvec3 lookAt,
+                             glm::ivec2 sizePixels,
+                             double halfWidth);
+
+// What an eye sees in the dark hall of any pictures of the channels.
+[[nodiscard]] Light seen(const TrueHall& hall,
+                         std::span<const Light> channels,
+                         const TrueLens& eye);
+
+// Pictures on the true screen: for eyes that walk round.
+class LitScreen {
+  public:
+    LitScreen(const TrueHall& hall, std::span<const Light> channels);
+    // What the screen sends back at a point of it, or of the smooth screen under its bumps.
+    [[nodiscard]] glm::vec3 at(glm::dvec3 point) const;
+
+  private:
+    const TrueHall& hall_;
+    std::vector<ThrownPicture> pictures_;
+    Light bounced_;
+};
+
+}  // namespace aquarama::hall
