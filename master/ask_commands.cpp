@@ -15,6 +15,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "common/ask/request_client.h"
 #include "common/base/log.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
@@ -30,39 +31,17 @@ namespace aquarama {
 
 namespace {
 
-// Which master is asked.
-struct AskedMaster {
-    std::string rig = supervisor::kDefaultRig;
-    std::string address;  // empty: the rig's
-
-    std::string key;  // file; empty: the operator's, where the rig needs one
-
-    // The file of the key to show; empty where none is needed.
-    [[nodiscard]] std::string keyPath() const {
-        if (!key.empty() || !address.empty() || !config::needsKeys(config::readRig(rig)))
-            return key;
-        return config::keyFileIn(config::keyFolderOf(rig), "operator").string();
-    }
-    [[nodiscard]] conductor::RequestClient connect() const {
-        const std::string path = keyPath();
-        if (path.empty())
-            return conductor::RequestClient(address.empty() ? config::readRig(rig).controlAddress
-                                                            : address);
-        const config::KeyFile shown = config::readKeyFile(path);
-        return conductor::RequestClient(
-            address.empty() ? shown.masterAddress : address,
-            net::PeerKeys{shown.masterKey, {shown.publicKey, shown.secretKey}});
-    }
-};
+using ask::AskedMaster;
 
 void describeMaster(CLI::App& command, AskedMaster& asked) {
+    asked.rig = supervisor::kDefaultRig;
     command.add_option("RIG", asked.rig, "whose master is asked")->capture_default_str();
     command.add_option("--master", asked.address, "its control address, instead of the rig's");
     command.add_option("--key", asked.key, "file of the key to show (aquarama keys bundle)");
 }
 
 void showStatus(const AskedMaster& asked) {
-    conductor::RequestClient master = asked.connect();
+    ask::RequestClient master = asked.connect();
     std::cout << conductor::statusText(master.status());
 }
 
@@ -104,7 +83,7 @@ class Keyboard {
 
 // Tells the master what the keys say, and shows where the submarine is, until a key ends it.
 void steer(const AskedMaster& asked) {
-    conductor::RequestClient master = asked.connect();
+    ask::RequestClient master = asked.connect();
     Keyboard keyboard;
     conductor::TerminalSteering terminal;
     const bool onScreen = isatty(STDOUT_FILENO) != 0;
@@ -151,7 +130,7 @@ void print(std::uint32_t fish, std::size_t school, std::span<const std::string> 
 }
 
 void explainLive(const ExplainOptions& options) {
-    conductor::RequestClient master = options.asked.connect();
+    ask::RequestClient master = options.asked.connect();
     const bool onScreen = options.follow && isatty(STDOUT_FILENO) != 0;
     do {
         const v1::Explanation explanation = master.explain(options.fish);
@@ -219,7 +198,7 @@ void set(const SetOptions& options) {
 
 }  // namespace
 
-conductor::RequestClient connectToMaster(const std::string& rigPath, const std::string& keyFolder) {
+ask::RequestClient connectToMaster(const std::string& rigPath, const std::string& keyFolder) {
     AskedMaster asked{.rig = rigPath, .address = {}, .key = {}};
     if (!keyFolder.empty()) asked.key = config::keyFileIn(keyFolder, "operator").string();
     return asked.connect();

@@ -15,7 +15,7 @@
 #include "common/net/channels.h"
 #include "master/supervisor/supervise.h"
 
-namespace aquarama::conductor {
+namespace aquarama::ask {
 class RequestClient;
 }
 
@@ -107,8 +107,8 @@ void describeWall(CLI::App& command, supervisor::ShowOptions& options);
 
 // A connection to the master of a rig for questions, with the operator's key of this folder (empty:
 // the user's) where the rig needs one. Throws Error where it cannot be read.
-[[nodiscard]] conductor::RequestClient connectToMaster(const std::string& rigPath,
-                                                       const std::string& keyFolder);
+[[nodiscard]] ask::RequestClient connectToMaster(const std::string& rigPath,
+                                                 const std::string& keyFolder);
 
 // Replays a recording without a wall and says whether it is the same world again. Returns the exit
 // status: 1 where it is another. Throws Error where it cannot be read.

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "common/ask/request_client.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/config/keys.h"

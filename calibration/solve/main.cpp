@@ -16,6 +16,7 @@
 #include "calibration/hall/random_hall.h"
 #include "calibration/hall/simulated_camera.h"
 #include "calibration/hall/true_hall.h"
+#include "calibration/scan/capture.h"
 #include "calibration/scan/decode.h"
 #include "calibration/scan/pictures.h"
 #include "calibration/solve/figures.h"
@@ -35,7 +36,7 @@ namespace aquarama {
 namespace {
 
 struct Options {
-    std::string rig, from, simulate, out, report, keep;
+    std::string rig, camera, from, simulate, out, report, keep, key;
 };
 
 using Clock = std::chrono::steady_clock;
@@ -90,7 +91,7 @@ class Calibration {
 
     int run() {
         openPictures();
-        if (!options_.keep.empty()) {
+        if (options_.camera.empty() && !options_.keep.empty()) {
             scan::writeFolder(*source_, options_.keep, rig_);
             source_ = scan::openFolder(options_.keep, rig_);
         }
@@ -111,7 +112,22 @@ class Calibration {
     }
 
   private:
+    // Beside the wall file where no other folder is named: a scan of an hour ago may be worth much.
+    [[nodiscard]] std::string keptIn() const {
+        if (!options_.keep.empty()) return options_.keep;
+        return std::filesystem::path(options_.out).replace_extension(".scan").string();
+    }
+
     void openPictures() {
+        if (!options_.camera.empty()) {
+            scan::captureShow(rig_,
+                              {.rig = options_.rig, .master = {}, .key = options_.key},
+                              options_.camera,
+                              scan::sequenceOf(rig_),
+                              keptIn());
+            source_ = scan::openFolder(keptIn(), rig_);
+            return;
+        }
         if (!options_.from.empty()) {
             source_ = scan::openFolder(options_.from, rig_);
             return;
@@ -175,6 +191,9 @@ int main(int count, char** arguments) {
     app.add_option("--rig", options.rig, "the rig, with its projectors about where they hang")
         ->required();
     auto& source = *app.add_option_group("pictures", "where the pictures come from");
+    source.add_option("--camera",
+                      options.camera,
+                      "/dev/video0, gphoto2: or whatever FFmpeg reads; the show must be running");
     source.add_option("--from", options.from, "a folder of pictures that were taken before");
     source.add_option("--simulate",
                       options.simulate,
@@ -183,5 +202,6 @@ int main(int count, char** arguments) {
     app.add_option("--out", options.out, "the wall file to write (.mpcdi)")->required();
     app.add_option("--report", options.report, "folder for a page with pictures and figures");
     app.add_option("--keep", options.keep, "folder for the pictures, to solve them again");
+    app.add_option("--key", options.key, "key of the crew, where the rig needs one");
     return cli::runProgram(app, count, arguments, [&] { return calibrate(options); });
 }

@@ -3,27 +3,21 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
-#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <vector>
-
-#include <unistd.h>
 
 #include "calibration/theatre/clip.h"
 #include "calibration/theatre/compose.h"
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
+#include "common/cli/outputs.h"
 #include "common/net/channels.h"
 
 namespace aquarama::theatre {
 
 namespace {
-
-using namespace std::chrono_literals;
 
 // The channels that make the picture: all, or the one of this name.
 std::vector<config::Channel> filmedChannels(const config::Rig& rig, const std::string& of) {
@@ -80,43 +74,10 @@ class Camera {
     std::optional<PanoramaMap> map_;  // unless a channel is shown as it is
 };
 
-// Says how far the clip is: in one line of a terminal, written anew, or in a line of a log every
-// ten seconds.
-class Progress {
-  public:
-    explicit Progress(const Filming& filming) : pictures_{picturesIn(filming)} {}
-    void show(std::uint64_t done) {
-        const auto now = Clock::now();
-        if (now - shown_ < (terminal_ ? 250ms : 10s)) return;
-        shown_ = now;
-        const double seconds = std::chrono::duration<double>(now - begun_).count();
-        const double rate = static_cast<double>(done) / seconds;
-        std::ostringstream line;
-        line << "clip: picture " << done;
-        if (pictures_ > 0) line << " of " << pictures_;
-        line << std::fixed << std::setprecision(1) << ", " << rate << " a second";
-        if (pictures_ > 0)
-            line << std::setprecision(0) << ", "
-                 << static_cast<double>(pictures_ - std::min(done, pictures_)) / rate << " s left";
-        std::cout << (terminal_ ? "\r\x1b[K" : "") << line.str() << (terminal_ ? "" : "\n")
-                  << std::flush;
-    }
-    // Takes the terminal's line away.
-    void end() const {
-        if (terminal_) std::cout << "\r\x1b[K" << std::flush;
-    }
-
-  private:
-    using Clock = std::chrono::steady_clock;
-    static std::uint64_t picturesIn(const Filming& filming) {
-        const auto between = static_cast<std::uint64_t>(filming.ticksBetween);
-        return (filming.frames.value_or(0) + between - 1) / between;
-    }
-    std::uint64_t pictures_;  // 0: as many as come
-    bool terminal_ = isatty(STDOUT_FILENO) != 0;
-    Clock::time_point begun_ = Clock::now();
-    Clock::time_point shown_ = begun_;
-};
+std::uint64_t picturesIn(const Filming& filming) {
+    const auto between = static_cast<std::uint64_t>(filming.ticksBetween);
+    return (filming.frames.value_or(0) + between - 1) / between;
+}
 
 // What the nodes of some channels send.
 class FilmedChannels {
@@ -171,7 +132,7 @@ void film(const config::Rig& rig, const Filming& filming) {
     auto frames = filmed->nextFrame();
     if (!frames) throw Error(filming.clipPath + ": no frame was shown; let the show run for more");
     if (!filming.firstPictures.empty()) camera.writePictures(*frames, filming.firstPictures);
-    Progress progress(filming);
+    cli::Progress progress("clip: picture", picturesIn(filming));
     std::uint64_t pictures = 0;
     for (; frames; frames = filmed->nextFrame()) {
         clip->add(camera.pictureOf(*frames), frames->front().frame);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Patterns of a scan as pure functions of a projector's pixel. The render node's shader computes
-// the same formulas, and the tests compare its pictures with these.
+// Patterns of a scan as pure functions of a projector's pixel. A render node draws what these say,
+// and the tests compare its pictures with them.
 #pragma once
 
 #include <algorithm>
@@ -59,6 +59,7 @@ struct ScanTagPlace {
         case Kind::GrayColumns:
         case Kind::GrayRows: {
             const int bits = scanGrayBits(pixels, pattern.finestPixels);
+            if (pattern.step >= bits) return 0;  // finer than the picture has
             const auto stripe = static_cast<unsigned>(pixel / pattern.finestPixels);
             const unsigned code = stripe ^ (stripe >> 1U);
             const bool lit = ((code >> static_cast<unsigned>(bits - 1 - pattern.step)) & 1U) != 0;

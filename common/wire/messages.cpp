@@ -11,6 +11,7 @@
 #include <google/protobuf/io/coded_stream.h>
 
 #include "common/base/units.h"
+#include "common/wall/scan_pattern.h"
 
 namespace aquarama::wire {
 namespace {
@@ -26,7 +27,8 @@ static_assert(int{v1::PACE_LIVE} == static_cast<int>(Pace::Live) &&
               int{v1::PACE_LOCKSTEP} == static_cast<int>(Pace::Lockstep));
 static_assert(int{v1::PATTERN_WORLD} == static_cast<int>(Pattern::World) &&
               int{v1::PATTERN_GRID} == static_cast<int>(Pattern::Grid) &&
-              int{v1::PATTERN_GREY} == static_cast<int>(Pattern::Grey));
+              int{v1::PATTERN_GREY} == static_cast<int>(Pattern::Grey) &&
+              int{v1::PATTERN_SCAN} == static_cast<int>(Pattern::Scan));
 
 // No control characters, so that no peer can write lines of its own into a log.
 bool isText(const std::string& text, std::size_t maxBytes) {
@@ -107,10 +109,20 @@ bool isValid(const v1::Welcome& m) {
            isValid(m.look());
 }
 
+// The pattern of a scan is set by the scan.
+bool isChosenPattern(v1::Pattern pattern) {
+    return pattern != v1::PATTERN_SCAN && isOneOf(pattern, v1::Pattern_IsValid);
+}
+
+bool isValid(const v1::HeldScan& m) {
+    return m.holder() != 0 && (!m.has_pattern() || readScanPattern(m.pattern()));
+}
+
 bool isValid(const v1::Set& m) {
     return m.has_request() && (!m.has_scene() || isName(m.scene())) &&
            (!m.has_quality() || isName(m.quality())) &&
-           (!m.has_pattern() || isOneOf(m.pattern(), v1::Pattern_IsValid));
+           (!m.has_pattern() || isChosenPattern(m.pattern())) &&
+           (!m.has_scan() || isValid(m.scan()));
 }
 
 bool isValid(const v1::SetReply& m) {
@@ -311,6 +323,61 @@ std::optional<Eye> readEye(const google::protobuf::RepeatedField<float>& e) {
     return Eye{{e[0], e[1], e[2]}, {e[3], e[4], e[5], e[6]}};
 }
 
+void writeScanPattern(const config::ScanPattern& pattern, v1::ScanPattern& message) {
+    message.set_kind(static_cast<std::uint32_t>(pattern.kind));
+    message.set_step(pattern.step);
+    message.set_finest_pixels(pattern.finestPixels);
+    message.set_inverse(pattern.inverse);
+    message.clear_light();
+    for (const float part : {pattern.light.r, pattern.light.g, pattern.light.b})
+        message.add_light(part);
+    message.set_lit(pattern.lit);
+    message.set_number(pattern.number);
+    message.set_tagged(pattern.tagged);
+}
+
+namespace {
+
+using ScanKind = config::ScanPattern::Kind;
+
+bool hasAllScalars(const v1::ScanPattern& m) {
+    return m.has_kind() && m.has_step() && m.has_finest_pixels() && m.has_inverse() &&
+           m.has_lit() && m.has_number() && m.has_tagged();
+}
+
+bool isPhase(std::uint32_t kind) {
+    return kind == static_cast<std::uint32_t>(ScanKind::PhaseColumns) ||
+           kind == static_cast<std::uint32_t>(ScanKind::PhaseRows);
+}
+
+bool isInBounds(const v1::ScanPattern& m) {
+    constexpr std::uint32_t kMostBits = 16;  // of a column's number
+    const std::uint32_t steps = isPhase(m.kind()) ? wall::kScanPhaseSteps : kMostBits;
+    return m.kind() >= static_cast<std::uint32_t>(ScanKind::Level) &&
+           m.kind() <= static_cast<std::uint32_t>(ScanKind::Room) && m.step() < steps &&
+           m.finest_pixels() > 0 &&
+           m.finest_pixels() <= std::numeric_limits<std::uint16_t>::max() &&
+           m.number() < (1U << unsigned{wall::kScanTagBits});
+}
+
+}  // namespace
+
+std::optional<config::ScanPattern> readScanPattern(const v1::ScanPattern& m) {
+    const auto isShare = [](float part) { return part >= 0 && part <= 1; };
+    const auto& light = m.light();
+    if (!hasAllScalars(m) || !isInBounds(m) || light.size() != 3 ||
+        !std::ranges::all_of(light, isShare))
+        return std::nullopt;
+    return config::ScanPattern{.kind = static_cast<ScanKind>(m.kind()),
+                               .step = static_cast<std::uint8_t>(m.step()),
+                               .finestPixels = static_cast<std::uint16_t>(m.finest_pixels()),
+                               .inverse = m.inverse(),
+                               .light = {light[0], light[1], light[2]},
+                               .lit = m.lit(),
+                               .number = static_cast<std::uint16_t>(m.number()),
+                               .tagged = m.tagged()};
+}
+
 void writeShow(const Show& show, v1::Show& message) {
     message.set_version(show.version);
     message.set_look(show.look);
@@ -322,6 +389,7 @@ void writeShow(const Show& show, v1::Show& message) {
     message.set_frozen(show.frozen);
     message.set_pilot(show.pilot);
     message.set_calibration(show.calibration);
+    if (show.scan) writeScanPattern(*show.scan, *message.mutable_scan());
 }
 
 std::optional<Show> readShow(const v1::Show& m) {
@@ -330,8 +398,10 @@ std::optional<Show> readShow(const v1::Show& m) {
                          m.has_brightness() && m.has_frozen() && m.has_calibration() &&
                          isOneOf(m.pattern(), v1::Pattern_IsValid);
     const bool isLight = m.brightness() <= static_cast<std::uint32_t>(kFullLight);
-    if (!isWhole || !isLight || !quality || !isText(m.scene(), kMostNameBytes) ||
-        !isText(m.pilot(), kMostNameBytes))
+    const auto scan = m.has_scan() ? readScanPattern(m.scan()) : std::nullopt;
+    const bool isScan = m.pattern() == v1::PATTERN_SCAN;
+    if (!isWhole || !isLight || !quality || m.has_scan() != isScan || scan.has_value() != isScan ||
+        !isText(m.scene(), kMostNameBytes) || !isText(m.pilot(), kMostNameBytes))
         return std::nullopt;
     return Show{m.version(),
                 m.look(),
@@ -342,7 +412,8 @@ std::optional<Show> readShow(const v1::Show& m) {
                 static_cast<float>(m.brightness()) / kFullLight,
                 m.frozen(),
                 m.pilot(),
-                m.calibration()};
+                m.calibration(),
+                scan};
 }
 
 bool areFinite(const google::protobuf::RepeatedField<float>& numbers) {

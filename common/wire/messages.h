@@ -23,7 +23,7 @@
 namespace aquarama::wire {
 
 // Peers of another major version are refused.
-inline constexpr std::uint32_t kProtocolMajor = 2;
+inline constexpr std::uint32_t kProtocolMajor = 3;
 
 // Bounds. Larger or longer values are refused on arrival; text has no control characters, since it
 // is printed in logs and terminals.
@@ -62,6 +62,10 @@ void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers);
 // Every field is written. Reading: empty where one is missing or out of bounds.
 void writeShow(const Show& show, v1::Show& message);
 [[nodiscard]] std::optional<Show> readShow(const v1::Show& message);
+
+// Reading: empty where a field is missing, or no channel could show it.
+void writeScanPattern(const config::ScanPattern& pattern, v1::ScanPattern& message);
+[[nodiscard]] std::optional<config::ScanPattern> readScanPattern(const v1::ScanPattern& message);
 
 // Whether no number is infinite or not a number.
 [[nodiscard]] bool areFinite(const google::protobuf::RepeatedField<float>& numbers);

@@ -21,6 +21,7 @@
 #include "common/base/digest.h"
 #include "common/base/units.h"
 #include "common/config/rig.h"
+#include "common/config/scan.h"
 #include "common/config/scene.h"
 #include "common/motion/motion_state.h"
 
@@ -36,15 +37,16 @@ using Packet = std::vector<std::byte>;
 // How a show advances: by the clock, or frame by frame. Numbered as in aquarama.proto.
 enum class Pace : std::uint8_t { Live = 1, Lockstep = 2 };
 // What the channels show: the world, or a pattern for setting up and for tests. As above.
-enum class Pattern : std::uint8_t { World = 1, Grid = 2, Grey = 3 };
+enum class Pattern : std::uint8_t { World = 1, Grid = 2, Grey = 3, Scan = 4 };
 // As command lines and logs name them.
-inline constexpr std::array<std::string_view, 3> kPatternNames{"world", "grid", "grey"};
+inline constexpr std::array<std::string_view, 4> kPatternNames{"world", "grid", "grey", "scan"};
 [[nodiscard]] constexpr std::string_view nameOf(Pattern pattern) {
     return kPatternNames.at(static_cast<std::size_t>(pattern) - 1);
 }
+// One that can be chosen by its name alone, which a scan's cannot.
 [[nodiscard]] constexpr std::optional<Pattern> patternNamed(std::string_view name) {
     const auto* const found = std::ranges::find(kPatternNames, name);
-    if (found == kPatternNames.end()) return std::nullopt;
+    if (found >= kPatternNames.end() - 1) return std::nullopt;
     return static_cast<Pattern>(found - kPatternNames.begin() + 1);
 }
 
@@ -108,7 +110,8 @@ struct Show {
     float brightness = 1.0F;  // share of the light, 0 to 1 in 255 steps: fades to what is wanted
     bool frozen = false;      // the world stands still
     std::string pilot;        // whose hand steers; empty: nobody's
-    std::uint64_t calibration = 0;  // shortHash() of the rig's text
+    std::uint64_t calibration = 0;                 // shortHash() of the rig's text
+    std::optional<config::ScanPattern> scan = {};  // where the pattern is Scan
     friend bool operator==(const Show&, const Show&) = default;
 };
 

@@ -75,24 +75,69 @@ std::string Conductor::objectionToQuality(const std::string& quality) const {
 
 std::string Conductor::objectionTo(const v1::Set& set) const {
     if (isLockstep()) return "a show in lockstep is the same every time; run it with --live";
+    const bool isOfLook = set.has_scene() || set.has_quality() || set.has_pattern();
+    if (scan_.pattern() && isOfLook) return "a scan holds the wall; wait for its end, or end it";
     std::string objection;
     if (set.has_scene()) objection = objectionToScene(set.scene());
     if (set.has_quality() && objection.empty()) objection = objectionToQuality(set.quality());
     return objection;
 }
 
-void Conductor::set(const net::FromPeer& from, const v1::Set& set) {
-    Answer answer{Outcome::Refused, objectionTo(set)};
-    if (answer.reason.empty()) {
-        const ShowChange change = changeIn(set);
-        const std::uint64_t before = control_.version();
-        answer = control_.set(set.request(), change);
-        if (simulationThread_) simulationThread_->freeze(control_.wanted().freeze);
-        if (control_.version() != before)
-            logInfo("{} sets {}", from.user.empty() ? "somebody here" : from.user, textOf(change));
+Answer Conductor::change(const std::string& user, const v1::Set& set) {
+    if (std::string objection = objectionTo(set); !objection.empty())
+        return {Outcome::Refused, std::move(objection)};
+    const ShowChange change = changeIn(set);
+    const std::uint64_t before = control_.version();
+    const Answer answer = control_.set(set.request(), change);
+    if (simulationThread_) simulationThread_->freeze(control_.wanted().freeze);
+    if (control_.version() != before) logInfo("{} sets {}", user, textOf(change));
+    return answer;
+}
+
+// A wall that is set black stays black, whoever scans it.
+std::string Conductor::objectionToScan() const {
+    if (isLockstep()) return "a show in lockstep is the same every time; run it with --live";
+    if (control_.wanted().black) return "the wall is set black; set black off for a scan";
+    if (control_.phase() != Phase::Steady) return "another change is under way; wait for its end";
+    return {};
+}
+
+std::string Conductor::notShowingScan() const {
+    std::string missing;
+    for (const ChannelSlot& slot : slots_) {
+        const bool isThere = slot.prepared && !slot.peer.empty();
+        if (isThere && scan_.first() <= slot.released) continue;
+        missing += (missing.empty() ? "" : ", ") + slot.name + (isThere ? " (late)" : " (absent)");
     }
+    return missing;
+}
+
+Frame Conductor::newestReleased() const {
+    return std::ranges::max(slots_, {}, &ChannelSlot::released).released;
+}
+
+Answer Conductor::scan(const std::string& user, const v1::HeldScan& scan, net::Instant now) {
+    if (!scan.has_pattern()) {
+        scan_.end(scan.holder());
+        return {};
+    }
+    if (std::string objection = objectionToScan(); !objection.empty())
+        return {Outcome::Refused, std::move(objection)};
+    const auto pattern = wire::readScanPattern(scan.pattern());
+    const bool begins = !scan_.pattern();
+    if (!scan_.hold(scan.holder(), pattern.value(), std::max(unpublished_, Frame{1}), now))
+        return {Outcome::Refused, "another scan holds the wall; wait for its end, or end it"};
+    if (begins) logInfo("{} holds the wall for a scan", user);
+    const std::string missing = notShowingScan();
+    return missing.empty() ? Answer{} : Answer{Outcome::Preparing, "not shown yet by " + missing};
+}
+
+void Conductor::set(const net::FromPeer& from, const v1::Set& set, net::Instant now) {
+    const std::string user = from.user.empty() ? "somebody here" : from.user;
+    const Answer answer = set.has_scan() ? scan(user, set.scan(), now) : change(user, set);
     v1::Envelope message;
     v1::SetReply& reply = *message.mutable_set_reply();
+    if (set.has_scan() && answer.outcome == Outcome::Done) reply.set_frame(newestReleased().value);
     reply.set_request(set.request());
     reply.set_outcome(static_cast<v1::Outcome>(answer.outcome));
     reply.set_reason(answer.reason);
@@ -100,6 +145,7 @@ void Conductor::set(const net::FromPeer& from, const v1::Set& set) {
 }
 
 void Conductor::changeShow(net::Instant now) {
+    if (scan_.expires(now)) logWarning("a scan has fallen silent: the wall shows what it did");
     if (control_.phase() == Phase::Steady) watchRigFiles(now);
     if (control_.phase() == Phase::Making) makeNextWorld();
     if (control_.phase() == Phase::Preparing) prepareNodes(now);
@@ -254,16 +300,18 @@ void Conductor::welcomeToLook() {
 
 wire::Show Conductor::shown(net::Instant now) const {
     const WantedShow& wanted = control_.wanted();
-    return {.version = control_.version(),
+    const bool isScan = scan_.pattern().has_value();
+    return {.version = control_.version() + scan_.changes(),
             .look = control_.look(),
             .scene = sceneName_,
             .quality = quality(),
-            .pattern = wanted.pattern,
+            .pattern = isScan ? wire::Pattern::Scan : wanted.pattern,
             .black = wanted.black,
             .brightness = brightness_,
             .frozen = wanted.freeze,
             .pilot = pilotName(now),
-            .calibration = calibration_};
+            .calibration = calibration_,
+            .scan = scan_.pattern()};
 }
 
 // On the way to the next scene it is noted when light went, for the log, and which frame is black.

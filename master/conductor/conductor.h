@@ -36,6 +36,7 @@ namespace aquarama::v1 {  // generated: only the sources of this folder see more
 class BlobRequest;
 class Envelope;
 class Hello;
+class HeldScan;
 class Input;
 class LogLine;
 class Look;
@@ -142,6 +143,7 @@ class Conductor {
         std::optional<net::Blanks> blanks;             // of its display, in the master's clock
         net::Instant lastFed{};      // when a visitor last dropped food in its window
         std::uint64_t logLines = 0;  // of its node, in this second
+        Frame released;              // the newest that its node says it has shown
     };
 
     // What is counted for Prometheus.
@@ -190,9 +192,16 @@ class Conductor {
     void leave(std::size_t node);
     void handle(std::size_t node, const v1::Input& input, net::Instant now);
     // What the show shall be.
-    void set(const net::FromPeer& from, const v1::Set& set);
+    void set(const net::FromPeer& from, const v1::Set& set, net::Instant now);
+    [[nodiscard]] Answer change(const std::string& user, const v1::Set& set);
     // Why a change is refused; empty where it is not.
     [[nodiscard]] std::string objectionTo(const v1::Set& set) const;
+    // A scan takes the wall, says its pattern again, or gives the wall back.
+    [[nodiscard]] Answer scan(const std::string& user, const v1::HeldScan& scan, net::Instant now);
+    [[nodiscard]] std::string objectionToScan() const;
+    // The channels that have not shown the pattern of the scan yet; empty where all have.
+    [[nodiscard]] std::string notShowingScan() const;
+    [[nodiscard]] Frame newestReleased() const;
     [[nodiscard]] std::string objectionToScene(const std::string& scene) const;
     [[nodiscard]] std::string objectionToQuality(const std::string& quality) const;
     // Inputs, passed on to the tick thread where they are in bounds.
@@ -266,6 +275,7 @@ class Conductor {
     std::optional<RigFiles> nextRigFiles_;  // of the one under way, where they are others
     std::uint64_t calibration_ = 0;         // of the shown
     ShowControl control_;
+    ScanHold scan_;
     std::unique_ptr<v1::Look> look_;  // that is shown
     std::string sceneName_;           // of it
     Blobs blobs_;

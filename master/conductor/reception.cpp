@@ -185,7 +185,7 @@ void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net
         case v1::Envelope::kExplainRequest:
             return ask(peer, message.explain_request().fish());
         case v1::Envelope::kSet:
-            return set(from, message.set());
+            return set(from, message.set(), now);
         case v1::Envelope::kInput:
             if (node || !isVisitorsInput(message)) break;
             return takeOfVisitor(from, message.input(), now);
@@ -264,6 +264,7 @@ void Conductor::greet(const net::PeerId& peer, const v1::Hello& hello, net::Inst
     slot.peer = peer;
     slot.prepared = false;
     slot.lastHeard = now;
+    slot.released = {};
     channels_->sendControl(peer, welcome_);
 }
 
@@ -280,6 +281,7 @@ void Conductor::ready(std::size_t node, const v1::Ready& ready, net::Instant now
     slots_[node].mismatches = ready.hash_mismatches();
     slots_[node].blanks = blanksIn(ready);
     if (ready.has_released_frame()) {
+        slots_[node].released = std::max(slots_[node].released, Frame{ready.released_frame()});
         const auto skew = skew_.add({ready.released_frame()}, ready.released_ns());
         if (skew) figures_.skewSeconds(net::secondsIn(*skew));
     }

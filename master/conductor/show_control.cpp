@@ -18,6 +18,32 @@ void put(std::optional<Value>& into, const std::optional<Value>& value) {
 
 }  // namespace
 
+bool ScanHold::hold(std::uint64_t holder,
+                    const config::ScanPattern& pattern,
+                    Frame next,
+                    net::Instant now) {
+    if (pattern_ && holder != holder_) return false;
+    holder_ = holder;
+    heard_ = now;
+    if (pattern_ == pattern) return true;
+    pattern_ = pattern;
+    first_ = next;
+    ++changes_;
+    return true;
+}
+
+void ScanHold::end(std::uint64_t holder) {
+    if (!pattern_ || holder != holder_) return;
+    pattern_.reset();
+    ++changes_;
+}
+
+bool ScanHold::expires(net::Instant now) {
+    if (!pattern_ || now - heard_ <= kPatience) return false;
+    end(holder_);
+    return true;
+}
+
 ShowControl::ShowControl(WantedShow wanted, ShowChange kept)
     : wanted_{std::move(wanted)},
       kept_{std::move(kept)},

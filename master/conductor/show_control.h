@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "common/base/units.h"
+#include "common/config/scan.h"
 #include "common/net/clock.h"
 #include "common/wire/show_file.h"
 
@@ -21,6 +23,38 @@ enum class Outcome : std::uint8_t { Done = 1, Preparing = 2, Refused = 3 };
 struct Answer {
     Outcome outcome = Outcome::Done;
     std::string reason;  // why it was refused, or what is waited for
+};
+
+// Who holds the wall for a scan, and the pattern that it shows meanwhile, in place of what is
+// wanted. Nothing of it is kept on disk.
+class ScanHold {
+  public:
+    static constexpr net::Instant kPatience = std::chrono::seconds(3);
+
+    // Also where the holder says the same again. `next`: the first frame that is still to be
+    // published. False: another holds the wall.
+    [[nodiscard]] bool hold(std::uint64_t holder,
+                            const config::ScanPattern& pattern,
+                            Frame next,
+                            net::Instant now);
+    // Nothing where another holds the wall.
+    void end(std::uint64_t holder);
+    // True: its holder was silent for too long, and holds no more.
+    [[nodiscard]] bool expires(net::Instant now);
+
+    // Nothing where nobody holds the wall.
+    [[nodiscard]] const std::optional<config::ScanPattern>& pattern() const { return pattern_; }
+    // The first with the pattern.
+    [[nodiscard]] Frame first() const { return first_; }
+    // Grows with every change of what is shown.
+    [[nodiscard]] std::uint64_t changes() const { return changes_; }
+
+  private:
+    std::uint64_t holder_ = 0;
+    std::optional<config::ScanPattern> pattern_;
+    Frame first_;
+    net::Instant heard_{};
+    std::uint64_t changes_ = 0;
 };
 
 // A state machine without clock, sockets or worlds, so that every change can be played through in a

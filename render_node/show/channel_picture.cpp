@@ -104,7 +104,9 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
                                std::size_t channel,
                                config::QualityTier quality,
                                std::shared_ptr<const wall::Wall> wall)
-    : stereo_{wall::stereoOf(admission.rig, channel)}, school_{admission.school} {
+    : stereo_{wall::stereoOf(admission.rig, channel)},
+      school_{admission.school},
+      channel_{channel} {
     assert(channel < admission.rig.channels.size());
     const config::Rig& rig = admission.rig;
     const std::uint32_t id = rig.channels[channel].id;
@@ -141,6 +143,9 @@ void ChannelPicture::drawScene(const wire::StateFrame& frame,
                                const std::optional<WatchedMind>& mind) {
     frame_ = frame.frame;
     brightness_ = frame.show.brightness;
+    scan_ = frame.show.scan;
+    if (scan_ && frame.show.black) scan_->lit = 0;  // at once
+    if (scan_) return;
     const bool isWorld = scene_ && frame.show.pattern == wire::Pattern::World;
     sceneSize_ = isWorld ? worldSize_ : patternSize_;
     if (brightness_ == 0 && eyes_.front().sceneTexture != 0) return;
@@ -262,6 +267,7 @@ void ChannelPicture::project(unsigned framebuffer,
                              const Overlays& overlays,
                              Shown shown) {
     const gl::Stage stage{"warp"};
+    if (scan_) return projectScan(framebuffer, shown);
     Projection::Draw draw{.framebuffer = framebuffer,
                           .frame = frame_,
                           .encoding = encoding,
@@ -284,6 +290,13 @@ void ChannelPicture::project(unsigned framebuffer,
     if (!overlays.help || brightness_ == 0) return;
     const float dot = dotPixels(sizePixels());
     text_.draw(helpLabels(dot), framebuffer, sizePixels(), dot);
+}
+
+// No overlay is drawn on it, and no light is dimmed: a camera measures it.
+void ChannelPicture::projectScan(unsigned framebuffer, Shown shown) {
+    if (!scanPass_) scanPass_.emplace(map_.sizePixels, channel_);
+    const bool isWhole = shown == Shown::Display;
+    scanPass_->draw(framebuffer, *scan_, isWhole ? stereo_.mode : config::StereoMode::Mono);
 }
 
 scene::View ChannelPicture::viewOf(const Viewing& viewing, const wire::Eye& submarine) const {

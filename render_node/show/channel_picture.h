@@ -45,7 +45,7 @@ class ChannelPicture {
 
     // Draws the picture of each eye's frustum in linear light, the world or the frame's pattern,
     // with the overlays that belong to the world: grid, fish numbers, a mind. A frame without light
-    // is not drawn.
+    // is not drawn, nor is a scan, which has no frustum.
     void drawScene(const wire::StateFrame& frame,
                    const Overlays& overlays,
                    const std::optional<WatchedMind>& mind = std::nullopt);
@@ -92,6 +92,7 @@ class ChannelPicture {
     // Draws the world for each eye; drawPattern() draws a test pattern in its place.
     void drawWorld(const wire::StateFrame& frame);
     void drawPattern(Viewing& eye, wire::Pattern pattern) const;
+    void projectScan(unsigned framebuffer, Shown shown);
     void drawFishIds(const Viewing& eye, const wire::StateFrame& frame);
     void drawMind(const Viewing& eye, const wire::StateFrame& frame, const WatchedMind& mind);
     // The camera of an eye in the world, for the submarine's place and heading.
@@ -114,6 +115,10 @@ class ChannelPicture {
     // Set where the world can be shown, not test patterns alone.
     std::optional<scene::SceneRenderer> scene_;
     TextOverlay text_;
+    // What the frame shows where it is of a scan, and what draws it; made when one is first shown.
+    std::optional<config::ScanPattern> scan_;
+    std::optional<ScanPass> scanPass_;
+    std::size_t channel_;
     std::vector<scene::FoodParticle> food_;
     // Number of the frame that was drawn last: its parity seeds the dither. And its light.
     Frame frame_;

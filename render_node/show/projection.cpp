@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/show/projection.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -10,9 +11,12 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "common/base/log.h"
+#include "common/base/picture.h"
 #include "common/wall/pattern.h"
+#include "common/wall/scan_pattern.h"
 #include "render_node/gl/program.h"
 #include "render_node/shaders/shader_interface.h"
 
@@ -126,6 +130,80 @@ glm::vec2 pixelOfEye(config::StereoMode mode, glm::ivec2 sizePixels, glm::vec2 p
     if (mode == config::StereoMode::TopBottom)
         pixel.y = 2 * (pixel.y < half.y ? pixel.y : pixel.y - half.y);
     return pixel;
+}
+
+namespace {
+
+glm::u8vec4 codeOf(glm::vec3 light) {
+    const auto code = [](float part) {
+        return static_cast<std::uint8_t>(std::lround(255 * srgbFromLinear(double{part})));
+    };
+    return {code(light.r), code(light.g), code(light.b), 255};
+}
+
+// Of the places along both axes: all that is not the tag depends on one of them alone.
+std::vector<glm::u8vec4> codesAlong(config::ScanPattern pattern,
+                                    std::size_t channel,
+                                    glm::ivec2 size) {
+    pattern.tagged = false;
+    std::vector<glm::u8vec4> codes;
+    for (int i = 0; i < std::max(size.x, size.y); ++i)
+        codes.push_back(codeOf(wall::scanLight(pattern, channel, size, {i, i})));
+    return codes;
+}
+
+bool isOfRows(config::ScanPattern::Kind kind) {
+    return kind == config::ScanPattern::Kind::GrayRows ||
+           kind == config::ScanPattern::Kind::PhaseRows;
+}
+
+}  // namespace
+
+std::vector<glm::u8vec4> scanCodes(const config::ScanPattern& pattern,
+                                   std::size_t channel,
+                                   glm::ivec2 size,
+                                   config::StereoMode mode) {
+    const std::vector<glm::u8vec4> along = codesAlong(pattern, channel, size);
+    const auto [cell, corner] = wall::scanTagPlace(size);
+    const glm::ivec2 end = corner + glm::ivec2(wall::kScanTagCells * cell, cell);
+    const bool rows = isOfRows(pattern.kind);
+    std::vector<glm::u8vec4> codes;
+    codes.reserve(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const glm::ivec2 at(pixelOfEye(mode, size, glm::vec2(x, y) + 0.5F));
+            const bool isTag =
+                glm::all(glm::greaterThanEqual(at, corner)) && glm::all(glm::lessThan(at, end));
+            codes.push_back(isTag ? codeOf(wall::scanLight(pattern, channel, size, at))
+                                  : along[static_cast<std::size_t>(rows ? at.y : at.x)]);
+        }
+    return codes;
+}
+
+void ScanPass::draw(unsigned framebuffer,
+                    const config::ScanPattern& pattern,
+                    config::StereoMode mode) {
+    const glm::ivec2 size = picture_.sizePixels();
+    if (drawn_ != std::pair(pattern, mode)) {
+        const std::vector<glm::u8vec4> codes = scanCodes(pattern, channel_, size, mode);
+        glTextureSubImage2D(
+            picture_.texture(), 0, 0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, codes.data());
+        drawn_.emplace(pattern, mode);
+    }
+    glDisable(GL_SCISSOR_TEST);
+    // The codes have their top row first, a framebuffer its bottom row.
+    glBlitNamedFramebuffer(picture_.framebuffer(),
+                           framebuffer,
+                           0,
+                           size.y,
+                           size.x,
+                           0,
+                           0,
+                           0,
+                           size.x,
+                           size.y,
+                           GL_COLOR_BUFFER_BIT,
+                           GL_NEAREST);
 }
 
 namespace {

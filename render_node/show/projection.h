@@ -5,13 +5,16 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include <glm/ext/vector_uint4_sized.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include "common/base/units.h"
 #include "common/config/rig.h"
+#include "common/config/scan.h"
 #include "common/wall/wall.h"
 #include "render_node/gl/handle.h"
 
@@ -108,6 +111,31 @@ class PairProjection {
 // The pixel in the picture of one eye that is shown at a pixel of the display's picture; both
 // continuous, from the top left corner.
 [[nodiscard]] glm::vec2 pixelOfEye(config::StereoMode mode, glm::ivec2 sizePixels, glm::vec2 pixel);
+
+// The patterns of a scan: the projector's own pixels, as wall::scanLight() has them, each colour
+// rounded to a code of 8 bits.
+
+// Of the channel of this index in the rig, top row first. A display that takes half a picture for
+// each eye gets the pattern in both halves.
+[[nodiscard]] std::vector<glm::u8vec4> scanCodes(const config::ScanPattern& pattern,
+                                                 std::size_t channel,
+                                                 glm::ivec2 sizePixels,
+                                                 config::StereoMode mode);
+
+// Owns its GL objects; construct, use and destroy with the same context current.
+class ScanPass {
+  public:
+    ScanPass(glm::ivec2 sizePixels, std::size_t channel)
+        : picture_{GL_RGBA8, sizePixels}, channel_{channel} {}
+
+    // Into the framebuffer's bottom left corner. A pattern is computed when it is first drawn.
+    void draw(unsigned framebuffer, const config::ScanPattern& pattern, config::StereoMode mode);
+
+  private:
+    gl::Target picture_;
+    std::size_t channel_;
+    std::optional<std::pair<config::ScanPattern, config::StereoMode>> drawn_;
+};
 
 // Test patterns that lie on the screen, drawn into the picture of a channel's frustum.
 

@@ -165,6 +165,7 @@ TEST(House, protobufStaysInConfigAndWire) {
 // that these include.
 TEST(House, generatedMessagesStayWithWhoSpeaks) {
     const std::vector<std::string> speakers{"common/wire/",
+                                            "common/ask/",
                                             "master/conductor/changes.cpp",
                                             "master/conductor/conductor.cpp",
                                             "master/conductor/reception.cpp",
@@ -175,6 +176,12 @@ TEST(House, generatedMessagesStayWithWhoSpeaks) {
     const std::vector<std::string> clients{
         "master/conductor/", "master/ask_commands.cpp", "master/doctor_command.cpp"};
     EXPECT_EQ(strangers(std::regex("^master/conductor/requests\\.h$"), clients),
+              std::vector<std::string>{});
+    const std::vector<std::string> askers{"common/ask/",
+                                          "master/ask_commands.cpp",
+                                          "master/doctor_command.cpp",
+                                          "calibration/scan/shown_patterns.cpp"};
+    EXPECT_EQ(strangers(std::regex("^common/ask/request_client\\.h$"), askers),
               std::vector<std::string>{});
     EXPECT_EQ(
         strangers(std::regex("^render_node/session/master_link\\.h$"), {"render_node/session/"}),
@@ -223,6 +230,7 @@ TEST(House, commonIsLayered) {
         {"common/wire/",
          {"common/base/", "common/motion/", "common/body/", "common/wall/", "common/config/"}},
         {"common/net/", {"common/base/"}},
+        {"common/ask/", {"common/base/", "common/config/", "common/net/", "common/wire/"}},
         {"common/cli/", {"common/base/"}},
     };
     for (const Inclusion& inclusion : inclusions()) {

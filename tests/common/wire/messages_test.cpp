@@ -53,7 +53,7 @@ TEST(Messages, haveTheBytesThatTheyAlwaysHad) {
         "bc793839cd199cc1", "235999b6cc1f24b0", "b4f804f1f21489db", "bcea5a3655123469",
         "133cce62e1fa4467", "83b806822af702b9", "8ab8134b5d347401", "e0dfa8acf875aa5e",
         "f78471573ccb309e", "32c7dff52456d642", "723425cc2d64413d", "e69c1fd821f63d79",
-        "425830a2b520f0ca"};
+        "425830a2b520f0ca", "29a174b799c59ec5", "558a5f2ea6ef6d50", "cf655d4fb58a2d05"};
     const std::vector<Packet> packets = samplePackets();
     ASSERT_EQ(packets.size(), digests.size());
     for (std::size_t i = 0; i < packets.size(); ++i)
@@ -198,7 +198,7 @@ TEST(Messages, aStateThatLiesIsRefused) {
     EXPECT_TRUE(refused([](StateFrame& s) { s.daylight = -0.01F; }));
     EXPECT_TRUE(
         refused([](StateFrame& s) { s.show.quality = static_cast<config::QualityTier>(4); }));
-    EXPECT_TRUE(refused([](StateFrame& s) { s.show.pattern = static_cast<Pattern>(4); }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.show.pattern = static_cast<Pattern>(5); }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.brightness = 1.01F; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.scene = "a\nb"; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.pilot = std::string(65, 'x'); }));
@@ -207,6 +207,46 @@ TEST(Messages, aStateThatLiesIsRefused) {
         s.foodBefore.resize(kMostFood + 1);
         s.foodAfter.resize(kMostFood + 1);
     }));
+}
+
+// A node computes a picture by these numbers.
+TEST(Messages, aScanHasAPatternWithinItsBoundsAndNoOtherPatternHasOne) {
+    const auto accepted = [](auto alter) {
+        v1::Envelope message = sampleScan();
+        alter(*message.mutable_set()->mutable_scan());
+        return isUnderstood(message);
+    };
+    EXPECT_TRUE(accepted([](v1::HeldScan& s) { s.clear_pattern(); }));
+    EXPECT_FALSE(accepted([](v1::HeldScan& s) { s.clear_holder(); }));
+    using Alter = void (*)(v1::ScanPattern&);
+    for (const Alter alter : {Alter{[](v1::ScanPattern& p) { p.set_kind(0); }},
+                              Alter{[](v1::ScanPattern& p) { p.set_kind(7); }},
+                              Alter{[](v1::ScanPattern& p) { p.set_step(16); }},
+                              Alter{[](v1::ScanPattern& p) {
+                                  p.set_kind(4);  // a phase
+                                  p.set_step(4);
+                              }},
+                              Alter{[](v1::ScanPattern& p) { p.set_finest_pixels(0); }},
+                              Alter{[](v1::ScanPattern& p) { p.set_finest_pixels(65536); }},
+                              Alter{[](v1::ScanPattern& p) { p.set_light(1, 1.01F); }},
+                              Alter{[](v1::ScanPattern& p) { p.set_light(0, -0.01F); }},
+                              Alter{[](v1::ScanPattern& p) { p.add_light(1); }},
+                              Alter{[](v1::ScanPattern& p) { p.set_number(4096); }},
+                              Alter{[](v1::ScanPattern& p) { p.clear_lit(); }},
+                              Alter{[](v1::ScanPattern& p) { p.clear_inverse(); }},
+                              Alter{[](v1::ScanPattern& p) { p.clear_tagged(); }}})
+        EXPECT_FALSE(accepted([&](v1::HeldScan& s) { alter(*s.mutable_pattern()); }));
+    v1::Envelope byName = sampleSet();
+    byName.mutable_set()->set_pattern(v1::PATTERN_SCAN);
+    EXPECT_FALSE(isUnderstood(byName));
+    StateFrame state = sampleScanState();
+    EXPECT_TRUE(stateIn(encodeState(1, viewOf(state))));
+    EXPECT_EQ(stateIn(encodeState(1, viewOf(state)))->show, state.show);
+    state.show.pattern = Pattern::Grey;
+    EXPECT_FALSE(stateIn(encodeState(1, viewOf(state))));
+    state.show.pattern = Pattern::Scan;
+    state.show.scan.reset();
+    EXPECT_FALSE(stateIn(encodeState(1, viewOf(state))));
 }
 
 // What a node sends may come from a broken one.

@@ -48,6 +48,17 @@ inline Show sampleShow() {
             .calibration = 0x0123456789ABCDEFU};
 }
 
+inline config::ScanPattern sampleScanPattern() {
+    return {.kind = config::ScanPattern::Kind::GrayRows,
+            .step = 3,
+            .finestPixels = 8,
+            .inverse = true,
+            .light = {0.25F, 1, 0},
+            .lit = 0x8000000000000005U,
+            .number = 4095,
+            .tagged = false};
+}
+
 inline StateFrame sampleState(std::uint32_t fish) {
     StateFrame state;
     state.frame = {1U << 20U};
@@ -62,6 +73,14 @@ inline StateFrame sampleState(std::uint32_t fish) {
     state.foodAfter = sampleFood();
     state.daylight = 0.75F;
     state.show = sampleShow();
+    return state;
+}
+
+// In a scan.
+inline StateFrame sampleScanState() {
+    StateFrame state = sampleState(1);
+    state.show.pattern = Pattern::Scan;
+    state.show.scan = sampleScanPattern();
     return state;
 }
 
@@ -110,12 +129,29 @@ inline v1::Envelope sampleSet() {
     return message;
 }
 
+inline v1::Envelope sampleScan() {
+    v1::Envelope message;
+    v1::Set& set = *message.mutable_set();
+    set.set_request(7);
+    set.mutable_scan()->set_holder(0x8000000000000003U);
+    writeScanPattern(sampleScanPattern(), *set.mutable_scan()->mutable_pattern());
+    return message;
+}
+
 inline v1::Envelope sampleSetReply() {
     v1::Envelope message;
     v1::SetReply& reply = *message.mutable_set_reply();
     reply.set_request(0x8000000000000001U);
     reply.set_outcome(v1::OUTCOME_REFUSED);
     reply.set_reason("there is no such scene");
+    return message;
+}
+
+inline v1::Envelope sampleScanReply() {
+    v1::Envelope message;
+    message.mutable_set_reply()->set_request(7);
+    message.mutable_set_reply()->set_outcome(v1::OUTCOME_DONE);
+    message.mutable_set_reply()->set_frame(77);
     return message;
 }
 
@@ -220,11 +256,14 @@ inline std::vector<Packet> samplePackets() {
         sampleSet(),
         sampleSetReply(),
         sampleNodeReport(),
-        sampleLogLine()};
+        sampleLogLine(),
+        sampleScan(),
+        sampleScanReply()};
     std::vector<Packet> packets;
     for (const v1::Envelope& message : before) packets.push_back(encode(kSession, message));
     packets.push_back(encodeState(kSession, viewOf(sampleState(5))));
     for (const v1::Envelope& message : after) packets.push_back(encode(kSession, message));
+    packets.push_back(encodeState(kSession, viewOf(sampleScanState())));
     return packets;
 }
 

@@ -180,5 +180,24 @@ TEST(KeptShow, isReadAsItWasWritten) {
     EXPECT_EQ(wire::readKeptShow(file), ShowChange{});
 }
 
+// The laptop of a crew may die in the middle of a scan.
+TEST(ScanHold, endsWhenItsHolderFallsSilent) {
+    using std::chrono::seconds;
+    ScanHold hold;
+    const config::ScanPattern pattern{.number = 3};
+    EXPECT_FALSE(hold.expires(seconds(100)));
+    EXPECT_TRUE(hold.hold(7, pattern, Frame{40}, seconds(100)));
+    EXPECT_TRUE(hold.hold(7, pattern, Frame{80}, seconds(102)));
+    EXPECT_EQ(hold.first(), Frame{40}) << "the same, said again";
+    EXPECT_FALSE(hold.hold(8, pattern, Frame{80}, seconds(102)));
+    EXPECT_FALSE(hold.expires(seconds(105)));
+    EXPECT_EQ(hold.pattern(), pattern);
+    EXPECT_TRUE(hold.expires(seconds(106)));
+    EXPECT_FALSE(hold.pattern());
+    EXPECT_EQ(hold.changes(), 2U);
+    EXPECT_TRUE(hold.hold(8, pattern, Frame{90}, seconds(106)));
+    EXPECT_EQ(hold.first(), Frame{90});
+}
+
 }  // namespace
 }  // namespace aquarama::conductor

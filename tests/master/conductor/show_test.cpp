@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole shows over real sockets: order, faults, start orders.
+#include <array>
 #include <atomic>
 #include <cstdlib>
 #include <fstream>
@@ -13,6 +14,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "common/ask/request_client.h"
 #include "master/conductor/requests.h"
 #include "tests/support/stage.h"
 
@@ -416,11 +418,66 @@ std::string setting(const test::StageMaster& master, const std::function<void(v1
     v1::Set set;
     alter(set);
     try {
-        RequestClient(master.control()).set(set, [](const std::string&) {});
+        ask::RequestClient(master.control()).set(set, [](const std::string&) {});
         return "";
     } catch (const Error& refused) {
         return refused.what();
     }
+}
+
+// Asks for a pattern of a scan until it is answered otherwise than "ask again".
+v1::SetReply scanning(ask::RequestClient& client,
+                      std::uint64_t holder,
+                      const std::optional<config::ScanPattern>& pattern) {
+    v1::Set set;
+    set.set_request(ask::freshRequest());
+    set.mutable_scan()->set_holder(holder);
+    if (pattern) wire::writeScanPattern(*pattern, *set.mutable_scan()->mutable_pattern());
+    v1::SetReply reply = client.ask(set);
+    while (reply.outcome() == v1::OUTCOME_PREPARING) reply = client.ask(set);
+    return reply;
+}
+
+// What a node has shown from this frame on.
+std::vector<wire::Show> shownFrom(const test::Journal& journal,
+                                  const std::string& node,
+                                  std::uint64_t frame) {
+    std::vector<wire::Show> shows;
+    for (const test::Event& event : journal.events())
+        if (event.kind == test::Event::Kind::Presented && event.node == node &&
+            event.state.frame.value >= frame)
+            shows.push_back(event.state.show);
+    return shows;
+}
+
+TEST(Show, aScanIsShownByAllBeforeItIsDoneAndLeavesTheWallAsItWas) {
+    ConductorOptions options;
+    options.wanted.pattern = wire::Pattern::Grid;
+    test::StageMaster master(options);
+    test::Journal journal;
+    const auto nodes = nodesOf(master, journal);
+    ask::RequestClient client(master.control());
+    config::ScanPattern pattern{.light = glm::vec3(0.5F), .lit = 5};
+    for (const std::uint16_t number : std::array<std::uint16_t, 2>{1, 2}) {
+        pattern.number = number;
+        const v1::SetReply done = scanning(client, 9, pattern);
+        ASSERT_EQ(done.outcome(), v1::OUTCOME_DONE);
+        for (const std::string& name : kNames) {
+            const auto shows = shownFrom(journal, name, done.frame());
+            for (const wire::Show& show : shows) EXPECT_EQ(show.scan, pattern) << name;
+        }
+    }
+    EXPECT_EQ(scanning(client, 10, pattern).outcome(), v1::OUTCOME_REFUSED) << "another holder";
+    EXPECT_THAT(setting(master, [](v1::Set& set) { set.set_pattern(v1::PATTERN_GREY); }),
+                testing::HasSubstr("a scan holds the wall"));
+    EXPECT_EQ(client.status().show().pattern(), v1::PATTERN_SCAN);
+    EXPECT_EQ(scanning(client, 10, {}).outcome(), v1::OUTCOME_DONE) << "not its to end";
+    EXPECT_EQ(client.status().show().pattern(), v1::PATTERN_SCAN);
+    EXPECT_EQ(scanning(client, 9, {}).outcome(), v1::OUTCOME_DONE);
+    EXPECT_EQ(client.status().show().pattern(), v1::PATTERN_GRID);
+    EXPECT_EQ(setting(master, [](v1::Set& set) { set.set_black(true); }), "");
+    const v1::SetReply refused = scanning(client, 9, pattern);
+    EXPECT_THAT(refused.reason(), testing::HasSubstr("black"));
 }
 
 ConductorOptions withScenes() {
@@ -486,7 +543,7 @@ TEST(Show, aSceneChangesThroughBlackWhenEveryNodeHasBuiltIt) {
 
     EXPECT_THAT(setting(master, [](v1::Set& set) { set.set_scene("pond"); }),
                 testing::HasSubstr("there is no scene pond"));
-    EXPECT_EQ(RequestClient(master.control()).status().show().scene(), "lagoon");
+    EXPECT_EQ(ask::RequestClient(master.control()).status().show().scene(), "lagoon");
 }
 
 // The rest of the wall need not wait for one that hangs, and it has another chance.
@@ -570,7 +627,7 @@ TEST(Show, itsStatusNamesEveryNode) {
     test::Journal journal;
     const test::StageNode left("left", master.connect(), journal);
     ASSERT_TRUE(journal.awaitPresented("left", 30));
-    const std::string text = statusText(RequestClient(master.control()).status());
+    const std::string text = statusText(ask::RequestClient(master.control()).status());
     EXPECT_THAT(text, testing::HasSubstr("live"));
     EXPECT_THAT(text, testing::ContainsRegex("left +in step"));
     EXPECT_THAT(text, testing::ContainsRegex("right +absent"));

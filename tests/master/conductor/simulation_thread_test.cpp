@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/ask/request_client.h"
 #include "master/conductor/requests.h"
 #include "tests/support/stage.h"
 
@@ -142,7 +143,7 @@ TEST(SimulationThread, endsWhileItWaits) {
 
 TEST(RequestClient, saysWhenNoMasterAnswers) {
     const auto free = net::bindMaster("tcp://127.0.0.1:*", "tcp://127.0.0.1:*")->controlAddress();
-    EXPECT_THROW(static_cast<void>(RequestClient(free).status()), Error);
+    EXPECT_THROW(static_cast<void>(ask::RequestClient(free).status()), Error);
 }
 
 constexpr net::Instant kStart = std::chrono::seconds(100);

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include <glm/common.hpp>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/place/place.h"
+#include "common/wall/scan_pattern.h"
 #include "common/wall/wall.h"
 #include "render_node/show/channel_picture.h"
 #include "tests/render_node/show/fake_session.h"
@@ -89,6 +91,45 @@ TEST_F(StereoPictureTest, theSecondEyeIsDrawnAsIfItWereTheFirst) {
     picture.drawScene(frameWithAFish({0.2F, 0.1F, -2}), {});
     EXPECT_EQ(takePicture(picture, PictureBits::Dithered8, Shown::LeftEye).rgb,
               takePicture(picture, PictureBits::Dithered8, Shown::RightEye).rgb);
+}
+
+// A camera without glasses measures it: both eyes show the same, in their own pixels.
+TEST_F(StereoPictureTest, aScanIsTheSameToBothEyesAndBlackGoesBeforeIt) {
+    const session::Admission admission =
+        admissionInStereo(config::StereoMode::SideBySide, 0.06, config::PlaceKind::OpenSea);
+    ChannelPicture picture(admission, kMiddle, config::QualityTier::Low);
+    wire::StateFrame frame = emptySea();
+    frame.show.pattern = wire::Pattern::Scan;
+    frame.show.brightness = 0.25F;  // no fade dims what is measured
+    frame.show.scan = config::ScanPattern{
+        .kind = config::ScanPattern::Kind::PhaseColumns, .lit = 1U << kMiddle, .number = 5};
+    picture.drawScene(frame, {.warpGrid = true, .help = true});
+    const auto taken = [&](Shown shown, PictureBits bits) {
+        return takePicture(picture, bits, shown);
+    };
+    const Picture left = taken(Shown::LeftEye, PictureBits::Dithered8);
+    EXPECT_EQ(left.rgb, taken(Shown::RightEye, PictureBits::Dithered8).rgb);
+    const Picture pair = taken(Shown::Display, PictureBits::Dithered8);
+    const Picture deep = taken(Shown::LeftEye, PictureBits::Deep16);
+    const glm::ivec2 size = left.sizePixels;
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const auto at = [&](int column) {
+                return static_cast<std::size_t>(3 * (y * size.x + column));
+            };
+            const glm::vec3 light = wall::scanLight(*frame.show.scan, kMiddle, size, {x, y});
+            const auto code = std::lround(255 * srgbFromLinear(static_cast<double>(light.r)));
+            ASSERT_EQ(left.rgb[at(x)], code) << x << ", " << y;
+            ASSERT_EQ(deep.rgb[at(x)], 257 * code) << x << ", " << y;
+            ASSERT_EQ(pair.rgb[at(x)], left.rgb[at(2 * (x % (size.x / 2)) + 1)]) << x << ", " << y;
+        }
+    frame.show.black = true;
+    picture.drawScene(frame, {});
+    EXPECT_THAT(taken(Shown::Display, PictureBits::Dithered8).rgb, testing::Each(0));
+    frame = emptySea();
+    picture.drawScene(frame, {});
+    EXPECT_THAT(taken(Shown::LeftEye, PictureBits::Dithered8).rgb,
+                testing::Contains(testing::Gt(0)));
 }
 
 // An upright string of crumbs of food, each at its distance: seen alike by both eyes, as no fish

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/scan/capture.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iostream>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/cli/command_line.h"
+#include "common/cli/outputs.h"
+
+namespace aquarama::scan {
+
+namespace {
+
+using Pattern = config::ScanPattern;
+
+// A projector shows what it is given some frames later.
+constexpr auto kProjectorDelay = std::chrono::milliseconds(150);
+constexpr int kAttempts = 3;
+
+bool isBlack(const Pattern& pattern) {
+    return pattern.kind == Pattern::Kind::Level &&
+           (pattern.lit == 0 || pattern.light == glm::vec3(0));
+}
+
+bool isWhite(const Pattern& pattern) {
+    return pattern.kind == Pattern::Kind::Level && !isBlack(pattern) &&
+           pattern.light == glm::vec3(1);
+}
+
+// Of one code all over, as a lens cap or a night without light makes them.
+bool isEven(const Picture& picture) {
+    return std::ranges::adjacent_find(picture.rgb, std::ranges::not_equal_to{}) ==
+           picture.rgb.end();
+}
+
+// The code that this share of the samples exceeds, 0 to 1 of the full code.
+double codeExceededBy(const Picture& picture, double share) {
+    std::vector<std::uint16_t> codes = picture.rgb;
+    const auto place =
+        codes.end() - 1 - static_cast<std::ptrdiff_t>(share * static_cast<double>(codes.size()));
+    std::ranges::nth_element(codes, place);
+    return *place / (picture.bits == 16 ? 65535.0 : 255.0);
+}
+
+// Shows patterns and takes pictures of them.
+class Photographer {
+  public:
+    Photographer(PatternWall& wall, Camera& camera) : wall_{wall}, camera_{camera} {}
+
+    struct Taken {
+        Picture picture;
+        std::uint64_t frame = 0;
+    };
+    // A channel that has gone meanwhile may come back: show() waits for it.
+    Taken take(const Pattern& pattern, double exposure) {
+        for (int attempt = 1;; ++attempt) {
+            const std::uint64_t frame = wall_.show(pattern);
+            std::this_thread::sleep_for(kProjectorDelay);
+            Picture picture = camera_.take(exposure);
+            try {
+                wall_.confirm();
+            } catch (const Error& problem) {
+                if (attempt == kAttempts) throw;
+                logWarning("a picture is taken again: {}", problem.what());
+                continue;
+            }
+            if (isNew(picture)) return {std::move(picture), frame};
+            if (attempt == kAttempts)
+                throw Error("the camera gives the same picture again; start it anew");
+        }
+    }
+
+  private:
+    // Noise makes every picture another one.
+    bool isNew(const Picture& picture) {
+        const bool isSame = before_.rgb == picture.rgb && !isEven(picture);
+        before_ = picture;
+        return !isSame;
+    }
+
+    PatternWall& wall_;
+    Camera& camera_;
+    Picture before_;
+};
+
+// The longest at which white is not clipped, of what the camera has.
+class ExposureChoice {
+  public:
+    ExposureChoice(Photographer& photographer, ExposureRange range, double refreshHertz)
+        : photographer_{photographer}, range_{range}, refresh_{1 / refreshHertz} {}
+
+    double of(const std::vector<Pattern>& whites) {
+        double chosen = range_.longest;
+        for (const Pattern& white : whites) chosen = std::min(chosen, below(white, chosen));
+        return chosen;
+    }
+
+  private:
+    static constexpr double kNearFull = 0.98;
+    static constexpr double kShare = 0.001;
+    static constexpr double kWanted = 0.7;  // of the light that clips
+    static constexpr double kDarkest = 0.05;
+
+    // Steps towards what is wanted by the camera's light, which is nearly that of sRGB; each is
+    // looked at, since it is not quite.
+    double below(const Pattern& white, double most) {
+        constexpr int kMostSteps = 10;
+        if (range_.isFixed()) return fixed(white);
+        double exposure = std::min(most, std::max(range_.shortest, 2 * refresh_));
+        for (int step = 0; step < kMostSteps; ++step) {
+            const double code = brightest(white, exposure);
+            const bool isClipped = code >= kNearFull;
+            const double light = std::max(linearFromSrgb(code), 1e-3);
+            const double next =
+                inRange(isClipped ? exposure / 3 : exposure * kWanted / light, most);
+            if (!isClipped && std::abs(std::log(next / exposure)) < 0.2)
+                return unlessTooDark(exposure, light);
+            if (isClipped && exposure <= range_.shortest) break;
+            exposure = next;
+        }
+        throw Error(
+            fmt::format("white is clipped at {:.4f} s, or changes from picture to picture; "
+                        "close the aperture, and switch off what the camera does by itself",
+                        exposure));
+    }
+    double fixed(const Pattern& white) {
+        if (brightest(white, range_.shortest) >= kNearFull)
+            throw Error(
+                "white is clipped and the camera lets no exposure be chosen; choose a "
+                "shorter one there");
+        return range_.shortest;
+    }
+    static double unlessTooDark(double exposure, double light) {
+        if (light < kDarkest)
+            throw Error(
+                fmt::format("white is too dark even at {:.3f} s; open the aperture, or take "
+                            "the cap off the lens",
+                            exposure));
+        return exposure;
+    }
+    double brightest(const Pattern& white, double exposure) {
+        return codeExceededBy(photographer_.take(white, exposure).picture, kShare);
+    }
+    // Whole refreshes where there is time for one: else the projectors' beat is in the picture.
+    [[nodiscard]] double inRange(double exposure, double most) const {
+        const double within = std::clamp(exposure, range_.shortest, std::min(most, range_.longest));
+        const double whole = std::floor(within / refresh_ + 1e-6) * refresh_;
+        return whole >= range_.shortest && whole > 0 ? whole : within;
+    }
+
+    Photographer& photographer_;
+    ExposureRange range_;
+    double refresh_;  // seconds
+};
+
+std::vector<Pattern> whitesOf(const std::vector<Pattern>& sequence) {
+    std::vector<Pattern> whites;
+    std::ranges::copy_if(sequence, std::back_inserter(whites), isWhite);
+    return whites;
+}
+
+// Of a pattern: one, or three about it, of those that the camera has.
+std::vector<double> exposuresFor(const Pattern& pattern, double chosen, ExposureRange range) {
+    constexpr double kApart = 4;
+    if (!isBlack(pattern) && !isWhite(pattern)) return {chosen};
+    std::vector<double> exposures;
+    for (const double factor : {1 / kApart, 1.0, kApart}) {
+        const double exposure = std::clamp(chosen * factor, range.shortest, range.longest);
+        if (exposures.empty() || exposure > exposures.back()) exposures.push_back(exposure);
+    }
+    return exposures;
+}
+
+// What is to be taken, in order.
+std::vector<config::ScanPicture> planOf(const std::vector<Pattern>& sequence,
+                                        double chosen,
+                                        ExposureRange range) {
+    std::vector<config::ScanPicture> plan;
+    for (const Pattern& pattern : sequence)
+        for (const double exposure : exposuresFor(pattern, chosen, range))
+            plan.push_back({.file = fmt::format("picture-{:04}.png", plan.size() + 1),
+                            .exposureSeconds = exposure,
+                            .pattern = pattern});
+    return plan;
+}
+
+void writeScan(const config::Scan& scan, const config::Rig& rig, const std::string& folder) {
+    std::vector<std::string> names;
+    for (const config::Channel& channel : rig.channels) names.push_back(channel.name);
+    const std::string text = config::textOf(scan, names);
+    writeWhole(folder + "/scan.txtpb", std::as_bytes(std::span{text}));
+}
+
+}  // namespace
+
+config::Scan capture(const config::Rig& rig,
+                     PatternWall& wall,
+                     Camera& camera,
+                     const std::vector<Pattern>& sequence,
+                     const std::string& folder) {
+    cli::requireFolder("--out", folder);
+    const ExposureRange range = camera.exposures();
+    Photographer photographer(wall, camera);
+    const double chosen =
+        ExposureChoice(photographer, range, rig.timing.refreshHertz).of(whitesOf(sequence));
+    config::Scan scan{.rig = rig.name,
+                      .cameras = std::vector<config::ScanCamera>(1),
+                      .pictures = planOf(sequence, chosen, range)};
+    cli::Progress progress("scan: picture", scan.pictures.size());
+    std::uint64_t done = 0;
+    for (config::ScanPicture& planned : scan.pictures) {
+        const auto [picture, frame] = photographer.take(planned.pattern, planned.exposureSeconds);
+        planned.frame = frame;
+        writePng(folder + "/" + planned.file, picture);
+        progress.show(++done);
+    }
+    progress.end();
+    writeScan(scan, rig, folder);
+    std::cout << "scan of " << scan.pictures.size() << " pictures in " << folder << std::endl;
+    return scan;
+}
+
+config::Scan captureShow(const config::Rig& rig,
+                         const ShownOn& where,
+                         const std::string& device,
+                         const std::vector<Pattern>& sequence,
+                         const std::string& folder) {
+    cli::holdSignals();
+    ShownPatterns wall(where);
+    const cli::SignalWatch watch([&wall] { wall.giveBack(); });
+    const auto camera = openCamera(device);
+    return capture(rig, wall, *camera, sequence, folder);
+}
+
+}  // namespace aquarama::scan

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/ask/request_client.h"
+
+#include <chrono>
+#include <random>
+#include <thread>
+#include <utility>
+
+#include "common/base/log.h"
+#include "common/config/keys.h"
+#include "common/config/rig.h"
+
+namespace aquarama::ask {
+
+std::uint64_t freshRequest() {
+    std::random_device device;
+    return std::uint64_t{device()} << 32U | device();
+}
+
+v1::StatusReply RequestClient::status() {
+    v1::Envelope question;
+    question.mutable_status_request();
+    return ask(question, v1::Envelope::kStatusReply).status_reply();
+}
+
+v1::Explanation RequestClient::explain(std::uint32_t fish) {
+    v1::Envelope question;
+    question.mutable_explain_request()->set_fish(fish);
+    return ask(question, v1::Envelope::kExplanation).explanation();
+}
+
+v1::SetReply RequestClient::ask(const v1::Set& set) {
+    v1::Envelope question;
+    *question.mutable_set() = set;
+    return ask(question, v1::Envelope::kSetReply).set_reply();
+}
+
+void RequestClient::set(v1::Set set, const std::function<void(const std::string&)>& onWait) {
+    constexpr auto kBetween = std::chrono::milliseconds(100);
+    set.set_request(freshRequest());
+    std::string waitingFor;
+    while (true) {
+        const v1::SetReply reply = ask(set);
+        if (reply.outcome() == v1::OUTCOME_DONE) return;
+        if (reply.outcome() == v1::OUTCOME_REFUSED) throw Error("refused: " + reply.reason());
+        if (std::exchange(waitingFor, reply.reason()) != reply.reason()) onWait(reply.reason());
+        std::this_thread::sleep_for(kBetween);
+    }
+}
+
+void RequestClient::steer(const Steering& steering) {
+    v1::Envelope input;
+    *input.mutable_input() = wire::steeringInput(steering);
+    channels_->sendControl(wire::encode(0, std::move(input)));
+}
+
+v1::Envelope RequestClient::ask(const v1::Envelope& question, v1::Envelope::MessageCase reply) {
+    constexpr net::Instant kPatience = std::chrono::seconds(2);
+    constexpr net::Instant kRepeat = std::chrono::milliseconds(50);
+    const net::Instant giveUp = net::monotonicNow() + kPatience;
+    while (net::monotonicNow() < giveUp) {
+        channels_->sendControl(wire::encode(0, question));
+        channels_->wait(kRepeat);
+        std::optional<v1::Envelope> newest;
+        while (const auto bytes = channels_->receiveControl()) {
+            auto message = wire::decode(*bytes);
+            if (message && message->message_case() == reply) newest = std::move(message);
+        }
+        if (newest) return *std::move(newest);
+    }
+    throw Error("no master answers at " + address_ +
+                "; start one, name its control address with --master, or show a key that may ask "
+                "(--key)");
+}
+
+std::string AskedMaster::keyPath() const {
+    if (!key.empty() || !address.empty() || !config::needsKeys(config::readRig(rig))) return key;
+    return config::keyFileIn(config::keyFolderOf(rig), "operator").string();
+}
+
+RequestClient AskedMaster::connect() const {
+    const std::string path = keyPath();
+    if (path.empty())
+        return RequestClient(address.empty() ? config::readRig(rig).controlAddress : address);
+    const config::KeyFile shown = config::readKeyFile(path);
+    return RequestClient(address.empty() ? shown.masterAddress : address,
+                         net::PeerKeys{shown.masterKey, {shown.publicKey, shown.secretKey}});
+}
+
+}  // namespace aquarama::ask

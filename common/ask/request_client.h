@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Requests to the master of a running show, by whoever takes no part in it. Included only by who
+// speaks to a peer, as common/wire/messages.h.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/net/channels.h"
+#include "common/wire/messages.h"
+
+namespace aquarama::ask {
+
+// A connection to a master for questions. One thread uses it.
+class RequestClient {
+  public:
+    // Throws Error where the address is malformed.
+    explicit RequestClient(const std::string& controlAddress,
+                           const std::optional<net::PeerKeys>& keys = {})
+        : address_(controlAddress), channels_(net::connectNode(controlAddress, {}, keys)) {}
+
+    // The newest answer; the question is repeated until there is one, since the connection may not
+    // be there yet. Throws Error where nobody answers within two seconds.
+    v1::StatusReply status();
+    v1::Explanation explain(std::uint32_t fish);
+
+    // Asks for a change once, and says what has become of it so far.
+    v1::SetReply ask(const v1::Set& set);
+    // Repeated until the show shows it, also through the minutes that a new scene may take; between
+    // that, `onWait` hears what is waited for, whenever that changes. Throws Error where it is
+    // refused, saying why.
+    void set(v1::Set set, const std::function<void(const std::string&)>& onWait);
+
+    // Not answered, and lost where the connection does not stand yet.
+    void steer(const Steering& steering);
+
+  private:
+    v1::Envelope ask(const v1::Envelope& question, v1::Envelope::MessageCase reply);
+
+    std::string address_;
+    std::unique_ptr<net::NodeChannels> channels_;
+};
+
+// Of Set.request: no two are the same.
+[[nodiscard]] std::uint64_t freshRequest();
+
+// Which master is asked, and with whose key.
+struct AskedMaster {
+    std::string rig;      // its file
+    std::string address;  // of its control channel; empty: the rig's
+    std::string key;      // file; empty: the operator's, where the rig needs one
+
+    // Throws Error where the rig or the key cannot be read.
+    [[nodiscard]] RequestClient connect() const;
+
+  private:
+    // The file of the key to show; empty where none is needed.
+    [[nodiscard]] std::string keyPath() const;
+};
+
+}  // namespace aquarama::ask

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cameras without a camera: a filter graph of FFmpeg, a program that answers as gphoto2 does, and a
+// wall and a lens of formulas.
+#include "calibration/scan/capture.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "calibration/scan/camera.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/wall/scan_pattern.h"
+#include "tests/support/edited_text.h"
+
+namespace aquarama::scan {
+namespace {
+
+namespace fs = std::filesystem;
+using config::ScanPattern;
+using testing::HasSubstr;
+
+class Folder {
+  public:
+    Folder() { fs::create_directories(path_); }
+    ~Folder() { fs::remove_all(path_); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    [[nodiscard]] std::string path(const std::string& name = "") const { return path_ / name; }
+
+  private:
+    fs::path path_ = fs::temp_directory_path() / ("aquarama-capture-" + std::to_string(getpid()));
+};
+
+std::string problemOf(const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const Error& problem) {
+        return problem.what();
+    }
+    return "";
+}
+
+// Shows by remembering; forgets a channel where it is told to.
+class RememberedWall final : public PatternWall {
+  public:
+    std::uint64_t show(const ScanPattern& pattern) override {
+        shown = pattern;
+        return frame += 3;
+    }
+    void confirm() override {
+        if (losses-- > 0) throw Error("not shown by left");
+    }
+    ScanPattern shown;
+    std::uint64_t frame = 100;
+    int losses = 0;
+};
+
+// A lens on channel 0 of that wall. Light in seconds of white: at `clipsAt` it is full.
+class FormulaCamera final : public Camera {
+  public:
+    explicit FormulaCamera(const RememberedWall& wall) : wall_{wall} {}
+    [[nodiscard]] ExposureRange exposures() const override { return range; }
+    [[nodiscard]] Picture take(double exposureSeconds) override {
+        constexpr glm::ivec2 kSize{64, 32};
+        ++count;
+        Light light = darkness(kSize);
+        for (int y = 0; y < kSize.y; ++y)
+            for (int x = 0; x < kSize.x; ++x)
+                light.at(x, y) = wall::scanLight(wall_.shown, 0, kSize, {x, y}) *
+                                 static_cast<float>(exposureSeconds / clipsAt);
+        return pictureOf(light, 8, isStill ? 0U : static_cast<std::uint32_t>(count));
+    }
+    ExposureRange range{1e-3, 1};
+    double clipsAt = 0.1;
+    bool isStill = false;
+    int count = 0;
+
+  private:
+    const RememberedWall& wall_;
+};
+
+std::vector<ScanPattern> shortSequence() {
+    return {{.kind = ScanPattern::Kind::Room, .number = 1},
+            {.lit = 0, .number = 2},
+            {.lit = 1, .number = 3},
+            {.kind = ScanPattern::Kind::GrayColumns, .lit = 1, .number = 4}};
+}
+
+config::Rig desk() {
+    return config::parseRig(test::shippedRigText("desk"), "desk");
+}
+
+TEST(Capture, writesAPictureOfEachPatternAndThreeOfBlackAndWhite) {
+    const Folder folder;
+    RememberedWall wall;
+    FormulaCamera camera(wall);
+    const config::Scan scan = capture(desk(), wall, camera, shortSequence(), folder.path());
+    ASSERT_EQ(scan.pictures.size(), 1U + 3U + 3U + 1U);
+    const double chosen = scan.pictures.back().exposureSeconds;
+    EXPECT_LT(chosen, 0.1) << "white is not clipped";
+    EXPECT_GT(chosen, 0.03) << "nor dark";
+    EXPECT_NEAR(std::remainder(chosen, 1.0 / desk().timing.refreshHertz), 0, 1e-6);
+    EXPECT_NEAR(scan.pictures[4].exposureSeconds, chosen / 4, 1e-9);
+    EXPECT_NEAR(scan.pictures[6].exposureSeconds, chosen * 4, 1e-9);
+    for (const config::ScanPicture& picture : scan.pictures) {
+        EXPECT_GT(picture.frame, 100U);
+        EXPECT_EQ(readPng(folder.path(picture.file)).sizePixels, glm::ivec2(64, 32));
+    }
+    std::vector<std::string> names;
+    for (const config::Channel& channel : desk().channels) names.push_back(channel.name);
+    const auto bytes = readWhole(folder.path("scan.txtpb"), 1U << 20U);
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const config::Scan read = config::parseScan(text, "scan.txtpb", names);
+    EXPECT_EQ(read.pictures.size(), scan.pictures.size());
+    EXPECT_EQ(read.pictures[4].pattern, scan.pictures[4].pattern);
+    EXPECT_EQ(read.pictures[4].frame, scan.pictures[4].frame);
+}
+
+TEST(Capture, aChannelThatGoesAndComesCostsAPictureAndOneThatStaysAwayTheScan) {
+    const Folder folder;
+    RememberedWall wall;
+    FormulaCamera camera(wall);
+    wall.losses = 2;
+    EXPECT_NO_THROW(capture(desk(), wall, camera, shortSequence(), folder.path()));
+    wall.losses = 100;
+    EXPECT_THAT(problemOf([&] { capture(desk(), wall, camera, shortSequence(), folder.path()); }),
+                HasSubstr("not shown by left"));
+}
+
+TEST(Capture, namesWhatIsWrongWithTheCamera) {
+    const Folder folder;
+    RememberedWall wall;
+    FormulaCamera camera(wall);
+    const auto problem = [&] {
+        return problemOf([&] { capture(desk(), wall, camera, shortSequence(), folder.path()); });
+    };
+    camera.clipsAt = 1e-4;
+    EXPECT_THAT(problem(), HasSubstr("white is clipped at 0.0010 s"));
+    camera.clipsAt = 1000;
+    EXPECT_THAT(problem(), HasSubstr("too dark"));
+    camera.clipsAt = 0.1;
+    camera.range = {1, 1};
+    EXPECT_THAT(problem(), HasSubstr("lets no exposure be chosen"));
+    camera.range = {1e-3, 1};
+    camera.isStill = true;
+    std::vector<ScanPattern> twice = shortSequence();
+    twice.push_back(twice.back());
+    EXPECT_THAT(problemOf([&] { capture(desk(), wall, camera, twice, folder.path()); }),
+                HasSubstr("the same picture again"));
+}
+
+// A picture that is brighter with every frame: how many frames a take lets pass.
+TEST(Camera, takesAPictureThatBeganAfterItWasAsked) {
+    const auto camera =
+        openCamera("lavfi:color=black:size=64x32:rate=20,format=gray,geq=lum='mod(N*2,256)'");
+    EXPECT_TRUE(camera->exposures().isFixed());
+    (void)camera->take(1);  // the first waits for the camera to settle
+    const Picture first = camera->take(1);
+    const Picture second = camera->take(1);
+    EXPECT_EQ(first.sizePixels, glm::ivec2(64, 32));
+    EXPECT_EQ(first.bits, 8);
+    const int frames = (second.rgb.front() - first.rgb.front()) / 2;
+    EXPECT_GE(frames, 2);
+    EXPECT_LE(frames, 8);
+}
+
+TEST(Camera, thatIsNoneIsNamedAndOneThatEndsToo) {
+    EXPECT_THAT(problemOf([] { (void)openCamera("/dev/video99"); }), HasSubstr("/dev/video99"));
+    EXPECT_THAT(problemOf([] { (void)openCamera("/dev/null"); }), HasSubstr("/dev/null"));
+    EXPECT_THAT(problemOf([] { (void)openCamera("none.mp4"); }), HasSubstr("none.mp4"));
+    const auto camera = openCamera("lavfi:color=black:size=64x32:rate=20:duration=0.5");
+    EXPECT_THAT(problemOf([&] {
+                    for (int i = 0; i < 20; ++i) (void)camera->take(1);
+                }),
+                HasSubstr("has ended"));
+}
+
+// Answers as gphoto2 does, and copies a picture to where it is told.
+constexpr const char* kGphoto = R"(#!/bin/sh
+case "$*" in
+*--get-config*) printf 'Label: Shutter Speed\nType: RADIO\nCurrent: 1/60\n'
+    printf 'Choice: 0 bulb\nChoice: 1 30\nChoice: 2 0.5\nChoice: 3 1/60\nChoice: 4 1/4000\nEND\n' ;;
+*--capture*) echo "$*" > "$0.said"
+    [ -f "$0.png" ] || { echo 'ERROR: Could not capture.'; exit 1; }
+    for word; do case "$word" in */picture.%C) cp "$0.png" "${word%\%C}png" ;; esac; done ;;
+esac
+)";
+
+TEST(Camera, gphoto2TakesAPictureWithTheNearestExposure) {
+    const Folder folder;
+    const std::string path = getenv("PATH");
+    setenv("PATH", folder.path().c_str(), 1);
+    EXPECT_THAT(problemOf([] { (void)openCamera("gphoto2:"); }), HasSubstr("is not installed"));
+    setenv("PATH", (folder.path() + ":" + path).c_str(), 1);
+    const std::string program = folder.path("gphoto2");
+    std::ofstream(program) << kGphoto;
+    fs::permissions(program, fs::perms::owner_all);
+    const auto camera = openCamera("gphoto2:usb:001,004");
+    EXPECT_EQ(camera->exposures().shortest, 1.0 / 4000);
+    EXPECT_EQ(camera->exposures().longest, 30);
+    EXPECT_THAT(problemOf([&] { (void)camera->take(0.02); }), HasSubstr("Could not capture"));
+    writePng(program + ".png", {{1, 1}, 16, {1, 2, 300}});
+    EXPECT_EQ(camera->take(0.02).rgb, (std::vector<std::uint16_t>{1, 2, 300}));
+    std::ifstream said(program + ".said");
+    const std::string words{std::istreambuf_iterator<char>(said), {}};
+    EXPECT_THAT(words, HasSubstr("--port usb:001,004"));
+    EXPECT_THAT(words, HasSubstr("shutterspeed=1/60"));
+    setenv("PATH", path.c_str(), 1);
+}
+
+}  // namespace
+}  // namespace aquarama::scan
