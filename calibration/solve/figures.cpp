@@ -96,6 +96,16 @@ void judgeOverlaps(Figures& figures, const SolveFigures& solved) {
                       solved.overlapRms)});
 }
 
+// A round edge does not tell how it is turned about its axis.
+void judgeDome(Figures& figures, const config::Rig& rig) {
+    if (rig.screen.shape != config::ScreenShape::Dome) return;
+    take(figures,
+         Verdict::Warn,
+         {"dome_front",
+          "the camera does not see where the front of a dome is: what is in front is known as well "
+          "as the rig knows where its projectors hang; turn them in the rig where it is off"});
+}
+
 void judgeOutline(Figures& figures, const SolveFigures& solved) {
     constexpr std::size_t kLeastPoints = 150;
     constexpr double kMostPixels = 1.5;
@@ -126,6 +136,7 @@ Figures judged(const std::vector<scan::CameraView>& views, const Solved& solved)
     if (solved.faults.empty()) {
         judgeOverlaps(figures, solved.figures);
         judgeOutline(figures, solved.figures);
+        judgeDome(figures, solved.hall->rig);
     }
     figures.overlapRms = solved.figures.overlapRms;
     figures.overlapP95 = solved.figures.overlapP95;

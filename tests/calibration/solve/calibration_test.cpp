@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Simulated halls are calibrated from the pictures of their camera, and held to the truth. With
+// AQUARAMA_SOAK at full size and in numbers.
+#include <array>
+#include <cstdlib>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "calibration/hall/random_hall.h"
+#include "calibration/hall/simulated_camera.h"
+#include "calibration/hall/true_hall.h"
+#include "calibration/scan/decode.h"
+#include "calibration/scan/pictures.h"
+#include "calibration/solve/figures.h"
+#include "calibration/solve/solve.h"
+#include "calibration/solve/statistics.h"
+#include "calibration/solve/wall_of.h"
+
+namespace aquarama::solve {
+namespace {
+
+bool isSoak() {
+    return std::getenv("AQUARAMA_SOAK") != nullptr;
+}
+
+// What the solve says, and what is true.
+struct Outcome {
+    Figures figures;
+    WallErrors errors;
+};
+
+Outcome calibrated(const config::Rig& rig, const config::Hall& hall) {
+    const hall::TrueHall truth(rig, hall);
+    hall::SimulatedCamera camera(truth, scan::sequenceOf(rig));
+    const std::vector<scan::CameraView> views{scan::decode(camera, 0, rig)};
+    const wall::Wall wall(rig);
+    const Solved solved = solveHall(rig, wall, views, [](const std::string&) {});
+    Outcome outcome{.figures = judged(views, solved), .errors = {}};
+    if (outcome.figures.verdict == Verdict::Refuse) return outcome;
+    constexpr std::size_t kPoints = 10000;
+    outcome.errors = errorsOf(truth, rig, wallFileOf(*solved.hall), kPoints);
+    return outcome;
+}
+
+void print(const std::string& what, const Outcome& outcome) {
+    const WallErrors& errors = outcome.errors;
+    std::printf(
+        "%s: %s %s; overlap RMS %.3f, 95 %% %.3f, most %.3f of %zu; absolute RMS %.3f, "
+        "most %.3f panorama px\n",
+        what.c_str(),
+        nameOf(outcome.figures.verdict),
+        outcome.figures.cause.c_str(),
+        rootMeanSquare(errors.overlap),
+        quantile(errors.overlap, 0.95),
+        quantile(errors.overlap, 1),
+        errors.overlap.size(),
+        rootMeanSquare(errors.absolute),
+        quantile(errors.absolute, 1));
+    std::fflush(stdout);
+}
+
+bool isWithinBounds(const WallErrors& errors, bool isDome) {
+    return rootMeanSquare(errors.overlap) <= 0.2 && quantile(errors.overlap, 0.95) <= 0.45 &&
+           quantile(errors.overlap, 1) <= 1.0 && (isDome || rootMeanSquare(errors.absolute) <= 1.0);
+}
+
+// A camera does not see how a dome is turned about its axis, so of a dome the absolute place is as
+// the crew has measured its projectors, and the verdict says so.
+TEST(Calibration, ofRandomHallsIsWithinItsBounds) {
+    const double scale = isSoak() ? 1 : 0.25;
+    const std::uint32_t rigs = isSoak() ? 20 : 6;
+    for (std::uint32_t seed = 1; seed <= rigs; ++seed) {
+        const config::Rig rig = hall::randomRig(seed, scale);
+        const bool isDome = rig.screen.shape == config::ScreenShape::Dome;
+        const Outcome outcome = calibrated(rig, hall::randomHall(rig, seed, scale));
+        print("rig " + std::to_string(seed), outcome);
+        EXPECT_EQ(outcome.figures.verdict, isDome ? Verdict::Warn : Verdict::Pass)
+            << "rig " << seed << ": " << outcome.figures.cause;
+        EXPECT_GT(outcome.errors.overlap.size(), 500U);
+        EXPECT_TRUE(isWithinBounds(outcome.errors, isDome)) << "rig " << seed;
+    }
+}
+
+// Each is refused or warned of, or solved within the bounds.
+TEST(Calibration, passesNoHallWithAFaultThatItDoesNotSolve) {
+    const std::uint32_t draws = isSoak() ? 200 : hall::kHallFaultNames.size();
+    for (std::uint32_t draw = 0; draw < draws; ++draw) {
+        const std::size_t kind = draw % hall::kHallFaultNames.size();
+        const config::Rig rig = hall::randomRig(100 + draw, 0.25);
+        const bool isDome = rig.screen.shape == config::ScreenShape::Dome;
+        const config::Hall hall = hall::withFault(rig,
+                                                  hall::randomHall(rig, 100 + draw, 0.25),
+                                                  static_cast<hall::HallFault>(kind),
+                                                  draw,
+                                                  scan::sequenceOf(rig).size());
+        const std::string what =
+            std::string(hall::kHallFaultNames.at(kind)) + " " + std::to_string(draw);
+        const Outcome outcome = calibrated(rig, hall);
+        print(what, outcome);
+        const bool isNamed = !outcome.figures.cause.empty() && !outcome.figures.advice.empty();
+        EXPECT_TRUE(outcome.figures.verdict == Verdict::Pass || isNamed) << what;
+        const bool isFalse =
+            outcome.figures.verdict == Verdict::Pass && !isWithinBounds(outcome.errors, isDome);
+        EXPECT_FALSE(isFalse) << what << " is a false accept";
+    }
+}
+
+}  // namespace
+}  // namespace aquarama::solve
