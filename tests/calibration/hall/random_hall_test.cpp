@@ -12,7 +12,7 @@
 namespace aquarama::hall {
 namespace {
 
-constexpr std::uint32_t kSeeds = 30;
+constexpr std::uint32_t kSeeds = 18;
 
 TEST(RandomHall, rigsMakeWalls) {
     std::map<config::ScreenShape, int> shapes;
@@ -26,7 +26,7 @@ TEST(RandomHall, rigsMakeWalls) {
         EXPECT_GT(rig.panoramaPixels.x, 250);
     }
     EXPECT_EQ(shapes.size(), 3U);
-    for (const auto& [shape, count] : shapes) EXPECT_GE(count, 5);
+    for (const auto& [shape, count] : shapes) EXPECT_GE(count, 3);
 }
 
 // Channels of one seed hang as they do at full size.
