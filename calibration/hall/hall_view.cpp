@@ -13,32 +13,21 @@ namespace aquarama::hall {
 namespace {
 
 constexpr float kDrapeAlbedo = 0.03F;
-constexpr int kWidest = 1500;     // of a picture whose rays are all followed
-constexpr int kStride = 4;        // between those of others
-constexpr float kPerStep = 2048;  // of a beam's steps
+constexpr int kWidest = 1500;        // of a picture whose rays are all followed
+constexpr int kStride = 4;           // between those of others
+constexpr float kPerStep = 2048;     // of a beam's steps
+constexpr double kEverywhere = 0.4;  // of the room's light, from its walls
 
-// The room's lamps: one over the audience, and what comes back from everywhere.
-double roomLightAt(const TrueHall& hall, glm::dvec3 point, glm::dvec3 normal) {
-    constexpr double kEverywhere = 0.4;
-    const glm::dvec3 lamp = hall.rig().sweetSpotMetres + glm::dvec3(0.5, 0.6, 1.0);
-    const auto shareAt = [&](glm::dvec3 at, glm::dvec3 facing) {
-        const glm::dvec3 way = lamp - at;
-        return std::max(0.0, glm::dot(facing, glm::normalize(way))) / glm::dot(way, way);
-    };
-    const glm::dvec3 middle = *hall.screen().shape().at(glm::dvec2(0.5));
-    const glm::dvec3 facing = glm::normalize(hall.screen().shape().normalAt(middle));
-    return kEverywhere +
-           (1 - kEverywhere) * shareAt(point, normal) / std::max(1e-6, shareAt(middle, facing));
+// Of one lamp over the audience.
+double lampLight(const TrueHall& hall, glm::dvec3 point, glm::dvec3 normal) {
+    const glm::dvec3 way = hall.rig().sweetSpotMetres + glm::dvec3(0.5, 0.6, 1.0) - point;
+    return std::max(0.0, glm::dot(normal, glm::normalize(way))) / glm::dot(way, way);
 }
 
-// A round spot with soft edges.
-float spotAt(const TrueHall& hall, glm::dvec3 point) {
-    const auto& lamp = hall.hall().faults.lamp;
-    const auto middle = hall.screen().at(lamp->place);
-    if (!middle) return 0;
-    const glm::dvec3 off = point - *middle;
-    const double square = glm::dot(off, off) / (lamp->radiusMetres * lamp->radiusMetres);
-    return static_cast<float>(lamp->light * std::exp(-2 * square * square));
+double lampLightInTheMiddle(const TrueHall& hall) {
+    const wall::ScreenSurface& shape = hall.screen().shape();
+    const glm::dvec3 middle = shape.at(glm::dvec2(0.5)).value_or(glm::dvec3(0, 0, -1));
+    return std::max(1e-6, lampLight(hall, middle, glm::normalize(shape.normalAt(middle))));
 }
 
 std::array<std::int16_t, 2> stepOf(glm::vec2 from, glm::vec2 to) {
@@ -58,7 +47,9 @@ HallView::HallView(const TrueHall& hall, const TrueLens& eye, WorkerPool& pool)
       pool_{pool},
       size_{eye.truth().size},
       step_{size_.x > kWidest ? kStride : 1},
-      gridWidth_{(size_.x - 1) / step_ + 2} {
+      gridWidth_{(size_.x - 1) / step_ + 2},
+      middleLight_{lampLightInTheMiddle(hall)} {
+    if (const auto& lamp = hall.hall().faults.lamp) spot_ = hall.screen().at(lamp->place);
     const int gridHeight = (size_.y - 1) / step_ + 2;
     std::vector<Arrival> grid(static_cast<std::size_t>(gridWidth_ * gridHeight));
     const auto rows = static_cast<std::size_t>(size_.y);
@@ -107,6 +98,21 @@ HallView::Arrival HallView::arrivalIn(const std::vector<Arrival>& grid, int x, i
             .isScreen = screens == 4};
 }
 
+float HallView::roomLight(const Arrival& arrival) const {
+    if (!arrival.isThere) return static_cast<float>(kEverywhere);
+    const double lamp = lampLight(hall_, arrival.point, arrival.normal) / middleLight_;
+    return static_cast<float>(kEverywhere + (1 - kEverywhere) * lamp);
+}
+
+// Round, with soft edges.
+float HallView::spotLight(const Arrival& arrival) const {
+    if (!arrival.isThere) return 0;
+    const config::HallFaults::Lamp& lamp = *hall_.hall().faults.lamp;
+    const glm::dvec3 off = arrival.point - *spot_;
+    const double square = glm::dot(off, off) / (lamp.radiusMetres * lamp.radiusMetres);
+    return static_cast<float>(lamp.light * std::exp(-2 * square * square));
+}
+
 HallView::Row HallView::rowOf(const std::vector<Arrival>& grid, int y) const {
     Row row;
     row.beams.resize(hall_.channels());
@@ -117,11 +123,8 @@ HallView::Row HallView::rowOf(const std::vector<Arrival>& grid, int y) const {
 void HallView::add(const Arrival& arrival, int column, Row& row) const {
     row.coverage.push_back(arrival.isScreen ? kFullCoverage : 0);
     row.place.emplace_back(arrival.place);
-    row.room.push_back(arrival.isThere
-                           ? static_cast<float>(roomLightAt(hall_, arrival.point, arrival.normal))
-                           : 0.4F);
-    if (hall_.hall().faults.lamp)
-        row.spot.push_back(arrival.isThere ? spotAt(hall_, arrival.point) : 0.0F);
+    row.room.push_back(roomLight(arrival));
+    if (spot_) row.spot.push_back(spotLight(arrival));
     if (!arrival.isThere) return;
     for (std::size_t channel = 0; channel < row.beams.size(); ++channel) {
         const auto pixel = hall_.lens(hall_.projectorOf(channel)).pixelOf(arrival.point);
@@ -155,30 +158,38 @@ std::vector<std::uint8_t> HallView::smoothed(int y) const {
     return coverage;
 }
 
-// From the beams of the pixels to the right and below; where there is none those before it.
+// From the beams of the pixels to the right and below; where there is none as those before it.
 void HallView::setSteps(int y) {
     const bool isLast = y + 1 == size_.y;
     const Row& other = rows_[static_cast<std::size_t>(isLast ? y - 1 : y + 1)];
     Row& row = rows_[static_cast<std::size_t>(y)];
     for (std::size_t channel = 0; channel < row.beams.size(); ++channel) {
-        std::vector<Beam>& beams = row.beams[channel];
-        auto near = other.beams[channel].begin();
-        for (std::size_t i = 0; i < beams.size(); ++i) {
-            Beam& beam = beams[i];
-            const bool goesOn = i + 1 < beams.size() && beams[i + 1].column == beam.column + 1;
-            if (goesOn)
-                beam.right = stepOf(beam.panelPixel, beams[i + 1].panelPixel);
-            else if (i > 0)
-                beam.right = beams[i - 1].right;
-            near = std::find_if(near, other.beams[channel].end(), [&](const Beam& below) {
-                return below.column >= beam.column;
-            });
-            if (near != other.beams[channel].end() && near->column == beam.column)
-                beam.down = isLast ? stepOf(near->panelPixel, beam.panelPixel)
-                                   : stepOf(beam.panelPixel, near->panelPixel);
-            else if (i > 0)
-                beam.down = beams[i - 1].down;
-        }
+        setStepsRight(row.beams[channel]);
+        setStepsDown(row.beams[channel], other.beams[channel], isLast);
+    }
+}
+
+void HallView::setStepsRight(std::vector<Beam>& beams) {
+    for (std::size_t i = 0; i < beams.size(); ++i) {
+        const bool goesOn = i + 1 < beams.size() && beams[i + 1].column == beams[i].column + 1;
+        if (goesOn)
+            beams[i].right = stepOf(beams[i].panelPixel, beams[i + 1].panelPixel);
+        else if (i > 0)
+            beams[i].right = beams[i - 1].right;
+    }
+}
+
+void HallView::setStepsDown(std::vector<Beam>& beams,
+                            const std::vector<Beam>& others,
+                            bool areAbove) {
+    auto near = others.begin();
+    for (std::size_t i = 0; i < beams.size(); ++i) {
+        while (near != others.end() && near->column < beams[i].column) ++near;
+        if (near != others.end() && near->column == beams[i].column)
+            beams[i].down = areAbove ? stepOf(near->panelPixel, beams[i].panelPixel)
+                                     : stepOf(beams[i].panelPixel, near->panelPixel);
+        else if (i > 0)
+            beams[i].down = beams[i - 1].down;
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -65,7 +66,14 @@ class HallView {
     [[nodiscard]] Row rowOf(const std::vector<Arrival>& grid, int y) const;
     void add(const Arrival& arrival, int column, Row& row) const;
     [[nodiscard]] std::vector<std::uint8_t> smoothed(int y) const;
+    [[nodiscard]] float roomLight(const Arrival& arrival) const;
+    [[nodiscard]] float spotLight(const Arrival& arrival) const;
     void setSteps(int y);
+    static void setStepsRight(std::vector<Beam>& beams);
+    // Of the beams of the row below, or above.
+    static void setStepsDown(std::vector<Beam>& beams,
+                             const std::vector<Beam>& others,
+                             bool areAbove);
     void light(const Row& row,
                const std::vector<ThrownPicture>& pictures,
                std::vector<glm::vec4>& sum) const;
@@ -79,6 +87,8 @@ class HallView {
     glm::ivec2 size_;
     int step_ = 1;  // pixels between the rays that are followed
     int gridWidth_ = 0;
+    double middleLight_ = 1;          // of the room's lamp, in the middle of the screen
+    std::optional<glm::dvec3> spot_;  // the middle of the lamp's that is switched on
     std::vector<Row> rows_;
 };
 

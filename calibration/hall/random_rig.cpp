@@ -153,24 +153,33 @@ glm::dmat3 facing(const wall::ScreenSurface& surface, glm::dvec2 place, glm::dve
     return {glm::cross(up, back), up, back};
 }
 
-// So that its picture holds the points.
-void fitLens(config::Projector& projector,
-             glm::dvec2 pixels,
-             const std::vector<glm::dvec3>& points) {
+glm::dvec2 tangentOf(const config::Projector& projector, glm::dvec3 point) {
     const glm::dmat3 wallFromLens = wall::turned(projector.yawPitchRollRadians);
-    glm::dvec2 low(1e9), high(-1e9);
-    for (const glm::dvec3& point : points) {
-        const glm::dvec3 seen = (point - projector.positionMetres) * wallFromLens;
-        const glm::dvec2 tangent = glm::dvec2(seen.x, -seen.y) / -seen.z;
-        low = glm::min(low, tangent);
-        high = glm::max(high, tangent);
-    }
-    const glm::dvec2 focal = pixels / (high - low);
-    projector.focalPixels = glm::dvec2(std::min(focal.x, focal.y));
-    projector.principalPixels = pixels / 2.0 - projector.focalPixels * (low + high) / 2.0;
+    const glm::dvec3 seen = (point - projector.positionMetres) * wallFromLens;
+    return glm::dvec2(seen.x, -seen.y) / -seen.z;
 }
 
-// Hangs before the middle of its cell, and above it: the lens is shifted.
+// So that its picture holds the points. `inwards` is where on the screen more of it is welcome.
+void fitLens(config::Projector& projector,
+             glm::dvec2 pixels,
+             const std::vector<glm::dvec3>& points,
+             glm::dvec3 inwards) {
+    constexpr double kInwards = 0.7;  // of the room that the picture has round the points
+    glm::dvec2 low(1e9), high(-1e9);
+    for (const glm::dvec3& point : points) {
+        low = glm::min(low, tangentOf(projector, point));
+        high = glm::max(high, tangentOf(projector, point));
+    }
+    const glm::dvec2 middle = (low + high) / 2.0, size = high - low;
+    const double focal = std::min(pixels.x / size.x, pixels.y / size.y);
+    const glm::dvec2 free = kInwards * (pixels / focal - size) / 2.0;
+    const glm::dvec2 way = tangentOf(projector, inwards) - middle;
+    projector.focalPixels = glm::dvec2(focal);
+    projector.principalPixels = pixels / 2.0 - focal * (middle + glm::clamp(way, -free, free));
+}
+
+// Hangs before the middle of its cell, and above it: the lens is shifted. On its side where the
+// cell of a dome is higher than wide.
 config::Projector projectorOf(const Plan& plan, const Cell& cell, Chance& chance) {
     const auto surface = enlarged(plan.screen, 0);
     const std::vector<glm::dvec3> points = pointsOf(cell, plan.screen);
@@ -179,12 +188,16 @@ config::Projector projectorOf(const Plan& plan, const Cell& cell, Chance& chance
     for (const glm::dvec3& point : points)
         width = std::max(width, 1.7 * glm::length(point - middle));
     const glm::dvec3 back = glm::normalize(surface->normalAt(middle));
-    const glm::dmat3 wallFromLens = facing(*surface, cell.middle(), back);
+    glm::dmat3 wallFromLens = facing(*surface, cell.middle(), back);
+    const bool isDome = plan.screen.shape == config::ScreenShape::Dome;
     config::Projector projector;
     projector.positionMetres = middle + plan.throwRatio * width * back +
                                chance.between(0.15, 0.35) * width * wallFromLens[1];
+    const glm::dvec2 size = cell.high - cell.low;
+    if (isDome && size.y > 1.2 * size.x) wallFromLens = {wallFromLens[1], -wallFromLens[0], back};
     projector.yawPitchRollRadians = anglesOf(wallFromLens);
-    fitLens(projector, plan.pixels, points);
+    // A dome's cells are not of the pictures' shape, and at its edge there is little to light.
+    fitLens(projector, plan.pixels, points, isDome ? *surface->at(glm::dvec2(0.5)) : middle);
     return projector;
 }
 

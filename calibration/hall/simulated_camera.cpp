@@ -18,7 +18,7 @@ namespace aquarama::hall {
 namespace {
 
 constexpr float kWhite = 0.8F;        // of the most light that the sensor counts
-constexpr float kMean = 0.15F;        // what an automatic exposure makes of every picture
+constexpr float kMean = 0.1F;         // what an automatic exposure makes of every picture
 constexpr float kHandAlbedo = 0.02F;  // of what is in the camera's way
 constexpr std::size_t kLevels = 65536;
 
@@ -101,7 +101,7 @@ config::Hall unmoved(config::Hall hall) {
 }  // namespace
 
 SimulatedCamera::Earlier::Earlier(const TrueHall& now, WorkerPool& pool)
-    : hall{now.rig(), unmoved(now.hall())}, view{hall, hall.cameraLens(), pool} {}
+    : hall{now.rig(), unmoved(now.hall())}, bounce{hall}, view{hall, hall.cameraLens(), pool} {}
 
 SimulatedCamera::SimulatedCamera(const TrueHall& hall,
                                  const std::vector<config::ScanPattern>& patterns,
@@ -137,9 +137,9 @@ const config::ScanPattern& SimulatedCamera::shownIn(std::size_t index) const {
     return scan_.pictures[isLate ? index - 1 : index].pattern;
 }
 
-const HallView& SimulatedCamera::viewAt(std::size_t index) const {
+bool SimulatedCamera::isEarly(std::size_t index) const {
     const auto& moved = hall_.hall().faults.moved;
-    return moved && index < moved->fromPicture ? earlier_->view : view_;
+    return moved && index < moved->fromPicture;
 }
 
 Light SimulatedCamera::lightOf(std::size_t index) const {
@@ -151,7 +151,9 @@ Light SimulatedCamera::lightOf(std::size_t index) const {
     HallLamps lamps;
     lamps.room = scan_.pictures[index].pattern.kind == config::ScanPattern::Kind::Room ? 1 : 0;
     lamps.spot = lamp && index >= lamp->fromPicture ? 1 : 0;
-    return viewAt(index).of(pictures, bounce_.of(pictures), lamps);
+    const HallView& view = isEarly(index) ? earlier_->view : view_;
+    const Bounce& bounce = isEarly(index) ? earlier_->bounce : bounce_;
+    return view.of(pictures, bounce.of(pictures), lamps);
 }
 
 // Something dark before the lens, out of focus.

@@ -32,11 +32,13 @@ class SimulatedCamera final : public scan::PictureSource {
     struct Earlier {
         Earlier(const TrueHall& now, WorkerPool& pool);
         TrueHall hall;
+        Bounce bounce;
         HallView view;
     };
     void listPictures(const std::vector<config::ScanPattern>& patterns);
     [[nodiscard]] const config::ScanPattern& shownIn(std::size_t index) const;
-    [[nodiscard]] const HallView& viewAt(std::size_t index) const;
+    // Before the projector that is moved was.
+    [[nodiscard]] bool isEarly(std::size_t index) const;
     [[nodiscard]] float gainFor(const Light& light) const;
     void hide(Light& light) const;
     void blur(Light& light) const;

@@ -14,7 +14,7 @@ namespace aquarama::hall {
 
 namespace {
 
-constexpr std::uint32_t kWaves = 24;
+constexpr std::uint32_t kWaves = 14;
 
 // A flat wall that fills the view of a curved one.
 config::Screen flattened(const config::Screen& curved) {
