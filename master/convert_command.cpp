@@ -127,13 +127,14 @@ void resample(formats::WallFile& file, const std::string& source) {
 }
 
 std::string lineOf(const formats::FileChannel& channel) {
-    return fmt::format("{}: {} x {} pixels, {}{}{}",
+    return fmt::format("{}: {} x {} pixels, {}{}{}{}",
                        channel.name,
                        channel.sizePixels.x,
                        channel.sizePixels.y,
                        channel.warp ? "warp" : "no warp",
                        channel.blend ? ", blend" : "",
-                       channel.black ? ", black level" : "");
+                       channel.black ? ", black level" : "",
+                       channel.colour ? ", colour" : "");
 }
 
 void convert(const ConvertOptions& options) {

@@ -73,7 +73,12 @@ inline constexpr std::array kAxisNames{AxisName{"pos", &CoordinateFrame::positio
 // An extension of our own says how a warp is stored where the values alone would tell another way:
 // <extension Name="Aquarama"><warp region="left" file="geometryWarpFile" sampling="nodes"
 // values="places"/></extension>
+// In it also stands the colour of a channel; the mix has a row for each of the projector's colours,
+// and a response its light from code 0 to 1:
+// <colour region="left"><mix>1 0 0 0 1 0 0 0 1</mix><red>0 0.25 1</red><green>0 0.25 1</green>
+// <blue>0 0.25 1</blue></colour>
 inline constexpr const char* kOwnExtension = "Aquarama";
+inline constexpr std::size_t kMixNumbers = 9;
 inline constexpr std::array<std::string_view, 2> kSamplingNames{"centres", "nodes"};
 inline constexpr std::array<std::string_view, 3> kStoredNames{"places", "wholeBuffer", "offsets"};
 

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/matrix.hpp>
 #include <pugixml.hpp>
 
 #include "common/base/log.h"
@@ -44,8 +46,9 @@ const std::map<std::string, std::vector<std::string>, std::less<>> kKnown{
     {"extensionSet", {}},
 };
 
+constexpr std::string_view kBlank = " \t\r\n";
+
 std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kBlank = " \t\r\n";
     const std::size_t first = text.find_first_not_of(kBlank);
     if (first == std::string_view::npos) return {};
     return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
@@ -191,6 +194,8 @@ class Reader {
 
     void readHead(xml_node root);
     void readOwnExtension(xml_node extension);
+    void readColour(xml_node node);
+    void giveColours();
     void readDisplay(xml_node display);
     void readRegion(xml_node buffer, xml_node node);
     void readPlace(xml_node buffer, xml_node node, FileChannel& channel) const;
@@ -204,6 +209,7 @@ class Reader {
     [[nodiscard]] FileChannel& channelOf(const std::string& region);
     [[nodiscard]] std::vector<Extension> unknownIn(xml_node parent, const std::string& place);
     [[nodiscard]] long double number(std::string_view text, const std::string& name) const;
+    [[nodiscard]] std::vector<float> numbersOf(xml_node node, const char* name) const;
     [[nodiscard]] long double numberOr(xml_node node, const char* name, double otherwise) const;
     [[nodiscard]] long double fraction(xml_node region, const char* name, double otherwise) const;
     [[nodiscard]] glm::ivec2 pixelsOf(xml_node node) const;
@@ -222,6 +228,7 @@ class Reader {
     std::size_t maskBytes_ = 0, extensionBytes_ = 0;
     // Of region and element: what our own extension says of its warp.
     std::map<std::pair<std::string, std::string>, std::pair<Sampling, Stored>> own_;
+    std::map<std::string, ChannelColour> colours_;  // of regions, as it says them
 };
 
 long double Reader::number(std::string_view text, const std::string& name) const {
@@ -316,6 +323,46 @@ void Reader::readOwnExtension(xml_node extension) {
         own_[{attribute(warp, "region"), attribute(warp, "file")}] = {
             static_cast<Sampling>(*sampling), static_cast<Stored>(*stored)};
     }
+    for (const xml_node colour : elements(extension, "colour")) readColour(colour);
+}
+
+// Of a list between blanks.
+std::vector<float> Reader::numbersOf(xml_node node, const char* name) const {
+    const std::string text = textOf(element(node, name));
+    std::vector<float> numbers;
+    for (std::string_view rest = text; !rest.empty();) {
+        const std::size_t end = std::min(rest.find_first_of(kBlank), rest.size());
+        const long double value = number(rest.substr(0, end), name);
+        if (numbers.size() == kMostResponses || std::abs(value) > kMostMix)
+            refuse(where_, fmt::format("has too many or too large numbers as its {}", name));
+        numbers.push_back(static_cast<float>(value));
+        rest = trimmed(rest.substr(end));
+    }
+    return numbers;
+}
+
+void Reader::readColour(xml_node node) {
+    const std::string region = attribute(node, "region");
+    where_ = fmt::format("colour of region \"{}\"", region);
+    ChannelColour colour;
+    const std::vector<float> mix = numbersOf(node, "mix");
+    if (mix.size() != kMixNumbers)
+        refuse(where_, fmt::format("has a mix of {} numbers, not {}", mix.size(), kMixNumbers));
+    colour.mix = glm::transpose(glm::make_mat3(mix.data()));
+    for (std::size_t i = 0; i < kPrimaryNames.size(); ++i)
+        colour.response[i] = numbersOf(node, kPrimaryNames[i]);
+    const std::string fault = faultOf(colour);
+    if (!fault.empty()) refuse(where_, "has " + fault);
+    if (!colours_.emplace(region, std::move(colour)).second) refuse(where_, "is there twice");
+    where_ = "MPCDI";
+}
+
+void Reader::giveColours() {
+    for (FileChannel& channel : wall_.channels)
+        if (auto found = colours_.extract(channel.name)) channel.colour = std::move(found.mapped());
+    if (!colours_.empty())
+        refuse(fmt::format("colour of region \"{}\"", colours_.begin()->first),
+               "is for a region that is not there");
 }
 
 // Into the channel: which part of its buffer it is, in pixels and as a rectangle.
@@ -484,6 +531,7 @@ WallFile Reader::read(xml_node root) {
     append(wall_.extensions, unknownIn(root, "MPCDI"));
     for (const xml_node display : elements(root, "display")) readDisplay(display);
     if (wall_.channels.empty()) refuse("MPCDI", "has no display with a buffer and a region");
+    giveColours();
     readFiles(root);
     for (const xml_node set : elements(root, "extensionSet"))
         append(wall_.extensions, unknownIn(set, "extensionSet"));

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include <glm/matrix.hpp>
 #include <pugixml.hpp>
 #include <spdlog/fmt/chrono.h>
 
@@ -38,6 +39,16 @@ std::string decimalOf(long double value, const Reads& isAsWanted) {
 
 std::string plain(double value) {
     return decimalOf(value, [&](long double read) { return static_cast<double>(read) == value; });
+}
+
+// Between blanks.
+std::string plain(std::span<const float> values) {
+    std::string text;
+    for (const float value : values)
+        text += (text.empty() ? "" : " ") + decimalOf(value, [&](long double read) {
+                    return static_cast<float>(read) == value;
+                });
+    return text;
 }
 
 std::string degreesOf(double radians) {
@@ -125,6 +136,8 @@ class Writer {
                  const std::optional<Mask>& mask,
                  const FileChannel& channel);
     void reserveNames(const std::vector<Extension>& extensions);
+    [[nodiscard]] xml_node ownExtension();
+    void addColour(const FileChannel& channel);
     void addMark(const FileChannel& channel, const char* element, const TexelMeaning& meaning);
     void addExtensions(xml_node node, std::string_view place, const std::vector<Extension>& all);
     void appendExtensions();
@@ -156,6 +169,8 @@ void Writer::check() const {
         if (const char* missing = missingOf(channel, wall_.profile))
             refuse(channel,
                    fmt::format("it has no {}, which its profile needs; choose another", missing));
+        const std::string fault = channel.colour ? faultOf(*channel.colour) : "";
+        if (!fault.empty()) refuse(channel, "its colour has " + fault);
     }
     if (names.empty()) throw Error("a wall without channels cannot be written as MPCDI; add one");
 }
@@ -251,14 +266,26 @@ void Writer::addBuffers(xml_node display) {
     }
 }
 
+xml_node Writer::ownExtension() {
+    if (own_) return own_;
+    own_ = add(extensionSet(), "extension");
+    set(own_, "Name", kOwnExtension);
+    set(own_, "hasExternalFiles", "false");
+    return own_;
+}
+
+void Writer::addColour(const FileChannel& channel) {
+    const xml_node colour = add(ownExtension(), "colour");
+    set(colour, "region", channel.name);
+    const glm::mat3 rows = glm::transpose(channel.colour->mix);
+    addText(colour, "mix", plain(std::span(&rows[0][0], kMixNumbers)));
+    for (std::size_t i = 0; i < kPrimaryNames.size(); ++i)
+        addText(colour, kPrimaryNames[i], plain(channel.colour->response[i]));
+}
+
 // Where the values alone would tell otherwise.
 void Writer::addMark(const FileChannel& channel, const char* element, const TexelMeaning& meaning) {
-    if (!own_) {
-        own_ = add(extensionSet(), "extension");
-        set(own_, "Name", kOwnExtension);
-        set(own_, "hasExternalFiles", "false");
-    }
-    const xml_node warp = add(own_, "warp");
+    const xml_node warp = add(ownExtension(), "warp");
     set(warp, "region", channel.name);
     set(warp, "file", element);
     set(warp,
@@ -365,7 +392,10 @@ std::vector<ArchiveFile> Writer::write() {
     const xml_node display = add(root_, "display");
     files_ = add(root_, "files");
     addBuffers(display);
-    for (const FileChannel& channel : wall_.channels) addFileset(channel);
+    for (const FileChannel& channel : wall_.channels) {
+        addFileset(channel);
+        if (channel.colour) addColour(channel);
+    }
     addExtensions(root_, "MPCDI", wall_.extensions);
     addExtensions(display, "display", wall_.extensions);
     addExtensions(files_, "files", wall_.extensions);

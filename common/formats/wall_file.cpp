@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -109,6 +110,49 @@ WallFile readWallFile(const std::string& path, const ReadOptions& options) {
         return readWith(bytes, path, options, {});
     const std::vector<std::byte> frustum = readWhole(beside, kMostBytes);
     return readWith(bytes, path, options, {beside, frustum});
+}
+
+namespace {
+
+std::string faultIn(std::span<const float> response) {
+    const std::size_t count = response.size();
+    if (count < kLeastResponses || count > kMostResponses)
+        return fmt::format(
+            "of {} samples, not of {} to {}", count, kLeastResponses, kMostResponses);
+    if (response.front() != 0 || response.back() != 1) return "that does not run from 0 to 1";
+    const auto falls = [](float before, float after) { return !(before <= after); };
+    return std::ranges::adjacent_find(response, falls) == response.end() ? "" : "that falls";
+}
+
+}  // namespace
+
+std::string faultOf(const ChannelColour& colour) {
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            if (!(std::abs(colour.mix[column][row]) <= kMostMix))
+                return fmt::format("a mix with a number beyond {}", kMostMix);
+    for (std::size_t i = 0; i < kPrimaryNames.size(); ++i)
+        if (const std::string fault = faultIn(colour.response[i]); !fault.empty())
+            return fmt::format("a {} response {}", kPrimaryNames[i], fault);
+    return "";
+}
+
+double codeFor(std::span<const float> response, double light) {
+    const double wanted = std::clamp(light, 0.0, 1.0);
+    const auto above = std::ranges::lower_bound(response, wanted);
+    assert(above != response.end());
+    if (above == response.begin()) return 0;
+    const double low = *std::prev(above);
+    const double steps = static_cast<double>(above - response.begin()) - 1;
+    return (steps + (wanted - low) / (static_cast<double>(*above) - low)) /
+           static_cast<double>(response.size() - 1);
+}
+
+double lightFor(std::span<const float> response, double code) {
+    const Between at = between(code, static_cast<int>(response.size()), Sampling::Nodes);
+    return std::lerp(response[static_cast<std::size_t>(at.low)],
+                     response[static_cast<std::size_t>(at.high)],
+                     at.t);
 }
 
 glm::vec3 warpAt(const Warp& warp, glm::dvec2 place) {

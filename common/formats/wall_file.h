@@ -88,6 +88,24 @@ struct Extension {
     std::string place = "extensionSet";  // the element that it stands in
 };
 
+// How a projector makes its own red, green and blue, for a wall whose projectors differ. After
+// blend and black level: own = mix * linear Rec. 709, both 0 to 1; for each of the three the
+// projector is sent the code of which response says that it gives this light.
+struct ChannelColour {
+    glm::mat3 mix{1};
+    // Light for codes that are spread evenly from 0 to 1, linear between them: from 0 to 1, nowhere
+    // falling.
+    std::array<std::vector<float>, 3> response;
+};
+inline constexpr std::array<const char*, 3> kPrimaryNames{"red", "green", "blue"};
+inline constexpr std::size_t kLeastResponses = 2, kMostResponses = 1024;
+inline constexpr float kMostMix = 100;  // of each number, either way
+// What is wrong with it, as words behind "has"; empty: nothing.
+[[nodiscard]] std::string faultOf(const ChannelColour& colour);
+// The least code, 0 to 1, at which a response gives so much light; and the light of a code.
+[[nodiscard]] double codeFor(std::span<const float> response, double light);
+[[nodiscard]] double lightFor(std::span<const float> response, double code);
+
 // One projector of a wall file.
 struct FileChannel {
     std::string name;
@@ -101,6 +119,7 @@ struct FileChannel {
     std::optional<Warp> warp;
     std::optional<Warp> distortion;    // Projector: of the lens
     std::optional<Mask> blend, black;  // out = in * blend * (1 - black) + black, in linear light
+    std::optional<ChannelColour> colour;
     std::string interpolation = "linear";  // between samples: also "keystone", "smooth"
     std::vector<Extension> extensions;     // of this channel
 };

@@ -182,7 +182,8 @@ class CalibratedOptics final : public Optics {
         : size_(sizePixels),
           meaning_(sweetSpot, profile, channel, screen),
           screen_(screen),
-          finder_(sizePixels, placesOfCorners()) {
+          finder_(sizePixels, placesOfCorners()),
+          colour_(channel.colour) {
         if (channel.blend) blend_ = lightOf(*channel.blend, sizePixels);
         if (channel.black) black_ = lightOf(*channel.black, sizePixels);
     }
@@ -203,6 +204,9 @@ class CalibratedOptics final : public Optics {
     }
     [[nodiscard]] const std::vector<glm::vec3>& blend() const override { return blend_; }
     [[nodiscard]] const std::vector<glm::vec3>& black() const override { return black_; }
+    [[nodiscard]] const formats::ChannelColour* colour() const override {
+        return colour_ ? &*colour_ : nullptr;
+    }
 
   private:
     // In the panorama, of the corners of all pixels.
@@ -221,6 +225,7 @@ class CalibratedOptics final : public Optics {
     const ScreenSurface& screen_;
     PixelFinder finder_;
     std::vector<glm::vec3> blend_, black_;
+    std::optional<formats::ChannelColour> colour_;
 };
 
 const formats::FileChannel& channelNamed(const formats::WallFile& file,

@@ -66,6 +66,8 @@ class Optics {
     // Of a wall file that has them, for each pixel, top row first; else empty.
     [[nodiscard]] virtual const std::vector<glm::vec3>& blend() const { return nothing(); }
     [[nodiscard]] virtual const std::vector<glm::vec3>& black() const { return nothing(); }
+    // Of a wall file that has one; null: the projector takes sRGB.
+    [[nodiscard]] virtual const formats::ChannelColour* colour() const { return nullptr; }
 
   protected:
     [[nodiscard]] static const std::vector<glm::vec3>& nothing();

@@ -1,7 +1,7 @@
 // From a projector pixel's light to its code. The dither is the same for both eyes, or its grain would
 // hang in the room.
 // Pixels count from the top left corner. `light` is linear, 0 to 1; `encoded` is what the projector
-// takes.
+// takes: sRGB, or where its channel has a colour (formats::ChannelColour) what that says.
 #include "shader_interface.h"
 layout(location = kSizeLocation) uniform ivec2 size;  // of the projector's picture
 layout(location = kSeedLocation) uniform uint seed;
@@ -13,6 +13,9 @@ layout(location = kBrightnessLocation) uniform float brightness;  // share of th
 layout(binding = kBlendUnit) uniform sampler2D fileBlend;
 layout(binding = kBlackUnit) uniform sampler2D fileBlack;
 layout(location = kMasksLocation) uniform bvec2 masks;  // which of them there are
+layout(location = kColouredLocation) uniform bool coloured;
+layout(location = kMixLocation) uniform mat3 ownFromLight;  // to the projector's red green blue
+layout(binding = kCodesUnit) uniform sampler1D codes;       // for each of them
 
 layout(location = 0) out vec4 encoded;
 
@@ -20,6 +23,18 @@ layout(location = 0) out vec4 encoded;
 vec3 encode(vec3 linear) {
     vec3 curve = 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055;
     return mix(curve, 12.92 * linear, lessThanEqual(linear, vec3(0.0031308)));
+}
+
+// Linear between texels, in full floats.
+float codeOf(float own, int colour) {
+    float place = sqrt(own) * float(kCodeTexels - 1);
+    int low = min(int(place), kCodeTexels - 2);
+    return mix(texelFetch(codes, low, 0)[colour], texelFetch(codes, low + 1, 0)[colour], place - float(low));
+}
+
+vec3 ownCodes(vec3 light) {
+    vec3 own = clamp(ownFromLight * light, 0.0, 1.0);
+    return vec3(codeOf(own.r, 0), codeOf(own.g, 1), codeOf(own.b, 2));
 }
 
 // Three independent numbers of 32 bits (pcg3d: Jarzynski and Olano 2020).
@@ -63,7 +78,8 @@ vec3 masked(vec3 light, ivec2 pixel) {
 }
 
 vec4 finished(vec3 light, ivec2 pixel) {
-    vec3 value = encode(clamp(light * brightness, 0.0, 1.0));
+    vec3 shown = clamp(light * brightness, 0.0, 1.0);
+    vec3 value = coloured ? ownCodes(shown) : encode(shown);
     if (dithered) value = toCodes(value, noise(uvec3(pixel, seed)));
     return vec4(value, 1.0);
 }

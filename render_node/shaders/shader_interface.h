@@ -73,6 +73,7 @@ AQUARAMA_CONSTANT int kRightSceneUnit = 2;
 AQUARAMA_CONSTANT int kRightPlacesUnit = 3;
 AQUARAMA_CONSTANT int kBlendUnit = 4;
 AQUARAMA_CONSTANT int kBlackUnit = 5;
+AQUARAMA_CONSTANT int kCodesUnit = 6;
 
 // Locations of uniforms: fish kernels.
 AQUARAMA_CONSTANT int kFractionLocation = 0;
@@ -120,6 +121,8 @@ AQUARAMA_CONSTANT int kBlendMaskLocation = 3;
 AQUARAMA_CONSTANT int kModeLocation = 4;
 AQUARAMA_CONSTANT int kBrightnessLocation = 5;
 AQUARAMA_CONSTANT int kMasksLocation = 6;
+AQUARAMA_CONSTANT int kColouredLocation = 7;
+AQUARAMA_CONSTANT int kMixLocation = 8;
 
 // Locations of uniforms: pattern.
 AQUARAMA_CONSTANT int kWallFromCameraLocation = 0;
@@ -158,6 +161,9 @@ AQUARAMA_CONSTANT uint kTurnSegments = 41U;  // of the wire
 // The water stirred by fish, about the shared eye: cells of a grid, three numbers each.
 AQUARAMA_CONSTANT int kWakeCellsAcross = 40;
 AQUARAMA_CONSTANT int kWakeCellsUp = 16;
+
+// Texels of the table of a projector's codes, spread evenly over the root of light.
+AQUARAMA_CONSTANT int kCodeTexels = 4096;
 
 // Texels of the table of inscattered light: range, rise, azimuth.
 AQUARAMA_CONSTANT int kSightRanges = 40;

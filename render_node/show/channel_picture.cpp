@@ -125,6 +125,8 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
         eyes_.emplace_back(wall->frustum(channel, kMarginRadians, side), warp, ground, id);
     if (two && stereo_.mode != config::StereoMode::QuadBuffer)
         together_.emplace(map_.sizePixels, id, stereo_.mode);
+    if (const formats::ChannelColour* colour = wall->channel(channel).colour())
+        codes_.emplace(*colour);
     // The scene has one texture: all eyes but the last need a copy.
     for (Viewing& eye : eyes_)
         if (&eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, worldSize_);
@@ -272,7 +274,8 @@ void ChannelPicture::project(unsigned framebuffer,
                           .frame = frame_,
                           .encoding = encoding,
                           .blendMask = overlays.blendMask,
-                          .brightness = brightness_};
+                          .brightness = brightness_,
+                          .codes = codes_ ? &*codes_ : nullptr};
     const auto sceneAndMap = [](const Viewing& eye) {
         return PairProjection::Eye{eye.sceneTexture, eye.projection};
     };

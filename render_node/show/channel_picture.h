@@ -112,6 +112,8 @@ class ChannelPicture {
     std::deque<Viewing> eyes_;
     // Set where one picture holds both eyes.
     std::optional<PairProjection> together_;
+    // Set where the channel has a colour.
+    std::optional<ProjectorCodes> codes_;
     // Set where the world can be shown, not test patterns alone.
     std::optional<scene::SceneRenderer> scene_;
     TextOverlay text_;

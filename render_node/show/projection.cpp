@@ -45,6 +45,8 @@ void beginPass(const Projection::Draw& what,
     glUniform1i(shaders::kDitheredLocation, what.encoding == Encoding::Dithered8 ? 1 : 0);
     glUniform1i(shaders::kBlendMaskLocation, what.blendMask ? 1 : 0);
     glUniform1f(shaders::kBrightnessLocation, what.brightness);
+    glUniform1i(shaders::kColouredLocation, what.codes != nullptr ? 1 : 0);
+    if (what.codes != nullptr) what.codes->use();
 }
 
 // Bilinear filtering without wrapping. A sampler object leaves the texture's own state alone.
@@ -56,6 +58,25 @@ void makeBilinear(const gl::Sampler& sampler) {
 }
 
 }  // namespace
+
+ProjectorCodes::ProjectorCodes(const formats::ChannelColour& colour) : ownFromLight_{colour.mix} {
+    std::vector<glm::vec3> codes;
+    for (int i = 0; i < shaders::kCodeTexels; ++i) {
+        const double root = i / double{shaders::kCodeTexels - 1};
+        glm::vec3& code = codes.emplace_back();
+        for (int c = 0; c < 3; ++c)
+            code[c] = static_cast<float>(
+                formats::codeFor(colour.response[static_cast<std::size_t>(c)], root * root));
+    }
+    glTextureStorage1D(table_.name(), 1, GL_RGB32F, shaders::kCodeTexels);
+    glTextureSubImage1D(table_.name(), 0, 0, shaders::kCodeTexels, GL_RGB, GL_FLOAT, codes.data());
+    glObjectLabel(GL_TEXTURE, table_.name(), -1, "codes of the projector");
+}
+
+void ProjectorCodes::use() const {
+    glBindTextureUnit(shaders::kCodesUnit, table_.name());
+    glUniformMatrix3fv(shaders::kMixLocation, 1, GL_FALSE, glm::value_ptr(ownFromLight_));
+}
 
 Projection::Projection(const ProjectionMap& map, std::uint32_t channelId)
     : size_{map.sizePixels},

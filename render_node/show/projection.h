@@ -9,12 +9,14 @@
 #include <vector>
 
 #include <glm/ext/vector_uint4_sized.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include "common/base/units.h"
 #include "common/config/rig.h"
 #include "common/config/scan.h"
+#include "common/formats/wall_file.h"
 #include "common/wall/wall.h"
 #include "render_node/gl/handle.h"
 
@@ -48,6 +50,19 @@ enum class Encoding : std::uint8_t {
     Plain       // what the target's bits hold, for 16-bit pictures
 };
 
+// The codes that a projector takes for light, where its channel has a colour. Owns a GL object;
+// construct, use and destroy with the same context current.
+class ProjectorCodes {
+  public:
+    explicit ProjectorCodes(const formats::ChannelColour& colour);
+    // Gives them to the pass whose program is in use.
+    void use() const;
+
+  private:
+    glm::mat3 ownFromLight_;
+    gl::Texture table_{GL_TEXTURE_1D};
+};
+
 // Owns its GL objects; construct, use and destroy with the same context current.
 class Projection {
   public:
@@ -65,6 +80,8 @@ class Projection {
         bool blendMask = false;
         // Share of the light, 0 black to 1.
         float brightness = 1.0F;
+        // Null: the projector takes sRGB.
+        const ProjectorCodes* codes = nullptr;
     };
     void draw(const Draw& what) const;
     // Binds blend and black level of a wall file, where there are, for the program in use.

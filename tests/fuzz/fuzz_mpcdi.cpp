@@ -14,6 +14,12 @@ namespace {
 
 using Bytes = std::span<const std::byte>;
 
+bool isSame(const std::optional<formats::ChannelColour>& a,
+            const std::optional<formats::ChannelColour>& b) {
+    if (!a || !b) return a.has_value() == b.has_value();
+    return a->mix == b->mix && a->response == b->response && formats::faultOf(*a).empty();
+}
+
 // What is read can be written in both versions, and read.
 void readAndWrite(Bytes bytes) {
     formats::WallFile wall;
@@ -33,6 +39,8 @@ void readAndWrite(Bytes bytes) {
             promise(again.channels[i].name == wall.channels[i].name, "a channel keeps its name");
             promise(again.channels[i].warp.has_value() == wall.channels[i].warp.has_value(),
                     "a channel keeps its warp");
+            promise(isSame(again.channels[i].colour, wall.channels[i].colour),
+                    "a channel keeps its colour");
         }
     }
 }

@@ -117,7 +117,9 @@ TEST(Fuzz, damagedMpcdiFilesAreRefusedOrCanBeWrittenAgain) {
         inputOf(test::bytesOf(test::kManifest)),
         inputOf(formats::encodePfm({.size = {1, 1}, .texels = {{0.25F, 0.5F, 1}}}))};
     for (const formats::Profile profile : {formats::Profile::Screen, formats::Profile::Projector}) {
-        const std::vector<std::byte> bytes = formats::encodeMpcdi(test::sampleWall(profile), 2);
+        formats::WallFile wall = test::sampleWall(profile);
+        wall.channels[1].colour = {.response = {{{0, 0.25F, 1}, {0, 1}, {0, 0, 0.5F, 1}}}};
+        const std::vector<std::byte> bytes = formats::encodeMpcdi(wall, 2);
         formats::Archive archive(bytes, "a seed");
         seeds.push_back(inputOf(bytes));
         seeds.push_back(inputOf(archive.read("mpcdi.xml")));

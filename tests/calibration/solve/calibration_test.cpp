@@ -84,7 +84,7 @@ TEST(Calibration, ofRandomHallsIsWithinItsBounds) {
 
 // Each is refused or warned of, or solved within the bounds.
 TEST(Calibration, passesNoHallWithAFaultThatItDoesNotSolve) {
-    const std::uint32_t draws = isSoak() ? 200 : hall::kHallFaultNames.size();
+    const std::uint32_t draws = isSoak() ? 200 : 3;
     for (std::uint32_t draw = 0; draw < draws; ++draw) {
         const std::size_t kind = draw % hall::kHallFaultNames.size();
         const config::Rig rig = hall::randomRig(100 + draw, 0.25);

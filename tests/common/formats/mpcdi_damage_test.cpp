@@ -92,6 +92,79 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"control", "id=\"a\"", "id=\"a&#10;b\"", "is for a region that is not there"}),
     [](const testing::TestParamInfo<Mistake>& mistake) { return mistake.param.name; });
 
+struct BadColour {
+    const char* name;
+    const char* region;
+    std::string mix, red;
+    const char* complaint;
+};
+
+class BadColours : public testing::TestWithParam<BadColour> {};
+
+TEST_P(BadColours, areRefusedInOneLineWithTheirRegion) {
+    const auto& [name, region, mix, red, expected] = GetParam();
+    std::string manifest = kManifest;
+    manifest.replace(manifest.find("</MPCDI>"),
+                     8,
+                     "<extensionSet><extension Name=\"Aquarama\"><colour region=\"" +
+                         std::string(region) + "\"><mix>" + mix + "</mix><red>" + red +
+                         "</red><green>0 1</green><blue>0 1</blue></colour></extension>"
+                         "</extensionSet></MPCDI>");
+    const std::string complaint = complaintOf(archiveOf(manifest));
+    if (expected == nullptr) {
+        EXPECT_EQ(complaint, "");
+        return;
+    }
+    EXPECT_THAT(complaint,
+                testing::StartsWith("wall.mpcdi: mpcdi.xml: colour of region \"" +
+                                    std::string(region) + "\" " + expected));
+    EXPECT_THAT(complaint, testing::HasSubstr("; export it anew"));
+    EXPECT_THAT(complaint, testing::Not(testing::HasSubstr("\n")));
+}
+
+// So many times the same.
+std::string times(int count, const std::string& text) {
+    std::string all;
+    for (int i = 0; i < count; ++i) all += text;
+    return all;
+}
+
+const std::string kUnit = "1 0 0 0 1 0 0 0 1";
+
+INSTANTIATE_TEST_SUITE_P(
+    Mpcdi,
+    BadColours,
+    testing::Values(
+        BadColour{"good", "a", "\n 1 0 0\n 0 1 0\t0 0 1 ", " 0\n.5 1 ", nullptr},
+        BadColour{"longest", "a", kUnit, times(1023, "0 ") + "1", nullptr},
+        BadColour{"stranger", "b", kUnit, "0 1", "is for a region that is not there"},
+        BadColour{"fewMixes", "a", "1 0 0 0 1 0 0 0", "0 1", "has a mix of 8 numbers, not 9"},
+        BadColour{"noMix", "a", "", "0 1", "has a mix of 0 numbers, not 9"},
+        BadColour{"manyMixes", "a", kUnit + " 1", "0 1", "has a mix of 10 numbers, not 9"},
+        BadColour{"largeMix", "a", "101 0 0 0 1 0 0 0 1", "0 1", "has too many or too large"},
+        BadColour{"noNumber", "a", "1,0 0 0 0 1 0 0 0 1", "0 1", "has a mix of \"1,0\", which"},
+        BadColour{"nan", "a", kUnit, "0 nan 1", "has a red of \"nan\", which is no number"},
+        BadColour{"none", "a", kUnit, "", "has a red response of 0 samples, not of 2 to 1024"},
+        BadColour{"one", "a", kUnit, "1", "has a red response of 1 samples"},
+        BadColour{"long", "a", kUnit, times(1024, "0 ") + "1", "has too many or too large"},
+        BadColour{"foot", "a", kUnit, "0.01 1", "has a red response that does not run from 0 to 1"},
+        BadColour{"top", "a", kUnit, "0 0.99", "has a red response that does not run"},
+        BadColour{"falls", "a", kUnit, "0 0.5 0.4 1", "has a red response that falls"}),
+    [](const testing::TestParamInfo<BadColour>& colour) { return colour.param.name; });
+
+TEST(MpcdiDamage, aRegionHasOneColour) {
+    WallFile wall = test::sampleWall(Profile::Content);
+    wall.channels[0].name = "one";
+    for (FileChannel& channel : wall.channels) channel.colour = test::sampleColour();
+    const std::vector<std::byte> bytes = encodeMpcdi(wall, 2);
+    Archive archive(bytes, "written");
+    const std::vector<std::byte> text = archive.read("mpcdi.xml");
+    std::string manifest(reinterpret_cast<const char*>(text.data()), text.size());
+    manifest.replace(manifest.find("<colour region=\"one\""), 20, "<colour region=\"rechts\"");
+    EXPECT_THAT(complaintOf(archiveOf(manifest)),
+                testing::HasSubstr("colour of region \"rechts\" is there twice"));
+}
+
 TEST(MpcdiDamage, differentOriginsInOneFileAreRefused) {
     WallFile wall = test::sampleWall(Profile::Screen);
     const std::vector<std::byte> bytes = encodeMpcdi(wall, 1);

@@ -135,7 +135,8 @@ class EveryProfile : public testing::TestWithParam<Profile> {};
 
 // Samples of our own are none that the format can say exactly, but for points.
 TEST_P(EveryProfile, aWallComesBackFromBothVersions) {
-    const WallFile wall = test::sampleWall(GetParam());
+    WallFile wall = test::sampleWall(GetParam());
+    wall.channels[1].colour = test::sampleColour();
     const float tolerance = GetParam() == Profile::Screen ? 0 : std::ldexp(1.0F, -24);
     for (const int version : {1, 2}) {
         const WallFile once = rewritten(wall, version);
@@ -179,6 +180,33 @@ TEST(MpcdiWriter, whereValuesWouldBeTakenOtherwiseTheFileSaysSo) {
     wall.channels[0].extent = {0.996, 0.996};
     for (glm::vec3& sample : wall.channels[0].warp->samples) sample.y *= 0.996F;
     expectSame(rewritten(wall, 1), wall, std::ldexp(1.0F, -23));
+}
+
+TEST(MpcdiWriter, aColourCanBeRead) {
+    WallFile wall = test::sampleWall(Profile::Content);
+    wall.channels[0].colour = {.mix = glm::mat3(0.5F, 0, 0.25F, 0, 1, 0, 0, 0, 1),
+                               .response = {{{0, 0.25F, 1}, {0, 1}, {0, 0.1F, 1}}}};
+    const std::string manifest = manifestOf(wall, 2);
+    EXPECT_THAT(manifest, testing::HasSubstr("<extension Name=\"Aquarama\""));
+    EXPECT_THAT(manifest, testing::HasSubstr("<colour region=\"left + 1.a\">"));
+    EXPECT_THAT(manifest, testing::HasSubstr("<mix>0.5 0 0 0 1 0 0.25 0 1</mix>"));
+    EXPECT_THAT(manifest, testing::HasSubstr("<blue>0 0.1 1</blue>"));
+}
+
+TEST(MpcdiWriter, aColourThatCannotBeReadIsNotWritten) {
+    WallFile wall = test::sampleWall(Profile::Content);
+    wall.channels[1].colour.emplace();
+    const auto complaint = [&] { return test::complaintOf([&] { (void)encodeMpcdi(wall, 1); }); };
+    EXPECT_THAT(
+        complaint(),
+        testing::HasSubstr("channel \"rechts\" cannot be written as MPCDI: its colour has a "
+                           "red response of 0 samples, not of 2 to 1024"));
+    wall.channels[1].colour = test::sampleColour();
+    wall.channels[1].colour->mix[1][2] = std::nanf("");
+    EXPECT_THAT(complaint(), testing::HasSubstr("its colour has a mix with a number beyond 100"));
+    wall.channels[1].colour = test::sampleColour();
+    wall.channels[1].colour->response[1][3] = std::nanf("");
+    EXPECT_THAT(complaint(), testing::HasSubstr("its colour has a green response that falls"));
 }
 
 TEST(MpcdiWriter, whatAProfileNeedsIsAskedFor) {

@@ -63,6 +63,18 @@ inline constexpr float kUnlit = std::numeric_limits<float>::quiet_NaN();
     return mask;
 }
 
+// A mix that no short decimal says, and responses of several lengths: one with a flat foot and a
+// knee.
+[[nodiscard]] inline formats::ChannelColour sampleColour() {
+    formats::ChannelColour colour{.mix = {0.8F, 1.0F / 3, -0.0F, 1e-30F, 0.7F, -0.1F, 0, 0.05F, 1},
+                                  .response = {}};
+    for (int i = 0; i < 1024; ++i)
+        colour.response[0].push_back(std::pow(static_cast<float>(i) / 1023, 2.4F));
+    colour.response[1] = {0, 0, 0.1F, 0.1F, 0.95F, 1};
+    colour.response[2] = {0, 1};
+    return colour;
+}
+
 // Two channels side by side with all that the profile has.
 [[nodiscard]] inline formats::WallFile sampleWall(formats::Profile profile) {
     using formats::Profile;
@@ -120,6 +132,12 @@ inline void expectSame(const formats::Mask& a, const formats::Mask& b) {
     EXPECT_EQ(a.codes, b.codes);
 }
 
+// To the bit.
+inline void expectSame(const formats::ChannelColour& a, const formats::ChannelColour& b) {
+    EXPECT_EQ(std::memcmp(&a.mix, &b.mix, sizeof a.mix), 0);
+    EXPECT_EQ(a.response, b.response);
+}
+
 inline void expectSame(const std::vector<formats::Extension>& a,
                        const std::vector<formats::Extension>& b) {
     ASSERT_EQ(a.size(), b.size());
@@ -175,6 +193,7 @@ inline void expectSame(const formats::WallFile& a,
         expectSameOptional(x.distortion, y.distortion, tolerance);
         expectSameOptional(x.blend, y.blend);
         expectSameOptional(x.black, y.black);
+        expectSameOptional(x.colour, y.colour);
         expectSame(x.extensions, y.extensions);
     }
 }

@@ -177,6 +177,26 @@ TEST(Rasterised, farAndUnknownPlacesAreBounded) {
     EXPECT_EQ(rasterised(mesh, {4, 4}).samples.size(), 16U);
 }
 
+TEST(Response, isUndoneByItsCodes) {
+    const std::vector<float> response{0, 0.1F, 0.1F, 0.6F, 1};
+    EXPECT_EQ(codeFor(response, 0), 0);
+    EXPECT_EQ(codeFor(response, -1), 0);
+    EXPECT_EQ(codeFor(response, 1), 1);
+    EXPECT_EQ(codeFor(response, 2), 1);
+    EXPECT_NEAR(codeFor(response, 0.8), 0.875, 1e-7);
+    for (double light = 0; light <= 1; light += 1.0 / 512)
+        EXPECT_NEAR(lightFor(response, codeFor(response, light)), light, 1e-12);
+}
+
+// A projector that gives no light for its first codes, and all of it before its last.
+TEST(Response, isGivenTheLeastCodeWhereItIsFlat) {
+    const std::vector<float> response{0, 0, 0.5F, 1, 1};
+    EXPECT_EQ(codeFor(response, 0), 0);
+    EXPECT_GT(codeFor(response, 1e-9), 0.25);
+    EXPECT_EQ(codeFor(response, 1), 0.75);
+    EXPECT_EQ(codeFor(std::vector<float>{0, 0.5F, 0.5F, 1}, 0.5), 1.0 / 3);
+}
+
 TEST(WallFiles, aFileIsKnownByItsContentAndNotByItsName) {
     const std::filesystem::path path =
         std::filesystem::path(testing::TempDir()) / "aquarama-any-name.bin";

@@ -229,6 +229,19 @@ TEST(WallFiles, aShaderLampThrowsThroughItsDistortionMap) {
         }
 }
 
+TEST(WallFiles, aColourIsOfItsChannelAlone) {
+    const config::Rig rig = shippedRig("desk");
+    formats::WallFile file = fileOf(rig, Profile::Screen);
+    file.channels[1].colour = {.mix = glm::mat3(0.75F),
+                               .response = {{{0, 1}, {0, 0.3F, 1}, {0, 1}}}};
+    const Wall wall(calibrated(rig, encodeMpcdi(file, 1)));
+    ASSERT_NE(wall.channel(1).colour(), nullptr);
+    EXPECT_EQ(wall.channel(1).colour()->mix, glm::mat3(0.75F));
+    EXPECT_EQ(wall.channel(1).colour()->response, file.channels[1].colour->response);
+    EXPECT_EQ(wall.channel(0).colour(), nullptr);
+    EXPECT_EQ(Wall(rig).channel(1).colour(), nullptr);
+}
+
 TEST(WallFiles, aRegionThatIsNotThereIsNamed) {
     config::Rig rig = shippedRig("desk");
     rig = calibrated(rig, encodeMpcdi(fileOf(rig, Profile::Screen), 2));
