@@ -86,6 +86,7 @@ void addSet(CommandLine& line);
 void addPilot(CommandLine& line);
 void addExplain(CommandLine& line);
 void addCheck(CommandLine& line);  // hands over to aquarama-calibrate
+void addCalibrate(CommandLine& line);  // hands over to aquarama-solve
 void addInspect(CommandLine& line);
 void addConvert(CommandLine& line);
 void addCapture(CommandLine& line);

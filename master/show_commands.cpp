@@ -147,4 +147,12 @@ void addCheck(CommandLine& line) {
                   {"check"});
 }
 
+void addCalibrate(CommandLine& line) {
+    addHandedOver(line,
+                  "calibrate",
+                  "find how projectors hang, by camera: aquarama calibrate --rig RIG --out WALL",
+                  "solve",
+                  {});
+}
+
 }  // namespace aquarama

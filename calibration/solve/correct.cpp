@@ -106,20 +106,28 @@ Correction fitted(const std::vector<Rest>& rests, glm::ivec2 cells) {
     return correction;
 }
 
+// What is left at the ties of a channel.
+std::vector<Rest> restsOf(const SolvedHall& hall,
+                          const std::vector<Tie>& ties,
+                          std::size_t channel) {
+    const glm::dvec2 size(hall.rig.channels[channel].sizePixels);
+    std::vector<Rest> rests;
+    for (const Tie& tie : ties) {
+        if (tie.heldOut || tie.channel != channel) continue;
+        if (const auto place = hall.modelled(tie))
+            rests.push_back(
+                {tie.place / size, tie.place - *place, 1 / std::hypot(tie.sigma, kPlacePixels)});
+    }
+    return rests;
+}
+
 }  // namespace
 
 void correct(SolvedHall& hall, const std::vector<Tie>& ties) {
     constexpr int kRounds = 3;  // of weights that make little of what lies far off
     for (std::size_t channel = 0; channel < hall.projectors.size(); ++channel) {
         const glm::dvec2 size(hall.rig.channels[channel].sizePixels);
-        std::vector<Rest> rests;
-        for (const Tie& tie : ties) {
-            if (tie.heldOut || tie.channel != channel) continue;
-            if (const auto place = hall.modelled(tie))
-                rests.push_back({tie.place / size,
-                                 tie.place - *place,
-                                 1 / std::hypot(tie.sigma, kPlacePixels)});
-        }
+        std::vector<Rest> rests = restsOf(hall, ties, channel);
         const glm::ivec2 cells(kCellsAcross, static_cast<int>(kCellsAcross * size.y / size.x));
         for (int round = 0; round < kRounds; ++round) {
             hall.corrections[channel] = fitted(rests, cells);

@@ -128,11 +128,12 @@ void judgeOutline(Figures& figures, const SolveFigures& solved) {
 
 Figures judged(const std::vector<scan::CameraView>& views, const Solved& solved) {
     Figures figures{.verdict = Verdict::Pass, .cause = {}, .advice = {}};
+    // Exchanged cables make channels look hidden, so what the solve found goes first.
+    for (const scan::ScanFault& fault : solved.faults)
+        take(figures, fault.refuses ? Verdict::Refuse : Verdict::Warn, fault);
     for (const scan::CameraView& view : views)
         for (const scan::ScanFault& fault : view.faults)
             take(figures, fault.refuses ? Verdict::Refuse : Verdict::Warn, fault);
-    for (const scan::ScanFault& fault : solved.faults)
-        take(figures, fault.refuses ? Verdict::Refuse : Verdict::Warn, fault);
     if (solved.faults.empty()) {
         judgeOverlaps(figures, solved.figures);
         judgeOutline(figures, solved.figures);

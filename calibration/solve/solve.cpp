@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -38,7 +39,15 @@ glm::ivec2 cellsFor(const wall::ScreenSurface& screen) {
     return glm::clamp(glm::ivec2(glm::round(length / kMetres)), glm::ivec2(4), glm::ivec2(40));
 }
 
-// How far apart two channels show what a camera sees at one place: held-out windows alone.
+// How far apart two channels show one place, which both of these ties are of.
+std::optional<double> partedBy(const SolvedHall& hall, const Tie& one, const Tie& other) {
+    const auto a = hall.placeOf(one.channel, one.place);
+    const auto b = hall.placeOf(other.channel, other.place);
+    if (!a || !b) return std::nullopt;
+    return glm::distance(hall.panoramaPixel(a->point), hall.panoramaPixel(b->point));
+}
+
+// Of what a camera sees at one place: held-out windows alone.
 std::vector<double> overlapErrors(const SolvedHall& hall, const std::vector<Tie>& ties) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<const Tie*>> windows;
     for (const Tie& tie : ties)
@@ -46,13 +55,9 @@ std::vector<double> overlapErrors(const SolvedHall& hall, const std::vector<Tie>
     std::vector<double> errors;
     for (const auto& [key, seen] : windows)
         for (std::size_t i = 0; i < seen.size(); ++i)
-            for (std::size_t j = i + 1; j < seen.size(); ++j) {
-                const auto a = hall.placeOf(seen[i]->channel, seen[i]->place);
-                const auto b = hall.placeOf(seen[j]->channel, seen[j]->place);
-                if (!a || !b) continue;
-                errors.push_back(
-                    glm::distance(hall.panoramaPixel(a->point), hall.panoramaPixel(b->point)));
-            }
+            for (std::size_t j = i + 1; j < seen.size(); ++j)
+                if (const auto parted = partedBy(hall, *seen[i], *seen[j]))
+                    errors.push_back(*parted);
     return errors;
 }
 

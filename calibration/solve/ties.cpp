@@ -169,32 +169,38 @@ Profile profileAlong(const Light& room, glm::dvec2 at, glm::dvec2 outwards, doub
     return profile;
 }
 
+// Where a profile falls most, as an index between its samples; nothing where it does not fall
+// enough.
+std::optional<double> steepest(const std::vector<double>& light) {
+    constexpr long kHalf = 3;               // samples that a side of an edge is averaged over
+    constexpr double kLeastContrast = 0.3;  // of the light inside
+    const auto samples = static_cast<long>(light.size());
+    const auto at = [&](long i) { return light[static_cast<std::size_t>(i)]; };
+    std::vector<double> fall(light.size(), 0.0);
+    for (long i = kHalf; i < samples - kHalf; ++i)
+        for (long k = 1; k <= kHalf; ++k)
+            fall[static_cast<std::size_t>(i)] += at(i - k) - at(i + k);
+    const auto best = std::ranges::max_element(fall);
+    const long index = best - fall.begin();
+    if (index <= kHalf || index >= samples - kHalf - 1) return std::nullopt;
+    const double inside = at(std::max(0L, index - 2 * kHalf));
+    if (inside <= 0 || *best < kLeastContrast * static_cast<double>(kHalf) * inside)
+        return std::nullopt;
+    // The top of the parabola through three samples.
+    const double before = *(best - 1), after = *(best + 1);
+    const double bend = before - 2 * *best + after;
+    return static_cast<double>(index) + (bend < 0 ? 0.5 * (before - after) / bend : 0);
+}
+
 // The strongest fall of light from inside to outside along a line through `at`; pixels along it.
 std::optional<double> edgeAlong(const Light& room,
                                 glm::dvec2 at,
                                 glm::dvec2 outwards,
                                 double reach) {
-    constexpr long kHalf = 3;               // samples that a side of an edge is averaged over
-    constexpr double kLeastContrast = 0.3;  // of the light inside
-    const Profile profile =
-        profileAlong(room, at, outwards, reach + kProfileStep * static_cast<double>(kHalf + 1));
-    const auto samples = static_cast<long>(profile.light.size());
-    const auto light = [&](long i) { return profile.light[static_cast<std::size_t>(i)]; };
-    std::vector<double> fall(profile.light.size(), 0.0);
-    for (long i = kHalf; i < samples - kHalf; ++i)
-        for (long k = 1; k <= kHalf; ++k)
-            fall[static_cast<std::size_t>(i)] += light(i - k) - light(i + k);
-    const auto best = std::ranges::max_element(fall);
-    const long index = best - fall.begin();
-    if (index <= kHalf || index >= samples - kHalf - 1) return std::nullopt;
-    const double inside = light(std::max(0L, index - 2 * kHalf));
-    if (*best < kLeastContrast * static_cast<double>(kHalf) * inside || inside <= 0)
-        return std::nullopt;
-    // The top of the parabola through three samples.
-    const double before = *(best - 1), after = *(best + 1);
-    const double bend = before - 2 * *best + after;
-    const double shift = bend < 0 ? 0.5 * (before - after) / bend : 0;
-    return kProfileStep * (static_cast<double>(index + profile.from) + shift);
+    const Profile profile = profileAlong(room, at, outwards, reach + 4 * kProfileStep);
+    const auto index = steepest(profile.light);
+    if (!index) return std::nullopt;
+    return kProfileStep * (*index + static_cast<double>(profile.from));
 }
 
 // A point of the outline in the camera's picture.
@@ -226,6 +232,23 @@ glm::dvec2 alongOutline(const std::vector<OutlinePoint>& outline, const OutlineP
     return way;
 }
 
+// All of the outline that is before the camera.
+std::vector<OutlinePoint> predictedOutline(const BumpyScreen& screen,
+                                           const LensParameters& lens,
+                                           const PoseParameters& pose) {
+    std::vector<OutlinePoint> outline;
+    for (const glm::dvec3& base : screen.screen().border(0))
+        if (const auto seen = seenBy(lens, pose, screen.at(screen.screen().unrolled(base)).point))
+            outline.push_back({base, *seen});
+    return outline;
+}
+
+// Out of the screen, across the outline, which goes `along` there.
+glm::dvec2 outwards(glm::dvec2 along, glm::dvec2 fromInside) {
+    const glm::dvec2 across(-along.y, along.x);
+    return glm::dot(across, fromInside) < 0 ? -across : across;
+}
+
 }  // namespace
 
 std::vector<OutlineTie> outlineTies(const Light& room,
@@ -236,34 +259,24 @@ std::vector<OutlineTie> outlineTies(const Light& room,
                                     double reach) {
     std::vector<OutlineTie> ties;
     if (room.rgb.empty()) return ties;
-    std::vector<OutlinePoint> outline;
-    glm::dvec2 middle(0);
-    for (const glm::dvec3& base : screen.screen().border(0))
-        if (const auto seen = seenBy(lens, pose, screen.at(screen.screen().unrolled(base)).point)) {
-            outline.push_back({base, *seen});
-            middle += *seen;
-        }
-    if (outline.empty()) return ties;
-    middle /= static_cast<double>(outline.size());
+    const std::vector<OutlinePoint> outline = predictedOutline(screen, lens, pose);
     constexpr std::size_t kTies = 1000;
     // Odd: edges may take turns in the order of the points.
     const std::size_t step = (outline.size() / kTies) | 1U;
     for (std::size_t i = 0; i < outline.size(); i += step) {
-        const glm::dvec2 along = alongOutline(outline, outline[i]);
-        glm::dvec2 across(-along.y, along.x);
-        const BumpyScreen::Place inside =
-            screen.at(glm::mix(screen.screen().unrolled(outline[i].base), glm::dvec2(0.5), 0.02));
-        const auto seenInside = seenBy(lens, pose, inside.point);
-        if (!seenInside) continue;
-        if (glm::dot(across, outline[i].seen - *seenInside) < 0) across = -across;
-        const auto off = edgeAlong(room, outline[i].seen, across, reach);
+        const OutlinePoint& point = outline[i];
+        const glm::dvec2 unrolled = screen.screen().unrolled(point.base);
+        const auto inside =
+            seenBy(lens, pose, screen.at(glm::mix(unrolled, glm::dvec2(0.5), 0.02)).point);
+        if (!inside) continue;
+        const glm::dvec2 across = outwards(alongOutline(outline, point), point.seen - *inside);
+        const auto off = edgeAlong(room, point.seen, across, reach);
         if (!off) continue;
-        const glm::dvec2 unrolled = screen.screen().unrolled(outline[i].base);
         ties.push_back({.camera = camera,
                         .unrolled = unrolled,
-                        .base = outline[i].base,
-                        .baseNormal = glm::normalize(screen.screen().normalAt(outline[i].base)),
-                        .seen = outline[i].seen + *off * across,
+                        .base = point.base,
+                        .baseNormal = glm::normalize(screen.screen().normalAt(point.base)),
+                        .seen = point.seen + *off * across,
                         .across = across});
     }
     return ties;

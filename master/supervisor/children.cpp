@@ -62,7 +62,8 @@ std::filesystem::path siblingProgram(const std::string& name) {
     auto program = ownProgram().parent_path() / ("aquarama-" + name);
     if (!std::filesystem::exists(program)) {
         throw Error(program.string() +
-                    " is missing; build or install all of Aquarama's programs into one folder");
+                    " is missing; build or install all of Aquarama's programs into one folder" +
+                    (name == "solve" ? " (docs/calibration.md says how to build this one)" : ""));
     }
     return program;
 }
