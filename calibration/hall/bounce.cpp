@@ -52,26 +52,32 @@ Bounce::Bounce(const TrueHall& hall) : hall_{hall} {
         for (const Patch& from : patches_) shares_.push_back(shareOf(to, from));
 }
 
+namespace {
+
+// Places of a patch, so many each way.
+std::vector<glm::dvec2> placesOf(glm::ivec2 cell, int samples) {
+    std::vector<glm::dvec2> places;
+    for (int i = 0; i < samples * samples; ++i)
+        places.push_back(placeIn(cell, i % samples, i / samples, samples));
+    return places;
+}
+
+}  // namespace
+
 Bounce::Patch Bounce::patchAt(glm::ivec2 cell) const {
     const wall::ScreenSurface& shape = hall_.screen().shape();
     Patch patch;
     patch.middle = *shape.at(pulledIn(shape, placeIn(cell, 0, 0, 1)));
     patch.normal = glm::normalize(shape.normalAt(patch.middle));
     constexpr double kCount = double(kFormSamples) * kFormSamples * kPatches.x * kPatches.y;
-    for (int y = 0; y < kFormSamples; ++y)
-        for (int x = 0; x < kFormSamples; ++x) {
-            const glm::dvec2 place = placeIn(cell, x, y, kFormSamples);
-            const auto point = shape.at(place);
-            if (!point) continue;
+    for (const glm::dvec2 place : placesOf(cell, kFormSamples))
+        if (const auto point = shape.at(place))
             patch.samples.push_back({*point,
                                      glm::normalize(shape.normalAt(*point)),
                                      squareMetresAt(shape, place) / kCount});
-        }
     std::vector<glm::dvec3> points;
-    for (int y = 0; y < kLightSamples; ++y)
-        for (int x = 0; x < kLightSamples; ++x)
-            if (const auto point = hall_.screen().at(placeIn(cell, x, y, kLightSamples)))
-                points.push_back(*point);
+    for (const glm::dvec2 place : placesOf(cell, kLightSamples))
+        if (const auto point = hall_.screen().at(place)) points.push_back(*point);
     for (const glm::dvec3& point : points) light(patch, point, double(points.size()));
     return patch;
 }

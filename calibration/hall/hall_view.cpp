@@ -81,21 +81,23 @@ HallView::Arrival HallView::arrivalAt(glm::dvec2 pixel) const {
 HallView::Arrival HallView::arrivalIn(const std::vector<Arrival>& grid, int x, int y) const {
     const auto first = static_cast<std::size_t>(y / step_ * gridWidth_ + x / step_);
     if (step_ == 1) return grid[first];
-    const Arrival &a = grid[first], &b = grid[first + 1];
-    const Arrival &c = grid[first + static_cast<std::size_t>(gridWidth_)],
-                  &d = grid[first + static_cast<std::size_t>(gridWidth_) + 1];
-    const int screens = a.isScreen + b.isScreen + c.isScreen + d.isScreen;
-    const bool areThere = a.isThere && b.isThere && c.isThere && d.isThere;
-    if (!areThere || screens % 4 != 0) return arrivalAt(glm::dvec2(x, y) + 0.5);
+    const std::size_t below = first + static_cast<std::size_t>(gridWidth_);
+    const std::array corners{&grid[first], &grid[first + 1], &grid[below], &grid[below + 1]};
+    const auto alike = [&](const Arrival* arrival) {
+        return arrival->isThere && arrival->isScreen == corners[0]->isScreen;
+    };
+    if (!std::ranges::all_of(corners, alike)) return arrivalAt(glm::dvec2(x, y) + 0.5);
     const double s = double(x % step_) / step_, t = double(y % step_) / step_;
     const auto between = [&](auto member) {
-        return glm::mix(glm::mix(a.*member, b.*member, s), glm::mix(c.*member, d.*member, s), t);
+        return glm::mix(glm::mix(corners[0]->*member, corners[1]->*member, s),
+                        glm::mix(corners[2]->*member, corners[3]->*member, s),
+                        t);
     };
     return {.point = between(&Arrival::point),
             .normal = glm::normalize(between(&Arrival::normal)),
             .place = between(&Arrival::place),
             .isThere = true,
-            .isScreen = screens == 4};
+            .isScreen = corners[0]->isScreen};
 }
 
 float HallView::roomLight(const Arrival& arrival) const {
@@ -125,16 +127,21 @@ void HallView::add(const Arrival& arrival, int column, Row& row) const {
     row.place.emplace_back(arrival.place);
     row.room.push_back(roomLight(arrival));
     if (spot_) row.spot.push_back(spotLight(arrival));
-    if (!arrival.isThere) return;
-    for (std::size_t channel = 0; channel < row.beams.size(); ++channel) {
-        const auto pixel = hall_.lens(hall_.projectorOf(channel)).pixelOf(arrival.point);
-        if (!pixel) continue;
-        const double white = hall_.whiteOn(channel, arrival.point, arrival.normal);
-        if (white <= 0) continue;
-        row.beams[channel].push_back({.panelPixel = glm::vec2(*pixel),
-                                      .white = static_cast<float>(white),
-                                      .column = static_cast<std::uint16_t>(column)});
-    }
+    for (std::size_t channel = 0; arrival.isThere && channel < row.beams.size(); ++channel)
+        addBeam(arrival, column, channel, row.beams[channel]);
+}
+
+void HallView::addBeam(const Arrival& arrival,
+                       int column,
+                       std::size_t channel,
+                       std::vector<Beam>& beams) const {
+    const auto pixel = hall_.lens(hall_.projectorOf(channel)).pixelOf(arrival.point);
+    if (!pixel) return;
+    const double white = hall_.whiteOn(channel, arrival.point, arrival.normal);
+    if (white > 0)
+        beams.push_back({.panelPixel = glm::vec2(*pixel),
+                         .white = static_cast<float>(white),
+                         .column = static_cast<std::uint16_t>(column)});
 }
 
 // At the screen's edges, how much of a pixel is screen.
@@ -238,17 +245,22 @@ Light HallView::of(const std::vector<ThrownPicture>& pictures,
     return seen;
 }
 
+// Of a row: the white of some channels, pixel by pixel.
+std::vector<float> HallView::whiteOf(const Row& row, std::uint64_t channels) const {
+    std::vector<float> white(row.coverage.size());
+    for (std::size_t channel = 0; channel < row.beams.size(); ++channel)
+        if (((channels >> channel) & 1U) != 0)
+            for (const Beam& beam : row.beams[channel]) white[beam.column] += beam.white;
+    for (std::size_t x = 0; x < white.size(); ++x) white[x] *= albedo(row.coverage[x]);
+    return white;
+}
+
 float HallView::brightestOf(std::uint64_t channels) const {
     constexpr std::size_t kRows = 4;  // of so many one is looked at
     std::vector<float> lit;
-    for (std::size_t y = 0; y < rows_.size(); y += kRows) {
-        std::vector<float> sum(rows_[y].coverage.size());
-        for (std::size_t channel = 0; channel < rows_[y].beams.size(); ++channel)
-            if (((channels >> channel) & 1U) != 0)
-                for (const Beam& beam : rows_[y].beams[channel]) sum[beam.column] += beam.white;
-        for (std::size_t x = 0; x < sum.size(); ++x)
-            if (sum[x] > 0) lit.push_back(sum[x] * albedo(rows_[y].coverage[x]));
-    }
+    for (std::size_t y = 0; y < rows_.size(); y += kRows)
+        for (const float white : whiteOf(rows_[y], channels))
+            if (white > 0) lit.push_back(white);
     if (lit.empty()) return 0;
     const auto brightest = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() * 999 / 1000);
     std::nth_element(lit.begin(), brightest, lit.end());
@@ -296,6 +308,16 @@ glm::vec3 LitScreen::at(glm::dvec3 point) const {
     if (bounced_.rgb.size() > 1)
         falls += bilinear(bounced_, place * glm::dvec2(bounced_.sizePixels));
     return static_cast<float>(hall_.hall().screen.albedo) * falls;
+}
+
+Light LitScreen::panorama(glm::ivec2 sizePixels) const {
+    Light unrolled = darkness(sizePixels);
+    for (int y = 0; y < sizePixels.y; ++y)
+        for (int x = 0; x < sizePixels.x; ++x) {
+            const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / glm::dvec2(sizePixels);
+            if (const auto point = hall_.screen().at(place)) unrolled.at(x, y) = at(*point);
+        }
+    return unrolled;
 }
 
 }  // namespace aquarama::hall

@@ -65,6 +65,11 @@ class HallView {
     [[nodiscard]] Arrival arrivalIn(const std::vector<Arrival>& grid, int x, int y) const;
     [[nodiscard]] Row rowOf(const std::vector<Arrival>& grid, int y) const;
     void add(const Arrival& arrival, int column, Row& row) const;
+    void addBeam(const Arrival& arrival,
+                 int column,
+                 std::size_t channel,
+                 std::vector<Beam>& beams) const;
+    [[nodiscard]] std::vector<float> whiteOf(const Row& row, std::uint64_t channels) const;
     [[nodiscard]] std::vector<std::uint8_t> smoothed(int y) const;
     [[nodiscard]] float roomLight(const Arrival& arrival) const;
     [[nodiscard]] float spotLight(const Arrival& arrival) const;
@@ -104,12 +109,14 @@ class HallView {
                          std::span<const Light> channels,
                          const TrueLens& eye);
 
-// Pictures on the true screen: for eyes that walk round.
+// Pictures on the true screen, for any eye. Keeps a reference to the hall.
 class LitScreen {
   public:
     LitScreen(const TrueHall& hall, std::span<const Light> channels);
     // What the screen sends back at a point of it, or of the smooth screen under its bumps.
     [[nodiscard]] glm::vec3 at(glm::dvec3 point) const;
+    // The true screen, unrolled; black where the panorama shows none.
+    [[nodiscard]] Light panorama(glm::ivec2 sizePixels) const;
 
   private:
     const TrueHall& hall_;

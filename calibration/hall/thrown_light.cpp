@@ -55,25 +55,25 @@ std::size_t pixelsOf(glm::ivec2 size) {
     return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
 }
 
-// Lines that are all alike: rows of columns' patterns.
+bool isOfRows(config::ScanPattern::Kind kind) {
+    return kind == config::ScanPattern::Kind::GrayRows ||
+           kind == config::ScanPattern::Kind::PhaseRows;
+}
+
+// A pattern's light along its axis; across it is the same.
 void fillLines(const config::HallProjector& projector,
                config::ScanPattern pattern,
                std::size_t channel,
                ThrownPicture& out) {
-    using Kind = config::ScanPattern::Kind;
-    const bool isRows = pattern.kind == Kind::GrayRows || pattern.kind == Kind::PhaseRows;
+    const bool isRows = isOfRows(pattern.kind);
     pattern.tagged = false;
-    const glm::ivec2 size = out.sizePixels;
-    std::vector<glm::vec4> line(static_cast<std::size_t>(isRows ? size.y : size.x));
-    for (int i = 0; i < static_cast<int>(line.size()); ++i) {
-        const glm::ivec2 pixel = isRows ? glm::ivec2(0, i) : glm::ivec2(i, 0);
-        line[static_cast<std::size_t>(i)] =
-            sent(projector, wall::scanLight(pattern, channel, size, pixel));
-    }
-    for (std::size_t i = 0; i < out.light.size(); ++i) {
-        const auto width = static_cast<std::size_t>(size.x);
+    const glm::ivec2 size = out.sizePixels, way = isRows ? glm::ivec2(0, 1) : glm::ivec2(1, 0);
+    std::vector<glm::vec4> line;
+    for (int i = 0; i < (isRows ? size.y : size.x); ++i)
+        line.push_back(sent(projector, wall::scanLight(pattern, channel, size, i * way)));
+    const auto width = static_cast<std::size_t>(size.x);
+    for (std::size_t i = 0; i < out.light.size(); ++i)
         out.light[i] = line[isRows ? i / width : i % width];
-    }
 }
 
 void fillTag(const config::HallProjector& projector,
@@ -119,7 +119,7 @@ ThrownPicture asSent(const TrueHall& hall, std::size_t channel, ThrownPicture pi
 glm::vec4 ThrownPicture::at(glm::vec2 panelPixel) const {
     const glm::vec2 place = glm::vec2(scale) * panelPixel + glm::vec2(offset);
     const glm::vec2 size(sizePixels);
-    if (place.x < 0 || place.y < 0 || place.x > size.x || place.y > size.y) return black;
+    if (glm::clamp(place, glm::vec2(0), size) != place) return black;
     const glm::vec2 spot = glm::clamp(place - 0.5F, glm::vec2(0), size - 1.0F);
     const glm::ivec2 low(spot);
     const glm::vec2 t = spot - glm::vec2(low);

@@ -99,7 +99,7 @@ std::optional<glm::dvec2> TrueHall::pixelOf(std::size_t channel, glm::dvec3 poin
         return std::nullopt;
     const glm::dvec2 pixel = pictureFrom(channel, *panel);
     const glm::dvec2 size = rig_.channels[channel].sizePixels;
-    const bool inside = pixel.x >= 0 && pixel.y >= 0 && pixel.x <= size.x && pixel.y <= size.y;
+    const bool inside = glm::clamp(pixel, glm::dvec2(0), size) == pixel;
     return inside ? std::optional(pixel) : std::nullopt;
 }
 

@@ -15,6 +15,7 @@ namespace aquarama::hall {
 namespace {
 
 constexpr std::uint32_t kWaves = 14;
+constexpr double kBefore = 0.3;  // metres: more than any bump
 
 // A flat wall that fills the view of a curved one.
 config::Screen flattened(const config::Screen& curved) {
@@ -66,13 +67,19 @@ void TrueScreen::addBumps(const config::HallScreen& screen) {
                           chance.between(0, 2 * std::numbers::pi),
                           1.0});
     }
+    const double highest = highestBump();
+    for (Wave& wave : waves_) wave.metres = screen.bumpMetres / highest;
+}
+
+double TrueScreen::highestBump() const {
     double highest = 0;
     constexpr int kSteps = 128;
-    for (int y = 0; y <= kSteps; ++y)
-        for (int x = 0; x <= kSteps; ++x)
-            if (const auto foot = shape_->at(glm::dvec2(x, y) / double{kSteps}))
-                highest = std::max(highest, std::abs(heightAt(*foot)));
-    for (Wave& wave : waves_) wave.metres = screen.bumpMetres / highest;
+    for (int i = 0; i < kSteps * kSteps; ++i) {
+        const glm::dvec2 place = (glm::dvec2(i % kSteps, i / kSteps) + 0.5) / double{kSteps};
+        if (const auto foot = shape_->at(place))
+            highest = std::max(highest, std::abs(heightAt(*foot)));
+    }
+    return highest;
 }
 
 void TrueScreen::addDents(const config::HallScreen& screen) {
@@ -108,7 +115,6 @@ glm::dvec3 TrueScreen::slopeAt(glm::dvec3 foot) const {
 
 // From a little before the screen back to it.
 std::optional<glm::dvec3> TrueScreen::footOf(glm::dvec3 point) const {
-    constexpr double kBefore = 0.3;  // more than any bump
     const glm::dvec3 normal = glm::normalize(shape_->normalAt(point));
     return shape_->hit({point + kBefore * normal, -normal}, kDrapeMetres);
 }
@@ -120,14 +126,21 @@ std::optional<double> TrueScreen::gap(glm::dvec3 point, glm::dvec3& foot) const 
     return glm::dot(point - foot, glm::normalize(shape_->normalAt(foot))) - heightAt(foot);
 }
 
-// By the secant method, from where the ray meets the smooth shape.
 std::optional<TrueScreen::Meeting> TrueScreen::meet(const wall::Ray& ray) const {
     const auto smooth = shape_->hit(ray, kDrapeMetres);
     if (!smooth) return std::nullopt;
-    const double square = glm::dot(ray.direction, ray.direction);
-    double t = glm::dot(*smooth - ray.origin, ray.direction) / square;
-    double slope = glm::dot(ray.direction, glm::normalize(shape_->normalAt(*smooth)));
     Meeting meeting;
+    if (!approach(ray, *smooth, meeting)) return std::nullopt;
+    const glm::dvec3 normal = glm::normalize(shape_->normalAt(meeting.foot));
+    meeting.isScreen = shape_->hit({meeting.foot + kBefore * normal, -normal}, 0).has_value();
+    return meeting;
+}
+
+// By the secant method, from where the ray meets the smooth shape.
+bool TrueScreen::approach(const wall::Ray& ray, glm::dvec3 smooth, Meeting& meeting) const {
+    const double square = glm::dot(ray.direction, ray.direction);
+    double t = glm::dot(smooth - ray.origin, ray.direction) / square;
+    double slope = glm::dot(ray.direction, glm::normalize(shape_->normalAt(smooth)));
     std::optional<double> off = gap(along(ray, t), meeting.foot);
     for (int i = 0; off && std::abs(*off) > 1e-10 && i < 30; ++i) {
         const double step = -*off / slope;
@@ -136,12 +149,8 @@ std::optional<TrueScreen::Meeting> TrueScreen::meet(const wall::Ray& ray) const 
         if (next && *next != *off) slope = (*next - *off) / step;
         off = next;
     }
-    if (!off) return std::nullopt;
     meeting.point = along(ray, t);
-    const glm::dvec3 normal = shape_->normalAt(meeting.foot);
-    meeting.isScreen =
-        shape_->hit({meeting.foot + 0.3 * glm::normalize(normal), -normal}, 0).has_value();
-    return meeting;
+    return off.has_value();
 }
 
 std::optional<glm::dvec3> TrueScreen::hit(const wall::Ray& ray) const {

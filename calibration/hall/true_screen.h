@@ -53,10 +53,13 @@ class TrueScreen {
         double radius, depth;
     };
     void addBumps(const config::HallScreen& screen);
+    [[nodiscard]] double highestBump() const;
     void addDents(const config::HallScreen& screen);
     [[nodiscard]] std::optional<glm::dvec3> footOf(glm::dvec3 point) const;
     // How far a point is before the bumpy screen; nothing far beside it.
     [[nodiscard]] std::optional<double> gap(glm::dvec3 point, glm::dvec3& foot) const;
+    // False where the ray leaves the drape.
+    [[nodiscard]] bool approach(const wall::Ray& ray, glm::dvec3 smooth, Meeting& meeting) const;
     [[nodiscard]] glm::dvec3 raised(glm::dvec3 foot) const;
     [[nodiscard]] glm::dvec3 slopeAt(glm::dvec3 foot) const;
 

@@ -482,7 +482,7 @@ AxisSignals::AxisSignals(AxisCode axisCode, std::size_t pixels)
     for (Plane* plane : {&cosine, &sine, &sum, &alternate}) plane->resize(pixels);
 }
 
-void AxisSignals::add(const Frame& frame,
+void AxisSignals::add(const ScanFrame& frame,
                       const Round& round,
                       const std::vector<ChannelView>& views,
                       WorkerPool& pool) {
@@ -492,7 +492,7 @@ void AxisSignals::add(const Frame& frame,
         addPhase(frame, pool);
 }
 
-void AxisSignals::addStripes(const Frame& frame,
+void AxisSignals::addStripes(const ScanFrame& frame,
                              const Round& round,
                              const std::vector<ChannelView>& views,
                              WorkerPool& pool) {
@@ -512,7 +512,7 @@ void AxisSignals::addStripes(const Frame& frame,
     });
 }
 
-void AxisSignals::addPhase(const Frame& frame, WorkerPool& pool) {
+void AxisSignals::addPhase(const ScanFrame& frame, WorkerPool& pool) {
     const std::uint8_t step = frame.pattern->step;
     Plane& wave = step % 2 == 0 ? cosine : sine;
     const float sign = step < 2 ? 1.0F : -1.0F;

@@ -44,17 +44,17 @@ struct AxisSignals {
     Plane cosine, sine, sum, alternate;
 
     AxisSignals(AxisCode axisCode, std::size_t pixels);
-    void add(const Frame& frame,
+    void add(const ScanFrame& frame,
              const Round& round,
              const std::vector<ChannelView>& views,
              WorkerPool& pool);
 
   private:
-    void addStripes(const Frame& frame,
+    void addStripes(const ScanFrame& frame,
                     const Round& round,
                     const std::vector<ChannelView>& views,
                     WorkerPool& pool);
-    void addPhase(const Frame& frame, WorkerPool& pool);
+    void addPhase(const ScanFrame& frame, WorkerPool& pool);
 };
 
 // What stripes look like when blurred, along one axis of a picture: 1 lit, -1 dark.

@@ -261,12 +261,12 @@ class Decoder {
     }
 
   private:
-    [[nodiscard]] Frame next() {
+    [[nodiscard]] ScanFrame next() {
         const std::size_t index = order_[read_++];
         return reader_.read(index,
                             read_ < order_.size() ? std::optional(order_[read_]) : std::nullopt);
     }
-    [[nodiscard]] Light lightOfFrame(const Frame& frame) const {
+    [[nodiscard]] Light lightOfFrame(const ScanFrame& frame) const {
         Light light = lightOf(frame.picture, source_.scan().cameras[camera_].response);
         const float scale = reader_.exposureScale(frame.index);
         for (glm::vec3& rgb : light.rgb) rgb *= scale;
@@ -274,14 +274,14 @@ class Decoder {
     }
 
     void readBlack() {
-        Frame frame = next();
+        ScanFrame frame = next();
         view_.sizePixels = reader_.sizePixels();
         view_.black = lightOfFrame(frame);
         black_ = std::move(frame.luminance);
     }
 
     void readWhite(std::size_t channel) {
-        const Frame frame = next();
+        const ScanFrame frame = next();
         const auto most = static_cast<float>((1 << frame.picture.bits) - 1);
         const auto full = static_cast<std::uint16_t>(0.995F * most);
         ChannelView& view = view_.channels[channel];

@@ -72,8 +72,8 @@ float FrameReader::exposureScale(std::size_t index) const {
     return static_cast<float>(*exposure_ / source_.scan().pictures[index].exposureSeconds);
 }
 
-Frame FrameReader::read(std::size_t index, std::optional<std::size_t> next) {
-    Frame frame{.index = index,
+ScanFrame FrameReader::read(std::size_t index, std::optional<std::size_t> next) {
+    ScanFrame frame{.index = index,
                 .pattern = &source_.scan().pictures.at(index).pattern,
                 .picture = {},
                 .luminance = {}};
@@ -87,7 +87,7 @@ Frame FrameReader::read(std::size_t index, std::optional<std::size_t> next) {
     return frame;
 }
 
-void FrameReader::measure(Frame& frame) {
+void FrameReader::measure(ScanFrame& frame) {
     if (!exposure_) {
         exposure_ = source_.scan().pictures[frame.index].exposureSeconds;
         size_ = frame.picture.sizePixels;

@@ -44,7 +44,7 @@ struct SmallPictures {
 
 // A picture as it was taken, and its luminance; light of all exposures is brought to that of the
 // first picture.
-struct Frame {
+struct ScanFrame {
     std::size_t index = 0;  // in the scan
     const config::ScanPattern* pattern = nullptr;
     Picture picture;
@@ -57,13 +57,13 @@ class FrameReader {
   public:
     FrameReader(PictureSource& source, std::uint32_t camera, WorkerPool& pool);
     // Throws Error as the source does.
-    [[nodiscard]] Frame read(std::size_t index, std::optional<std::size_t> next);
+    [[nodiscard]] ScanFrame read(std::size_t index, std::optional<std::size_t> next);
     [[nodiscard]] glm::ivec2 sizePixels() const { return size_; }
     [[nodiscard]] SmallPictures& small() { return small_; }
     [[nodiscard]] float exposureScale(std::size_t index) const;
 
   private:
-    void measure(Frame& frame);
+    void measure(ScanFrame& frame);
 
     PictureSource& source_;
     config::ScanCamera camera_;

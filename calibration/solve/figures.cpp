@@ -11,7 +11,7 @@
 
 namespace aquarama::solve {
 
-const char* nameOf(Verdict verdict) {
+const char* nameOf(Judgement verdict) {
     constexpr std::array kNames{"pass", "warn", "refuse"};
     return kNames.at(static_cast<std::size_t>(verdict));
 }
@@ -71,7 +71,7 @@ bool isWithin(const SolveFigures& figures, const Bounds& bounds) {
            figures.overlapMax <= bounds.most;
 }
 
-void take(Figures& figures, Verdict verdict, const scan::ScanFault& fault) {
+void take(Figures& figures, Judgement verdict, const scan::ScanFault& fault) {
     if (verdict <= figures.verdict && !figures.cause.empty()) return;
     figures.verdict = std::max(verdict, figures.verdict);
     figures.cause = fault.cause;
@@ -82,13 +82,13 @@ void judgeOverlaps(Figures& figures, const SolveFigures& solved) {
     constexpr std::size_t kLeastPoints = 8;
     if (solved.overlapPoints < kLeastPoints)
         return take(figures,
-                    Verdict::Refuse,
+                    Judgement::Refuse,
                     {"no_overlap",
                      "the camera sees no place that two channels light: let neighbours overlap by "
                      "a tenth of their pictures"});
     if (isWithin(solved, kGood)) return;
     take(figures,
-         isWithin(solved, kUsable) ? Verdict::Warn : Verdict::Refuse,
+         isWithin(solved, kUsable) ? Judgement::Warn : Judgement::Refuse,
          {"misregistration",
           fmt::format("neighbours part by {:.2f} panorama pixels (RMS) at places that were kept "
                       "from the solve: let nothing move during the scan, focus the camera and scan "
@@ -100,7 +100,7 @@ void judgeOverlaps(Figures& figures, const SolveFigures& solved) {
 void judgeDome(Figures& figures, const config::Rig& rig) {
     if (rig.screen.shape != config::ScreenShape::Dome) return;
     take(figures,
-         Verdict::Warn,
+         Judgement::Warn,
          {"dome_front",
           "the camera does not see where the front of a dome is: what is in front is known as well "
           "as the rig knows where its projectors hang; turn them in the rig where it is off"});
@@ -111,13 +111,13 @@ void judgeOutline(Figures& figures, const SolveFigures& solved) {
     constexpr double kMostPixels = 1.5;
     if (solved.outlinePoints < kLeastPoints)
         take(figures,
-             Verdict::Warn,
+             Judgement::Warn,
              {"outline_not_seen",
               "the outline of the screen is not seen all round, so the whole picture may be off: "
               "show all of the screen to the camera, and light the room for the first picture"});
     else if (solved.outlineRms > kMostPixels)
         take(figures,
-             Verdict::Refuse,
+             Judgement::Refuse,
              {"wrong_screen",
               fmt::format("the screen's outline is {:.1f} camera pixels off (RMS) from what the "
                           "rig says: measure the screen and correct the rig",
@@ -127,13 +127,13 @@ void judgeOutline(Figures& figures, const SolveFigures& solved) {
 }  // namespace
 
 Figures judged(const std::vector<scan::CameraView>& views, const Solved& solved) {
-    Figures figures{.verdict = Verdict::Pass, .cause = {}, .advice = {}};
+    Figures figures{.verdict = Judgement::Pass, .cause = {}, .advice = {}};
     // Exchanged cables make channels look hidden, so what the solve found goes first.
     for (const scan::ScanFault& fault : solved.faults)
-        take(figures, fault.refuses ? Verdict::Refuse : Verdict::Warn, fault);
+        take(figures, fault.refuses ? Judgement::Refuse : Judgement::Warn, fault);
     for (const scan::CameraView& view : views)
         for (const scan::ScanFault& fault : view.faults)
-            take(figures, fault.refuses ? Verdict::Refuse : Verdict::Warn, fault);
+            take(figures, fault.refuses ? Judgement::Refuse : Judgement::Warn, fault);
     if (solved.faults.empty()) {
         judgeOverlaps(figures, solved.figures);
         judgeOutline(figures, solved.figures);

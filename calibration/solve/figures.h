@@ -13,8 +13,8 @@
 
 namespace aquarama::solve {
 
-enum class Verdict : std::uint8_t { Pass, Warn, Refuse };
-[[nodiscard]] const char* nameOf(Verdict verdict);
+enum class Judgement : std::uint8_t { Pass, Warn, Refuse };
+[[nodiscard]] const char* nameOf(Judgement verdict);
 
 // Errors of a wall in panorama pixels: between two channels that show one point, and between what
 // a channel shows at a point and what belongs there.
@@ -29,7 +29,7 @@ struct WallErrors {
                                   std::size_t points);
 
 struct Figures {
-    Verdict verdict = Verdict::Refuse;
+    Judgement verdict = Judgement::Refuse;
     std::string cause, advice;  // empty where it passes
     double overlapRms = 0, overlapP95 = 0, overlapMax = 0;
     // Known in a simulated hall alone; else what the solve thinks of itself.

@@ -250,20 +250,20 @@ struct Expectation {
     static constexpr double kBendMetres = 0.008;  // between neighbouring controls
 };
 
-std::vector<int> heldLensParameters(Stage stage, bool isCamera) {
-    if (stage == Stage::Poses) {
+std::vector<int> heldLensParameters(FreeParts stage, bool isCamera) {
+    if (stage == FreeParts::Poses) {
         std::vector<int> held{lens::Aspect, lens::K1, lens::K2, lens::K3, lens::P1, lens::P2};
         if (isCamera) held.insert(held.end(), {lens::CentreX, lens::CentreY});
         return held;
     }
     if (isCamera) return {lens::Aspect};
-    return stage == Stage::Lenses ? std::vector<int>{lens::K3} : std::vector<int>{};
+    return stage == FreeParts::Lenses ? std::vector<int>{lens::K3} : std::vector<int>{};
 }
 
 }  // namespace
 
 // One problem for Ceres, built of the hall as it is so far; solving it moves the hall.
-class Joint::Problem {
+class JointProblem::Problem {
   public:
     Problem(SolvedHall& hall,
             const std::vector<Device>& expected,
@@ -302,11 +302,11 @@ class Joint::Problem {
         problem_.AddResidualBlock(cost, new ceres::CauchyLoss(2.0), blocks);
     }
 
-    void solve(Stage stage, int steps) {
+    void solve(FreeParts stage, int steps) {
         for (Device& camera : hall_.cameras) hold(camera, heldLensParameters(stage, true));
         for (Device& projector : hall_.projectors)
             hold(projector, heldLensParameters(stage, false));
-        if (stage != Stage::Bumps)
+        if (stage != FreeParts::Bumps)
             for (double& control : hall_.screen.displacement().controls())
                 problem_.SetParameterBlockConstant(&control);
         ceres::Solver::Options options;
@@ -485,23 +485,23 @@ class Joint::Problem {
     ceres::Problem problem_;
 };
 
-Joint::Joint(SolvedHall& hall,
+JointProblem::JointProblem(SolvedHall& hall,
              const std::vector<Device>& expected,
              const std::vector<glm::ivec2>& cameraSizes)
     : problem_{std::make_unique<Problem>(hall, expected, cameraSizes)} {}
 
-Joint::~Joint() = default;
+JointProblem::~JointProblem() = default;
 
-void Joint::add(const Tie& tie, double sigma) {
+void JointProblem::add(const Tie& tie, double sigma) {
     problem_->add(tie, sigma);
 }
-void Joint::add(const OutlineTie& tie, double sigma) {
+void JointProblem::add(const OutlineTie& tie, double sigma) {
     problem_->add(tie, sigma);
 }
-void Joint::solve(Stage stage, int mostSteps) {
+void JointProblem::solve(FreeParts stage, int mostSteps) {
     problem_->solve(stage, mostSteps);
 }
-std::vector<double> Joint::uncertainty(std::size_t camera, const std::vector<glm::dvec2>& seen) {
+std::vector<double> JointProblem::uncertainty(std::size_t camera, const std::vector<glm::dvec2>& seen) {
     return problem_->uncertainty(camera, seen);
 }
 

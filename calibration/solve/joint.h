@@ -13,21 +13,21 @@
 namespace aquarama::solve {
 
 // What is free: first where things stand, then what lenses do as well, at last the screen too.
-enum class Stage : std::uint8_t { Poses, Lenses, Bumps };
+enum class FreeParts : std::uint8_t { Poses, Lenses, Bumps };
 
 // A problem that is built of the hall as it is so far; solving it moves the hall, which outlives
 // it. `expected`: projectors as the rig has them; what is solved stays near them.
-class Joint {
+class JointProblem {
   public:
-    Joint(SolvedHall& hall,
+    JointProblem(SolvedHall& hall,
           const std::vector<Device>& expected,
           const std::vector<glm::ivec2>& cameraSizes);
-    ~Joint();
+    ~JointProblem();
 
     // Standard deviations, pixels of the channel and of the camera. A tie's own is added.
     void add(const Tie& tie, double sigma);
     void add(const OutlineTie& tie, double sigma);
-    void solve(Stage stage, int mostSteps);
+    void solve(FreeParts stage, int mostSteps);
 
     // After the stage of bumps: how well the place in the panorama of what a camera sees is known,
     // as a standard deviation in its pixels, by the errors of the ties alone.

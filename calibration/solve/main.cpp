@@ -103,12 +103,12 @@ class Calibration {
         }
         const solve::Solved solved = solve::solveHall(rig_, wall_, views, say);
         solve::Figures figures = solve::judged(views, solved);
-        if (figures.verdict != solve::Verdict::Refuse) write(solved, figures);
+        if (figures.verdict != solve::Judgement::Refuse) write(solved, figures);
         figures.seconds = secondsSince(begin);
         figures.pictures = source_->scan().pictures.size();
         figures.peakMegabytes = peakMegabytes();
         report(figures);
-        return figures.verdict == solve::Verdict::Refuse ? 1 : 0;
+        return figures.verdict == solve::Judgement::Refuse ? 1 : 0;
     }
 
   private:
@@ -155,7 +155,7 @@ class Calibration {
                         solve::nameOf(figures.verdict),
                         figures.cause.empty() ? "" : ": " + figures.cause + ": ",
                         figures.advice));
-        if (figures.verdict == solve::Verdict::Refuse) return;
+        if (figures.verdict == solve::Judgement::Refuse) return;
         say(fmt::format("neighbours part by {:.2f} panorama pixels (RMS; 95 % {:.2f}, most {:.2f})",
                         figures.overlapRms,
                         figures.overlapP95,

@@ -88,17 +88,17 @@ std::vector<OutlineTie> outlinesOf(const SolvedHall& hall,
 
 // One pass of the joint solve: what is free, where the outline is looked for, and how far off
 // outline and ties may be, beside their own noise.
-struct Round {
-    Stage stage;
+struct Pass {
+    FreeParts stage;
     double outlineReach;  // of the picture's width
     double outlinePixels, tiePixels;
     int mostSteps;
 };
 // What models of lenses do not know is a tenth of a pixel in the end.
-constexpr std::array kRounds{Round{Stage::Poses, 0.04, 8, 4, 25},
-                             Round{Stage::Lenses, 0.015, 2, 1, 20},
-                             Round{Stage::Bumps, 0.006, 0.7, 0.3, 20},
-                             Round{Stage::Bumps, 0.003, 0.2, 0.12, 25}};
+constexpr std::array kPasses{Pass{FreeParts::Poses, 0.04, 8, 4, 25},
+                             Pass{FreeParts::Lenses, 0.015, 2, 1, 20},
+                             Pass{FreeParts::Bumps, 0.006, 0.7, 0.3, 20},
+                             Pass{FreeParts::Bumps, 0.003, 0.2, 0.12, 25}};
 
 double outlineRms(const SolvedHall& hall, const std::vector<OutlineTie>& outline) {
     std::vector<double> off;
@@ -127,14 +127,14 @@ void fit(Solved& solved, const std::vector<scan::CameraView>& views) {
     const std::vector<Device> expected = hall.projectors;
     std::vector<glm::ivec2> sizes;
     for (const scan::CameraView& view : views) sizes.push_back(view.sizePixels);
-    for (const Round& round : kRounds) {
-        Joint joint(hall, expected, sizes);
+    for (const Pass& round : kPasses) {
+        JointProblem joint(hall, expected, sizes);
         for (const Tie& tie : solved.ties)
             if (!tie.heldOut) joint.add(tie, round.tiePixels);
         const std::vector<OutlineTie> outline = outlinesOf(hall, views, round.outlineReach);
         for (const OutlineTie& tie : outline) joint.add(tie, round.outlinePixels);
         joint.solve(round.stage, round.mostSteps);
-        if (&round != &kRounds.back()) continue;
+        if (&round != &kPasses.back()) continue;
         solved.figures.outlinePoints = outline.size();
         solved.figures.outlineRms = outlineRms(hall, outline);
         solved.figures.absoluteSigma = rootMeanSquare(joint.uncertainty(0, someSeen(solved.ties)));

@@ -146,17 +146,17 @@ double luminance(const glm::vec3& light) {
 }
 
 // Light along a line: samples in steps, from `from` steps before a place.
-struct Profile {
+struct LightProfile {
     std::vector<double> light;
     long from = 0;
 };
 constexpr double kProfileStep = 0.5;  // pixels
 
 // As far as the line lies in the picture.
-Profile profileAlong(const Light& room, glm::dvec2 at, glm::dvec2 outwards, double reach) {
+LightProfile profileAlong(const Light& room, glm::dvec2 at, glm::dvec2 outwards, double reach) {
     const glm::dvec2 size(room.sizePixels);
     const auto steps = static_cast<long>(reach / kProfileStep);
-    Profile profile;
+    LightProfile profile;
     for (long i = -steps; i <= steps; ++i) {
         const glm::dvec2 place = at + outwards * (kProfileStep * static_cast<double>(i));
         const bool isInside =
@@ -197,7 +197,7 @@ std::optional<double> edgeAlong(const Light& room,
                                 glm::dvec2 at,
                                 glm::dvec2 outwards,
                                 double reach) {
-    const Profile profile = profileAlong(room, at, outwards, reach + 4 * kProfileStep);
+    const LightProfile profile = profileAlong(room, at, outwards, reach + 4 * kProfileStep);
     const auto index = steepest(profile.light);
     if (!index) return std::nullopt;
     return kProfileStep * (*index + static_cast<double>(profile.from));

@@ -193,21 +193,28 @@ ScreenLight screenLight(const wall::Wall& wall,
 
 }  // namespace
 
-Light composeHall(const config::Rig& rig,
+Light composeHall(const wall::ScreenSurface& screen,
                   const Light& panorama,
-                  glm::ivec2 sizePixels,
-                  std::span<const Light> channels) {
+                  const ScreenLight& light,
+                  glm::ivec2 sizePixels) {
     assert(sizePixels.x > 0);
     assert(sizePixels.y > 0);
-    if (rig.screen.shape != config::ScreenShape::Panels) channels = {};
-    const wall::Wall wall(rig);
-    const Eye eye = eyeAtTheBack(wall.screen(), sizePixels);
-    const Room room(wall.screen(), panorama, screenLight(wall, panorama, channels), eye.position);
+    const Eye eye = eyeAtTheBack(screen, sizePixels);
+    const Room room(screen, panorama, light, eye.position);
     Light hall = darkness(sizePixels);
     WorkerPool(std::thread::hardware_concurrency())
         .run(static_cast<std::size_t>(sizePixels.y),
              [&](std::size_t y) { drawRow(room, eye, static_cast<int>(y), hall); });
     return hall;
+}
+
+Light composeHall(const config::Rig& rig,
+                  const Light& panorama,
+                  glm::ivec2 sizePixels,
+                  std::span<const Light> channels) {
+    if (rig.screen.shape != config::ScreenShape::Panels) channels = {};
+    const wall::Wall wall(rig);
+    return composeHall(wall.screen(), panorama, screenLight(wall, panorama, channels), sizePixels);
 }
 
 std::vector<Light> readChannels(const config::Rig& rig, const std::string& folder) {

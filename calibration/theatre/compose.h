@@ -10,8 +10,10 @@
 
 #include <glm/vec2.hpp>
 
+#include "calibration/theatre/room.h"
 #include "common/base/picture.h"
 #include "common/config/rig.h"
+#include "common/wall/surface.h"
 
 namespace aquarama::theatre {
 
@@ -47,6 +49,13 @@ inline constexpr glm::ivec2 kHallPixels(1600, 900);
                                 const Light& panorama,
                                 glm::ivec2 sizePixels,
                                 std::span<const Light> channels = {});
+
+// The same of any light on a screen, which may differ from what a rig means. `panorama`: the
+// screen's, coarse, for what it throws on the room.
+[[nodiscard]] Light composeHall(const wall::ScreenSurface& screen,
+                                const Light& panorama,
+                                const ScreenLight& light,
+                                glm::ivec2 sizePixels);
 
 // What every channel of folder/channel-NAME.png throws on the wall, seen without glasses: of two
 // eyes that its display parts again the mean of channel-NAME.left_eye.png and .right_eye.png.

@@ -72,21 +72,34 @@ void requireCount(
                            std::to_string(needs) + " or none");
 }
 
+// All of a list of numbers, each from `least` to `most`; nothing where there are none.
+std::vector<double> numbersOf(const HallReader& reader,
+                              const v1::HallProjector& in,
+                              const std::string& field,
+                              const google::protobuf::RepeatedField<float>& list,
+                              std::array<double, 2> bounds) {
+    std::vector<double> numbers;
+    for (const float number : list) {
+        if (!(double(number) >= bounds[0] && double(number) <= bounds[1]))
+            reader.file.refuse(in,
+                               field,
+                               field + " has numbers from " + std::to_string(bounds[0]) + " to " +
+                                   std::to_string(bounds[1]),
+                               static_cast<int>(numbers.size()));
+        numbers.push_back(double(number));
+    }
+    return numbers;
+}
+
 // What it does with light.
 void readLight(const HallReader& reader, const v1::HallProjector& in, HallProjector& out) {
     requireCount(reader, in, "gamma", in.gamma_size(), 3);
     requireCount(reader, in, "primaries", in.primaries_size(), 9);
-    for (int i = 0; i < in.gamma_size(); ++i) {
-        if (!(in.gamma(i) >= 0.5 && in.gamma(i) <= 5))
-            reader.file.refuse(in, "gamma", "gamma is from 0.5 to 5", i);
-        if (i == 0) out.gamma.emplace();
-        (*out.gamma)[i] = in.gamma(i);
-    }
-    for (int i = 0; i < in.primaries_size(); ++i) {
-        if (!(in.primaries(i) >= -2 && in.primaries(i) <= 2))
-            reader.file.refuse(in, "primaries", "a value of primaries is from -2 to 2", i);
-        out.primaries[i % 3][i / 3] = in.primaries(i);
-    }
+    const auto gamma = numbersOf(reader, in, "gamma", in.gamma(), {0.5, 5});
+    if (!gamma.empty()) out.gamma = {gamma[0], gamma[1], gamma[2]};
+    const auto primaries = numbersOf(reader, in, "primaries", in.primaries(), {-2, 2});
+    for (std::size_t i = 0; i < primaries.size(); ++i)
+        out.primaries[static_cast<int>(i % 3)][static_cast<int>(i / 3)] = primaries[i];
     out.toe = in.toe();
     out.knee = in.knee();
     out.black = in.black();

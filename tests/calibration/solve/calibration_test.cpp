@@ -37,7 +37,7 @@ Outcome calibrated(const config::Rig& rig, const config::Hall& hall) {
     const wall::Wall wall(rig);
     const Solved solved = solveHall(rig, wall, views, [](const std::string&) {});
     Outcome outcome{.figures = judged(views, solved), .errors = {}};
-    if (outcome.figures.verdict == Verdict::Refuse) return outcome;
+    if (outcome.figures.verdict == Judgement::Refuse) return outcome;
     constexpr std::size_t kPoints = 10000;
     outcome.errors = errorsOf(truth, rig, wallFileOf(*solved.hall), kPoints);
     return outcome;
@@ -75,7 +75,7 @@ TEST(Calibration, ofRandomHallsIsWithinItsBounds) {
         const bool isDome = rig.screen.shape == config::ScreenShape::Dome;
         const Outcome outcome = calibrated(rig, hall::randomHall(rig, seed, scale));
         print("rig " + std::to_string(seed), outcome);
-        EXPECT_EQ(outcome.figures.verdict, isDome ? Verdict::Warn : Verdict::Pass)
+        EXPECT_EQ(outcome.figures.verdict, isDome ? Judgement::Warn : Judgement::Pass)
             << "rig " << seed << ": " << outcome.figures.cause;
         EXPECT_GT(outcome.errors.overlap.size(), 500U);
         EXPECT_TRUE(isWithinBounds(outcome.errors, isDome)) << "rig " << seed;
@@ -99,9 +99,9 @@ TEST(Calibration, passesNoHallWithAFaultThatItDoesNotSolve) {
         const Outcome outcome = calibrated(rig, hall);
         print(what, outcome);
         const bool isNamed = !outcome.figures.cause.empty() && !outcome.figures.advice.empty();
-        EXPECT_TRUE(outcome.figures.verdict == Verdict::Pass || isNamed) << what;
+        EXPECT_TRUE(outcome.figures.verdict == Judgement::Pass || isNamed) << what;
         const bool isFalse =
-            outcome.figures.verdict == Verdict::Pass && !isWithinBounds(outcome.errors, isDome);
+            outcome.figures.verdict == Judgement::Pass && !isWithinBounds(outcome.errors, isDome);
         EXPECT_FALSE(isFalse) << what << " is a false accept";
     }
 }
