@@ -74,9 +74,9 @@ float FrameReader::exposureScale(std::size_t index) const {
 
 ScanFrame FrameReader::read(std::size_t index, std::optional<std::size_t> next) {
     ScanFrame frame{.index = index,
-                .pattern = &source_.scan().pictures.at(index).pattern,
-                .picture = {},
-                .luminance = {}};
+                    .pattern = &source_.scan().pictures.at(index).pattern,
+                    .picture = {},
+                    .luminance = {}};
     const bool isRead = ahead_.valid() && aheadIndex_ == index;
     frame.picture = isRead ? ahead_.get() : source_.picture(index);
     if (next) {

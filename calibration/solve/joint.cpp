@@ -486,8 +486,8 @@ class JointProblem::Problem {
 };
 
 JointProblem::JointProblem(SolvedHall& hall,
-             const std::vector<Device>& expected,
-             const std::vector<glm::ivec2>& cameraSizes)
+                           const std::vector<Device>& expected,
+                           const std::vector<glm::ivec2>& cameraSizes)
     : problem_{std::make_unique<Problem>(hall, expected, cameraSizes)} {}
 
 JointProblem::~JointProblem() = default;
@@ -501,7 +501,8 @@ void JointProblem::add(const OutlineTie& tie, double sigma) {
 void JointProblem::solve(FreeParts stage, int mostSteps) {
     problem_->solve(stage, mostSteps);
 }
-std::vector<double> JointProblem::uncertainty(std::size_t camera, const std::vector<glm::dvec2>& seen) {
+std::vector<double> JointProblem::uncertainty(std::size_t camera,
+                                              const std::vector<glm::dvec2>& seen) {
     return problem_->uncertainty(camera, seen);
 }
 

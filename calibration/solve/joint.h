@@ -20,8 +20,8 @@ enum class FreeParts : std::uint8_t { Poses, Lenses, Bumps };
 class JointProblem {
   public:
     JointProblem(SolvedHall& hall,
-          const std::vector<Device>& expected,
-          const std::vector<glm::ivec2>& cameraSizes);
+                 const std::vector<Device>& expected,
+                 const std::vector<glm::ivec2>& cameraSizes);
     ~JointProblem();
 
     // Standard deviations, pixels of the channel and of the camera. A tie's own is added.

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "calibration/theatre/room.h"
 #include "common/base/log.h"
@@ -106,16 +107,16 @@ std::string sizeText(glm::ivec2 size) {
 }
 
 // `eye` is empty for what the display shows, or of one eye: ".left_eye".
-Light readChannel(const config::Channel& channel,
-                  const std::string& folder,
-                  const std::string& eye) {
+Picture readChannel(const config::Channel& channel,
+                    const std::string& folder,
+                    const std::string& eye) {
     const std::string path = folder + "/channel-" + channel.name + eye + ".png";
     const Picture picture = readPng(path);
     if (picture.sizePixels != channel.sizePixels)
         throw Error(path + ": is " + sizeText(picture.sizePixels) +
                     " pixels, the rig's channel \"" + channel.name + "\" has " +
                     sizeText(channel.sizePixels) + "; take the snapshot with this rig");
-    return lightOf(picture);
+    return picture;
 }
 
 // Whether the picture is what the display throws on the wall. Displays of the other modes part the
@@ -134,10 +135,12 @@ Light meanOf(Light one, const Light& other) {
 std::vector<Light> readEye(const config::Rig& rig,
                            const std::string& folder,
                            const std::string& eye) {
+    const Projectors projectors(rig);
     std::vector<Light> channels;
     for (std::size_t i = 0; i < rig.channels.size(); ++i) {
         const bool two = wall::stereoOf(rig, i).mode != config::StereoMode::Mono;
-        channels.push_back(readChannel(rig.channels[i], folder, two ? eye : ""));
+        channels.push_back(
+            projectors.thrown(i, readChannel(rig.channels[i], folder, two ? eye : "")));
     }
     return channels;
 }
@@ -149,6 +152,35 @@ bool hasStereo(const config::Rig& rig) {
 }
 
 }  // namespace
+
+namespace {
+
+// Of the projector's own red, green and blue.
+std::array<std::vector<float>, 3> lightOfCodes(const formats::ChannelColour& colour, int bits) {
+    std::array<std::vector<float>, 3> light;
+    const std::size_t codes = std::size_t{1} << bits;
+    for (std::size_t c = 0; c < light.size(); ++c)
+        for (std::size_t code = 0; code < codes; ++code)
+            light[c].push_back(static_cast<float>(formats::lightFor(
+                colour.response[c], static_cast<double>(code) / static_cast<double>(codes - 1))));
+    return light;
+}
+
+}  // namespace
+
+Light Projectors::thrown(std::size_t channel, const Picture& picture) const {
+    assert(channel < colours_.size());
+    const std::optional<formats::ChannelColour>& colour = colours_[channel];
+    if (!colour) return lightOf(picture);
+    const auto [red, green, blue] = lightOfCodes(*colour, picture.bits);
+    const glm::mat3 lightFromOwn(glm::inverse(glm::dmat3(colour->mix)));
+    Light light = darkness(picture.sizePixels);
+    for (std::size_t i = 0; i < light.rgb.size(); ++i) {
+        const std::uint16_t* codes = &picture.rgb[3 * i];
+        light.rgb[i] = lightFromOwn * glm::vec3(red[codes[0]], green[codes[1]], blue[codes[2]]);
+    }
+    return light;
+}
 
 PanoramaMap::PanoramaMap(const config::Rig& rig) : sizePixels_{rig.panoramaPixels} {
     const wall::Wall wall(rig);
@@ -218,13 +250,15 @@ Light composeHall(const config::Rig& rig,
 }
 
 std::vector<Light> readChannels(const config::Rig& rig, const std::string& folder) {
+    const Projectors projectors(rig);
     std::vector<Light> channels;
     for (std::size_t i = 0; i < rig.channels.size(); ++i) {
-        const config::Channel& channel = rig.channels[i];
+        const auto light = [&](const char* eye) {
+            return projectors.thrown(i, readChannel(rig.channels[i], folder, eye));
+        };
         channels.push_back(showsAsItIs(wall::stereoOf(rig, i).mode)
-                               ? readChannel(channel, folder, "")
-                               : meanOf(readChannel(channel, folder, ".left_eye"),
-                                        readChannel(channel, folder, ".right_eye")));
+                               ? light("")
+                               : meanOf(light(".left_eye"), light(".right_eye")));
     }
     return channels;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,9 +14,23 @@
 #include "calibration/theatre/room.h"
 #include "common/base/picture.h"
 #include "common/config/rig.h"
+#include "common/formats/wall_file.h"
+#include "common/wall/optics.h"
 #include "common/wall/surface.h"
 
 namespace aquarama::theatre {
+
+// What projectors throw for the codes of their pictures: sRGB, or where a channel's wall file has a
+// colour what that says. Immutable.
+class Projectors {
+  public:
+    // Throws Error where a wall file cannot be used.
+    explicit Projectors(const config::Rig& rig) : colours_{wall::coloursOf(rig)} {}
+    [[nodiscard]] Light thrown(std::size_t channel, const Picture& picture) const;
+
+  private:
+    std::vector<std::optional<formats::ChannelColour>> colours_;
+};
 
 // Where the unrolled screen's pixels lie in the channels' pictures. Made once for many panoramas of
 // one rig.

@@ -39,7 +39,9 @@ struct FilmedFrame {
 class Camera {
   public:
     Camera(const config::Rig& rig, std::string of) : rig_{rig}, of_{std::move(of)} {
-        if (of_ == kPanorama || of_ == kHall) map_.emplace(rig);
+        if (of_ != kPanorama && of_ != kHall) return;
+        map_.emplace(rig);
+        projectors_.emplace(rig);
     }
     [[nodiscard]] glm::ivec2 sizePixels(const std::vector<config::Channel>& filmed) const {
         if (!map_) return filmed.front().sizePixels;
@@ -62,16 +64,19 @@ class Camera {
     }
 
   private:
-    [[nodiscard]] static std::vector<Light> channelsOf(const std::vector<FilmedFrame>& frames) {
+    [[nodiscard]] std::vector<Light> channelsOf(const std::vector<FilmedFrame>& frames) const {
         std::vector<Light> channels;
         channels.reserve(frames.size());
-        for (const FilmedFrame& frame : frames) channels.push_back(lightOf(frame.picture));
+        for (const FilmedFrame& frame : frames)
+            channels.push_back(projectors_->thrown(channels.size(), frame.picture));
         return channels;
     }
 
     const config::Rig& rig_;
     std::string of_;
-    std::optional<PanoramaMap> map_;  // unless a channel is shown as it is
+    // Unless a channel is shown as it is.
+    std::optional<PanoramaMap> map_;
+    std::optional<Projectors> projectors_;
 };
 
 std::uint64_t picturesIn(const Filming& filming) {

@@ -12,6 +12,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
 
 #include "common/base/files.h"
 #include "common/base/log.h"
@@ -131,6 +132,8 @@ std::string faultOf(const ChannelColour& colour) {
         for (int row = 0; row < 3; ++row)
             if (!(std::abs(colour.mix[column][row]) <= kMostMix))
                 return fmt::format("a mix with a number beyond {}", kMostMix);
+    if (!(std::abs(glm::determinant(colour.mix)) >= kLeastMix))
+        return "a mix that gives the same to different colours";
     for (std::size_t i = 0; i < kPrimaryNames.size(); ++i)
         if (const std::string fault = faultIn(colour.response[i]); !fault.empty())
             return fmt::format("a {} response {}", kPrimaryNames[i], fault);

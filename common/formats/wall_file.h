@@ -99,7 +99,8 @@ struct ChannelColour {
 };
 inline constexpr std::array<const char*, 3> kPrimaryNames{"red", "green", "blue"};
 inline constexpr std::size_t kLeastResponses = 2, kMostResponses = 1024;
-inline constexpr float kMostMix = 100;  // of each number, either way
+inline constexpr float kMostMix = 100;     // of each number, either way
+inline constexpr float kLeastMix = 1e-9F;  // of its determinant: the light of codes can be told
 // What is wrong with it, as words behind "has"; empty: nothing.
 [[nodiscard]] std::string faultOf(const ChannelColour& colour);
 // The least code, 0 to 1, at which a response gives so much light; and the light of a code.

@@ -257,6 +257,16 @@ void requireGeometry(const formats::FileChannel& region,
 
 }  // namespace
 
+std::vector<std::optional<formats::ChannelColour>> coloursOf(const config::Rig& rig) {
+    const WallFiles files = readWallFiles(rig);
+    std::vector<std::optional<formats::ChannelColour>> colours;
+    for (const config::Channel& channel : rig.channels)
+        colours.push_back(channel.wallFile
+                              ? channelNamed(files.at(channel.wallFile->file), channel).colour
+                              : std::nullopt);
+    return colours;
+}
+
 std::unique_ptr<const Optics> makeCalibratedOptics(const config::Rig& rig,
                                                    std::size_t channel,
                                                    const ScreenSurface& screen,

@@ -79,6 +79,10 @@ using WallFiles = std::map<std::string, formats::WallFile>;
 // Throws Error where one cannot be read.
 [[nodiscard]] WallFiles readWallFiles(const config::Rig& rig);
 
+// Of each channel, where its wall file has one. Throws Error as readWallFiles() and makeOptics()
+// do.
+[[nodiscard]] std::vector<std::optional<formats::ChannelColour>> coloursOf(const config::Rig& rig);
+
 // `screen` is rig's and outlives the optics. Throws Error where a wall file cannot be used: has no
 // such region, or no warp where it needs one.
 [[nodiscard]] std::unique_ptr<const Optics> makeOptics(const config::Rig& rig,

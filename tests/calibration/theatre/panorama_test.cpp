@@ -2,6 +2,7 @@
 // What three projectors throw adds up to one wall: the grid's lines are where a direct render has
 // them, and grey is flat, overlaps included.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include "calibration/theatre/compose.h"
 #include "common/base/units.h"
 #include "common/config/rig.h"
+#include "common/formats/mpcdi.h"
 #include "tests/support/panorama_measure.h"
 #include "tests/support/projected.h"
 
@@ -76,6 +78,35 @@ TEST_P(OneWall, greyIsFlatInLinearLightToOnePerCent) {
     EXPECT_LT(test::unevenness(composed(rig, channels, 8), 16), 0.01);
     const glm::ivec2 middle = rig.panoramaPixels / 2;
     EXPECT_NEAR(static_cast<double>(deep.at(middle.x, middle.y).y), wall::kGreyLight, 1e-4);
+}
+
+// Codes that were made with the colour of a channel are light again, each of the others sRGB.
+TEST(Projectors, throwWhatTheirWallFileSays) {
+    config::Rig rig = shippedRig("desk");
+    formats::WallFile file;
+    formats::FileChannel& region = file.channels.emplace_back();
+    region.name = "middle";
+    region.sizePixels = {2, 1};
+    region.colour = {.mix = {0.7F, 0.1F, 0, 0.2F, 0.9F, 0, 0, 0.05F, 0.8F},
+                     .response = {{{0, 0.1F, 1}, {0, 0.2F, 0.5F, 1}, {0, 1}}}};
+    rig.files["hall.mpcdi"] = formats::encodeMpcdi(file, 1);
+    rig.channels[1].wallFile = {"hall.mpcdi", "middle", ""};
+    const Projectors projectors(rig);
+    for (const int bits : {8, 16}) {
+        const double most = (1 << bits) - 1;
+        Picture picture{.sizePixels = {2, 1}, .bits = bits, .rgb = {}};
+        const std::array<glm::dvec3, 2> light{glm::dvec3(0.3, 0.05, 0.6), glm::dvec3(0.1, 0.9, 0)};
+        for (const glm::dvec3& wanted : light)
+            for (int c = 0; c < 3; ++c)
+                picture.rgb.push_back(static_cast<std::uint16_t>(std::lround(
+                    most * formats::codeFor(region.colour->response[static_cast<std::size_t>(c)],
+                                            (glm::dmat3(region.colour->mix) * wanted)[c]))));
+        const Light thrown = projectors.thrown(1, picture);
+        for (std::size_t i = 0; i < light.size(); ++i)
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(static_cast<double>(thrown.rgb[i][c]), light[i][c], 3 / most);
+        EXPECT_EQ(projectors.thrown(0, picture).rgb, lightOf(picture).rgb);
+    }
 }
 
 // The measures must see what they are there to refuse.

@@ -142,6 +142,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadColour{"noMix", "a", "", "0 1", "has a mix of 0 numbers, not 9"},
         BadColour{"manyMixes", "a", kUnit + " 1", "0 1", "has a mix of 10 numbers, not 9"},
         BadColour{"largeMix", "a", "101 0 0 0 1 0 0 0 1", "0 1", "has too many or too large"},
+        BadColour{"grey", "a", "1 1 1 1 1 1 1 1 1", "0 1", "has a mix that gives the same to"},
         BadColour{"noNumber", "a", "1,0 0 0 0 1 0 0 0 1", "0 1", "has a mix of \"1,0\", which"},
         BadColour{"nan", "a", kUnit, "0 nan 1", "has a red of \"nan\", which is no number"},
         BadColour{"none", "a", kUnit, "", "has a red response of 0 samples, not of 2 to 1024"},
