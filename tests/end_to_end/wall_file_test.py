@@ -7,6 +7,7 @@ import shutil
 import sys
 import time
 import unittest
+import zipfile
 from array import array
 from pathlib import Path
 
@@ -75,6 +76,28 @@ class WallFile(unittest.TestCase):
         for name in [*(f"channel-{channel}" for channel in CHANNELS), "panorama"]:
             right, down = displacement(before / f"{name}.png", after / f"{name}.png")
             self.assertLess(max(abs(right), abs(down)), 0.05, name)
+
+    def give_colours(self):
+        """Projectors of power 2 with other primaries than the wall's."""
+        with zipfile.ZipFile(self.file) as archive:
+            entries = {name: archive.read(name) for name in archive.namelist()}
+        curve = " ".join(str((i / 255) ** 2) for i in range(256))
+        response = "".join(f"<{primary}>{curve}</{primary}>" for primary in ("red", "green", "blue"))
+        colours = "".join(f'<colour region="{name}"><mix>.8 .1 0 .05 .9 0 0 0 .7</mix>{response}</colour>' for name in CHANNELS)
+        entries["mpcdi.xml"] = entries["mpcdi.xml"].replace(
+            b"</MPCDI>", f'<extensionSet><extension Name="Aquarama">{colours}</extension></extensionSet></MPCDI>'.encode())
+        with zipfile.ZipFile(self.file, "w") as archive:
+            for name, content in entries.items():
+                archive.writestr(name, content)
+
+    def test_colours_change_the_codes_and_not_the_wall(self):
+        before = self.snapshot(self.rig, "before")
+        self.give_colours()
+        after = self.snapshot(self.rig, "after")
+        for name, least, most in (("channel-middle", 3, 100), ("panorama", 0, 0.7)):
+            one, other = (read_png(folder / f"{name}.png")[1] for folder in (before, after))
+            mean = sum(abs(a - b) for a, b in zip(one, other)) / len(one)
+            self.assertTrue(least <= mean <= most, f"{name}: {mean} codes")
 
     def calibration(self):
         said = re.search(r"calibration (\w+)", aquarama("status", self.rig).stdout)
