@@ -47,9 +47,11 @@ bool isEven(const Picture& picture) {
            picture.rgb.end();
 }
 
-// The code that this share of the samples exceeds, 0 to 1 of the full code.
+// The code, 0 to 1 of the full one, that this share of the pixels exceeds in one of its colours.
 double codeExceededBy(const Picture& picture, double share) {
-    std::vector<std::uint16_t> codes = picture.rgb;
+    std::vector<std::uint16_t> codes;
+    for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3)
+        codes.push_back(std::max({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]}));
     const auto place =
         codes.end() - 1 - static_cast<std::ptrdiff_t>(share * static_cast<double>(codes.size()));
     std::ranges::nth_element(codes, place);

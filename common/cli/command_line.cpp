@@ -2,6 +2,8 @@
 #include "common/cli/command_line.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cassert>
 #include <charconv>
 #include <cstdlib>
@@ -120,11 +122,28 @@ CLI::Validator number(double least, double most) {
 
 namespace {
 
+constexpr std::array kWatched{SIGINT, SIGTERM, SIGHUP};
+
 sigset_t watchedSignals() {
     sigset_t signals;
     sigemptyset(&signals);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+    for (const int signal : kWatched) sigaddset(&signals, signal);
     return signals;
+}
+
+// Set where a thread that does not block the signals got one: libraries make some before main().
+std::atomic<bool> strayed = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+// Else such a thread would end the program. What is ignored stays so (nohup).
+void catchStray(int signal) {
+    struct sigaction before {};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_DFL) return;
+    struct sigaction stray {};
+    stray.sa_handler = [](int) { strayed = true; };
+    stray.sa_flags = SA_RESTART;
+    sigaction(signal, &stray, nullptr);
 }
 
 }  // namespace
@@ -132,6 +151,7 @@ sigset_t watchedSignals() {
 void holdSignals() {
     const sigset_t signals = watchedSignals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    for (const int signal : kWatched) catchStray(signal);
 }
 
 SignalWatch::SignalWatch(std::function<void()> onSignal) {
@@ -139,7 +159,8 @@ SignalWatch::SignalWatch(std::function<void()> onSignal) {
     thread_ = std::jthread([signals, call = std::move(onSignal)](const std::stop_token& ended) {
         constexpr timespec kPollInterval{.tv_sec = 0, .tv_nsec = 50'000'000};
         while (!ended.stop_requested())
-            if (sigtimedwait(&signals, nullptr, &kPollInterval) > 0) call();
+            if (sigtimedwait(&signals, nullptr, &kPollInterval) > 0 || strayed.exchange(false))
+                call();
     });
 }
 

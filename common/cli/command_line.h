@@ -46,7 +46,7 @@ inline constexpr std::uint64_t kMostShownFrames = 1'000'000'000;  // half a year
 // something else can be told to end.
 
 // Blocks these signals. Call it before any other thread is made: threads inherit it, and leave the
-// signals to the watch.
+// signals to the watch. Those that a library has made before do no harm.
 void holdSignals();
 
 // Calls `onSignal` for each of these signals, on its own thread, as long as it lives.

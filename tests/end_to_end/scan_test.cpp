@@ -22,9 +22,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#ifdef AQUARAMA_HAS_CAMERA
+#include "calibration/scan/capture.h"
+#endif
 #include "calibration/scan/shown_patterns.h"
 #include "common/base/log.h"
 #include "common/base/picture.h"
+#include "common/cli/command_line.h"
 #include "common/config/rig.h"
 #include "common/net/channels.h"
 #include "common/wall/scan_pattern.h"
@@ -135,6 +139,9 @@ class Hall {
     [[nodiscard]] std::string rigPath() const { return (folder_ / "rig.txtpb").string(); }
     [[nodiscard]] scan::ShownOn where(std::chrono::milliseconds patience = 30s) const {
         return {.rig = rigPath(), .master = "", .key = "", .patience = patience};
+    }
+    [[nodiscard]] std::string folder(const std::string& name) const {
+        return (folder_ / name).string();
     }
     // The pictures that the nodes write when the show ends.
     [[nodiscard]] Picture snapshot(const std::string& channel) {
@@ -262,6 +269,45 @@ TEST(Scan, theWallComesBackAndWhoIsMissingIsNamed) {
         testing::AllOf(HasSubstr("pattern 10 is not shown yet by middle"), HasSubstr("after 1 s")));
     EXPECT_THROW(impatient.confirm(), Error);
 }
+
+#ifdef AQUARAMA_HAS_CAMERA
+// A camera that sees grey noise: a whole capture, and one that somebody ends in the middle.
+TEST(Scan, aCaptureLeavesItsPicturesAndOneThatIsInterruptedLeavesTheWall) {
+    cli::holdSignals();
+    Hall hall("desk");
+    const auto capture = [&](const std::string& folder, std::size_t patterns) {
+        std::vector<ScanPattern> sequence(patterns, {.lit = 7, .number = 1});
+        for (std::size_t i = 1; i < patterns; ++i)
+            sequence[i] = {.kind = ScanPattern::Kind::GrayColumns,
+                           .lit = 7,
+                           .number = static_cast<std::uint16_t>(i + 1)};
+        return scan::captureShow(hall.rig,
+                                 hall.where(),
+                                 "lavfi:color=gray:size=64x48:rate=30,noise=alls=20:allf=t",
+                                 sequence,
+                                 hall.folder(folder));
+    };
+    const config::Scan scan = capture("whole", 3);
+    ASSERT_EQ(scan.pictures.size(), 3U);
+    EXPECT_LT(scan.pictures[0].frame, scan.pictures[1].frame);
+    EXPECT_LT(scan.pictures[1].frame, scan.pictures[2].frame);
+    for (const config::ScanPicture& picture : scan.pictures)
+        EXPECT_TRUE(fs::exists(fs::path(hall.folder("whole")) / picture.file));
+    EXPECT_TRUE(fs::exists(fs::path(hall.folder("whole")) / "scan.txtpb"));
+
+    std::jthread hand([] {
+        std::this_thread::sleep_for(1500ms);
+        kill(getpid(), SIGTERM);
+    });
+    try {
+        capture("broken", 100);
+        ADD_FAILURE() << "it went on";
+    } catch (const Error& problem) {
+        EXPECT_THAT(problem.what(), HasSubstr("the scan was ended"));
+    }
+    EXPECT_FALSE(fs::exists(fs::path(hall.folder("broken")) / "scan.txtpb"));
+}
+#endif
 
 }  // namespace
 }  // namespace aquarama
