@@ -85,7 +85,7 @@ void addStatus(CommandLine& line);
 void addSet(CommandLine& line);
 void addPilot(CommandLine& line);
 void addExplain(CommandLine& line);
-void addCheck(CommandLine& line);  // hands over to aquarama-calibrate
+void addCheck(CommandLine& line);      // hands over to aquarama-calibrate
 void addCalibrate(CommandLine& line);  // hands over to aquarama-solve
 void addInspect(CommandLine& line);
 void addConvert(CommandLine& line);

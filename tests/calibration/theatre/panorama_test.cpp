@@ -89,7 +89,8 @@ TEST(Projectors, throwWhatTheirWallFileSays) {
     region.sizePixels = {2, 1};
     region.colour = {.mix = {0.7F, 0.1F, 0, 0.2F, 0.9F, 0, 0, 0.05F, 0.8F},
                      .response = {{{0, 0.1F, 1}, {0, 0.2F, 0.5F, 1}, {0, 1}}}};
-    rig.files["hall.mpcdi"] = formats::encodeMpcdi(file, 1);
+    rig.files["hall.mpcdi"] =
+        std::make_shared<const std::vector<std::byte>>(formats::encodeMpcdi(file, 1));
     rig.channels[1].wallFile = {"hall.mpcdi", "middle", ""};
     const Projectors projectors(rig);
     for (const int bits : {8, 16}) {

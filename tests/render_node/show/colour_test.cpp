@@ -214,8 +214,8 @@ TEST_F(ColourTest, pairsHaveIt) {
     const gl::Target target(GL_RGBA16, kSize);
     const auto packed = [&](config::StereoMode mode) {
         PairProjection(kSize, kChannelId, mode)
-            .draw({scene_.texture(), eye.mapTexture()},
-                  {scene_.texture(), eye.mapTexture()},
+            .draw({scene_.texture(), eye},
+                  {scene_.texture(), eye},
                   {.framebuffer = target.framebuffer(),
                    .frame = {},
                    .encoding = Encoding::Plain,
@@ -244,7 +244,8 @@ session::Admission coloured(const formats::ChannelColour& colour, config::Stereo
     channel.warp = std::move(warp);
     channel.blend = formats::Mask{.size = {1, 1}, .codes = {255}};
     channel.colour = colour;
-    rig.files["hall.mpcdi"] = formats::encodeMpcdi(file, 2);
+    rig.files["hall.mpcdi"] =
+        std::make_shared<const std::vector<std::byte>>(formats::encodeMpcdi(file, 2));
     rig.channels[0].wallFile = {"hall.mpcdi", "left", ""};
     rig.stereo = {.mode = mode, .eyeSeparationMetres = 0.06};
     return admission;
