@@ -96,6 +96,20 @@ void judgeOverlaps(Figures& figures, const SolveFigures& solved) {
                       solved.overlapRms)});
 }
 
+// By the noise of what was seen; the models' own errors come on top.
+void judgePlace(Figures& figures, const SolveFigures& solved) {
+    constexpr double kMostPixels = 0.8;
+    if (solved.absoluteSigma <= kMostPixels) return;
+    take(
+        figures,
+        Judgement::Warn,
+        {"place_not_sure",
+         fmt::format("neighbours agree, but the whole picture may be off by {:.1f} panorama pixels "
+                     "(RMS): use a finer camera, or bring it nearer so that the screen fills its "
+                     "picture",
+                     solved.absoluteSigma)});
+}
+
 // A round edge does not tell how it is turned about its axis.
 void judgeDome(Figures& figures, const config::Rig& rig) {
     if (rig.screen.shape != config::ScreenShape::Dome) return;
@@ -137,12 +151,14 @@ Figures judged(const std::vector<scan::CameraView>& views, const Solved& solved)
     if (solved.faults.empty()) {
         judgeOverlaps(figures, solved.figures);
         judgeOutline(figures, solved.figures);
+        judgePlace(figures, solved.figures);
         judgeDome(figures, solved.hall->rig);
     }
     figures.overlapRms = solved.figures.overlapRms;
     figures.overlapP95 = solved.figures.overlapP95;
     figures.overlapMax = solved.figures.overlapMax;
     figures.overlapPoints = solved.figures.overlapPoints;
+    figures.absoluteRms = solved.figures.absoluteSigma;
     figures.outlineRms = solved.figures.outlineRms;
     figures.fitRms = solved.figures.fitRms;
     return figures;
@@ -167,6 +183,7 @@ std::string jsonOf(const Figures& figures) {
                                   {"overlap_max_px", figures.overlapMax},
                                   {"overlap_points", figures.overlapPoints},
                                   {"absolute_rms_px", figures.absoluteRms},
+                                  {"seam_percent_grey18", nullptr},  // is not measured yet
                                   {"outline_rms_camera_px", figures.outlineRms},
                                   {"fit_rms_projector_px", figures.fitRms},
                                   {"seconds", figures.seconds},

@@ -32,7 +32,7 @@ struct Figures {
     Judgement verdict = Judgement::Refuse;
     std::string cause, advice;  // empty where it passes
     double overlapRms = 0, overlapP95 = 0, overlapMax = 0;
-    // Known in a simulated hall alone; else what the solve thinks of itself.
+    // From the truth of a simulated hall; else how well the solve knows the whole picture's place.
     double absoluteRms = 0;
     bool isTrue = false;  // from ground truth
     std::size_t overlapPoints = 0;
