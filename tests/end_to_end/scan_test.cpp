@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -70,8 +71,12 @@ class Process {
 class Watched {
   public:
     explicit Watched(const fs::path& socket)
-        : receiver_{net::bindFrames(socket)}, thread_{[this] { receive(); }} {}
-    ~Watched() { thread_.join(); }
+        : socket_{socket}, receiver_{net::bindFrames(socket)}, thread_{[this] { receive(); }} {}
+    // A node that has never come is not waited for.
+    ~Watched() {
+        if (!from(0, 0s)) (void)net::connectFrames(socket_);
+        thread_.join();
+    }
     Watched(const Watched&) = delete;
     Watched& operator=(const Watched&) = delete;
 
@@ -92,6 +97,7 @@ class Watched {
             came_.notify_all();
         }
     }
+    fs::path socket_;
     std::unique_ptr<net::FrameReceiver> receiver_;
     std::mutex mutex_;
     std::condition_variable came_;
@@ -125,7 +131,8 @@ class Hall {
                                          (folder_ / "pictures").string()}));
         }
         // Repertoires may have to be captured first.
-        for (const auto& channel : watched) EXPECT_TRUE(channel->from(1, 120s));
+        for (const auto& channel : watched)
+            if (!channel->from(1, 120s)) throw std::runtime_error("a channel shows nothing");
     }
     ~Hall() {
         master_.reset();
@@ -151,8 +158,8 @@ class Hall {
     }
 
     config::Rig rig;
+    std::vector<std::unique_ptr<Watched>> watched;  // ends with its node
     std::vector<std::unique_ptr<Process>> nodes;
-    std::vector<std::unique_ptr<Watched>> watched;
 
   private:
     fs::path folder_ = fs::temp_directory_path() / ("aquarama-scan-" + std::to_string(getpid()));
