@@ -73,10 +73,6 @@ config::Hall hallFrom(const std::string& text, const config::Rig& rig) {
                             std::clamp(rig.panoramaPixels.x / kFullPanorama, 0.1, 1.0));
 }
 
-std::size_t camerasOf(const config::Scan& scan) {
-    return scan.cameras.size();
-}
-
 double peakMegabytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -97,7 +93,7 @@ class Calibration {
         }
         const auto begin = Clock::now();
         std::vector<scan::CameraView> views;
-        for (std::uint32_t i = 0; i < camerasOf(source_->scan()); ++i) {
+        for (std::uint32_t i = 0; i < source_->scan().cameras.size(); ++i) {
             say(fmt::format("reading {} pictures", source_->scan().pictures.size()));
             views.push_back(scan::decode(*source_, i, rig_));
         }
