@@ -67,6 +67,14 @@ bool hasHeading(const fs::path& document, const std::string& anchor) {
     return false;
 }
 
+TEST(Documents, noMergeIsLeftHalfDone) {
+    for (const fs::path& document : documents()) {
+        const std::string text = "\n" + textOf(kRoot / document);
+        for (const char* marker : {"\n<<<<<<< ", "\n>>>>>>> "})
+            EXPECT_EQ(text.find(marker), std::string::npos) << document << " has a mark of a merge: choose a side";
+    }
+}
+
 TEST(Documents, linksLeadToWhatIsThere) {
     std::size_t count = 0;
     for (const fs::path& document : documents()) {
