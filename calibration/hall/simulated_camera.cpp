@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "common/base/hash.h"
+#include "common/wall/scan_pattern.h"
 
 namespace aquarama::hall {
 
@@ -128,7 +129,7 @@ void SimulatedCamera::listPictures(const std::vector<config::ScanPattern>& patte
     for (const config::ScanPattern& pattern : patterns)
         scan_.pictures.push_back({.file = fmt::format("{:04}.png", scan_.pictures.size()),
                                   .camera = 0,
-                                  .exposureSeconds = 1,
+                                  .exposureSeconds = wall::scanExposure(pattern),
                                   .pattern = pattern});
 }
 
@@ -238,7 +239,8 @@ Picture SimulatedCamera::picture(std::size_t index) {
     dim(light);
     blur(light);
     const std::uint32_t seed = aquarama::hashOf(seed_, static_cast<std::uint32_t>(index));
-    return counted(light, gainFor(light), seed);
+    const auto exposure = static_cast<float>(scan_.pictures[index].exposureSeconds);
+    return counted(light, exposure * gainFor(light), seed);
 }
 
 }  // namespace aquarama::hall

@@ -20,6 +20,7 @@
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
+#include "common/wall/scan_pattern.h"
 
 namespace aquarama::scan {
 
@@ -38,7 +39,7 @@ bool isBlack(const Pattern& pattern) {
 
 bool isWhite(const Pattern& pattern) {
     return pattern.kind == Pattern::Kind::Level && !isBlack(pattern) &&
-           pattern.light == glm::vec3(1);
+           pattern.light == glm::vec3(1) && pattern.step == 0;
 }
 
 // Of one code all over, as a lens cap or a night without light makes them.
@@ -175,28 +176,18 @@ std::vector<Pattern> whitesOf(const std::vector<Pattern>& sequence) {
     return whites;
 }
 
-// Of a pattern: one, or three about it, of those that the camera has.
-std::vector<double> exposuresFor(const Pattern& pattern, double chosen, ExposureRange range) {
-    constexpr double kApart = 4;
-    if (!isBlack(pattern) && !isWhite(pattern)) return {chosen};
-    std::vector<double> exposures;
-    for (const double factor : {1 / kApart, 1.0, kApart}) {
-        const double exposure = std::clamp(chosen * factor, range.shortest, range.longest);
-        if (exposures.empty() || exposure > exposures.back()) exposures.push_back(exposure);
-    }
-    return exposures;
-}
-
 // What is to be taken, in order.
 std::vector<config::ScanPicture> planOf(const std::vector<Pattern>& sequence,
                                         double chosen,
                                         ExposureRange range) {
     std::vector<config::ScanPicture> plan;
-    for (const Pattern& pattern : sequence)
-        for (const double exposure : exposuresFor(pattern, chosen, range))
-            plan.push_back({.file = fmt::format("picture-{:04}.png", plan.size() + 1),
-                            .exposureSeconds = exposure,
-                            .pattern = pattern});
+    for (const Pattern& pattern : sequence) {
+        const double exposure = chosen * wall::scanExposure(pattern);
+        if (exposure < range.shortest) continue;  // tells of the camera's response, if it can
+        plan.push_back({.file = fmt::format("picture-{:04}.png", plan.size() + 1),
+                        .exposureSeconds = exposure,
+                        .pattern = pattern});
+    }
     return plan;
 }
 

@@ -57,6 +57,21 @@ bool isWhiteOf(const ScanPattern& pattern, std::size_t channel) {
            pattern.light == glm::vec3(1);
 }
 
+// Samples of a picture have at most about so many columns.
+constexpr int kSampleColumns = 640;
+
+// Linear light of the 3 x 3 pixels about one.
+glm::vec3 sumAround(const Picture& picture, std::size_t pixel, const std::vector<float>& table) {
+    const auto width = static_cast<std::size_t>(picture.sizePixels.x);
+    const auto full = static_cast<std::uint16_t>(0.995F * static_cast<float>(table.size() - 1));
+    glm::vec3 sum(0);
+    for (const std::size_t row : {pixel - width, pixel, pixel + width}) {
+        const std::uint16_t* code = &picture.rgb[3 * (row - 1)];
+        for (int i = 0; i < 9; ++i) sum[i % 3] += code[i] >= full ? kUnknown : table[code[i]];
+    }
+    return sum;
+}
+
 struct RoundPlan {
     std::uint64_t channels = 0;
     std::array<AxisCode, 2> codes;
@@ -263,8 +278,26 @@ class Decoder {
   private:
     [[nodiscard]] ScanFrame next() {
         const std::size_t index = order_[read_++];
-        return reader_.read(index,
-                            read_ < order_.size() ? std::optional(order_[read_]) : std::nullopt);
+        ScanFrame frame = reader_.read(
+            index, read_ < order_.size() ? std::optional(order_[read_]) : std::nullopt);
+        const Kind kind = frame.pattern->kind;
+        if (kind == Kind::Level || isPhase(kind)) sample(frame);
+        return frame;
+    }
+    void sample(const ScanFrame& frame) {
+        view_.sizePixels = reader_.sizePixels();
+        view_.sampleStep = std::max(3, view_.sizePixels.x / kSampleColumns);
+        const std::vector<float> table =
+            lightOfCodes(frame.picture.bits, source_.scan().cameras[camera_].response);
+        Light light = darkness(view_.sizePixels / view_.sampleStep);
+        pool_.run(static_cast<std::size_t>(light.sizePixels.y), [&](std::size_t row) {
+            const int y = static_cast<int>(row);
+            for (int x = 0; x < light.sizePixels.x; ++x)
+                light.at(x, y) =
+                    sumAround(frame.picture, pixelOfSample(view_, x, y), table) / 9.0F;
+        });
+        view_.samples.push_back(
+            {*frame.pattern, std::move(light), reader_.exposureScale(frame.index)});
     }
     [[nodiscard]] Light lightOfFrame(const ScanFrame& frame) const {
         Light light = lightOf(frame.picture, source_.scan().cameras[camera_].response);
@@ -428,6 +461,13 @@ class Decoder {
 };
 
 }  // namespace
+
+std::size_t pixelOfSample(const CameraView& view, int x, int y) {
+    const int half = view.sampleStep / 2;
+    return static_cast<std::size_t>(y * view.sampleStep + half) *
+               static_cast<std::size_t>(view.sizePixels.x) +
+           static_cast<std::size_t>(x * view.sampleStep + half);
+}
 
 CameraView decode(PictureSource& source, std::uint32_t camera, const config::Rig& rig) {
     return Decoder(source, camera, rig).run();

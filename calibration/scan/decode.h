@@ -36,12 +36,23 @@ struct ScanFault {
     bool refuses = true;  // or a warning
 };
 
+// A picture of a level or of a cosine, thinned out: the mean of 3 x 3 pixels in the middle of each
+// square of CameraView::sampleStep pixels. Linear, as the camera gave it; not a number where a pixel
+// has the camera's most.
+struct SampledPicture {
+    config::ScanPattern pattern;
+    Light light;
+    float scale = 1;  // brings it to the exposure of the first picture
+};
+
 // All that one camera sees.
 struct CameraView {
     glm::ivec2 sizePixels{};
     std::vector<ChannelView> channels;  // as the rig's; empty arrays where one was not scanned
     Light room;   // linear, where the outline of the screen is best seen; empty where there is none
     Light black;  // linear, all channels black; empty where there is none
+    int sampleStep = 1;
+    std::vector<SampledPicture> samples;
     double noise = 0;  // standard deviation of a linear value in the middle tones
     std::vector<ScanFault> faults;
 };
@@ -54,6 +65,9 @@ struct CameraView {
 [[nodiscard]] CameraView decode(PictureSource& source,
                                 std::uint32_t camera,
                                 const config::Rig& rig);
+
+// The pixel in the middle of a sample of the view, as an index of its planes.
+[[nodiscard]] std::size_t pixelOfSample(const CameraView& view, int x, int y);
 
 // Linear light of a camera's codes.
 [[nodiscard]] Light lightOf(const Picture& picture, config::ScanCamera::Response response);

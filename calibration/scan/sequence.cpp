@@ -106,9 +106,21 @@ void addAxis(std::vector<ScanPattern>& sequence,
 void addRound(std::vector<ScanPattern>& sequence, const config::Rig& rig, std::uint64_t round) {
     addAxis(sequence, rig, round, Kind::GrayColumns, Kind::PhaseColumns);
     addAxis(sequence, rig, round, Kind::GrayRows, Kind::PhaseRows);
-    constexpr std::array<glm::vec3, 5> kLevels{
-        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, glm::vec3(0.18F), glm::vec3(0.5F)}};
-    for (const glm::vec3 light : kLevels) sequence.push_back({.light = light, .lit = round});
+}
+
+// Of all channels at once, whose tags would lie in one another's light: colours and dark levels, which are read where one channel is alone, and
+// white in shorter exposures, which tell the camera's response.
+void addLevels(std::vector<ScanPattern>& sequence, std::uint64_t all) {
+    constexpr std::array<glm::vec3, 6> kLevels{{{1, 0, 0},
+                                                {0, 1, 0},
+                                                {0, 0, 1},
+                                                glm::vec3(0.005F),
+                                                glm::vec3(0.025F),
+                                                glm::vec3(0.18F)}};
+    for (const glm::vec3 light : kLevels)
+        sequence.push_back({.light = light, .lit = all, .tagged = false});
+    for (const std::uint8_t step : {std::uint8_t{1}, std::uint8_t{2}})
+        sequence.push_back({.step = step, .lit = all, .tagged = false});
 }
 
 ScanPattern black() {
@@ -121,7 +133,12 @@ std::vector<ScanPattern> sequenceOf(const config::Rig& rig) {
     std::vector<ScanPattern> sequence{{.kind = Kind::Room, .lit = 0, .tagged = false}, black()};
     for (std::size_t c = 0; c < rig.channels.size(); ++c)
         sequence.push_back({.lit = std::uint64_t{1} << c});
-    for (const std::uint64_t round : roundsOf(rig)) addRound(sequence, rig, round);
+    std::uint64_t all = 0;
+    for (const std::uint64_t round : roundsOf(rig)) {
+        addRound(sequence, rig, round);
+        all |= round;
+    }
+    addLevels(sequence, all);
     sequence.push_back(black());  // tells of light that came or went
     for (std::size_t i = 0; i < sequence.size(); ++i)
         sequence[i].number = static_cast<std::uint16_t>(i + 1);

@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "calibration/solve/model.h"
+#include "calibration/solve/smooth_fit.h"
 #include "calibration/solve/ties.h"
 #include "common/config/rig.h"
 #include "common/wall/wall.h"
@@ -19,15 +20,6 @@ namespace aquarama::solve {
 struct Device {
     LensParameters lens{};
     PoseParameters pose{};
-};
-
-// What is left between the model and the measured places of a projector, smooth over its picture:
-// lenses that the model does not know, and the like. Pixels.
-struct Correction {
-    SmoothField across{{1, 1}}, down{{1, 1}};
-    [[nodiscard]] glm::dvec2 at(glm::dvec2 share) const {
-        return {across.at(share), down.at(share)};
-    }
 };
 
 // A solved hall: from pixels of cameras and channels to points of the screen. Immutable once
@@ -49,7 +41,9 @@ class SolvedHall {
     const config::Rig& rig;
     const wall::Wall& nominal;
     std::vector<Device> cameras, projectors;
-    std::vector<Correction> corrections;  // of each projector
+    // What is left between the model and the measured places of each projector, smooth over its
+    // picture: lenses that the model does not know, and the like. Pixels, across and down.
+    std::vector<FieldPair> corrections;
     BumpyScreen screen;
 };
 

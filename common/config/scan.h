@@ -24,7 +24,9 @@ struct ScanPattern {
         Room  // black; the screen's outline is lit by the lamps of the room
     };
     Kind kind = Kind::Level;
-    std::uint8_t step = 0;  // Gray: bit, the coarsest is 0; phase: step of kScanPhaseSteps
+    // Gray: bit, the coarsest is 0; phase: step of kScanPhaseSteps; level: exposed for 4^-step of the
+    // time.
+    std::uint8_t step = 0;
     std::uint16_t finestPixels = 16;  // width of the finest stripe of the Gray code
     bool inverse = false;             // Gray: dark and lit are swapped
     glm::vec3 light{1};               // linear, of what is lit

@@ -26,6 +26,11 @@ inline constexpr int kScanPeriodPixels = 32;
     return bits;
 }
 
+// The exposure of its picture, as a share of that of the others.
+[[nodiscard]] inline double scanExposure(const config::ScanPattern& pattern) {
+    return pattern.kind == config::ScanPattern::Kind::Level ? std::pow(0.25, pattern.step) : 1;
+}
+
 // The tag: a row of square cells in the middle of the picture that says the number of the pattern:
 // lit, dark, then the bits of the number, the highest first, then lit where the number of lit bits
 // is odd.

@@ -39,25 +39,18 @@ Wall::Wall(const config::Rig& rig) : rig_(rig), screen_(makeSurface(rig_)) {
 
 Wall::~Wall() = default;
 
-namespace {
-
-// 0 with slope 0 at both borders of a picture, 1 in its middle. Two neighbours' bumps, divided by
-// their sum, cross over in the overlap as t^2 / (t^2 + (1 - t)^2).
-double bump(double position, double size) {
-    const double t = position / size;
-    const double hill = 4 * t * (1 - t);
-    return hill * hill;
+double pullAt(glm::dvec2 pixel, glm::ivec2 sizePixels) {
+    const glm::dvec2 t = pixel / glm::dvec2(sizePixels);
+    const glm::dvec2 hill = 4.0 * t * (1.0 - t);
+    return hill.x * hill.x * hill.y * hill.y;
 }
-
-}  // namespace
 
 // The weight of a channel at a point before the weights are divided by their sum; 0 where it does
 // not light the point.
 double Wall::pull(std::size_t channel, glm::dvec3 point) const {
     const auto pixel = channels_[channel]->pixelOf(point);
     if (!pixel) return 0;
-    const glm::dvec2 size(rig_.channels[channel].sizePixels);
-    return bump(pixel->x, size.x) * bump(pixel->y, size.y);
+    return pullAt(*pixel, rig_.channels[channel].sizePixels);
 }
 
 // Of a blend that a wall file has: the mean of its colours, between the centres of pixels.
