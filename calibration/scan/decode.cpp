@@ -280,8 +280,7 @@ class Decoder {
         const std::size_t index = order_[read_++];
         ScanFrame frame = reader_.read(
             index, read_ < order_.size() ? std::optional(order_[read_]) : std::nullopt);
-        const Kind kind = frame.pattern->kind;
-        if (kind == Kind::Level || isPhase(kind)) sample(frame);
+        if (frame.pattern->kind == Kind::Level) sample(frame);
         return frame;
     }
     void sample(const ScanFrame& frame) {
@@ -293,8 +292,7 @@ class Decoder {
         pool_.run(static_cast<std::size_t>(light.sizePixels.y), [&](std::size_t row) {
             const int y = static_cast<int>(row);
             for (int x = 0; x < light.sizePixels.x; ++x)
-                light.at(x, y) =
-                    sumAround(frame.picture, pixelOfSample(view_, x, y), table) / 9.0F;
+                light.at(x, y) = sumAround(frame.picture, pixelOfSample(view_, x, y), table) / 9.0F;
         });
         view_.samples.push_back(
             {*frame.pattern, std::move(light), reader_.exposureScale(frame.index)});

@@ -36,9 +36,9 @@ struct ScanFault {
     bool refuses = true;  // or a warning
 };
 
-// A picture of a level or of a cosine, thinned out: the mean of 3 x 3 pixels in the middle of each
-// square of CameraView::sampleStep pixels. Linear, as the camera gave it; not a number where a pixel
-// has the camera's most.
+// A picture of a level, thinned out: the mean of 3 x 3 pixels in the middle of each
+// square of CameraView::sampleStep pixels. Linear, as the camera gave it; not a number where a
+// pixel has the camera's most.
 struct SampledPicture {
     config::ScanPattern pattern;
     Light light;

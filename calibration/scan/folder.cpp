@@ -105,7 +105,9 @@ config::Scan scanOf(const std::string& folder, const config::Rig& rig) {
     const std::vector<ScanPattern> patterns = patternsOf(folder, files, rig);
     config::Scan scan{.rig = rig.name, .cameras = {{}}, .pictures = {}};
     for (std::size_t i = 0; i < files.size(); ++i)
-        scan.pictures.push_back({.file = files[i], .exposureSeconds = wall::scanExposure(patterns[i]), .pattern = patterns[i]});
+        scan.pictures.push_back({.file = files[i],
+                                 .exposureSeconds = wall::scanExposure(patterns[i]),
+                                 .pattern = patterns[i]});
     return scan;
 }
 

@@ -108,15 +108,18 @@ void addRound(std::vector<ScanPattern>& sequence, const config::Rig& rig, std::u
     addAxis(sequence, rig, round, Kind::GrayRows, Kind::PhaseRows);
 }
 
-// Of all channels at once, whose tags would lie in one another's light: colours and dark levels, which are read where one channel is alone, and
-// white in shorter exposures, which tell the camera's response.
+// Of all channels at once, whose tags would lie in one another's light: colours and levels, which
+// are read where one channel is alone, and white in shorter exposures, which tell the camera's
+// response.
 void addLevels(std::vector<ScanPattern>& sequence, std::uint64_t all) {
-    constexpr std::array<glm::vec3, 6> kLevels{{{1, 0, 0},
+    constexpr std::array<glm::vec3, 8> kLevels{{{1, 0, 0},
                                                 {0, 1, 0},
                                                 {0, 0, 1},
                                                 glm::vec3(0.005F),
                                                 glm::vec3(0.025F),
-                                                glm::vec3(0.18F)}};
+                                                glm::vec3(0.18F),
+                                                glm::vec3(0.5F),
+                                                glm::vec3(0.8F)}};
     for (const glm::vec3 light : kLevels)
         sequence.push_back({.light = light, .lit = all, .tagged = false});
     for (const std::uint8_t step : {std::uint8_t{1}, std::uint8_t{2}})

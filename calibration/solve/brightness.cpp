@@ -133,7 +133,8 @@ Colours coloursOf(const std::vector<ChannelLight>& lights) {
     return colours;
 }
 
-// Of each channel at each cell of the unrolled screen: its share of the light, and what it can give.
+// Of each channel at each cell of the unrolled screen: its share of the light, and what it can
+// give.
 class ShareMap {
   public:
     ShareMap(const SolvedHall& hall,
@@ -167,8 +168,10 @@ class ShareMap {
     // The blacks of all channels that reach a point of the rig's screen.
     [[nodiscard]] double blackAt(glm::dvec2 place, glm::dvec3 point) const {
         const glm::dvec2 spot = place * glm::dvec2(black.size) - 0.5;
-        const glm::ivec2 low = glm::clamp(glm::ivec2(glm::floor(spot)), glm::ivec2(0), black.size - 2);
-        const std::size_t corner = indexOf(black, low.x, low.y), below = indexOf(black, low.x, low.y + 1);
+        const glm::ivec2 low =
+            glm::clamp(glm::ivec2(glm::floor(spot)), glm::ivec2(0), black.size - 2);
+        const std::size_t corner = indexOf(black, low.x, low.y),
+                          below = indexOf(black, low.x, low.y + 1);
         const std::uint64_t reached = reached_[corner];
         if (reached == reached_[corner + 1] && reached == reached_[below] &&
             reached == reached_[below + 1])
@@ -229,8 +232,8 @@ glm::dvec2 degreesOf(const SolvedHall& hall, glm::ivec2 size) {
         step[axis] = kApart;
         const double angle = std::acos(std::clamp(
             glm::dot(towards(glm::dvec2(0.5) + step), towards(glm::dvec2(0.5) - step)), -1.0, 1.0));
-        degrees[axis] = std::max(1e-3, angle / (2 * kApart) / double(size[axis]) /
-                                           kRadiansPerDegree<double>);
+        degrees[axis] =
+            std::max(1e-3, angle / (2 * kApart) / double(size[axis]) / kRadiansPerDegree<double>);
     }
     return degrees;
 }
@@ -246,8 +249,7 @@ Target targetOf(const SolvedHall& hall, const ShareMap& map) {
     each(target.white, [](double light) { return std::log(light); });
     soften(target.white, kSoftDegrees / degrees);
     // Softened, it may stand above the bound by as much as it changes over the width of softening.
-    each(target.white,
-         [](double light) { return std::exp(light - kWhiteStep * kSoftDegrees); });
+    each(target.white, [](double light) { return std::exp(light - kWhiteStep * kSoftDegrees); });
     // Black is evened from above: the same of its inverse.
     each(target.black, [](double light) { return light > 0 ? 1 / light : double(kNoBound); });
     target.black = evenedBelow(target.black, kBlackStep * degrees);
@@ -293,10 +295,11 @@ void shadeChannel(const SolvedHall& hall,
             if (std::isnan(points[i].x)) continue;
             const glm::dvec2 place = hall.nominal.screen().unrolled(points[i]);
             const glm::dvec2 pixel(x + 0.5, static_cast<double>(row) + 0.5);
-            const Shade shade = shadeAt(map.shares[channel].at(place) / white(pixel / glm::dvec2(size)),
-                                        target.white.at(place),
-                                        target.black.at(place),
-                                        map.blackAt(place, glm::dvec3(points[i])));
+            const Shade shade =
+                shadeAt(map.shares[channel].at(place) / white(pixel / glm::dvec2(size)),
+                        target.white.at(place),
+                        target.black.at(place),
+                        map.blackAt(place, glm::dvec3(points[i])));
             blend.codes[i] = codeOf(shade.blend);
             black.codes[i] = codeOf(shade.black);
         }
@@ -331,9 +334,8 @@ double ScreenField::at(glm::dvec2 share) const {
     const auto value = [&](int x, int y) {
         return double(values[indexOf(*this, low.x + x, low.y + y)]);
     };
-    return glm::mix(glm::mix(value(0, 0), value(1, 0), t.x),
-                    glm::mix(value(0, 1), value(1, 1), t.x),
-                    t.y);
+    return glm::mix(
+        glm::mix(value(0, 0), value(1, 0), t.x), glm::mix(value(0, 1), value(1, 1), t.x), t.y);
 }
 
 ScreenField evenedBelow(ScreenField most, glm::dvec2 step) {

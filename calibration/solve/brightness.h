@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One picture in light and colour of projectors that differ: how much each gives at each place, what
-// is added to black, and the primaries that all of them reach.
+// One picture in light and colour of projectors that differ: how much each gives at each place,
+// what is added to black, and the primaries that all of them reach.
 #pragma once
 
 #include <vector>

@@ -16,8 +16,8 @@ constexpr Smoothness kSmoothness{.bend = 0.15, .size = 3};
 
 // What is left at the ties of a channel.
 std::vector<Measured> restsOf(const SolvedHall& hall,
-                          const std::vector<Tie>& ties,
-                          std::size_t channel) {
+                              const std::vector<Tie>& ties,
+                              std::size_t channel) {
     const glm::dvec2 size(hall.rig.channels[channel].sizePixels);
     std::vector<Measured> rests;
     for (const Tie& tie : ties) {
@@ -36,8 +36,8 @@ void correct(SolvedHall& hall, const std::vector<Tie>& ties) {
     for (std::size_t channel = 0; channel < hall.projectors.size(); ++channel) {
         const glm::dvec2 size(hall.rig.channels[channel].sizePixels);
         const glm::ivec2 cells(kCellsAcross, static_cast<int>(kCellsAcross * size.y / size.x));
-        hall.corrections[channel] = smoothFit(
-            restsOf(hall, ties, channel), cells, kSmoothness, 4 * kPlacePixels, kRounds);
+        hall.corrections[channel] =
+            smoothFit(restsOf(hall, ties, channel), cells, kSmoothness, 4 * kPlacePixels, kRounds);
     }
 }
 

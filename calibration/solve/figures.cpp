@@ -141,7 +141,8 @@ void judgeOutline(Figures& figures, const SolveFigures& solved) {
 }  // namespace
 
 Figures judged(const std::vector<scan::CameraView>& views, const Solved& solved) {
-    Figures figures{.verdict = Judgement::Pass, .cause = {}, .advice = {}};
+    Figures figures;
+    figures.verdict = Judgement::Pass;
     // Exchanged cables make channels look hidden, so what the solve found goes first.
     for (const scan::ScanFault& fault : solved.faults)
         take(figures, fault.refuses ? Judgement::Refuse : Judgement::Warn, fault);
@@ -164,6 +165,17 @@ Figures judged(const std::vector<scan::CameraView>& views, const Solved& solved)
     return figures;
 }
 
+void setBrightness(Figures& figures, const std::optional<BrightnessFigures>& brightness) {
+    figures.brightness = brightness;
+    if (brightness) return;
+    take(figures,
+         Judgement::Warn,
+         {"colour_not_measured",
+          "places are right, but light and colour are as the projectors give them: the scan lacks "
+          "levels, or a channel is nowhere alone; scan with all patterns, and let no channel be "
+          "wholly covered by others"});
+}
+
 void setTrue(Figures& figures, WallErrors errors) {
     figures.isTrue = true;
     figures.overlapPoints = errors.overlap.size();
@@ -174,21 +186,32 @@ void setTrue(Figures& figures, WallErrors errors) {
 }
 
 std::string jsonOf(const Figures& figures) {
-    return nlohmann::ordered_json{{"verdict", nameOf(figures.verdict)},
-                                  {"cause", figures.cause},
-                                  {"advice", figures.advice},
-                                  {"from_ground_truth", figures.isTrue},
-                                  {"overlap_rms_px", figures.overlapRms},
-                                  {"overlap_p95_px", figures.overlapP95},
-                                  {"overlap_max_px", figures.overlapMax},
-                                  {"overlap_points", figures.overlapPoints},
-                                  {"absolute_rms_px", figures.absoluteRms},
-                                  {"seam_percent_grey18", nullptr},  // is not measured yet
-                                  {"outline_rms_camera_px", figures.outlineRms},
-                                  {"fit_rms_projector_px", figures.fitRms},
-                                  {"seconds", figures.seconds},
-                                  {"pictures", figures.pictures},
-                                  {"peak_megabytes", figures.peakMegabytes}}
+    const auto told = [](const auto& from, auto value, double unit) {
+        return from ? nlohmann::ordered_json(unit * (*from).*value)
+                    : nlohmann::ordered_json(nullptr);
+    };
+    return nlohmann::ordered_json{
+               {"verdict", nameOf(figures.verdict)},
+               {"cause", figures.cause},
+               {"advice", figures.advice},
+               {"from_ground_truth", figures.isTrue},
+               {"overlap_rms_px", figures.overlapRms},
+               {"overlap_p95_px", figures.overlapP95},
+               {"overlap_max_px", figures.overlapMax},
+               {"overlap_points", figures.overlapPoints},
+               {"absolute_rms_px", figures.absoluteRms},
+               {"seam_percent_grey2", told(figures.seams, &Seams::grey2, 100)},
+               {"seam_percent_grey18", told(figures.seams, &Seams::grey18, 100)},
+               {"seam_percent_grey100", told(figures.seams, &Seams::grey100, 100)},
+               {"seam_ciede2000", told(figures.seams, &Seams::colour, 1)},
+               {"kept_light", told(figures.brightness, &BrightnessFigures::keptLight, 1)},
+               {"kept_contrast", told(figures.brightness, &BrightnessFigures::keptContrast, 1)},
+               {"desaturation", told(figures.brightness, &BrightnessFigures::desaturation, 1)},
+               {"outline_rms_camera_px", figures.outlineRms},
+               {"fit_rms_projector_px", figures.fitRms},
+               {"seconds", figures.seconds},
+               {"pictures", figures.pictures},
+               {"peak_megabytes", figures.peakMegabytes}}
                .dump(2) +
            "\n";
 }

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "calibration/hall/true_hall.h"
+#include "calibration/solve/brightness.h"
+#include "calibration/solve/seams.h"
 #include "calibration/solve/solve.h"
 #include "common/formats/wall_file.h"
 
@@ -37,6 +39,8 @@ struct Figures {
     bool isTrue = false;  // from ground truth
     std::size_t overlapPoints = 0;
     double outlineRms = 0, fitRms = 0;
+    std::optional<BrightnessFigures> brightness;  // nothing: light and colour are not measured
+    std::optional<Seams> seams;                   // from ground truth
     double seconds = 0;
     std::size_t pictures = 0;
     double peakMegabytes = 0;
@@ -44,6 +48,8 @@ struct Figures {
 
 // What the scan and the solve say of themselves; truth is no part of it.
 [[nodiscard]] Figures judged(const std::vector<scan::CameraView>& views, const Solved& solved);
+// What evening the light costs; a warning where it could not be measured.
+void setBrightness(Figures& figures, const std::optional<BrightnessFigures>& brightness);
 // Sets the errors from the truth; the verdict stays.
 void setTrue(Figures& figures, WallErrors errors);
 

@@ -99,7 +99,7 @@ class Calibration {
         }
         const solve::Solved solved = solve::solveHall(rig_, wall_, views, say);
         solve::Figures figures = solve::judged(views, solved);
-        if (figures.verdict != solve::Judgement::Refuse) write(solved, figures);
+        if (figures.verdict != solve::Judgement::Refuse) write(solved, views.front(), figures);
         figures.seconds = secondsSince(begin);
         figures.pictures = source_->scan().pictures.size();
         figures.peakMegabytes = peakMegabytes();
@@ -133,12 +133,16 @@ class Calibration {
         source_ = std::make_unique<hall::SimulatedCamera>(*truth_, scan::sequenceOf(rig_));
     }
 
-    void write(const solve::Solved& solved, solve::Figures& figures) {
+    void write(const solve::Solved& solved, const scan::CameraView& view, solve::Figures& figures) {
+        say("evening light and colour");
+        const solve::ShadedWall wall = solve::shadedWallOf(*solved.hall, view);
+        solve::setBrightness(figures, wall.brightness);
         say("writing the wall file");
-        const formats::WallFile file = solve::wallFileOf(*solved.hall);
-        formats::writeMpcdi(options_.out, file, 2);
+        formats::writeMpcdi(options_.out, wall.file, 2);
         constexpr std::size_t kPoints = 20000;
-        if (truth_) solve::setTrue(figures, solve::errorsOf(*truth_, rig_, file, kPoints));
+        if (!truth_) return;
+        solve::setTrue(figures, solve::errorsOf(*truth_, rig_, wall.file, kPoints));
+        figures.seams = solve::seamsOf(*truth_, wall.file);
     }
 
     void report(const solve::Figures& figures) const {

@@ -13,7 +13,6 @@
 #include "calibration/solve/smooth_fit.h"
 #include "calibration/solve/statistics.h"
 #include "common/base/picture.h"
-#include "common/wall/scan_pattern.h"
 
 namespace aquarama::solve {
 
@@ -43,13 +42,6 @@ class ChannelSamples {
                    sample.pattern.light == light;
         });
         return found == view_.samples.end() ? nullptr : &*found;
-    }
-    [[nodiscard]] std::vector<const scan::SampledPicture*> cosines() const {
-        std::vector<const scan::SampledPicture*> found;
-        for (const scan::SampledPicture& sample : view_.samples)
-            if (sample.pattern.kind != Kind::Level && isLit(sample.pattern))
-                found.push_back(&sample);
-        return found;
     }
     [[nodiscard]] bool isWhole() const {
         return black_ != nullptr && whites_[channel_] != nullptr &&
@@ -135,8 +127,7 @@ class CameraCurve {
         const ChannelSamples any(view, 0);
         if (!any.isWhole()) return;
         for (const scan::SampledPicture& picture : view.samples)
-            if (picture.pattern.kind == Kind::Level && picture.pattern.step > 0)
-                add(picture, any);
+            if (picture.pattern.kind == Kind::Level && picture.pattern.step > 0) add(picture, any);
         solve();
     }
     [[nodiscard]] glm::vec3 corrected(glm::vec3 light) const {
@@ -164,7 +155,8 @@ class CameraCurve {
     void add(const scan::SampledPicture& picture, const ChannelSamples& any) {
         constexpr double kLeast = 0.003;  // where codes are too coarse
         for (std::size_t i = 0; i < picture.light.rgb.size(); ++i) {
-            const glm::dvec3 full = any.whites(picture.pattern.lit, i) + glm::dvec3(any.black().rgb[i]);
+            const glm::dvec3 full =
+                any.whites(picture.pattern.lit, i) + glm::dvec3(any.black().rgb[i]);
             const glm::dvec3 less(picture.light.rgb[i]);
             for (int c = 0; c < 3; ++c)
                 if (full[c] > less[c] && full[c] < 0.9 && less[c] > kLeast)
@@ -234,7 +226,7 @@ Sum sumOf(const scan::SampledPicture& picture,
 }
 
 // Levels that a scan shows beside the whole of its colours, and the codes they are sent in.
-constexpr std::array kLevels{0.005F, 0.025F, 0.18F};
+constexpr std::array kLevels{0.005F, 0.025F, 0.18F, 0.5F, 0.8F};
 
 double sentCode(double light) {
     return std::round(255 * srgbFromLinear(light)) / 255;
@@ -246,76 +238,6 @@ struct Response {
     glm::dvec3 light{};
 };
 
-// What the cosines give at each code, where they are bright enough to be told from the light that
-// the screen's parts throw on one another.
-std::vector<Response> cosineResponse(const ChannelSamples& channel,
-                                     const std::vector<Sample>& samples,
-                                     const glm::dmat3& fromCamera) {
-    constexpr std::size_t kBins = 24;
-    std::array<Sum, kBins> sums;
-    std::array<double, kBins> codes{};
-    for (const scan::SampledPicture* picture : channel.cosines())
-        for (const Sample& sample : samples) {
-            const int axis = picture->pattern.kind == Kind::PhaseColumns ? 0 : 1;
-            const double turns = sample.place[axis] / wall::kScanPeriodPixels -
-                                 static_cast<double>(picture->pattern.step) / wall::kScanPhaseSteps;
-            const double code = srgbFromLinear(0.5 + 0.5 * std::cos(2 * std::acos(-1.0) * turns));
-            const auto bin = std::min(kBins - 1, static_cast<std::size_t>(code * kBins));
-            const double before = sums.at(bin).white;
-            sums.at(bin).add(channel.light(*picture, sample.index),
-                             channel.whites(picture->pattern.lit, sample.index));
-            codes.at(bin) += code * (sums.at(bin).white - before);
-        }
-    std::vector<Response> responses;
-    for (std::size_t bin = 0; bin < kBins; ++bin)
-        if (sums.at(bin).white > 0)
-            responses.push_back(
-                {codes.at(bin) / sums.at(bin).white, fromCamera * sums.at(bin).share()});
-    return responses;
-}
-
-// One colour's light at a code, linear between responses.
-double lightAt(const std::vector<Response>& responses, int colour, double code) {
-    std::size_t i = 1;
-    while (i + 1 < responses.size() && responses[i].code < code) ++i;
-    const Response& low = responses[i - 1];
-    const Response& high = responses[i];
-    const double t = (code - low.code) / (high.code - low.code);
-    return glm::mix(low.light[colour], high.light[colour], t);
-}
-
-// The mean of a cosine's light.
-double meanOf(const std::vector<Response>& cosine, int colour) {
-    constexpr int kSteps = 64;
-    double sum = 0;
-    for (int i = 0; i < kSteps; ++i) {
-        const double light = 0.5 + 0.5 * std::cos(std::acos(-1.0) * (i + 0.5) / kSteps);
-        sum += lightAt(cosine, colour, srgbFromLinear(light));
-    }
-    return sum / kSteps;
-}
-
-// A cosine is flattened about its mean, by what is out of focus and by light from elsewhere on the
-// screen: by shares that let it agree with an even level and with white, and between them change
-// evenly. What is left are logarithms of codes and light.
-void addCosine(std::vector<glm::dvec2>& points,
-               const std::vector<Response>& cosine,
-               int colour,
-               const Response& level) {
-    constexpr double kApart = 0.05;  // of codes from the level, half of it from white
-    const double mean = meanOf(cosine, colour), even = level.light[colour];
-    const double atLevel = (lightAt(cosine, colour, level.code) - even) / (mean - even);
-    const double atWhite = (1 - lightAt(cosine, colour, 1)) / (1 - mean);
-    for (const Response& one : cosine) {
-        if (one.code < level.code + kApart || one.code > 1 - kApart / 2) continue;
-        const double flat =
-            glm::mix(atLevel, atWhite, (one.code - level.code) / (1 - level.code));
-        const double light = (one.light[colour] - flat * mean) / (1 - flat);
-        if (light > 0 && light < 1 && std::log(light) > points.back().y)
-            points.emplace_back(std::log(one.code), std::log(light));
-    }
-}
-
 // Codes below those that a camera can measure: along logarithms the slope goes on changing as it
 // does above them, but for light that is no steeper than its code.
 void addDark(std::vector<glm::dvec2>& points) {
@@ -326,26 +248,18 @@ void addDark(std::vector<glm::dvec2>& points) {
     const double middle = (points[0].x + points[1].x) / 2;
     for (int i = 0; i < kSteps; ++i) {
         const double step = std::log(2.0) / 2, x = points.front().x - step;
-        const double slope =
-            std::max(std::min(1.0, first), first + bend * (x + step / 2 - middle));
+        const double slope = std::max(std::min(1.0, first), first + bend * (x + step / 2 - middle));
         points.insert(points.begin(), {x, points.front().y - slope * step});
     }
 }
 
 // From codes to light; between what is measured along logarithms, where a power is a straight line.
-std::vector<float> responseOf(const std::vector<Response>& levels,
-                              const std::vector<Response>& cosine,
-                              int colour) {
+std::vector<float> responseOf(const std::vector<Response>& levels, int colour) {
     constexpr std::size_t kCodes = 257;
-    constexpr double kDarkest = 1e-5;
     std::vector<glm::dvec2> points;
-    for (const Response& level : levels) {
-        const double light = std::log(std::max(kDarkest, level.light[colour]));
-        if (points.empty() || light > points.back().y)
-            points.emplace_back(std::log(level.code), light);
-    }
-    if (points.size() > 2) addDark(points);
-    if (cosine.size() > 2) addCosine(points, cosine, colour, levels.back());
+    for (const Response& level : levels)
+        points.emplace_back(std::log(level.code), std::log(level.light[colour]));
+    addDark(points);
     points.emplace_back(0, 0);
     std::vector<double> codes;
     for (std::size_t i = 1; i < kCodes; ++i)
@@ -381,12 +295,13 @@ std::optional<glm::dmat3> primariesOf(const ChannelSamples& channel,
     return own / luminance(white);
 }
 
-// Whether each colour of a level is clearly brighter than that of the one before: not where a picture
-// shows another level than it should.
+// Whether each colour of a level is clearly brighter than that of the one before, and darker than
+// white: not where a picture shows another level than it should.
 bool rises(glm::dvec3 before, glm::dvec3 light) {
-    constexpr double kLeast = 1.5;
+    constexpr double kLeast = 1.2;
     for (int colour = 0; colour < 3; ++colour)
-        if (light[colour] <= 0 || light[colour] < kLeast * before[colour]) return false;
+        if (light[colour] <= 0 || light[colour] >= 1 || light[colour] < kLeast * before[colour])
+            return false;
     return true;
 }
 
@@ -403,12 +318,12 @@ bool setColours(ChannelLight& light,
         const scan::SampledPicture* picture = channel.level(glm::vec3(level));
         if (picture == nullptr) return false;
         const glm::dvec3 before = levels.empty() ? glm::dvec3(0) : levels.back().light;
-        levels.push_back({sentCode(double(level)), fromCamera * sumOf(*picture, channel, samples).share()});
+        levels.push_back(
+            {sentCode(double(level)), fromCamera * sumOf(*picture, channel, samples).share()});
         if (!rises(before, levels.back().light)) return false;
     }
-    const std::vector<Response> cosine = cosineResponse(channel, samples, fromCamera);
     for (int colour = 0; colour < 3; ++colour)
-        light.response.at(static_cast<std::size_t>(colour)) = responseOf(levels, cosine, colour);
+        light.response.at(static_cast<std::size_t>(colour)) = responseOf(levels, colour);
     return true;
 }
 
@@ -426,8 +341,7 @@ SmoothField whiteOf(const ChannelSamples& channel,
     for (std::size_t i = 0; i < samples.size(); ++i)
         measured.push_back({samples[i].place / size, {lights[i] / median, 0}, 1 / kNoise});
     const glm::ivec2 cells(kCellsAcross, static_cast<int>(kCellsAcross * size.y / size.x));
-    SmoothField field =
-        smoothFit(std::move(measured), cells, kSmoothness, kFar, kRounds).first;
+    SmoothField field = smoothFit(std::move(measured), cells, kSmoothness, kFar, kRounds).first;
     for (double& control : field.controls()) control *= median;
     return field;
 }
@@ -460,7 +374,8 @@ void setBlacks(std::vector<ChannelLight>& channels, const std::vector<BlackSampl
 std::vector<BlackSample> blackSamples(const config::Rig& rig,
                                       const scan::CameraView& view,
                                       const std::vector<ChannelLight>& channels) {
-    // Of its white a channel gives more than this to all that it lights, and less by way of the screen.
+    // Of its white a channel gives more than this to all that it lights, and less by way of the
+    // screen.
     constexpr double kUnlit = 0.2;
     const Light& black = ChannelSamples(view, 0).black();
     std::vector<double> middles;
@@ -474,7 +389,8 @@ std::vector<BlackSample> blackSamples(const config::Rig& rig,
             for (std::size_t c = 0; c < channels.size(); ++c) {
                 const glm::dvec2 place(view.channels[c].place[p]);
                 const bool isHere = !std::isnan(place.x + place.y);
-                isSure = isSure && (isHere || double(view.channels[c].light[p]) < kUnlit * middles[c]);
+                isSure =
+                    isSure && (isHere || double(view.channels[c].light[p]) < kUnlit * middles[c]);
                 isLit = isLit || isHere;
                 const glm::dvec2 size(rig.channels[c].sizePixels);
                 sample.whites.push_back(isHere ? channels[c].white.at(place / size) : 0);
@@ -488,8 +404,8 @@ std::vector<BlackSample> blackSamples(const config::Rig& rig,
 
 namespace {
 
-// Slopes of a curve through points: those of parabolas through three, and no steeper than what keeps
-// the curve rising.
+// Slopes of a curve through points: those of parabolas through three, and no steeper than what
+// keeps the curve rising.
 std::vector<double> slopesOf(const std::vector<glm::dvec2>& points) {
     const std::size_t last = points.size() - 1;
     std::vector<double> chord(last), slope(points.size());

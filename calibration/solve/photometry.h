@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How each projector shines, from the levels and cosines of a scan. The camera's linear red, green
+// How each projector shines, from the levels of a scan. The camera's linear red, green
 // and blue are taken for those of Rec. 709; all light is in units of the camera's most.
 #pragma once
 
@@ -28,8 +28,8 @@ struct ChannelLight {
     std::array<std::vector<float>, 3> response;
 };
 
-// Of each channel. Nothing where the view lacks a channel's white, red, green or levels, or sees too
-// little of one.
+// Of each channel. Nothing where the view lacks a channel's white, red, green or levels, or sees
+// too little of one.
 [[nodiscard]] std::optional<std::vector<ChannelLight>> measureLight(const config::Rig& rig,
                                                                     const scan::CameraView& view);
 

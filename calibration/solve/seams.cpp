@@ -53,8 +53,7 @@ double seamOf(std::span<const ProfilePoint> profile) {
     if (width < 5) return 0;
     double seam = 0;
     for (std::size_t i = 0; i < profile.size(); ++i) {
-        const std::size_t first =
-            std::min(i - std::min(i, width / 2), profile.size() - width);
+        const std::size_t first = std::min(i - std::min(i, width / 2), profile.size() - width);
         const auto window = profile.subspan(first, width);
         if (std::ranges::none_of(window, &ProfilePoint::isShared)) continue;
         const double smooth = smoothAt(window, i - first);
@@ -79,7 +78,8 @@ Light evenPicture(const formats::FileChannel& region, glm::vec3 light) {
         for (int x = 0; x < region.sizePixels.x; ++x) {
             const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / size;
             const glm::vec3 lift = black ? black->at(place) : glm::vec3(0);
-            glm::vec3 sent = light * (blend ? blend->at(place) : glm::vec3(1)) * (1.0F - lift) + lift;
+            glm::vec3 sent =
+                light * (blend ? blend->at(place) : glm::vec3(1)) * (1.0F - lift) + lift;
             if (region.colour) {
                 const glm::vec3 own = glm::clamp(region.colour->mix * sent, 0.0F, 1.0F);
                 for (int c = 0; c < 3; ++c)
@@ -136,8 +136,7 @@ std::vector<Line> linesOf(const hall::TrueHall& truth) {
             }
             // Without the edges of the screen, where a wall may stay dark.
             const auto edge = static_cast<std::ptrdiff_t>(line.size() / 50 + 1);
-            if (line.size() > count / 2)
-                lines.emplace_back(line.begin() + edge, line.end() - edge);
+            if (line.size() > count / 2) lines.emplace_back(line.begin() + edge, line.end() - edge);
         }
     return lines;
 }
@@ -162,12 +161,6 @@ double worstSeam(const std::vector<Line>& lines, const hall::LitScreen& lit) {
         for (const LinePoint& point : line)
             profile.push_back({luminance(lightAt(lit, point)), point.channels > 1});
         worst = std::max(worst, seamOf(profile));
-        if (const char* dump = std::getenv("DUMP")) {
-            FILE* f = std::fopen(dump, "a");
-            std::fprintf(f, "line %f\n", seamOf(profile));
-            for (std::size_t i = 0; i < profile.size(); ++i) std::fprintf(f, "%zu %g %d\n", i, profile[i].luminance, profile[i].isShared?1:0);
-            std::fclose(f);
-        }
     }
     return worst;
 }

@@ -113,8 +113,7 @@ FieldPair smoothFit(std::vector<Measured> measured,
     for (int round = 0; round < rounds; ++round) {
         pair = fitted(measured, cells, smoothness);
         for (std::size_t i = 0; i < measured.size(); ++i) {
-            const double off =
-                glm::distance(pair.at(measured[i].share), measured[i].values) / far;
+            const double off = glm::distance(pair.at(measured[i].share), measured[i].values) / far;
             measured[i].weight = sure[i] / std::sqrt(1 + off * off);
         }
     }

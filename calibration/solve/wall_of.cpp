@@ -52,4 +52,11 @@ formats::WallFile wallFileOf(const SolvedHall& hall) {
     return file;
 }
 
+ShadedWall shadedWallOf(const SolvedHall& hall, const scan::CameraView& view) {
+    ShadedWall wall{.file = wallFileOf(hall), .brightness = {}};
+    if (const auto lights = measureLight(hall.rig, view))
+        wall.brightness = shade(hall, *lights, wall.file);
+    return wall;
+}
+
 }  // namespace aquarama::solve

@@ -2,6 +2,9 @@
 // From a solved hall to the wall file that render nodes take.
 #pragma once
 
+#include <optional>
+
+#include "calibration/solve/brightness.h"
 #include "calibration/solve/solve.h"
 #include "common/formats/wall_file.h"
 
@@ -11,5 +14,12 @@ namespace aquarama::solve {
 // which a viewer at the sweet spot sees what it lights (profile a3). Seen from there the bumps of
 // the screen are undone; x is NaN where the light passes the screen. Uses all processors.
 [[nodiscard]] formats::WallFile wallFileOf(const SolvedHall& hall);
+
+// The same with light and colour, where the first camera's view tells of them.
+struct ShadedWall {
+    formats::WallFile file;
+    std::optional<BrightnessFigures> brightness;
+};
+[[nodiscard]] ShadedWall shadedWallOf(const SolvedHall& hall, const scan::CameraView& view);
 
 }  // namespace aquarama::solve

@@ -52,8 +52,8 @@ struct ChannelFrustum {
 // Reversed depth: 1 at the near plane, 0 at infinity; there is no far plane.
 [[nodiscard]] glm::mat4 clipFromCamera(const ChannelFrustum& frustum, float nearMetres);
 
-// The weight of a place in a channel's picture before weights are divided by their sum: 0 with slope
-// 0 at its borders, 1 in its middle. Two neighbours cross over as t^2 / (t^2 + (1 - t)^2).
+// The weight of a place in a channel's picture before weights are divided by their sum: 0 with
+// slope 0 at its borders, 1 in its middle. Two neighbours cross over as t^2 / (t^2 + (1 - t)^2).
 [[nodiscard]] double pullAt(glm::dvec2 pixel, glm::ivec2 sizePixels);
 
 // A rig's geometry, set up once for many points. Immutable; for any thread.
