@@ -337,6 +337,17 @@ void takeCalibration(const TextReader& file, const v1::Rig& in, Rig& rig) {
         if (!channel.wallFile) channel.wallFile = {in.calibration(), channel.name, ""};
 }
 
+void takeAdjustments(const TextReader& file,
+                     const std::string& source,
+                     const v1::Rig& in,
+                     Rig& rig) {
+    if (!in.has_adjustments()) return;
+    if (rig.screen.shape == ScreenShape::Panels)
+        file.refuse(in, "adjustments", "adjustments are of projectors, not of panels: remove them");
+    rig.adjustments = in.adjustments();
+    nameFile(rig, rig.adjustments, source, file.placeOf(in, "adjustments"));
+}
+
 void nameFiles(Rig& rig, const std::string& source) {
     if (rig.screen.shape == ScreenShape::Measured)
         nameFile(rig, rig.screen.meshFile, source, rig.screen.place);
@@ -377,12 +388,14 @@ Rig parseRig(const std::string& text, const std::string& source) {
             .sweetSpotMetres = positionOf(in.sweet_spot()),
             .sweetSpotPlace = {},
             .quality = qualityOf(in),
+            .adjustments = {},
             .files = {}};
     if (in.has_sweet_spot()) rig.sweetSpotPlace = file.placeOf(in.sweet_spot());
     for (const v1::Channel& channel : in.channels())
         rig.channels.push_back(channelOf(file, channel, rig.stereo));
     takeScreen(file, source, in, rig);
     takeCalibration(file, in, rig);
+    takeAdjustments(file, source, in, rig);
     nameFiles(rig, source);
     refuseOverlaps(file, in);
     return rig;
@@ -411,6 +424,7 @@ Rig readRigAsHung(const std::string& path) {
         channel.wallFile.reset();
     }
     rig.files.clear();
+    rig.adjustments.clear();
     nameFiles(rig, path);
     readRigFiles(rig, path);
     return rig;
