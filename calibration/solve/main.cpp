@@ -24,6 +24,7 @@
 #include "calibration/solve/wall_of.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/base/versions.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
 #include "common/config/hall.h"
@@ -104,6 +105,8 @@ class Calibration {
         figures.pictures = source_->scan().pictures.size();
         figures.peakMegabytes = peakMegabytes();
         report(figures);
+        if (figures.verdict != solve::Judgement::Refuse)
+            keepVersion(options_.out, solve::jsonOf(figures));
         return figures.verdict == solve::Judgement::Refuse ? 1 : 0;
     }
 
@@ -136,7 +139,8 @@ class Calibration {
     void write(const solve::Solved& solved, solve::Figures& figures) {
         say("writing the wall file");
         const formats::WallFile file = solve::wallFileOf(*solved.hall);
-        formats::writeMpcdi(options_.out, file, 2);
+        keepVersion(options_.out, "");  // what is there before
+        writeDurably(options_.out, formats::encodeMpcdi(file, 2));
         constexpr std::size_t kPoints = 20000;
         if (truth_) solve::setTrue(figures, solve::errorsOf(*truth_, rig_, file, kPoints));
     }

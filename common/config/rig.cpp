@@ -333,6 +333,7 @@ void takeCalibration(const TextReader& file, const v1::Rig& in, Rig& rig) {
     if (!in.has_calibration()) return;
     if (rig.screen.shape == ScreenShape::Panels)
         file.refuse(in, "calibration", "panels need no calibration: remove it");
+    rig.calibration = in.calibration();
     for (Channel& channel : rig.channels)
         if (!channel.wallFile) channel.wallFile = {in.calibration(), channel.name, ""};
 }
@@ -388,6 +389,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
             .sweetSpotMetres = positionOf(in.sweet_spot()),
             .sweetSpotPlace = {},
             .quality = qualityOf(in),
+            .calibration = {},
             .adjustments = {},
             .files = {}};
     if (in.has_sweet_spot()) rig.sweetSpotPlace = file.placeOf(in.sweet_spot());
@@ -424,6 +426,7 @@ Rig readRigAsHung(const std::string& path) {
         channel.wallFile.reset();
     }
     rig.files.clear();
+    rig.calibration.clear();
     rig.adjustments.clear();
     nameFiles(rig, path);
     readRigFiles(rig, path);

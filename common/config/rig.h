@@ -163,6 +163,7 @@ struct Rig {
     glm::dvec3 sweetSpotMetres{};  // wall frame: between the viewer's eyes
     SourcePlace sweetSpotPlace;
     std::optional<QualityTier> quality;  // nothing: measured at start
+    std::string calibration = {};        // name in `files`; empty: none
     std::string adjustments = {};        // name in `files`; empty: none. See adjustments.h
     // Measured screens, wall files and adjustments, whole, by the name that the rig has for them.
     std::map<std::string, FileContent> files;

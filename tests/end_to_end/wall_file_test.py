@@ -160,6 +160,25 @@ class WallFile(unittest.TestCase):
         wait_until(lambda: "showing look 2" in self.log.read_text(), 60, "the wall without the point")
         wait_until(lambda: self.calibration() not in (None, first), 10, "its digest")
 
+    def test_an_earlier_calibration_comes_back(self):
+        self.rig.write_text(self.desk.read_text() + 'calibration: "hall.mpcdi"\n')
+        first = self.start_show()
+        earlier = self.file.read_bytes()
+        (Path(self.folder.name) / "hall.history").mkdir()
+        shutil.copy(self.file, Path(self.folder.name) / "hall.history" / "2026-01-24T210301.mpcdi")
+        moved = Path(self.folder.name) / "moved.txtpb"
+        moved.write_text(re.sub(r"yaw_deg: 39.2", "yaw_deg: 39.5", self.desk.read_text()))
+        self.assertEqual(aquarama("convert", moved, self.file).returncode, 0)
+        wait_until(lambda: self.calibration() not in (None, first), 60, "the new one")
+
+        self.assertNotEqual(aquarama("calibrations", self.rig, "--use", "7").returncode, 0)
+        done = aquarama("calibrations", self.rig, "--use", "2026-01-24T2103")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"2  2026-01-24 21:03:01 UTC .*in use")
+        self.assertIn("2 kept", done.stdout)
+        self.assertEqual(self.file.read_bytes(), earlier)
+        wait_until(lambda: self.calibration() == first, 60, "the earlier one")
+
     def test_a_raw_map_of_4k_and_another_of_its_size_and_time_come_on(self):
         file, other = Path(self.folder.name) / "left.pfm", Path(self.folder.name) / "other.pfm"
         write_map_of_4k(file, 0)
