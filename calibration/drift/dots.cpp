@@ -111,42 +111,52 @@ SpotSum takeSpot(DotPicture& picture, glm::ivec2 start, float least) {
     return sum;
 }
 
-// The middle of the light about a place, weighted by a Gaussian that moves with it.
-glm::dvec2 centred(const DotPicture& picture, Spot spot) {
+// From a place to the middle of the light about it, weighted by a Gaussian there. The window of a
+// spot is the same whenever it is looked at, so what the light round it does to the middle is the
+// same too, and cancels where two nights are compared.
+glm::dvec2 wayToMiddle(const DotPicture& picture, glm::dvec2 place, double radius) {
+    const glm::ivec2 low = glm::max(glm::ivec2(place - 3 * radius), 0);
+    const glm::ivec2 high = glm::min(glm::ivec2(place + 3 * radius), picture.size - 1);
+    double sum = 0;
+    glm::dvec2 moment(0);
+    for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) {
+            const glm::dvec2 off = glm::dvec2(x, y) + 0.5 - place;
+            const double weight =
+                std::exp(-0.5 * glm::dot(off, off) / (radius * radius)) * double{picture.at(x, y)};
+            sum += weight;
+            moment += weight * off;
+        }
+    return sum > 0 ? moment / sum : glm::dvec2(0);
+}
+
+// The middle of a spot. Twice the way that the window shows is that of a spot as wide as it.
+glm::dvec2 centred(const DotPicture& picture, const Spot& spot) {
     constexpr int kSteps = 30;
     glm::dvec2 place = spot.place;
     for (int step = 0; step < kSteps; ++step) {
-        const glm::ivec2 low = glm::max(glm::ivec2(place - 3 * spot.radius), 0);
-        const glm::ivec2 high = glm::min(glm::ivec2(place + 3 * spot.radius), picture.size - 1);
-        double sum = 0;
-        glm::dvec2 moment(0);
-        for (int y = low.y; y <= high.y; ++y)
-            for (int x = low.x; x <= high.x; ++x) {
-                const glm::dvec2 off = glm::dvec2(x, y) + 0.5 - place;
-                const double weight =
-                    std::exp(-0.5 * glm::dot(off, off) / (spot.radius * spot.radius)) *
-                    double{picture.at(x, y)};
-                sum += weight;
-                moment += weight * off;
-            }
-        if (sum <= 0) break;
-        const glm::dvec2 move = 2.0 * moment / sum;
+        const glm::dvec2 move = 2.0 * wayToMiddle(picture, place, spot.radius);
         place += move;
         if (glm::length(move) < 1e-4 || glm::distance(place, spot.place) > 2 * spot.radius) break;
     }
     return place;
 }
 
-// Spots of a picture, none of them smaller than a few pixels.
-std::vector<Spot> spotsIn(const DotPicture& picture) {
-    constexpr float kLeastShare = 0.12F;  // of the brightest
-    constexpr std::size_t kLeastPixels = 8;
+// Light that is no dot's is darker than this.
+float leastLight(const DotPicture& picture) {
+    constexpr float kLeastShare = 0.12F;   // of the brightest
     constexpr double kBrightest = 0.9997;  // but for this share of the pixels
     scan::Plane sorted = picture.light;
     const auto place = sorted.begin() + static_cast<std::ptrdiff_t>(
                                             kBrightest * static_cast<double>(sorted.size() - 1));
     std::ranges::nth_element(sorted, place);
-    const float least = kLeastShare * *place;
+    return kLeastShare * *place;
+}
+
+// Spots of a picture, none of them smaller than a few pixels.
+std::vector<Spot> spotsIn(const DotPicture& picture) {
+    constexpr std::size_t kLeastPixels = 8;
+    const float least = leastLight(picture);
     std::vector<Spot> spots;
     if (least <= 0) return spots;
     DotPicture rest = picture;

@@ -96,7 +96,9 @@ glm::dvec2 ownWay(const DotPair& pair, const CameraMove& move, glm::dvec2 size) 
     return pair.channelFromCamera * (pair.after - pair.before - movedBy(move, pair.before, size));
 }
 
-// Finds the movement of the camera that the most dots agree on.
+// Finds the movement of the camera that the most dots agree on. A projector that has moved takes
+// its dots with it; the dots of the others and of the screen's own places still agree with what a
+// camera alone can do, which has five numbers for all of them.
 class CameraMoveSearch {
   public:
     CameraMoveSearch(const std::vector<DotPair>& pairs, glm::dvec2 size)
@@ -167,7 +169,8 @@ class CameraMoveSearch {
     CameraMove move_;
 };
 
-// The ways of a channel's dots as one smooth movement; dots that disagree hardly count.
+// First the mean, then how it grows to the right and down, for both ways; of least sum, not
+// squares. The ways of a channel's dots as one smooth movement; dots that disagree hardly count.
 Eigen::Matrix<double, 3, 2> smoothWay(std::span<const DotPair> pairs,
                                       const CameraMove& move,
                                       glm::dvec2 size) {
@@ -247,7 +250,9 @@ std::vector<DotPair> pairsOf(const Reference& reference,
 
 }  // namespace
 
-Drift driftOf(const Reference& reference, const std::vector<SeenDot>& now, const config::Rig& rig) {
+WallDrift driftOf(const Reference& reference,
+                  const std::vector<SeenDot>& now,
+                  const config::Rig& rig) {
     const glm::dvec2 size(reference.cameraPixels);
     std::vector<DotPair> pairs;
     std::vector<std::size_t> ends;
@@ -257,7 +262,7 @@ Drift driftOf(const Reference& reference, const std::vector<SeenDot>& now, const
         ends.push_back(pairs.size());
     }
     const CameraMove move = CameraMoveSearch(pairs, size).find(rig.channels.size());
-    Drift drift;
+    WallDrift drift;
     for (const DotPair& pair : pairs)
         drift.cameraPixels +=
             glm::length(movedBy(move, pair.before, size)) / static_cast<double>(pairs.size());
@@ -353,7 +358,7 @@ std::string lineOf(const config::Channel& channel, const ChannelDrift& drift) {
         drift.zoom);
 }
 
-std::string jsonOf(const Drift& drift, const config::Rig& rig) {
+std::string jsonOf(const WallDrift& drift, const config::Rig& rig) {
     nlohmann::ordered_json channels = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < drift.channels.size(); ++i) {
         const ChannelDrift& one = drift.channels[i];

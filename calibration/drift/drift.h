@@ -39,7 +39,7 @@ struct ChannelDrift {
     std::size_t dots = 0;
 };
 
-struct Drift {
+struct WallDrift {
     double cameraPixels = 0;    // by which the camera's picture moved, in the mean
     bool isCameraLost = false;  // it moved too far to tell anything of projectors
     std::vector<ChannelDrift> channels;
@@ -50,12 +50,12 @@ inline constexpr double kMostDriftPixels = 0.5;
 
 // `now`: of foundAgain(). With one channel alone, a movement of the camera is taken for its
 // projector's.
-[[nodiscard]] Drift driftOf(const Reference& reference,
-                            const std::vector<SeenDot>& now,
-                            const config::Rig& rig);
+[[nodiscard]] WallDrift driftOf(const Reference& reference,
+                                const std::vector<SeenDot>& now,
+                                const config::Rig& rig);
 
 [[nodiscard]] std::string lineOf(const config::Channel& channel, const ChannelDrift& drift);
 // For other programs.
-[[nodiscard]] std::string jsonOf(const Drift& drift, const config::Rig& rig);
+[[nodiscard]] std::string jsonOf(const WallDrift& drift, const config::Rig& rig);
 
 }  // namespace aquarama::drift

@@ -81,7 +81,7 @@ class DriftWatch {
             .learned = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now)),
             .cameraPixels = source_->picture(0).sizePixels,
             .dots = drift::numberedDots(*source_, rig_)};
-        const drift::Drift self = drift::driftOf(reference, reference.dots, rig_);
+        const drift::WallDrift self = drift::driftOf(reference, reference.dots, rig_);
         for (std::size_t i = 0; i < rig_.channels.size(); ++i)
             if (self.channels[i].verdict == drift::DriftVerdict::NotSeen)
                 throw Error(
@@ -108,13 +108,13 @@ class DriftWatch {
             throw Error(
                 "the camera's pictures have another size than those that were learned; "
                 "set it as it was, or calibrate and learn again");
-        const drift::Drift drift =
+        const drift::WallDrift drift =
             drift::driftOf(reference, drift::foundAgain(*source_, reference.dots), rig_);
         report(drift, reference);
         return statusOf(drift);
     }
 
-    void report(const drift::Drift& drift, const drift::Reference& reference) const {
+    void report(const drift::WallDrift& drift, const drift::Reference& reference) const {
         if (!options_.report.empty()) {
             const std::string text = drift::jsonOf(drift, rig_);
             writeWhole(fs::path(options_.report) / "drift.json", std::as_bytes(std::span(text)));
@@ -129,7 +129,7 @@ class DriftWatch {
                 std::puts(drift::lineOf(rig_.channels[i], drift.channels[i]).c_str());
     }
 
-    [[nodiscard]] static int statusOf(const drift::Drift& drift) {
+    [[nodiscard]] static int statusOf(const drift::WallDrift& drift) {
         int status = drift.isCameraLost ? 2 : 0;
         for (const drift::ChannelDrift& channel : drift.channels) {
             if (channel.verdict == drift::DriftVerdict::NotSeen) return 2;

@@ -83,12 +83,10 @@ std::vector<FileVersion> versionsOf(const fs::path& file) {
             versions.push_back(
                 {.name = entry.path().stem().string(), .path = entry.path(), .note = {}});
     std::ranges::sort(versions, std::greater{}, &FileVersion::name);
-    bool isFound = false;
-    for (FileVersion& version : versions) {
-        version.note = textOf(noteOf(version.path));
-        version.isInUse = !isFound && isSame(file, version.path);
-        isFound = isFound || version.isInUse;
-    }
+    for (FileVersion& version : versions) version.note = textOf(noteOf(version.path));
+    const auto inUse = std::ranges::find_if(
+        versions, [&](const FileVersion& version) { return isSame(file, version.path); });
+    if (inUse != versions.end()) inUse->isInUse = true;
     return versions;
 }
 

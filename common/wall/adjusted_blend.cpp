@@ -41,6 +41,8 @@ double side(double one, double other) {
     return (a - b) / (a + b);
 }
 
+// As water fills vessels of different heights: those that are full drop out, and the rest share
+// what is left until nothing is, or all are full.
 // Hands out `all` in proportion to what each wants, on top of what it was given, and none more than
 // it may have. Returns what is left over.
 double handOut(double all,

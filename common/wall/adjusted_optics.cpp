@@ -27,6 +27,8 @@ struct Anchor {
     glm::dvec2 weight{};  // of its hill, so that all points together move as is wanted
 };
 
+// It has an end, and a system of such hills about different places always has a solution while
+// their radii are alike.
 // Wendland's function of second order: 1 in the middle, 0 with all of two derivatives at the radius
 // and beyond.
 double hill(double share) {

@@ -33,7 +33,7 @@ class Night {
                      .cameraPixels = hall.camera.sizePixels,
                      .dots = numberedDots(camera, rig)};
     }
-    [[nodiscard]] Drift after(const config::Hall& now) const {
+    [[nodiscard]] WallDrift after(const config::Hall& now) const {
         const hall::TrueHall truth(rig, now);
         hall::SimulatedCamera camera(truth, scan::dotSequenceOf(rig, false), 77);
         return driftOf(reference, foundAgain(camera, reference.dots), rig);
@@ -69,7 +69,7 @@ class DriftOfHall : public testing::TestWithParam<std::uint32_t> {
   protected:
     // Each channel's shift is measured, and blamed on nobody else.
     void expectShifts(const config::Hall& now, const std::string& what) const {
-        const Drift drift = night.after(now);
+        const WallDrift drift = night.after(now);
         ASSERT_FALSE(drift.isCameraLost) << what;
         for (std::size_t i = 0; i < drift.channels.size(); ++i) {
             const double truth = night.trueShift(now, i);
@@ -137,7 +137,7 @@ TEST(Drift, ofAHiddenChannelIsNotSeen) {
     const Night& night = nightOf(5);
     std::vector<SeenDot> found = night.reference.dots;
     std::erase_if(found, [](const SeenDot& dot) { return dot.channel == 1 && dot.dot > 3; });
-    const Drift drift = driftOf(night.reference, found, night.rig);
+    const WallDrift drift = driftOf(night.reference, found, night.rig);
     EXPECT_EQ(drift.channels[1].verdict, DriftVerdict::NotSeen);
     EXPECT_EQ(drift.channels[0].verdict, DriftVerdict::InPlace);
     EXPECT_THAT(lineOf(night.rig.channels[1], drift.channels[1]),
