@@ -87,6 +87,9 @@ void addPilot(CommandLine& line);
 void addExplain(CommandLine& line);
 void addCheck(CommandLine& line);      // hands over to aquarama-calibrate
 void addCalibrate(CommandLine& line);  // hands over to aquarama-solve
+void addCalibrations(CommandLine& line);
+void addDrift(CommandLine& line);  // hands over to aquarama-solve
+void addAdjust(CommandLine& line);
 void addInspect(CommandLine& line);
 void addConvert(CommandLine& line);
 void addCapture(CommandLine& line);

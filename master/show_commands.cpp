@@ -155,4 +155,12 @@ void addCalibrate(CommandLine& line) {
                   {});
 }
 
+void addDrift(CommandLine& line) {
+    addHandedOver(line,
+                  "drift",
+                  "has a projector moved since last night: aquarama drift --rig RIG --camera DEV",
+                  "solve",
+                  {"drift"});
+}
+
 }  // namespace aquarama

@@ -76,6 +76,21 @@ void fillLines(const config::HallProjector& projector,
         out.light[i] = line[isRows ? i / width : i % width];
 }
 
+// Of dots, which are dark but for a few pixels.
+void fillDots(const config::HallProjector& projector,
+              const config::ScanPattern& pattern,
+              std::size_t channel,
+              ThrownPicture& out) {
+    const glm::vec4 dark = sent(projector, glm::vec3(0));
+    const auto width = static_cast<std::size_t>(out.sizePixels.x);
+    for (std::size_t i = 0; i < out.light.size(); ++i) {
+        const glm::vec3 light =
+            wall::scanLight(pattern, channel, out.sizePixels, {i % width, i / width});
+        constexpr float kDark = 1e-4F;  // has the code 0
+        out.light[i] = light.r + light.g + light.b < kDark ? dark : sent(projector, light);
+    }
+}
+
 void fillTag(const config::HallProjector& projector,
              const config::ScanPattern& pattern,
              std::size_t channel,
@@ -144,7 +159,10 @@ ThrownPicture thrown(const TrueHall& hall,
     const config::HallProjector& projector = hall.hall().projectors[hall.projectorOf(channel)];
     ThrownPicture out = emptyPicture(hall, channel, hall.rig().channels[channel].sizePixels);
     out.light.resize(pixelsOf(out.sizePixels));
-    fillLines(projector, pattern, channel, out);
+    if (pattern.kind == config::ScanPattern::Kind::Dots)
+        fillDots(projector, pattern, channel, out);
+    else
+        fillLines(projector, pattern, channel, out);
     if (pattern.tagged && pattern.kind != config::ScanPattern::Kind::Room)
         fillTag(projector, pattern, channel, out);
     return asSent(hall, channel, std::move(out));

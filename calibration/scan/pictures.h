@@ -18,6 +18,11 @@ namespace aquarama::scan {
 // rig, show theirs together.
 [[nodiscard]] std::vector<config::ScanPattern> sequenceOf(const config::Rig& rig);
 
+// To see whether a projector has moved: black, white and dots of all channels, those that share no
+// light together. `isNumbered`: with the pictures that tell which dot is which.
+[[nodiscard]] std::vector<config::ScanPattern> dotSequenceOf(const config::Rig& rig,
+                                                             bool isNumbered);
+
 // What a camera has taken: a folder of files, or a simulated hall. For one thread.
 class PictureSource {
   public:

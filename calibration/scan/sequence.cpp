@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "calibration/scan/pictures.h"
 #include "common/wall/scan_pattern.h"
@@ -145,6 +146,23 @@ std::vector<ScanPattern> sequenceOf(const config::Rig& rig) {
     sequence.push_back(black());  // tells of light that came or went
     for (std::size_t i = 0; i < sequence.size(); ++i)
         sequence[i].number = static_cast<std::uint16_t>(i + 1);
+    return sequence;
+}
+
+std::vector<ScanPattern> dotSequenceOf(const config::Rig& rig, bool isNumbered) {
+    std::vector<ScanPattern> sequence{black()};
+    const int steps =
+        isNumbered
+            ? std::bit_width(wall::scanDotNumber(rig.channels.size() - 1, wall::kScanDotCount - 1))
+            : 0;
+    for (const std::uint64_t round : roundsOf(rig)) {
+        sequence.push_back({.lit = round, .tagged = false});
+        for (int step = 0; step <= steps; ++step)
+            sequence.push_back({.kind = Kind::Dots,
+                                .step = static_cast<std::uint8_t>(step),
+                                .lit = round,
+                                .tagged = false});
+    }
     return sequence;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // aquarama-solve: from pictures of a wall that a camera took, or a simulated one takes, to the
 // wall file that render nodes take.
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -13,22 +12,22 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include "calibration/hall/random_hall.h"
 #include "calibration/hall/simulated_camera.h"
 #include "calibration/hall/true_hall.h"
 #include "calibration/scan/capture.h"
 #include "calibration/scan/decode.h"
 #include "calibration/scan/pictures.h"
+#include "calibration/solve/drift_command.h"
 #include "calibration/solve/figures.h"
+#include "calibration/solve/hall_option.h"
 #include "calibration/solve/solve.h"
 #include "calibration/solve/wall_of.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/base/versions.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
-#include "common/config/hall.h"
 #include "common/config/rig.h"
-#include "common/config/text_file.h"
 #include "common/formats/mpcdi.h"
 #include "common/wall/wall.h"
 
@@ -48,29 +47,6 @@ double secondsSince(Clock::time_point begin) {
 void say(const std::string& text) {
     std::puts(text.c_str());
     std::fflush(stdout);
-}
-
-std::vector<std::string> channelNames(const config::Rig& rig) {
-    std::vector<std::string> names;
-    for (const config::Channel& channel : rig.channels) names.push_back(channel.name);
-    return names;
-}
-
-constexpr const char* kRandom = "random:";
-
-// What FILE or random:SEED says is true of the hall.
-config::Hall hallFrom(const std::string& text, const config::Rig& rig) {
-    if (!text.starts_with(kRandom))
-        return config::parseHall(config::readTextFile(text), text, channelNames(rig));
-    const std::string seed = text.substr(std::string(kRandom).size());
-    unsigned long number = 0;
-    if (!CLI::detail::lexical_cast(seed, number) || number > cli::kMostSeed)
-        throw Error("--simulate: \"" + seed + "\" is no seed; give a whole number, as in random:7");
-    // A camera that is as fine as the panorama, about.
-    constexpr double kFullPanorama = 4000;
-    return hall::randomHall(rig,
-                            static_cast<std::uint32_t>(number),
-                            std::clamp(rig.panoramaPixels.x / kFullPanorama, 0.1, 1.0));
 }
 
 double peakMegabytes() {
@@ -104,6 +80,8 @@ class Calibration {
         figures.pictures = source_->scan().pictures.size();
         figures.peakMegabytes = peakMegabytes();
         report(figures);
+        if (figures.verdict != solve::Judgement::Refuse)
+            keepVersion(options_.out, solve::jsonOf(figures));
         return figures.verdict == solve::Judgement::Refuse ? 1 : 0;
     }
 
@@ -128,7 +106,7 @@ class Calibration {
             source_ = scan::openFolder(options_.from, rig_);
             return;
         }
-        const config::Hall hall = hallFrom(options_.simulate, rig_);
+        const config::Hall hall = solve::hallFrom(options_.simulate, rig_);
         truth_ = std::make_unique<hall::TrueHall>(rig_, hall);
         source_ = std::make_unique<hall::SimulatedCamera>(*truth_, scan::sequenceOf(rig_));
     }
@@ -138,7 +116,8 @@ class Calibration {
         const solve::ShadedWall wall = solve::shadedWallOf(*solved.hall, view);
         solve::setBrightness(figures, wall.brightness);
         say("writing the wall file");
-        formats::writeMpcdi(options_.out, wall.file, 2);
+        keepVersion(options_.out, "");  // what is there before
+        writeDurably(options_.out, formats::encodeMpcdi(wall.file, 2));
         constexpr std::size_t kPoints = 20000;
         if (!truth_) return;
         solve::setTrue(figures, solve::errorsOf(*truth_, rig_, wall.file, kPoints));
@@ -185,6 +164,8 @@ int calibrate(const Options& options) {
 // NOLINTNEXTLINE(bugprone-exception-escape): outside runProgram() only a lack of memory throws
 int main(int count, char** arguments) {
     using namespace aquarama;
+    if (count > 1 && std::string(arguments[1]) == "drift")
+        return solve::runDrift(count - 1, arguments + 1);
     CLI::App app("Finds how projectors hang before their screen, from pictures of patterns.",
                  "aquarama calibrate");
     Options options;

@@ -274,7 +274,7 @@ double worstBlendSum(const wall::Wall& wall) {
             const glm::dvec2 t = glm::dvec2(x, y) / glm::dvec2(kGrid - 1);
             const auto point =
                 wall.screen().at(wall::kDarkBorder + (1 - 2 * wall::kDarkBorder) * t);
-            if (!point) continue;
+            if (!point || wall.isMasked(*point)) continue;
             double sum = 0;
             for (std::size_t i = 0; i < wall.channels(); ++i) sum += wall.weight(i, *point);
             if (sum > 0) worst = std::max(worst, std::abs(sum - 1));

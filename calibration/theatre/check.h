@@ -42,7 +42,7 @@ struct ChannelSurvey {
                                           std::size_t channel);
 
 // The largest deviation from one of the sum of all channels' shares of light, over many points of
-// the screen that are lit.
+// the screen that are lit and not masked.
 [[nodiscard]] double worstBlendSum(const wall::Wall& wall);
 
 // The survey in one line.

@@ -38,6 +38,13 @@ config::Rig readCheckedRig(const std::string& path) {
     return checkedRig(config::readTextFile(path), path);
 }
 
+std::string byHand(const config::Adjustments& adjustments) {
+    return fmt::format("by hand: {} control points, {} masks, {} limits of blends\n",
+                       adjustments.points.size(),
+                       adjustments.masks.size(),
+                       adjustments.blends.size());
+}
+
 // Says what each channel lights; checks the scene that the rig shows as well.
 void checkRig(const config::Rig& rig, const std::string& path) {
     const wall::Wall wall(rig);
@@ -45,6 +52,7 @@ void checkRig(const config::Rig& rig, const std::string& path) {
         std::printf("%s\n", theatre::oneLine(theatre::surveyChannel(rig, wall, i)).c_str());
     const double dark = wall::darkShare(wall);
     if (dark > 0) std::printf("dark: %.1f %% of the screen\n", 100 * dark);
+    if (!rig.adjustments.empty()) say(byHand(wall.adjustments()));
     const bool blendsItself = std::ranges::none_of(
         rig.channels, [](const config::Channel& channel) { return channel.wallFile.has_value(); });
     const double worst = theatre::worstBlendSum(wall);

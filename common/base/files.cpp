@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include "common/base/log.h"
@@ -38,7 +39,18 @@ std::vector<std::byte> readWhole(const fs::path& path, std::uintmax_t mostBytes)
     return bytes;
 }
 
-void writeWhole(const fs::path& path, std::span<const std::byte> content) {
+namespace {
+
+// Of a file or a folder; whether the disk has it.
+bool flush(const fs::path& path) {
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) return false;
+    const bool isDone = fsync(file) == 0;
+    close(file);
+    return isDone;
+}
+
+void write(const fs::path& path, std::span<const std::byte> content, bool isDurable) {
     // Process and number make the temporary name unique: threads of one process may write the same
     // file.
     static std::atomic<unsigned> parts = 0;
@@ -50,12 +62,24 @@ void writeWhole(const fs::path& path, std::span<const std::byte> content) {
     file.write(reinterpret_cast<const char*>(content.data()),
                static_cast<std::streamsize>(content.size()));
     file.close();
-    if (file) fs::rename(part, path, error);
-    if (!file || error) {
+    const bool isWritten = file && (!isDurable || flush(part));
+    if (isWritten) fs::rename(part, path, error);
+    if (isDurable) flush(path.has_parent_path() ? path.parent_path() : ".");
+    if (!isWritten || error) {
         fs::remove(part, error);
         throw Error(path.string() +
                     ": cannot be written; choose a folder that can, with space left");
     }
+}
+
+}  // namespace
+
+void writeWhole(const fs::path& path, std::span<const std::byte> content) {
+    write(path, content, false);
+}
+
+void writeDurably(const fs::path& path, std::span<const std::byte> content) {
+    write(path, content, true);
 }
 
 std::uint64_t freeBytesAt(fs::path path) {

@@ -19,6 +19,9 @@ namespace aquarama {
 // none. Throws Error when it cannot be written.
 void writeWhole(const std::filesystem::path& path, std::span<const std::byte> content);
 
+// The same, and returns when the disk has it: a power cut leaves the old file or the new one.
+void writeDurably(const std::filesystem::path& path, std::span<const std::byte> content);
+
 // What this user may still write on the disk of a path, which need not be there yet; 0 where it
 // cannot be told.
 [[nodiscard]] std::uint64_t freeBytesAt(std::filesystem::path path);

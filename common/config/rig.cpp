@@ -333,8 +333,20 @@ void takeCalibration(const TextReader& file, const v1::Rig& in, Rig& rig) {
     if (!in.has_calibration()) return;
     if (rig.screen.shape == ScreenShape::Panels)
         file.refuse(in, "calibration", "panels need no calibration: remove it");
+    rig.calibration = in.calibration();
     for (Channel& channel : rig.channels)
         if (!channel.wallFile) channel.wallFile = {in.calibration(), channel.name, ""};
+}
+
+void takeAdjustments(const TextReader& file,
+                     const std::string& source,
+                     const v1::Rig& in,
+                     Rig& rig) {
+    if (!in.has_adjustments()) return;
+    if (rig.screen.shape == ScreenShape::Panels)
+        file.refuse(in, "adjustments", "adjustments are of projectors, not of panels: remove them");
+    rig.adjustments = in.adjustments();
+    nameFile(rig, rig.adjustments, source, file.placeOf(in, "adjustments"));
 }
 
 void nameFiles(Rig& rig, const std::string& source) {
@@ -377,12 +389,15 @@ Rig parseRig(const std::string& text, const std::string& source) {
             .sweetSpotMetres = positionOf(in.sweet_spot()),
             .sweetSpotPlace = {},
             .quality = qualityOf(in),
+            .calibration = {},
+            .adjustments = {},
             .files = {}};
     if (in.has_sweet_spot()) rig.sweetSpotPlace = file.placeOf(in.sweet_spot());
     for (const v1::Channel& channel : in.channels())
         rig.channels.push_back(channelOf(file, channel, rig.stereo));
     takeScreen(file, source, in, rig);
     takeCalibration(file, in, rig);
+    takeAdjustments(file, source, in, rig);
     nameFiles(rig, source);
     refuseOverlaps(file, in);
     return rig;
@@ -411,6 +426,8 @@ Rig readRigAsHung(const std::string& path) {
         channel.wallFile.reset();
     }
     rig.files.clear();
+    rig.calibration.clear();
+    rig.adjustments.clear();
     nameFiles(rig, path);
     readRigFiles(rig, path);
     return rig;

@@ -163,7 +163,9 @@ struct Rig {
     glm::dvec3 sweetSpotMetres{};  // wall frame: between the viewer's eyes
     SourcePlace sweetSpotPlace;
     std::optional<QualityTier> quality;  // nothing: measured at start
-    // Measured screens and wall files, whole, by the name that the rig has for them.
+    std::string calibration = {};        // name in `files`; empty: none
+    std::string adjustments = {};        // name in `files`; empty: none. See adjustments.h
+    // Measured screens, wall files and adjustments, whole, by the name that the rig has for them.
     std::map<std::string, FileContent> files;
 };
 
@@ -178,8 +180,8 @@ struct Rig {
 void readRigFiles(Rig& rig, const std::string& rigPath);
 inline constexpr std::size_t kMostWallFileBytes = kMostBlobBytes;
 
-// As its crew has hung it, about: without calibration and wall files, which need not be there.
-// Throws Error where a channel has no projector.
+// As its crew has hung it, about: without calibration, adjustments and wall files, which need not
+// be there. Throws Error where a channel has no projector.
 [[nodiscard]] Rig readRigAsHung(const std::string& path);
 
 // Whether its master listens past its own machine, where everybody needs a key.

@@ -13,7 +13,7 @@ namespace aquarama::config {
 
 namespace {
 
-static_assert(v1::ScanPicture::ROOM == static_cast<int>(ScanPattern::Kind::Room));
+static_assert(v1::ScanPicture::DOTS == static_cast<int>(ScanPattern::Kind::Dots));
 static_assert(v1::ScanCamera::LINEAR == static_cast<int>(ScanCamera::Response::Linear));
 
 // A name in the folder of the scan, no way out of it.

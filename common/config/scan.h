@@ -21,7 +21,8 @@ struct ScanPattern {
         GrayRows,
         PhaseColumns,  // a cosine along the columns
         PhaseRows,
-        Room  // black; the screen's outline is lit by the lamps of the room
+        Room,  // black; the screen's outline is lit by the lamps of the room
+        Dots   // step 0: all dots; step n: those with bit n - 1 in their number
     };
     Kind kind = Kind::Level;
     // Gray: bit, the coarsest is 0; phase: step of kScanPhaseSteps; level: exposed for 4^-step of the

@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/config/adjustments.h"
 #include "common/config/rig.h"
 #include "common/formats/wall_file.h"
 #include "common/wall/surface.h"
@@ -97,5 +98,14 @@ using WallFiles = std::map<std::string, formats::WallFile>;
                                                                  std::size_t channel,
                                                                  const ScreenSurface& screen,
                                                                  const formats::WallFile& file);
+
+// The optics with the control points of this channel on top; the same optics where it has none.
+// Throws Error with file:line:column where a point does not lie on the screen, or points fold the
+// picture.
+[[nodiscard]] std::unique_ptr<const Optics> adjusted(std::unique_ptr<const Optics> optics,
+                                                     const config::Rig& rig,
+                                                     std::size_t channel,
+                                                     const ScreenSurface& screen,
+                                                     const config::Adjustments& adjustments);
 
 }  // namespace aquarama::wall

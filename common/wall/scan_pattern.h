@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -57,6 +58,35 @@ struct ScanTagPlace {
     return odd;
 }
 
+// Dots: Gaussian spots in the middles of kScanDots cells of a picture, numbered from 1, row by row,
+// through all channels in their order. Their standard deviation is this share of the picture's
+// width.
+inline constexpr glm::ivec2 kScanDots{5, 4};
+inline constexpr int kScanDotCount = kScanDots.x * kScanDots.y;
+inline constexpr double kScanDotShare = 1.0 / 120;
+
+[[nodiscard]] inline glm::dvec2 scanDotPlace(int dot, glm::ivec2 size) {
+    return (glm::dvec2(dot % kScanDots.x, dot / kScanDots.x) + 0.5) * glm::dvec2(size) /
+           glm::dvec2(kScanDots);
+}
+[[nodiscard]] constexpr unsigned scanDotNumber(std::size_t channel, int dot) {
+    return static_cast<unsigned>(channel) * kScanDotCount + static_cast<unsigned>(dot) + 1;
+}
+// Light at a pixel, 0 to 1, of dots whose number has the bit step - 1; of all for step 0.
+[[nodiscard]] inline double scanDotShare(int step,
+                                         std::size_t channel,
+                                         glm::ivec2 size,
+                                         glm::ivec2 pixel) {
+    const glm::dvec2 at = glm::dvec2(pixel) + 0.5;
+    const glm::ivec2 cell =
+        glm::min(glm::ivec2(at * glm::dvec2(kScanDots) / glm::dvec2(size)), kScanDots - 1);
+    const int dot = cell.y * kScanDots.x + cell.x;
+    if (step > 0 && ((scanDotNumber(channel, dot) >> static_cast<unsigned>(step - 1)) & 1U) == 0)
+        return 0;
+    const glm::dvec2 off = (at - scanDotPlace(dot, size)) / (kScanDotShare * size.x);
+    return std::exp(-0.5 * (off.x * off.x + off.y * off.y));
+}
+
 // How much of the pattern's light a place along its axis has, 0 to 1. `pixel`: a column or a row.
 [[nodiscard]] inline double scanShare(const config::ScanPattern& pattern, int pixel, int pixels) {
     using Kind = config::ScanPattern::Kind;
@@ -80,6 +110,7 @@ struct ScanTagPlace {
         case Kind::Level:
             return 1;
         case Kind::Room:
+        case Kind::Dots:  // of no axis
             break;
     }
     return 0;
@@ -98,6 +129,8 @@ struct ScanTagPlace {
         if (at.x >= 0 && at.y >= 0 && at.y < cell && at.x < kScanTagCells * cell)
             return scanTagIsLit(at.x / cell, pattern.number) ? pattern.light : glm::vec3(0);
     }
+    if (pattern.kind == Kind::Dots)
+        return pattern.light * static_cast<float>(scanDotShare(pattern.step, channel, size, pixel));
     const bool rows = pattern.kind == Kind::GrayRows || pattern.kind == Kind::PhaseRows;
     return pattern.light * static_cast<float>(rows ? scanShare(pattern, pixel.y, size.y)
                                                    : scanShare(pattern, pixel.x, size.x));

@@ -31,10 +31,15 @@ config::Stereo stereoOf(const config::Rig& rig, std::size_t channel) {
     return stereo;
 }
 
-Wall::Wall(const config::Rig& rig) : rig_(rig), screen_(makeSurface(rig_)) {
+Wall::Wall(const config::Rig& rig)
+    : rig_(rig),
+      screen_(makeSurface(rig_)),
+      adjustments_(config::adjustmentsOf(rig_)),
+      blend_(adjustments_) {
     const WallFiles files = readWallFiles(rig_);
     for (std::size_t i = 0; i < rig_.channels.size(); ++i)
-        channels_.push_back(makeOptics(rig_, i, *screen_, files));
+        channels_.push_back(
+            adjusted(makeOptics(rig_, i, *screen_, files), rig_, i, *screen_, adjustments_));
 }
 
 Wall::~Wall() = default;
@@ -70,8 +75,8 @@ double Wall::ownWeight(std::size_t channel, glm::dvec2 pixel) const {
     return glm::mix(above, below, share.y);
 }
 
-double Wall::weight(std::size_t channel, glm::dvec3 point) const {
-    assert(channel < channels_.size());
+// Before masks and limits of blends.
+double Wall::weightBefore(std::size_t channel, glm::dvec3 point) const {
     const bool isPanel = rig_.channels[channel].panel.has_value();
     if (isPanel || !channels_[channel]->blend().empty()) {
         const auto pixel = channels_[channel]->pixelOf(point);
@@ -83,6 +88,40 @@ double Wall::weight(std::size_t channel, glm::dvec3 point) const {
     for (std::size_t i = 0; i < channels_.size(); ++i)
         if (i != channel) sum += pull(i, point);
     return own / sum;
+}
+
+double Wall::weight(std::size_t channel, glm::dvec3 point) const {
+    assert(channel < channels_.size());
+    return blend_.isIdentity() ? weightBefore(channel, point) : adjustedWeight(channel, point);
+}
+
+double Wall::adjustedWeight(std::size_t channel, glm::dvec3 point) const {
+    if (weightBefore(channel, point) <= 0) return 0;
+    const glm::dvec2 panorama(rig_.panoramaPixels);
+    const glm::dvec2 place = screen_->unrolled(point);
+    std::vector<BlendPart> parts;
+    for (std::size_t i = 0; i < channels_.size(); ++i)
+        if (const double share = weightBefore(i, point); share > 0)
+            parts.push_back({.channel = i, .share = share, .mask = maskAt(i, point)});
+    const auto pulls = [&](std::size_t i, glm::dvec2 pixels) -> std::optional<double> {
+        const auto there = screen_->at(pixels / panorama);
+        return there ? std::optional(pull(i, *there)) : std::nullopt;
+    };
+    blend_.adjust(parts, place * panorama, pulls);
+    return std::ranges::find(parts, channel, &BlendPart::channel)->share;
+}
+
+double Wall::maskAt(std::size_t channel, glm::dvec3 point) const {
+    const auto pixel = channels_[channel]->pixelOf(point);
+    return pixel ? blend_.mask(
+                       channel, *pixel, screen_->unrolled(point) * glm::dvec2(rig_.panoramaPixels))
+                 : 1;
+}
+
+bool Wall::isMasked(glm::dvec3 point) const {
+    for (std::size_t i = 0; i < channels_.size(); ++i)
+        if (maskAt(i, point) < 1) return true;
+    return false;
 }
 
 namespace {
@@ -114,7 +153,26 @@ WarpMap Wall::warp(std::size_t channel) const {
             map.pointAndWeight.push_back(point ? glm::vec4(*point, weightOf(*point))
                                                : glm::vec4(0));
         }
+    if (!blend_.isIdentity()) adjustMasks(channel, map);
     return map;
+}
+
+// What a wall file says of each pixel, after masks and limits of blends.
+void Wall::adjustMasks(std::size_t channel, WarpMap& map) const {
+    if (channels_[channel]->blend().empty() && map.black.empty()) return;
+    for (std::size_t i = 0; i < map.pointAndWeight.size(); ++i) {
+        glm::vec4& pixel = map.pointAndWeight[i];
+        const glm::dvec3 point(pixel);
+        if (pixel.w <= 0) continue;
+        if (!map.black.empty()) map.black[i] *= static_cast<float>(maskAt(channel, point));
+        const double before = weightBefore(channel, point);
+        if (channels_[channel]->blend().empty() || before <= 0) continue;
+        const auto factor = static_cast<float>(adjustedWeight(channel, point) / before);
+        if (map.blend.empty())
+            pixel.w = std::min(pixel.w * factor, 1.0F);
+        else
+            map.blend[i] = glm::min(map.blend[i] * factor, 1.0F);
+    }
 }
 
 namespace {

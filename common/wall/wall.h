@@ -13,7 +13,9 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "common/config/adjustments.h"
 #include "common/config/rig.h"
+#include "common/wall/adjusted_blend.h"
 #include "common/wall/optics.h"
 #include "common/wall/surface.h"
 
@@ -59,7 +61,7 @@ struct ChannelFrustum {
 // A rig's geometry, set up once for many points. Immutable; for any thread.
 class Wall {
   public:
-    // Throws Error where a measured screen or a wall file cannot be used.
+    // Throws Error where a measured screen, a wall file or the adjustments cannot be used.
     explicit Wall(const config::Rig& rig);
     ~Wall();
 
@@ -69,7 +71,8 @@ class Wall {
 
     // The share of the light at a point of the screen that a channel gives: smooth, 0 at its
     // picture's border. The shares of all channels that reach the point sum to one in linear light.
-    // Panels share nothing. Of a wall file with a blend of its own: that.
+    // Panels share nothing. Of a wall file with a blend of its own: that. Masks and limits of
+    // blends hand light from one channel to another, and change the sum only where all are masked.
     [[nodiscard]] double weight(std::size_t channel, glm::dvec3 point) const;
     // Cost: each pixel is tested against all channels.
     [[nodiscard]] WarpMap warp(std::size_t channel) const;
@@ -77,6 +80,9 @@ class Wall {
     [[nodiscard]] ChannelFrustum frustum(std::size_t channel,
                                          double marginRadians,
                                          EyeSide eye = EyeSide::Between) const;
+    // Whether a mask that was set by hand takes light from a channel there.
+    [[nodiscard]] bool isMasked(glm::dvec3 point) const;
+    [[nodiscard]] const config::Adjustments& adjustments() const { return adjustments_; }
     // The angle, seen from the wall's origin, of the finest pixel that any channel throws on the
     // screen; radians. Samples 5 x 5 pixels of each channel.
     [[nodiscard]] double finestPixelRadians() const;
@@ -86,10 +92,16 @@ class Wall {
   private:
     [[nodiscard]] double pull(std::size_t channel, glm::dvec3 point) const;
     [[nodiscard]] double ownWeight(std::size_t channel, glm::dvec2 pixel) const;
+    [[nodiscard]] double weightBefore(std::size_t channel, glm::dvec3 point) const;
+    [[nodiscard]] double adjustedWeight(std::size_t channel, glm::dvec3 point) const;
+    [[nodiscard]] double maskAt(std::size_t channel, glm::dvec3 point) const;
+    void adjustMasks(std::size_t channel, WarpMap& map) const;
 
     config::Rig rig_;
     std::unique_ptr<const ScreenSurface> screen_;
+    config::Adjustments adjustments_;
     std::vector<std::unique_ptr<const Optics>> channels_;
+    AdjustedBlend blend_;
 };
 
 // A strip of this share of the screen's width or height may stay dark at each of its edges.

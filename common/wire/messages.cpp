@@ -354,7 +354,7 @@ bool isInBounds(const v1::ScanPattern& m) {
     constexpr std::uint32_t kMostBits = 16;  // of a column's number
     const std::uint32_t steps = isPhase(m.kind()) ? wall::kScanPhaseSteps : kMostBits;
     return m.kind() >= static_cast<std::uint32_t>(ScanKind::Level) &&
-           m.kind() <= static_cast<std::uint32_t>(ScanKind::Room) && m.step() < steps &&
+           m.kind() <= static_cast<std::uint32_t>(ScanKind::Dots) && m.step() < steps &&
            m.finest_pixels() > 0 &&
            m.finest_pixels() <= std::numeric_limits<std::uint16_t>::max() &&
            m.number() < (1U << unsigned{wall::kScanTagBits});

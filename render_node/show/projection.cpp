@@ -188,6 +188,7 @@ std::vector<glm::u8vec4> scanCodes(const config::ScanPattern& pattern,
     const auto [cell, corner] = wall::scanTagPlace(size);
     const glm::ivec2 end = corner + glm::ivec2(wall::kScanTagCells * cell, cell);
     const bool rows = isOfRows(pattern.kind);
+    const bool isDots = pattern.kind == config::ScanPattern::Kind::Dots;
     std::vector<glm::u8vec4> codes;
     codes.reserve(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
     for (int y = 0; y < size.y; ++y)
@@ -195,8 +196,8 @@ std::vector<glm::u8vec4> scanCodes(const config::ScanPattern& pattern,
             const glm::ivec2 at(pixelOfEye(mode, size, glm::vec2(x, y) + 0.5F));
             const bool isTag =
                 glm::all(glm::greaterThanEqual(at, corner)) && glm::all(glm::lessThan(at, end));
-            codes.push_back(isTag ? codeOf(wall::scanLight(pattern, channel, size, at))
-                                  : along[static_cast<std::size_t>(rows ? at.y : at.x)]);
+            codes.push_back(isTag || isDots ? codeOf(wall::scanLight(pattern, channel, size, at))
+                                            : along[static_cast<std::size_t>(rows ? at.y : at.x)]);
         }
     return codes;
 }

@@ -136,6 +136,49 @@ class WallFile(unittest.TestCase):
         frames = [set(frame for frame, row in trace(self.folder.name, name).items() if row[2]) for name in CHANNELS]
         self.assertGreater(len(set.intersection(*frames)), 20)
 
+    def test_what_is_set_by_hand_comes_on_and_goes_again(self):
+        by_hand = Path(self.folder.name) / "by_hand.txtpb"
+        by_hand.write_text("# the door\n")
+        self.rig.write_text(self.rig.read_text() + 'adjustments: "by_hand.txtpb"\n')
+        before = self.snapshot(self.rig, "before")
+        refused = aquarama("adjust", "move", self.rig, "middle", 600, 200, 60, 0, "--radius", 80)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("folds the picture", refused.stderr)
+        self.assertEqual(by_hand.read_text(), "# the door\n")
+
+        done = aquarama("adjust", "move", self.rig, "middle", 675, 300, -0.8, 0.6, "--radius", 2000)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("1 control points", aquarama("check", self.rig).stdout)
+        after = self.snapshot(self.rig, "after")
+        right, down = displacement(before / "channel-middle.png", after / "channel-middle.png")
+        self.assertTrue(-0.85 < right < -0.45 and 0.35 < down < 0.65, (right, down))
+
+        first = self.start_show()
+        done = aquarama("adjust", "remove", self.rig, 1)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(by_hand.read_text(), "# the door\n")
+        wait_until(lambda: "showing look 2" in self.log.read_text(), 60, "the wall without the point")
+        wait_until(lambda: self.calibration() not in (None, first), 10, "its digest")
+
+    def test_an_earlier_calibration_comes_back(self):
+        self.rig.write_text(self.desk.read_text() + 'calibration: "hall.mpcdi"\n')
+        first = self.start_show()
+        earlier = self.file.read_bytes()
+        (Path(self.folder.name) / "hall.history").mkdir()
+        shutil.copy(self.file, Path(self.folder.name) / "hall.history" / "2026-01-24T210301.mpcdi")
+        moved = Path(self.folder.name) / "moved.txtpb"
+        moved.write_text(re.sub(r"yaw_deg: 39.2", "yaw_deg: 39.5", self.desk.read_text()))
+        self.assertEqual(aquarama("convert", moved, self.file).returncode, 0)
+        wait_until(lambda: self.calibration() not in (None, first), 60, "the new one")
+
+        self.assertNotEqual(aquarama("calibrations", self.rig, "--use", "7").returncode, 0)
+        done = aquarama("calibrations", self.rig, "--use", "2026-01-24T2103")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"2  2026-01-24 21:03:01 UTC .*in use")
+        self.assertIn("2 kept", done.stdout)
+        self.assertEqual(self.file.read_bytes(), earlier)
+        wait_until(lambda: self.calibration() == first, 60, "the earlier one")
+
     def test_a_raw_map_of_4k_and_another_of_its_size_and_time_come_on(self):
         file, other = Path(self.folder.name) / "left.pfm", Path(self.folder.name) / "other.pfm"
         write_map_of_4k(file, 0)

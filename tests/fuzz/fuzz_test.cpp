@@ -71,6 +71,14 @@ TEST(Fuzz, damagedRigsAreRefusedOrReadWhole) {
     feed(fuzzRig, filesIn(AQUARAMA_SOURCE_DIR "/config"), 6000);
 }
 
+TEST(Fuzz, damagedAdjustmentsAreRefusedOrReadWhole) {
+    const std::string byHand =
+        R"(points { channel: "left" picture { x_px: 12 y_px: 34 } right_px: 1.5 radius_px: 60 }
+        masks { panorama { x_px: 1 y_px: 2 } panorama { x_px: 3 y_px: 4 } panorama { x_px: 5 y_px: 9 } }
+        blends { channel: "right" with: "left" width_px: 60 })";
+    feed(fuzzAdjustments, {inputOf(std::as_bytes(std::span{byHand}))}, 3000);
+}
+
 TEST(Fuzz, damagedKeyFilesAreRefusedOrReadWhole) {
     const std::string key = R"(version: 1 rig: "hall" master_address: "tcp://192.168.7.1:7400"
         master_key: "rq:rM>}U?@Lns47E1%kR.o@n%FcmmsL/@{H8]yf7" name: "left" role: NODE

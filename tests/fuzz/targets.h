@@ -11,6 +11,7 @@ namespace aquarama {
 
 int fuzzRepertoire(const std::uint8_t* bytes, std::size_t size);
 int fuzzSpecies(const std::uint8_t* bytes, std::size_t size);
+int fuzzAdjustments(const std::uint8_t* bytes, std::size_t size);
 int fuzzRig(const std::uint8_t* bytes, std::size_t size);
 int fuzzKeys(const std::uint8_t* bytes, std::size_t size);
 int fuzzScene(const std::uint8_t* bytes, std::size_t size);

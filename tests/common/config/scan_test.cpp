@@ -25,7 +25,8 @@ Scan someScan() {
                             Kind::GrayRows,
                             Kind::PhaseColumns,
                             Kind::PhaseRows,
-                            Kind::Room})
+                            Kind::Room,
+                            Kind::Dots})
         scan.pictures.push_back({.file = "picture.png",
                                  .camera = 1,
                                  .exposureSeconds = 0.125,

@@ -220,7 +220,7 @@ TEST(Messages, aScanHasAPatternWithinItsBoundsAndNoOtherPatternHasOne) {
     EXPECT_FALSE(accepted([](v1::HeldScan& s) { s.clear_holder(); }));
     using Alter = void (*)(v1::ScanPattern&);
     for (const Alter alter : {Alter{[](v1::ScanPattern& p) { p.set_kind(0); }},
-                              Alter{[](v1::ScanPattern& p) { p.set_kind(7); }},
+                              Alter{[](v1::ScanPattern& p) { p.set_kind(8); }},
                               Alter{[](v1::ScanPattern& p) { p.set_step(16); }},
                               Alter{[](v1::ScanPattern& p) {
                                   p.set_kind(4);  // a phase

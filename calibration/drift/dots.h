@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Dots that the channels of a wall show, as a camera sees them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "calibration/scan/pictures.h"
+#include "common/config/rig.h"
+
+namespace aquarama::drift {
+
+struct SeenDot {
+    std::size_t channel = 0;
+    int dot = 0;         // of its picture: wall::scanDotPlace()
+    glm::dvec2 place{};  // camera pixels from the top left corner
+    double radius = 0;   // about, camera pixels
+};
+
+// From the pictures of scan::dotSequenceOf(rig, true): each dot that is seen and knows its number.
+[[nodiscard]] std::vector<SeenDot> numberedDots(scan::PictureSource& source,
+                                                const config::Rig& rig);
+
+// From those of scan::dotSequenceOf(rig, false): where dots of before are now; those that are not
+// found, or have gone by more than a third of the way to the next, are left out.
+[[nodiscard]] std::vector<SeenDot> foundAgain(scan::PictureSource& source,
+                                              const std::vector<SeenDot>& before);
+
+}  // namespace aquarama::drift

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a projector has moved since its dots were learned, and how far; told apart from the
+// camera's own small movement.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "calibration/drift/dots.h"
+#include "common/config/rig.h"
+
+namespace aquarama::drift {
+
+// What was learned right after a calibration.
+struct Reference {
+    std::string learned;  // when: "2026-11-24T21:03:01Z"
+    glm::ivec2 cameraPixels{};
+    std::vector<SeenDot> dots;
+};
+
+// As text (JSON). Throws Error, naming `source`, where it is none or of another rig.
+[[nodiscard]] std::string textOf(const Reference& reference, const config::Rig& rig);
+[[nodiscard]] Reference parseReference(const std::string& text,
+                                       const std::string& source,
+                                       const config::Rig& rig);
+
+enum class DriftVerdict : std::uint8_t { InPlace, Moved, NotSeen };
+
+// Pixels of the channel's own picture.
+struct ChannelDrift {
+    DriftVerdict verdict = DriftVerdict::NotSeen;
+    double shift = 0;  // of its dots, root mean square
+    // To the right, down, clockwise and larger, the last two at the sides of the picture.
+    double right = 0, down = 0, turn = 0, zoom = 0;
+    std::size_t dots = 0;
+};
+
+struct WallDrift {
+    double cameraPixels = 0;    // by which the camera's picture moved, in the mean
+    bool isCameraLost = false;  // it moved too far to tell anything of projectors
+    std::vector<ChannelDrift> channels;
+};
+
+// A channel that has moved by more must be calibrated again.
+inline constexpr double kMostDriftPixels = 0.5;
+
+// `now`: of foundAgain(). With one channel alone, a movement of the camera is taken for its
+// projector's.
+[[nodiscard]] WallDrift driftOf(const Reference& reference,
+                                const std::vector<SeenDot>& now,
+                                const config::Rig& rig);
+
+[[nodiscard]] std::string lineOf(const config::Channel& channel, const ChannelDrift& drift);
+// For other programs.
+[[nodiscard]] std::string jsonOf(const WallDrift& drift, const config::Rig& rig);
+
+}  // namespace aquarama::drift

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// Control points: what a channel shows is moved by hand, on top of whatever says where it shows it.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+#include "common/base/log.h"
+#include "common/wall/optics.h"
+
+namespace aquarama::wall {
+
+namespace {
+
+// Of a control point, with its place on the panorama; pixels of that.
+struct Anchor {
+    glm::dvec2 place{}, wanted{};
+    double radius = 0;
+    config::SourcePlace source = {};
+    glm::dvec2 weight{};  // of its hill, so that all points together move as is wanted
+};
+
+// It has an end, and a system of such hills about different places always has a solution while
+// their radii are alike.
+// Wendland's function of second order: 1 in the middle, 0 with all of two derivatives at the radius
+// and beyond.
+double hill(double share) {
+    return share < 1 ? std::pow(1 - share, 4) * (4 * share + 1) : 0;
+}
+// Its slope, divided by the share.
+double hillSlope(double share) {
+    return share < 1 ? -20 * std::pow(1 - share, 3) : 0;
+}
+
+double hillOf(const Anchor& anchor, glm::dvec2 place) {
+    return hill(glm::distance(place, anchor.place) / anchor.radius);
+}
+
+// Solves the square system of `rows` x = `right` by elimination; false where it has no solution
+// that is worth its name.
+bool eliminate(std::vector<std::vector<double>>& rows, std::vector<glm::dvec2>& right) {
+    constexpr double kLeastPivot = 1e-6;  // of hills, which are 1 high
+    const std::size_t count = rows.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        std::size_t best = i;
+        for (std::size_t j = i + 1; j < count; ++j)
+            if (std::abs(rows[j][i]) > std::abs(rows[best][i])) best = j;
+        std::swap(rows[i], rows[best]);
+        std::swap(right[i], right[best]);
+        if (std::abs(rows[i][i]) < kLeastPivot) return false;
+        for (std::size_t j = 0; j < count; ++j) {
+            const double factor = rows[j][i] / rows[i][i];
+            if (j == i || factor == 0) continue;
+            for (std::size_t k = i; k < count; ++k) rows[j][k] -= factor * rows[i][k];
+            right[j] -= factor * right[i];
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) right[i] /= rows[i][i];
+    return true;
+}
+
+// A smooth move of places of the panorama, in its pixels, that does not fold it: at each point what
+// is wanted there, beyond all radii nothing.
+class SmoothMove {
+  public:
+    // Throws Error where there is no such move. `source`: the file that the points stand in.
+    SmoothMove(std::vector<Anchor> anchors, const std::string& source)
+        : anchors_(std::move(anchors)) {
+        std::vector<std::vector<double>> rows;
+        std::vector<glm::dvec2> right;
+        for (const Anchor& at : anchors_) {
+            std::vector<double>& row = rows.emplace_back();
+            for (const Anchor& of : anchors_) row.push_back(hillOf(of, at.place));
+            right.push_back(at.wanted);
+        }
+        if (!eliminate(rows, right))
+            refuse(
+                source, anchors_.back(), "two points of one channel lie at one place: remove one");
+        for (std::size_t i = 0; i < anchors_.size(); ++i) anchors_[i].weight = right[i];
+        for (const Anchor& anchor : anchors_) checkFold(anchor, source);
+    }
+
+    [[nodiscard]] bool moves(glm::dvec2 place) const {
+        return std::ranges::any_of(anchors_, [&](const Anchor& anchor) {
+            return glm::distance(place, anchor.place) < anchor.radius;
+        });
+    }
+    // Where a place comes to lie.
+    [[nodiscard]] glm::dvec2 moved(glm::dvec2 place) const {
+        glm::dvec2 to = place;
+        for (const Anchor& anchor : anchors_) to += anchor.weight * hillOf(anchor, place);
+        return to;
+    }
+    // The inverse, by Newton's method.
+    [[nodiscard]] glm::dvec2 before(glm::dvec2 place) const {
+        constexpr int kMostSteps = 60;
+        constexpr double kGoodPixels = 1e-9;
+        glm::dvec2 from = place;
+        glm::dvec2 off = moved(from) - place;
+        for (int i = 0; i < kMostSteps && glm::length(off) > kGoodPixels; ++i) {
+            glm::dvec2 step = glm::inverse(slopeAt(from)) * off;
+            // Half as far until it is nearer.
+            for (int half = 0; half < 20; ++half, step /= 2.0)
+                if (glm::length(moved(from - step) - place) < glm::length(off)) break;
+            from -= step;
+            off = moved(from) - place;
+        }
+        return from;
+    }
+
+  private:
+    [[noreturn]] static void refuse(const std::string& source,
+                                    const Anchor& anchor,
+                                    const std::string& why) {
+        throw Error(config::placed(source, anchor.source, why));
+    }
+    [[nodiscard]] glm::dmat2 slopeAt(glm::dvec2 place) const {
+        glm::dmat2 slope(1.0);
+        for (const Anchor& anchor : anchors_) {
+            const glm::dvec2 off = (place - anchor.place) / anchor.radius;
+            slope +=
+                glm::outerProduct(anchor.weight, hillSlope(glm::length(off)) * off / anchor.radius);
+        }
+        return slope;
+    }
+    // Looks at places all over a point's circle; a share of the picture's area must be left at
+    // each.
+    void checkFold(const Anchor& anchor, const std::string& source) const {
+        constexpr int kSteps = 16;  // from the middle to the radius
+        constexpr double kLeastArea = 0.2;
+        for (int y = -kSteps; y <= kSteps; ++y)
+            for (int x = -kSteps; x <= kSteps; ++x) {
+                const glm::dvec2 place =
+                    anchor.place + anchor.radius * glm::dvec2(x, y) / double{kSteps};
+                if (glm::determinant(slopeAt(place)) >= kLeastArea) continue;
+                refuse(source,
+                       anchor,
+                       fmt::format("this point folds the picture{}: move it less, or give it a "
+                                   "larger radius_px",
+                                   othersNear(anchor, place)));
+            }
+    }
+    // As in " together with those at line 3, 7".
+    [[nodiscard]] std::string othersNear(const Anchor& anchor, glm::dvec2 place) const {
+        std::string lines;
+        for (const Anchor& other : anchors_)
+            if (&other != &anchor && hillOf(other, place) > 0)
+                lines += fmt::format("{}{}", lines.empty() ? "" : ", ", other.source.line);
+        return lines.empty() ? "" : " together with the points at line " + lines;
+    }
+
+    std::vector<Anchor> anchors_;
+};
+
+class AdjustedOptics final : public Optics {
+  public:
+    AdjustedOptics(std::unique_ptr<const Optics> optics,
+                   SmoothMove move,
+                   const ScreenSurface& screen,
+                   glm::dvec2 panoramaPixels)
+        : optics_(std::move(optics)),
+          move_(std::move(move)),
+          screen_(screen),
+          panorama_(panoramaPixels) {}
+
+    [[nodiscard]] std::optional<glm::dvec3> pointOf(glm::dvec2 pixel, double spill) const override {
+        const auto point = optics_->pointOf(pixel, spill);
+        return point ? std::optional(shownAt(*point)) : std::nullopt;
+    }
+    [[nodiscard]] std::optional<glm::dvec2> pixelOf(glm::dvec3 point) const override {
+        const glm::dvec2 place = screen_.unrolled(point) * panorama_;
+        if (!move_.moves(place)) return optics_->pixelOf(point);
+        const auto there = screen_.at(move_.moved(place) / panorama_);
+        return there ? optics_->pixelOf(*there) : std::nullopt;
+    }
+    [[nodiscard]] std::vector<glm::dvec3> outline(double spill) const override {
+        std::vector<glm::dvec3> outline = optics_->outline(spill);
+        for (glm::dvec3& point : outline) point = shownAt(point);
+        return outline;
+    }
+    [[nodiscard]] const std::vector<glm::vec3>& blend() const override { return optics_->blend(); }
+    [[nodiscard]] const std::vector<glm::vec3>& black() const override { return optics_->black(); }
+    [[nodiscard]] const formats::ChannelColour* colour() const override {
+        return optics_->colour();
+    }
+
+  private:
+    // What is to be seen at a point of the screen: the point that was moved there. What would come
+    // from past the screen's edge is what is at the edge.
+    [[nodiscard]] glm::dvec3 shownAt(glm::dvec3 point) const {
+        const glm::dvec2 place = screen_.unrolled(point) * panorama_;
+        if (!move_.moves(place)) return point;
+        const glm::dvec2 from = move_.before(place);
+        if (const auto shown = screen_.at(from / panorama_)) return *shown;
+        const auto within = [&](glm::dvec2 at) {
+            return screen_.at(glm::clamp(at / panorama_, 0.0, 1.0));
+        };
+        const auto to = within(from), here = within(place);
+        return to && here ? point + (*to - *here) : point;
+    }
+
+    std::unique_ptr<const Optics> optics_;
+    SmoothMove move_;
+    const ScreenSurface& screen_;
+    glm::dvec2 panorama_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Optics> adjusted(std::unique_ptr<const Optics> optics,
+                                       const config::Rig& rig,
+                                       std::size_t channel,
+                                       const ScreenSurface& screen,
+                                       const config::Adjustments& adjustments) {
+    const glm::dvec2 panorama(rig.panoramaPixels);
+    std::vector<Anchor> anchors;
+    for (const config::ControlPoint& point : adjustments.points) {
+        if (point.channel != channel) continue;
+        Anchor anchor{.place = point.place,
+                      .wanted = point.byPixels,
+                      .radius = point.radiusPixels,
+                      .source = point.source};
+        if (point.pixelsOf == config::PixelsOf::Picture) {
+            const auto lit = optics->pointOf(point.place, 0);
+            if (!lit)
+                throw Error(config::placed(rig.adjustments,
+                                           point.source,
+                                           "this pixel of channel \"" + rig.channels[channel].name +
+                                               "\" lights no screen: give one that does"));
+            anchor.place = screen.unrolled(*lit) * panorama;
+        }
+        anchors.push_back(anchor);
+    }
+    if (anchors.empty()) return optics;
+    return std::make_unique<AdjustedOptics>(
+        std::move(optics), SmoothMove(std::move(anchors), rig.adjustments), screen, panorama);
+}
+
+}  // namespace aquarama::wall
