@@ -21,7 +21,7 @@ const std::array kGroups{
     Group{"A show on this machine", {addRun, addReplay}},
     Group{"While a show runs", {addDoctor, addStatus, addSet, addPilot, addExplain}},
     Group{"A show on several machines, one process each", {addMaster, addNode, addKeyCommands}},
-    Group{"Files", {addCheck, addCalibrate, addInspect, addConvert}},
+    Group{"Files", {addCheck, addCalibrate, addTheatre, addInspect, addConvert}},
     Group{"Fish and their repertoires",
           {addCapture, addExport, addGaits, addSearch, addControllers, addFidelity}},
     Group{"Worlds", {addStudy}},

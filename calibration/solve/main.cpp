@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // aquarama-solve: from pictures of a wall that a camera took, or a simulated one takes, to the
 // wall file that render nodes take.
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -26,9 +25,7 @@
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
-#include "common/config/hall.h"
 #include "common/config/rig.h"
-#include "common/config/text_file.h"
 #include "common/formats/mpcdi.h"
 #include "common/wall/wall.h"
 
@@ -48,29 +45,6 @@ double secondsSince(Clock::time_point begin) {
 void say(const std::string& text) {
     std::puts(text.c_str());
     std::fflush(stdout);
-}
-
-std::vector<std::string> channelNames(const config::Rig& rig) {
-    std::vector<std::string> names;
-    for (const config::Channel& channel : rig.channels) names.push_back(channel.name);
-    return names;
-}
-
-constexpr const char* kRandom = "random:";
-
-// What FILE or random:SEED says is true of the hall.
-config::Hall hallFrom(const std::string& text, const config::Rig& rig) {
-    if (!text.starts_with(kRandom))
-        return config::parseHall(config::readTextFile(text), text, channelNames(rig));
-    const std::string seed = text.substr(std::string(kRandom).size());
-    unsigned long number = 0;
-    if (!CLI::detail::lexical_cast(seed, number) || number > cli::kMostSeed)
-        throw Error("--simulate: \"" + seed + "\" is no seed; give a whole number, as in random:7");
-    // A camera that is as fine as the panorama, about.
-    constexpr double kFullPanorama = 4000;
-    return hall::randomHall(rig,
-                            static_cast<std::uint32_t>(number),
-                            std::clamp(rig.panoramaPixels.x / kFullPanorama, 0.1, 1.0));
 }
 
 double peakMegabytes() {
@@ -128,7 +102,7 @@ class Calibration {
             source_ = scan::openFolder(options_.from, rig_);
             return;
         }
-        const config::Hall hall = hallFrom(options_.simulate, rig_);
+        const config::Hall hall = hall::hallFrom("--simulate", options_.simulate, rig_);
         truth_ = std::make_unique<hall::TrueHall>(rig_, hall);
         source_ = std::make_unique<hall::SimulatedCamera>(*truth_, scan::sequenceOf(rig_));
     }
