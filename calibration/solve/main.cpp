@@ -15,6 +15,7 @@
 #include "calibration/hall/random_hall.h"
 #include "calibration/hall/simulated_camera.h"
 #include "calibration/hall/true_hall.h"
+#include "calibration/page/page.h"
 #include "calibration/scan/capture.h"
 #include "calibration/scan/decode.h"
 #include "calibration/scan/pictures.h"
@@ -78,6 +79,11 @@ class Calibration {
         figures.pictures = source_->scan().pictures.size();
         figures.peakMegabytes = peakMegabytes();
         report(figures);
+        writePage({.figures = figures,
+                   .solved = solved,
+                   .views = views,
+                   .truth = truth_.get(),
+                   .wallFile = options_.out});
         return figures.verdict == solve::Judgement::Refuse ? 1 : 0;
     }
 
@@ -134,6 +140,14 @@ class Calibration {
             say(fmt::format("the picture is {:.2f} panorama pixels off (RMS)",
                             figures.absoluteRms));
         say(options_.out);
+    }
+
+    void writePage(const page::CalibrationPage& content) const {
+        if (options_.report.empty()) return;
+        const std::string text = page::htmlOf(content);
+        const std::filesystem::path path = std::filesystem::path(options_.report) / "index.html";
+        writeWhole(path, std::as_bytes(std::span(text)));
+        say(path.string());
     }
 
     const Options& options_;
