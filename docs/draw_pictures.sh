@@ -35,6 +35,10 @@ declare -A way=(
     [fidelity_ways.svg]=fidelity
     [fidelity_segments.svg]=fidelity
     [adaptation.svg]=adaptation
+    [calibration_before.webp]=calibration
+    [calibration_scan.webp]=calibration
+    [calibration_report.webp]=calibration
+    [calibration_after.webp]=calibration
     [modules.svg]=modules
 )
 
@@ -99,6 +103,39 @@ fidelity() { $bin/aquarama fidelity --seed 4 --out "$drawn"; }
 # Prints the tables of docs/appendices/adaptation.md besides.
 adaptation() { $bin/aquarama study --seeds 16 --minutes 4 --out "$drawn"; }
 
+# A simulated hall, its scan, the page of its calibration (by Debian's chromium), and the reef before and after.
+calibration() {
+    local rig=$drawn/desk.txtpb when
+    sed "s#^scene: \"#&$PWD/config/#" config/desk.txtpb >"$rig"
+    $bin/aquarama calibrate --rig "$rig" --simulate random:7 --out "$drawn/hall.mpcdi" --report "$drawn/report" \
+        --keep "$drawn/scan"
+    chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --window-size=1120,2480 \
+        --screenshot="$drawn/report.png" "file://$drawn/report/index.html" 2>/dev/null
+    for when in before after; do
+        $bin/aquarama run "$rig" --quality medium --headless --frames 61 --film-every 60 --clip "$drawn/$when.mp4" \
+            --snapshot "$drawn/$when"
+        $bin/aquarama theatre config/desk.txtpb --hall random:7 --frame "$drawn/$when" --view hall --out "$drawn/$when.png"
+        echo 'calibration: "hall.mpcdi"' >>"$rig"
+    done
+    /usr/bin/python3 - "$drawn" <<'PYTHON'
+import sys
+from PIL import Image
+drawn = sys.argv[1]
+scan = [Image.open(f"{drawn}/scan/{number:04}.png").convert("RGB") for number in (1, 9, 20)]
+height = 330 * scan[0].height // scan[0].width
+sheet = Image.new("RGB", (1000, height))
+for i, picture in enumerate(scan):
+    sheet.paste(picture.resize((330, height), Image.LANCZOS), (335 * i, 0))
+sheet.save(f"{drawn}/calibration_scan.webp", quality=85, method=6)
+page = Image.open(f"{drawn}/report.png").convert("RGB")
+page.resize((700, 700 * page.height // page.width), Image.LANCZOS).save(
+    f"{drawn}/calibration_report.webp", quality=85, method=6)
+for when in ("before", "after"):
+    hall = Image.open(f"{drawn}/{when}.png").convert("RGB").resize((1000, 563), Image.LANCZOS)
+    hall.save(f"{drawn}/calibration_{when}.webp", quality=85, method=6)
+PYTHON
+}
+
 # The libraries and programs, as CMake knows them.
 modules() {
     cmake --preset show-tests --graphviz="$drawn/cmake.dot" >/dev/null
@@ -116,7 +153,7 @@ done
 
 cmake --preset show-tests >"$drawn/configure.log" 2>&1 || { cat "$drawn/configure.log" >&2; exit 1; }
 if [ "${names[*]}" != modules.svg ]; then
-    cmake --build --preset show-tests --target aquarama_programs aquarama_draw_still aquarama_draw_species aquarama_draw_sheet
+    cmake --build --preset show-tests --target aquarama_programs aquarama-solve aquarama_draw_still aquarama_draw_species aquarama_draw_sheet
 fi
 
 declare -A seconds=()

@@ -87,6 +87,7 @@ void addPilot(CommandLine& line);
 void addExplain(CommandLine& line);
 void addCheck(CommandLine& line);      // hands over to aquarama-calibrate
 void addCalibrate(CommandLine& line);  // hands over to aquarama-solve
+void addTheatre(CommandLine& line);    // hands over to aquarama-calibrate
 void addCalibrations(CommandLine& line);
 void addDrift(CommandLine& line);  // hands over to aquarama-solve
 void addAdjust(CommandLine& line);

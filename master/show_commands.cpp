@@ -147,6 +147,15 @@ void addCheck(CommandLine& line) {
                   {"check"});
 }
 
+void addTheatre(CommandLine& line) {
+    addHandedOver(line,
+                  "theatre",
+                  "what a simulated hall makes of channel pictures: aquarama theatre RIG "
+                  "--frame DIR --view hall --out PNG",
+                  "calibrate",
+                  {"theatre"});
+}
+
 void addCalibrate(CommandLine& line) {
     addHandedOver(line,
                   "calibrate",

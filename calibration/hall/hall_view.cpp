@@ -276,17 +276,6 @@ TrueLens eyeAt(glm::dvec3 position, glm::dvec3 lookAt, glm::ivec2 sizePixels, do
     return TrueLens(lensOf(camera));
 }
 
-namespace {
-
-std::vector<ThrownPicture> allThrown(const TrueHall& hall, std::span<const Light> channels) {
-    std::vector<ThrownPicture> pictures;
-    for (std::size_t i = 0; i < hall.channels(); ++i)
-        pictures.push_back(thrown(hall, i, channels[i]));
-    return pictures;
-}
-
-}  // namespace
-
 Light seen(const TrueHall& hall, std::span<const Light> channels, const TrueLens& eye) {
     WorkerPool pool(std::thread::hardware_concurrency());
     const std::vector<ThrownPicture> pictures = allThrown(hall, channels);

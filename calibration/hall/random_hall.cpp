@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <vector>
 
@@ -14,7 +15,9 @@
 
 #include "calibration/hall/chance.h"
 #include "calibration/hall/true_hall.h"
+#include "common/base/log.h"
 #include "common/base/units.h"
+#include "common/config/text_file.h"
 #include "common/wall/surface.h"
 
 namespace aquarama::hall {
@@ -258,6 +261,27 @@ config::Hall randomHall(const config::Rig& rig, std::uint32_t seed, double scale
     hall.darkLight = chance.between(0.0005, 0.003);
     hall.roomLight = chance.between(0.2, 0.5);
     return hall;
+}
+
+double cameraScaleFor(const config::Rig& rig) {
+    constexpr double kFullPanorama = 4000;
+    return std::clamp(rig.panoramaPixels.x / kFullPanorama, 0.1, 1.0);
+}
+
+config::Hall hallFrom(const std::string& option, const std::string& text, const config::Rig& rig) {
+    constexpr std::string_view kRandom = "random:";
+    if (!text.starts_with(kRandom)) {
+        std::vector<std::string> names;
+        for (const config::Channel& channel : rig.channels) names.push_back(channel.name);
+        return config::parseHall(config::readTextFile(text), text, names);
+    }
+    std::uint32_t seed = 0;
+    const char* end = text.data() + text.size();
+    const auto read = std::from_chars(text.data() + kRandom.size(), end, seed);
+    if (read.ec != std::errc{} || read.ptr != end)
+        throw Error(option + ": \"" + text.substr(kRandom.size()) +
+                    "\" is no seed; give a whole number, as in random:7");
+    return randomHall(rig, seed, cameraScaleFor(rig));
 }
 
 namespace {

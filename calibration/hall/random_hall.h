@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "common/config/hall.h"
@@ -25,6 +26,14 @@ namespace aquarama::hall {
 // Nothing is wrong: projectors and screen are as the rig says, and the camera has no noise and no
 // distortion. It stands where the random one would.
 [[nodiscard]] config::Hall plainHall(const config::Rig& rig, std::uint32_t seed, double scale = 1);
+
+// What the option of a command says is true of the hall: a file's name, or random:SEED, with a
+// camera that is about as fine as the panorama. Throws Error, which names the option.
+[[nodiscard]] config::Hall hallFrom(const std::string& option,
+                                    const std::string& text,
+                                    const config::Rig& rig);
+// The scale of a camera that is about as fine as the rig's panorama.
+[[nodiscard]] double cameraScaleFor(const config::Rig& rig);
 
 enum class HallFault : std::uint8_t {
     BlockedCamera,

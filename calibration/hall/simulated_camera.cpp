@@ -233,14 +233,25 @@ Picture SimulatedCamera::counted(const Light& light, float gain, std::uint32_t s
     return picture;
 }
 
-Picture SimulatedCamera::picture(std::size_t index) {
-    Light light = lightOf(index);
+Picture SimulatedCamera::taken(Light light, std::uint32_t index, float exposure) const {
     hide(light);
     dim(light);
     blur(light);
-    const std::uint32_t seed = aquarama::hashOf(seed_, static_cast<std::uint32_t>(index));
-    const auto exposure = static_cast<float>(scan_.pictures[index].exposureSeconds);
-    return counted(light, exposure * gainFor(light), seed);
+    return counted(light, exposure * gainFor(light), aquarama::hashOf(seed_, index));
+}
+
+Picture SimulatedCamera::picture(std::size_t index) {
+    return taken(lightOf(index),
+                 static_cast<std::uint32_t>(index),
+                 static_cast<float>(scan_.pictures[index].exposureSeconds));
+}
+
+Picture SimulatedCamera::pictureOf(const std::vector<ThrownPicture>& pictures) const {
+    HallLamps lamps;
+    lamps.spot = hall_.hall().faults.lamp ? 1 : 0;
+    return taken(view_.of(pictures, bounce_.of(pictures), lamps),
+                 static_cast<std::uint32_t>(scan_.pictures.size()),
+                 1);
 }
 
 }  // namespace aquarama::hall

@@ -27,6 +27,9 @@ class SimulatedCamera final : public scan::PictureSource {
     // What arrives at the camera, before its lens blurs and its sensor counts; not yet exposed.
     [[nodiscard]] Light lightOf(std::size_t index) const;
 
+    // Of any pictures of the channels, once the scan is over; exposed as the scan is.
+    [[nodiscard]] Picture pictureOf(const std::vector<ThrownPicture>& pictures) const;
+
   private:
     // The state before a projector was moved.
     struct Earlier {
@@ -43,6 +46,9 @@ class SimulatedCamera final : public scan::PictureSource {
     void hide(Light& light) const;
     void blur(Light& light) const;
     void dim(Light& light) const;
+    // From what arrives to what is stored.
+    // `index`: of the noise; `exposure`: as a share of that of the scan.
+    [[nodiscard]] Picture taken(Light light, std::uint32_t index, float exposure) const;
     [[nodiscard]] Picture counted(const Light& light, float gain, std::uint32_t seed) const;
 
     const TrueHall& hall_;

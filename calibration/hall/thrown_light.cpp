@@ -178,6 +178,13 @@ ThrownPicture thrown(const TrueHall& hall, std::size_t channel, const Light& pic
     return asSent(hall, channel, std::move(out));
 }
 
+std::vector<ThrownPicture> allThrown(const TrueHall& hall, std::span<const Light> channels) {
+    std::vector<ThrownPicture> pictures;
+    for (std::size_t i = 0; i < hall.channels(); ++i)
+        pictures.push_back(thrown(hall, i, channels[i]));
+    return pictures;
+}
+
 ThrownPicture thrownWhite(const TrueHall& hall, std::size_t channel) {
     const config::HallProjector& projector = hall.hall().projectors[hall.projectorOf(channel)];
     ThrownPicture out = emptyPicture(hall, channel, {1, 1});

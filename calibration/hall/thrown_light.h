@@ -3,6 +3,7 @@
 // shares of their own white.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -37,6 +38,9 @@ struct ThrownPicture {
                                    std::size_t channel,
                                    const config::ScanPattern& pattern);
 [[nodiscard]] ThrownPicture thrown(const TrueHall& hall, std::size_t channel, const Light& picture);
+// One picture for each channel, in the rig's order.
+[[nodiscard]] std::vector<ThrownPicture> allThrown(const TrueHall& hall,
+                                                   std::span<const Light> channels);
 // Full white all over.
 [[nodiscard]] ThrownPicture thrownWhite(const TrueHall& hall, std::size_t channel);
 

@@ -18,7 +18,6 @@
 #include "calibration/hall/true_hall.h"
 #include "calibration/scan/capture.h"
 #include "calibration/scan/pictures.h"
-#include "calibration/solve/hall_option.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
@@ -61,7 +60,8 @@ class DriftWatch {
     void openPictures() {
         const auto sequence = scan::dotSequenceOf(rig_, options_.learns);
         if (!options_.simulate.empty()) {
-            truth_ = std::make_unique<hall::TrueHall>(rig_, hallFrom(options_.simulate, rig_));
+            truth_ = std::make_unique<hall::TrueHall>(
+                rig_, hall::hallFrom("--simulate", options_.simulate, rig_));
             source_ = std::make_unique<hall::SimulatedCamera>(*truth_, sequence);
             return;
         }

@@ -12,14 +12,15 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include "calibration/hall/random_hall.h"
 #include "calibration/hall/simulated_camera.h"
 #include "calibration/hall/true_hall.h"
+#include "calibration/page/page.h"
 #include "calibration/scan/capture.h"
 #include "calibration/scan/decode.h"
 #include "calibration/scan/pictures.h"
 #include "calibration/solve/drift_command.h"
 #include "calibration/solve/figures.h"
-#include "calibration/solve/hall_option.h"
 #include "calibration/solve/solve.h"
 #include "calibration/solve/wall_of.h"
 #include "common/base/files.h"
@@ -82,6 +83,11 @@ class Calibration {
         report(figures);
         if (figures.verdict != solve::Judgement::Refuse)
             keepVersion(options_.out, solve::jsonOf(figures));
+        writePage({.figures = figures,
+                   .solved = solved,
+                   .views = views,
+                   .truth = truth_.get(),
+                   .wallFile = options_.out});
         return figures.verdict == solve::Judgement::Refuse ? 1 : 0;
     }
 
@@ -106,7 +112,7 @@ class Calibration {
             source_ = scan::openFolder(options_.from, rig_);
             return;
         }
-        const config::Hall hall = solve::hallFrom(options_.simulate, rig_);
+        const config::Hall hall = hall::hallFrom("--simulate", options_.simulate, rig_);
         truth_ = std::make_unique<hall::TrueHall>(rig_, hall);
         source_ = std::make_unique<hall::SimulatedCamera>(*truth_, scan::sequenceOf(rig_));
     }
@@ -143,6 +149,14 @@ class Calibration {
             say(fmt::format("the picture is {:.2f} panorama pixels off (RMS)",
                             figures.absoluteRms));
         say(options_.out);
+    }
+
+    void writePage(const page::CalibrationPage& content) const {
+        if (options_.report.empty()) return;
+        const std::string text = page::htmlOf(content);
+        const std::filesystem::path path = std::filesystem::path(options_.report) / "index.html";
+        writeWhole(path, std::as_bytes(std::span(text)));
+        say(path.string());
     }
 
     const Options& options_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -40,19 +41,20 @@ glm::ivec2 cellsFor(const wall::ScreenSurface& screen) {
 }
 
 // How far apart two channels show one place, which both of these ties are of.
-std::optional<double> partedBy(const SolvedHall& hall, const Tie& one, const Tie& other) {
-    const auto a = hall.placeOf(one.channel, one.place);
+std::optional<Parting> partedBy(const SolvedHall& hall, const Tie& tie, const Tie& other) {
+    const auto a = hall.placeOf(tie.channel, tie.place);
     const auto b = hall.placeOf(other.channel, other.place);
     if (!a || !b) return std::nullopt;
-    return glm::distance(hall.panoramaPixel(a->point), hall.panoramaPixel(b->point));
+    const glm::dvec2 one = hall.panoramaPixel(a->point), two = hall.panoramaPixel(b->point);
+    return Parting{(one + two) / 2.0, glm::distance(one, two)};
 }
 
 // Of what a camera sees at one place: held-out windows alone.
-std::vector<double> overlapErrors(const SolvedHall& hall, const std::vector<Tie>& ties) {
+std::vector<Parting> overlapErrors(const SolvedHall& hall, const std::vector<Tie>& ties) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<const Tie*>> windows;
     for (const Tie& tie : ties)
         if (tie.heldOut) windows[{tie.camera, tie.window}].push_back(&tie);
-    std::vector<double> errors;
+    std::vector<Parting> errors;
     for (const auto& [key, seen] : windows)
         for (std::size_t i = 0; i < seen.size(); ++i)
             for (std::size_t j = i + 1; j < seen.size(); ++j)
@@ -122,6 +124,57 @@ std::vector<glm::dvec2> someSeen(const std::vector<Tie>& ties) {
     return seen;
 }
 
+// Where a camera sees a point; nothing beside its picture.
+std::optional<glm::dvec2> seenBy(const Device& camera, glm::ivec2 size, glm::dvec3 point) {
+    const Three<double> at{point.x, point.y, point.z};
+    if (inFrame(camera.pose.data(), at)[2] <= 0) return std::nullopt;
+    const Two<double> seen = pixelOf(camera.lens.data(), camera.pose.data(), at);
+    const glm::dvec2 pixel(seen[0], seen[1]);
+    const bool inside = glm::clamp(pixel, glm::dvec2(0), glm::dvec2(size)) == pixel;
+    return inside ? std::optional(pixel) : std::nullopt;
+}
+
+// A cell of the map of uncertainty that a camera sees.
+struct SeenCell {
+    std::size_t index;
+    glm::dvec2 pixel;
+};
+std::vector<SeenCell> cellsSeen(const UncertaintyMap& map,
+                                const SolvedHall& hall,
+                                const Device& camera,
+                                glm::ivec2 cameraSize) {
+    std::vector<SeenCell> cells;
+    for (std::size_t i = 0; i < map.pixels.size(); ++i) {
+        const int index = static_cast<int>(i);
+        const glm::dvec2 place =
+            (glm::dvec2(index % map.size.x, index / map.size.x) + 0.5) / glm::dvec2(map.size);
+        if (!std::isnan(map.pixels[i]) || !hall.nominal.screen().at(place)) continue;
+        if (const auto pixel = seenBy(camera, cameraSize, hall.screen.at(place).point))
+            cells.push_back({i, *pixel});
+    }
+    return cells;
+}
+
+// By the first camera that sees a place.
+UncertaintyMap uncertaintyMap(JointProblem& joint,
+                              const SolvedHall& hall,
+                              const std::vector<glm::ivec2>& cameraSizes) {
+    constexpr int kColumns = 40;
+    const glm::ivec2 panorama = hall.rig.panoramaPixels;
+    UncertaintyMap map{{kColumns, std::max(2, kColumns * panorama.y / panorama.x)}, {}};
+    map.pixels.assign(static_cast<std::size_t>(map.size.x * map.size.y),
+                      std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t camera = 0; camera < hall.cameras.size(); ++camera) {
+        const std::vector<SeenCell> cells =
+            cellsSeen(map, hall, hall.cameras[camera], cameraSizes[camera]);
+        std::vector<glm::dvec2> seen;
+        for (const SeenCell& cell : cells) seen.push_back(cell.pixel);
+        const std::vector<double> sigma = joint.uncertainty(camera, seen);
+        for (std::size_t i = 0; i < cells.size(); ++i) map.pixels[cells[i].index] = sigma[i];
+    }
+    return map;
+}
+
 void fit(Solved& solved, const std::vector<scan::CameraView>& views) {
     SolvedHall& hall = *solved.hall;
     const std::vector<Device> expected = hall.projectors;
@@ -138,6 +191,7 @@ void fit(Solved& solved, const std::vector<scan::CameraView>& views) {
         solved.figures.outlinePoints = outline.size();
         solved.figures.outlineRms = outlineRms(hall, outline);
         solved.figures.absoluteSigma = rootMeanSquare(joint.uncertainty(0, someSeen(solved.ties)));
+        solved.uncertainty = uncertaintyMap(joint, hall, sizes);
     }
 }
 
@@ -186,7 +240,9 @@ Solved solveHall(const config::Rig& rig,
     progress("fitting what is left of the lenses");
     solved.figures.fitRms = fitRms(*solved.hall, solved.ties);
     correct(*solved.hall, solved.ties);
-    const std::vector<double> errors = overlapErrors(*solved.hall, solved.ties);
+    solved.partings = overlapErrors(*solved.hall, solved.ties);
+    std::vector<double> errors;
+    for (const Parting& parting : solved.partings) errors.push_back(parting.pixels);
     solved.figures.overlapPoints = errors.size();
     solved.figures.overlapRms = rootMeanSquare(errors);
     solved.figures.overlapP95 = quantile(errors, 0.95);

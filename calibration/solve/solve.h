@@ -26,11 +26,26 @@ struct SolveFigures {
     double absoluteSigma = 0;
 };
 
+// How far apart two channels show a place that was held out, panorama pixels.
+struct Parting {
+    glm::dvec2 place{};  // in the panorama, in its pixels
+    double pixels = 0;
+};
+
+// How well the place of what is shown is known over the panorama, by the errors of what was seen: a
+// standard deviation in its pixels, row by row; not a number where no camera sees the screen.
+struct UncertaintyMap {
+    glm::ivec2 size{};
+    std::vector<double> pixels;
+};
+
 struct Solved {
     std::unique_ptr<SolvedHall> hall;
     std::vector<Tie> ties;  // held-out ones too
     SolveFigures figures;
     std::vector<scan::ScanFault> faults;
+    std::vector<Parting> partings = {};
+    UncertaintyMap uncertainty = {};
 };
 
 // `wall` is rig's without any wall file: where the crew hung it, about. `progress` is called with

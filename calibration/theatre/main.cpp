@@ -11,9 +11,11 @@
 #include "calibration/theatre/check.h"
 #include "calibration/theatre/compose.h"
 #include "calibration/theatre/film.h"
+#include "calibration/theatre/simulated_view.h"
 #include "common/base/log.h"
 #include "common/base/units.h"
 #include "common/cli/command_line.h"
+#include "common/cli/outputs.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 #include "common/config/text_file.h"
@@ -211,6 +213,37 @@ void describeClip(CLI::App& app, Clip& options, cli::Job& job) {
     });
 }
 
+void describeTheatre(CLI::App& app, theatre::SimulatedView& options, cli::Job& job) {
+    CLI::App& command = *app.add_subcommand(
+        "theatre", "what an eye in the hall or a camera sees of the channels' pictures");
+    command.add_option("RIG", options.rigPath, "the rig")->required();
+    command
+        .add_option("--frame",
+                    options.folder,
+                    "folder of channel-NAME.png, as run --snapshot writes them, or of a "
+                    "panorama.png to be drawn")
+        ->required();
+    command.add_option("--wall",
+                       options.wallPath,
+                       "wall file by which a panorama is drawn and, without --hall, how the "
+                       "projectors hang");
+    command.add_option("--hall",
+                       options.hall,
+                       "how projectors and screen truly are: a simulated hall's file or "
+                       "random:SEED; instead of as the rig says");
+    command.add_option("--view", options.view, "hall: an eye at the back; or camera")
+        ->required()
+        ->check(CLI::IsMember({"hall", "camera"}));
+    command.add_option("--out", options.outPath, "the picture (.png)")->required();
+    command.callback([&] {
+        job = [&] {
+            cli::requireFile("--out", options.outPath);
+            theatre::drawView(options);
+            return 0;
+        };
+    });
+}
+
 }  // namespace
 }  // namespace aquarama
 
@@ -234,6 +267,9 @@ int main(int count, char** arguments) {
     describeCompose(app, composition, job);
     Clip clip;
     describeClip(app, clip, job);
+
+    theatre::SimulatedView view;
+    describeTheatre(app, view, job);
 
     std::string inspected;
     CLI::App& inspecting =

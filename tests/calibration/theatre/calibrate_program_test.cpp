@@ -128,6 +128,95 @@ TEST_F(Program, composeNamesAPictureThatIsMissingOrOfAnotherSize) {
     EXPECT_THAT(small.said, testing::HasSubstr("is 7 x 5 pixels"));
 }
 
+const std::string kDesk = AQUARAMA_SOURCE_DIR "/config/desk.txtpb";
+
+// The grid, as render nodes send it.
+void writeGrid(const std::string& folder) {
+    const config::Rig rig = config::readRig(kDesk);
+    for (std::size_t i = 0; i < rig.channels.size(); ++i)
+        writePng(folder + "/channel-" + rig.channels[i].name + ".png",
+                 pictureOf(test::projectedLight(rig, i, wall::TestPattern::Grid), 8, 0));
+}
+
+double meanDifference(const Picture& one, const Picture& other) {
+    double sum = 0;
+    for (std::size_t i = 0; i < one.rgb.size(); ++i)
+        sum += std::abs(double(one.rgb[i]) - double(other.rgb[i]));
+    return sum / static_cast<double>(one.rgb.size());
+}
+
+TEST_F(Program, theatreWithoutAHallIsTheSnapshotsHall) {
+    writeGrid(folder());
+    ASSERT_EQ(calibrate("compose " + kDesk + " " + folder()).status, 0);
+    const Outcome outcome = calibrate("theatre " + kDesk + " --frame " + folder() +
+                                      " --view hall --out " + folder() + "/seen.png");
+    ASSERT_EQ(outcome.status, 0) << outcome.said;
+    EXPECT_EQ(outcome.said, "");
+    EXPECT_LT(meanDifference(readPng(folder() + "/seen.png"), readPng(folder() + "/hall.png")),
+              0.1);
+}
+
+// A hall that is as the rig says shows what the rig shows; a projector that hangs crooked does not.
+TEST_F(Program, theatreThrowsPicturesAsTheHallHangs) {
+    writeGrid(folder());
+    const std::string camera =
+        "camera { position { x_m: 0.5 z_m: 2 } look_at { z_m: -2.6 } width_px: 320 height_px: 180 "
+        "focal_px: 150 }\n";
+    const std::string see = "theatre " + kDesk + " --frame " + folder();
+    const auto seen = [&](const std::string& arguments) {
+        const Outcome outcome = calibrate(see + arguments + " --out " + folder() + "/seen.png");
+        EXPECT_EQ(outcome.status, 0) << outcome.said;
+        return readPng(folder() + "/seen.png");
+    };
+    const std::string straight = written("straight.txtpb", camera);
+    const std::string crooked =
+        written("crooked.txtpb", camera + "projectors { channel: \"middle\" yaw_deg: 2 }\n");
+    const Picture rig = seen(" --view hall");
+    EXPECT_LT(meanDifference(seen(" --view hall --hall " + straight), rig), 1);
+    EXPECT_GT(meanDifference(seen(" --view hall --hall " + crooked), rig), 4);
+    const Picture byCamera = seen(" --view camera --hall " + straight);
+    EXPECT_EQ(byCamera.sizePixels, glm::ivec2(320, 180));
+    EXPECT_GT(*std::ranges::max_element(byCamera.rgb), 100);
+    EXPECT_GT(meanDifference(byCamera, seen(" --view camera --hall " + crooked)), 2);
+}
+
+// Without pictures of channels a panorama is drawn as nodes draw it.
+TEST_F(Program, theatreDrawsAPanorama) {
+    const config::Rig rig = config::readRig(kDesk);
+    writePng(folder() + "/panorama.png",
+             pictureOf(test::directPanorama(rig, wall::TestPattern::Grid), 16, 0));
+    const std::string pictures = folder() + "/pictures";
+    std::filesystem::create_directory(pictures);
+    writeGrid(pictures);
+    const std::string end = " --view camera --out " + folder() + "/seen.png";
+    ASSERT_EQ(calibrate("theatre " + kDesk + " --frame " + folder() + end).status, 0);
+    const Picture drawn = readPng(folder() + "/seen.png");
+    ASSERT_EQ(calibrate("theatre " + kDesk + " --frame " + pictures + end).status, 0);
+    EXPECT_LT(meanDifference(drawn, readPng(folder() + "/seen.png")), 1.5);
+}
+
+TEST_F(Program, theatreRefusesWhatDoesNotFitInOneLine) {
+    writePng(folder() + "/panorama.png", pictureOf(darkness({64, 32}), 8, 0));
+    std::filesystem::create_directory(folder() + "/empty");
+    const std::string frame = " --frame " + folder(), out = " --out " + folder() + "/seen.png";
+    const std::string hall = " --view hall";
+    for (const auto& [arguments, why] :
+         {std::pair{kDesk + frame + hall + out + " --hall random:x", "\"x\" is no seed"},
+          std::pair{kDesk + frame + hall + out + " --hall none.txtpb", "none.txtpb"},
+          std::pair{kDesk + frame + hall + out + " --wall none.mpcdi", "none.mpcdi"},
+          std::pair{kDesk + frame + hall + out + " --wall " + kDesk, "desk.txtpb"},
+          std::pair{kDesk + frame + "/empty" + hall + out, "channel-left.png: cannot be read"},
+          std::pair{kDesk + frame + hall + " --out /dev/null/x.png", "--out"},
+          std::pair{std::string("none.txtpb") + frame + hall + out, "none.txtpb"}}) {
+        const Outcome outcome = calibrate("theatre " + arguments);
+        EXPECT_EQ(outcome.status, 1) << arguments;
+        EXPECT_THAT(outcome.said, testing::HasSubstr(why));
+        EXPECT_EQ(std::ranges::count(outcome.said, '\n'), 1) << outcome.said;
+    }
+    EXPECT_EQ(calibrate("theatre " + kDesk + frame + " --view roof" + out).status, 2);
+    EXPECT_EQ(calibrate("theatre " + kDesk + frame + hall).status, 2);
+}
+
 TEST_F(Program, withoutACommandItFails) {
     EXPECT_NE(calibrate("").status, 0);
 }

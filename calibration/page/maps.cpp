@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/page/maps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <thread>
+#include <utility>
+
+#include <ceres/rotation.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "calibration/hall/thrown_light.h"
+#include "calibration/hall/true_lens.h"
+#include "common/base/worker_pool.h"
+
+namespace aquarama::page {
+
+namespace {
+
+class SolvedFall final : public Fall {
+  public:
+    explicit SolvedFall(const solve::SolvedHall& hall) : hall_{hall} {}
+
+    [[nodiscard]] std::optional<glm::dvec3> seenAt(glm::dvec2 place) const override {
+        const auto nominal = hall_.nominal.screen().at(place);
+        if (!nominal) return std::nullopt;
+        const glm::dvec3 eye = hall_.rig.sweetSpotMetres;
+        const auto seen = hall_.screen.hit({eye, *nominal - eye});
+        return seen ? std::optional(seen->point) : std::nullopt;
+    }
+    [[nodiscard]] std::optional<glm::dvec2> pixelOf(std::size_t channel,
+                                                    glm::dvec3 point) const override {
+        const solve::Device& projector = hall_.projectors[channel];
+        const solve::Three<double> at{point.x, point.y, point.z};
+        if (solve::inFrame(projector.pose.data(), at)[2] <= 0) return std::nullopt;
+        const solve::Two<double> model =
+            solve::pixelOf(projector.lens.data(), projector.pose.data(), at);
+        const glm::dvec2 size(hall_.rig.channels[channel].sizePixels);
+        const glm::dvec2 modelled(model[0], model[1]);
+        glm::dvec2 pixel = modelled;  // the correction is that of the pixel itself
+        for (int i = 0; i < 3; ++i) pixel = modelled + hall_.corrections[channel].at(pixel / size);
+        const bool inside = glm::clamp(pixel, glm::dvec2(0), size) == pixel;
+        return inside ? std::optional(pixel) : std::nullopt;
+    }
+    [[nodiscard]] glm::vec3 light(std::size_t /*channel*/,
+                                  glm::dvec3 /*point*/,
+                                  glm::vec3 sent) const override {
+        return sent;
+    }
+
+  private:
+    const solve::SolvedHall& hall_;
+};
+
+class TrueFall final : public Fall {
+  public:
+    explicit TrueFall(const hall::TrueHall& hall)
+        : hall_{hall}, nominal_{wall::makeSurface(hall.rig())} {}
+
+    [[nodiscard]] std::optional<glm::dvec3> seenAt(glm::dvec2 place) const override {
+        const auto nominal = nominal_->at(place);
+        if (!nominal) return std::nullopt;
+        const glm::dvec3 eye = hall_.rig().sweetSpotMetres;
+        return hall_.screen().hit({eye, *nominal - eye});
+    }
+    [[nodiscard]] std::optional<glm::dvec2> pixelOf(std::size_t channel,
+                                                    glm::dvec3 point) const override {
+        return hall_.pixelOf(channel, point);
+    }
+    [[nodiscard]] glm::vec3 light(std::size_t channel,
+                                  glm::dvec3 point,
+                                  glm::vec3 sent) const override {
+        glm::vec3 code(0);
+        for (int c = 0; c < 3; ++c)
+            code[c] = static_cast<float>(srgbFromLinear(std::clamp(double(sent[c]), 0.0, 1.0)));
+        const auto& projector = hall_.hall().projectors[hall_.projectorOf(channel)];
+        return static_cast<float>(hall_.whiteAt(channel, point)) *
+               hall::lightOfCode(projector, code);
+    }
+
+  private:
+    const hall::TrueHall& hall_;
+    std::unique_ptr<const wall::ScreenSurface> nominal_;
+};
+
+// Calls `work` with column, row and place (0 to 1) of each pixel; rows on all processors.
+template <class Work>
+void overPixels(glm::ivec2 sizePixels, const Work& work) {
+    WorkerPool pool(std::thread::hardware_concurrency());
+    pool.run(static_cast<std::size_t>(sizePixels.y), [&](std::size_t row) {
+        const int y = static_cast<int>(row);
+        for (int x = 0; x < sizePixels.x; ++x)
+            work(x, y, (glm::dvec2(x, y) + 0.5) / glm::dvec2(sizePixels));
+    });
+}
+
+}  // namespace
+
+std::unique_ptr<Fall> fallOf(const solve::SolvedHall& hall) {
+    return std::make_unique<SolvedFall>(hall);
+}
+std::unique_ptr<Fall> fallOf(const hall::TrueHall& hall) {
+    return std::make_unique<TrueFall>(hall);
+}
+
+Light seenPanorama(const Fall& fall,
+                   const hall::DrawnWall& wall,
+                   const hall::Content& content,
+                   glm::ivec2 sizePixels) {
+    Light seen = darkness(sizePixels);
+    overPixels(sizePixels, [&](int x, int y, glm::dvec2 place) {
+        const auto point = fall.seenAt(place);
+        for (std::size_t i = 0; point && i < wall.wall().channels(); ++i)
+            if (const auto pixel = fall.pixelOf(i, *point))
+                seen.at(x, y) += fall.light(i, *point, wall.sent(i, *pixel, content));
+    });
+    return seen;
+}
+
+namespace {
+
+// Where in the panorama, in its pixels, each channel shows what belongs to a point.
+std::vector<glm::dvec2> shownPlaces(const Fall& fall,
+                                    const hall::DrawnWall& wall,
+                                    glm::dvec3 point,
+                                    glm::ivec2 panoramaPixels) {
+    std::vector<glm::dvec2> shown;
+    for (std::size_t i = 0; i < wall.wall().channels(); ++i) {
+        const auto pixel = fall.pixelOf(i, point);
+        if (!pixel) continue;
+        if (const auto lit = wall.wall().channel(i).pointOf(*pixel, wall::kSpillMetres))
+            shown.push_back(wall.wall().screen().unrolled(*lit) * glm::dvec2(panoramaPixels));
+    }
+    return shown;
+}
+
+// Keeps the larger; the first replaces what is not a number.
+void raise(double& value, double other) {
+    if (std::isnan(value) || other > value) value = other;
+}
+
+}  // namespace
+
+ErrorMaps errorMaps(const Fall& fall,
+                    const hall::DrawnWall& wall,
+                    glm::ivec2 panoramaPixels,
+                    glm::ivec2 sizePixels) {
+    ErrorMaps maps{emptyField(sizePixels), emptyField(sizePixels)};
+    overPixels(sizePixels, [&](int x, int y, glm::dvec2 place) {
+        const auto point = fall.seenAt(place);
+        if (!point) return;
+        const auto shown = shownPlaces(fall, wall, *point, panoramaPixels);
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            raise(maps.absolute.at(x, y),
+                  glm::distance(shown[i], place * glm::dvec2(panoramaPixels)));
+            for (std::size_t j = i + 1; j < shown.size(); ++j)
+                raise(maps.neighbours.at(x, y), glm::distance(shown[i], shown[j]));
+        }
+    });
+    return maps;
+}
+
+Field displacementMap(const solve::SolvedHall& hall, glm::ivec2 sizePixels) {
+    constexpr double kMillimetres = 1000;
+    Field field = emptyField(sizePixels);
+    overPixels(sizePixels, [&](int x, int y, glm::dvec2 place) {
+        if (hall.nominal.screen().at(place))
+            field.at(x, y) = kMillimetres * hall.screen.displacement().at(place);
+    });
+    return field;
+}
+
+glm::vec3 channelColour(std::size_t channel) {
+    constexpr std::array<glm::vec3, 6> kColours{{{0.95F, 0.25F, 0.1F},
+                                                 {0.05F, 0.45F, 0.95F},
+                                                 {0.2F, 0.75F, 0.12F},
+                                                 {0.85F, 0.6F, 0.03F},
+                                                 {0.6F, 0.15F, 0.85F},
+                                                 {0.05F, 0.7F, 0.65F}}};
+    return kColours[channel % kColours.size()];
+}
+
+Light sharesOfLight(const hall::DrawnWall& wall, glm::ivec2 sizePixels) {
+    Light light = darkness(sizePixels);
+    overPixels(sizePixels, [&](int x, int y, glm::dvec2 place) {
+        const auto point = wall.wall().screen().at(place);
+        for (std::size_t i = 0; point && i < wall.wall().channels(); ++i)
+            light.at(x, y) += static_cast<float>(wall.wall().weight(i, *point)) * channelColour(i);
+    });
+    return light;
+}
+
+std::vector<std::vector<double>> shareProfile(const hall::DrawnWall& wall, int steps) {
+    std::vector<std::vector<double>> profile(wall.wall().channels());
+    for (int x = 0; x < steps; ++x) {
+        const auto point = wall.wall().screen().at({(x + 0.5) / steps, 0.5});
+        for (std::size_t i = 0; i < profile.size(); ++i)
+            profile[i].push_back(point ? wall.wall().weight(i, *point) : 0);
+    }
+    return profile;
+}
+
+std::vector<std::vector<glm::dvec2>> footprint(const wall::Wall& wall,
+                                               std::size_t channel,
+                                               glm::ivec2 channelPixels) {
+    constexpr int kSteps = 100;  // along each side
+    constexpr std::array<glm::dvec2, 5> kCorners{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}};
+    std::vector<std::vector<glm::dvec2>> pieces(1);
+    for (int i = 0; i <= 4 * kSteps; ++i) {
+        const auto side = static_cast<std::size_t>(std::min(i / kSteps, 3));
+        const double along = static_cast<double>(i) / kSteps - static_cast<double>(side);
+        const glm::dvec2 corner = glm::mix(kCorners[side], kCorners[side + 1], along);
+        const glm::dvec2 pixel = 0.5 + corner * glm::dvec2(channelPixels - 1);
+        const auto point = wall.channel(channel).pointOf(pixel, wall::kSpillMetres);
+        if (point)
+            pieces.back().push_back(wall.screen().unrolled(*point));
+        else if (!pieces.back().empty())
+            pieces.emplace_back();
+    }
+    std::erase_if(pieces, [](const auto& piece) { return piece.size() < 2; });
+    return pieces;
+}
+
+namespace {
+
+glm::dvec3 anglesOf(const solve::PoseParameters& pose) {
+    glm::dmat3 ownFromWall;
+    ceres::AngleAxisToRotationMatrix(pose.data(), &ownFromWall[0][0]);
+    const glm::dmat3 flip(1, 0, 0, 0, -1, 0, 0, 0, -1);
+    return hall::anglesOf(glm::transpose(flip * ownFromWall));
+}
+
+}  // namespace
+
+Hang hangOf(const solve::SolvedHall& hall, std::size_t channel) {
+    namespace lens = solve::lens;
+    const config::Projector& rig = hall.rig.channels[channel].projector;
+    const solve::Device& found = hall.projectors[channel];
+    Hang hang;
+    hang.movedMetres = solve::positionOf(found.pose) - rig.positionMetres;
+    hang.turnedRadians = anglesOf(found.pose) - rig.yawPitchRollRadians;
+    for (int i = 0; i < 3; ++i)
+        hang.turnedRadians[i] = std::remainder(hang.turnedRadians[i], 2 * std::numbers::pi);
+    hang.focalShare = found.lens[lens::Focal] / rig.focalPixels.x - 1;
+    hang.shiftPixels =
+        glm::dvec2(found.lens[lens::CentreX], found.lens[lens::CentreY]) - rig.principalPixels;
+    hang.k1 = found.lens[lens::K1];
+    return hang;
+}
+
+}  // namespace aquarama::page

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page that tells a crew how good a calibration is: one file of HTML that needs no other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/hall/true_hall.h"
+#include "calibration/page/drawing.h"
+#include "calibration/scan/decode.h"
+#include "calibration/solve/figures.h"
+#include "calibration/solve/solve.h"
+
+namespace aquarama::page {
+
+// What a page tells of.
+struct CalibrationPage {
+    const solve::Figures& figures;
+    const solve::Solved& solved;
+    const std::vector<scan::CameraView>& views;
+    const hall::TrueHall* truth = nullptr;  // of a simulation
+    std::string wallFile = {};              // that was written; empty: none was
+    // Brightness along the middle of the wall, where it was measured; 1 is even.
+    std::vector<Curve> brightness = {};
+};
+
+// The whole page. Takes seconds; uses all processors. Throws Error where the wall file cannot be
+// read.
+[[nodiscard]] std::string htmlOf(const CalibrationPage& page);
+
+}  // namespace aquarama::page
