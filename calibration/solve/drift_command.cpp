@@ -14,6 +14,7 @@
 
 #include "calibration/drift/dots.h"
 #include "calibration/drift/drift.h"
+#include "calibration/hall/random_hall.h"
 #include "calibration/hall/simulated_camera.h"
 #include "calibration/hall/true_hall.h"
 #include "calibration/scan/capture.h"

@@ -39,8 +39,8 @@ struct Figures {
     bool isTrue = false;  // from ground truth
     std::size_t overlapPoints = 0;
     double outlineRms = 0, fitRms = 0;
-    std::optional<BrightnessFigures> brightness;  // nothing: light and colour are not measured
-    std::optional<Seams> seams;                   // from ground truth
+    std::optional<BrightnessFigures> brightness = {};  // nothing: light and colour are not measured
+    std::optional<Seams> seams = {};                   // from ground truth
     double seconds = 0;
     std::size_t pictures = 0;
     double peakMegabytes = 0;

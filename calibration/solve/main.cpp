@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include "calibration/hall/drawn_wall.h"
 #include "calibration/hall/random_hall.h"
 #include "calibration/hall/simulated_camera.h"
 #include "calibration/hall/true_hall.h"
@@ -127,7 +128,8 @@ class Calibration {
         constexpr std::size_t kPoints = 20000;
         if (!truth_) return;
         solve::setTrue(figures, solve::errorsOf(*truth_, rig_, wall.file, kPoints));
-        figures.seams = solve::seamsOf(*truth_, wall.file);
+        figures.seams =
+            solve::seamsOf(*truth_, hall::DrawnWall(hall::withWallFile(rig_, options_.out)));
     }
 
     void report(const solve::Figures& figures) const {

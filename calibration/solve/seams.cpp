@@ -67,30 +67,6 @@ double colourDifference(glm::dvec3 one, glm::dvec3 other, glm::dvec3 white) {
     return cmsCIE2000DeltaE(&a, &b, 1, 1, 1);
 }
 
-Light evenPicture(const formats::FileChannel& region, glm::vec3 light) {
-    Light picture = darkness(region.sizePixels);
-    const glm::dvec2 size(region.sizePixels);
-    const auto maskLight = [](const std::optional<formats::Mask>& mask) {
-        return mask ? std::optional<formats::MaskLight>(*mask) : std::nullopt;
-    };
-    const auto blend = maskLight(region.blend), black = maskLight(region.black);
-    for (int y = 0; y < region.sizePixels.y; ++y)
-        for (int x = 0; x < region.sizePixels.x; ++x) {
-            const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / size;
-            const glm::vec3 lift = black ? black->at(place) : glm::vec3(0);
-            glm::vec3 sent =
-                light * (blend ? blend->at(place) : glm::vec3(1)) * (1.0F - lift) + lift;
-            if (region.colour) {
-                const glm::vec3 own = glm::clamp(region.colour->mix * sent, 0.0F, 1.0F);
-                for (int c = 0; c < 3; ++c)
-                    sent[c] = static_cast<float>(linearFromSrgb(formats::codeFor(
-                        region.colour->response.at(static_cast<std::size_t>(c)), double(own[c]))));
-            }
-            picture.at(x, y) = sent;
-        }
-    return picture;
-}
-
 namespace {
 
 constexpr std::size_t kPoints = 480;  // of a profile
@@ -147,11 +123,8 @@ glm::dvec3 lightAt(const hall::LitScreen& lit, const LinePoint& point) {
     return sum / static_cast<double>(point.samples.size());
 }
 
-hall::LitScreen litBy(const hall::TrueHall& truth, const formats::WallFile& file, glm::vec3 light) {
-    std::vector<Light> pictures;
-    for (const formats::FileChannel& region : file.channels)
-        pictures.push_back(evenPicture(region, light));
-    return {truth, pictures};
+hall::LitScreen litBy(const hall::TrueHall& truth, const hall::DrawnWall& wall, glm::vec3 light) {
+    return {truth, wall.pictures([light](glm::dvec3) { return light; })};
 }
 
 double worstSeam(const std::vector<Line>& lines, const hall::LitScreen& lit) {
@@ -198,18 +171,18 @@ double colourSeam(const std::vector<Line>& lines,
 
 }  // namespace
 
-Seams seamsOf(const hall::TrueHall& truth, const formats::WallFile& file) {
+Seams seamsOf(const hall::TrueHall& truth, const hall::DrawnWall& wall) {
     const std::vector<Line> lines = linesOf(truth);
-    const hall::LitScreen white = litBy(truth, file, glm::vec3(1));
-    const hall::LitScreen grey = litBy(truth, file, glm::vec3(0.18F));
-    Seams seams{.grey2 = worstSeam(lines, litBy(truth, file, glm::vec3(0.02F))),
+    const hall::LitScreen white = litBy(truth, wall, glm::vec3(1));
+    const hall::LitScreen grey = litBy(truth, wall, glm::vec3(0.18F));
+    Seams seams{.grey2 = worstSeam(lines, litBy(truth, wall, glm::vec3(0.02F))),
                 .grey18 = worstSeam(lines, grey),
                 .grey100 = worstSeam(lines, white)};
     seams.colour = colourSeam(lines, grey, white) / 4;
     for (int c = 0; c < 3; ++c) {
         glm::vec3 primary(0);
         primary[c] = 0.5F;
-        seams.colour += colourSeam(lines, litBy(truth, file, primary), white) / 4;
+        seams.colour += colourSeam(lines, litBy(truth, wall, primary), white) / 4;
     }
     return seams;
 }

@@ -5,9 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "calibration/hall/drawn_wall.h"
 #include "calibration/hall/true_hall.h"
-#include "common/base/picture.h"
-#include "common/formats/wall_file.h"
 
 namespace aquarama::solve {
 
@@ -33,11 +32,8 @@ struct Seams {
     double colour = 0;
 };
 
-// What a wall file makes of even light, on some rows and columns of the screen.
-[[nodiscard]] Seams seamsOf(const hall::TrueHall& truth, const formats::WallFile& file);
-
-// What nodes send to the projector of a channel that shows even light all over: as the light that a
-// projector without faults would make of the codes.
-[[nodiscard]] Light evenPicture(const formats::FileChannel& region, glm::vec3 light);
+// What a wall makes of even light, on some rows and columns of the screen. Takes seconds; uses all
+// processors.
+[[nodiscard]] Seams seamsOf(const hall::TrueHall& truth, const hall::DrawnWall& wall);
 
 }  // namespace aquarama::solve

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "calibration/hall/drawn_wall.h"
 #include "calibration/hall/random_hall.h"
 #include "calibration/hall/simulated_camera.h"
 #include "calibration/hall/true_hall.h"
@@ -17,6 +18,7 @@
 #include "calibration/solve/solve.h"
 #include "calibration/solve/statistics.h"
 #include "calibration/solve/wall_of.h"
+#include "common/formats/mpcdi.h"
 
 namespace aquarama::solve {
 namespace {
@@ -44,7 +46,10 @@ Outcome calibrated(const config::Rig& rig, const config::Hall& hall, bool measur
     const ShadedWall shaded = shadedWallOf(*solved.hall, views.front());
     setBrightness(outcome.figures, shaded.brightness);
     outcome.errors = errorsOf(truth, rig, shaded.file, kPoints);
-    if (measuresSeams) outcome.seams = seamsOf(truth, shaded.file);
+    if (!measuresSeams) return outcome;
+    const std::string path = testing::TempDir() + "aquarama-calibration.mpcdi";
+    formats::writeMpcdi(path, shaded.file, 2);
+    outcome.seams = seamsOf(truth, hall::DrawnWall(hall::withWallFile(rig, path)));
     return outcome;
 }
 

@@ -9,7 +9,6 @@
 #include "calibration/solve/brightness.h"
 #include "calibration/solve/photometry.h"
 #include "calibration/solve/seams.h"
-#include "common/base/picture.h"
 
 namespace aquarama::solve {
 namespace {
@@ -98,29 +97,6 @@ TEST(ColourDifference, agreesWithPublishedPairs) {
             linearOf(60.2574, -34.0099, 36.2677), linearOf(60.4626, -34.1751, 39.4387), white),
         1.2644,
         2e-3);
-}
-
-// What is sent of even light through masks and a response is undone by a projector that has them.
-TEST(EvenPicture, isWhatAProjectorWithTheseColoursTurnsIntoTheLight) {
-    formats::FileChannel region;
-    region.sizePixels = {2, 1};
-    region.blend = formats::Mask{
-        .size = {2, 1}, .components = 1, .bits = 16, .gamma = 1, .codes = {65535, 32768}};
-    region.black =
-        formats::Mask{.size = {2, 1}, .components = 1, .bits = 16, .gamma = 1, .codes = {0, 6554}};
-    formats::ChannelColour colour;
-    for (auto& response : colour.response)
-        for (int i = 0; i <= 100; ++i)
-            response.push_back(static_cast<float>(std::pow(i / 100.0, 2.0)));
-    colour.mix = glm::mat3(0.5F);
-    region.colour = colour;
-    const Light sent = evenPicture(region, glm::vec3(0.6F));
-    const auto thrown = [&](int x) {
-        return formats::lightFor(colour.response[0], srgbFromLinear(double(sent.at(x, 0).g)));
-    };
-    EXPECT_NEAR(thrown(0), 0.3, 1e-3);
-    const double black = 6554 / 65535.0;
-    EXPECT_NEAR(thrown(1), 0.5 * (0.6 * 0.5 * (1 - black) + black), 1e-3);
 }
 
 }  // namespace
