@@ -87,6 +87,7 @@ void addPilot(CommandLine& line);
 void addExplain(CommandLine& line);
 void addCheck(CommandLine& line);      // hands over to aquarama-calibrate
 void addCalibrate(CommandLine& line);  // hands over to aquarama-solve
+void addConsole(CommandLine& line);    // hands over to aquarama-console
 void addInspect(CommandLine& line);
 void addConvert(CommandLine& line);
 void addCapture(CommandLine& line);

@@ -155,4 +155,12 @@ void addCalibrate(CommandLine& line) {
                   {});
 }
 
+void addConsole(CommandLine& line) {
+    addHandedOver(line,
+                  "console",
+                  "the operator's console, for browsers: aquarama console RIG",
+                  "console",
+                  {});
+}
+
 }  // namespace aquarama

@@ -14,6 +14,7 @@
 #include <signal.h>
 
 #include "common/base/log.h"
+#include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
 #include "common/config/keys.h"
 #include "master/supervisor/children.h"
@@ -217,6 +218,10 @@ Verdict judge(const RunOptions& options,
     const bool early = Clock::now() - process.started < kShortestLife;
     process.proven = process.proven || !early;
     if (ending.clean()) return process.name == kMaster ? Verdict::Over : Verdict::GoesOn;
+    if (ending.exitCode == cli::kStartAgain) {
+        process.launch();
+        return Verdict::GoesOn;
+    }
     if (options.lockstep() || !process.proven) {
         std::cerr << causeOf(errors, process, ending) << '\n';
         return Verdict::Failed;
