@@ -105,19 +105,19 @@ std::optional<Holder> holderOf(const std::vector<Holder>& holders, std::string_v
 
 }  // namespace
 
-std::string_view nameOf(Role role) {
+std::string_view nameOf(ConsoleRole role) {
     switch (role) {
-        case Role::Watcher:
+        case ConsoleRole::Watcher:
             return "watcher";
-        case Role::Operator:
+        case ConsoleRole::Operator:
             return "operator";
         default:
             return "crew";
     }
 }
 
-std::optional<Role> roleNamed(std::string_view name) {
-    for (const Role role : {Role::Watcher, Role::Operator, Role::Crew})
+std::optional<ConsoleRole> roleNamed(std::string_view name) {
+    for (const ConsoleRole role : {ConsoleRole::Watcher, ConsoleRole::Operator, ConsoleRole::Crew})
         if (nameOf(role) == name) return role;
     return std::nullopt;
 }
@@ -159,7 +159,7 @@ Access::Access(fs::path folder) : folder_{std::move(folder)} {
     sessions_ = holdersIn(folder_ / kSessionFile);
 }
 
-std::string Access::makeCode(Role role, UnixSeconds now) {
+std::string Access::makeCode(ConsoleRole role, UnixSeconds now) {
     const auto bytes = randomBytes<kCodeLetters>();
     std::string code;
     for (const unsigned char byte : bytes) code += kCrockford[byte & 31U];
@@ -193,7 +193,7 @@ std::optional<std::string> Access::pair(const std::string& code,
     sessions_.push_back({hash.substr(0, 12),
                          hash,
                          shownName(name),
-                         roleNamed(valid.value("role", "")).value_or(Role::Watcher),
+                         roleNamed(valid.value("role", "")).value_or(ConsoleRole::Watcher),
                          now,
                          now + kSessionSeconds});
     writeHolders(folder_ / kSessionFile, sessions_);
@@ -210,7 +210,7 @@ void Access::revoke(const std::string& id) {
     writeHolders(folder_ / kSessionFile, sessions_);
 }
 
-std::string Access::makeToken(const std::string& name, Role role, UnixSeconds now) {
+std::string Access::makeToken(const std::string& name, ConsoleRole role, UnixSeconds now) {
     std::vector<Holder> tokens = holdersIn(folder_ / kTokenFile);
     std::erase_if(tokens, [&](const Holder& one) { return one.name == name; });
     if (tokens.size() == kMostHolders)

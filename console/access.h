@@ -13,9 +13,9 @@
 namespace aquarama::console {
 
 // What somebody may do, each more than the one before; numbered as in console.proto.
-enum class Role : std::uint8_t { Watcher = 1, Operator = 2, Crew = 3 };
-[[nodiscard]] std::string_view nameOf(Role role);
-[[nodiscard]] std::optional<Role> roleNamed(std::string_view name);
+enum class ConsoleRole : std::uint8_t { Watcher = 1, Operator = 2, Crew = 3 };
+[[nodiscard]] std::string_view nameOf(ConsoleRole role);
+[[nodiscard]] std::optional<ConsoleRole> roleNamed(std::string_view name);
 
 // Seconds of Unix time.
 using UnixSeconds = double;
@@ -26,7 +26,7 @@ struct Holder {
     std::string id;  // the first letters of `hash`: names it to people
     std::string hash;
     std::string name;
-    Role role = Role::Watcher;
+    ConsoleRole role = ConsoleRole::Watcher;
     UnixSeconds since = 0, until = 0;
 };
 
@@ -44,7 +44,7 @@ class Access {
 
     // A code of eight letters and digits that lets one browser in within ten minutes, as `role`;
     // the last one ends.
-    std::string makeCode(Role role, UnixSeconds now);
+    std::string makeCode(ConsoleRole role, UnixSeconds now);
     // The secret of a new session; empty where this is not the code that is valid now. After five
     // wrong ones the code ends, and others are refused for a while that doubles each time: the
     // code is guarded, not an address. `spent` becomes true where this try ended the code.
@@ -61,7 +61,7 @@ class Access {
     void revoke(const std::string& id);
 
     // A new token for a machine; its secret is shown once.
-    std::string makeToken(const std::string& name, Role role, UnixSeconds now);
+    std::string makeToken(const std::string& name, ConsoleRole role, UnixSeconds now);
     [[nodiscard]] std::optional<Holder> token(std::string_view secret) const;
 
   private:

@@ -26,12 +26,12 @@ constexpr int kMostMalformed = 10;
 constexpr std::uint16_t kClosedUnpaired = 4001, kClosedNoisy = 4008;
 
 // What somebody must be for a command; empty for what is none.
-std::optional<Role> roleFor(What what) {
+std::optional<ConsoleRole> roleFor(What what) {
     switch (what) {
         case What::kRunDoctor:
         case What::kPointAt:
         case What::kMind:
-            return Role::Watcher;
+            return ConsoleRole::Watcher;
         case What::kBlack:
         case What::kFreeze:
         case What::kScene:
@@ -40,12 +40,12 @@ std::optional<Role> roleFor(What what) {
         case What::kRestart:
         case What::kAcknowledge:
         case What::kHoldHours:
-            return Role::Operator;
+            return ConsoleRole::Operator;
         case What::kHoursText:
         case What::kNewCode:
         case What::kRevoke:
         case What::kProjector:
-            return Role::Crew;
+            return ConsoleRole::Crew;
         case What::WHAT_NOT_SET:
             break;
     }
@@ -145,7 +145,8 @@ class VisitorConnection final : public web::Service::Connection {
 Console::Console(ConsoleOptions options, Access& access)
     : options_{std::move(options)},
       access_{access},
-      events_{stateFolderOf(options_.master.rig) / "events.jsonl"} {
+      events_{stateFolderOf(options_.master.rig) / "events.jsonl"},
+      opening_{stateFolderOf(options_.master.rig)} {
     wall_.set_heard(false);
 }
 
@@ -181,7 +182,7 @@ void Console::begin(web::WebServer& server, Doors doors) {
                          here([=, this] { heardMind(explanation); });
                      }});
     note("console", "started, build " + options_.build);
-    if (!access_.hasPeople()) showCode(Role::Crew);
+    if (!access_.hasPeople()) showCode(ConsoleRole::Crew);
 }
 
 void Console::end() {
@@ -189,7 +190,7 @@ void Console::end() {
     hub_.reset();
 }
 
-void Console::showCode(Role role) {
+void Console::showCode(ConsoleRole role) {
     const std::string code = access_.makeCode(role, unixNow());
     logInfo("pairing code {} lets one browser in as {}, within ten minutes", code, nameOf(role));
 }
@@ -218,13 +219,14 @@ HttpReply Console::answer(const HttpRequest& request) {
     if (!reads) return refused(405, "only GET, HEAD and POST");
     if (auto page = pageAt(request)) return *std::move(page);
     const auto holder = holderOf(request, doors_, access_);
-    return holder ? look(request, *holder) : refused(401, "not paired");
-}
-
-HttpReply Console::look(const HttpRequest& request, const Holder& holder) {
     if (request.target == "/me")
         return {.type = "application/json",
-                .body = jsonOfObject({{"name", holder.name}, {"role", nameOf(holder.role)}})};
+                .body = jsonOfObject({{"name", holder ? holder->name : ""},
+                                      {"role", holder ? nameOf(holder->role) : ""}})};
+    return holder ? look(request) : refused(401, "not paired");
+}
+
+HttpReply Console::look(const HttpRequest& request) {
     if (request.target == "/metrics")
         return {.type = "text/plain; version=0.0.4", .body = metricsOf(wall_, server_->cutOff())};
     if (request.target == "/bundle.tar") {
@@ -269,7 +271,7 @@ HttpReply Console::pair(const HttpRequest& request) {
     }
     if (isSpent) {
         note("console", "five wrong pairing codes: the code has ended");
-        if (!access_.hasPeople()) showCode(Role::Crew);
+        if (!access_.hasPeople()) showCode(ConsoleRole::Crew);
     }
     return refused(403, "this is not the code, or it has ended");
 }
@@ -337,7 +339,7 @@ void Console::hear(Visitor& visitor, const std::string& text) {
         sendTopics(visitor);
     }
     if (message->has_seen()) visitor.picturesUnderWay.erase(static_cast<int>(message->seen().channel()));
-    if (message->has_helm() && visitor.holder.role >= Role::Operator && link_) {
+    if (message->has_helm() && visitor.holder.role >= ConsoleRole::Operator && link_) {
         const auto axis = [](int value) {
             return static_cast<std::int8_t>(std::clamp(value, -kFullSteering, int{kFullSteering}));
         };
@@ -417,9 +419,27 @@ browser::Done Console::carryOutHere(const Holder& holder,
         case What::kMind:
             link_->explain(command.mind());
             break;
+        case What::kHoldHours:
+            opening_.hold(command.hold_hours(), unixNow());
+            note(holder.name,
+                 command.hold_hours() > 0 ? "the schedule is held" : "the schedule goes on");
+            break;
+        case What::kHoursText:
+            try {
+                opening_.setText(command.hours_text());
+            } catch (const Error& problem) {
+                return settle(command.id(), "refused", problem.what());
+            }
+            note(holder.name, "changed the hours");
+            break;
+        case What::kProjector:
+            if (!opening_.setProjector(command.projector()))
+                return settle(command.id(), "refused", "there is no such projector");
+            note(holder.name, "switched projector " + command.projector().name());
+            break;
         case What::kNewCode:
             code_ = access_.makeCode(
-                static_cast<Role>(std::clamp(static_cast<int>(command.new_code()), 1, 3)),
+                static_cast<ConsoleRole>(std::clamp(static_cast<int>(command.new_code()), 1, 3)),
                 unixNow());
             note(holder.name, "made a pairing code");
             break;
@@ -474,10 +494,20 @@ void Console::wallIsSilent() {
 }
 
 void Console::saidOfSet(std::uint64_t id, const std::string& outcome, const std::string& why) {
+    if (id == openingId_ && outcome != "waiting" && beingOpened_) {
+        if (outcome == "lost") return beingOpened_.reset();
+        // What is refused now is refused in a second as well: it is said, and not repeated.
+        opening_.done(*beingOpened_);
+        note("schedule",
+             std::string(beingOpened_->isOpen ? "opened " + beingOpened_->scene : "closed") +
+                 (outcome == "done" ? "" : ", refused: " + why));
+        beingOpened_.reset();
+        return;
+    }
     const auto pending = pending_.find(id);
     if (pending == pending_.end()) return;
     browser::ToBrowser message;
-    *message.mutable_done() = settle(id, outcome, why);
+    *message.mutable_done() = settle(id, outcome == "lost" ? "refused" : outcome, why);
     if (Visitor* visitor = pending->second.visitor)
         sendTo(*visitor, fmt::format("done {}", id), message);
     if (outcome == "waiting") return;
@@ -573,9 +603,31 @@ void Console::tick() {
     sendToAll("wall", message);
 }
 
+void Console::keepHours() {
+    const UnixSeconds now = unixNow();
+    wall_.set_held_until_s(opening_.heldUntil(now));
+    const bool isInStep =
+        wall_.heard() && std::ranges::all_of(wall_.nodes(), [](const browser::Node& node) {
+            return node.condition() == "in step";
+        });
+    opening_.switchProjectors(now, isInStep);
+    const auto due = opening_.due(now);
+    if (!due || beingOpened_ || !wall_.heard() || !link_) return;
+    v1::Set set;
+    openingId_ = ask::freshRequest();
+    set.set_request(openingId_);
+    set.set_black(!due->isOpen);
+    if (due->isOpen && !due->scene.empty()) set.set_scene(due->scene);
+    if (due->isOpen && !due->quality.empty()) set.set_quality(due->quality);
+    beingOpened_ = due;
+    link_->set(set);
+}
+
 void Console::everySecond() {
     if (wall_.heard()) figures_.add(wall_);
-    const auto lines = alerts_.update(faultsOf(wall_, unixNow()), unixNow());
+    keepHours();
+    const auto lines =
+        alerts_.update(faultsOf(wall_, unixNow()), unixNow(), opening_.isClosed(unixNow()));
     for (const std::string& line : lines) note("alert", line);
     browser::ToBrowser alerts;
     *alerts.mutable_alerts() = alertList();
@@ -615,7 +667,13 @@ void Console::sendTopics(Visitor& visitor) {
         sendTo(visitor, "history", message);
     }
     if (!wants("history")) visitor.hasHistory = false;
-    if (wants("people") && visitor.holder.role == Role::Crew) {
+    if (wants("hours")) {
+        *message.mutable_hours() = opening_.hours(unixNow());
+        sendTo(visitor, "hours", message);
+        *message.mutable_projectors() = opening_.projectors();
+        sendTo(visitor, "projectors", message);
+    }
+    if (wants("people") && visitor.holder.role == ConsoleRole::Crew) {
         *message.mutable_people() = peopleFor(visitor.holder);
         sendTo(visitor, "people", message);
     }
@@ -655,6 +713,8 @@ browser::ToBrowser Console::snapshotFor(const Visitor& visitor) const {
     snapshot.mutable_wall()->set_now_s(unixNow());
     *snapshot.mutable_events() = events_.list();
     *snapshot.mutable_alerts() = alertList();
+    *snapshot.mutable_hours() = opening_.hours(unixNow());
+    *snapshot.mutable_projectors() = opening_.projectors();
     return message;
 }
 

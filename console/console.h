@@ -18,6 +18,7 @@
 #include "console/console.pb.h"
 #include "console/files_of_show.h"
 #include "console/gate.h"
+#include "console/opening.h"
 #include "console/overview.h"
 #include "console/picture_hub.h"
 #include "console/show_link.h"
@@ -84,10 +85,10 @@ class Console final : public web::Service {
     web::HttpReply act(const web::HttpRequest& request);
     web::HttpReply pair(const web::HttpRequest& request);
     web::HttpReply leave(const web::HttpRequest& request);
-    web::HttpReply look(const web::HttpRequest& request, const Holder& holder);
+    web::HttpReply look(const web::HttpRequest& request);
     web::HttpReply obey(const web::HttpRequest& request, const Holder& holder);
     web::HttpReply refused(int status, const std::string& why);
-    void showCode(Role role);
+    void showCode(ConsoleRole role);
 
     // Commands.
     [[nodiscard]] browser::Done carryOut(const Holder& holder,
@@ -116,6 +117,8 @@ class Console final : public web::Service {
 
     // Ten times a second or less.
     void askPictures();
+    // Tells the wall what its hours want.
+    void keepHours();
     void everySecond();
     void sendTopics(Visitor& visitor);
     void sendTo(Visitor& visitor, const std::string& topic, const browser::ToBrowser& message);
@@ -131,6 +134,9 @@ class Console final : public web::Service {
     Doors doors_;
     web::WebServer* server_ = nullptr;
     EventBook events_;
+    Opening opening_;
+    std::optional<config::WantedHours> beingOpened_;  // told to the wall, not done yet
+    std::uint64_t openingId_ = 0;
     Alerts alerts_;
     FigureRings figures_;
     browser::Wall wall_;

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
@@ -87,6 +88,8 @@ void certify(const Options& options) {
 
 void serve(const Options& options, const config::Rig& rig, console::Access& access) {
     cli::holdSignals();
+    constexpr int kNice = 5;  // the wall goes before
+    setpriority(PRIO_PROCESS, 0, kNice);
     console::Console desk({.rig = rig,
                            .master = {.rig = options.rig, .address = {}, .key = options.key},
                            .build = cli::buildText()},

@@ -81,7 +81,7 @@ void ShowLink::work() {
     try {
         for (v1::Set& set : wanted) press(set);
     } catch (const Error& problem) {
-        for (const v1::Set& set : wanted) listener_.said(set.request(), "refused", problem.what());
+        for (const v1::Set& set : wanted) listener_.said(set.request(), "lost", problem.what());
         throw;
     }
     if (fish) listener_.explained(client_.explain(*fish));

@@ -23,7 +23,8 @@ namespace aquarama::console {
 struct ShowListener {
     std::function<void(const v1::StatusReply&, std::uint64_t run)> heard;
     std::function<void()> silent;
-    // What has become of a Set: "done", "waiting", "refused", and why.
+    // What has become of a Set: "done", "waiting", "refused", "lost" where
+    // nobody answered; and why.
     std::function<void(std::uint64_t id, const std::string& outcome, const std::string& why)> said;
     std::function<void(const v1::Explanation&)> explained;
 };

@@ -14,6 +14,8 @@ function headline() {
   const wall = link.wall;
   if (link.isStale) return ['◌', t('head.stale'), 'bad'];
   if (!wall.heard) return ['✖', t('head.noMaster'), 'bad'];
+  if (wall.heldUntilS > 0) return ['▲', t('head.held'), 'warn'];
+  if (wall.black && link.known.hours?.present && !link.known.hours.open) return ['○', t('head.closed'), 'quiet'];
   if (wall.black) return ['■', t('head.black'), 'warn'];
   if (wall.pattern !== 'world') return ['▦', t('head.pattern', {pattern: word(wall.pattern)}), 'warn'];
   if (wall.frozen) return ['‖', t('head.frozen'), 'warn'];

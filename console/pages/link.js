@@ -29,7 +29,7 @@ export class Link extends EventTarget {
   async start() {
     try {
       const me = await fetch('/me');
-      this.paired = me.ok;
+      this.paired = (await me.json()).role !== '';
     } catch { /* not there: the socket tries on */ }
     if (this.paired === false) return this.#tell();
     this.#connect();

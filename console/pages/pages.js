@@ -131,7 +131,7 @@ const nodeRow = link => node => html`<tr>
   <td>${Number(node.hashMismatches) ? html`<span class="bad">✖ ${t('nodes.differs')}</span>` : html`<span class="good">● ${t('nodes.same')}</span>`}</td>
   <td class="n">${ms(node.roundTripMs, 2)}</td><td class="n">${node.celsius ? `${node.celsius.toFixed(0)} °C` : '–'}</td>
   <td>${(node.monitors ?? []).join(', ') || '–'}</td>
-  <td>${node.host || '–'}<div class="note">${node.renderer}</div></td>
+  <td>${node.host || '–'}<div class="note" title=${node.renderer}>${node.renderer.split(' (')[0]}</div></td>
   <td>${node.otherBuild ? html`<span class="warn">▲ ${node.build}</span>` : node.build || '–'}</td>
   <td>${holdButton(t('nodes.restart'), () => link.command({restart: node.name}, t('nodes.restarting', {name: node.name})), {disabled: !link.may('OPERATOR')})}</td></tr>`;
 
@@ -201,7 +201,7 @@ const logPage = {
       <a class="button" href="/bundle.tar" download>${t('log.bundle')}</a></div>
       ${log.problem ? html`<p class="warn">${log.problem}</p>` : nothing}
       <div class="scroll" tabindex="0" role="region" aria-label=${t('page.log')}><table class="log"><thead><tr>${['time', 'node', 'severity', 'frame', 'line'].map(head => html`<th scope="col">${t(`log.${head}`)}</th>`)}</tr></thead>
-      <tbody>${[...(log.rows ?? [])].reverse().map(row => html`<tr><td>${row.time}</td><td>${row.node}</td><td>${state(row.severity)}</td><td class="n">${row.frame}</td><td>${row.text}</td></tr>`)}</tbody></table></div></section>`;
+      <tbody>${[...(log.rows ?? [])].reverse().map(row => html`<tr><td title=${row.time}>${new Date(row.time).toLocaleTimeString(document.documentElement.lang, {hour12: false})}</td><td>${row.node}</td><td>${state(row.severity)}</td><td class="n">${row.frame}</td><td>${row.text}</td></tr>`)}</tbody></table></div></section>`;
   },
 };
 
@@ -227,6 +227,43 @@ const mindPage = {
   },
 };
 
+// --- the schedule
+
+const EXAMPLE = `zone: "${Intl.DateTimeFormat().resolvedOptions().timeZone}"
+open { days: [TUESDAY, WEDNESDAY, THURSDAY, FRIDAY] from: "10:00" to: "18:00" scene: "reef" }
+open { days: [SATURDAY, SUNDAY] from: "10:00" to: "20:00" scene: "reef" quality: "high" }
+exceptions { date: "2026-12-24" }  # closed
+`;
+let draft = null;  // a text that is being written
+const projectorRow = link => one => html`<tr><th scope="row">${one.name}</th>
+  <td><span class=${one.power === 'on' ? 'good' : one.power === 'off' ? 'quiet' : 'warn'}>${one.power === 'on' ? '●' : one.power === 'off' ? '○' : '▲'} ${word(one.power)}</span></td>
+  <td>${t(one.shut ? 'projector.isShut' : 'projector.isOpen')}</td><td class="n">${t('projector.hours', {n: one.lampHours})}</td>
+  <td class=${one.problems?.length ? 'bad' : ''}>${(one.problems ?? []).join(', ') || '–'}</td>
+  <td><div class="row">${holdButton(t(one.shut ? 'projector.open' : 'projector.shut'), () => link.command({projector: {name: one.name, shut: !one.shut}}, one.name), {disabled: !link.may('CREW')})}
+    ${holdButton(t(one.power === 'on' ? 'projector.off' : 'projector.on'), () => link.command({projector: {name: one.name, power: one.power !== 'on'}}, one.name), {disabled: !link.may('CREW')})}</div></td></tr>`;
+
+const schedulePage = {
+  look: () => ({topics: ['hours']}),
+  view: link => {
+    const hours = link.known.hours ?? {};
+    const held = link.wall.heldUntilS > 0;
+    const projectors = link.known.projectors?.projectors ?? [];
+    const next = t(`hours.${hours.next ?? 'stays'}`, {at: hours.nextAt, scene: hours.nextScene ? word(hours.nextScene) : ''});
+    const save = () => { link.command({hoursText: draft ?? hours.text}, t('hours.save')); draft = null; };
+    return html`<section class="panel"><h2>${t('page.schedule')}</h2>
+      <p role="status">${held ? html`<strong class="warn">▲ ${t('hours.held', {time: time(link.wall.heldUntilS)})}</strong>`
+        : hours.present ? html`<strong>${t(hours.open ? 'hours.isOpen' : 'hours.isClosed')}</strong> ${next}` : t('hours.none')}</p>
+      <div class="row">${held ? button(t('hours.goOn'), () => link.command({holdHours: 0}, t('hours.goOn')), {disabled: !link.may('OPERATOR')})
+        : button(t('hours.hold'), () => link.command({holdHours: 2}, t('hours.hold')), {disabled: !link.may('OPERATOR')})}<span class="note">${t('hours.holdNote')}</span></div></section>
+      ${projectors.length ? html`<section class="panel"><div class="scroll" tabindex="0" role="region" aria-label=${t('projector.title')}><table><caption>${t('projector.title')}</caption><tbody>${projectors.map(projectorRow(link))}</tbody></table></div></section>` : nothing}
+      <section class="panel"><h2><label for="hours">${t('hours.text')}</label></h2>
+      <textarea id="hours" rows="10" spellcheck="false" ?readonly=${!link.may('CREW')} .value=${draft ?? hours.text ?? ''} @input=${event => { draft = event.target.value; }}></textarea>
+      <div class="row">${button(t('hours.save'), save, {disabled: !link.may('CREW') || draft === null})}
+      ${button(t('hours.example'), () => { draft = EXAMPLE; link.dispatchEvent(new Event('change')); }, {disabled: !link.may('CREW') || hours.present})}</div>
+      <p class="note">${t('hours.textNote')}</p></section>`;
+  },
+};
+
 // --- who may use the console
 
 const ROLES = ['WATCHER', 'OPERATOR', 'CREW'];
@@ -246,4 +283,4 @@ const peoplePage = {
   },
 };
 
-export const pages = {wall: wallPage, nodes: nodesPage, events: eventsPage, doctor: doctorPage, log: logPage, mind: mindPage, people: peoplePage};
+export const pages = {wall: wallPage, nodes: nodesPage, events: eventsPage, schedule: schedulePage, doctor: doctorPage, log: logPage, mind: mindPage, people: peoplePage};

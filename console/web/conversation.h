@@ -182,6 +182,7 @@ asio::awaitable<void> upgrade(Shared& shared, Stream stream, BeastRequest reques
     live->socket.set_option(beast::websocket::stream_base::timeout{
         kRequestTime, std::chrono::seconds(20), /*keep_alive_pings=*/true});
     live->socket.read_message_max(kMostMessageBytes);
+    live->socket.auto_fragment(false);
     beast::error_code error;
     co_await live->socket.async_accept(request, asio::redirect_error(asio::use_awaitable, error));
     if (error) co_return;
@@ -197,6 +198,7 @@ asio::awaitable<void> serve(Shared& shared, Stream stream, Executor executor, Gr
     beast::flat_buffer buffer;
     bool goesOn = co_await greet(stream);
     if (!goesOn) ++shared.cutOff;
+    bool hasServed = false;
     while (goesOn) {
         http::request_parser<http::string_body> parser;
         parser.header_limit(kMostHeaderBytes);
@@ -206,10 +208,12 @@ asio::awaitable<void> serve(Shared& shared, Stream stream, Executor executor, Gr
         co_await http::async_read(
             stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
         if (error) {
-            if (error != http::error::end_of_stream) ++shared.cutOff;
+            const bool isIdle = hasServed && !parser.got_some();  // and may go at any time
+            if (error != http::error::end_of_stream && !isIdle) ++shared.cutOff;
             break;
         }
         seat.settle();
+        hasServed = true;
         BeastRequest request = parser.release();
         if (beast::websocket::is_upgrade(request)) {
             co_await upgrade(shared, std::move(stream), std::move(request), executor);

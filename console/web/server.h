@@ -17,9 +17,10 @@ namespace aquarama::web {
 
 // What a browser or a program asks for. Headers that are absent are empty.
 struct HttpRequest {
-    std::string method, target;
-    std::string host, origin, cookie, authorization, contentType, fetchSite, etag;
-    std::string body;
+    std::string method = {}, target = {};
+    std::string host = {}, origin = {}, cookie = {}, authorization = {};
+    std::string contentType = {}, fetchSite = {}, etag = {};
+    std::string body = {};
 };
 
 struct HttpReply {
