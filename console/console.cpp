@@ -596,6 +596,7 @@ void Console::tick() {
     if (ticks_ % kTicksASecond == 0) everySecond();
     if (ticks_ % 2 != 0 || visitors_.empty()) return;
     wall_.set_now_s(unixNow());
+    wall_.set_held_until_s(opening_.heldUntil(unixNow()));
     wall_.set_watching(static_cast<std::uint32_t>(visitors_.size()));
     wall_.set_refused_requests(refused_ + server_->cutOff());
     browser::ToBrowser message;
@@ -605,7 +606,6 @@ void Console::tick() {
 
 void Console::keepHours() {
     const UnixSeconds now = unixNow();
-    wall_.set_held_until_s(opening_.heldUntil(now));
     const bool isInStep =
         wall_.heard() && std::ranges::all_of(wall_.nodes(), [](const browser::Node& node) {
             return node.condition() == "in step";

@@ -124,6 +124,8 @@ export class Plot {
   #names = '';
   constructor(stepSeconds) { this.step = stepSeconds; }
   show(series) {
+    const wide = this.element.clientWidth;
+    if (!wide || !series.length) return;
     const names = series.map(one => one.name).join();
     const colour = getComputedStyle(document.body).color;
     if (names !== this.#names || this.colour !== colour) {
@@ -132,17 +134,15 @@ export class Plot {
       this.colour = colour;
       const axis = {stroke: colour, grid: {stroke: '#8884', width: 1}, ticks: {stroke: '#8888'}};
       this.#plot = new uPlot({
-        width: Math.max(280, this.element.clientWidth || 600), height: 220, scales: {x: {time: true}},
+        width: wide, height: 220, scales: {x: {time: true}},
         axes: [axis, {...axis, values: (_, ticks) => ticks.map(tick => `${tick} ms`), size: 70}],
         series: [{}, ...series.map((one, i) => ({label: one.name, stroke: COLOURS[i % COLOURS.length], width: 1.5}))],
       }, [[], ...series.map(() => [])], this.element);
-      addEventListener('resize', () => this.#plot.setSize({width: Math.max(280, this.element.clientWidth), height: 220}));
     }
     const count = Math.max(0, ...series.map(one => one.values.length));
     const now = Date.now() / 1000;
     const times = Array.from({length: count}, (_, i) => now - (count - 1 - i) * this.step);
-    const width = this.element.clientWidth;
-    if (width && Math.abs(width - this.#plot.width) > 2) this.#plot.setSize({width: Math.max(280, width), height: 220});
+    if (Math.abs(wide - this.#plot.width) > 2) this.#plot.setSize({width: wide, height: 220});
     this.#plot.setData([times, ...series.map(({values}) => Array(count - values.length).fill(null).concat(values))]);
   }
 }

@@ -118,7 +118,7 @@ TEST(Hours, aMistakeIsNamedWithItsPlaceAndWhatToDo) {
         {"exceptions { date: \"2026-01-01\" }\nexceptions { date: \"2026-01-01\" }", "there already"},
         {"projectors { name: \"left\" address: \"left.local\" }", "address is a number"},
         {"projectors { name: \"left\" address: \"192.168.7.21:99999\" }", "address is a number"},
-        {"opne { }", "2:1"},
+        {"opne { }", "no field named"},
     }};
     for (const auto& [text, why] : kMistakes) {
         try {
