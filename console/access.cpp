@@ -51,6 +51,7 @@ std::string shownName(std::string name) {
     return name.empty() ? "browser" : name;
 }
 
+// An empty list where there is no file. Throws Error where it is damaged.
 json read(const fs::path& path) {
     if (!fs::exists(path)) return json::array();
     const std::vector<std::byte> bytes = readWhole(path, kMostFileBytes);
@@ -61,11 +62,13 @@ json read(const fs::path& path) {
     return parsed;
 }
 
+// Whole or not at all; the folder lets nobody else in.
 void write(const fs::path& path, const json& content) {
     const std::string text = content.dump(1);
     writeWhole(path, std::as_bytes(std::span(text)));
 }
 
+// The people or machines of a file.
 std::vector<Holder> holdersIn(const fs::path& path) {
     std::vector<Holder> holders;
     try {
@@ -86,6 +89,7 @@ std::vector<Holder> holdersIn(const fs::path& path) {
     return holders;
 }
 
+// Hashes only: whoever reads the file cannot come in with it.
 void writeHolders(const fs::path& path, const std::vector<Holder>& holders) {
     json all = json::array();
     for (const Holder& one : holders)
@@ -122,11 +126,13 @@ std::optional<ConsoleRole> roleNamed(std::string_view name) {
     return std::nullopt;
 }
 
+// Of the system's clock, which may be set; sessions are valid for days.
 UnixSeconds unixNow() {
     return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
         .count();
 }
 
+// OpenSSL's generator, seeded by the kernel.
 std::string freshSecret() {
     const auto bytes = randomBytes<32>();
     std::string text;
@@ -138,17 +144,22 @@ std::string hashOfSecret(std::string_view secret) {
     return toHex(digestOf(std::string(secret)));
 }
 
+// Crockford's alphabet has no O, I and L: typed, they mean 0 and 1.
 std::string plainCode(std::string_view typed) {
     std::string code;
     for (const char c : typed) {
         const char capital = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-        if (capital == 'O') code += '0';
-        else if (capital == 'I' || capital == 'L') code += '1';
-        else if (std::isalnum(static_cast<unsigned char>(capital)) != 0) code += capital;
+        if (capital == 'O')
+            code += '0';
+        else if (capital == 'I' || capital == 'L')
+            code += '1';
+        else if (std::isalnum(static_cast<unsigned char>(capital)) != 0)
+            code += capital;
     }
     return code;
 }
 
+// Others may neither list nor read the folder.
 Access::Access(fs::path folder) : folder_{std::move(folder)} {
     std::error_code failure;
     fs::create_directories(folder_, failure);
@@ -159,6 +170,7 @@ Access::Access(fs::path folder) : folder_{std::move(folder)} {
     sessions_ = holdersIn(folder_ / kSessionFile);
 }
 
+// 40 bits, shown in two halves.
 std::string Access::makeCode(ConsoleRole role, UnixSeconds now) {
     const auto bytes = randomBytes<kCodeLetters>();
     std::string code;
@@ -169,6 +181,7 @@ std::string Access::makeCode(ConsoleRole role, UnixSeconds now) {
     return code.substr(0, 4) + "-" + code.substr(4);
 }
 
+// The code is read again: another run of the program may have made it.
 std::optional<std::string> Access::pair(const std::string& code,
                                         const std::string& name,
                                         UnixSeconds now,
@@ -200,16 +213,19 @@ std::optional<std::string> Access::pair(const std::string& code,
     return secret;
 }
 
+// One that has run out is none.
 std::optional<Holder> Access::session(std::string_view secret, UnixSeconds now) const {
     const auto holder = holderOf(sessions_, secret);
     return holder && holder->until > now ? holder : std::nullopt;
 }
 
+// Its cookie means nothing any more.
 void Access::revoke(const std::string& id) {
     std::erase_if(sessions_, [&](const Holder& one) { return one.id == id; });
     writeHolders(folder_ / kSessionFile, sessions_);
 }
 
+// The last one of the same name ends.
 std::string Access::makeToken(const std::string& name, ConsoleRole role, UnixSeconds now) {
     std::vector<Holder> tokens = holdersIn(folder_ / kTokenFile);
     std::erase_if(tokens, [&](const Holder& one) { return one.name == name; });
@@ -223,6 +239,7 @@ std::string Access::makeToken(const std::string& name, ConsoleRole role, UnixSec
     return secret;
 }
 
+// Read each time: tokens are made by other runs of the program.
 std::optional<Holder> Access::token(std::string_view secret) const {
     try {
         return holderOf(holdersIn(folder_ / kTokenFile), secret);

@@ -7,12 +7,14 @@ namespace aquarama::console {
 
 namespace {
 
+// Whether the fault of this key is there now.
 bool hasKey(const std::vector<Fault>& faults, const std::string& key) {
     return std::ranges::find(faults, key, &Fault::key) != faults.end();
 }
 
 }  // namespace
 
+// What is over ends first, so that a fault that came back is new.
 std::vector<std::string> Alerts::update(const std::vector<Fault>& faults,
                                         UnixSeconds now,
                                         bool isQuiet) {
@@ -40,6 +42,7 @@ std::vector<std::string> Alerts::update(const std::vector<Fault>& faults,
     return lines;
 }
 
+// One that is over goes at once; one that lasts stays, without asking again.
 bool Alerts::acknowledge(const std::string& key) {
     const auto known = std::ranges::find(standing_, key, &StandingAlert::key);
     if (known == standing_.end()) return false;

@@ -31,22 +31,26 @@ using Memory = std::unique_ptr<BIO, Releaser<BIO_free>>;
 constexpr const char* kAuthorityName = "Aquarama console authority";
 constexpr long kDaySeconds = 86400;
 
+// Of OpenSSL's functions, which fail for lack of memory only.
 void require(bool isDone) {
     if (!isDone) throw Error("OpenSSL cannot make a certificate; see that its version is 3");
 }
 
+// All that was written into a memory of OpenSSL.
 std::string textOf(BIO* memory) {
     const char* begin = nullptr;
     const long count = BIO_get_mem_data(memory, &begin);
     return {begin, static_cast<std::size_t>(count)};
 }
 
+// For its owner alone, whole or not at all.
 void write(const std::filesystem::path& path, const std::string& text) {
     writeWhole(path, std::as_bytes(std::span(text)));
     std::filesystem::permissions(
         path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }
 
+// Without a pass phrase: the console starts without a person.
 void writeKey(const std::filesystem::path& path, EVP_PKEY* key) {
     const Memory memory(BIO_new(BIO_s_mem()));
     require(PEM_write_bio_PrivateKey(memory.get(), key, nullptr, nullptr, 0, nullptr, nullptr) ==
@@ -54,6 +58,7 @@ void writeKey(const std::filesystem::path& path, EVP_PKEY* key) {
     write(path, textOf(memory.get()));
 }
 
+// As PEM, which browsers and tablets install.
 void writeCertificate(const std::filesystem::path& path, X509* certificate) {
     const Memory memory(BIO_new(BIO_s_mem()));
     require(PEM_write_bio_X509(memory.get(), certificate) == 1);
@@ -68,6 +73,7 @@ auto readPem(const std::filesystem::path& path, Read read) {
     return read(memory.get(), nullptr, nullptr, nullptr);
 }
 
+// One extension of version 3, as OpenSSL's configuration files write it.
 void extend(X509* certificate, X509* issuer, int kind, const std::string& value) {
     X509V3_CTX context;
     X509V3_set_ctx(&context, issuer, certificate, nullptr, nullptr, 0);
@@ -100,6 +106,7 @@ Certificate begin(const std::string& name, EVP_PKEY* key, long days) {
     return certificate;
 }
 
+// It signs certificates of consoles, and no further authorities.
 void makeAuthority(const CertificateFiles& files) {
     constexpr long kYears = 10, kDaysOfYear = 365;
     const PrivateKey key(EVP_EC_gen("P-256"));
@@ -127,6 +134,7 @@ std::string alternativeNames(const std::vector<std::string>& names) {
 
 }  // namespace
 
+// The names that --listen looks for.
 CertificateFiles certificateFilesIn(const std::filesystem::path& folder) {
     return {folder / "authority.pem",
             folder / "authority.key",
@@ -134,6 +142,7 @@ CertificateFiles certificateFilesIn(const std::filesystem::path& folder) {
             folder / "certificate.key"};
 }
 
+// A new key each time; the authority stays, so tablets need nothing new.
 std::string makeCertificate(const CertificateFiles& files, const std::vector<std::string>& names) {
     if (!std::filesystem::exists(files.authority)) makeAuthority(files);
     const Certificate issuer(readPem(files.authority, PEM_read_bio_X509));

@@ -10,7 +10,7 @@ namespace aquarama::console {
 
 // In a folder that its owner alone may read.
 struct CertificateFiles {
-    std::filesystem::path authority;     // to be installed on tablets
+    std::filesystem::path authority;  // to be installed on tablets
     std::filesystem::path authorityKey;
     std::filesystem::path certificate, key;  // of the console
 };

@@ -52,6 +52,7 @@ std::optional<ConsoleRole> roleFor(What what) {
     return std::nullopt;
 }
 
+// For the list of events.
 std::string onOff(bool on) {
     return on ? "on" : "off";
 }
@@ -85,6 +86,7 @@ std::optional<v1::Set> setOf(const browser::Command& command) {
     }
 }
 
+// What was asked for, as the list of events has it.
 std::string textOf(const v1::Set& set) {
     if (set.has_black()) return "black " + onOff(set.black());
     if (set.has_freeze()) return "freeze " + onOff(set.freeze());
@@ -94,19 +96,76 @@ std::string textOf(const v1::Set& set) {
     return "pattern " + std::string(wire::nameOf(static_cast<wire::Pattern>(set.pattern())));
 }
 
-// Names that the master would not take are not sent: a packet of ours is never refused there.
-bool isSendable(const v1::Set& set) {
-    const auto isName = [](const std::string& text) {
-        return text.size() <= wire::kMostNameBytes && std::ranges::all_of(text, [](char c) {
-                   return static_cast<unsigned char>(c) >= 0x20 && c != 0x7F;
-               });
-    };
-    return isName(set.scene()) && isName(set.quality()) && isName(set.restart()) &&
-           !(set.has_scene() && set.scene().empty()) &&
-           !(set.has_quality() && set.quality().empty()) &&
-           !(set.has_restart() && set.restart().empty()) && set.pattern() != v1::PATTERN_SCAN;
+// A name that the master takes: a packet of ours is never malformed there.
+bool isName(const std::string& text) {
+    return !text.empty() && text.size() <= wire::kMostNameBytes &&
+           std::ranges::all_of(
+               text, [](char c) { return static_cast<unsigned char>(c) >= 0x20 && c != 0x7F; });
 }
 
+// Of one value, as setOf() makes it.
+bool isSendable(const v1::Set& set) {
+    if (set.has_scene()) return isName(set.scene());
+    if (set.has_quality()) return isName(set.quality());
+    if (set.has_restart()) return isName(set.restart());
+    return set.pattern() != v1::PATTERN_SCAN;
+}
+
+// A place of a picture, as shares of its size. A number that is none is no place.
+bool isPlace(const browser::PointAt& at) {
+    const auto isShare = [](float number) { return number >= 0 && number <= 1; };
+    return isShare(at.x()) && isShare(at.y());
+}
+
+// Hands at the submarine, brought into the range of the wire.
+Steering steeringOf(const browser::Helm& helm) {
+    const auto axis = [](int value) {
+        return static_cast<std::int8_t>(std::clamp(value, -kFullSteering, int{kFullSteering}));
+    };
+    return {.ahead = axis(helm.ahead()),
+            .aside = axis(helm.aside()),
+            .up = axis(helm.up()),
+            .turn = axis(helm.turn()),
+            .tilt = axis(helm.tilt())};
+}
+
+// A code and a name of whoever types it; an empty code where the text is none.
+struct PairingRequest {
+    std::string code, name;
+};
+PairingRequest pairingIn(const std::string& body) {
+    const auto asked = nlohmann::json::parse(body, nullptr, false);
+    const auto text = [&](const char* field) -> std::string {
+        if (!asked.is_object() || !asked.contains(field) || !asked[field].is_string()) return {};
+        return asked[field].get<std::string>();
+    };
+    return {text("code"), text("name")};
+}
+
+// What the master is told where the hours want this.
+v1::Set setOfHours(const config::WantedHours& wanted) {
+    v1::Set set;
+    set.set_request(ask::freshRequest());
+    set.set_black(!wanted.isOpen);
+    if (!wanted.scene.empty()) set.set_scene(wanted.scene);
+    if (!wanted.quality.empty()) set.set_quality(wanted.quality);
+    return set;
+}
+
+// The shutters of projectors wait for that.
+bool isInStep(const browser::Wall& wall) {
+    return wall.heard() && std::ranges::all_of(wall.nodes(), [](const browser::Node& node) {
+               return node.condition() == "in step";
+           });
+}
+
+// Whether the page of a visitor shows this.
+bool wants(const Console::Visitor& visitor, const char* topic) {
+    const auto& topics = visitor.look.topics();
+    return std::ranges::find(topics, topic) != topics.end();
+}
+
+// Text that is none becomes question marks: a reply is never malformed.
 std::string jsonOfObject(const nlohmann::json& object) {
     return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -152,6 +211,7 @@ Console::Console(ConsoleOptions options, Access& access)
 
 Console::~Console() = default;
 
+// What the links hear comes to the server's thread, where all of this is used.
 void Console::begin(web::WebServer& server, Doors doors) {
     server_ = &server;
     doors_ = std::move(doors);
@@ -160,41 +220,42 @@ void Console::begin(web::WebServer& server, Doors doors) {
         hub_ = std::make_unique<PictureHub>(
             options_.rig.watchAddress,
             watchKeysOf(options_.master.rig),
-            PictureListener{
-                [=, this](const std::string& channel, const v1::FramePicture& picture) {
-                    here([=, this] { heardPicture(channel, picture); });
-                },
-                [=, this](const std::string& channel, const v1::FishReply& reply) {
-                    here([=, this] { heardFish(channel, reply); });
-                }});
+            PictureListener{[=, this](const std::string& channel, const v1::FramePicture& picture) {
+                                here([=, this] { heardPicture(channel, picture); });
+                            },
+                            [=, this](const std::string& channel, const v1::FishReply& reply) {
+                                here([=, this] { heardFish(channel, reply); });
+                            }});
     link_ = std::make_unique<ShowLink>(
         options_.master,
-        ShowListener{[=, this](const v1::StatusReply& status, std::uint64_t run) {
-                         here([this, wall = wallOf(status, run, options_.build)] {
-                             heardWall(wall);
-                         });
-                     },
-                     [=, this] { here([this] { wallIsSilent(); }); },
-                     [=, this](std::uint64_t id, const std::string& outcome, const std::string& why) {
-                         here([=, this] { saidOfSet(id, outcome, why); });
-                     },
-                     [=, this](const v1::Explanation& explanation) {
-                         here([=, this] { heardMind(explanation); });
-                     }});
+        ShowListener{
+            [=, this](const v1::StatusReply& status, std::uint64_t run) {
+                here([this, wall = wallOf(status, run, options_.build)] { heardWall(wall); });
+            },
+            [=, this] { here([this] { wallIsSilent(); }); },
+            [=, this](std::uint64_t id, const std::string& outcome, const std::string& why) {
+                here([=, this] { saidOfSet(id, outcome, why); });
+            },
+            [=, this](const v1::Explanation& explanation) {
+                here([=, this] { heardMind(explanation); });
+            }});
     note("console", "started, build " + options_.build);
     if (!access_.hasPeople()) showCode(ConsoleRole::Crew);
 }
 
+// Their threads end here; nothing is posted any more.
 void Console::end() {
     link_.reset();
     hub_.reset();
 }
 
+// In the terminal, and where the service's log goes.
 void Console::showCode(ConsoleRole role) {
     const std::string code = access_.makeCode(role, unixNow());
     logInfo("pairing code {} lets one browser in as {}, within ten minutes", code, nameOf(role));
 }
 
+// Everybody who is connected sees it at once.
 void Console::note(const std::string& who, const std::string& what) {
     events_.add(who, what);
     browser::ToBrowser message;
@@ -204,11 +265,13 @@ void Console::note(const std::string& who, const std::string& what) {
 
 // --- requests
 
+// Counted, and shown in the foot of every page.
 HttpReply Console::refused(int status, const std::string& why) {
     ++refused_;
     return {.status = status, .body = why + "\n"};
 }
 
+// Nothing that is got acts; whoever sends it, host and origin come first.
 HttpReply Console::answer(const HttpRequest& request) {
     const bool reads = request.method == "GET" || request.method == "HEAD";
     if (auto objection = objectionTo(request, doors_, !reads)) {
@@ -226,6 +289,7 @@ HttpReply Console::answer(const HttpRequest& request) {
     return holder ? look(request) : refused(401, "not paired");
 }
 
+// For whoever is let in; the pages themselves are for everybody.
 HttpReply Console::look(const HttpRequest& request) {
     if (request.target == "/metrics")
         return {.type = "text/plain; version=0.0.4", .body = metricsOf(wall_, server_->cutOff())};
@@ -244,6 +308,7 @@ HttpReply Console::look(const HttpRequest& request) {
     return {.status = 404, .body = "there is no such page\n"};
 }
 
+// Forms of other pages cannot send JSON without asking the browser first.
 HttpReply Console::act(const HttpRequest& request) {
     if (!request.contentType.starts_with("application/json"))
         return refused(415, "only application/json");
@@ -254,34 +319,30 @@ HttpReply Console::act(const HttpRequest& request) {
     return holder ? obey(request, *holder) : refused(401, "not paired");
 }
 
+// The one thing that somebody without a session may do.
 HttpReply Console::pair(const HttpRequest& request) {
-    const auto asked = nlohmann::json::parse(request.body, nullptr, false);
-    if (!asked.is_object() || !asked.contains("code") || !asked["code"].is_string())
-        return refused(400, "give the code that the console has shown");
-    const bool isNamed = asked.contains("name") && asked["name"].is_string();
+    const PairingRequest asked = pairingIn(request.body);
+    if (asked.code.empty()) return refused(400, "give the code that the console has shown");
     bool isSpent = false;
-    const auto secret = access_.pair(asked["code"].get<std::string>(),
-                                     isNamed ? asked["name"].get<std::string>() : "",
-                                     unixNow(),
-                                     isSpent);
+    const auto secret = access_.pair(asked.code, asked.name, unixNow(), isSpent);
     if (secret) {
         code_.clear();
         note("console", "a browser was let in");
         return {.body = "welcome\n", .headers = {{"Set-Cookie", cookieOf(doors_, *secret)}}};
     }
-    if (isSpent) {
-        note("console", "five wrong pairing codes: the code has ended");
-        if (!access_.hasPeople()) showCode(ConsoleRole::Crew);
-    }
+    if (isSpent) note("console", "five wrong pairing codes: the code has ended");
+    if (isSpent && !access_.hasPeople()) showCode(ConsoleRole::Crew);
     return refused(403, "this is not the code, or it has ended");
 }
 
+// The session ends on this side, whatever the browser does with its cookie.
 HttpReply Console::leave(const HttpRequest& request) {
     const auto holder = access_.session(sessionIn(request, doors_), unixNow());
     if (holder) access_.revoke(holder->id);
     return {.body = "goodbye\n", .headers = {{"Set-Cookie", cookieOf(doors_, "")}}};
 }
 
+// For programs, as Companion: one command in one request.
 HttpReply Console::obey(const HttpRequest& request, const Holder& holder) {
     const auto message = readBrowser(request.body);
     if (!message || !message->has_command()) return refused(400, "this is no command");
@@ -291,6 +352,7 @@ HttpReply Console::obey(const HttpRequest& request, const Holder& holder) {
     return {.status = isRefused ? 403 : 200, .type = "application/json", .body = jsonOf(reply)};
 }
 
+// The first message is a whole snapshot: a page shows nothing before it.
 std::unique_ptr<web::Service::Connection> Console::open(const HttpRequest& request,
                                                         web::Outbox& outbox,
                                                         HttpReply& refusal) {
@@ -313,6 +375,7 @@ std::unique_ptr<web::Service::Connection> Console::open(const HttpRequest& reque
     return nullptr;
 }
 
+// What it has asked for goes on, and is answered to nobody.
 void Console::forget(Visitor& visitor) {
     visitors_.erase(&visitor);
     for (auto& [id, pending] : pending_)
@@ -322,41 +385,48 @@ void Console::forget(Visitor& visitor) {
 
 // --- what browsers say
 
+// A visitor that is noisy is sent away, and may come again.
 void Console::hear(Visitor& visitor, const std::string& text) {
-    if (++visitor.messages > kMostMessagesASecond) {
-        ++refused_;
-        return visitor.outbox->close(kClosedNoisy);
-    }
     const auto message = readBrowser(text);
-    if (!message) {
+    if (!message) ++visitor.malformed;
+    const bool isNoisy = ++visitor.messages > kMostMessagesASecond;
+    if (isNoisy || visitor.malformed > kMostMalformed) visitor.outbox->close(kClosedNoisy);
+    if (isNoisy || !message) {
         ++refused_;
-        if (++visitor.malformed > kMostMalformed) visitor.outbox->close(kClosedNoisy);
         return;
     }
-    if (message->has_look()) {
-        visitor.look = message->look();
-        visitor.ticksToLook = kTicksOfALook;
-        sendTopics(visitor);
+    switch (message->message_case()) {
+        case browser::FromBrowser::kLook:
+            return takeLook(visitor, message->look());
+        case browser::FromBrowser::kSeen:
+            visitor.picturesUnderWay.erase(static_cast<int>(message->seen().channel()));
+            return;
+        case browser::FromBrowser::kHelm:
+            if (visitor.holder.role >= ConsoleRole::Operator)
+                link_->steer(steeringOf(message->helm()));
+            return;
+        case browser::FromBrowser::kCommand: {
+            browser::ToBrowser reply;
+            *reply.mutable_done() = carryOut(visitor.holder, &visitor, message->command());
+            return sendTo(visitor, fmt::format("done {}", message->command().id()), reply);
+        }
+        default:
+            return;  // it is there
     }
-    if (message->has_seen()) visitor.picturesUnderWay.erase(static_cast<int>(message->seen().channel()));
-    if (message->has_helm() && visitor.holder.role >= ConsoleRole::Operator && link_) {
-        const auto axis = [](int value) {
-            return static_cast<std::int8_t>(std::clamp(value, -kFullSteering, int{kFullSteering}));
-        };
-        const browser::Helm& helm = message->helm();
-        link_->steer({.ahead = axis(helm.ahead()),
-                      .aside = axis(helm.aside()),
-                      .up = axis(helm.up()),
-                      .turn = axis(helm.turn()),
-                      .tilt = axis(helm.tilt())});
-    }
-    if (!message->has_command()) return;
-    browser::ToBrowser reply;
-    *reply.mutable_done() = carryOut(visitor.holder, &visitor, message->command());
-    sendTo(visitor, fmt::format("done {}", message->command().id()), reply);
 }
 
-browser::Done Console::settle(std::uint64_t id, const std::string& outcome, const std::string& why) {
+// Said every second; what is new in it is answered at once.
+void Console::takeLook(Visitor& visitor, const browser::Look& look) {
+    const bool isNew = look.SerializeAsString() != visitor.look.SerializeAsString();
+    visitor.look = look;
+    visitor.ticksToLook = kTicksOfALook;
+    if (isNew) sendTopics(visitor);
+}
+
+// What has ended is remembered: the same number is answered once more, and not carried out.
+browser::Done Console::settle(std::uint64_t id,
+                              const std::string& outcome,
+                              const std::string& why) {
     constexpr std::size_t kRemembered = 128;
     browser::Done done;
     done.set_id(id);
@@ -368,6 +438,7 @@ browser::Done Console::settle(std::uint64_t id, const std::string& outcome, cons
     return done;
 }
 
+// The only way to any command, whoever says it and how: roles are held to here.
 browser::Done Console::carryOut(const Holder& holder, Visitor* visitor, const Command& command) {
     const auto known = std::ranges::find(settled_, command.id(), &browser::Done::id);
     if (known != settled_.end()) return *known;
@@ -387,10 +458,10 @@ browser::Done Console::carryOut(const Holder& holder, Visitor* visitor, const Co
                           : carryOutHere(holder, visitor, command);
 }
 
+// The master answers later; saidOfSet() passes that on.
 browser::Done Console::tellWall(const Holder& holder, Visitor* visitor, const Command& command) {
     const v1::Set set = *setOf(command);
-    if (!wall_.heard() || !link_)
-        return settle(command.id(), "refused", "the master does not answer");
+    if (!wall_.heard()) return settle(command.id(), "refused", "the master does not answer");
     if (command.run() != wall_.run())
         return settle(command.id(),
                       "refused",
@@ -401,14 +472,14 @@ browser::Done Console::tellWall(const Holder& holder, Visitor* visitor, const Co
     return settle(command.id(), "waiting", "");
 }
 
+// What needs no master, or only asks it.
 browser::Done Console::carryOutHere(const Holder& holder,
                                     Visitor* visitor,
                                     const Command& command) {
+    std::string refusal;
     switch (command.what_case()) {
         case What::kAcknowledge:
-            if (!alerts_.acknowledge(command.acknowledge()))
-                return settle(command.id(), "refused", "there is no such alert any more");
-            note(holder.name, "acknowledged: " + command.acknowledge());
+            refusal = acknowledge(holder, command.acknowledge());
             break;
         case What::kRunDoctor:
             runDoctor();
@@ -419,48 +490,68 @@ browser::Done Console::carryOutHere(const Holder& holder,
         case What::kMind:
             link_->explain(command.mind());
             break;
+        default:
+            refusal = carryOutOfHall(holder, command);
+    }
+    if (visitor != nullptr) sendTopics(*visitor);
+    return settle(command.id(), refusal.empty() ? "done" : "refused", refusal);
+}
+
+// It may have ended by itself meanwhile.
+std::string Console::acknowledge(const Holder& holder, const std::string& alert) {
+    if (!alerts_.acknowledge(alert)) return "there is no such alert any more";
+    note(holder.name, "acknowledged: " + alert);
+    return {};
+}
+
+// Hours, projectors, and people.
+std::string Console::carryOutOfHall(const Holder& holder, const Command& command) {
+    switch (command.what_case()) {
         case What::kHoldHours:
             opening_.hold(command.hold_hours(), unixNow());
             note(holder.name,
                  command.hold_hours() > 0 ? "the schedule is held" : "the schedule goes on");
-            break;
+            return {};
         case What::kHoursText:
-            try {
-                opening_.setText(command.hours_text());
-            } catch (const Error& problem) {
-                return settle(command.id(), "refused", problem.what());
-            }
-            note(holder.name, "changed the hours");
-            break;
+            return takeHours(holder, command.hours_text());
         case What::kProjector:
-            if (!opening_.setProjector(command.projector()))
-                return settle(command.id(), "refused", "there is no such projector");
+            if (!opening_.setProjector(command.projector())) return "there is no such projector";
             note(holder.name, "switched projector " + command.projector().name());
-            break;
+            return {};
         case What::kNewCode:
             code_ = access_.makeCode(
                 static_cast<ConsoleRole>(std::clamp(static_cast<int>(command.new_code()), 1, 3)),
                 unixNow());
             note(holder.name, "made a pairing code");
-            break;
-        case What::kRevoke:
-            access_.revoke(command.revoke());
-            for (Visitor* one : visitors_)
-                if (one->holder.id == command.revoke()) one->outbox->close(kClosedUnpaired);
-            note(holder.name, "sent a browser away");
-            break;
+            return {};
         default:
-            return settle(command.id(), "refused", "this console cannot do that yet");
+            return sendAway(holder, command.revoke());
     }
-    if (visitor != nullptr) sendTopics(*visitor);
-    return settle(command.id(), "done", "");
 }
 
+// A mistake is answered with its place in the text.
+std::string Console::takeHours(const Holder& holder, const std::string& text) {
+    try {
+        opening_.setText(text);
+    } catch (const Error& problem) {
+        return problem.what();
+    }
+    note(holder.name, "changed the hours");
+    return {};
+}
+
+// Its session ends, and so do its connections.
+std::string Console::sendAway(const Holder& holder, const std::string& person) {
+    access_.revoke(person);
+    for (Visitor* one : visitors_)
+        if (one->holder.id == person) one->outbox->close(kClosedUnpaired);
+    note(holder.name, "sent a browser away");
+    return {};
+}
+
+// The answer comes by heardFish(); of too many questions the oldest is lost.
 void Console::askFish(Visitor* visitor, const browser::PointAt& at) {
-    const auto isShare = [](float number) { return number >= 0 && number <= 1; };
-    if (!hub_ || visitor == nullptr || !isShare(at.x()) || !isShare(at.y()) ||
-        channelIndexOf(at.channel()) < 0)
-        return;
+    if (!hub_ || visitor == nullptr || !isPlace(at) || channelIndexOf(at.channel()) < 0) return;
     constexpr std::size_t kMostAsked = 64;
     if (fishAsked_.size() >= kMostAsked) fishAsked_.erase(fishAsked_.begin());
     fishAsked_[++number_] = visitor;
@@ -472,15 +563,17 @@ void Console::askFish(Visitor* visitor, const browser::PointAt& at) {
     hub_->askFish(at.channel(), request);
 }
 
+// One at a time, on a thread of its own: it takes seconds.
 void Console::runDoctor() {
     if (doctorRun_.valid()) return;
     doctor_.set_running(true);
-    doctorRun_ = std::async(std::launch::async,
-                            [rig = options_.master.rig] { return askDoctor(rig); });
+    doctorRun_ =
+        std::async(std::launch::async, [rig = options_.master.rig] { return askDoctor(rig); });
 }
 
 // --- what master and nodes say
 
+// Changes are told from looks at the wall, so it does not matter who made them.
 void Console::heardWall(const browser::Wall& wall) {
     if (wall_.run() != 0)
         for (const std::string& line : changesOf(wall_, wall)) note("wall", line);
@@ -488,34 +581,40 @@ void Console::heardWall(const browser::Wall& wall) {
     wall_.set_heard_s(unixNow());
 }
 
+// What was last heard stays, and is marked as old.
 void Console::wallIsSilent() {
     if (wall_.heard()) note("wall", "the master does not answer");
     wall_.set_heard(false);
 }
 
+// What is refused now is refused in a second as well: it is said, and not repeated. What nobody has
+// heard is said again.
+void Console::saidOfHours(const std::string& outcome, const std::string& why) {
+    const config::WantedHours wanted = *std::exchange(beingOpened_, {});
+    if (outcome == "lost") return;
+    opening_.done(wanted);
+    note("schedule",
+         (wanted.isOpen ? "opened " + wanted.scene : std::string("closed")) +
+             (outcome == "done" ? "" : ", refused: " + why));
+}
+
+// Whoever asked may have gone; the event is noted all the same.
 void Console::saidOfSet(std::uint64_t id, const std::string& outcome, const std::string& why) {
-    if (id == openingId_ && outcome != "waiting" && beingOpened_) {
-        if (outcome == "lost") return beingOpened_.reset();
-        // What is refused now is refused in a second as well: it is said, and not repeated.
-        opening_.done(*beingOpened_);
-        note("schedule",
-             std::string(beingOpened_->isOpen ? "opened " + beingOpened_->scene : "closed") +
-                 (outcome == "done" ? "" : ", refused: " + why));
-        beingOpened_.reset();
-        return;
-    }
+    const bool isEnded = outcome != "waiting";
+    if (id == openingId_ && isEnded && beingOpened_) return saidOfHours(outcome, why);
     const auto pending = pending_.find(id);
     if (pending == pending_.end()) return;
     browser::ToBrowser message;
     *message.mutable_done() = settle(id, outcome == "lost" ? "refused" : outcome, why);
     if (Visitor* visitor = pending->second.visitor)
         sendTo(*visitor, fmt::format("done {}", id), message);
-    if (outcome == "waiting") return;
+    if (!isEnded) return;
     note(pending->second.who,
          pending->second.what + (outcome == "done" ? "" : ", refused: " + why));
     pending_.erase(id);
 }
 
+// To those who look and have drawn the one before; an old answer is to nobody.
 void Console::heardPicture(const std::string& channel, const v1::FramePicture& picture) {
     const int index = channelIndexOf(channel);
     if (index < 0 || pictures_[index].number != picture.number()) return;
@@ -528,6 +627,7 @@ void Console::heardPicture(const std::string& channel, const v1::FramePicture& p
     }
 }
 
+// The fish is asked for what goes on in it at once.
 void Console::heardFish(const std::string& channel, const v1::FishReply& reply) {
     const auto asked = fishAsked_.find(reply.number());
     if (asked == fishAsked_.end()) return;
@@ -541,6 +641,7 @@ void Console::heardFish(const std::string& channel, const v1::FishReply& reply) 
     fishAsked_.erase(asked);
 }
 
+// To all who have that page open.
 void Console::heardMind(const v1::Explanation& explanation) {
     browser::ToBrowser message;
     browser::Mind& mind = *message.mutable_mind();
@@ -548,12 +649,12 @@ void Console::heardMind(const v1::Explanation& explanation) {
     mind.set_tick(explanation.tick());
     for (const std::string& line : explanation.lines()) mind.add_lines(line);
     for (Visitor* visitor : visitors_)
-        if (std::ranges::find(visitor->look.topics(), "mind") != visitor->look.topics().end())
-            sendTo(*visitor, "mind", message);
+        if (wants(*visitor, "mind")) sendTo(*visitor, "mind", message);
 }
 
 // --- what is due
 
+// -1 where the rig has none of that name.
 int Console::channelIndexOf(const std::string& channel) const {
     const auto found = std::ranges::find(options_.rig.channels, channel, &config::Channel::name);
     return found == options_.rig.channels.end()
@@ -561,31 +662,40 @@ int Console::channelIndexOf(const std::string& channel) const {
                : static_cast<int>(found - options_.rig.channels.begin());
 }
 
+// A look is forgotten after three seconds without a word.
 bool Console::isWatched(const Visitor& visitor, int channel) const {
     const auto& channels = visitor.look.channels();
     const std::string& name = options_.rig.channels[static_cast<std::size_t>(channel)].name;
-    return visitor.ticksToLook > 0 &&
-           std::ranges::find(channels, name) != channels.end();
+    return visitor.ticksToLook > 0 && std::ranges::find(channels, name) != channels.end();
 }
 
-// Of a channel that somebody looks at who has drawn the last one; asked once more after a second.
+// The widest that somebody wants who has drawn the last one; 0: nobody.
+std::uint32_t Console::wantedWidth(int channel) const {
+    constexpr std::uint32_t kLeast = 64, kMost = 960;
+    std::uint32_t width = 0;
+    for (const Visitor* visitor : visitors_)
+        if (isWatched(*visitor, channel) && !visitor->picturesUnderWay.contains(channel))
+            width = std::max(width, std::clamp(visitor->look.width_px(), kLeast, kMost));
+    return width;
+}
+
+// Asked once more after a second without an answer.
 void Console::askPictures() {
     if (!hub_) return;
     for (int channel = 0; channel < static_cast<int>(options_.rig.channels.size()); ++channel) {
-        std::uint32_t width = 0;
-        for (const Visitor* visitor : visitors_)
-            if (isWatched(*visitor, channel) && !visitor->picturesUnderWay.contains(channel))
-                width = std::max(width, std::clamp(visitor->look.width_px(), 64U, 960U));
         PictureState& state = pictures_[channel];
-        if (state.ticksToAsk > 0) --state.ticksToAsk;
-        if (width == 0 || state.ticksToAsk > 0) continue;
+        if (state.ticksToAsk > 0 && --state.ticksToAsk > 0) continue;
+        const std::uint32_t width = wantedWidth(channel);
+        if (width == 0) continue;
         state = {kTicksASecond, ++number_};
         hub_->askPicture(
             options_.rig.channels[static_cast<std::size_t>(channel)].name, number_, width);
     }
 }
 
+// Ten times a second; the wall is sent five times.
 void Console::tick() {
+    constexpr int kTicksOfAWall = 2;
     ++ticks_;
     for (Visitor* visitor : visitors_) {
         if (visitor->ticksToLook > 0) --visitor->ticksToLook;
@@ -594,7 +704,11 @@ void Console::tick() {
     }
     askPictures();
     if (ticks_ % kTicksASecond == 0) everySecond();
-    if (ticks_ % 2 != 0 || visitors_.empty()) return;
+    if (ticks_ % kTicksOfAWall == 0) sendWall();
+}
+
+// What the console itself knows is added to what the master has said.
+void Console::sendWall() {
     wall_.set_now_s(unixNow());
     wall_.set_held_until_s(opening_.heldUntil(unixNow()));
     wall_.set_watching(static_cast<std::uint32_t>(visitors_.size()));
@@ -604,25 +718,18 @@ void Console::tick() {
     sendToAll("wall", message);
 }
 
+// One change at a time: its end is waited for.
 void Console::keepHours() {
-    const UnixSeconds now = unixNow();
-    const bool isInStep =
-        wall_.heard() && std::ranges::all_of(wall_.nodes(), [](const browser::Node& node) {
-            return node.condition() == "in step";
-        });
-    opening_.switchProjectors(now, isInStep);
-    const auto due = opening_.due(now);
-    if (!due || beingOpened_ || !wall_.heard() || !link_) return;
-    v1::Set set;
-    openingId_ = ask::freshRequest();
-    set.set_request(openingId_);
-    set.set_black(!due->isOpen);
-    if (due->isOpen && !due->scene.empty()) set.set_scene(due->scene);
-    if (due->isOpen && !due->quality.empty()) set.set_quality(due->quality);
+    opening_.switchProjectors(unixNow(), isInStep(wall_));
+    const auto due = opening_.due(unixNow());
+    if (!due || beingOpened_ || !wall_.heard()) return;
+    const v1::Set set = setOfHours(*due);
+    openingId_ = set.request();
     beingOpened_ = due;
     link_->set(set);
 }
 
+// Also what people should notice although they look at nothing.
 void Console::everySecond() {
     if (wall_.heard()) figures_.add(wall_);
     keepHours();
@@ -632,11 +739,7 @@ void Console::everySecond() {
     browser::ToBrowser alerts;
     *alerts.mutable_alerts() = alertList();
     sendToAll("alerts", alerts);
-    if (doctorRun_.valid() &&
-        doctorRun_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-        doctor_ = doctorRun_.get();
-        doctor_.set_running(false);
-    }
+    hearDoctor();
     for (Visitor* visitor : visitors_) {
         visitor->messages = 0;
         if (visitor->holder.until > 0 && visitor->holder.until < unixNow())
@@ -645,52 +748,69 @@ void Console::everySecond() {
     }
 }
 
+// Looked at each second, never waited for.
+void Console::hearDoctor() {
+    constexpr std::chrono::seconds kNow{0};
+    if (!doctorRun_.valid() || doctorRun_.wait_for(kNow) != std::future_status::ready) return;
+    doctor_ = doctorRun_.get();
+    doctor_.set_running(false);
+}
+
+// A page gets what it shows, and no other page does.
 void Console::sendTopics(Visitor& visitor) {
-    const auto& topics = visitor.look.topics();
-    const auto wants = [&](const char* topic) {
-        return std::ranges::find(topics, topic) != topics.end();
-    };
+    if (wants(visitor, "log")) sendLog(visitor);
+    if (!wants(visitor, "history")) visitor.hasHistory = false;
     browser::ToBrowser message;
-    if (wants("log")) {
-        *message.mutable_log() = tailOf(logOf(options_.master.rig), visitor.look);
-        std::string text = jsonOf(message);
-        if (text != visitor.sentLog)
-            visitor.outbox->put("log", std::make_shared<const std::string>(text), false);
-        visitor.sentLog = std::move(text);
-    }
-    if (wants("doctor")) {
+    if (wants(visitor, "doctor")) {
         *message.mutable_doctor() = doctor_;
         sendTo(visitor, "doctor", message);
     }
-    if (wants("history") && !std::exchange(visitor.hasHistory, true)) {
+    if (wants(visitor, "history") && !std::exchange(visitor.hasHistory, true)) {
         *message.mutable_history() = figures_.history();
         sendTo(visitor, "history", message);
     }
-    if (!wants("history")) visitor.hasHistory = false;
-    if (wants("hours")) {
+    if (wants(visitor, "hours")) {
         *message.mutable_hours() = opening_.hours(unixNow());
         sendTo(visitor, "hours", message);
         *message.mutable_projectors() = opening_.projectors();
         sendTo(visitor, "projectors", message);
     }
-    if (wants("people") && visitor.holder.role == ConsoleRole::Crew) {
-        *message.mutable_people() = peopleFor(visitor.holder);
-        sendTo(visitor, "people", message);
-    }
+    if (wants(visitor, "people")) sendPeople(visitor);
 }
 
+// Where it has changed.
+void Console::sendLog(Visitor& visitor) {
+    browser::ToBrowser message;
+    *message.mutable_log() = tailOf(logOf(options_.master.rig), visitor.look);
+    std::string text = jsonOf(message);
+    if (text != visitor.sentLog)
+        visitor.outbox->put("log", std::make_shared<const std::string>(text), false);
+    visitor.sentLog = std::move(text);
+}
+
+// To the crew alone.
+void Console::sendPeople(Visitor& visitor) {
+    if (visitor.holder.role != ConsoleRole::Crew) return;
+    browser::ToBrowser message;
+    *message.mutable_people() = peopleFor(visitor.holder);
+    sendTo(visitor, "people", message);
+}
+
+// Under its topic: an older one that waits still is replaced.
 void Console::sendTo(Visitor& visitor,
                      const std::string& topic,
                      const browser::ToBrowser& message) {
     visitor.outbox->put(topic, std::make_shared<const std::string>(jsonOf(message)), false);
 }
 
+// Written once, shared by all.
 void Console::sendToAll(const std::string& topic, const browser::ToBrowser& message) {
     if (visitors_.empty()) return;
     const auto payload = std::make_shared<const std::string>(jsonOf(message));
     for (Visitor* visitor : visitors_) visitor->outbox->put(topic, payload, false);
 }
 
+// All that a page needs to draw itself.
 browser::ToBrowser Console::snapshotFor(const Visitor& visitor) const {
     constexpr std::uint32_t kSchema = 1;
     browser::ToBrowser message;
@@ -718,6 +838,7 @@ browser::ToBrowser Console::snapshotFor(const Visitor& visitor) const {
     return message;
 }
 
+// In the order in which they began.
 browser::AlertList Console::alertList() const {
     browser::AlertList list;
     for (const StandingAlert& from : alerts_.standing()) {
@@ -730,6 +851,7 @@ browser::AlertList Console::alertList() const {
     return list;
 }
 
+// For the crew; secrets and hashes are in none of it.
 browser::People Console::peopleFor(const Holder& holder) const {
     browser::People people;
     people.set_code(code_);

@@ -59,7 +59,7 @@ class Console final : public web::Service {
         Holder holder;
         web::Outbox* outbox = nullptr;
         browser::Look look = {};
-        int ticksToLook = 0;                 // until the look is forgotten
+        int ticksToLook = 0;                       // until the look is forgotten
         std::map<int, int> picturesUnderWay = {};  // channel -> ticks until it is asked again
         bool hasHistory = false;
         std::string sentLog = {};
@@ -100,6 +100,11 @@ class Console final : public web::Service {
     [[nodiscard]] browser::Done tellWall(const Holder& holder,
                                          Visitor* visitor,
                                          const Command& command);
+    // Each carries one out; why not, where it is refused.
+    [[nodiscard]] std::string acknowledge(const Holder& holder, const std::string& alert);
+    [[nodiscard]] std::string carryOutOfHall(const Holder& holder, const Command& command);
+    [[nodiscard]] std::string takeHours(const Holder& holder, const std::string& text);
+    [[nodiscard]] std::string sendAway(const Holder& holder, const std::string& person);
     void askFish(Visitor* visitor, const browser::PointAt& at);
     void runDoctor();
     [[nodiscard]] browser::Done settle(std::uint64_t id,
@@ -111,6 +116,7 @@ class Console final : public web::Service {
     void heardWall(const browser::Wall& wall);
     void wallIsSilent();
     void saidOfSet(std::uint64_t id, const std::string& outcome, const std::string& why);
+    void saidOfHours(const std::string& outcome, const std::string& why);
     void heardPicture(const std::string& channel, const v1::FramePicture& picture);
     void heardFish(const std::string& channel, const v1::FishReply& reply);
     void heardMind(const v1::Explanation& explanation);
@@ -119,8 +125,15 @@ class Console final : public web::Service {
     void askPictures();
     // Tells the wall what its hours want.
     void keepHours();
+    [[nodiscard]] std::uint32_t wantedWidth(int channel) const;
     void everySecond();
+    void hearDoctor();
+    void sendWall();
+    // What its page shows now, beside the wall.
     void sendTopics(Visitor& visitor);
+    void sendLog(Visitor& visitor);
+    void sendPeople(Visitor& visitor);
+    void takeLook(Visitor& visitor, const browser::Look& look);
     void sendTo(Visitor& visitor, const std::string& topic, const browser::ToBrowser& message);
     void sendToAll(const std::string& topic, const browser::ToBrowser& message);
     [[nodiscard]] browser::ToBrowser snapshotFor(const Visitor& visitor) const;

@@ -45,6 +45,7 @@ std::string endOf(const fs::path& path, std::uintmax_t most) {
     return begin == 0 ? text : text.substr(std::min(text.find('\n'), text.size() - 1) + 1);
 }
 
+// Without their ends; the last may have none.
 std::vector<std::string> linesOf(const std::string& text) {
     std::vector<std::string> lines;
     for (std::size_t begin = 0; begin < text.size();) {
@@ -55,17 +56,20 @@ std::vector<std::string> linesOf(const std::string& text) {
     return lines;
 }
 
+// Empty where the field is missing or no text.
 std::string textIn(const json& object, const char* field) {
     const auto found = object.find(field);
     return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
+// By all that the page filters by.
 bool isWanted(const browser::LogRow& row, const browser::Look& look) {
     return (look.log_node().empty() || row.node() == look.log_node()) &&
            (!look.log_problems_only() || row.severity() != "info") &&
            row.text().find(look.log_text()) != std::string::npos;
 }
 
+// Nothing where the line is no object of JSON.
 std::optional<browser::LogRow> rowOf(const std::string& line) {
     const json object = json::parse(line, nullptr, false);
     if (!object.is_object()) return std::nullopt;
@@ -86,6 +90,7 @@ struct Said {
     int status = -1;
 };
 
+// All that comes until the other end is closed, a megabyte at most.
 std::string readUntil(int pipe, std::chrono::steady_clock::time_point end) {
     constexpr std::size_t kMostBytes = 1U << 20U;
     std::string text;
@@ -100,6 +105,7 @@ std::string readUntil(int pipe, std::chrono::steady_clock::time_point end) {
     return text;
 }
 
+// Without a shell: no name of a file is read as a command.
 Said runProgram(const fs::path& program, std::vector<std::string> arguments) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) return {};
@@ -127,6 +133,7 @@ Said runProgram(const fs::path& program, std::vector<std::string> arguments) {
     return said;
 }
 
+// Numbers of tar are octal text with zeros before.
 void addOctal(std::string& header, std::size_t at, std::size_t digits, std::uint64_t value) {
     const std::string text = fmt::format("{:0{}o}", value, digits);
     header.replace(at, digits, text);
@@ -156,6 +163,7 @@ std::string tarHeader(const std::string& name, std::size_t bytes) {
 
 }  // namespace
 
+// Beside the master's own, by the same name of the rig.
 fs::path stateFolderOf(const std::string& rigPath) {
     return userFolder("XDG_STATE_HOME", ".local/state") / "console" / fs::path(rigPath).stem();
 }
@@ -165,6 +173,7 @@ fs::path logOf(const std::string& rigPath) {
            (fs::path(rigPath).stem().string() + ".jsonl");
 }
 
+// Sorted, without their ending.
 std::vector<std::string> scenesBeside(const std::string& rigPath, const std::string& scene) {
     std::vector<std::string> names;
     std::error_code failure;
@@ -175,6 +184,7 @@ std::vector<std::string> scenesBeside(const std::string& rigPath, const std::str
     return names;
 }
 
+// Of a long log only the last megabyte is read.
 browser::LogTail tailOf(const fs::path& log, const browser::Look& look) {
     constexpr std::uintmax_t kMostBytes = 1U << 20U;
     constexpr std::size_t kMostRows = 300;
@@ -191,6 +201,7 @@ browser::LogTail tailOf(const fs::path& log, const browser::Look& look) {
     return tail;
 }
 
+// In a process of its own: it may hang on a network that does.
 browser::DoctorReport askDoctor(const std::string& rigPath) {
     browser::DoctorReport report;
     const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "aquarama";
@@ -211,6 +222,7 @@ browser::DoctorReport askDoctor(const std::string& rigPath) {
     return report;
 }
 
+// Each file is filled up to whole blocks; two empty ones end it.
 std::string tarOf(const std::vector<std::pair<std::string, std::string>>& files) {
     constexpr std::size_t kBlock = 512;
     std::string archive;
@@ -223,6 +235,7 @@ std::string tarOf(const std::vector<std::pair<std::string, std::string>>& files)
     return archive;
 }
 
+// What somebody needs who helps from afar.
 std::string bundleOf(const std::string& rigPath,
                      std::vector<std::pair<std::string, std::string>> files) {
     constexpr std::uintmax_t kMostBytes = std::uintmax_t{8} << 20U;
@@ -236,6 +249,7 @@ std::string bundleOf(const std::string& rigPath,
     return tarOf(files);
 }
 
+// What cannot be read of the file is left out.
 EventBook::EventBook(fs::path file) : file_{std::move(file)} {
     constexpr std::uintmax_t kMostBytes = 64U << 10U;
     for (const std::string& line : linesOf(endOf(file_, kMostBytes))) {
@@ -249,6 +263,7 @@ EventBook::EventBook(fs::path file) : file_{std::move(file)} {
     if (events_.size() > kMostEvents) events_.resize(kMostEvents);
 }
 
+// The newest first here, the newest last in the file.
 void EventBook::add(const std::string& who, const std::string& what) {
     browser::Event& event = events_.emplace_front();
     event.set_at_s(unixNow());

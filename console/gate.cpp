@@ -14,15 +14,18 @@ using web::HttpRequest;
 
 constexpr std::string_view kBearer = "Bearer ";
 
+// Whole, with the port: browsers send it so.
 bool isOwnHost(const std::string& host, const Doors& doors) {
     return std::ranges::find(doors.hosts, host) != doors.hosts.end();
 }
 
+// Scheme, name and port; "null" is none.
 bool isOwnOrigin(const std::string& origin, const Doors& doors) {
     const std::string scheme = doors.isTls ? "https://" : "http://";
     return origin.starts_with(scheme) && isOwnHost(origin.substr(scheme.size()), doors);
 }
 
+// By its ending; browsers are told not to guess.
 std::string_view typeOf(std::string_view path) {
     constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kTypes{
         {{".html", "text/html; charset=utf-8"},
@@ -37,6 +40,7 @@ std::string_view typeOf(std::string_view path) {
 
 }  // namespace
 
+// The loopback's three names are ours wherever we listen.
 Doors doorsOf(const std::string& address,
               std::uint16_t port,
               bool isTls,
@@ -65,6 +69,7 @@ std::optional<HttpReply> objectionTo(const HttpRequest& request, const Doors& do
     return HttpReply{.status = 403, .body = "a page of another origin may not ask this\n"};
 }
 
+// Other programs of this machine set cookies for it as well.
 std::string sessionIn(const HttpRequest& request, const Doors& doors) {
     const std::string wanted = doors.cookie + "=";
     std::size_t begin = 0;
@@ -79,6 +84,7 @@ std::string sessionIn(const HttpRequest& request, const Doors& doors) {
     return {};
 }
 
+// A token goes before a cookie.
 std::optional<Holder> holderOf(const HttpRequest& request,
                                const Doors& doors,
                                const Access& access) {
@@ -88,12 +94,14 @@ std::optional<Holder> holderOf(const HttpRequest& request,
     return secret.empty() ? std::nullopt : access.session(secret, unixNow());
 }
 
+// Strict: no other site's link brings it along.
 std::string cookieOf(const Doors& doors, const std::string& secret) {
     constexpr int kSeconds = 30 * 86400;
     return doors.cookie + "=" + secret + "; Path=/; HttpOnly; SameSite=Strict; Max-Age=" +
            std::to_string(secret.empty() ? 0 : kSeconds) + (doors.isTls ? "; Secure" : "");
 }
 
+// By its exact name: there is no folder to leave.
 std::optional<HttpReply> pageAt(const HttpRequest& request) {
     const std::string path =
         request.target == "/" ? "/index.html" : request.target.substr(0, request.target.find('?'));

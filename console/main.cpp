@@ -34,6 +34,7 @@ struct Options {
     int port = -1;  // the rig's
 };
 
+// Its options; what is printed and ends goes before what serves.
 void describe(CLI::App& app, Options& options) {
     const auto role = CLI::IsMember({"watcher", "operator", "crew"});
     app.add_option("RIG", options.rig, "whose show is watched")->required();
@@ -45,7 +46,8 @@ void describe(CLI::App& app, Options& options) {
     app.add_option("--key", options.key, "file of the operator's key, where the rig needs keys");
     app.add_option("--pair", options.pair, "print a code that lets one more browser in, and end")
         ->check(role);
-    app.add_option("--token", options.token, "print a new token for a machine of this name, and end");
+    app.add_option(
+        "--token", options.token, "print a new token for a machine of this name, and end");
     app.add_option("--role", options.role, "of that token")->check(role)->capture_default_str();
     app.add_option("--certify",
                    options.certify,
@@ -55,6 +57,7 @@ void describe(CLI::App& app, Options& options) {
         "wall a frame;\nit may be ended and started again at any time.");
 }
 
+// Beside the sessions, which lie as safely.
 std::filesystem::path certificateFolder(const Options& options) {
     return console::stateFolderOf(options.rig) / "tls";
 }
@@ -76,6 +79,7 @@ web::ServerOptions serverOptions(const Options& options, const config::Rig& rig)
     return server;
 }
 
+// Said with the fingerprint, which people compare on the tablet.
 void certify(const Options& options) {
     std::filesystem::create_directories(certificateFolder(options));
     std::filesystem::permissions(certificateFolder(options), std::filesystem::perms::owner_all);
@@ -86,6 +90,7 @@ void certify(const Options& options) {
               << "\nits SHA-256 fingerprint: " << print << '\n';
 }
 
+// Until a signal.
 void serve(const Options& options, const config::Rig& rig, console::Access& access) {
     cli::holdSignals();
     constexpr int kNice = 5;  // the wall goes before
@@ -104,6 +109,7 @@ void serve(const Options& options, const config::Rig& rig, console::Access& acce
     desk.end();
 }
 
+// What the options ask for.
 void run(const Options& options) {
     const config::Rig rig = config::readRig(options.rig);
     if (!options.certify.empty()) return certify(options);

@@ -24,12 +24,14 @@ constexpr double kWarmUpSeconds = 180;
 constexpr double kMostHoldHours = 10;
 constexpr double kHourSeconds = 3600;
 
+// Whole or not at all.
 void write(const std::filesystem::path& path, const std::string& text) {
     writeWhole(path, std::as_bytes(std::span(text)));
 }
 
 }  // namespace
 
+// Whatever is wrong with what was kept, the console starts.
 Opening::Opening(std::filesystem::path folder) : folder_{std::move(folder)} {
     try {
         if (std::filesystem::exists(folder_ / kHoursFile)) {
@@ -50,6 +52,7 @@ Opening::Opening(std::filesystem::path folder) : folder_{std::move(folder)} {
     watchProjectors();
 }
 
+// Anew, when the hours are: addresses may be others.
 void Opening::watchProjectors() {
     projectors_.clear();
     power_.reset();
@@ -59,6 +62,7 @@ void Opening::watchProjectors() {
         projectors_.push_back(std::make_unique<ProjectorWatch>(one));
 }
 
+// After each change, so that nothing is done twice after a start.
 void Opening::keep() const {
     json kept{{"held_until", heldUntil_}};
     if (done_) {
@@ -69,6 +73,7 @@ void Opening::keep() const {
     write(folder_ / kDoneFile, kept.dump());
 }
 
+// First read, then kept: a mistake changes nothing.
 void Opening::setText(const std::string& text) {
     std::optional<config::Hours> hours;
     if (!text.empty()) hours = config::parseHours(text, kHoursFile);
@@ -79,21 +84,24 @@ void Opening::setText(const std::string& text) {
     watchProjectors();
 }
 
+// Ends by itself: somebody forgets it.
 void Opening::hold(double forHours, UnixSeconds now) {
     const double hours = std::clamp(forHours, 0.0, kMostHoldHours);
     heldUntil_ = hours > 0 ? now + hours * kHourSeconds : 0;
     keep();
 }
 
+// 0 where it is not held.
 UnixSeconds Opening::heldUntil(UnixSeconds now) const {
     return heldUntil_ > now ? heldUntil_ : 0;
 }
 
+// By the clock of the rig's zone.
 config::WantedHours Opening::wantedIn(UnixSeconds now) const {
-    return config::wantedAt(*hours_,
-                            config::civilTime(hours_->zone, static_cast<long long>(now)));
+    return config::wantedAt(*hours_, config::civilTime(hours_->zone, static_cast<long long>(now)));
 }
 
+// What was brought about last is compared, not what the wall shows: an operator may have set that.
 std::optional<config::WantedHours> Opening::due(UnixSeconds now) const {
     if (!hours_ || heldUntil(now) > 0) return std::nullopt;
     const config::WantedHours wanted = wantedIn(now);
@@ -105,27 +113,41 @@ void Opening::done(const config::WantedHours& wanted) {
     keep();
 }
 
+// A wall in service is not.
 bool Opening::isClosed(UnixSeconds now) const {
     return hours_ && heldUntil(now) == 0 && !wantedIn(now).isOpen;
 }
 
+// On three minutes before the wall opens, and off once the wall has been made black.
+bool Opening::isLampWanted(UnixSeconds now) const {
+    const bool isBlack = done_ && !done_->isOpen;
+    return !isBlack || wantedIn(now).isOpen || wantedIn(now + kWarmUpSeconds).isOpen;
+}
+
+// All together: when all lamps are on, or when those that are not have had their time.
+bool Opening::mayOpenShutters(UnixSeconds now) const {
+    if (openSince_ == 0) return false;
+    if (shut_ == false || now - openSince_ > kWarmUpSeconds) return true;
+    return std::ranges::all_of(projectors_,
+                               [](const auto& one) { return one->facts().power == "on"; });
+}
+
+// Said when it changes: what somebody sets by hand between holds.
 void Opening::switchProjectors(UnixSeconds now, bool isWallInStep) {
     if (!hours_ || projectors_.empty() || heldUntil(now) > 0) return;
-    const bool isOpen = wantedIn(now).isOpen;
-    if (!isOpen) openSince_ = 0;
-    if (isOpen && openSince_ == 0) openSince_ = now;
-    const bool isBlack = done_ && !done_->isOpen;
-    const bool power = isOpen || wantedIn(now + kWarmUpSeconds).isOpen || !isBlack;
-    const bool areOn = std::ranges::all_of(
-        projectors_, [](const auto& one) { return one->facts().power == "on"; });
-    const bool isLate = isOpen && now - openSince_ > kWarmUpSeconds;
-    const bool shut = !(isOpen && isWallInStep && (areOn || isLate || shut_ == false));
+    if (!wantedIn(now).isOpen)
+        openSince_ = 0;
+    else if (openSince_ == 0)
+        openSince_ = now;
+    const bool power = isLampWanted(now);
+    const bool shut = !isWallInStep || !mayOpenShutters(now);
     if (power_ == power && shut_ == shut) return;
     power_ = power;
     shut_ = shut;
     for (const auto& one : projectors_) one->want(power, shut);
 }
 
+// Until the hours want something else of it.
 bool Opening::setProjector(const browser::ProjectorCommand& command) {
     bool isThere = false;
     for (const auto& one : projectors_) {
@@ -137,6 +159,7 @@ bool Opening::setProjector(const browser::ProjectorCommand& command) {
     return isThere;
 }
 
+// Minute by minute, as far as people look ahead.
 browser::Hours Opening::hours(UnixSeconds now) const {
     constexpr int kMinutes = 60, kMinuteSeconds = 60;
     browser::Hours message;
@@ -159,6 +182,7 @@ browser::Hours Opening::hours(UnixSeconds now) const {
     return message;
 }
 
+// As they last answered, twenty seconds ago at most.
 browser::ProjectorList Opening::projectors() const {
     browser::ProjectorList list;
     for (const auto& one : projectors_) {

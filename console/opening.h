@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens and closes the wall by its hours: what is wanted now against what was last brought about, and
-// the projectors that go with it.
+// Opens and closes the wall by its hours: what is wanted now against what was last brought about,
+// and the projectors that go with it.
 #pragma once
 
 #include <filesystem>
@@ -47,6 +47,8 @@ class Opening {
   private:
     [[nodiscard]] config::WantedHours wantedIn(UnixSeconds now) const;
     void watchProjectors();
+    [[nodiscard]] bool isLampWanted(UnixSeconds now) const;
+    [[nodiscard]] bool mayOpenShutters(UnixSeconds now) const;
     void keep() const;
 
     std::filesystem::path folder_;

@@ -11,6 +11,7 @@ namespace aquarama::console {
 
 namespace {
 
+// As aquarama status has it.
 std::string conditionWord(v1::NodeCondition condition) {
     switch (condition) {
         case v1::NODE_ABSENT:
@@ -40,6 +41,7 @@ std::string causeOf(const v1::NodeStatus& node) {
     }
 }
 
+// A node that has not reported yet has empty fields.
 void addNode(browser::Wall& wall, const v1::NodeStatus& from, const std::string& build) {
     const v1::NodeReport& report = from.report();
     browser::Node& node = *wall.add_nodes();
@@ -61,6 +63,7 @@ void addNode(browser::Wall& wall, const v1::NodeStatus& from, const std::string&
     node.set_drift_ppm(report.clock_drift_ppm());
 }
 
+// What is wanted, and how much light there is on the way to it.
 void takeShow(browser::Wall& wall, const wire::Show& show) {
     wall.set_scene(show.scene);
     wall.set_quality(std::string(config::nameOf(show.quality)));
@@ -74,6 +77,7 @@ void takeShow(browser::Wall& wall, const wire::Show& show) {
 
 }  // namespace
 
+// Names what the master numbers.
 browser::Wall wallOf(const v1::StatusReply& status, std::uint64_t run, const std::string& build) {
     browser::Wall wall;
     wall.set_heard(true);
@@ -95,6 +99,7 @@ browser::Wall wallOf(const v1::StatusReply& status, std::uint64_t run, const std
     return wall;
 }
 
+// A silent master hides everything else: it is the one fault then.
 std::vector<Fault> faultsOf(const browser::Wall& wall, UnixSeconds now) {
     constexpr double kSilence = 3, kStart = 60, kOutOfStep = 10, kHot = 30;
     constexpr float kHotCelsius = 85;
@@ -120,6 +125,7 @@ std::vector<Fault> faultsOf(const browser::Wall& wall, UnixSeconds now) {
     return faults;
 }
 
+// Another run of the master is one line, not ten.
 std::vector<std::string> changesOf(const browser::Wall& before, const browser::Wall& after) {
     std::vector<std::string> lines;
     const auto note = [&](bool hasChanged, std::string line) {
@@ -137,6 +143,7 @@ std::vector<std::string> changesOf(const browser::Wall& before, const browser::W
     return lines;
 }
 
+// The minute's largest: a mean would hide what people saw.
 void FigureRings::add(const std::string& name, float value) {
     constexpr std::size_t kSeconds = 600, kMinutes = 1440;
     Ring& ring = rings_[name];
@@ -157,6 +164,7 @@ void FigureRings::add(const browser::Wall& wall) {
         add("node " + node.name(), node.picture_median_ms());
 }
 
+// In the order of their names.
 browser::History FigureRings::history() const {
     browser::History history;
     for (const auto& [name, ring] : rings_) {
@@ -170,6 +178,7 @@ browser::History FigureRings::history() const {
     return history;
 }
 
+// Of the wall as a whole, so that one address tells of all machines.
 std::string metricsOf(const browser::Wall& wall, std::uint64_t cutOff) {
     std::string text;
     const auto one = [&](const std::string& name, double value) {
@@ -195,6 +204,7 @@ std::string metricsOf(const browser::Wall& wall, std::uint64_t cutOff) {
     return text;
 }
 
+// A zero is said: a page need not know what is left out.
 std::string jsonOf(const browser::ToBrowser& message) {
     google::protobuf::util::JsonPrintOptions options;
     options.always_print_primitive_fields = true;
@@ -203,6 +213,7 @@ std::string jsonOf(const browser::ToBrowser& message) {
     return text;
 }
 
+// protobuf refuses unknown fields, wrong types and depth; sizes are ours to bound.
 std::optional<browser::FromBrowser> readBrowser(const std::string& text) {
     constexpr std::size_t kMostBytes = 65536;
     constexpr int kMostListed = 64;

@@ -32,6 +32,7 @@ PictureHub::~PictureHub() {
     thread_.join();
 }
 
+// The number comes back with the picture.
 void PictureHub::askPicture(const std::string& channel,
                             std::uint64_t number,
                             std::uint32_t widthPixels) {
@@ -41,12 +42,14 @@ void PictureHub::askPicture(const std::string& channel,
     ask(channel, std::move(question));
 }
 
+// Of a frame that was shown to somebody a moment ago.
 void PictureHub::askFish(const std::string& channel, const v1::FishRequest& request) {
     v1::Envelope question;
     *question.mutable_fish_request() = request;
     ask(channel, std::move(question));
 }
 
+// From any thread; the socket is the hub's.
 void PictureHub::ask(const std::string& channel, v1::Envelope question) {
     {
         const std::lock_guard lock(mutex_);
@@ -56,6 +59,7 @@ void PictureHub::ask(const std::string& channel, v1::Envelope question) {
     channels_->wake();
 }
 
+// Wakes for a packet or a question, else twice a second.
 void PictureHub::run() {
     while (!ended_) {
         while (const auto from = channels_->receiveControl()) hear(*from);
@@ -73,23 +77,25 @@ void PictureHub::run() {
 }
 
 // A node says hello every second; whoever said so last has the channel.
+void PictureHub::meet(const net::FromPeer& from, const std::string& channel) {
+    if (hasKeys_ && from.user != "node " + channel) return;
+    if (channelOf_.size() > kMostPeers) channelOf_.clear();
+    channelOf_[from.peer] = channel;
+    peerOf_[channel] = from.peer;
+}
+
+// Of peers that have not said which channel they show nothing is taken.
 void PictureHub::hear(const net::FromPeer& from) {
     const auto message = wire::decode(from.bytes);
     if (!message) return;
-    if (message->has_watch_hello()) {
-        const std::string& channel = message->watch_hello().channel();
-        if (hasKeys_ && from.user != "node " + channel) return;
-        if (channelOf_.size() > kMostPeers) channelOf_.clear();
-        channelOf_[from.peer] = channel;
-        peerOf_[channel] = from.peer;
-        return;
-    }
+    if (message->has_watch_hello()) return meet(from, message->watch_hello().channel());
     const auto known = channelOf_.find(from.peer);
     if (known == channelOf_.end()) return;
     if (message->has_frame_picture()) listener_.picture(known->second, message->frame_picture());
     if (message->has_fish_reply()) listener_.fish(known->second, message->fish_reply());
 }
 
+// Nodes know the master's public key already; so the console shows the same.
 std::optional<net::MasterKeys> watchKeysOf(const std::string& rigPath) {
     if (!config::needsKeys(config::readRig(rigPath))) return std::nullopt;
     const auto folder = config::keyFolderOf(rigPath);

@@ -41,6 +41,7 @@ class PictureHub {
   private:
     void run();
     void hear(const net::FromPeer& from);
+    void meet(const net::FromPeer& from, const std::string& channel);
     void ask(const std::string& channel, v1::Envelope question);
 
     bool hasKeys_;

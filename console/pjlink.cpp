@@ -22,10 +22,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr auto kBetweenLooks = std::chrono::seconds(20);  // more often, and some of them hang
+constexpr auto kBetweenLooks = std::chrono::seconds(20);   // more often, and some of them hang
 constexpr auto kAfterACommand = std::chrono::seconds(10);  // which some need to themselves
 constexpr milliseconds kPatience{2000};
 
+// False when the time is over.
 bool waitFor(int socket, short what, Clock::time_point end) {
     const auto left = std::chrono::duration_cast<milliseconds>(end - Clock::now()).count();
     pollfd waiting{socket, what, 0};
@@ -36,7 +37,8 @@ bool waitFor(int socket, short what, Clock::time_point end) {
 class Line {
   public:
     Line(const config::ControlledProjector& projector, milliseconds patience)
-        : patience_{patience}, socket_{socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)} {
+        : patience_{patience},
+          socket_{socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)} {
         sockaddr_in to{};
         to.sin_family = AF_INET;
         to.sin_port = htons(static_cast<std::uint16_t>(projector.port));
@@ -88,10 +90,12 @@ class Line {
     std::string buffer_;
 };
 
+// ASCII: it is shown on pages and in logs.
 bool isPrintable(const std::string& text) {
     return std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; });
 }
 
+// ERR3 and the like: it is there, and not able to say so now.
 std::string powerWord(const PjlinkAnswers& answers) {
     if (answers.refusesPassword) return "refuses the password";
     if (!answers.isThere || answers.values[0].empty()) return "no answer";
@@ -104,6 +108,7 @@ std::string powerWord(const PjlinkAnswers& answers) {
 
 }  // namespace
 
+// Anything else is another protocol, or noise.
 std::optional<PjlinkGreeting> readGreeting(const std::string& line) {
     constexpr std::size_t kMostSalt = 32;
     if (line == "PJLINK 0") return PjlinkGreeting{};
@@ -115,6 +120,7 @@ std::optional<PjlinkGreeting> readGreeting(const std::string& line) {
     return PjlinkGreeting{.wantsPassword = true, .salt = salt};
 }
 
+// MD5, because the standard says so; it keeps out mistakes, not attackers.
 std::string pjlinkProof(const std::string& salt, const std::string& password) {
     const std::string text = salt + password;
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
@@ -125,6 +131,7 @@ std::string pjlinkProof(const std::string& salt, const std::string& password) {
     return proof;
 }
 
+// To this command, and to no other.
 std::optional<std::string> readPjlinkAnswer(const std::string& line, const std::string& command) {
     const std::string start = "%1" + command.substr(0, 4) + "=";
     if (line.size() > kMostPjlinkBytes || !line.starts_with(start)) return std::nullopt;
@@ -133,6 +140,7 @@ std::optional<std::string> readPjlinkAnswer(const std::string& line, const std::
     return value;
 }
 
+// In the order of the standard.
 std::vector<std::string> problemsIn(const std::string& digits) {
     constexpr std::array kParts{"fan", "lamp", "temperature", "cover", "filter", "other"};
     std::vector<std::string> problems;
@@ -143,6 +151,7 @@ std::vector<std::string> problemsIn(const std::string& digits) {
     return problems;
 }
 
+// The proof goes before the first command only.
 PjlinkAnswers askProjector(const config::ControlledProjector& projector,
                            const std::vector<std::string>& commands,
                            milliseconds patience) {
@@ -171,6 +180,7 @@ PjlinkAnswers askProjector(const config::ControlledProjector& projector,
     return answers;
 }
 
+// What is not answered is as if nothing were wrong.
 ProjectorFacts lookAtProjector(const config::ControlledProjector& projector,
                                milliseconds patience) {
     const PjlinkAnswers answers =
@@ -198,6 +208,7 @@ ProjectorWatch::~ProjectorWatch() {
     thread_.join();
 }
 
+// The same again wakes nobody.
 void ProjectorWatch::want(std::optional<bool> power, std::optional<bool> shut) {
     {
         const std::lock_guard lock(mutex_);
@@ -214,6 +225,7 @@ ProjectorFacts ProjectorWatch::facts() const {
     return facts_;
 }
 
+// Looks, brings it to what is wanted, and rests.
 void ProjectorWatch::run() {
     std::unique_lock lock(mutex_);
     while (!ended_) {
@@ -227,23 +239,35 @@ void ProjectorWatch::run() {
     }
 }
 
-// The shutter is set while the lamp is on; a projector that warms or cools is left alone.
+namespace {
+
+// What brings a projector from what it is to what is wanted. The shutter is set while the lamp is
+// on; a projector that warms or cools is left alone.
+std::vector<std::string> commandsFor(const ProjectorFacts& facts,
+                                     std::optional<bool> power,
+                                     std::optional<bool> shut) {
+    std::vector<std::string> commands;
+    const bool isOn = facts.power == "on";
+    if (isOn && shut.value_or(facts.isShut) != facts.isShut)
+        commands.emplace_back(*shut ? "AVMT 31" : "AVMT 30");
+    if ((isOn || facts.power == "off") && power.value_or(isOn) != isOn)
+        commands.emplace_back(*power ? "POWR 1" : "POWR 0");
+    return commands;
+}
+
+}  // namespace
+
+// Some need some seconds to themselves after that.
 void ProjectorWatch::press(const ProjectorFacts& facts) {
-    std::optional<bool> power, shut;
+    std::vector<std::string> commands;
     {
         const std::lock_guard lock(mutex_);
-        power = power_;
-        shut = shut_;
+        commands = commandsFor(facts, power_, shut_);
     }
-    std::vector<std::string> commands;
-    if (shut && facts.power == "on" && facts.isShut != *shut)
-        commands.emplace_back(*shut ? "AVMT 31" : "AVMT 30");
-    if (power && facts.power == "off" && *power) commands.emplace_back("POWR 1");
-    if (power && facts.power == "on" && !*power) commands.emplace_back("POWR 0");
     if (commands.empty()) return;
     static_cast<void>(askProjector(projector_, commands, kPatience));
-    std::unique_lock lock(mutex_);
     const bool isPower = commands.back().starts_with("POWR");
+    std::unique_lock lock(mutex_);
     changed_.wait_for(
         lock, isPower ? kAfterACommand : std::chrono::seconds(1), [this] { return ended_; });
 }

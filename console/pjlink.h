@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Projectors by PJLink, class 1 (JBMIA): what they say is read within bounds, and one that is silent
-// or odd is a state, never an error.
+// Projectors by PJLink, class 1 (JBMIA): what they say is read within bounds, and one that is
+// silent or odd is a state, never an error.
 #pragma once
 
 #include <atomic>

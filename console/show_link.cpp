@@ -27,6 +27,7 @@ ShowLink::~ShowLink() {
     thread_.join();
 }
 
+// Of a flood the rest is lost: it is repeated by whoever wants it.
 void ShowLink::set(v1::Set set) {
     {
         const std::lock_guard lock(mutex_);
@@ -35,6 +36,7 @@ void ShowLink::set(v1::Set set) {
     changed_.notify_all();
 }
 
+// The newest counts: it is a state.
 void ShowLink::steer(const Steering& steering) {
     {
         const std::lock_guard lock(mutex_);
@@ -43,6 +45,7 @@ void ShowLink::steer(const Steering& steering) {
     changed_.notify_all();
 }
 
+// One question at a time.
 void ShowLink::explain(std::uint32_t fish) {
     {
         const std::lock_guard lock(mutex_);
@@ -51,6 +54,7 @@ void ShowLink::explain(std::uint32_t fish) {
     changed_.notify_all();
 }
 
+// Five times a second, and at once for hands and questions.
 void ShowLink::run() {
     std::unique_lock lock(mutex_);
     while (!ended_) {
@@ -61,8 +65,7 @@ void ShowLink::run() {
             listener_.silent();
         }
         lock.lock();
-        changed_.wait_for(
-            lock, kBetweenLooks, [this] { return ended_ || steering_ || fish_; });
+        changed_.wait_for(lock, kBetweenLooks, [this] { return ended_ || steering_ || fish_; });
     }
 }
 
@@ -89,6 +92,7 @@ void ShowLink::work() {
     listener_.heard(status, client_.run());
 }
 
+// Asked once; what takes longer is asked for again at the next turn.
 void ShowLink::press(v1::Set& set) {
     const v1::SetReply reply = client_.ask(set);
     const std::uint64_t id = set.request();

@@ -36,6 +36,13 @@ declare -A way=(
     [fidelity_segments.svg]=fidelity
     [adaptation.svg]=adaptation
     [modules.svg]=modules
+    [console_wall.png]=console
+    [console_nodes.png]=console
+    [console_black.png]=console
+    [console_events.png]=console
+    [console_stale.png]=console
+    [console_schedule.png]=console
+    [console_phone.png]=console
 )
 
 # Each leaves its pictures in $drawn.
@@ -100,6 +107,11 @@ fidelity() { $bin/aquarama fidelity --seed 4 --out "$drawn"; }
 adaptation() { $bin/aquarama study --seeds 16 --minutes 4 --out "$drawn"; }
 
 # The libraries and programs, as CMake knows them.
+# The pages of the console, by chromium, as their test goes through them.
+console() {
+    cmake --build --preset show-tests --target aquarama-console
+    AQUARAMA_BIN=$PWD/$bin AQUARAMA_SHOTS=$drawn /usr/bin/python3 tests/console/pages_test.py
+}
 modules() {
     cmake --preset show-tests --graphviz="$drawn/cmake.dot" >/dev/null
     docs/draw_modules.py "$drawn/cmake.dot" "$drawn/modules.svg"

@@ -19,6 +19,19 @@ namespace {
 constexpr int kMinutesOfDay = 1440;
 constexpr int kPjLinkPort = 4352;
 
+// Goes past one character; false where it is not there.
+bool skip(const char*& at, const char* end, char wanted) {
+    return at != end && *at++ == wanted;
+}
+
+// A number without sign, and goes past it; false where there is none, or it is too large.
+bool readNumber(const char*& at, const char* end, int& number) {
+    if (at == end || *at < '0' || *at > '9') return false;
+    const auto [next, problem] = std::from_chars(at, end, number);
+    at = next;
+    return problem == std::errc{};
+}
+
 // Whole numbers with one character between them; nothing where the text is anything else.
 template <std::size_t count>
 std::optional<std::array<int, count>> numbersIn(const std::string& text, char between) {
@@ -26,30 +39,32 @@ std::optional<std::array<int, count>> numbersIn(const std::string& text, char be
     const char* at = text.data();
     const char* const end = at + text.size();
     for (std::size_t i = 0; i < count; ++i) {
-        if (i > 0 && (at == end || *at++ != between)) return std::nullopt;
-        if (at == end || *at < '0' || *at > '9') return std::nullopt;
-        const auto [next, problem] = std::from_chars(at, end, numbers[i]);
-        if (problem != std::errc{}) return std::nullopt;
-        at = next;
+        if (i > 0 && !skip(at, end, between)) return std::nullopt;
+        if (!readNumber(at, end, numbers[i])) return std::nullopt;
     }
     return at == end ? std::optional(numbers) : std::nullopt;
 }
 
-int minuteOf(const TextReader& file, const v1::OpenSpan& in, const std::string& field) {
-    const std::string& text = field == "from" ? in.from() : in.to();
+// Minutes since midnight; nothing where the text is no time of a day.
+std::optional<int> minuteIn(const std::string& text) {
     const auto time = numbersIn<2>(text, ':');
-    const bool isMidnight = time && field == "to" && *time == std::array{24, 0};
-    if (!isMidnight && (!time || (*time)[0] > 23 || (*time)[1] > 59))
-        file.refuse(in, field, field + " \"" + text + "\" is no time: write 09:30");
+    if (!time || (*time)[0] > 23 || (*time)[1] > 59) return std::nullopt;
     return 60 * (*time)[0] + (*time)[1];
 }
 
+// Of the field `from` or `to`; the latter may be midnight.
+int minuteOf(const TextReader& file, const v1::OpenSpan& in, const std::string& field) {
+    const std::string& text = field == "from" ? in.from() : in.to();
+    if (field == "to" && text == "24:00") return kMinutesOfDay;
+    const auto minute = minuteIn(text);
+    if (!minute) file.refuse(in, field, field + " \"" + text + "\" is no time: write 09:30");
+    return *minute;
+}
+
+// The part of a schema as plain data; refuses what no single field can tell.
 OpenSpan spanOf(const TextReader& file, const v1::OpenSpan& in) {
-    OpenSpan span{{},
-                  minuteOf(file, in, "from"),
-                  minuteOf(file, in, "to"),
-                  in.scene(),
-                  in.quality()};
+    OpenSpan span{
+        {}, minuteOf(file, in, "from"), minuteOf(file, in, "to"), in.scene(), in.quality()};
     if (span.to <= span.from) span.to += kMinutesOfDay;
     for (const int day : in.days()) span.weekdays.push_back(day);
     if (in.has_quality() && in.quality() != "auto" && !tierNamed(in.quality()))
@@ -63,11 +78,21 @@ int daysOf(int month) {
     return month >= 1 && month <= 12 ? kDays[static_cast<std::size_t>(month - 1)] : 0;
 }
 
+// Nothing where the text is no day of a calendar.
+std::optional<CivilDate> dateIn(const std::string& text) {
+    constexpr int kFirstYear = 1970;
+    const auto date = numbersIn<3>(text, '-');
+    if (!date) return std::nullopt;
+    const auto [year, month, day] = *date;
+    if (year < kFirstYear || day < 1 || day > daysOf(month)) return std::nullopt;
+    return CivilDate{year, month, day};
+}
+
+// A day that is not as its weekday. Its spans have no days of their own.
 ExceptionDay exceptionOf(const TextReader& file, const v1::ExceptionDay& in) {
-    const auto date = numbersIn<3>(in.date(), '-');
-    if (!date || (*date)[0] < 1970 || (*date)[2] < 1 || (*date)[2] > daysOf((*date)[1]))
-        file.refuse(in, "date", "date \"" + in.date() + "\" is no day: write 2026-12-24");
-    ExceptionDay day{{(*date)[0], (*date)[1], (*date)[2]}, {}};
+    const auto date = dateIn(in.date());
+    if (!date) file.refuse(in, "date", "date \"" + in.date() + "\" is no day: write 2026-12-24");
+    ExceptionDay day{*date, {}};
     for (const v1::OpenSpan& span : in.open()) {
         if (span.days_size() > 0)
             file.refuse(span, "days", "an exception is of its date alone: remove the days");
@@ -76,17 +101,23 @@ ExceptionDay exceptionOf(const TextReader& file, const v1::ExceptionDay& in) {
     return day;
 }
 
+// Of "192.168.7.21:4352"; PJLink's own where none is named, 0 where it is no port.
+int portIn(const std::string& address) {
+    const std::size_t colon = address.find(':');
+    if (colon == std::string::npos) return kPjLinkPort;
+    constexpr int kMostPort = 65535;
+    const auto port = numbersIn<1>(address.substr(colon + 1), ':');
+    return port && (*port)[0] <= kMostPort ? (*port)[0] : 0;
+}
+
+// A projector is named by number: names mean anything to a resolver.
 ControlledProjector projectorOf(const TextReader& file, const v1::ControlledProjector& in) {
-    const std::size_t colon = in.address().find(':');
-    ControlledProjector projector{
-        in.name(), in.address().substr(0, colon), in.password(), kPjLinkPort};
-    const auto port = colon == std::string::npos
-                          ? std::optional(std::array{kPjLinkPort})
-                          : numbersIn<1>(in.address().substr(colon + 1), ':');
-    const bool isHost = numbersIn<4>(projector.host, '.').has_value();
-    if (!isHost || !port || (*port)[0] < 1 || (*port)[0] > 65535)
+    ControlledProjector projector{in.name(),
+                                  in.address().substr(0, in.address().find(':')),
+                                  in.password(),
+                                  portIn(in.address())};
+    if (!numbersIn<4>(projector.host, '.') || projector.port == 0)
         file.refuse(in, "address", "address is a number, as 192.168.7.21 or 192.168.7.21:4352");
-    projector.port = (*port)[0];
     constexpr std::size_t kLongestPassword = 32;  // of PJLink
     if (in.password().size() > kLongestPassword)
         file.refuse(in, "password", "a password of PJLink has at most 32 letters");
@@ -111,15 +142,31 @@ const OpenSpan* spanAt(const Hours& hours, const CivilDate& date, int weekday, i
     return lastAt(hours.open, weekday, minute);
 }
 
+// Of the Gregorian calendar.
 bool isLeapYear(int year) {
     return (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
 }
 
+// The day whose spans may still hold after midnight.
 CivilDate dayBefore(const CivilTime& now) {
     if (now.day > 1) return {now.year, now.month, now.day - 1};
     if (now.month == 1) return {now.year - 1, 12, 31};
     const int days = now.month == 3 && !isLeapYear(now.year) ? 28 : daysOf(now.month - 1);
     return {now.year, now.month - 1, days};
+}
+
+}  // namespace
+
+namespace {
+
+// Each of them once.
+void takeExceptions(const TextReader& file, const v1::Hours& in, Hours& hours) {
+    for (const v1::ExceptionDay& day : in.exceptions()) {
+        ExceptionDay exception = exceptionOf(file, day);
+        if (std::ranges::count(hours.exceptions, exception.date, &ExceptionDay::date) > 0)
+            file.refuse(day, "date", "the day is there already: put its spans together");
+        hours.exceptions.push_back(std::move(exception));
+    }
 }
 
 }  // namespace
@@ -130,22 +177,21 @@ Hours parseHours(const std::string& text, const std::string& source) {
     file.check();
     Hours hours{in.zone(), {}, {}, {}};
     if (!isZone(in.zone()))
-        file.refuse(in, "zone", "zone \"" + in.zone() + "\" is none of this machine: write Europe/Berlin or UTC");
+        file.refuse(
+            in,
+            "zone",
+            "zone \"" + in.zone() + "\" is none of this machine: write Europe/Berlin or UTC");
     for (const v1::OpenSpan& span : in.open()) {
         if (span.days_size() == 0) file.refuse(span, "say on which days: days: [MONDAY, SUNDAY]");
         hours.open.push_back(spanOf(file, span));
     }
-    for (const v1::ExceptionDay& day : in.exceptions()) {
-        hours.exceptions.push_back(exceptionOf(file, day));
-        const CivilDate& date = hours.exceptions.back().date;
-        if (std::ranges::count(hours.exceptions, date, &ExceptionDay::date) > 1)
-            file.refuse(day, "date", "the day is there already: put its spans together");
-    }
+    takeExceptions(file, in, hours);
     for (const v1::ControlledProjector& projector : in.projectors())
         hours.projectors.push_back(projectorOf(file, projector));
     return hours;
 }
 
+// A name of the system's list; no path that leads out of it.
 bool isZone(const std::string& zone) {
     constexpr std::size_t kLongest = 64;
     if (zone.empty() || zone.size() > kLongest || zone.front() == '/' ||
@@ -154,6 +200,7 @@ bool isZone(const std::string& zone) {
     return zone == "UTC" || std::filesystem::is_regular_file("/usr/share/zoneinfo/" + zone);
 }
 
+// The C library knows the changes of summer time; C++20's zones are not in GCC 12.
 CivilTime civilTime(const std::string& zone, long long unixSeconds) {
     // NOLINTNEXTLINE(concurrency-mt-unsafe): one thread calls this, as the header says
     const char* const before = std::getenv("TZ");
@@ -171,9 +218,9 @@ CivilTime civilTime(const std::string& zone, long long unixSeconds) {
             60 * local.tm_hour + local.tm_min};
 }
 
+// A span of today goes before one of yesterday that has not ended.
 WantedHours wantedAt(const Hours& hours, const CivilTime& now) {
-    const OpenSpan* span =
-        spanAt(hours, {now.year, now.month, now.day}, now.weekday, now.minute);
+    const OpenSpan* span = spanAt(hours, {now.year, now.month, now.day}, now.weekday, now.minute);
     if (span == nullptr)
         span = spanAt(hours,
                       dayBefore(now),

@@ -57,8 +57,8 @@ struct WantedHours {
 // errors.
 [[nodiscard]] Hours parseHours(const std::string& text, const std::string& source);
 
-// The clock of a zone at a moment of Unix time. Changes the process's idea of local time: one thread
-// calls it. A zone that the system does not know is UTC.
+// The clock of a zone at a moment of Unix time. Changes the process's idea of local time: one
+// thread calls it. A zone that the system does not know is UTC.
 [[nodiscard]] CivilTime civilTime(const std::string& zone, long long unixSeconds);
 [[nodiscard]] bool isZone(const std::string& zone);
 

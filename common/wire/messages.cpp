@@ -232,6 +232,22 @@ bool isValid(const v1::FishReply& m) {
     return m.has_number() && m.has_frame() && (!m.has_fish() || m.fish() < kMostFish);
 }
 
+// What a node and the operator's console say to each other.
+bool isValidWatch(const v1::Envelope& m) {
+    switch (m.message_case()) {
+        case v1::Envelope::kWatchHello:
+            return isName(m.watch_hello().channel());
+        case v1::Envelope::kPictureRequest:
+            return isValid(m.picture_request());
+        case v1::Envelope::kFramePicture:
+            return isValid(m.frame_picture());
+        case v1::Envelope::kFishRequest:
+            return isValid(m.fish_request());
+        default:
+            return m.has_fish_reply() && isValid(m.fish_reply());
+    }
+}
+
 bool isValid(const v1::Envelope& m) {
     switch (m.message_case()) {
         case v1::Envelope::kHello:
@@ -276,26 +292,15 @@ bool isValid(const v1::Envelope& m) {
             return m.explain_request().has_fish();
         case v1::Envelope::kExplanation:
             return isValid(m.explanation());
-        case v1::Envelope::kWatchHello:
-            return isName(m.watch_hello().channel());
-        case v1::Envelope::kPictureRequest:
-            return isValid(m.picture_request());
-        case v1::Envelope::kFramePicture:
-            return isValid(m.frame_picture());
-        case v1::Envelope::kFishRequest:
-            return isValid(m.fish_request());
-        case v1::Envelope::kFishReply:
-            return isValid(m.fish_reply());
         case v1::Envelope::kLeave:
         case v1::Envelope::kState:  // by readState()
         case v1::Envelope::kBeacon:
         case v1::Envelope::kFarewell:
         case v1::Envelope::kStatusRequest:
             return true;
-        case v1::Envelope::MESSAGE_NOT_SET:
-            break;
+        default:
+            return isValidWatch(m);
     }
-    return false;
 }
 
 // In a large packet only these may be large: in the other messages a few bytes of a packet may

@@ -3,14 +3,13 @@
 // only. Boost's headers are slow to compile: each kind of stream has a source of its own.
 #pragma once
 
-#include <utility>  // before Asio, whose awaitable.hpp of Boost 1.74 forgets it
-
 #include <chrono>
 #include <list>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>  // before Asio, whose awaitable.hpp of Boost 1.74 forgets it
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/co_spawn.hpp>
@@ -92,7 +91,8 @@ class TopicOutbox final : public Outbox {
 
     static constexpr std::size_t kMostTopics = 200;
     std::map<std::string, std::pair<Payload, bool>> waiting;
-    asio::basic_waitable_timer<Clock, asio::wait_traits<Clock>, Executor> wake;  // cancelled when there is something
+    asio::basic_waitable_timer<Clock, asio::wait_traits<Clock>, Executor>
+        wake;  // cancelled when there is something
     std::optional<std::uint16_t> closeCode;
     bool isClosed = false;
 };
@@ -144,7 +144,8 @@ asio::awaitable<void> listen(Shared& shared, std::shared_ptr<LiveSocket<Stream>>
     while (!error) {
         co_await live->socket.async_read(buffer, asio::redirect_error(asio::use_awaitable, error));
         if (error) break;
-        if (live->socket.got_text()) live->connection->hear(beast::buffers_to_string(buffer.data()));
+        if (live->socket.got_text())
+            live->connection->hear(beast::buffers_to_string(buffer.data()));
         buffer.consume(buffer.size());
     }
     if (error == beast::websocket::error::message_too_big) ++shared.cutOff;
@@ -162,13 +163,15 @@ template <class Stream>
 asio::awaitable<bool> sayTo(Stream& stream, const BeastRequest& request, HttpReply reply) {
     beast::error_code error;
     auto response = responseOf(request, std::move(reply));
-    co_await http::async_write(
-        stream, response, asio::redirect_error(asio::use_awaitable, error));
+    co_await http::async_write(stream, response, asio::redirect_error(asio::use_awaitable, error));
     co_return !error && response.keep_alive();
 }
 
 template <class Stream>
-asio::awaitable<void> upgrade(Shared& shared, Stream stream, BeastRequest request, Executor executor) {
+asio::awaitable<void> upgrade(Shared& shared,
+                              Stream stream,
+                              BeastRequest request,
+                              Executor executor) {
     beast::get_lowest_layer(stream).expires_never();
     auto live = std::make_shared<LiveSocket<Stream>>(std::move(stream), executor);
     HttpReply refusal;

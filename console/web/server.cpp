@@ -25,6 +25,7 @@ constexpr const char* kPolicy =
 
 }  // namespace
 
+// What the service needs of it, in plain types.
 HttpRequest requestOf(const BeastRequest& in) {
     const auto method = in.method_string();
     const auto target = in.target();
@@ -40,6 +41,7 @@ HttpRequest requestOf(const BeastRequest& in) {
             .body = in.body()};
 }
 
+// Pages are looked for again each time; their tag spares the content.
 http::response<http::string_body> responseOf(const BeastRequest& in, HttpReply reply) {
     http::response<http::string_body> out{static_cast<http::status>(reply.status), in.version()};
     out.set(http::field::content_type, reply.type);
@@ -95,8 +97,8 @@ struct WebServer::Impl {
     asio::awaitable<void> accept() {
         while (true) {
             beast::error_code error;
-            Socket socket = co_await acceptor.async_accept(
-                asio::redirect_error(asio::use_awaitable, error));
+            Socket socket =
+                co_await acceptor.async_accept(asio::redirect_error(asio::use_awaitable, error));
             if (error == asio::error::operation_aborted) co_return;
             if (error) continue;
             begin(std::move(socket));
@@ -142,6 +144,7 @@ WebServer::WebServer(const ServerOptions& options, Service& service)
 
 WebServer::~WebServer() = default;
 
+// One thread: nothing in the service needs a lock.
 void WebServer::run() {
     impl_->io.run();
 }

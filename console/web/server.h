@@ -71,7 +71,8 @@ struct ServerOptions {
 };
 
 // Bounds. What exceeds them is cut off and counted.
-inline constexpr std::size_t kMostConnections = 512;  // above, the one that waits longest is cut off
+inline constexpr std::size_t kMostConnections =
+    512;  // above, the one that waits longest is cut off
 inline constexpr std::size_t kMostHeaderBytes = 8192;
 inline constexpr std::size_t kMostBodyBytes = 65536;
 inline constexpr std::size_t kMostMessageBytes = 65536;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Connections over TLS.
-#include "console/web/conversation.h"
-
 #include <boost/asio/ssl/stream.hpp>
 #include <boost/beast/websocket/ssl.hpp>
 
+#include "console/web/conversation.h"
+
 namespace aquarama::web {
 
+// The handshake comes first, within the time of a request.
 void converseOverTls(Shared& shared, asio::ssl::context& tls, Socket socket) {
     using TlsStream = asio::ssl::stream<PlainStream>;
     const Executor executor = shared.io.get_executor();

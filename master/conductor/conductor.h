@@ -281,8 +281,8 @@ class Conductor {
     ScanHold scan_;
     bool windowsEndShow_;
     std::deque<std::uint64_t> restarts_;  // requests that were carried out, the last few
-    std::unique_ptr<v1::Look> look_;  // that is shown
-    std::string sceneName_;           // of it
+    std::unique_ptr<v1::Look> look_;      // that is shown
+    std::string sceneName_;               // of it
     Blobs blobs_;
     std::unique_ptr<net::MasterChannels> channels_;
     std::uint64_t session_;

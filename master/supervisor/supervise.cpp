@@ -126,9 +126,7 @@ std::optional<Process> consoleProcess(const RunOptions& options, const config::R
         return std::nullopt;
     std::vector<std::string> arguments{options.show.rigPath};
     if (config::needsKeys(rig) && !options.show.keyFolder.empty())
-        append(arguments,
-               "--key",
-               config::keyFileIn(options.show.keyFolder, "operator").string());
+        append(arguments, "--key", config::keyFileIn(options.show.keyFolder, "operator").string());
     return Process{.name = kConsole, .command = {program, arguments}, .started = {}};
 }
 

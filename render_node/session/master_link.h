@@ -238,7 +238,7 @@ class MasterLink {
     std::deque<std::pair<net::Instant, std::optional<net::Instant>>> pings_;
     Traffic traffic_;
     Frame lastFinished_;
-    net::RecentTimes pictures_;  // how long each took
+    net::RecentTimes pictures_;       // how long each took
     std::deque<v1::LogLine> unsaid_;  // lines of the log that the master has not been told
     std::string lastDismissal_;
     net::Instant lastHeard_{}, lastPing_{}, lastHello_{}, lastReady_{}, lastRequest_{},

@@ -23,6 +23,7 @@ constexpr net::Instant kPatience = std::chrono::seconds(1);
 constexpr net::Instant kBetweenHellos = std::chrono::seconds(1);
 constexpr std::size_t kMostQuestions = 4;
 
+// Of a picture of four codes a pixel.
 std::size_t bytesOf(glm::ivec2 sizePixels) {
     return std::size_t{4} * static_cast<std::size_t>(sizePixels.x) *
            static_cast<std::size_t>(sizePixels.y);
@@ -34,6 +35,7 @@ PictureReader::~PictureReader() {
     if (fence_ != nullptr) glDeleteSync(fence_);
 }
 
+// Reduced by the GPU, then read into a buffer of its own: nobody waits.
 void PictureReader::begin(const gl::Target& from, int widthPixels) {
     assert(!isBusy());
     const glm::ivec2 whole = from.sizePixels();
@@ -63,6 +65,7 @@ void PictureReader::begin(const gl::Target& from, int widthPixels) {
     glFlush();
 }
 
+// A lost buffer is no picture; the next one is asked for.
 std::optional<ReducedPicture> PictureReader::take() {
     if (!isBusy() || glClientWaitSync(fence_, 0, 0) == GL_TIMEOUT_EXPIRED) return std::nullopt;
     glDeleteSync(std::exchange(fence_, nullptr));
@@ -76,6 +79,7 @@ std::optional<ReducedPicture> PictureReader::take() {
     return picture;
 }
 
+// Of a reef quality 75 takes 18 kB of the 60 that a packet may have.
 std::string encodeJpeg(const ReducedPicture& picture) {
     const std::unique_ptr<void, int (*)(tjhandle)> encoder(tjInitCompress(), tjDestroy);
     const glm::ivec2 size = picture.sizePixels;
@@ -114,6 +118,7 @@ ConsoleLink::~ConsoleLink() {
     thread_.join();
 }
 
+// Rare: most frames find nobody who looks.
 std::optional<int> ConsoleLink::wantedWidth() {
     const std::lock_guard lock(mutex_);
     const net::Instant now = net::monotonicNow();
@@ -125,6 +130,7 @@ std::optional<int> ConsoleLink::wantedWidth() {
     return width;
 }
 
+// The link's thread encodes it.
 void ConsoleLink::put(Frame frame, ReducedPicture picture) {
     {
         const std::lock_guard lock(mutex_);
@@ -141,6 +147,7 @@ std::optional<FishQuestion> ConsoleLink::nextQuestion() {
     return first;
 }
 
+// Sent by the link's thread.
 void ConsoleLink::answer(const FishQuestion& question,
                          Frame frame,
                          std::optional<std::uint32_t> fish) {
@@ -158,6 +165,7 @@ void ConsoleLink::answer(const FishQuestion& question,
 
 // --- its thread
 
+// Says who it is every second, as the console may have been started anew.
 void ConsoleLink::run() {
     constexpr int kLowest = 19;
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);  // of this thread alone
@@ -176,6 +184,7 @@ void ConsoleLink::run() {
     }
 }
 
+// A newer request takes the place of an older one.
 void ConsoleLink::hear(const net::ByteVector& bytes) {
     const auto message = wire::decode(bytes);
     if (!message) return;
@@ -190,6 +199,7 @@ void ConsoleLink::hear(const net::ByteVector& bytes) {
     }
 }
 
+// Encoded here, beside the frames.
 void ConsoleLink::sayWhatIsThere() {
     std::optional<Taken> taken;
     std::deque<wire::Packet> answers;

@@ -94,7 +94,7 @@ class ConsoleLink {
     std::string channel_;
     std::unique_ptr<net::NodeChannels> channels_;
     std::atomic<bool> ended_ = false;
-    std::mutex mutex_;  // guards all below but the thread
+    std::mutex mutex_;                                      // guards all below but the thread
     std::optional<std::pair<std::uint64_t, int>> request_;  // number, width
     net::Instant requestedAt_{}, lastPicture_{};
     std::uint64_t beingMade_ = 0;  // its number; 0: none

@@ -11,8 +11,9 @@ const std::vector<Fault> kLate{{"node left", "node left is late", 10}};
 TEST(Alerts, aFaultThatPassesIsNoAlert) {
     Alerts alerts;
     for (double now = 0; now < 100; ++now)
-        EXPECT_TRUE(alerts.update(static_cast<int>(now) % 9 == 8 ? std::vector<Fault>{} : kLate, now)
-                        .empty())
+        EXPECT_TRUE(
+            alerts.update(static_cast<int>(now) % 9 == 8 ? std::vector<Fault>{} : kLate, now)
+                .empty())
             << now;
     EXPECT_TRUE(alerts.standing().empty());
 }
@@ -20,7 +21,8 @@ TEST(Alerts, aFaultThatPassesIsNoAlert) {
 TEST(Alerts, oneThatLastsFiresOnceAndStaysUntilSomebodyHasSeenIt) {
     Alerts alerts;
     int lines = 0;
-    for (double now = 0; now <= 30; ++now) lines += static_cast<int>(alerts.update(kLate, now).size());
+    for (double now = 0; now <= 30; ++now)
+        lines += static_cast<int>(alerts.update(kLate, now).size());
     EXPECT_EQ(lines, 1);
     ASSERT_EQ(alerts.standing().size(), 1U);
     EXPECT_EQ(alerts.standing()[0].since, 0);

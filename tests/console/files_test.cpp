@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "console/files_of_show.h"
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
+
+#include "console/files_of_show.h"
 
 namespace aquarama::console {
 namespace {
@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 class FilesTest : public testing::Test {
   protected:
-    FilesTest() : folder_{fs::temp_directory_path() / ("aquarama-files-" + std::to_string(getpid()))} {
+    FilesTest()
+        : folder_{fs::temp_directory_path() / ("aquarama-files-" + std::to_string(getpid()))} {
         fs::create_directories(folder_);
     }
     ~FilesTest() override { fs::remove_all(folder_); }
@@ -37,12 +38,12 @@ TEST_F(FilesTest, anArchiveIsReadByTar) {
 }
 
 TEST_F(FilesTest, aLogIsFilteredAndWhatIsNoLineOfItIsLeftOut) {
-    const fs::path log = write(
-        "log.jsonl",
-        R"({"time":"t1","node":"left","frame":7,"severity":"info","text":"showing"})"
-        "\nno json\n[1,2]\n{\"node\":5,\"frame\":\"x\"}\n"
-        R"({"time":"t2","node":"right","frame":8,"severity":"warning","text":"too slow"})"
-        "\n{\"cut");
+    const fs::path log =
+        write("log.jsonl",
+              R"({"time":"t1","node":"left","frame":7,"severity":"info","text":"showing"})"
+              "\nno json\n[1,2]\n{\"node\":5,\"frame\":\"x\"}\n"
+              R"({"time":"t2","node":"right","frame":8,"severity":"warning","text":"too slow"})"
+              "\n{\"cut");
     browser::Look look;
     EXPECT_EQ(tailOf(log, look).rows_size(), 3);
     EXPECT_EQ(tailOf(log, look).rows(0).frame(), 7U);

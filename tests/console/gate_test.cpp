@@ -19,8 +19,12 @@ int statusOf(const HttpRequest& request, const Doors& doors, bool acts) {
 TEST(Gate, aHostThatIsNoneOfOursIsRefusedAlsoOnTheLoopback) {
     for (const char* const host : {"127.0.0.1:7480", "localhost:7480", "[::1]:7480"})
         EXPECT_EQ(statusOf({.host = host}, kPlain, false), 200) << host;
-    for (const char* const host :
-         {"", "evil.example", "127.0.0.1", "127.0.0.1:80", "evil.example:7480", "127.0.0.1:7480.evil"})
+    for (const char* const host : {"",
+                                   "evil.example",
+                                   "127.0.0.1",
+                                   "127.0.0.1:80",
+                                   "evil.example:7480",
+                                   "127.0.0.1:7480.evil"})
         EXPECT_EQ(statusOf({.host = host}, kPlain, false), 421) << host;
     EXPECT_EQ(statusOf({.host = "master.local:443"}, kTls, false), 200);
 }

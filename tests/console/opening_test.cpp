@@ -17,11 +17,13 @@ namespace fs = std::filesystem;
 constexpr UnixSeconds kTen = 1767258000;  // 2026-01-01 10:00 in Berlin, a Thursday
 constexpr double kHour = 3600;
 const std::string kText =
-    "zone: \"Europe/Berlin\"\nopen { days: [THURSDAY] from: \"10:00\" to: \"18:00\" scene: \"reef\" }\n";
+    "zone: \"Europe/Berlin\"\nopen { days: [THURSDAY] from: \"10:00\" to: \"18:00\" scene: "
+    "\"reef\" }\n";
 
 class OpeningTest : public testing::Test {
   protected:
-    OpeningTest() : folder_{fs::temp_directory_path() / ("aquarama-opening-" + std::to_string(getpid()))} {
+    OpeningTest()
+        : folder_{fs::temp_directory_path() / ("aquarama-opening-" + std::to_string(getpid()))} {
         fs::create_directories(folder_);
     }
     ~OpeningTest() override { fs::remove_all(folder_); }
@@ -86,7 +88,8 @@ TEST_F(OpeningTest, theNextHourIsSaid) {
     Opening opening(folder_);
     opening.setText(kText);
     const browser::Hours before = opening.hours(kTen - 30 * 60);
-    EXPECT_EQ(before.next() + " " + before.next_at() + " " + before.next_scene(), "opens 10:00 reef");
+    EXPECT_EQ(before.next() + " " + before.next_at() + " " + before.next_scene(),
+              "opens 10:00 reef");
     EXPECT_EQ(opening.hours(kTen + 7.5 * kHour).next(), "closes");
     EXPECT_EQ(opening.hours(kTen + 1 * kHour).next(), "stays");
 }

@@ -140,11 +140,28 @@ TEST(Pjlink, oneThatIsSilentOddOrGoneIsAStateAndTakesItsTimeOnly) {
     const std::array<std::pair<const char*, PretendedProjector::Serve>, 8> kQuirks{{
         {"silent", [](int) { std::this_thread::sleep_for(400ms); }},
         {"closes at once", [](int) {}},
-        {"no line ends", [](int s) { say(s, std::string(100'000, 'P')); std::this_thread::sleep_for(50ms); }},
+        {"no line ends",
+         [](int s) {
+             say(s, std::string(100'000, 'P'));
+             std::this_thread::sleep_for(50ms);
+         }},
         {"another protocol", [](int s) { say(s, "220 mail.example\r\n"); }},
-        {"greets, then silent", [](int s) { say(s, "PJLINK 0\r"); std::this_thread::sleep_for(400ms); }},
-        {"greets, then closes", [](int s) { say(s, "PJLINK 0\r"); hear(s); }},
-        {"noise", [](int s) { say(s, "PJLINK 0\r"); hear(s); say(s, "\x01\xff%1POWR=\r%1POWR\r"); }},
+        {"greets, then silent",
+         [](int s) {
+             say(s, "PJLINK 0\r");
+             std::this_thread::sleep_for(400ms);
+         }},
+        {"greets, then closes",
+         [](int s) {
+             say(s, "PJLINK 0\r");
+             hear(s);
+         }},
+        {"noise",
+         [](int s) {
+             say(s, "PJLINK 0\r");
+             hear(s);
+             say(s, "\x01\xff%1POWR=\r%1POWR\r");
+         }},
         {"an empty salt", [](int s) { say(s, "PJLINK 1 \r"); }},
     }};
     for (const auto& [name, serve] : kQuirks) {

@@ -56,13 +56,15 @@ TEST(Hours, overBothChangesOfSummerTimeTheClockOnTheWallCounts) {
 }
 
 TEST(Hours, aSpanMayEndOnTheNextDayAlsoAcrossAChangeAndAMonth) {
-    const auto open = openMinutes(hoursOf("open { days: [SATURDAY] from: \"22:00\" to: \"02:30\" }"));
+    const auto open =
+        openMinutes(hoursOf("open { days: [SATURDAY] from: \"22:00\" to: \"02:30\" }"));
     EXPECT_EQ(open.at("2-28"), 120);
     EXPECT_EQ(open.at("3-1"), 150);
     EXPECT_EQ(open.at("3-29"), 120) << "half past two does not come";
     EXPECT_EQ(open.at("10-25"), 180) << "it comes twice";
     EXPECT_EQ(open.at("3-2"), 0);
-    const auto newYear = openMinutes(hoursOf("open { days: [WEDNESDAY] from: \"22:00\" to: \"02:30\" }"));
+    const auto newYear =
+        openMinutes(hoursOf("open { days: [WEDNESDAY] from: \"22:00\" to: \"02:30\" }"));
     EXPECT_EQ(newYear.at("1-1"), 150) << "since the last day of the year before";
 }
 
@@ -83,11 +85,12 @@ TEST(Hours, whatIsWantedDependsOnTheClockAloneAndChangesAtWholeMinutes) {
 }
 
 TEST(Hours, anExceptionStandsInPlaceOfItsDayAndTheLaterLineCounts) {
-    const Hours hours = hoursOf(
-        kDaily +
-        "open { days: [FRIDAY] from: \"17:00\" to: \"22:00\" scene: \"night\" }\n"
-        "exceptions { date: \"2026-12-24\" }\n"
-        "exceptions { date: \"2026-12-25\" open { from: \"12:00\" to: \"14:00\" scene: \"snow\" } }");
+    const Hours hours =
+        hoursOf(kDaily +
+                "open { days: [FRIDAY] from: \"17:00\" to: \"22:00\" scene: \"night\" }\n"
+                "exceptions { date: \"2026-12-24\" }\n"
+                "exceptions { date: \"2026-12-25\" open { from: \"12:00\" to: \"14:00\" scene: "
+                "\"snow\" } }");
     const long long noon = 1798110000;  // 2026-12-24 12:00 in Berlin
     EXPECT_FALSE(at(hours, noon).isOpen);
     EXPECT_EQ(at(hours, noon + kDay).scene, "snow");
@@ -108,14 +111,16 @@ TEST(Hours, theClockIsThatOfTheZone) {
 
 TEST(Hours, aMistakeIsNamedWithItsPlaceAndWhatToDo) {
     const std::array<std::pair<const char*, const char*>, 11> kMistakes{{
-        {"open { days: [MONDAY] from: \"25:00\" to: \"18:00\" }", "2:23: from \"25:00\" is no time"},
+        {"open { days: [MONDAY] from: \"25:00\" to: \"18:00\" }",
+         "2:23: from \"25:00\" is no time"},
         {"open { days: [MONDAY] from: \"10:00\" to: \"1800\" }", "is no time"},
         {"open { from: \"10:00\" to: \"18:00\" }", "say on which days"},
         {"open { days: [MONDAY] to: \"18:00\" }", "from"},
         {"open { days: [MONDAY] from: \"10:00\" to: \"18:00\" quality: \"best\" }", "low, medium"},
         {"exceptions { date: \"2026-13-01\" }", "2:14: date \"2026-13-01\" is no day"},
         {"exceptions { date: \"2026-02-30\" }", "is no day"},
-        {"exceptions { date: \"2026-01-01\" }\nexceptions { date: \"2026-01-01\" }", "there already"},
+        {"exceptions { date: \"2026-01-01\" }\nexceptions { date: \"2026-01-01\" }",
+         "there already"},
         {"projectors { name: \"left\" address: \"left.local\" }", "address is a number"},
         {"projectors { name: \"left\" address: \"192.168.7.21:99999\" }", "address is a number"},
         {"opne { }", "no field named"},
@@ -132,7 +137,8 @@ TEST(Hours, aMistakeIsNamedWithItsPlaceAndWhatToDo) {
     }
     EXPECT_THROW(static_cast<void>(parseHours("zone: \"Nowhere\"", "x")), Error);
     EXPECT_THROW(static_cast<void>(parseHours("zone: \"../etc/passwd\"", "x")), Error);
-    EXPECT_EQ(hoursOf("projectors { name: \"left\" address: \"192.168.7.21\" }").projectors[0].port, 4352);
+    EXPECT_EQ(hoursOf("projectors { name: \"left\" address: \"192.168.7.21\" }").projectors[0].port,
+              4352);
 }
 
 }  // namespace
