@@ -43,6 +43,7 @@ declare -A way=(
     [console_stale.png]=console
     [console_schedule.png]=console
     [console_phone.png]=console
+    [console_mind.png]=console
 )
 
 # Each leaves its pictures in $drawn.

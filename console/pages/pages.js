@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pages: each is {look: what it needs to be told, view: what it shows of the link's knowledge}.
-import {html, nothing} from '/vendor/lit-html.js';
+import {html, nothing, svg} from '/vendor/lit-html.js';
 import {Plot, button, dateTime, holdButton, ms, skewBars, state, t, time, views, word} from '/widgets.js';
 
 const QUALITIES = ['low', 'medium', 'high', 'ultra', 'auto'];
@@ -91,7 +91,7 @@ const wallPage = {
   look: link => ({channels: namesOf(link), widthPx: 480}),
   view: link => html`<h2 class="hidden">${t('page.wall')}</h2>${views(channelsOf(link))}
     <p class="note">${t('preview.note')}</p>
-    <div class="panels">${figures(link.wall)}${light(link)}
+    <div class="panels">${light(link)}${figures(link.wall)}
       <section class="panel" aria-labelledby="shown"><h2 id="shown">${t('wall.shown')}</h2>
         ${chooser(link, 'scene', link.known.snapshot.scenes, link.wall.scene, value => link.command({scene: value}, `${t('wall.scene')}: ${word(value)}`))}
         ${chooser(link, 'quality', QUALITIES, link.wall.quality, value => link.command({quality: value}, `${t('wall.quality')}: ${word(value)}`))}
@@ -205,7 +205,40 @@ const logPage = {
   },
 };
 
-// --- mind
+// --- mind, drawn from the lines that aquarama explain prints
+
+const SECTORS = {ahead: 0, 'ahead right': 45, right: 90, 'behind right': 135, behind: 180, 'behind left': 225, left: 270, 'ahead left': 315};
+const SEEN = {predator: '▲', food: '•', mate: '♥', prey: '◆'};
+// What it sees and where: [{kind, what, distance in body lengths, degrees to the right of its heading}].
+export function sightingsIn(lines) {
+  const found = [];
+  for (const kind of Object.keys(SEEN)) {
+    const line = lines.find(one => new RegExp(`\\b${kind}\\s`).test(one.slice(9)));
+    const match = line?.slice(9).match(new RegExp(`${kind} +([^ -].*?), ([\\d.]+) L (ahead left|ahead right|behind left|behind right|ahead|behind|left|right)`));
+    if (match) found.push({kind, what: match[1], distance: Number(match[2]), degrees: SECTORS[match[3]]});
+  }
+  return found;
+}
+function compass(lines) {
+  const place = one => {
+    const reach = 90 * Math.min(1, Math.log1p(one.distance) / Math.log1p(60)), turn = one.degrees * Math.PI / 180;
+    return [100 + reach * Math.sin(turn), 100 - reach * Math.cos(turn)];
+  };
+  const seen = sightingsIn(lines);
+  const text = seen.map(one => `${t(`mind.${one.kind}`)}: ${one.what}, ${one.distance} L`).join('; ') || t('mind.seesNothing');
+  const mark = one => { const [x, y] = place(one);
+    return svg`<text x=${x} y=${y + 5} text-anchor="middle">${SEEN[one.kind]}</text><text class="small" x=${x} y=${y + 18} text-anchor="middle">${t(`mind.${one.kind}`)}</text>`; };
+  return html`<svg class="compass" viewBox="-30 0 260 205" role="img" aria-label=${text}><circle cx="100" cy="100" r="90"></circle><circle cx="100" cy="100" r="45"></circle>
+    <path d="M100 84 L106 112 L100 107 L94 112 Z"></path>${seen.map(mark)}</svg>`;
+}
+const feeling = (lines, name) => Number(lines.find(line => new RegExp(`${name}\\s+\\[`).test(line))?.match(/\]\s+([\d.]+)/)?.[1] ?? 0);
+function drawnMind(lines) {
+  const intends = lines.find(line => line.startsWith('INTENDS'))?.slice(9) ?? '';
+  return html`<div class="drawn"><div>${compass(lines)}<p class="note">${t('mind.compass')}</p></div>
+    <div><p class="intends">${intends || t('mind.away')}</p>${['hunger', 'libido', 'fear'].map(name => html`<p class="row"><span class="name" id=${`feels-${name}`}>${t(`mind.${name}`)}</span>
+      <meter aria-labelledby=${`feels-${name}`} min="0" max="1" value=${feeling(lines, name)}></meter> ${Math.round(100 * feeling(lines, name))} %</p>`)}</div></div>`;
+}
+
 
 const mindPage = {
   look: link => ({topics: ['mind'], channels: namesOf(link), widthPx: 480}),
@@ -223,7 +256,7 @@ const mindPage = {
       <section class="panel"><h2>${mind && mind.fish >= 0 ? t('mind.of', {fish: mind.fish}) : t('page.mind')}</h2>
       <form class="row" @submit=${ask}><label for="fish">${t('mind.number')}</label><input id="fish" name="fish" type="number" min="0" max="99999" value="0">
         <button ?disabled=${!link.may('WATCHER')}>${t('mind.ask')}</button></form>
-      <div role="status">${!mind ? t('mind.none') : mind.fish < 0 ? t('mind.noFish') : html`<pre>${(mind.lines ?? []).join('\n')}</pre>`}</div></section></div>`;
+      <div role="status">${!mind ? t('mind.none') : mind.fish < 0 ? t('mind.noFish') : html`${mind.lines?.length ? drawnMind(mind.lines) : nothing}<pre>${(mind.lines ?? []).join('\n')}</pre>`}</div></section></div>`;
   },
 };
 
@@ -249,7 +282,9 @@ const schedulePage = {
     const held = link.wall.heldUntilS > 0;
     const projectors = link.known.projectors?.projectors ?? [];
     const next = t(`hours.${hours.next ?? 'stays'}`, {at: hours.nextAt, scene: hours.nextScene ? word(hours.nextScene) : ''});
-    const save = () => { link.command({hoursText: draft ?? hours.text}, t('hours.save')); draft = null; };
+    if (draft === (hours.text ?? '')) draft = null;  // saved
+    const write = text => { draft = text; link.dispatchEvent(new Event('change')); };
+    const save = () => link.command({hoursText: draft}, t('hours.save'));
     return html`<section class="panel"><h2>${t('page.schedule')}</h2>
       <p role="status">${held ? html`<strong class="warn">▲ ${t('hours.held', {time: time(link.wall.heldUntilS)})}</strong>`
         : hours.present ? html`<strong>${t(hours.open ? 'hours.isOpen' : 'hours.isClosed')}</strong> ${next}` : t('hours.none')}</p>
@@ -257,9 +292,9 @@ const schedulePage = {
         : button(t('hours.hold'), () => link.command({holdHours: 2}, t('hours.hold')), {disabled: !link.may('OPERATOR')})}<span class="note">${t('hours.holdNote')}</span></div></section>
       ${projectors.length ? html`<section class="panel"><div class="scroll" tabindex="0" role="region" aria-label=${t('projector.title')}><table><caption>${t('projector.title')}</caption><tbody>${projectors.map(projectorRow(link))}</tbody></table></div></section>` : nothing}
       <section class="panel"><h2><label for="hours">${t('hours.text')}</label></h2>
-      <textarea id="hours" rows="10" spellcheck="false" ?readonly=${!link.may('CREW')} .value=${draft ?? hours.text ?? ''} @input=${event => { draft = event.target.value; }}></textarea>
+      <textarea id="hours" rows="10" spellcheck="false" ?readonly=${!link.may('CREW')} .value=${draft ?? hours.text ?? ''} @input=${event => write(event.target.value)}></textarea>
       <div class="row">${button(t('hours.save'), save, {disabled: !link.may('CREW') || draft === null})}
-      ${button(t('hours.example'), () => { draft = EXAMPLE; link.dispatchEvent(new Event('change')); }, {disabled: !link.may('CREW') || hours.present})}</div>
+      ${button(t('hours.example'), () => write(EXAMPLE), {disabled: !link.may('CREW') || hours.present})}</div>
       <p class="note">${t('hours.textNote')}</p></section>`;
   },
 };

@@ -256,11 +256,12 @@ class Pages(unittest.TestCase):
         text.clear()
         text.send_keys('zone: "UTC"')
         self.button("Save").click()
-        wait_until(lambda: "held until" in self.text("main"), 5, "hours")
+        wait_until(lambda: not self.button("Save").is_enabled(), 5, "saved hours")
+        self.assertIn("held until", self.text("main"))
         time.sleep(1.5)
         self.assertEqual(self.desk.status()["black"], "off", "held")
         self.button("Let the schedule go on").click()
-        wait_until(lambda: self.desk.status()["black"] == "on", 5, "closed: hours without a span")
+        wait_until(lambda: self.desk.status()["black"] == "on", 10, "closed: hours without a span")
         wait_until(lambda: "closed" in self.text("header"), 5, "closed, not broken")
         # By hand again, until the hours want something else.
         self.driver.execute_script("location.hash = 'wall'")
@@ -271,6 +272,7 @@ class Pages(unittest.TestCase):
         self.assertEqual(self.desk.status()["black"], "off")
         self.open("schedule")
         if SHOTS:
+            text = self.find(self.driver, "#hours")
             text.clear()
             text.send_keys('zone: "Europe/Berlin"\nopen { days: [TUESDAY, WEDNESDAY, THURSDAY, FRIDAY] from: "00:00" to: "24:00" scene: "reef" }\nexceptions { date: "2026-12-24" }  # closed')
             self.button("Save").click()
@@ -294,9 +296,18 @@ class Pages(unittest.TestCase):
         number.clear()
         number.send_keys("7" + Keys.ENTER)
         wait_until(lambda: "mind of fish 7" in self.text("main"), 10, "the fish")
-        self.assertRegex(self.text("pre"), r"\b7\b")
+        wait_until(lambda: re.search(r"\b7\b", self.text("pre")), 10, "what it has in mind")
+        self.assertEqual(len(self.driver.find_elements(By.CSS_SELECTOR, "meter")), 3)
+        # The fish at a place of a picture: the node says which, of the frame that is shown.
+        wait_until(lambda: "frame" in self.text("figcaption"), 15, "a picture")
+        self.find(self.driver, ".views figure:nth-child(2) canvas").click()
+        wait_until(lambda: re.search(r"mind of fish \d+|no fish", self.text("main")), 10, "an answer")
+        time.sleep(1)
+        self.shot("mind")
 
     def test_axe_finds_nothing_on_any_page_on_desk_and_phone(self):
+        self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.setDeviceMetricsOverride", {"width": 1280, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+        self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.setEmulatedMedia", {"features": []})
         self.driver.execute_script(AXE)  # the pages are one document
         for width, height, scheme in ((1280, 900, "dark"), (390, 844, "light")):
             self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 700})
@@ -309,9 +320,8 @@ class Pages(unittest.TestCase):
                 self.assertEqual(found, [], (page, width, scheme))
                 self.assertLessEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), width, f"{page} at {width} px")
                 if page == "wall" and width < 700:
+                    time.sleep(3 if SHOTS else 0)
                     self.shot("phone")
-        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 1280, "height": 900, "deviceScaleFactor": 1, "mobile": False})
-        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
 
     def test_another_language_is_chosen_and_kept(self):
         self.driver.execute_script("localStorage.setItem('language', 'de')")
