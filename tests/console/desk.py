@@ -20,10 +20,10 @@ from show import BIN, aquarama, children_of, end, rig_on_free_ports, start, temp
 class Desk:
     """`aquarama run` of a desk; test patterns need no world, and are drawn at once."""
 
-    def __init__(self, *arguments):
+    # Three nodes share two cores with a browser: a slow wall leaves them room.
+    def __init__(self, *arguments, refresh_hz=15):
         self.folder = temporary_folder()
-        # Three nodes share two cores with a browser: a slower wall leaves them room.
-        self.rig = rig_on_free_ports(self.folder.name, replace=((r"refresh_hz: 60", "refresh_hz: 15"),))
+        self.rig = rig_on_free_ports(self.folder.name, replace=((r"refresh_hz: 60", f"refresh_hz: {refresh_hz}"),))
         self.log = Path(self.folder.name) / "log"
         self.show = start("run", self.rig, "--headless", "--live", *arguments, log=self.log)
         try:
