@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""cost.py [PAIRS]: what operators cost the wall, paired: phases of ten seconds with five who look at everything, and without.
+"""cost.py [PAIRS]: what operators cost the wall, paired: phases of 22 seconds with five who look at everything, and without.
 
 The wall and its console have one core, the load the other; a light pattern, so that frames keep to 60 Hz. Figures are those of the last 600
 frames, by aquarama status. Prints a line for each phase, and the means.
@@ -51,7 +51,7 @@ def main():
             threads = [threading.Thread(target=look, args=(desk, cookie, ended)) for _ in range(5 if looked else 0)]
             for thread in threads:
                 thread.start()
-            time.sleep(12)
+            time.sleep(22)  # so that the last 600 frames are of this phase, also at 30 a second
             found[looked].append(figures(desk))
             ended.set()
             for thread in threads:
