@@ -40,6 +40,14 @@ declare -A way=(
     [calibration_report.webp]=calibration
     [calibration_after.webp]=calibration
     [modules.svg]=modules
+    [console_wall.png]=console
+    [console_nodes.png]=console
+    [console_black.png]=console
+    [console_events.png]=console
+    [console_stale.png]=console
+    [console_schedule.png]=console
+    [console_phone.png]=console
+    [console_mind.png]=console
 )
 
 # Each leaves its pictures in $drawn.
@@ -137,6 +145,11 @@ PYTHON
 }
 
 # The libraries and programs, as CMake knows them.
+# The pages of the console, by chromium, as their test goes through them.
+console() {
+    cmake --build --preset show-tests --target aquarama-console
+    AQUARAMA_BIN=$PWD/$bin AQUARAMA_SHOTS=$drawn /usr/bin/python3 tests/console/pages_test.py
+}
 modules() {
     cmake --preset show-tests --graphviz="$drawn/cmake.dot" >/dev/null
     docs/draw_modules.py "$drawn/cmake.dot" "$drawn/modules.svg"

@@ -10,12 +10,13 @@ import sys
 from pathlib import Path
 
 DOCS = Path(__file__).resolve().parent
-KINDS = {"rig": "config/*.txtpb", "adjustments": "Adjustments of a rig", "scene": "config/scenes/*.txtpb", "species": "config/species/*.txtpb"}
+KINDS = {"rig": "config/*.txtpb", "adjustments": "Adjustments of a rig", "scene": "config/scenes/*.txtpb",
+         "species": "config/species/*.txtpb", "hours": "The hours of a rig (the console's schedule)"}
 HEAD = """# Reference: rigs, scenes and species
 
 <!-- Written by docs/reference.py from common/config/*.proto: change those. -->
 
-Every field of these kinds of files. `aquarama check FILE` holds a file to all of it, and says where it is wrong and what
+Every field of these kinds of files, and of the hours that the [console](console.md) keeps. `aquarama check FILE` holds a file to all of it, and says where it is wrong and what
 to do. What the fields are for: [scenes](scenes.md), [species](species.md), [stereo](stereo.md); the rigs in `config` show how
 one is written. L is the length of the fish. *Left out*: what then holds,
 `{}` a message with all of its own defaults; *required*: the file must have it.

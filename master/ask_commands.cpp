@@ -190,6 +190,7 @@ void set(const SetOptions& options) {
     if (options.what == "pattern") set.set_pattern(patternIn(options));
     if (options.what == "black") set.set_black(switchedOn(options));
     if (options.what == "freeze") set.set_freeze(switchedOn(options));
+    if (options.what == "restart") set.set_restart(options.value);
     options.asked.connect().set(std::move(set), [](const std::string& what) {
         std::cout << what << std::endl;  // at once: it takes a while
     });
@@ -209,14 +210,14 @@ void addSet(CommandLine& line) {
         line.add<SetOptions>("set", "what the running wall shows: scene, pattern, black ...", set);
     describeMaster(command, options.asked);
     command.get_option("RIG")->required();
-    command.add_option("WHAT", options.what, "scene, quality, pattern, black or freeze")
+    command.add_option("WHAT", options.what, "scene, quality, pattern, black, freeze or restart")
         ->required()
-        ->check(CLI::IsMember({"scene", "quality", "pattern", "black", "freeze"}));
+        ->check(CLI::IsMember({"scene", "quality", "pattern", "black", "freeze", "restart"}));
     command
         .add_option("VALUE",
                     options.value,
                     "a scene's name; low, medium, high, ultra or auto; world, grid or grey; on or "
-                    "off")
+                    "off; a channel, whose node is started again")
         ->required();
     command.footer("What is set is kept: a master that is started again shows it.");
 }

@@ -19,7 +19,7 @@ struct Group {
 
 const std::array kGroups{
     Group{"A show on this machine", {addRun, addReplay}},
-    Group{"While a show runs", {addDoctor, addStatus, addSet, addPilot, addExplain}},
+    Group{"While a show runs", {addConsole, addDoctor, addStatus, addSet, addPilot, addExplain}},
     Group{"A show on several machines, one process each", {addMaster, addNode, addKeyCommands}},
     Group{"Files",
           {addCheck,

@@ -172,4 +172,12 @@ void addDrift(CommandLine& line) {
                   {"drift"});
 }
 
+void addConsole(CommandLine& line) {
+    addHandedOver(line,
+                  "console",
+                  "the operator's console, for browsers: aquarama console RIG",
+                  "console",
+                  {});
+}
+
 }  // namespace aquarama

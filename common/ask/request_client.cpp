@@ -66,7 +66,9 @@ v1::Envelope RequestClient::ask(const v1::Envelope& question, v1::Envelope::Mess
             auto message = wire::decode(*bytes);
             if (message && message->message_case() == reply) newest = std::move(message);
         }
-        if (newest) return *std::move(newest);
+        if (!newest) continue;
+        run_ = newest->session();
+        return *std::move(newest);
     }
     throw Error("no master answers at " + address_ +
                 "; start one, name its control address with --master, or show a key that may ask "

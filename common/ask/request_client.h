@@ -26,6 +26,9 @@ class RequestClient {
     v1::StatusReply status();
     v1::Explanation explain(std::uint32_t fish);
 
+    // The run of the master that answered last; 0 before the first answer.
+    [[nodiscard]] std::uint64_t run() const { return run_; }
+
     // Asks for a change once, and says what has become of it so far.
     v1::SetReply ask(const v1::Set& set);
     // Repeated until the show shows it, also through the minutes that a new scene may take; between
@@ -41,6 +44,7 @@ class RequestClient {
 
     std::string address_;
     std::unique_ptr<net::NodeChannels> channels_;
+    std::uint64_t run_ = 0;
 };
 
 // Of Set.request: no two are the same.

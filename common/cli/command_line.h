@@ -20,6 +20,9 @@ using Job = std::function<int()>;
 // reported as that of the chosen command: "aquarama study chronicle: ...". Returns the exit status.
 [[nodiscard]] int runProgram(CLI::App& app, int count, char** arguments, const Job& job);
 
+// The exit status of a process that was asked to make way for a fresh one: it is started again.
+inline constexpr int kStartAgain = 75;
+
 // One line, "PROGRAM: what is wrong": to the supervisor of a show where there is one, else to
 // stderr. Line breaks in `what` become spaces.
 void sayError(const std::string& program, const std::string& what);

@@ -82,6 +82,11 @@ void checkNetwork(const TextReader& file, const v1::Network& in) {
                     "state",
                     "only one of state and control reaches past this machine: use one "
                     "host for both");
+    if (!in.has_watch()) return;
+    checkAddress(file, in, "watch", in.watch());
+    if (hostOf(in.watch()) != hostOf(in.control()) || port(in.watch()) == port(in.control()) ||
+        port(in.watch()) == port(in.state()))
+        file.refuse(in, "watch", "watch needs the host of control and a port of its own");
 }
 
 // Of a panorama or a channel.
@@ -379,6 +384,9 @@ Rig parseRig(const std::string& text, const std::string& source) {
             .controlAddress = in.network().control(),
             .stateAddress = in.network().state(),
             .metricsPort = static_cast<std::uint16_t>(in.network().metrics_port()),
+            .consolePort = static_cast<std::uint16_t>(in.network().console_port()),
+            .watchAddress = in.network().watch(),
+            .windowsEndShow = in.windows_end_show(),
             .channels = {},
             .timing = timingOf(file, in.timing()),
             .scene = in.scene(),

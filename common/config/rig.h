@@ -155,6 +155,9 @@ struct Rig {
     std::string stateAddress;     // "tcp://127.0.0.1:7401": PUB
     // Of the master; that of channel i is i + 1 higher. 0: no figures are served.
     std::uint16_t metricsPort = 0;
+    std::uint16_t consolePort = 0;  // of the operator's console; 0: none
+    std::string watchAddress;       // where nodes bring it pictures: ROUTER; empty: nowhere
+    bool windowsEndShow = false;    // by q and Esc
     std::vector<Channel> channels;
     Timing timing;
     std::string scene;  // path of the file of what is shown, relative to the rig's folder

@@ -246,11 +246,14 @@ void TextReader::checkValue(const Message& message,
         if (text.empty())
             refuse(message, field.name(), field.name() + " is empty: fill it in", index);
     } else if (field.cpp_type() == Field::CPPTYPE_ENUM) {
-        const pb::EnumValueDescriptor& value = *get.GetEnum(message, &field);
+        const pb::EnumValueDescriptor& value = field.is_repeated()
+                                                   ? *get.GetRepeatedEnum(message, &field, index)
+                                                   : *get.GetEnum(message, &field);
         if (value.number() == 0)
             refuse(message,
                    field.name(),
-                   field.name() + " is " + value.name() + ": write " + choicesOf(*value.type()));
+                   field.name() + " is " + value.name() + ": write " + choicesOf(*value.type()),
+                   index);
     } else if (isNumber(field)) {
         assert(rule.has_least() == rule.has_most());
         assert((rule.has_least() || field.cpp_type() == Field::CPPTYPE_UINT32) &&

@@ -131,6 +131,13 @@ void RecentTimes::add(Instant time) {
     if (times_.size() > kKept) times_.pop_front();
 }
 
+std::vector<std::uint32_t> RecentTimes::countsUpTo(std::span<const Instant> edges) const {
+    std::vector<std::uint32_t> counts(edges.size() + 1, 0);
+    for (const Instant time : times_)
+        ++counts[static_cast<std::size_t>(std::ranges::lower_bound(edges, time) - edges.begin())];
+    return counts;
+}
+
 float RecentTimes::quantileMs(double quantile) const {
     assert(quantile >= 0);
     assert(quantile <= 1);

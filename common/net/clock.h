@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace aquarama::net {
 
@@ -95,6 +97,9 @@ class RecentTimes {
     void add(Instant time);
     [[nodiscard]] float quantileMs(
         double quantile) const;  // quantile 0 to 1; 0 where there is nothing yet
+    // How many are up to each of these edges, which ascend, and above the one before; last those
+    // above all.
+    [[nodiscard]] std::vector<std::uint32_t> countsUpTo(std::span<const Instant> edges) const;
 
   private:
     static constexpr std::size_t kKept = 600;

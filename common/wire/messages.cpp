@@ -122,7 +122,7 @@ bool isValid(const v1::Set& m) {
     return m.has_request() && (!m.has_scene() || isName(m.scene())) &&
            (!m.has_quality() || isName(m.quality())) &&
            (!m.has_pattern() || isChosenPattern(m.pattern())) &&
-           (!m.has_scan() || isValid(m.scan()));
+           (!m.has_scan() || isValid(m.scan())) && (!m.has_restart() || isName(m.restart()));
 }
 
 bool isValid(const v1::SetReply& m) {
@@ -171,7 +171,9 @@ bool isValid(const v1::NodeReport& m) {
                              m.unanswered_percent(),
                              m.clock_drift_ppm(),
                              m.gpu_celsius(),
-                             m.jitter_ms()};
+                             m.jitter_ms(),
+                             m.picture_median_ms(),
+                             m.picture_p99_ms()};
     const auto isFinite = [](float number) { return std::isfinite(number); };
     const auto isLineOfReport = [](const std::string& line) {
         return isText(line, kMostLineBytes);
@@ -198,13 +200,52 @@ bool isValid(const v1::StatusReply& m) {
     const auto isFinite = [](float number) { return std::isfinite(number); };
     return isOneOf(m.pace(), v1::Pace_IsValid) && std::ranges::all_of(numbers, isFinite) &&
            readEye(m.eye()) && readShow(m.show()) && isText(m.change(), kMostReasonBytes) &&
-           m.nodes_size() <= kMostNodes &&
+           m.nodes_size() <= kMostNodes && m.skew_counts_size() <= kMostSkewCounts &&
            std::ranges::all_of(m.nodes(), [](const v1::NodeStatus& node) { return isValid(node); });
 }
 
 bool isValid(const v1::Explanation& m) {
     return m.has_fish() && m.has_school() && m.has_tick() && m.school() <= kMostFish &&
            m.lines_size() <= kMostExplanationLines && std::ranges::all_of(m.lines(), isLine);
+}
+
+bool isPictureWidth(std::uint32_t pixels) {
+    return pixels > 0 && pixels <= kMostPictureWidth;
+}
+
+bool isValid(const v1::PictureRequest& m) {
+    return m.has_number() && isPictureWidth(m.width_px());
+}
+
+bool isValid(const v1::FramePicture& m) {
+    return m.has_number() && m.has_frame() && isPictureWidth(m.width_px()) &&
+           isPictureWidth(m.height_px()) && m.jpeg().size() <= kMostJpegBytes;
+}
+
+// A number that is none is no share.
+bool isValid(const v1::FishRequest& m) {
+    const auto isShare = [](float number) { return number >= 0 && number <= 1; };
+    return m.has_number() && m.has_frame() && isShare(m.x()) && isShare(m.y());
+}
+
+bool isValid(const v1::FishReply& m) {
+    return m.has_number() && m.has_frame() && (!m.has_fish() || m.fish() < kMostFish);
+}
+
+// What a node and the operator's console say to each other.
+bool isValidWatch(const v1::Envelope& m) {
+    switch (m.message_case()) {
+        case v1::Envelope::kWatchHello:
+            return isName(m.watch_hello().channel());
+        case v1::Envelope::kPictureRequest:
+            return isValid(m.picture_request());
+        case v1::Envelope::kFramePicture:
+            return isValid(m.frame_picture());
+        case v1::Envelope::kFishRequest:
+            return isValid(m.fish_request());
+        default:
+            return m.has_fish_reply() && isValid(m.fish_reply());
+    }
 }
 
 bool isValid(const v1::Envelope& m) {
@@ -251,15 +292,15 @@ bool isValid(const v1::Envelope& m) {
             return m.explain_request().has_fish();
         case v1::Envelope::kExplanation:
             return isValid(m.explanation());
+        case v1::Envelope::kLeave:
         case v1::Envelope::kState:  // by readState()
         case v1::Envelope::kBeacon:
         case v1::Envelope::kFarewell:
         case v1::Envelope::kStatusRequest:
             return true;
-        case v1::Envelope::MESSAGE_NOT_SET:
-            break;
+        default:
+            return isValidWatch(m);
     }
-    return false;
 }
 
 // In a large packet only these may be large: in the other messages a few bytes of a packet may

@@ -40,6 +40,9 @@ inline constexpr std::size_t kMostLineBytes = 256;  // of a report
 inline constexpr float kMostInputMetres = 10'000;   // of a position, on each axis
 inline constexpr int kMostExplanationLines = 48;
 inline constexpr std::size_t kMostExplanationLineBytes = 120;
+inline constexpr std::size_t kMostJpegBytes = std::size_t{60} << 10U;
+inline constexpr std::uint32_t kMostPictureWidth = 1920;  // of one that a console is shown
+inline constexpr int kMostSkewCounts = 16;
 // All messages but welcomes, states and chunks, which alone hold their content as plain bytes or
 // numbers. Nothing larger goes from a node to the master.
 inline constexpr std::size_t kMostSmallPacketBytes = std::size_t{64} << 10U;

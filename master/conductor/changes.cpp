@@ -132,9 +132,28 @@ Answer Conductor::scan(const std::string& user, const v1::HeldScan& scan, net::I
     return missing.empty() ? Answer{} : Answer{Outcome::Preparing, "not shown yet by " + missing};
 }
 
+Answer Conductor::restart(const std::string& user, const v1::Set& set) {
+    constexpr std::size_t kRemembered = 16;
+    if (isLockstep()) return {Outcome::Refused, "a node of a show in lockstep is not restarted"};
+    if (std::ranges::find(restarts_, set.request()) != restarts_.end()) return {};
+    const auto node = seatNamed(set.restart());
+    if (!node) return {Outcome::Refused, "the rig has no channel " + set.restart()};
+    if (slots_[*node].peer.empty())
+        return {Outcome::Refused, set.restart() + " is absent: start it on its machine"};
+    restarts_.push_back(set.request());
+    if (restarts_.size() > kRemembered) restarts_.pop_front();
+    logInfo("{} restarts node {}", user, set.restart());
+    v1::Envelope message;
+    message.mutable_leave();
+    say(slots_[*node].peer, std::move(message));
+    return {};
+}
+
 void Conductor::set(const net::FromPeer& from, const v1::Set& set, net::Instant now) {
     const std::string user = from.user.empty() ? "somebody here" : from.user;
-    const Answer answer = set.has_scan() ? scan(user, set.scan(), now) : change(user, set);
+    const Answer answer = set.has_scan()      ? scan(user, set.scan(), now)
+                          : set.has_restart() ? restart(user, set)
+                                              : change(user, set);
     v1::Envelope message;
     v1::SetReply& reply = *message.mutable_set_reply();
     if (set.has_scan() && answer.outcome == Outcome::Done) reply.set_frame(newestReleased().value);

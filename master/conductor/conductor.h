@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -198,6 +199,8 @@ class Conductor {
     [[nodiscard]] std::string objectionTo(const v1::Set& set) const;
     // A scan takes the wall, says its pattern again, or gives the wall back.
     [[nodiscard]] Answer scan(const std::string& user, const v1::HeldScan& scan, net::Instant now);
+    // A node is to end; the same request again does nothing more.
+    [[nodiscard]] Answer restart(const std::string& user, const v1::Set& set);
     [[nodiscard]] std::string objectionToScan() const;
     // The channels that have not shown the pattern of the scan yet; empty where all have.
     [[nodiscard]] std::string notShowingScan() const;
@@ -276,8 +279,10 @@ class Conductor {
     std::uint64_t calibration_ = 0;         // of the shown
     ShowControl control_;
     ScanHold scan_;
-    std::unique_ptr<v1::Look> look_;  // that is shown
-    std::string sceneName_;           // of it
+    bool windowsEndShow_;
+    std::deque<std::uint64_t> restarts_;  // requests that were carried out, the last few
+    std::unique_ptr<v1::Look> look_;      // that is shown
+    std::string sceneName_;               // of it
     Blobs blobs_;
     std::unique_ptr<net::MasterChannels> channels_;
     std::uint64_t session_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What nodes and other peers say to the conductor.
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -21,6 +22,15 @@ constexpr net::Instant kSilenceOfTheDead = std::chrono::milliseconds(250);
 // Between two inputs of food from one window.
 constexpr net::Instant kBetweenPinches = std::chrono::milliseconds(200);
 constexpr float kReachMetres = 8.0F;  // from the eye
+// Of StatusReply.skew_counts.
+constexpr std::array<net::Instant, 8> kSkewEdges{std::chrono::microseconds(50),
+                                                 std::chrono::microseconds(100),
+                                                 std::chrono::microseconds(200),
+                                                 std::chrono::microseconds(500),
+                                                 std::chrono::milliseconds(1),
+                                                 std::chrono::milliseconds(2),
+                                                 std::chrono::milliseconds(5),
+                                                 std::chrono::milliseconds(10)};
 
 std::string hex(std::uint64_t hash) {
     return fmt::format("{:016x}", hash);
@@ -406,6 +416,10 @@ void Conductor::handle(std::size_t node, const v1::Input& input, net::Instant no
     const auto& at = input.position();
     switch (input.kind()) {
         case v1::INPUT_QUIT:
+            if (!windowsEndShow_) {
+                ++report_.refusedPackets;
+                return;
+            }
             over_ = true;
             break;
         case v1::INPUT_DROP_FOOD:
@@ -519,6 +533,8 @@ v1::Envelope Conductor::status(net::Instant now) const {
     reply.set_frame_p99_ms(frameTimes_.quantileMs(0.99));
     reply.set_skew_median_ms(skew_.skews().quantileMs(0.5));
     reply.set_skew_p99_ms(skew_.skews().quantileMs(0.99));
+    for (const std::uint32_t count : skew_.skews().countsUpTo(kSkewEdges))
+        reply.add_skew_counts(count);
     reply.set_refused_packets(report_.refusedPackets);
     wire::writeEye(eye_, *reply.mutable_eye());
     reply.set_speed_m_s(speedMetresPerSecond_);

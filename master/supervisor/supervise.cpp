@@ -14,6 +14,7 @@
 #include <signal.h>
 
 #include "common/base/log.h"
+#include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
 #include "common/config/keys.h"
 #include "master/supervisor/children.h"
@@ -36,6 +37,7 @@ constexpr auto kPauseBeforeRestart = 1s;  // of a process that keeps dying
 // Names of processes.
 constexpr const char* kMaster = "master";
 constexpr const char* kClip = "clip";
+constexpr const char* kConsole = "console";
 
 struct Process {
     std::string name;
@@ -115,6 +117,17 @@ Process nodeProcess(const RunOptions& options,
     return {.name = "node " + channel.name,
             .command = {siblingProgram("node"), arguments},
             .started = {}};
+}
+
+// Of a show by the clock whose rig has one, where it is installed.
+std::optional<Process> consoleProcess(const RunOptions& options, const config::Rig& rig) {
+    const std::filesystem::path program = ownProgram().parent_path() / "aquarama-console";
+    if (rig.consolePort == 0 || options.lockstep() || !std::filesystem::exists(program))
+        return std::nullopt;
+    std::vector<std::string> arguments{options.show.rigPath};
+    if (config::needsKeys(rig) && !options.show.keyFolder.empty())
+        append(arguments, "--key", config::keyFileIn(options.show.keyFolder, "operator").string());
+    return Process{.name = kConsole, .command = {program, arguments}, .started = {}};
 }
 
 // Of the master's machine; the others are started on their own.
@@ -207,6 +220,17 @@ std::string causeOf(const ErrorPipe& errors, const Process& process, const Endin
                         : said.front();
 }
 
+// The show goes on without its console; one that has lived is started again.
+void renewConsole(const ErrorPipe& errors, Process& console, const Ending& ending) {
+    for (const std::string& line : errors.heard()) std::cerr << line << '\n';
+    if (ending.clean() || !console.proven) {
+        std::cerr << "aquarama: the console " << described(ending) << "; the show goes on\n";
+        return;
+    }
+    std::cerr << "aquarama: the console " << described(ending) << "; starting it again\n";
+    console.launch();
+}
+
 // What the death of one process means for the show.
 enum class Verdict { GoesOn, Over, Failed };
 
@@ -216,7 +240,15 @@ Verdict judge(const RunOptions& options,
               const Ending& ending) {
     const bool early = Clock::now() - process.started < kShortestLife;
     process.proven = process.proven || !early;
+    if (process.name == kConsole) {
+        renewConsole(errors, process, ending);
+        return Verdict::GoesOn;
+    }
     if (ending.clean()) return process.name == kMaster ? Verdict::Over : Verdict::GoesOn;
+    if (ending.exitCode == cli::kStartAgain) {
+        process.launch();
+        return Verdict::GoesOn;
+    }
     if (options.lockstep() || !process.proven) {
         std::cerr << causeOf(errors, process, ending) << '\n';
         return Verdict::Failed;
@@ -229,6 +261,12 @@ Verdict judge(const RunOptions& options,
     if (early) std::this_thread::sleep_for(kPauseBeforeRestart);
     process.launch();
     return Verdict::GoesOn;
+}
+
+// Nothing is left for it to show.
+void endConsole(const std::vector<Process>& processes) {
+    const auto console = std::ranges::find(processes, kConsole, &Process::name);
+    if (console != processes.end() && console->running()) kill(console->child, SIGTERM);
 }
 
 enum class Outcome { Finished, Interrupted, Failed };
@@ -244,7 +282,10 @@ Outcome watch(const RunOptions& options, const ErrorPipe& errors, std::vector<Pr
             const Verdict verdict = judge(options, errors, *process, ending);
             failed = verdict == Verdict::Failed;
             if (failed) break;  // other deaths follow from this one
-            if (verdict == Verdict::Over) lastMoment = Clock::now() + kTimeForPictures;
+            if (verdict == Verdict::Over) {
+                lastMoment = Clock::now() + kTimeForPictures;
+                endConsole(processes);
+            }
         }
         if (!failed && Clock::now() > lastMoment && anyRunning(processes)) {
             std::cerr << "aquarama: a node did not end with the show; ending it\n";
@@ -287,7 +328,8 @@ void sayWhatWasMade(const RunOptions& options, const config::Rig& rig) {
     std::cout << '\n';
 }
 
-// The clip, which waits for frames, the master and the nodes, in the order of their start.
+// The clip, which waits for frames, the master, the nodes and the console, in the order of their
+// start.
 std::vector<Process> processesOf(const RunOptions& options,
                                  const config::Rig& rig,
                                  const std::optional<ClipPipes>& pipes) {
@@ -298,6 +340,7 @@ std::vector<Process> processesOf(const RunOptions& options,
         if (isLocal(channel))
             processes.push_back(
                 nodeProcess(options, rig, channel, pipes ? pipes->pipeOf(channel.name) : ""));
+    if (auto console = consoleProcess(options, rig)) processes.push_back(*std::move(console));
     return processes;
 }
 

@@ -294,6 +294,7 @@ void MasterLink::handle(const Finished& finished) {
     if (phase_ != Phase::Member) return;
     finished_ = finished;
     lastFinished_ = finished.frame;
+    pictures_.add(finished.took);
     sayReady();
 }
 
@@ -393,6 +394,9 @@ void MasterLink::takeOfRun(const v1::Envelope& message) {
             return beReleased(message.present());
         case v1::Envelope::kFarewell:
             return end();
+        case v1::Envelope::kLeave:
+            isToRestart_ = true;
+            return stop();
         case v1::Envelope::kExplanation: {
             const v1::Explanation& mind = message.explanation();
             return mailbox_.tellMind({mind.fish(), {mind.lines().begin(), mind.lines().end()}});
@@ -641,6 +645,8 @@ void MasterLink::sayReport(net::Instant now) {
     report.set_free_disk_bytes(cache_.freeBytes());
     report.set_clock_synchronised(net::isClockSynchronised());
     report.set_real_time(isInRealTime_);
+    report.set_picture_median_ms(pictures_.quantileMs(0.5));
+    report.set_picture_p99_ms(pictures_.quantileMs(0.99));
     report.set_clock_drift_ppm(static_cast<float>(clock_.driftPpm()));
     traffic_.gpuCelsius = gpuCelsius();
     if (traffic_.gpuCelsius > 0) report.set_gpu_celsius(traffic_.gpuCelsius);

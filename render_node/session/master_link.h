@@ -115,6 +115,7 @@ class MasterLink {
         Frame frame;
         std::optional<ReleaseReport> released;  // of an earlier frame
         std::optional<net::Blanks> blanks;      // of its display, in this machine's clock
+        net::Instant took{};                    // from the frame's state to its finished picture
     };
     struct Logged {  // a line of this process's log, for that of the show
         Severity severity;
@@ -147,6 +148,7 @@ class MasterLink {
     };
     [[nodiscard]] const Traffic& traffic() const { return traffic_; }
     void stop();  // from any thread
+    [[nodiscard]] bool isToRestart() const { return isToRestart_; }
 
     // The net thread; returns after stop(), having said farewell.
     void run();
@@ -215,7 +217,7 @@ class MasterLink {
     std::mutex channelsMutex_;  // held to replace or wake the channels, never to use them
     std::unique_ptr<net::NodeChannels> channels_;
     net::BoundedQueue<Request> requests_{64};
-    std::atomic<bool> stopped_ = false;
+    std::atomic<bool> stopped_ = false, isToRestart_ = false;
 
     bool connectionUsed_ = false;
     Phase phase_ = Phase::Outside;
@@ -236,6 +238,7 @@ class MasterLink {
     std::deque<std::pair<net::Instant, std::optional<net::Instant>>> pings_;
     Traffic traffic_;
     Frame lastFinished_;
+    net::RecentTimes pictures_;       // how long each took
     std::deque<v1::LogLine> unsaid_;  // lines of the log that the master has not been told
     std::string lastDismissal_;
     net::Instant lastHeard_{}, lastPing_{}, lastHello_{}, lastReady_{}, lastRequest_{},

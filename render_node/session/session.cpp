@@ -186,7 +186,10 @@ class LinkSession final : public Session {
     }
 
     Release awaitRelease(Frame frame) {
-        link_.post(MasterLink::Finished{frame, std::exchange(released_, {}), blanks_.blanks()});
+        link_.post(MasterLink::Finished{frame,
+                                        std::exchange(released_, {}),
+                                        blanks_.blanks(),
+                                        net::monotonicNow() - stateArrival_});
         const auto order = mailbox_.awaitRelease(frame);
         if (!order) return mailbox_.interruption();
         if (order->frame != frame && !std::exchange(skipped_, true)) return Release::Skip;
@@ -229,6 +232,7 @@ class LinkSession final : public Session {
     std::optional<ExplainedMind> latestMind() const override { return mailbox_.latestMind(); }
 
     void stop() override { link_.stop(); }
+    bool isToRestart() const override { return link_.isToRestart(); }
 
   private:
     std::string name_;

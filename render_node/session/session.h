@@ -96,6 +96,8 @@ class Session {
     virtual void askMind(std::uint32_t fish) = 0;
     [[nodiscard]] virtual std::optional<ExplainedMind> latestMind() const = 0;
     virtual void stop() = 0;
+    // Whether the session has ended since this node is to be started again.
+    [[nodiscard]] virtual bool isToRestart() const = 0;
 };
 
 // A session of the channel of this name, over any channels, also those in memory. Blobs are kept in

@@ -290,9 +290,13 @@ void ChannelPicture::project(unsigned framebuffer,
         draw.sceneTexture = eye.sceneTexture;
         eye.projection.draw(draw);
     }
-    if (!overlays.help || brightness_ == 0) return;
+    if (brightness_ == 0) return;
     const float dot = dotPixels(sizePixels());
-    text_.draw(helpLabels(dot), framebuffer, sizePixels(), dot);
+    if (overlays.help) text_.draw(helpLabels(dot), framebuffer, sizePixels(), dot);
+    if (!overlays.endRefused) return;
+    const float smallDot = smallDotPixels(sizePixels());
+    const Label hint{glm::vec2(extentInDots("").y * smallDot), std::string(kEndHint)};
+    text_.draw(std::span(&hint, 1), framebuffer, sizePixels(), smallDot);
 }
 
 // No overlay is drawn on it, and no light is dimmed: a camera measures it.

@@ -79,6 +79,7 @@ BuiltLook::BuiltLook(gl::Context& context, const std::string& channel, session::
 
 BuiltLook::~BuiltLook() {
     workspace_->makeCurrent();
+    reader_.reset();
     picture_.reset();
     targets_.clear();
     workspace_->release();
@@ -143,6 +144,8 @@ ChannelShow::~ChannelShow() {
 
 void ChannelShow::run(session::Admission first) {
     std::optional<session::Admission> admission = std::move(first);
+    if (const std::string& address = admission->rig.watchAddress; !address.empty())
+        console_.emplace(options_.channel, address, options_.keys);
     while (admission) {
         build(std::move(*admission));
         session_.prepared(stage_->admission().look, stage_->bears());
@@ -177,6 +180,7 @@ void ChannelShow::build(session::Admission admission) {
 
 void ChannelShow::enter(std::unique_ptr<BuiltLook> stage) {
     stage_ = std::move(stage);
+    lookedAt_.clear();
     session_.describe({options_.build, stage_->renderer(), options_.monitors});
     pointing_.emplace(stage_->admission().rig,
                       channelIndex(stage_->admission().rig, options_.channel),
@@ -241,10 +245,37 @@ session::Release ChannelShow::play() {
         watchBlanks(state->frame);
         trace_.write(state->frame, times);
         if (film_ && isFilmed(state->frame)) film(state->frame);
+        if (seen && console_) showOperator(*state);
         undrawn_ = seen ? std::nullopt : state;
         if (!std::exchange(shown_, true)) logInfo("showing");
     }
     return session_.interruption();
+}
+
+void ChannelShow::showOperator(const wire::StateFrame& frame) {
+    constexpr std::size_t kRemembered = 4;
+    PictureReader& reader = stage_->reader();
+    if (reader.isBusy()) {
+        stage_->workspace().makeCurrent();
+        if (auto picture = reader.take())
+            console_->put(lookedAt_.back().frame, std::move(*picture));
+    } else if (const auto width = console_->wantedWidth()) {
+        stage_->workspace().makeCurrent();
+        reader.begin(stage_->target(), *width);
+        lookedAt_.push_back(frame);
+        if (lookedAt_.size() > kRemembered) lookedAt_.pop_front();
+    }
+    nameFish();
+}
+
+void ChannelShow::nameFish() {
+    while (const auto question = console_->nextQuestion()) {
+        if (lookedAt_.empty()) return;
+        const auto same = std::ranges::find(lookedAt_, question->frame, &wire::StateFrame::frame);
+        const wire::StateFrame& frame = same == lookedAt_.end() ? lookedAt_.back() : *same;
+        const glm::vec2 pixel = question->place * glm::vec2(stage_->picture().sizePixels());
+        console_->answer(*question, frame.frame, stage_->picture().fishNearest(frame, pixel));
+    }
 }
 
 // Not after every frame: it asks the display server.

@@ -27,6 +27,7 @@
 #include "render_node/session/session.h"
 #include "render_node/show/channel_picture.h"
 #include "render_node/show/controls.h"
+#include "render_node/show/preview.h"
 #include "render_node/show/run_node.h"
 
 namespace aquarama::show {
@@ -76,6 +77,8 @@ class BuiltLook {
     [[nodiscard]] const gl::Target& target(Shown shown = Shown::Display) const {
         return shown == Shown::RightEye ? targets_.back() : targets_.front();
     }
+    // For the operator's console; the workspace is current.
+    [[nodiscard]] PictureReader& reader() { return *reader_; }
     // The finest tier that this node keeps up with.
     [[nodiscard]] config::QualityTier bears() const { return bears_; }
     // Of OpenGL, for people.
@@ -96,6 +99,7 @@ class BuiltLook {
     std::unique_ptr<gl::Workspace> workspace_;
     std::optional<ChannelPicture> picture_;
     std::deque<gl::Target> targets_;
+    std::optional<PictureReader> reader_{std::in_place};
     // The tier of picture_.
     config::QualityTier quality_ = config::QualityTier::Low;
     config::QualityTier bears_ = config::QualityTier::Low;
@@ -139,6 +143,10 @@ class ChannelShow {
     // Throws Error where the context is lost.
     void film(Frame frame);
     void watchBlanks(Frame frame);
+    // Gives the operator's console a picture of this frame, begun now and taken after a later one,
+    // and says which fish is where it asks.
+    void showOperator(const wire::StateFrame& frame);
+    void nameFish();
     void refuseLoss() const;
     // Sends the food that a visitor has dropped, as places of the world.
     void feed(const wire::Eye& eye);
@@ -166,6 +174,9 @@ class ChannelShow {
     bool isStale_ = false;  // what is being built
     std::future<void> retiring_;
     std::optional<Pointing> pointing_;
+    // Where the rig has a console; and the last frames that it was shown, the newest last.
+    std::optional<ConsoleLink> console_;
+    std::deque<wire::StateFrame> lookedAt_;
     // The fish whose mind is shown, as its index in the school.
     std::optional<std::uint32_t> watched_;
     // When the fish was last chosen and the master asked.

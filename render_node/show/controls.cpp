@@ -19,6 +19,9 @@ namespace {
 // Pinches that may wait for a frame; more are dropped.
 constexpr std::size_t kMostPinches = 8;
 
+// How long a window says why a key did nothing.
+constexpr std::chrono::seconds kHint{4};
+
 // The overlay that a key switches; null for other keys.
 bool* overlayOf(char key, Overlays& overlays) {
     switch (key) {
@@ -43,8 +46,7 @@ void Controls::press(char key) {
     switch (key) {
         case gl::kEscapeKey:
         case 'q':
-            if (std::exchange(quitAsked_, true)) session_.stop();
-            return session_.quit();
+            return end();
         case ' ':
         case 'p':
             return session_.freeze(!frozen_);
@@ -55,6 +57,16 @@ void Controls::press(char key) {
     }
     const std::lock_guard lock(mutex_);
     if (bool* overlay = overlayOf(key, overlays_)) *overlay = !*overlay;
+}
+
+void Controls::end() {
+    if (!endsShow_) {
+        const std::lock_guard lock(mutex_);
+        hintUntil_ = std::chrono::steady_clock::now() + kHint;
+        return;
+    }
+    if (std::exchange(quitAsked_, true)) session_.stop();
+    session_.quit();
 }
 
 void Controls::click(glm::vec2 place) {
@@ -77,7 +89,9 @@ void Controls::drop(const Pinch& pinch) {
 
 Overlays Controls::overlays() const {
     const std::lock_guard lock(mutex_);
-    return overlays_;
+    Overlays shown = overlays_;
+    shown.endRefused = std::chrono::steady_clock::now() < hintUntil_;
+    return shown;
 }
 
 void Controls::show(const wire::Show& shown) {

@@ -59,7 +59,12 @@ struct Overlays {
     // The mind of the fish nearest to the pointer, or to the middle of the picture.
     bool mind = false;
     bool help = false;
+    // Since a key was to end the show, which the rig does not allow.
+    bool endRefused = false;
 };
+
+// What a window says for some seconds after a key that ends nothing.
+inline constexpr std::string_view kEndHint = "THE SHOW IS ENDED FROM THE CONSOLE, NOT BY THIS KEY";
 
 // The text of the help overlay: one line for each key, in capitals, which are all that the font
 // has.
@@ -93,9 +98,10 @@ struct Pinch {
 // it.
 class Controls {
   public:
-    explicit Controls(session::Session& session) : session_{session} {}
-    // Called on the main thread. A second q ends this node alone, for the case that no master
-    // listens.
+    // endsShow: whether q and Esc end the show, as the rig says. A second q ends this node alone,
+    // for the case that no master listens.
+    Controls(session::Session& session, bool endsShow) : session_{session}, endsShow_{endsShow} {}
+    // Called on the main thread.
     void press(char key);
     void click(glm::vec2 place);
     // Where the pointer is now.
@@ -116,14 +122,17 @@ class Controls {
 
   private:
     void drop(const Pinch& pinch);
+    void end();
 
     session::Session& session_;
+    bool endsShow_;
     bool quitAsked_ = false;
     SteeringPace pace_;
     std::atomic<bool> frozen_ = false;
     // Guards all members below. Those above belong to the main thread.
     mutable std::mutex mutex_;
     Overlays overlays_;
+    std::chrono::steady_clock::time_point hintUntil_{};
     WindowPlace pointer_;
     std::deque<Pinch> pinches_;
 };

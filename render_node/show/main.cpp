@@ -93,7 +93,6 @@ int main(int count, char** arguments) {
         cli::requireFolder("--trace", options.traceFolder);
         spdlog::set_default_logger(spdlog::stdout_color_mt("node " + options.channel));
         options.build = cli::buildText();
-        show::runNode(options);
-        return 0;
+        return show::runNode(options) ? cli::kStartAgain : 0;
     });
 }

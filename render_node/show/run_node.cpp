@@ -52,17 +52,17 @@ void show(session::Session& session,
 
 }  // namespace
 
-void runNode(const NodeOptions& options) {
+bool runNode(const NodeOptions& options) {
     // Before any thread starts, so that all of them inherit the blocked signals.
     cli::holdSignals();
     const std::unique_ptr<session::Session> session =
         session::connectSession(options.channel, options.masterAddress, options.keys);
     const cli::SignalWatch watch([&] { session->stop(); });
     std::optional<session::Admission> admission = session->join();
-    if (!admission) return;
+    if (!admission) return session->isToRestart();
     const std::size_t channel = channelIndex(admission->rig, options.channel);
     const std::unique_ptr<gl::Context> context = openContext(options, admission->rig, channel);
-    Controls controls(*session);
+    Controls controls(*session, admission->rig.windowsEndShow);
     NodeOptions described = options;
     described.monitors = context->monitors();
     std::future<void> drawing = std::async(std::launch::async, [&] {
@@ -76,6 +76,7 @@ void runNode(const NodeOptions& options) {
         controls.hold(context->hands(), std::chrono::steady_clock::now().time_since_epoch());
     }
     drawing.get();
+    return session->isToRestart();
 }
 
 }  // namespace aquarama::show

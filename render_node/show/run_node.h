@@ -36,8 +36,8 @@ struct NodeOptions {
 // One node, from joining the show to its end.
 
 // Call it on the main thread: it handles the window's events there and draws on a thread of its
-// own. Returns when the show is over or a signal has ended it. Throws Error for options that cannot
-// be met.
-void runNode(const NodeOptions& options);
+// own. Returns when the show is over or a signal has ended it: true where this node is
+// to be started again. Throws Error for options that cannot be met.
+bool runNode(const NodeOptions& options);
 
 }  // namespace aquarama::show

@@ -157,7 +157,7 @@ class Run(unittest.TestCase):
 
     def test_ctrl_c_ends_every_process_cleanly(self):
         children = self.children()
-        self.assertEqual(len(children), 4)
+        self.assertEqual(len(children), 5)  # the master, three nodes, the console
         self.run_process.send_signal(signal.SIGINT)
         self.assertEqual(self.run_process.wait(20), 0)
         for process in children.values():
@@ -167,7 +167,7 @@ class Run(unittest.TestCase):
         time.sleep(5)  # one that dies sooner than this is a fault of the set-up, not of the day
         victim = next(pid for command, pid in self.children().items() if "aquarama-node left" in command)
         os.kill(victim, signal.SIGKILL)
-        wait_until(lambda: len(self.children()) == 4 and victim not in self.children().values(), 20, "another left node")
+        wait_until(lambda: len(self.children()) == 5 and victim not in self.children().values(), 20, "another left node")
 
     def test_a_run_that_is_killed_takes_its_processes_along(self):
         children = self.children()

@@ -31,7 +31,7 @@ def rig_on_free_ports(folder, rig="desk", replace=()):
     text = (ROOT / f"config/{rig}.txtpb").read_text()
     ports = iter(free_ports(8))
     text = re.sub(r"(tcp://127\.0\.0\.1:)\d+", lambda match: match.group(1) + str(next(ports)), text)
-    text = re.sub(r"(metrics_port: )\d+", lambda match: match.group(1) + str(next(ports)), text)
+    text = re.sub(r"((?:metrics|console)_port: )\d+", lambda match: match.group(1) + str(next(ports)), text)
     text = text.replace("scenes/", str(ROOT / "config/scenes") + "/")
     for pattern, replacement in replace:
         text, count = re.subn(pattern, replacement, text)

@@ -98,6 +98,35 @@ TEST(Fuzz, damagedKeptShowsAreRefusedOrReadWhole) {
     feed(fuzzShow, {inputOf(std::as_bytes(std::span{kept}))}, 3000);
 }
 
+TEST(Fuzz, damagedHoursAreRefusedOrReadWhole) {
+    const std::string hours =
+        R"(zone: "Europe/Berlin" open { days: [MONDAY, SUNDAY] from: "10:00" to: "02:00" scene: "reef" quality: "auto" }
+           exceptions { date: "2026-12-24" open { from: "12:00" to: "14:00" } }
+           projectors { name: "left" address: "192.168.7.21:4352" password: "x" })";
+    feed(fuzzHours, {inputOf(std::as_bytes(std::span{hours}))}, 3000);
+}
+
+TEST(Fuzz, whatBrowsersSayIsRefusedOrReadWithinBounds) {
+    std::vector<FuzzInput> seeds;
+    for (
+        const std::string text :
+        {R"({"look":{"topics":["log","mind"],"channels":["left","right"],"widthPx":480,"logText":"x"}})",
+         R"({"command":{"id":"12345678901234567890","run":"7","black":true}})",
+         R"({"command":{"id":"1","run":"7","pointAt":{"channel":"left","frame":"12","x":0.5,"y":1e-3}}})",
+         R"({"helm":{"ahead":127,"turn":-127}})",
+         R"({"seen":{"channel":2}})"})
+        seeds.push_back(inputOf(std::as_bytes(std::span{text})));
+    feed(fuzzBrowser, seeds, 20000);
+}
+
+TEST(Fuzz, whatProjectorsSayIsRefusedOrReadWithinBounds) {
+    std::vector<FuzzInput> seeds;
+    for (const std::string text :
+         {"PJLINK 1 498e4a67", "PJLINK 0", "%1POWR=1", "%1LAMP=1234 1 5678 0", "%1ERST=012000"})
+        seeds.push_back(inputOf(std::as_bytes(std::span{text})));
+    feed(fuzzPjlink, seeds, 20000);
+}
+
 TEST(Fuzz, damagedRecordingsAreRefusedOrReadWithinBounds) {
     std::vector<FuzzInput> seeds{inputOf(wire::joined(wire::sampleEntries()))};
     for (const wire::Packet& entry : wire::sampleEntries()) seeds.push_back(inputOf(entry));

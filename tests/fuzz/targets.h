@@ -19,6 +19,9 @@ int fuzzShow(const std::uint8_t* bytes, std::size_t size);
 int fuzzWire(const std::uint8_t* bytes, std::size_t size);
 int fuzzRecording(const std::uint8_t* bytes, std::size_t size);
 int fuzzVendors(const std::uint8_t* bytes, std::size_t size);
+int fuzzHours(const std::uint8_t* bytes, std::size_t size);
+int fuzzBrowser(const std::uint8_t* bytes, std::size_t size);
+int fuzzPjlink(const std::uint8_t* bytes, std::size_t size);
 int fuzzMpcdi(const std::uint8_t* bytes, std::size_t size);
 
 }  // namespace aquarama

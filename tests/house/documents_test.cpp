@@ -71,7 +71,8 @@ TEST(Documents, noMergeIsLeftHalfDone) {
     for (const fs::path& document : documents()) {
         const std::string text = "\n" + textOf(kRoot / document);
         for (const char* marker : {"\n<<<<<<< ", "\n>>>>>>> "})
-            EXPECT_EQ(text.find(marker), std::string::npos) << document << " has a mark of a merge: choose a side";
+            EXPECT_EQ(text.find(marker), std::string::npos)
+                << document << " has a mark of a merge: choose a side";
     }
 }
 

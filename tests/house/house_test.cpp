@@ -26,8 +26,9 @@ struct SourceFile {
 };
 
 // All headers and sources of some folders.
-std::vector<SourceFile> sourceFiles(const std::vector<std::string>& tops = {
-                                        "common", "master", "render_node", "calibration"}) {
+std::vector<SourceFile> sourceFiles(
+    const std::vector<std::string>& tops = {
+        "common", "master", "render_node", "calibration", "console"}) {
     std::vector<SourceFile> all;
     const fs::path root = AQUARAMA_SOURCE_DIR;
     for (const std::string& top : tops) {
@@ -156,7 +157,7 @@ TEST(House, prometheusStaysInNet) {
 }
 
 TEST(House, protobufStaysInConfigAndWire) {
-    const std::vector<std::string> homes{"common/config/", "common/wire/"};
+    const std::vector<std::string> homes{"common/config/", "common/wire/", "console/"};
     EXPECT_EQ(strangers(std::regex("google/protobuf|\\.pb\\.h$"), homes),
               std::vector<std::string>{});
 }
@@ -170,7 +171,10 @@ TEST(House, generatedMessagesStayWithWhoSpeaks) {
                                             "master/conductor/conductor.cpp",
                                             "master/conductor/reception.cpp",
                                             "master/conductor/requests.",
-                                            "render_node/session/master_link."};
+                                            "render_node/session/master_link.",
+                                            "render_node/show/preview.cpp",
+                                            "console/overview.",
+                                            "console/picture_hub."};
     EXPECT_EQ(strangers(std::regex("^common/wire/messages\\.h$"), speakers),
               std::vector<std::string>{});
     const std::vector<std::string> clients{
@@ -180,7 +184,9 @@ TEST(House, generatedMessagesStayWithWhoSpeaks) {
     const std::vector<std::string> askers{"common/ask/",
                                           "master/ask_commands.cpp",
                                           "master/doctor_command.cpp",
-                                          "calibration/scan/shown_patterns.cpp"};
+                                          "calibration/scan/shown_patterns.cpp",
+                                          "console/console.",
+                                          "console/show_link."};
     EXPECT_EQ(strangers(std::regex("^common/ask/request_client\\.h$"), askers),
               std::vector<std::string>{});
     EXPECT_EQ(
@@ -198,6 +204,15 @@ TEST(House, xmlAndArchivesStayInFormats) {
               std::vector<std::string>{});
 }
 
+TEST(House, boostStaysInTheConsolesServer) {
+    EXPECT_EQ(strangers(std::regex("^boost/"), {"console/web/"}), std::vector<std::string>{});
+}
+
+TEST(House, jpegStaysInThePreview) {
+    EXPECT_EQ(strangers(std::regex("^(turbojpeg|jpeglib)\\.h"), {"render_node/show/preview.cpp"}),
+              std::vector<std::string>{});
+}
+
 TEST(House, openGlStaysInTheRenderNode) {
     const std::regex library("^(epoxy|GL|EGL|GLFW)/");
     EXPECT_EQ(strangers(library, {"render_node/"}), std::vector<std::string>{});
@@ -207,8 +222,8 @@ TEST(House, openSubdivStaysInSkin) {
     EXPECT_EQ(strangers(std::regex("^opensubdiv/"), {"common/skin/"}), std::vector<std::string>{});
 }
 
-TEST(House, theThreePartsNeverIncludeOneAnother) {
-    for (const char* part : {"master", "render_node", "calibration"}) {
+TEST(House, thePartsNeverIncludeOneAnother) {
+    for (const char* part : {"master", "render_node", "calibration", "console"}) {
         const std::string folder = std::string(part) + "/";
         EXPECT_EQ(strangers(std::regex("^" + folder), {folder}), std::vector<std::string>{})
             << folder;
@@ -235,7 +250,8 @@ TEST(House, commonIsLayered) {
     };
     for (const Inclusion& inclusion : inclusions()) {
         if (!inclusion.file.starts_with("common/") ||
-            !within(inclusion.included, {"common/", "master/", "render_node/", "calibration/"}))
+            !within(inclusion.included,
+                    {"common/", "master/", "render_node/", "calibration/", "console/"}))
             continue;
         const std::string folder = inclusion.file.substr(0, inclusion.file.find('/', 7) + 1);
         ASSERT_TRUE(mayInclude.contains(folder)) << folder << " is not in docs/architecture.md";

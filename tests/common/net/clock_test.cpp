@@ -109,6 +109,14 @@ TEST(RealTime, isNoneOfThreadsThatAreStartedLaterAndTheLibraryKnows) {
     if (!isGranted) GTEST_SKIP() << "this user may not run threads in real time";
 }
 
+TEST(RecentTimes, areCountedUpToEachEdgeAndAboveAll) {
+    using std::chrono::milliseconds;
+    RecentTimes times;
+    for (const int ms : {0, 1, 1, 2, 3, 10}) times.add(milliseconds(ms));
+    const std::array<Instant, 2> edges{milliseconds(1), milliseconds(3)};
+    EXPECT_EQ(times.countsUpTo(edges), (std::vector<std::uint32_t>{3, 2, 1}));
+}
+
 TEST(BlankMeter, findsThePeriodOfADisplay) {
     std::mt19937 random(7);
     BlankMeter meter;

@@ -223,6 +223,31 @@ inline v1::Envelope sampleStatus() {
     return message;
 }
 
+// What a node and the operator's console say to each other, and the order to make way.
+inline std::vector<v1::Envelope> sampleWatch() {
+    std::vector<v1::Envelope> messages(6);
+    messages[0].mutable_leave();
+    messages[1].mutable_watch_hello()->set_channel("left");
+    messages[2].mutable_picture_request()->set_number(7);
+    messages[2].mutable_picture_request()->set_width_px(480);
+    v1::FramePicture& picture = *messages[3].mutable_frame_picture();
+    picture.set_number(7);
+    picture.set_frame(1200);
+    picture.set_width_px(480);
+    picture.set_height_px(360);
+    picture.set_jpeg("\xFF\xD8\xFF");
+    v1::FishRequest& request = *messages[4].mutable_fish_request();
+    request.set_number(8);
+    request.set_frame(1200);
+    request.set_x(0.25F);
+    request.set_y(1);
+    v1::FishReply& reply = *messages[5].mutable_fish_reply();
+    reply.set_number(8);
+    reply.set_frame(1200);
+    reply.set_fish(59);
+    return messages;
+}
+
 // A state is encoded by its own codec.
 inline std::vector<Packet> samplePackets() {
     constexpr std::uint64_t kSession = 0x0123456789ABCDEFU;
@@ -263,6 +288,7 @@ inline std::vector<Packet> samplePackets() {
     for (const v1::Envelope& message : before) packets.push_back(encode(kSession, message));
     packets.push_back(encodeState(kSession, viewOf(sampleState(5))));
     for (const v1::Envelope& message : after) packets.push_back(encode(kSession, message));
+    for (const v1::Envelope& message : sampleWatch()) packets.push_back(encode(kSession, message));
     packets.push_back(encodeState(kSession, viewOf(sampleScanState())));
     return packets;
 }

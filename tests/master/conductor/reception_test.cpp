@@ -189,6 +189,36 @@ TEST(Users, areNamedByRoleAndName) {
         EXPECT_FALSE(userIn(wrong)) << wrong;
 }
 
+TEST_F(Reception, aNodeIsAskedToMakeWayOnceForEachRequest) {
+    const test::StageMaster master(ConductorOptions{}, net_.master());
+    Peer node(net_), asker(net_);
+    ASSERT_TRUE(node.join("left"));
+    const auto restart = [&](std::uint64_t request, const std::string& channel) {
+        v1::Envelope message;
+        message.mutable_set()->set_request(request);
+        message.mutable_set()->set_restart(channel);
+        asker.say(message);
+        return asker.hear(v1::Envelope::kSetReply).value_or(v1::Envelope{}).set_reply();
+    };
+    EXPECT_EQ(restart(1, "nobody").outcome(), v1::OUTCOME_REFUSED);
+    EXPECT_EQ(restart(2, "right").reason(), "right is absent: start it on its machine");
+    EXPECT_EQ(restart(3, "left").outcome(), v1::OUTCOME_DONE);
+    EXPECT_TRUE(node.hear(v1::Envelope::kLeave));
+    EXPECT_EQ(restart(3, "left").outcome(), v1::OUTCOME_DONE) << "said again";
+    EXPECT_TRUE(node.hearsNo(v1::Envelope::kLeave, milliseconds(200)));
+}
+
+TEST_F(Reception, aWindowEndsTheShowOnlyWhereTheRigSaysSo) {
+    config::Rig rig = test::StageMaster::deskRig();
+    rig.windowsEndShow = false;
+    const test::StageMaster master(ConductorOptions{}, net_.master(), rig);
+    Peer node(net_);
+    ASSERT_TRUE(node.join("left"));
+    node.say(test::input(v1::INPUT_QUIT));
+    EXPECT_TRUE(node.hearsNo(v1::Envelope::kFarewell, milliseconds(300)));
+    EXPECT_EQ(status().refused_packets(), 1U);
+}
+
 TEST_F(Reception, refusesANameThatTheRigDoesNotHaveAndSaysWhichItHas) {
     const test::StageMaster master(ConductorOptions{}, net_.master());
     Peer peer(net_);

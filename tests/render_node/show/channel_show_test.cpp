@@ -45,7 +45,7 @@ class ChannelShowTest : public testing::Test {
     void show(FakeSession& session,
               const NodeOptions& chosen,
               wire::Pattern pattern = wire::Pattern::Grey) {
-        Controls controls(session);
+        Controls controls(session, true);
         ChannelShow(session, context_, controls, chosen).run(admissionTo(pattern));
     }
     [[nodiscard]] std::vector<std::string> traceLines() const {
@@ -192,7 +192,7 @@ TEST_F(ChannelShowTest, dropsFoodAtAnArmsLengthBeforeTheEyeOfTheFrame) {
     wire::StateFrame frame = frameNumber(0);
     frame.eye.positionMetres = {4, -6, 0};
     FakeSession session(events_, {{frame, session::Release::Present}});
-    Controls controls(session);
+    Controls controls(session, true);
     controls.press('c');
     controls.click({0, 180});
     controls.click({480, 180});  // just outside
@@ -207,7 +207,7 @@ TEST_F(ChannelShowTest, dropsFoodAtAnArmsLengthBeforeTheEyeOfTheFrame) {
 // Without fish nobody is asked for, and the show goes on.
 TEST_F(ChannelShowTest, aSeaWithoutFishHasNoMinds) {
     FakeSession session(events_, {{frameNumber(0), session::Release::Present}});
-    Controls controls(session);
+    Controls controls(session, true);
     controls.press('e');
     ChannelShow(session, context_, controls, options()).run(admissionTo(wire::Pattern::Grey));
     EXPECT_EQ(events_, (Events{"prepared", "ready 0", "swap"}));

@@ -18,7 +18,7 @@ class ControlsTest : public testing::Test {
   protected:
     Events events_;
     FakeSession session_{events_, {}};
-    Controls controls_{session_};
+    Controls controls_{session_, true};
 };
 
 TEST_F(ControlsTest, quitGoesToTheWholeShow) {
@@ -30,6 +30,14 @@ TEST_F(ControlsTest, quitTwiceEndsThisNodeAlone) {
     controls_.press('q');
     controls_.press(gl::kEscapeKey);
     EXPECT_EQ(events_[1], "stop");
+}
+
+TEST_F(ControlsTest, whereTheRigForbidsItAKeyEndsNothingAndTheWindowSaysSo) {
+    Controls controls(session_, false);
+    EXPECT_FALSE(controls.overlays().endRefused);
+    for (const char key : {'q', gl::kEscapeKey, 'q'}) controls.press(key);
+    EXPECT_EQ(events_, Events{});
+    EXPECT_TRUE(controls.overlays().endRefused);
 }
 
 // Wanted values, never toggles: what a key asks for depends on what the wall shows.

@@ -56,6 +56,7 @@ class FakeSession : public session::Session {
     }
     void sawBlank(std::uint64_t /*count*/, std::chrono::nanoseconds /*at*/) override {}
     void quit() override { events_.emplace_back("quit"); }
+    bool isToRestart() const override { return false; }
     void freeze(bool frozen) override { events_.emplace_back(frozen ? "freeze" : "thaw"); }
     void describe(const session::NodeFacts& facts) override { facts_ = facts; }
     void dropFood(glm::vec3 positionMetres) override { drops_.push_back(positionMetres); }

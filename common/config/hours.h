@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// When a wall is open, and what it shows then: a calendar, and what is wanted at a moment of it.
+#pragma once
+
+#include <compare>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace aquarama::config {
+
+// A moment as the clock on the wall of a hall shows it.
+struct CivilTime {
+    int year = 1970, month = 1, day = 1;  // months and days from 1
+    int weekday = 4;                      // Monday 1 to Sunday 7
+    int minute = 0;                       // of the day
+};
+
+// While it is open. Minutes of its day; `to` may be of the next one, up to 2880.
+struct OpenSpan {
+    std::vector<int> weekdays;
+    int from = 0, to = 0;
+    std::string scene, quality;  // empty: as it was
+};
+
+struct CivilDate {
+    int year = 0, month = 0, day = 0;
+    friend auto operator<=>(const CivilDate&, const CivilDate&) = default;
+};
+
+struct ExceptionDay {
+    CivilDate date;
+    std::vector<OpenSpan> open;  // none: closed
+};
+
+// A projector that PJLink switches.
+struct ControlledProjector {
+    std::string name, host, password;
+    int port = 0;
+};
+
+struct Hours {
+    std::string zone;
+    std::vector<OpenSpan> open;
+    std::vector<ExceptionDay> exceptions;
+    std::vector<ControlledProjector> projectors;
+};
+
+// What is wanted of the wall at a moment.
+struct WantedHours {
+    bool isOpen = false;
+    std::string scene = {}, quality = {};
+    friend bool operator==(const WantedHours&, const WantedHours&) = default;
+};
+
+// Holds the text to hours.proto: throws Error with file:line:column. `source` is the file's name in
+// errors.
+[[nodiscard]] Hours parseHours(const std::string& text, const std::string& source);
+
+// The clock of a zone at a moment of Unix time. Changes the process's idea of local time: one
+// thread calls it. A zone that the system does not know is UTC.
+[[nodiscard]] CivilTime civilTime(const std::string& zone, long long unixSeconds);
+[[nodiscard]] bool isZone(const std::string& zone);
+
+// A function of the calendar and the clock alone: whoever asks at whatever moment gets the same.
+[[nodiscard]] WantedHours wantedAt(const Hours& hours, const CivilTime& now);
+
+}  // namespace aquarama::config

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "console/access.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <chrono>
+#include <span>
+
+#include <nlohmann/json.hpp>
+#include <openssl/rand.h>
+
+#include "common/base/digest.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
+
+namespace aquarama::console {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::string_view kCrockford = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";
+constexpr std::size_t kCodeLetters = 8;
+constexpr double kCodeSeconds = 600;
+constexpr double kSessionSeconds = 30.0 * 86400;
+constexpr int kMostWrong = 5;
+constexpr double kLongestPause = 3600;
+constexpr std::size_t kMostHolders = 256;
+constexpr std::uintmax_t kMostFileBytes = 1U << 20U;
+constexpr std::size_t kMostNameBytes = 40;
+
+constexpr const char* kCodeFile = "pairing.json";
+constexpr const char* kSessionFile = "sessions.json";
+constexpr const char* kTokenFile = "tokens.json";
+
+template <std::size_t count>
+std::array<unsigned char, count> randomBytes() {
+    std::array<unsigned char, count> bytes{};
+    if (RAND_bytes(bytes.data(), static_cast<int>(count)) != 1)
+        throw Error("the system has no random numbers; try again");
+    return bytes;
+}
+
+// What a page or a terminal may show: no control characters, not long.
+std::string shownName(std::string name) {
+    name.resize(std::min(name.size(), kMostNameBytes));
+    std::ranges::replace_if(
+        name, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
+    return name.empty() ? "browser" : name;
+}
+
+// An empty list where there is no file. Throws Error where it is damaged.
+json read(const fs::path& path) {
+    if (!fs::exists(path)) return json::array();
+    const std::vector<std::byte> bytes = readWhole(path, kMostFileBytes);
+    const auto* const begin = reinterpret_cast<const char*>(bytes.data());
+    json parsed = json::parse(begin, begin + bytes.size(), nullptr, false);
+    if (parsed.is_discarded())
+        throw Error(path.string() + ": is damaged; remove it, and let everybody in again");
+    return parsed;
+}
+
+// Whole or not at all; the folder lets nobody else in.
+void write(const fs::path& path, const json& content) {
+    const std::string text = content.dump(1);
+    writeWhole(path, std::as_bytes(std::span(text)));
+}
+
+// The people or machines of a file.
+std::vector<Holder> holdersIn(const fs::path& path) {
+    std::vector<Holder> holders;
+    try {
+        for (const json& one : read(path)) {
+            Holder holder{.id = {},
+                          .hash = one.at("hash").get<std::string>(),
+                          .name = one.at("name").get<std::string>(),
+                          .role = roleNamed(one.at("role").get<std::string>()).value(),
+                          .since = one.at("since").get<double>(),
+                          .until = one.at("until").get<double>()};
+            holder.id = holder.hash.substr(0, 12);
+            holders.push_back(std::move(holder));
+        }
+    } catch (const std::exception& problem) {
+        throw Error(path.string() + ": is damaged; remove it, and let everybody in again (" +
+                    problem.what() + ")");
+    }
+    return holders;
+}
+
+// Hashes only: whoever reads the file cannot come in with it.
+void writeHolders(const fs::path& path, const std::vector<Holder>& holders) {
+    json all = json::array();
+    for (const Holder& one : holders)
+        all.push_back({{"hash", one.hash},
+                       {"name", one.name},
+                       {"role", nameOf(one.role)},
+                       {"since", one.since},
+                       {"until", one.until}});
+    write(path, all);
+}
+
+// The holder of a secret; by its hash, so that how long a comparison takes tells nothing of it.
+std::optional<Holder> holderOf(const std::vector<Holder>& holders, std::string_view secret) {
+    const auto found = std::ranges::find(holders, hashOfSecret(secret), &Holder::hash);
+    return found == holders.end() ? std::nullopt : std::optional(*found);
+}
+
+}  // namespace
+
+std::string_view nameOf(ConsoleRole role) {
+    switch (role) {
+        case ConsoleRole::Watcher:
+            return "watcher";
+        case ConsoleRole::Operator:
+            return "operator";
+        default:
+            return "crew";
+    }
+}
+
+std::optional<ConsoleRole> roleNamed(std::string_view name) {
+    for (const ConsoleRole role : {ConsoleRole::Watcher, ConsoleRole::Operator, ConsoleRole::Crew})
+        if (nameOf(role) == name) return role;
+    return std::nullopt;
+}
+
+// Of the system's clock, which may be set; sessions are valid for days.
+UnixSeconds unixNow() {
+    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
+
+// OpenSSL's generator, seeded by the kernel.
+std::string freshSecret() {
+    const auto bytes = randomBytes<32>();
+    std::string text;
+    for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
+    return text;
+}
+
+std::string hashOfSecret(std::string_view secret) {
+    return toHex(digestOf(std::string(secret)));
+}
+
+// Crockford's alphabet has no O, I and L: typed, they mean 0 and 1.
+std::string plainCode(std::string_view typed) {
+    std::string code;
+    for (const char c : typed) {
+        const char capital = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+        if (capital == 'O')
+            code += '0';
+        else if (capital == 'I' || capital == 'L')
+            code += '1';
+        else if (std::isalnum(static_cast<unsigned char>(capital)) != 0)
+            code += capital;
+    }
+    return code;
+}
+
+// Others may neither list nor read the folder.
+Access::Access(fs::path folder) : folder_{std::move(folder)} {
+    std::error_code failure;
+    fs::create_directories(folder_, failure);
+    fs::permissions(folder_, fs::perms::owner_all, failure);
+    if (failure)
+        throw Error(folder_.string() + ": cannot be used (" + failure.message() +
+                    "); set XDG_STATE_HOME to a folder that can");
+    sessions_ = holdersIn(folder_ / kSessionFile);
+}
+
+// 40 bits, shown in two halves.
+std::string Access::makeCode(ConsoleRole role, UnixSeconds now) {
+    const auto bytes = randomBytes<kCodeLetters>();
+    std::string code;
+    for (const unsigned char byte : bytes) code += kCrockford[byte & 31U];
+    write(folder_ / kCodeFile,
+          {{"hash", hashOfSecret(code)}, {"role", nameOf(role)}, {"until", now + kCodeSeconds}});
+    wrong_ = 0;
+    return code.substr(0, 4) + "-" + code.substr(4);
+}
+
+// The code is read again: another run of the program may have made it.
+std::optional<std::string> Access::pair(const std::string& code,
+                                        const std::string& name,
+                                        UnixSeconds now,
+                                        bool& spent) {
+    spent = false;
+    const json valid = read(folder_ / kCodeFile);
+    if (now < refusedUntil_ || !valid.is_object() || valid.value("until", 0.0) < now)
+        return std::nullopt;
+    if (valid.value("hash", "") != hashOfSecret(plainCode(code))) {
+        if (++wrong_ < kMostWrong) return std::nullopt;
+        spent = true;
+        refusedUntil_ = now + pauseSeconds_;
+        pauseSeconds_ = std::min(2 * pauseSeconds_, kLongestPause);
+        fs::remove(folder_ / kCodeFile);
+        return std::nullopt;
+    }
+    fs::remove(folder_ / kCodeFile);
+    std::string secret = freshSecret();
+    const std::string hash = hashOfSecret(secret);
+    std::erase_if(sessions_, [&](const Holder& one) { return one.until < now; });
+    if (sessions_.size() == kMostHolders) sessions_.erase(sessions_.begin());
+    sessions_.push_back({hash.substr(0, 12),
+                         hash,
+                         shownName(name),
+                         roleNamed(valid.value("role", "")).value_or(ConsoleRole::Watcher),
+                         now,
+                         now + kSessionSeconds});
+    writeHolders(folder_ / kSessionFile, sessions_);
+    return secret;
+}
+
+// One that has run out is none.
+std::optional<Holder> Access::session(std::string_view secret, UnixSeconds now) const {
+    const auto holder = holderOf(sessions_, secret);
+    return holder && holder->until > now ? holder : std::nullopt;
+}
+
+// Its cookie means nothing any more.
+void Access::revoke(const std::string& id) {
+    std::erase_if(sessions_, [&](const Holder& one) { return one.id == id; });
+    writeHolders(folder_ / kSessionFile, sessions_);
+}
+
+// The last one of the same name ends.
+std::string Access::makeToken(const std::string& name, ConsoleRole role, UnixSeconds now) {
+    std::vector<Holder> tokens = holdersIn(folder_ / kTokenFile);
+    std::erase_if(tokens, [&](const Holder& one) { return one.name == name; });
+    if (tokens.size() == kMostHolders)
+        throw Error("there are " + std::to_string(kMostHolders) + " tokens already; remove " +
+                    (folder_ / kTokenFile).string() + " and make those anew that are used");
+    std::string secret = freshSecret().substr(0, 32);
+    const std::string hash = hashOfSecret(secret);
+    tokens.push_back({hash.substr(0, 12), hash, shownName(name), role, now, 0});
+    writeHolders(folder_ / kTokenFile, tokens);
+    return secret;
+}
+
+// Read each time: tokens are made by other runs of the program.
+std::optional<Holder> Access::token(std::string_view secret) const {
+    try {
+        return holderOf(holdersIn(folder_ / kTokenFile), secret);
+    } catch (const Error& problem) {
+        logWarning("{}", problem.what());
+        return std::nullopt;
+    }
+}
+
+}  // namespace aquarama::console

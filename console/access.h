@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who may use the console: pairing codes, sessions of people, tokens of machines. Only hashes of
+// secrets are kept.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace aquarama::console {
+
+// What somebody may do, each more than the one before; numbered as in console.proto.
+enum class ConsoleRole : std::uint8_t { Watcher = 1, Operator = 2, Crew = 3 };
+[[nodiscard]] std::string_view nameOf(ConsoleRole role);
+[[nodiscard]] std::optional<ConsoleRole> roleNamed(std::string_view name);
+
+// Seconds of Unix time.
+using UnixSeconds = double;
+[[nodiscard]] UnixSeconds unixNow();
+
+// Whoever has been let in: a browser by a session, a machine by a token.
+struct Holder {
+    std::string id;  // the first letters of `hash`: names it to people
+    std::string hash;
+    std::string name;
+    ConsoleRole role = ConsoleRole::Watcher;
+    UnixSeconds since = 0, until = 0;
+};
+
+// 256 random bits, as 64 hexadecimal digits.
+[[nodiscard]] std::string freshSecret();
+[[nodiscard]] std::string hashOfSecret(std::string_view secret);
+
+// The lists of a rig's console in one folder, readable by its owner only. One thread uses it.
+// Sessions are written by the running console alone; codes and tokens also by other runs of the
+// program, so both are read again whenever they matter.
+class Access {
+  public:
+    // Makes the folder. Throws Error where it cannot be used.
+    explicit Access(std::filesystem::path folder);
+
+    // A code of eight letters and digits that lets one browser in within ten minutes, as `role`;
+    // the last one ends.
+    std::string makeCode(ConsoleRole role, UnixSeconds now);
+    // The secret of a new session; empty where this is not the code that is valid now. After five
+    // wrong ones the code ends, and others are refused for a while that doubles each time: the
+    // code is guarded, not an address. `spent` becomes true where this try ended the code.
+    std::optional<std::string> pair(const std::string& code,
+                                    const std::string& name,
+                                    UnixSeconds now,
+                                    bool& spent);
+    [[nodiscard]] bool hasPeople() const { return !sessions_.empty(); }
+
+    // The holder of a session's secret, where it is valid.
+    [[nodiscard]] std::optional<Holder> session(std::string_view secret, UnixSeconds now) const;
+    [[nodiscard]] std::vector<Holder> people() const { return sessions_; }
+    // Ends a session.
+    void revoke(const std::string& id);
+
+    // A new token for a machine; its secret is shown once.
+    std::string makeToken(const std::string& name, ConsoleRole role, UnixSeconds now);
+    [[nodiscard]] std::optional<Holder> token(std::string_view secret) const;
+
+  private:
+    std::filesystem::path folder_;
+    std::vector<Holder> sessions_;
+    int wrong_ = 0;
+    double pauseSeconds_ = 30;
+    UnixSeconds refusedUntil_ = 0;
+};
+
+// The part of a pairing code that counts: capitals, without spaces and hyphens, and with the
+// letters that are mistaken for digits read as such.
+[[nodiscard]] std::string plainCode(std::string_view typed);
+
+}  // namespace aquarama::console

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// The operator's console: what browsers see of a show, and what they may ask of it.
+#pragma once
+
+#include <deque>
+#include <future>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/ask/request_client.h"
+#include "common/config/rig.h"
+#include "console/access.h"
+#include "console/alerts.h"
+#include "console/console.pb.h"
+#include "console/files_of_show.h"
+#include "console/gate.h"
+#include "console/opening.h"
+#include "console/overview.h"
+#include "console/picture_hub.h"
+#include "console/show_link.h"
+#include "console/web/server.h"
+
+namespace aquarama::console {
+
+struct ConsoleOptions {
+    config::Rig rig;
+    ask::AskedMaster master;  // of this rig, with the operator's key where it needs one
+    std::string build;        // version and commit
+};
+
+// Holds no truth of the show: killed and started again, nothing changes on the wall. All functions
+// are called by the server's thread.
+class Console final : public web::Service {
+  public:
+    // Throws Error where what it keeps cannot be read.
+    Console(ConsoleOptions options, Access& access);
+    ~Console() override;
+    Console(const Console&) = delete;
+    Console& operator=(const Console&) = delete;
+
+    // Before the server runs: listens to master and nodes, and is reached by these doors. Throws
+    // Error where it cannot.
+    void begin(web::WebServer& server, Doors doors);
+    // After the server has run, while it is there: listens no more.
+    void end();
+
+    [[nodiscard]] web::HttpReply answer(const web::HttpRequest& request) override;
+    [[nodiscard]] std::unique_ptr<Connection> open(const web::HttpRequest& request,
+                                                   web::Outbox& outbox,
+                                                   web::HttpReply& refusal) override;
+    void tick() override;
+
+    // One browser (or program) that is connected.
+    struct Visitor {
+        Holder holder;
+        web::Outbox* outbox = nullptr;
+        browser::Look look = {};
+        int ticksToLook = 0;                       // until the look is forgotten
+        std::map<int, int> picturesUnderWay = {};  // channel -> ticks until it is asked again
+        bool hasHistory = false;
+        std::string sentLog = {};
+        int messages = 0;  // in this second
+        int malformed = 0;
+    };
+    // What a visitor says; called by its connection.
+    void hear(Visitor& visitor, const std::string& text);
+    void forget(Visitor& visitor);
+
+  private:
+    using Command = browser::Command;
+    struct Pending {
+        Visitor* visitor = nullptr;  // null: has gone
+        std::string who, what;
+    };
+    struct PictureState {
+        int ticksToAsk = 0;
+        std::uint64_t number = 0;
+    };
+
+    // Requests (answer()).
+    web::HttpReply act(const web::HttpRequest& request);
+    web::HttpReply pair(const web::HttpRequest& request);
+    web::HttpReply leave(const web::HttpRequest& request);
+    web::HttpReply look(const web::HttpRequest& request);
+    web::HttpReply obey(const web::HttpRequest& request, const Holder& holder);
+    web::HttpReply refused(int status, const std::string& why);
+    void showCode(ConsoleRole role);
+
+    // Commands.
+    [[nodiscard]] browser::Done carryOut(const Holder& holder,
+                                         Visitor* visitor,
+                                         const Command& command);
+    [[nodiscard]] browser::Done carryOutHere(const Holder& holder,
+                                             Visitor* visitor,
+                                             const Command& command);
+    [[nodiscard]] browser::Done tellWall(const Holder& holder,
+                                         Visitor* visitor,
+                                         const Command& command);
+    // Each carries one out; why not, where it is refused.
+    [[nodiscard]] std::string acknowledge(const Holder& holder, const std::string& alert);
+    [[nodiscard]] std::string carryOutOfHall(const Holder& holder, const Command& command);
+    [[nodiscard]] std::string takeHours(const Holder& holder, const std::string& text);
+    [[nodiscard]] std::string sendAway(const Holder& holder, const std::string& person);
+    void askFish(Visitor* visitor, const browser::PointAt& at);
+    void runDoctor();
+    [[nodiscard]] browser::Done settle(std::uint64_t id,
+                                       const std::string& outcome,
+                                       const std::string& why);
+    void note(const std::string& who, const std::string& what);
+
+    // From the other threads, on the server's.
+    void heardWall(const browser::Wall& wall);
+    void wallIsSilent();
+    void saidOfSet(std::uint64_t id, const std::string& outcome, const std::string& why);
+    void saidOfHours(const std::string& outcome, const std::string& why);
+    void heardPicture(const std::string& channel, const v1::FramePicture& picture);
+    void heardFish(const std::string& channel, const v1::FishReply& reply);
+    void heardMind(const v1::Explanation& explanation);
+
+    // Ten times a second or less.
+    void askPictures();
+    // Tells the wall what its hours want.
+    void keepHours();
+    [[nodiscard]] std::uint32_t wantedWidth(int channel) const;
+    void everySecond();
+    void hearDoctor();
+    void sendWall();
+    // What its page shows now, beside the wall.
+    void sendTopics(Visitor& visitor);
+    void sendLog(Visitor& visitor);
+    void sendPeople(Visitor& visitor);
+    void takeLook(Visitor& visitor, const browser::Look& look);
+    void sendTo(Visitor& visitor, const std::string& topic, const browser::ToBrowser& message);
+    void sendToAll(const std::string& topic, const browser::ToBrowser& message);
+    [[nodiscard]] browser::ToBrowser snapshotFor(const Visitor& visitor) const;
+    [[nodiscard]] browser::AlertList alertList() const;
+    [[nodiscard]] browser::People peopleFor(const Holder& holder) const;
+    [[nodiscard]] int channelIndexOf(const std::string& channel) const;
+    [[nodiscard]] bool isWatched(const Visitor& visitor, int channel) const;
+
+    ConsoleOptions options_;
+    Access& access_;
+    Doors doors_;
+    web::WebServer* server_ = nullptr;
+    EventBook events_;
+    Opening opening_;
+    std::optional<config::WantedHours> beingOpened_;  // told to the wall, not done yet
+    std::uint64_t openingId_ = 0;
+    Alerts alerts_;
+    FigureRings figures_;
+    browser::Wall wall_;
+    browser::DoctorReport doctor_;
+    std::future<browser::DoctorReport> doctorRun_;
+    std::string code_;  // the last pairing code that somebody asked for in a page
+    std::set<Visitor*> visitors_;
+    std::map<std::uint64_t, Pending> pending_;
+    std::deque<browser::Done> settled_;
+    std::map<int, PictureState> pictures_;
+    std::map<std::uint64_t, Visitor*> fishAsked_;
+    browser::Mind mind_;
+    std::uint64_t number_ = 0;  // of questions to nodes
+    std::uint64_t refused_ = 0;
+    int ticks_ = 0;
+    std::unique_ptr<PictureHub> hub_;
+    std::unique_ptr<ShowLink> link_;  // last: their threads use all of the above
+};
+
+}  // namespace aquarama::console

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "console/files_of_show.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <memory>
+
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/config/text_file.h"
+
+namespace aquarama::console {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::size_t kMostEvents = 200;
+
+// The last `most` bytes of a file, from the beginning of a line; empty where it cannot be read.
+std::string endOf(const fs::path& path, std::uintmax_t most) {
+    std::error_code failure;
+    const std::uintmax_t size = fs::file_size(path, failure);
+    std::ifstream file(path, std::ios::binary);
+    if (failure || !file) return {};
+    const std::uintmax_t begin = size > most ? size - most : 0;
+    file.seekg(static_cast<std::streamoff>(begin));
+    std::string text(static_cast<std::size_t>(size - begin), '\0');
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(file.gcount()));
+    return begin == 0 ? text : text.substr(std::min(text.find('\n'), text.size() - 1) + 1);
+}
+
+// Without their ends; the last may have none.
+std::vector<std::string> linesOf(const std::string& text) {
+    std::vector<std::string> lines;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        lines.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return lines;
+}
+
+// Empty where the field is missing or no text.
+std::string textIn(const json& object, const char* field) {
+    const auto found = object.find(field);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+// By all that the page filters by.
+bool isWanted(const browser::LogRow& row, const browser::Look& look) {
+    return (look.log_node().empty() || row.node() == look.log_node()) &&
+           (!look.log_problems_only() || row.severity() != "info") &&
+           row.text().find(look.log_text()) != std::string::npos;
+}
+
+// Nothing where the line is no object of JSON.
+std::optional<browser::LogRow> rowOf(const std::string& line) {
+    const json object = json::parse(line, nullptr, false);
+    if (!object.is_object()) return std::nullopt;
+    browser::LogRow row;
+    row.set_time(textIn(object, "time"));
+    row.set_node(textIn(object, "node"));
+    row.set_severity(textIn(object, "severity"));
+    row.set_text(textIn(object, "text"));
+    const auto frame = object.find("frame");
+    if (frame != object.end() && frame->is_number_unsigned())
+        row.set_frame(frame->get<std::uint64_t>());
+    return row;
+}
+
+// What a program says on its standard output, and how it ended; it is killed after a minute.
+struct Said {
+    std::string text;
+    int status = -1;
+};
+
+// All that comes until the other end is closed, a megabyte at most.
+std::string readUntil(int pipe, std::chrono::steady_clock::time_point end) {
+    constexpr std::size_t kMostBytes = 1U << 20U;
+    std::string text;
+    std::array<char, 4096> part{};
+    while (text.size() < kMostBytes && std::chrono::steady_clock::now() < end) {
+        pollfd waiting{pipe, POLLIN, 0};
+        if (poll(&waiting, 1, 200) <= 0) continue;
+        const ssize_t count = read(pipe, part.data(), part.size());
+        if (count <= 0) break;
+        text.append(part.data(), static_cast<std::size_t>(count));
+    }
+    return text;
+}
+
+// Without a shell: no name of a file is read as a command.
+Said runProgram(const fs::path& program, std::vector<std::string> arguments) {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) return {};
+    arguments.insert(arguments.begin(), program.string());
+    std::vector<char*> words;
+    for (std::string& argument : arguments) words.push_back(argument.data());
+    words.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    pid_t child = 0;
+    const int failed =
+        posix_spawn(&child, program.c_str(), &actions, nullptr, words.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+    Said said;
+    if (failed == 0) {
+        said.text = readUntil(ends[0], std::chrono::steady_clock::now() + std::chrono::minutes(1));
+        kill(child, SIGTERM);
+        int status = 0;
+        if (waitpid(child, &status, 0) == child && WIFEXITED(status))
+            said.status = WEXITSTATUS(status);
+    }
+    close(ends[0]);
+    return said;
+}
+
+// Numbers of tar are octal text with zeros before.
+void addOctal(std::string& header, std::size_t at, std::size_t digits, std::uint64_t value) {
+    const std::string text = fmt::format("{:0{}o}", value, digits);
+    header.replace(at, digits, text);
+}
+
+// Fields of POSIX's ustar: name, mode, size, time, checksum, kind, magic.
+std::string tarHeader(const std::string& name, std::size_t bytes) {
+    constexpr std::size_t kBlock = 512, kMostName = 99;
+    std::string header(kBlock, '\0');
+    const std::string kept = name.substr(0, kMostName);
+    header.replace(0, kept.size(), kept);
+    addOctal(header, 100, 7, 0644);
+    addOctal(header, 108, 7, 0);
+    addOctal(header, 116, 7, 0);
+    addOctal(header, 124, 11, bytes);
+    addOctal(header, 136, 11, static_cast<std::uint64_t>(unixNow()));
+    header.replace(148, 8, "        ");
+    header[156] = '0';
+    header.replace(257, 5, "ustar");
+    header.replace(263, 2, "00");
+    unsigned sum = 0;
+    for (const char c : header) sum += static_cast<unsigned char>(c);
+    addOctal(header, 148, 6, sum);
+    header[154] = '\0';
+    return header;
+}
+
+}  // namespace
+
+// Beside the master's own, by the same name of the rig.
+fs::path stateFolderOf(const std::string& rigPath) {
+    return userFolder("XDG_STATE_HOME", ".local/state") / "console" / fs::path(rigPath).stem();
+}
+
+fs::path logOf(const std::string& rigPath) {
+    return userFolder("XDG_STATE_HOME", ".local/state") / "logs" /
+           (fs::path(rigPath).stem().string() + ".jsonl");
+}
+
+// Sorted, without their ending.
+std::vector<std::string> scenesBeside(const std::string& rigPath, const std::string& scene) {
+    std::vector<std::string> names;
+    std::error_code failure;
+    const fs::path folder = fs::path(config::besideFile(rigPath, scene)).parent_path();
+    for (const auto& entry : fs::directory_iterator(folder, failure))
+        if (entry.path().extension() == ".txtpb") names.push_back(entry.path().stem().string());
+    std::ranges::sort(names);
+    return names;
+}
+
+// Of a long log only the last megabyte is read.
+browser::LogTail tailOf(const fs::path& log, const browser::Look& look) {
+    constexpr std::uintmax_t kMostBytes = 1U << 20U;
+    constexpr std::size_t kMostRows = 300;
+    std::deque<browser::LogRow> rows;
+    for (const std::string& line : linesOf(endOf(log, kMostBytes))) {
+        auto row = rowOf(line);
+        if (!row || !isWanted(*row, look)) continue;
+        rows.push_back(*std::move(row));
+        if (rows.size() > kMostRows) rows.pop_front();
+    }
+    browser::LogTail tail;
+    if (!fs::exists(log)) tail.set_problem("there is no log yet at " + log.string());
+    for (browser::LogRow& row : rows) *tail.add_rows() = std::move(row);
+    return tail;
+}
+
+// In a process of its own: it may hang on a network that does.
+browser::DoctorReport askDoctor(const std::string& rigPath) {
+    browser::DoctorReport report;
+    const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "aquarama";
+    const Said said = runProgram(program, {"doctor", rigPath, "--json"});
+    report.set_at_s(unixNow());
+    const json list = json::parse(said.text, nullptr, false);
+    if (!list.is_array()) {
+        report.set_problem("the doctor gave no findings: run aquarama doctor in a terminal");
+        return report;
+    }
+    for (const json& one : list) {
+        browser::Finding& finding = *report.add_findings();
+        finding.set_verdict(textIn(one, "verdict"));
+        finding.set_subject(textIn(one, "subject"));
+        finding.set_what(textIn(one, "what"));
+        finding.set_todo(textIn(one, "todo"));
+    }
+    return report;
+}
+
+// Each file is filled up to whole blocks; two empty ones end it.
+std::string tarOf(const std::vector<std::pair<std::string, std::string>>& files) {
+    constexpr std::size_t kBlock = 512;
+    std::string archive;
+    for (const auto& [name, content] : files) {
+        archive += tarHeader(name, content.size());
+        archive += content;
+        archive.append((kBlock - content.size() % kBlock) % kBlock, '\0');
+    }
+    archive.append(2 * kBlock, '\0');
+    return archive;
+}
+
+// What somebody needs who helps from afar.
+std::string bundleOf(const std::string& rigPath,
+                     std::vector<std::pair<std::string, std::string>> files) {
+    constexpr std::uintmax_t kMostBytes = std::uintmax_t{8} << 20U;
+    const fs::path log = logOf(rigPath);
+    for (const char* const suffix : {"", ".1", ".2"}) {
+        const fs::path one = log.string() + suffix;
+        if (fs::exists(one))
+            files.emplace_back("log/" + one.filename().string(), endOf(one, kMostBytes));
+    }
+    files.emplace_back(fs::path(rigPath).filename().string(), endOf(rigPath, kMostBytes));
+    return tarOf(files);
+}
+
+// What cannot be read of the file is left out.
+EventBook::EventBook(fs::path file) : file_{std::move(file)} {
+    constexpr std::uintmax_t kMostBytes = 64U << 10U;
+    for (const std::string& line : linesOf(endOf(file_, kMostBytes))) {
+        const json object = json::parse(line, nullptr, false);
+        if (!object.is_object() || !object.contains("at") || !object["at"].is_number()) continue;
+        browser::Event& event = events_.emplace_front();
+        event.set_at_s(object["at"].get<double>());
+        event.set_who(textIn(object, "who"));
+        event.set_what(textIn(object, "what"));
+    }
+    if (events_.size() > kMostEvents) events_.resize(kMostEvents);
+}
+
+// The newest first here, the newest last in the file.
+void EventBook::add(const std::string& who, const std::string& what) {
+    browser::Event& event = events_.emplace_front();
+    event.set_at_s(unixNow());
+    event.set_who(who);
+    event.set_what(what);
+    if (events_.size() > kMostEvents) events_.pop_back();
+    std::ofstream file(file_, std::ios::app);
+    file << json{{"at", event.at_s()}, {"who", who}, {"what", what}}.dump(
+                -1, ' ', false, json::error_handler_t::replace)
+         << '\n';
+}
+
+browser::EventList EventBook::list() const {
+    browser::EventList list;
+    for (const browser::Event& event : events_) *list.add_events() = event;
+    return list;
+}
+
+}  // namespace aquarama::console

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "console/gate.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace aquarama::console {
+
+namespace {
+
+using web::HttpReply;
+using web::HttpRequest;
+
+constexpr std::string_view kBearer = "Bearer ";
+
+// Whole, with the port: browsers send it so.
+bool isOwnHost(const std::string& host, const Doors& doors) {
+    return std::ranges::find(doors.hosts, host) != doors.hosts.end();
+}
+
+// Scheme, name and port; "null" is none.
+bool isOwnOrigin(const std::string& origin, const Doors& doors) {
+    const std::string scheme = doors.isTls ? "https://" : "http://";
+    return origin.starts_with(scheme) && isOwnHost(origin.substr(scheme.size()), doors);
+}
+
+// By its ending; browsers are told not to guess.
+std::string_view typeOf(std::string_view path) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kTypes{
+        {{".html", "text/html; charset=utf-8"},
+         {".js", "text/javascript; charset=utf-8"},
+         {".css", "text/css; charset=utf-8"},
+         {".json", "application/json"},
+         {".svg", "image/svg+xml"}}};
+    for (const auto& [ending, type] : kTypes)
+        if (path.ends_with(ending)) return type;
+    return "text/plain; charset=utf-8";
+}
+
+}  // namespace
+
+// The loopback's three names are ours wherever we listen.
+Doors doorsOf(const std::string& address,
+              std::uint16_t port,
+              bool isTls,
+              const std::vector<std::string>& names) {
+    const std::string end = ":" + std::to_string(port);
+    Doors doors{{}, isTls, {}};
+    for (const char* const own : {"127.0.0.1", "localhost", "[::1]"})
+        doors.hosts.push_back(own + end);
+    const bool isVersion6 = address.find(':') != std::string::npos;
+    doors.hosts.push_back((isVersion6 ? "[" + address + "]" : address) + end);
+    for (const std::string& name : names) doors.hosts.push_back(name + end);
+    doors.cookie =
+        isTls ? "__Host-aquarama" : "aquarama_" + std::to_string(port);  // no cookie knows a port
+    return doors;
+}
+
+// A browser names the origin with everything that acts; programs do not, and show a token instead.
+std::optional<HttpReply> objectionTo(const HttpRequest& request, const Doors& doors, bool acts) {
+    if (!isOwnHost(request.host, doors))
+        return HttpReply{.status = 421, .body = "this console is not reached by that name\n"};
+    if (!acts) return std::nullopt;
+    const bool isProgram = request.origin.empty() && request.authorization.starts_with(kBearer);
+    const bool isOurPage = isOwnOrigin(request.origin, doors) &&
+                           (request.fetchSite.empty() || request.fetchSite == "same-origin");
+    if (isProgram || isOurPage) return std::nullopt;
+    return HttpReply{.status = 403, .body = "a page of another origin may not ask this\n"};
+}
+
+// Other programs of this machine set cookies for it as well.
+std::string sessionIn(const HttpRequest& request, const Doors& doors) {
+    const std::string wanted = doors.cookie + "=";
+    std::size_t begin = 0;
+    while (begin < request.cookie.size()) {
+        const std::size_t end = std::min(request.cookie.find(';', begin), request.cookie.size());
+        const std::string one = request.cookie.substr(begin, end - begin);
+        const std::size_t first = one.find_first_not_of(' ');
+        if (first != std::string::npos && one.compare(first, wanted.size(), wanted) == 0)
+            return one.substr(first + wanted.size());
+        begin = end + 1;
+    }
+    return {};
+}
+
+// A token goes before a cookie.
+std::optional<Holder> holderOf(const HttpRequest& request,
+                               const Doors& doors,
+                               const Access& access) {
+    if (request.authorization.starts_with(kBearer))
+        return access.token(std::string_view(request.authorization).substr(kBearer.size()));
+    const std::string secret = sessionIn(request, doors);
+    return secret.empty() ? std::nullopt : access.session(secret, unixNow());
+}
+
+// Strict: no other site's link brings it along.
+std::string cookieOf(const Doors& doors, const std::string& secret) {
+    constexpr int kSeconds = 30 * 86400;
+    return doors.cookie + "=" + secret + "; Path=/; HttpOnly; SameSite=Strict; Max-Age=" +
+           std::to_string(secret.empty() ? 0 : kSeconds) + (doors.isTls ? "; Secure" : "");
+}
+
+// By its exact name: there is no folder to leave.
+std::optional<HttpReply> pageAt(const HttpRequest& request) {
+    const std::string path =
+        request.target == "/" ? "/index.html" : request.target.substr(0, request.target.find('?'));
+    const auto pages = embeddedPages();
+    const auto page = std::ranges::find(pages, path, &EmbeddedPage::path);
+    if (page == pages.end()) return std::nullopt;
+    const std::string etag = "\"" + std::string(page->digest.substr(0, 32)) + "\"";
+    HttpReply reply{.type = std::string(typeOf(path)), .headers = {{"ETag", etag}}};
+    if (request.etag == etag)
+        reply.status = 304;
+    else
+        reply.body = std::string(page->text);
+    return reply;
+}
+
+}  // namespace aquarama::console

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stands between a request and the console: which host and origin it names, and who sends it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "console/access.h"
+#include "console/web/server.h"
+
+namespace aquarama::console {
+
+// A file of the pages, compiled into the program.
+struct EmbeddedPage {
+    std::string_view path;    // "/index.html"
+    std::string_view digest;  // SHA-256
+    std::string_view text;
+};
+[[nodiscard]] std::span<const EmbeddedPage> embeddedPages();
+
+// How the console is reached.
+struct Doors {
+    std::vector<std::string> hosts;  // "127.0.0.1:7480": what a Host header may name
+    bool isTls = false;
+    std::string cookie;  // its name; other consoles of this machine have others
+};
+// Of a console that listens at this address; `names` reach it as well.
+[[nodiscard]] Doors doorsOf(const std::string& address,
+                            std::uint16_t port,
+                            bool isTls,
+                            const std::vector<std::string>& names);
+
+// Why a request is refused, whoever sends it: its host is none of ours, or a page of another origin
+// sends it. Empty where it is not. `acts`: it may change something.
+[[nodiscard]] std::optional<web::HttpReply> objectionTo(const web::HttpRequest& request,
+                                                        const Doors& doors,
+                                                        bool acts);
+
+// Who sends it: by the cookie of a session, or the token of a machine.
+[[nodiscard]] std::optional<Holder> holderOf(const web::HttpRequest& request,
+                                             const Doors& doors,
+                                             const Access& access);
+// The secret of the session in its cookies; empty where there is none.
+[[nodiscard]] std::string sessionIn(const web::HttpRequest& request, const Doors& doors);
+// What sets the cookie of a session; an empty secret takes it away.
+[[nodiscard]] std::string cookieOf(const Doors& doors, const std::string& secret);
+
+// A page or a file of one; nothing where there is none at this path.
+[[nodiscard]] std::optional<web::HttpReply> pageAt(const web::HttpRequest& request);
+
+}  // namespace aquarama::console

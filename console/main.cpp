@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// aquarama-console: the operator's console of a rig, for browsers.
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+
+#include "common/base/log.h"
+#include "common/cli/command_line.h"
+#include "common/config/rig.h"
+#include "console/access.h"
+#include "console/certificate.h"
+#include "console/console.h"
+#include "console/files_of_show.h"
+#include "console/gate.h"
+#include "console/web/server.h"
+
+namespace {
+
+using namespace aquarama;
+
+constexpr std::uint16_t kDefaultPort = 7480;
+constexpr const char* kLoopback = "127.0.0.1";
+
+struct Options {
+    std::string rig, key, listen = kLoopback, pair, token;
+    std::string role = "watcher";
+    std::vector<std::string> certify, names;
+    int port = -1;  // the rig's
+};
+
+// Its options; what is printed and ends goes before what serves.
+void describe(CLI::App& app, Options& options) {
+    const auto role = CLI::IsMember({"watcher", "operator", "crew"});
+    app.add_option("RIG", options.rig, "whose show is watched")->required();
+    app.add_option("--port", options.port, "instead of the rig's console_port; 0: any free one")
+        ->check(CLI::Range(0, 65535));
+    app.add_option("--listen", options.listen, "address of a network card, for other machines")
+        ->capture_default_str();
+    app.add_option("--name", options.names, "another name of this machine that browsers may use");
+    app.add_option("--key", options.key, "file of the operator's key, where the rig needs keys");
+    app.add_option("--pair", options.pair, "print a code that lets one more browser in, and end")
+        ->check(role);
+    app.add_option(
+        "--token", options.token, "print a new token for a machine of this name, and end");
+    app.add_option("--role", options.role, "of that token")->check(role)->capture_default_str();
+    app.add_option("--certify",
+                   options.certify,
+                   "make the certificate for these addresses and names, and end");
+    app.footer(
+        "Prints the address and, as long as nobody is let in, a code. The console never costs the "
+        "wall a frame;\nit may be ended and started again at any time.");
+}
+
+// Beside the sessions, which lie as safely.
+std::filesystem::path certificateFolder(const Options& options) {
+    return console::stateFolderOf(options.rig) / "tls";
+}
+
+// Past this machine only over TLS.
+web::ServerOptions serverOptions(const Options& options, const config::Rig& rig) {
+    web::ServerOptions server{.address = options.listen, .certificateFile = {}, .keyFile = {}};
+    const int ofRig = rig.consolePort != 0 ? rig.consolePort : kDefaultPort;
+    server.port = static_cast<std::uint16_t>(options.port >= 0 ? options.port : ofRig);
+    if (options.listen == kLoopback) return server;
+    const auto files = console::certificateFilesIn(certificateFolder(options));
+    if (!std::filesystem::exists(files.certificate))
+        throw Error("--listen " + options.listen +
+                    ": past this machine a console needs a certificate; make it by aquarama "
+                    "console " +
+                    options.rig + " --certify " + options.listen);
+    server.certificateFile = files.certificate.string();
+    server.keyFile = files.key.string();
+    return server;
+}
+
+// Said with the fingerprint, which people compare on the tablet.
+void certify(const Options& options) {
+    std::filesystem::create_directories(certificateFolder(options));
+    std::filesystem::permissions(certificateFolder(options), std::filesystem::perms::owner_all);
+    const auto files = console::certificateFilesIn(certificateFolder(options));
+    const std::string print = console::makeCertificate(files, options.certify);
+    std::cout << "certificate for 397 days: " << files.certificate.string()
+              << "\ninstall on each tablet, once: " << files.authority.string()
+              << "\nits SHA-256 fingerprint: " << print << '\n';
+}
+
+// Until a signal.
+void serve(const Options& options, const config::Rig& rig, console::Access& access) {
+    cli::holdSignals();
+    constexpr int kNice = 5;  // the wall goes before
+    setpriority(PRIO_PROCESS, 0, kNice);
+    console::Console desk({.rig = rig,
+                           .master = {.rig = options.rig, .address = {}, .key = options.key},
+                           .build = cli::buildText()},
+                          access);
+    const web::ServerOptions where = serverOptions(options, rig);
+    web::WebServer server(where, desk);
+    const bool isTls = !where.certificateFile.empty();
+    logInfo("console at {}://{}:{}", isTls ? "https" : "http", where.address, server.port());
+    desk.begin(server, console::doorsOf(where.address, server.port(), isTls, options.names));
+    const cli::SignalWatch watch([&] { server.stop(); });
+    server.run();
+    desk.end();
+}
+
+// What the options ask for.
+void run(const Options& options) {
+    const config::Rig rig = config::readRig(options.rig);
+    if (!options.certify.empty()) return certify(options);
+    console::Access access(console::stateFolderOf(options.rig));
+    if (!options.pair.empty()) {
+        std::cout << access.makeCode(*console::roleNamed(options.pair), console::unixNow())
+                  << "  lets one browser in as " << options.pair << ", within ten minutes\n";
+    } else if (!options.token.empty()) {
+        const auto role = *console::roleNamed(options.role);
+        std::cout << access.makeToken(options.token, role, console::unixNow()) << '\n';
+    } else {
+        serve(options, rig, access);
+    }
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(bugprone-exception-escape): outside runProgram() only a lack of memory throws
+int main(int count, char** arguments) {
+    Options options;
+    CLI::App app("The operator's console of a show, for browsers.", "aquarama-console");
+    describe(app, options);
+    return cli::runProgram(app, count, arguments, [&] {
+        spdlog::set_default_logger(spdlog::stdout_color_mt("console"));
+        run(options);
+        return 0;
+    });
+}

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "console/opening.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/config/text_file.h"
+
+namespace aquarama::console {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kHoursFile = "hours.txtpb";
+constexpr const char* kDoneFile = "opening.json";
+constexpr double kWarmUpSeconds = 180;
+constexpr double kMostHoldHours = 10;
+constexpr double kHourSeconds = 3600;
+
+// Whole or not at all.
+void write(const std::filesystem::path& path, const std::string& text) {
+    writeWhole(path, std::as_bytes(std::span(text)));
+}
+
+}  // namespace
+
+// Whatever is wrong with what was kept, the console starts.
+Opening::Opening(std::filesystem::path folder) : folder_{std::move(folder)} {
+    try {
+        if (std::filesystem::exists(folder_ / kHoursFile)) {
+            text_ = config::readTextFile((folder_ / kHoursFile).string());
+            hours_ = config::parseHours(text_, (folder_ / kHoursFile).string());
+        }
+        if (std::filesystem::exists(folder_ / kDoneFile)) {
+            const json kept = json::parse(config::readTextFile((folder_ / kDoneFile).string()));
+            heldUntil_ = kept.at("held_until").get<double>();
+            if (kept.contains("open"))
+                done_ = {kept.at("open").get<bool>(),
+                         kept.at("scene").get<std::string>(),
+                         kept.at("quality").get<std::string>()};
+        }
+    } catch (const std::exception& problem) {
+        logWarning("{}; there are no hours until that is mended", problem.what());
+    }
+    watchProjectors();
+}
+
+// Anew, when the hours are: addresses may be others.
+void Opening::watchProjectors() {
+    projectors_.clear();
+    power_.reset();
+    shut_.reset();
+    if (!hours_) return;
+    for (const config::ControlledProjector& one : hours_->projectors)
+        projectors_.push_back(std::make_unique<ProjectorWatch>(one));
+}
+
+// After each change, so that nothing is done twice after a start.
+void Opening::keep() const {
+    json kept{{"held_until", heldUntil_}};
+    if (done_) {
+        kept["open"] = done_->isOpen;
+        kept["scene"] = done_->scene;
+        kept["quality"] = done_->quality;
+    }
+    write(folder_ / kDoneFile, kept.dump());
+}
+
+// First read, then kept: a mistake changes nothing.
+void Opening::setText(const std::string& text) {
+    std::optional<config::Hours> hours;
+    if (!text.empty()) hours = config::parseHours(text, kHoursFile);
+    write(folder_ / kHoursFile, text);
+    if (text.empty()) std::filesystem::remove(folder_ / kHoursFile);
+    text_ = text;
+    hours_ = std::move(hours);
+    watchProjectors();
+}
+
+// Ends by itself: somebody forgets it.
+void Opening::hold(double forHours, UnixSeconds now) {
+    const double hours = std::clamp(forHours, 0.0, kMostHoldHours);
+    heldUntil_ = hours > 0 ? now + hours * kHourSeconds : 0;
+    keep();
+}
+
+// 0 where it is not held.
+UnixSeconds Opening::heldUntil(UnixSeconds now) const {
+    return heldUntil_ > now ? heldUntil_ : 0;
+}
+
+// By the clock of the rig's zone.
+config::WantedHours Opening::wantedIn(UnixSeconds now) const {
+    return config::wantedAt(*hours_, config::civilTime(hours_->zone, static_cast<long long>(now)));
+}
+
+// What was brought about last is compared, not what the wall shows: an operator may have set that.
+std::optional<config::WantedHours> Opening::due(UnixSeconds now) const {
+    if (!hours_ || heldUntil(now) > 0) return std::nullopt;
+    const config::WantedHours wanted = wantedIn(now);
+    return done_ == wanted ? std::nullopt : std::optional(wanted);
+}
+
+void Opening::done(const config::WantedHours& wanted) {
+    done_ = wanted;
+    keep();
+}
+
+// A wall in service is not.
+bool Opening::isClosed(UnixSeconds now) const {
+    return hours_ && heldUntil(now) == 0 && !wantedIn(now).isOpen;
+}
+
+// On three minutes before the wall opens, and off once the wall has been made black.
+bool Opening::isLampWanted(UnixSeconds now) const {
+    const bool isBlack = done_ && !done_->isOpen;
+    return !isBlack || wantedIn(now).isOpen || wantedIn(now + kWarmUpSeconds).isOpen;
+}
+
+// All together: when all lamps are on, or when those that are not have had their time.
+bool Opening::mayOpenShutters(UnixSeconds now) const {
+    if (openSince_ == 0) return false;
+    if (shut_ == false || now - openSince_ > kWarmUpSeconds) return true;
+    return std::ranges::all_of(projectors_,
+                               [](const auto& one) { return one->facts().power == "on"; });
+}
+
+// Said when it changes: what somebody sets by hand between holds.
+void Opening::switchProjectors(UnixSeconds now, bool isWallInStep) {
+    if (!hours_ || projectors_.empty() || heldUntil(now) > 0) return;
+    if (!wantedIn(now).isOpen)
+        openSince_ = 0;
+    else if (openSince_ == 0)
+        openSince_ = now;
+    const bool power = isLampWanted(now);
+    const bool shut = !isWallInStep || !mayOpenShutters(now);
+    if (power_ == power && shut_ == shut) return;
+    power_ = power;
+    shut_ = shut;
+    for (const auto& one : projectors_) one->want(power, shut);
+}
+
+// Until the hours want something else of it.
+bool Opening::setProjector(const browser::ProjectorCommand& command) {
+    bool isThere = false;
+    for (const auto& one : projectors_) {
+        if (!command.name().empty() && one->name() != command.name()) continue;
+        isThere = true;
+        one->want(command.has_power() ? std::optional(command.power()) : std::nullopt,
+                  command.has_shut() ? std::optional(command.shut()) : std::nullopt);
+    }
+    return isThere;
+}
+
+// Minute by minute, as far as people look ahead.
+browser::Hours Opening::hours(UnixSeconds now) const {
+    constexpr int kMinutes = 60, kMinuteSeconds = 60;
+    browser::Hours message;
+    message.set_text(text_);
+    message.set_present(hours_.has_value());
+    message.set_next("stays");
+    if (!hours_) return message;
+    const config::WantedHours wanted = wantedIn(now);
+    message.set_open(wanted.isOpen);
+    for (int minute = 1; minute <= kMinutes; ++minute) {
+        const UnixSeconds then = now - std::fmod(now, kMinuteSeconds) + minute * kMinuteSeconds;
+        const config::WantedHours next = wantedIn(then);
+        if (next == wanted) continue;
+        message.set_next(!next.isOpen ? "closes" : wanted.isOpen ? "changes" : "opens");
+        message.set_next_scene(next.scene);
+        const int clock = config::civilTime(hours_->zone, static_cast<long long>(then)).minute;
+        message.set_next_at(fmt::format("{:02}:{:02}", clock / kMinutes, clock % kMinutes));
+        break;
+    }
+    return message;
+}
+
+// As they last answered, twenty seconds ago at most.
+browser::ProjectorList Opening::projectors() const {
+    browser::ProjectorList list;
+    for (const auto& one : projectors_) {
+        const ProjectorFacts facts = one->facts();
+        browser::ProjectorState& state = *list.add_projectors();
+        state.set_name(one->name());
+        state.set_power(facts.power);
+        state.set_shut(facts.isShut);
+        state.set_lamp_hours(facts.lampHours);
+        for (const std::string& problem : facts.problems) state.add_problems(problem);
+    }
+    return list;
+}
+
+}  // namespace aquarama::console

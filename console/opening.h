@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opens and closes the wall by its hours: what is wanted now against what was last brought about,
+// and the projectors that go with it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config/hours.h"
+#include "console/access.h"
+#include "console/console.pb.h"
+#include "console/pjlink.h"
+
+namespace aquarama::console {
+
+// Keeps the hours of a rig in its state folder. One thread uses it.
+class Opening {
+  public:
+    // A file that cannot be read is logged, and there are no hours.
+    explicit Opening(std::filesystem::path folder);
+
+    // Takes another text and keeps it; empty: no hours any more. Throws Error, as parseHours().
+    void setText(const std::string& text);
+    // The schedule rests for so long, ten hours at most; 0: it goes on.
+    void hold(double forHours, UnixSeconds now);
+    [[nodiscard]] UnixSeconds heldUntil(UnixSeconds now) const;
+
+    // What the wall is to be told now, if anything: asked every second, answered until done() was
+    // called with it. What an operator sets meanwhile holds until the hours want something else.
+    [[nodiscard]] std::optional<config::WantedHours> due(UnixSeconds now) const;
+    void done(const config::WantedHours& wanted);
+    // Whether the wall is off on purpose.
+    [[nodiscard]] bool isClosed(UnixSeconds now) const;
+
+    // Every second: projectors on three minutes before, their shutters open together when the wall
+    // is in step, and off when it has been made black.
+    void switchProjectors(UnixSeconds now, bool isWallInStep);
+    // Of one, or of all where the name is empty; false where there is none of that name.
+    bool setProjector(const browser::ProjectorCommand& command);
+
+    [[nodiscard]] browser::Hours hours(UnixSeconds now) const;
+    [[nodiscard]] browser::ProjectorList projectors() const;
+
+  private:
+    [[nodiscard]] config::WantedHours wantedIn(UnixSeconds now) const;
+    void watchProjectors();
+    [[nodiscard]] bool isLampWanted(UnixSeconds now) const;
+    [[nodiscard]] bool mayOpenShutters(UnixSeconds now) const;
+    void keep() const;
+
+    std::filesystem::path folder_;
+    std::string text_;
+    std::optional<config::Hours> hours_;
+    std::optional<config::WantedHours> done_;  // what was last brought about
+    UnixSeconds heldUntil_ = 0;
+    UnixSeconds openSince_ = 0;
+    std::vector<std::unique_ptr<ProjectorWatch>> projectors_;
+    std::optional<bool> power_, shut_;  // that all projectors were last told
+};
+
+}  // namespace aquarama::console

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "console/overview.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <google/protobuf/util/json_util.h>
+#include <spdlog/fmt/fmt.h>
+
+namespace aquarama::console {
+
+namespace {
+
+// As aquarama status has it.
+std::string conditionWord(v1::NodeCondition condition) {
+    switch (condition) {
+        case v1::NODE_ABSENT:
+            return "absent";
+        case v1::NODE_PREPARING:
+            return "preparing";
+        case v1::NODE_IN_STEP:
+            return "in step";
+        default:
+            return "late";
+    }
+}
+
+// Why a node is not as it should be; empty where nothing is known to be wrong.
+std::string causeOf(const v1::NodeStatus& node) {
+    if (node.hash_mismatches() > 0) return "shows other fish than were sent";
+    switch (node.condition()) {
+        case v1::NODE_ABSENT:
+            return node.machine().empty() ? "its process does not run"
+                                          : "nothing is heard of machine " + node.machine();
+        case v1::NODE_PREPARING:
+            return "it builds what it will show";
+        case v1::NODE_LATE:
+            return fmt::format("its pictures take {:.0f} ms", node.report().picture_median_ms());
+        default:
+            return {};
+    }
+}
+
+// A node that has not reported yet has empty fields.
+void addNode(browser::Wall& wall, const v1::NodeStatus& from, const std::string& build) {
+    const v1::NodeReport& report = from.report();
+    browser::Node& node = *wall.add_nodes();
+    node.set_name(from.name());
+    node.set_condition(conditionWord(from.condition()));
+    node.set_cause(causeOf(from));
+    node.set_late(from.late());
+    node.set_dropped(from.dropped());
+    node.set_hash_mismatches(from.hash_mismatches());
+    node.set_host(report.host());
+    node.set_build(report.build());
+    node.set_other_build(!report.build().empty() && report.build() != build);
+    node.set_renderer(report.renderer());
+    for (const std::string& monitor : report.monitors()) node.add_monitors(monitor);
+    node.set_picture_median_ms(report.picture_median_ms());
+    node.set_picture_p99_ms(report.picture_p99_ms());
+    node.set_round_trip_ms(report.round_trip_median_ms());
+    node.set_celsius(report.gpu_celsius());
+    node.set_drift_ppm(report.clock_drift_ppm());
+}
+
+// What is wanted, and how much light there is on the way to it.
+void takeShow(browser::Wall& wall, const wire::Show& show) {
+    wall.set_scene(show.scene);
+    wall.set_quality(std::string(config::nameOf(show.quality)));
+    wall.set_pattern(std::string(wire::nameOf(show.pattern)));
+    wall.set_black(show.black);
+    wall.set_frozen(show.frozen);
+    wall.set_pilot(show.pilot);
+    wall.set_brightness_percent(
+        static_cast<std::uint32_t>(std::lround(100 * std::clamp(show.brightness, 0.0F, 1.0F))));
+}
+
+}  // namespace
+
+// Names what the master numbers.
+browser::Wall wallOf(const v1::StatusReply& status, std::uint64_t run, const std::string& build) {
+    browser::Wall wall;
+    wall.set_heard(true);
+    wall.set_run(run);
+    wall.set_frame(status.frame());
+    wall.set_tick(status.tick());
+    wall.set_pace(status.pace() == v1::PACE_LIVE ? "live" : "lockstep");
+    takeShow(wall, wire::readShow(status.show()).value_or(wire::Show{}));
+    wall.set_change(status.change());
+    wall.set_frame_median_ms(status.frame_median_ms());
+    wall.set_frame_p99_ms(status.frame_p99_ms());
+    wall.set_skew_median_ms(status.skew_median_ms());
+    wall.set_skew_p99_ms(status.skew_p99_ms());
+    for (const std::uint32_t count : status.skew_counts()) wall.add_skew_counts(count);
+    wall.set_refused_packets(status.refused_packets());
+    for (const v1::NodeStatus& node : status.nodes()) addNode(wall, node, build);
+    if (const auto eye = wire::readEye(status.eye())) wall.set_depth_m(-eye->positionMetres.y);
+    wall.set_speed_m_s(status.speed_m_s());
+    return wall;
+}
+
+// A silent master hides everything else: it is the one fault then.
+std::vector<Fault> faultsOf(const browser::Wall& wall, UnixSeconds now) {
+    constexpr double kSilence = 3, kStart = 60, kOutOfStep = 10, kHot = 30;
+    constexpr float kHotCelsius = 85;
+    if (!wall.heard() || now - wall.heard_s() > kSilence)
+        return {{"master",
+                 "the master does not answer: no show runs, or it hangs",
+                 wall.heard_s() > 0 ? kSilence : kStart}};
+    std::vector<Fault> faults;
+    for (const browser::Node& node : wall.nodes()) {
+        const std::string name = "node " + node.name();
+        if (node.condition() != "in step")
+            faults.push_back(
+                {name, name + " is " + node.condition() + ": " + node.cause(), kOutOfStep});
+        if (node.hash_mismatches() > 0)
+            faults.push_back({name + " hash", name + " shows other fish than were sent", 0});
+        if (node.celsius() >= kHotCelsius)
+            faults.push_back({name + " hot",
+                              fmt::format("{}: its card has {:.0f} degrees", name, node.celsius()),
+                              kHot});
+        if (node.other_build())
+            faults.push_back({name + " build", name + " is of another build", kOutOfStep});
+    }
+    return faults;
+}
+
+// Another run of the master is one line, not ten.
+std::vector<std::string> changesOf(const browser::Wall& before, const browser::Wall& after) {
+    std::vector<std::string> lines;
+    const auto note = [&](bool hasChanged, std::string line) {
+        if (hasChanged) lines.push_back(std::move(line));
+    };
+    if (before.run() != after.run()) return {"the show has begun: scene " + after.scene()};
+    note(before.black() != after.black(), after.black() ? "the wall is black" : "light again");
+    note(before.frozen() != after.frozen(), after.frozen() ? "frozen" : "the world moves again");
+    note(before.scene() != after.scene(), "scene " + after.scene());
+    note(before.pattern() != after.pattern(), "pattern " + after.pattern());
+    note(before.quality() != after.quality(), "quality " + after.quality());
+    for (int i = 0; i < std::min(before.nodes_size(), after.nodes_size()); ++i)
+        note(before.nodes(i).condition() != after.nodes(i).condition(),
+             "node " + after.nodes(i).name() + " is " + after.nodes(i).condition());
+    return lines;
+}
+
+// The minute's largest: a mean would hide what people saw.
+void FigureRings::add(const std::string& name, float value) {
+    constexpr std::size_t kSeconds = 600, kMinutes = 1440;
+    Ring& ring = rings_[name];
+    ring.seconds.push_back(value);
+    if (ring.seconds.size() > kSeconds) ring.seconds.pop_front();
+    ring.largest = std::max(ring.largest, value);
+    if (secondsOfMinute_ != 0) return;
+    ring.minutes.push_back(std::exchange(ring.largest, 0.0F));
+    if (ring.minutes.size() > kMinutes) ring.minutes.pop_front();
+}
+
+void FigureRings::add(const browser::Wall& wall) {
+    constexpr int kSecondsOfMinute = 60;
+    secondsOfMinute_ = (secondsOfMinute_ + 1) % kSecondsOfMinute;
+    add("frame", wall.frame_median_ms());
+    add("skew", wall.skew_p99_ms());
+    for (const browser::Node& node : wall.nodes())
+        add("node " + node.name(), node.picture_median_ms());
+}
+
+// In the order of their names.
+browser::History FigureRings::history() const {
+    browser::History history;
+    for (const auto& [name, ring] : rings_) {
+        browser::Series& seconds = *history.add_ten_minutes();
+        seconds.set_name(name);
+        seconds.mutable_values()->Add(ring.seconds.begin(), ring.seconds.end());
+        browser::Series& minutes = *history.add_day();
+        minutes.set_name(name);
+        minutes.mutable_values()->Add(ring.minutes.begin(), ring.minutes.end());
+    }
+    return history;
+}
+
+// Of the wall as a whole, so that one address tells of all machines.
+std::string metricsOf(const browser::Wall& wall, std::uint64_t cutOff) {
+    std::string text;
+    const auto one = [&](const std::string& name, double value) {
+        text += fmt::format("aquarama_console_{} {}\n", name, value);
+    };
+    one("master_answers", wall.heard() ? 1 : 0);
+    one("frame", static_cast<double>(wall.frame()));
+    one("frame_median_ms", static_cast<double>(wall.frame_median_ms()));
+    one("skew_p99_ms", static_cast<double>(wall.skew_p99_ms()));
+    one("black", wall.black() ? 1 : 0);
+    one("browsers", wall.watching());
+    one("refused_requests_total", static_cast<double>(wall.refused_requests()));
+    one("cut_off_connections_total", static_cast<double>(cutOff));
+    for (const browser::Node& node : wall.nodes()) {
+        const std::string label = "{node=\"" + node.name() + "\"}";
+        one("node_in_step" + label, node.condition() == "in step" ? 1 : 0);
+        one("node_late_total" + label, static_cast<double>(node.late()));
+        one("node_dropped_total" + label, static_cast<double>(node.dropped()));
+        one("node_hash_mismatches_total" + label, static_cast<double>(node.hash_mismatches()));
+        one("node_picture_median_ms" + label, static_cast<double>(node.picture_median_ms()));
+        one("node_gpu_celsius" + label, static_cast<double>(node.celsius()));
+    }
+    return text;
+}
+
+// A zero is said: a page need not know what is left out.
+std::string jsonOf(const browser::ToBrowser& message) {
+    google::protobuf::util::JsonPrintOptions options;
+    options.always_print_primitive_fields = true;
+    std::string text;
+    static_cast<void>(google::protobuf::util::MessageToJsonString(message, &text, options));
+    return text;
+}
+
+// protobuf refuses unknown fields, wrong types and depth; sizes are ours to bound.
+std::optional<browser::FromBrowser> readBrowser(const std::string& text) {
+    constexpr std::size_t kMostBytes = 65536;
+    constexpr int kMostListed = 64;
+    if (text.size() > kMostBytes) return std::nullopt;
+    browser::FromBrowser message;
+    if (!google::protobuf::util::JsonStringToMessage(text, &message).ok()) return std::nullopt;
+    const browser::Look& look = message.look();
+    if (look.topics_size() > kMostListed || look.channels_size() > kMostListed) return std::nullopt;
+    return message;
+}
+
+}  // namespace aquarama::console

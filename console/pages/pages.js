@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pages: each is {look: what it needs to be told, view: what it shows of the link's knowledge}.
+import {html, nothing, svg} from '/vendor/lit-html.js';
+import {Plot, button, dateTime, holdButton, ms, skewBars, state, t, time, views, word} from '/widgets.js';
+
+const QUALITIES = ['low', 'medium', 'high', 'ultra', 'auto'];
+const PATTERNS = ['world', 'grid', 'grey'];
+const channelsOf = link => link.known.snapshot?.channels ?? [];
+const namesOf = link => channelsOf(link).map(channel => channel.name);
+
+// --- the wall
+
+const wish = {};  // what was chosen in a list and not yet shown
+function chooser(link, what, values, shown, act) {
+  const chosen = wish[what] ?? shown;
+  const choose = event => { wish[what] = event.target.value; link.dispatchEvent(new Event('change')); };
+  const done = () => { act(chosen); delete wish[what]; };
+  return html`<div class="row"><label for=${what}>${t(`wall.${what}`)}</label>
+    <select id=${what} ?disabled=${!link.may('OPERATOR')} @change=${choose}>
+      ${values.map(value => html`<option value=${value} ?selected=${value === chosen}>${word(value)}</option>`)}</select>
+    ${holdButton(t('wall.apply'), done, {disabled: !link.may('OPERATOR') || chosen === shown})}</div>`;
+}
+
+// Black is held; the way back is one tap, in the same place.
+function light(link) {
+  const disabled = !link.may('OPERATOR');
+  const {black, frozen} = link.wall;
+  const undo = () => link.command({black: false}, t('wall.light'));
+  return html`<section class="panel" aria-labelledby="light"><h2 id="light">${t('wall.lightTitle')}</h2>
+    <div class="row">${black
+      ? html`<button class="primary" ?disabled=${disabled} @click=${undo}>${t('wall.light')}</button>`
+      : holdButton(t('wall.black'), () => link.command({black: true}, t('wall.black')), {disabled})}
+    ${button(t(frozen ? 'wall.move' : 'wall.freeze'), () => link.command({freeze: !frozen}, t(frozen ? 'wall.move' : 'wall.freeze')),
+             {disabled, pressed: frozen ? 'true' : 'false'})}</div>
+    <p class="note">${t(black ? 'wall.isBlack' : 'wall.isLit', {percent: link.wall.brightnessPercent})}</p></section>`;
+}
+
+// --- the helm
+
+const helm = {taken: false, held: new Set(), timer: null};
+const AXES = {ahead: [['ahead', 127]], back: [['ahead', -127]], left: [['turn', 127]], right: [['turn', -127]],
+              rise: [['up', 127]], sink: [['up', -127]]};
+const KEYS = {w: 'ahead', s: 'back', a: 'left', d: 'right', r: 'rise', f: 'sink'};
+function steer(link) {
+  const axes = {ahead: 0, aside: 0, up: 0, turn: 0, tilt: 0};
+  for (const name of helm.held) for (const [axis, value] of AXES[name]) axes[axis] += value;
+  link.say({helm: axes});
+}
+function holdHelm(link, name, on) {
+  on ? helm.held.add(name) : helm.held.delete(name);
+  steer(link);
+  clearInterval(helm.timer);
+  if (helm.held.size) helm.timer = setInterval(() => link.isStale ? letGo(link) : steer(link), 100);
+}
+function letGo(link) {
+  helm.held.clear();
+  clearInterval(helm.timer);
+  steer(link);
+}
+function pad(link) {
+  const one = (name, sign) => html`<button aria-label=${t(`helm.${name}`)} title=${t(`helm.${name}`)} ?disabled=${!link.may('OPERATOR')}
+    @pointerdown=${() => holdHelm(link, name, true)} @pointerup=${() => holdHelm(link, name, false)}
+    @pointerleave=${() => holdHelm(link, name, false)} @pointercancel=${() => holdHelm(link, name, false)}
+    @keydown=${event => [' ', 'Enter'].includes(event.key) && !event.repeat && holdHelm(link, name, true)}
+    @keyup=${() => holdHelm(link, name, false)} @blur=${() => holdHelm(link, name, false)}>${sign}</button>`;
+  const key = on => event => { const name = KEYS[event.key.toLowerCase()]; if (name && !event.repeat) holdHelm(link, name, on); };
+  return html`<div class="pad" @keydown=${key(true)} @keyup=${key(false)}>
+    ${one('rise', '⤒')}${one('ahead', '▲')}${one('sink', '⤓')}${one('left', '◀')}${one('back', '▼')}${one('right', '▶')}</div>
+    <p class="note">${t('helm.keys')}</p>`;
+}
+function helmPanel(link) {
+  const toggle = () => { helm.taken = !helm.taken; letGo(link); link.dispatchEvent(new Event('change')); };
+  return html`<section class="panel" aria-labelledby="helm"><h2 id="helm">${t('helm.title')}</h2>
+    <p>${link.wall.pilot ? t('helm.pilot', {pilot: link.wall.pilot}) : t('helm.nobody')} ·
+       ${t('helm.place', {depth: (link.wall.depthM ?? 0).toFixed(1), speed: (link.wall.speedMS ?? 0).toFixed(1)})}</p>
+    <div class="row">${button(t(helm.taken ? 'helm.leave' : 'helm.take'), toggle, {disabled: !link.may('OPERATOR'), pressed: String(helm.taken)})}</div>
+    ${helm.taken ? pad(link) : nothing}</section>`;
+}
+
+function figures(wall) {
+  return html`<section class="panel" aria-labelledby="figures"><h2 id="figures">${t('wall.now')}</h2><dl>
+    <dt>${t('wall.scene')}</dt><dd>${word(wall.scene)}</dd><dt>${t('wall.quality')}</dt><dd>${word(wall.quality)}</dd>
+    <dt>${t('wall.pattern')}</dt><dd>${word(wall.pattern)}</dd>
+    <dt>${t('wall.frame')}</dt><dd>${wall.frame} · ${t('wall.tick')} ${wall.tick}</dd>
+    <dt>${t('wall.frameTime')}</dt><dd>${ms(wall.frameMedianMs)} · 99 % ${ms(wall.frameP99Ms)}</dd>
+    <dt>${t('wall.skew')}</dt><dd>${ms(wall.skewMedianMs, 2)} · 99 % ${ms(wall.skewP99Ms, 2)}</dd>
+    <dt>${t('wall.nodes')}</dt><dd>${(wall.nodes ?? []).map(node => html`${node.name} ${state(node.condition)} `)}</dd></dl></section>`;
+}
+
+const wallPage = {
+  look: link => ({channels: namesOf(link), widthPx: 480}),
+  view: link => html`<h2 class="hidden">${t('page.wall')}</h2>${views(channelsOf(link))}
+    <p class="note">${t('preview.note')}</p>
+    <div class="panels">${light(link)}${figures(link.wall)}
+      <section class="panel" aria-labelledby="shown"><h2 id="shown">${t('wall.shown')}</h2>
+        ${chooser(link, 'scene', link.known.snapshot.scenes, link.wall.scene, value => link.command({scene: value}, `${t('wall.scene')}: ${word(value)}`))}
+        ${chooser(link, 'quality', QUALITIES, link.wall.quality, value => link.command({quality: value}, `${t('wall.quality')}: ${word(value)}`))}
+        ${chooser(link, 'pattern', PATTERNS, link.wall.pattern, value => link.command({pattern: value}, `${t('wall.pattern')}: ${word(value)}`))}
+        <p class="note">${t('wall.patternNote')}</p></section>
+      ${helmPanel(link)}</div>`,
+};
+
+// --- nodes
+
+const tenMinutes = new Plot(1), day = new Plot(60);
+let appendedAt = 0;
+const frames = {seconds: [], minutes: []};
+function takeHistory(link) {
+  const history = link.known.history;
+  if (history && frames.of !== history) {
+    frames.of = history;
+    frames.seconds = (history.tenMinutes ?? []).map(one => ({name: one.name, values: [...(one.values ?? [])]}));
+    frames.minutes = (history.day ?? []).map(one => ({name: one.name, values: [...(one.values ?? [])]}));
+  }
+  if (performance.now() - appendedAt < 1000 || link.isStale) return;
+  appendedAt = performance.now();
+  const values = {frame: link.wall.frameMedianMs, skew: link.wall.skewP99Ms};
+  for (const node of link.wall.nodes ?? []) values[`node ${node.name}`] = node.pictureMedianMs;
+  for (const one of frames.seconds) {
+    one.values.push(values[one.name] ?? null);
+    if (one.values.length > 600) one.values.shift();
+  }
+  tenMinutes.show(frames.seconds);
+  day.show(frames.minutes);
+}
+
+const nodeRow = link => node => html`<tr>
+  <th scope="row">${node.name}</th><td>${state(node.condition)}${node.cause ? html`<div class="note">${word(node.cause)}</div>` : nothing}</td>
+  <td class="n">${ms(node.pictureMedianMs)}<div class="note">99 % ${ms(node.pictureP99Ms)}</div></td>
+  <td class="n">${node.late}</td><td class="n">${node.dropped}</td>
+  <td>${Number(node.hashMismatches) ? html`<span class="bad">✖ ${t('nodes.differs')}</span>` : html`<span class="good">● ${t('nodes.same')}</span>`}</td>
+  <td class="n">${ms(node.roundTripMs, 2)}</td><td class="n">${node.celsius ? `${node.celsius.toFixed(0)} °C` : '–'}</td>
+  <td>${(node.monitors ?? []).join(', ') || '–'}</td>
+  <td>${node.host || '–'}<div class="note" title=${node.renderer}>${node.renderer.split(' (')[0]}</div></td>
+  <td>${node.otherBuild ? html`<span class="warn">▲ ${node.build}</span>` : node.build || '–'}</td>
+  <td>${holdButton(t('nodes.restart'), () => link.command({restart: node.name}, t('nodes.restarting', {name: node.name})), {disabled: !link.may('OPERATOR')})}</td></tr>`;
+
+const nodesPage = {
+  look: () => ({topics: ['history']}),
+  view: link => {
+    takeHistory(link);
+    const heads = ['node', 'condition', 'picture', 'late', 'dropped', 'fish', 'roundTrip', 'celsius', 'monitors', 'machine', 'build', 'act'];
+    const numbers = ['picture', 'late', 'dropped', 'roundTrip', 'celsius'];
+    return html`<section class="panel wide"><div class="scroll" tabindex="0" role="region" aria-label=${t('page.nodes')}><table><caption>${t('page.nodes')}</caption>
+      <thead><tr>${heads.map(head => html`<th scope="col" class=${numbers.includes(head) ? 'n' : ''}>${t(`nodes.${head}`)}</th>`)}</tr></thead>
+      <tbody>${(link.wall.nodes ?? []).map(nodeRow(link))}</tbody></table></div></section>
+      <div class="panels"><section class="panel"><h2>${t('skew.title')}</h2>${skewBars(link.wall.skewCounts)}</section>
+      <section class="panel wide"><h2>${t('nodes.tenMinutes')}</h2>${tenMinutes.element}</section>
+      <section class="panel wide"><h2>${t('nodes.day')}</h2>${day.element}</section></div>`;
+  },
+};
+
+// --- doctor
+
+const doctorPage = {
+  look: () => ({topics: ['doctor']}),
+  view: link => {
+    const report = link.known.doctor ?? {};
+    const findings = report.findings ?? [];
+    const count = verdict => findings.filter(finding => finding.verdict === verdict).length;
+    return html`<section class="panel"><h2>${t('page.doctor')}</h2>
+      <div class="row">${button(t('doctor.run'), () => link.command({runDoctor: true}, t('doctor.run')), {disabled: !link.may('WATCHER') || report.running})}
+      <span role="status">${report.running ? t('doctor.running') : report.atS ? t('doctor.result', {time: time(report.atS), pass: count('pass'), warn: count('warn'), fail: count('fail')}) : t('doctor.never')}</span></div>
+      ${report.problem ? html`<p class="bad">${report.problem}</p>` : nothing}
+      <div class="scroll" tabindex="0" role="region" aria-label=${t('page.doctor')}><table><thead><tr>${['verdict', 'subject', 'what', 'todo'].map(head => html`<th scope="col">${t(`doctor.${head}`)}</th>`)}</tr></thead>
+      <tbody>${[...findings].sort((a, b) => 'fwp'.indexOf(a.verdict[0]) - 'fwp'.indexOf(b.verdict[0])).map(finding => html`<tr>
+        <td>${state(finding.verdict)}</td><td>${finding.subject}</td><td>${finding.what}</td><td>${finding.todo}</td></tr>`)}</tbody></table></div></section>`;
+  },
+};
+
+// --- events and alerts
+
+export const standing = link => (link.known.alerts?.alerts ?? []).filter(alert => alert.state !== 'acknowledged');
+const alertItem = link => alert => html`<li>${state(alert.state)}<span>${word(alert.text)}</span><span class="quiet">${t('alert.since', {time: dateTime(alert.sinceS)})}</span>
+  ${alert.state === 'acknowledged' ? nothing : button(t('alert.acknowledge'), () => link.command({acknowledge: alert.key}, t('alert.acknowledge')), {disabled: !link.may('OPERATOR')})}</li>`;
+
+const eventsPage = {
+  look: () => ({}),
+  view: link => {
+    const alerts = link.known.alerts?.alerts ?? [];
+    return html`<section class="panel"><h2>${t('alert.title')}</h2>
+      ${alerts.length ? html`<ul class="alerts">${alerts.map(alertItem(link))}</ul>` : html`<p class="good">● ${t('alert.none')}</p>`}</section>
+      <section class="panel wide"><h2>${t('page.events')}</h2><ol class="events">${(link.known.events?.events ?? []).map(event => html`
+        <li><span class="quiet">${dateTime(event.atS)}</span><strong>${word(event.who)}</strong><span>${word(event.what)}</span></li>`)}</ol></section>`;
+  },
+};
+
+// --- log
+
+const filter = {logNode: '', logText: '', logProblemsOnly: false};
+const logPage = {
+  look: () => ({topics: ['log'], ...filter}),
+  view: link => {
+    const change = (name, value) => { filter[name] = value; link.look = logPage.look(link); link.sayLook(); };
+    const log = link.known.log ?? {};
+    return html`<section class="panel wide"><h2>${t('page.log')}</h2>
+      <div class="row"><label for="logNode">${t('log.node')}</label><select id="logNode" @change=${event => change('logNode', event.target.value)}>
+        <option value="">${t('log.all')}</option>${['master', ...namesOf(link)].map(name => html`<option ?selected=${name === filter.logNode}>${name}</option>`)}</select>
+      <label for="logText">${t('log.text')}</label><input id="logText" type="search" maxlength="100" @input=${event => change('logText', event.target.value)}>
+      ${button(t('log.problems'), () => change('logProblemsOnly', !filter.logProblemsOnly), {pressed: String(filter.logProblemsOnly)})}
+      <a class="button" href="/bundle.tar" download>${t('log.bundle')}</a></div>
+      ${log.problem ? html`<p class="warn">${log.problem}</p>` : nothing}
+      <div class="scroll" tabindex="0" role="region" aria-label=${t('page.log')}><table class="log"><thead><tr>${['time', 'node', 'severity', 'frame', 'line'].map(head => html`<th scope="col">${t(`log.${head}`)}</th>`)}</tr></thead>
+      <tbody>${[...(log.rows ?? [])].reverse().map(row => html`<tr><td title=${row.time}>${new Date(row.time).toLocaleTimeString(document.documentElement.lang, {hour12: false})}</td><td>${row.node}</td><td>${state(row.severity)}</td><td class="n">${row.frame}</td><td>${row.text}</td></tr>`)}</tbody></table></div></section>`;
+  },
+};
+
+// --- mind, drawn from the lines that aquarama explain prints
+
+const SECTORS = {ahead: 0, 'ahead right': 45, right: 90, 'behind right': 135, behind: 180, 'behind left': 225, left: 270, 'ahead left': 315};
+const SEEN = {predator: '▲', food: '•', mate: '♥', prey: '◆'};
+// What it sees and where: [{kind, what, distance in body lengths, degrees to the right of its heading}].
+export function sightingsIn(lines) {
+  const found = [];
+  for (const kind of Object.keys(SEEN)) {
+    const line = lines.find(one => new RegExp(`\\b${kind}\\s`).test(one.slice(9)));
+    const match = line?.slice(9).match(new RegExp(`${kind} +([^ -].*?), ([\\d.]+) L (ahead left|ahead right|behind left|behind right|ahead|behind|left|right)`));
+    if (match) found.push({kind, what: match[1], distance: Number(match[2]), degrees: SECTORS[match[3]]});
+  }
+  return found;
+}
+function compass(lines) {
+  const place = one => {
+    const reach = 90 * Math.min(1, Math.log1p(one.distance) / Math.log1p(60)), turn = one.degrees * Math.PI / 180;
+    return [100 + reach * Math.sin(turn), 100 - reach * Math.cos(turn)];
+  };
+  const seen = sightingsIn(lines);
+  const text = seen.map(one => `${t(`mind.${one.kind}`)}: ${one.what}, ${one.distance} L`).join('; ') || t('mind.seesNothing');
+  const mark = one => { const [x, y] = place(one);
+    return svg`<text x=${x} y=${y + 5} text-anchor="middle">${SEEN[one.kind]}</text><text class="small" x=${x} y=${y + 18} text-anchor="middle">${t(`mind.${one.kind}`)}</text>`; };
+  return html`<svg class="compass" viewBox="-30 0 260 205" role="img" aria-label=${text}><circle cx="100" cy="100" r="90"></circle><circle cx="100" cy="100" r="45"></circle>
+    <path d="M100 84 L106 112 L100 107 L94 112 Z"></path>${seen.map(mark)}</svg>`;
+}
+const feeling = (lines, name) => Number(lines.find(line => new RegExp(`${name}\\s+\\[`).test(line))?.match(/\]\s+([\d.]+)/)?.[1] ?? 0);
+function drawnMind(lines) {
+  const intends = lines.find(line => line.startsWith('INTENDS'))?.slice(9) ?? '';
+  return html`<div class="drawn"><div>${compass(lines)}<p class="note">${t('mind.compass')}</p></div>
+    <div><p class="intends">${intends || t('mind.away')}</p>${['hunger', 'libido', 'fear'].map(name => html`<p class="row"><span class="name" id=${`feels-${name}`}>${t(`mind.${name}`)}</span>
+      <meter aria-labelledby=${`feels-${name}`} min="0" max="1" value=${feeling(lines, name)}></meter> ${Math.round(100 * feeling(lines, name))} %</p>`)}</div></div>`;
+}
+
+
+const mindPage = {
+  look: link => ({topics: ['mind'], channels: namesOf(link), widthPx: 480}),
+  view: link => {
+    const mind = link.known.mind;
+    const point = (channel, preview, event) => {
+      if (link.isStale || preview.frame === null) return;
+      const place = preview.canvas.getBoundingClientRect();
+      const share = (value, from, size) => Math.min(1, Math.max(0, (value - from) / size));
+      link.command({pointAt: {channel: channel.name, frame: preview.frame,
+        x: share(event.clientX, place.left, place.width), y: share(event.clientY, place.top, place.height)}}, t('mind.asking'));
+    };
+    const ask = event => { event.preventDefault(); link.command({mind: Number(event.target.fish.value)}, t('mind.asking')); };
+    return html`<div class="mind">${views(channelsOf(link), point)}<p class="note">${t('mind.hint')}</p>
+      <section class="panel"><h2>${mind && mind.fish >= 0 ? t('mind.of', {fish: mind.fish}) : t('page.mind')}</h2>
+      <form class="row" @submit=${ask}><label for="fish">${t('mind.number')}</label><input id="fish" name="fish" type="number" min="0" max="99999" value="0">
+        <button ?disabled=${!link.may('WATCHER')}>${t('mind.ask')}</button></form>
+      <div role="status">${!mind ? t('mind.none') : mind.fish < 0 ? t('mind.noFish') : html`${mind.lines?.length ? drawnMind(mind.lines) : nothing}<pre>${(mind.lines ?? []).join('\n')}</pre>`}</div></section></div>`;
+  },
+};
+
+// --- the schedule
+
+const EXAMPLE = `zone: "${Intl.DateTimeFormat().resolvedOptions().timeZone}"
+open { days: [TUESDAY, WEDNESDAY, THURSDAY, FRIDAY] from: "10:00" to: "18:00" scene: "reef" }
+open { days: [SATURDAY, SUNDAY] from: "10:00" to: "20:00" scene: "reef" quality: "high" }
+exceptions { date: "2026-12-24" }  # closed
+`;
+let draft = null;  // a text that is being written
+const projectorRow = link => one => html`<tr><th scope="row">${one.name}</th>
+  <td><span class=${one.power === 'on' ? 'good' : one.power === 'off' ? 'quiet' : 'warn'}>${one.power === 'on' ? '●' : one.power === 'off' ? '○' : '▲'} ${word(one.power)}</span></td>
+  <td>${t(one.shut ? 'projector.isShut' : 'projector.isOpen')}</td><td class="n">${t('projector.hours', {n: one.lampHours})}</td>
+  <td class=${one.problems?.length ? 'bad' : ''}>${(one.problems ?? []).join(', ') || '–'}</td>
+  <td><div class="row">${holdButton(t(one.shut ? 'projector.open' : 'projector.shut'), () => link.command({projector: {name: one.name, shut: !one.shut}}, one.name), {disabled: !link.may('CREW')})}
+    ${holdButton(t(one.power === 'on' ? 'projector.off' : 'projector.on'), () => link.command({projector: {name: one.name, power: one.power !== 'on'}}, one.name), {disabled: !link.may('CREW')})}</div></td></tr>`;
+
+const schedulePage = {
+  look: () => ({topics: ['hours']}),
+  view: link => {
+    const hours = link.known.hours ?? {};
+    const held = link.wall.heldUntilS > 0;
+    const projectors = link.known.projectors?.projectors ?? [];
+    const next = t(`hours.${hours.next ?? 'stays'}`, {at: hours.nextAt, scene: hours.nextScene ? word(hours.nextScene) : ''});
+    if (draft === (hours.text ?? '')) draft = null;  // saved
+    const write = text => { draft = text; link.dispatchEvent(new Event('change')); };
+    const save = () => link.command({hoursText: draft}, t('hours.save'));
+    return html`<section class="panel"><h2>${t('page.schedule')}</h2>
+      <p role="status">${held ? html`<strong class="warn">▲ ${t('hours.held', {time: time(link.wall.heldUntilS)})}</strong>`
+        : hours.present ? html`<strong>${t(hours.open ? 'hours.isOpen' : 'hours.isClosed')}</strong> ${next}` : t('hours.none')}</p>
+      <div class="row">${held ? button(t('hours.goOn'), () => link.command({holdHours: 0}, t('hours.goOn')), {disabled: !link.may('OPERATOR')})
+        : button(t('hours.hold'), () => link.command({holdHours: 2}, t('hours.hold')), {disabled: !link.may('OPERATOR')})}<span class="note">${t('hours.holdNote')}</span></div></section>
+      ${projectors.length ? html`<section class="panel"><div class="scroll" tabindex="0" role="region" aria-label=${t('projector.title')}><table><caption>${t('projector.title')}</caption><tbody>${projectors.map(projectorRow(link))}</tbody></table></div></section>` : nothing}
+      <section class="panel"><h2><label for="hours">${t('hours.text')}</label></h2>
+      <textarea id="hours" rows="10" spellcheck="false" ?readonly=${!link.may('CREW')} .value=${draft ?? hours.text ?? ''} @input=${event => write(event.target.value)}></textarea>
+      <div class="row">${button(t('hours.save'), save, {disabled: !link.may('CREW') || draft === null})}
+      ${button(t('hours.example'), () => write(EXAMPLE), {disabled: !link.may('CREW') || hours.present})}</div>
+      <p class="note">${t('hours.textNote')}</p></section>`;
+  },
+};
+
+// --- who may use the console
+
+const ROLES = ['WATCHER', 'OPERATOR', 'CREW'];
+const peoplePage = {
+  look: () => ({topics: ['people']}),
+  view: link => {
+    const people = link.known.people ?? {};
+    const isCrew = link.role === 'CREW';
+    return html`<section class="panel"><h2>${t('page.people')}</h2><p>${t('people.you', {name: link.known.snapshot.name, role: t(`role.${link.role}`)})}
+      ${button(t('people.leave'), () => link.leave())}</p>
+      ${!isCrew ? html`<p class="note">${t('people.crewOnly')}</p>` : html`
+      <table><tbody>${(people.people ?? []).map(person => html`<tr><th scope="row">${person.name}${person.self ? ` (${t('people.self')})` : ''}</th>
+        <td>${t(`role.${person.role}`)}</td><td class="quiet">${dateTime(person.sinceS)}</td>
+        <td>${holdButton(t('people.revoke'), () => link.command({revoke: person.id}, t('people.revoke')), {disabled: !link.may('CREW') || person.self})}</td></tr>`)}</tbody></table>
+      <h3>${t('people.letIn')}</h3><div class="row">${ROLES.map(role => button(t(`role.${role}`), () => link.command({newCode: role}, t('people.letIn')), {disabled: !link.may('CREW')}))}</div>
+      <p role="status">${people.code ? html`<span class="code">${people.code}</span><br>${t('people.codeNote')}` : nothing}</p>`}</section>`;
+  },
+};
+
+export const pages = {wall: wallPage, nodes: nodesPage, events: eventsPage, schedule: schedulePage, doctor: doctorPage, log: logPage, mind: mindPage, people: peoplePage};

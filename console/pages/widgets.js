@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parts of pages: texts, buttons that are held, previews, plots.
+import {html, svg, nothing} from '/vendor/lit-html.js';
+
+// --- texts, one file a language
+
+let texts = {};
+export const languages = {en: 'English', de: 'Deutsch'};
+export const language = () => {
+  const wanted = localStorage.getItem('language') ?? navigator.language.slice(0, 2);
+  return wanted in languages ? wanted : 'en';
+};
+export async function loadTexts() {
+  texts = await (await fetch(`/texts/${language()}.json`)).json();
+  document.documentElement.lang = language();
+}
+// t('nodes.late', {n: 3}); a text that is missing shows its name.
+export const t = (name, values = {}) =>
+  (texts[name] ?? name).replace(/\{(\w+)\}/g, (_, key) => values[key] ?? '');
+// Words that the console says in English, such as "in step".
+export const word = text => texts[`word.${text}`] ?? text;
+
+// --- buttons
+
+// Acts only after it was held for a second, by pointer, Enter or space.
+export function holdButton(label, act, {disabled = false, primary = false} = {}) {
+  const begin = event => {
+    const button = event.currentTarget;
+    if (event.type === 'keydown' && (event.repeat || !['Enter', ' '].includes(event.key))) return;
+    if (event.type === 'keydown') event.preventDefault();
+    if (button.timer || button.disabled) return;
+    button.classList.add('holding');
+    button.timer = setTimeout(() => { stop(button); act(); }, 1000);
+  };
+  const stop = button => {
+    clearTimeout(button.timer);
+    button.timer = null;
+    button.classList.remove('holding');
+  };
+  const end = event => stop(event.currentTarget);
+  return html`<button class="hold ${primary ? 'primary' : ''}" ?disabled=${disabled} title=${t('hold.hint')} aria-description=${t('hold.hint')}
+    @pointerdown=${begin} @pointerup=${end} @pointerleave=${end} @pointercancel=${end} @blur=${end}
+    @keydown=${begin} @keyup=${end} @contextmenu=${event => event.preventDefault()}><span>${label}</span></button>`;
+}
+
+export const button = (label, act, {disabled = false, pressed} = {}) =>
+  html`<button ?disabled=${disabled} aria-pressed=${pressed ?? nothing} @click=${act}>${label}</button>`;
+
+// --- what is said in words
+
+export const time = seconds => new Date(seconds * 1000).toLocaleTimeString(language());
+export const dateTime = seconds => new Date(seconds * 1000).toLocaleString(language());
+export const ms = (value, digits = 1) => `${(value ?? 0).toFixed(digits)} ms`;
+
+// A state as shape and word: [shape, class].
+const SHAPES = {'in step': ['●', 'good'], late: ['▲', 'warn'], preparing: ['◐', 'warn'], absent: ['✖', 'bad'],
+                pass: ['●', 'good'], warn: ['▲', 'warn'], fail: ['✖', 'bad'],
+                firing: ['✖', 'bad'], over: ['◌', 'warn'], acknowledged: ['✓', 'quiet'],
+                info: ['·', 'quiet'], warning: ['▲', 'warn'], error: ['✖', 'bad']};
+export const state = name => {
+  const [shape, kind] = SHAPES[name] ?? ['?', 'quiet'];
+  return html`<span class=${kind}><span aria-hidden="true">${shape}</span> ${word(name)}</span>`;
+};
+
+// --- previews: the latest picture of each channel, kept outside of what is rendered
+
+const canvases = new Map();  // channel number -> {canvas, frame, at, busy}
+export function previewOf(number, width, height) {
+  let preview = canvases.get(number);
+  if (!preview) {
+    const canvas = document.createElement('canvas');
+    canvas.width = width;
+    canvas.height = height;
+    preview = {canvas, frame: null, at: -Infinity};
+    canvases.set(number, preview);
+  }
+  return preview;
+}
+export async function showPicture(link, {channel, frame, jpeg}) {
+  const preview = canvases.get(channel);
+  if (preview?.canvas.isConnected) {
+    try {
+      const picture = await createImageBitmap(jpeg);
+      if (preview.canvas.width !== picture.width) {
+        preview.canvas.width = picture.width;
+        preview.canvas.height = picture.height;
+      }
+      preview.canvas.getContext('2d').drawImage(picture, 0, 0);
+      picture.close();
+      Object.assign(preview, {frame, at: performance.now()});
+    } catch { /* cut off: the next one comes */ }
+  }
+  link.seen(channel);
+}
+export const views = (channels, onPoint) => html`<div class="views">${channels.map((channel, number) => {
+  const preview = previewOf(number, channel.widthPx, channel.heightPx);
+  preview.canvas.setAttribute('role', 'img');
+  preview.canvas.setAttribute('aria-label', t('preview.of', {name: channel.name}));
+  preview.canvas.onclick = onPoint ? event => onPoint(channel, preview, event) : null;
+  const old = performance.now() - preview.at;
+  const caption = preview.frame === null || old > 5000 ? t('preview.none') : t('preview.frame', {frame: preview.frame});
+  return html`<figure>${preview.canvas}<figcaption>${channel.name} · ${caption}</figcaption></figure>`;
+})}</div>`;
+
+// --- plots
+
+const EDGES = ['0.05', '0.1', '0.2', '0.5', '1', '2', '5', '10', '∞'];
+export function skewBars(counts = []) {
+  const most = Math.max(1, ...counts);
+  const total = counts.reduce((sum, count) => sum + count, 0);
+  const label = t('skew.label', {list: counts.map((count, i) => `≤ ${EDGES[i]} ms: ${count}`).join(', ')});
+  const bar = (count, i) => svg`<g><rect x=${i * 50 + 8} width="34" y=${110 - 90 * count / most} height=${90 * count / most}></rect>
+    <text x=${i * 50 + 25} y=${104 - 90 * count / most} text-anchor="middle">${count || ''}</text>
+    <text x=${i * 50 + 25} y="124" text-anchor="middle">${EDGES[i]}</text></g>`;
+  return html`<svg class="bars" viewBox="0 0 450 130" role="img" aria-label=${label}>${counts.map(bar)}</svg>
+    <p class="note">${t('skew.note', {n: total})}</p>`;
+}
+
+// One plot, made once and fed again. Axes have the page's own colours.
+const COLOURS = ['#2f7fb5', '#c2571a', '#3d8f4f', '#8b5fbf', '#b04a6c', '#7a7a1f', '#2a8c8c', '#666f7a'];
+export class Plot {
+  element = Object.assign(document.createElement('div'), {className: 'plot'});
+  #plot = null;
+  #names = '';
+  constructor(stepSeconds) { this.step = stepSeconds; }
+  show(series) {
+    const wide = this.element.clientWidth;
+    if (!wide || !series.length) return;
+    const names = series.map(one => one.name).join();
+    const colour = getComputedStyle(document.body).color;
+    if (names !== this.#names || this.colour !== colour) {
+      this.#plot?.destroy();
+      this.#names = names;
+      this.colour = colour;
+      const axis = {stroke: colour, grid: {stroke: '#8884', width: 1}, ticks: {stroke: '#8888'}};
+      this.#plot = new uPlot({
+        width: wide, height: 220, scales: {x: {time: true}},
+        axes: [axis, {...axis, values: (_, ticks) => ticks.map(tick => `${tick} ms`), size: 70}],
+        series: [{}, ...series.map((one, i) => ({label: one.name, stroke: COLOURS[i % COLOURS.length], width: 1.5}))],
+      }, [[], ...series.map(() => [])], this.element);
+    }
+    const count = Math.max(0, ...series.map(one => one.values.length));
+    const now = Date.now() / 1000;
+    const times = Array.from({length: count}, (_, i) => now - (count - 1 - i) * this.step);
+    if (Math.abs(wide - this.#plot.width) > 2) this.#plot.setSize({width: wide, height: 220});
+    this.#plot.setData([times, ...series.map(({values}) => Array(count - values.length).fill(null).concat(values))]);
+  }
+}

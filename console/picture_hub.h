@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where nodes bring pictures of their channels, on a thread of its own: asked for one at a time.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/net/channels.h"
+#include "common/wire/messages.h"
+
+namespace aquarama::console {
+
+// Called from the hub's thread.
+struct PictureListener {
+    std::function<void(const std::string& channel, const v1::FramePicture&)> picture;
+    std::function<void(const std::string& channel, const v1::FishReply&)> fish;
+};
+
+class PictureHub {
+  public:
+    // Throws Error where it cannot listen at the address. `keys`: past the loopback.
+    PictureHub(const std::string& watchAddress,
+               const std::optional<net::MasterKeys>& keys,
+               PictureListener listener);
+    ~PictureHub();
+    PictureHub(const PictureHub&) = delete;
+    PictureHub& operator=(const PictureHub&) = delete;
+
+    // From any thread. A node that is not there is asked nothing.
+    void askPicture(const std::string& channel, std::uint64_t number, std::uint32_t widthPixels);
+    void askFish(const std::string& channel, const v1::FishRequest& request);
+
+  private:
+    void run();
+    void hear(const net::FromPeer& from);
+    void meet(const net::FromPeer& from, const std::string& channel);
+    void ask(const std::string& channel, v1::Envelope question);
+
+    bool hasKeys_;
+    std::unique_ptr<net::MasterChannels> channels_;
+    PictureListener listener_;
+    std::map<net::PeerId, std::string> channelOf_;
+    std::map<std::string, net::PeerId> peerOf_;
+    std::atomic<bool> ended_ = false;
+    std::mutex mutex_;
+    std::vector<std::pair<std::string, v1::Envelope>> questions_;
+    std::thread thread_;
+};
+
+// Its master's keys, and whose nodes may connect; nothing where the rig needs none. Throws Error
+// where they cannot be read.
+[[nodiscard]] std::optional<net::MasterKeys> watchKeysOf(const std::string& rigPath);
+
+}  // namespace aquarama::console

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "console/show_link.h"
+
+#include <chrono>
+#include <utility>
+
+#include "common/base/log.h"
+
+namespace aquarama::console {
+
+namespace {
+
+constexpr auto kBetweenLooks = std::chrono::milliseconds(200);
+constexpr std::size_t kMostWanted = 64;
+
+}  // namespace
+
+ShowLink::ShowLink(const ask::AskedMaster& master, ShowListener listener)
+    : client_{master.connect()}, listener_{std::move(listener)}, thread_{[this] { run(); }} {}
+
+ShowLink::~ShowLink() {
+    {
+        const std::lock_guard lock(mutex_);
+        ended_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+}
+
+// Of a flood the rest is lost: it is repeated by whoever wants it.
+void ShowLink::set(v1::Set set) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (wanted_.size() < kMostWanted) wanted_.push_back(std::move(set));
+    }
+    changed_.notify_all();
+}
+
+// The newest counts: it is a state.
+void ShowLink::steer(const Steering& steering) {
+    {
+        const std::lock_guard lock(mutex_);
+        steering_ = steering;
+    }
+    changed_.notify_all();
+}
+
+// One question at a time.
+void ShowLink::explain(std::uint32_t fish) {
+    {
+        const std::lock_guard lock(mutex_);
+        fish_ = fish;
+    }
+    changed_.notify_all();
+}
+
+// Five times a second, and at once for hands and questions.
+void ShowLink::run() {
+    std::unique_lock lock(mutex_);
+    while (!ended_) {
+        lock.unlock();
+        try {
+            work();
+        } catch (const Error&) {  // nobody answers
+            listener_.silent();
+        }
+        lock.lock();
+        changed_.wait_for(lock, kBetweenLooks, [this] { return ended_ || steering_ || fish_; });
+    }
+}
+
+// A change that takes minutes is asked for again and again, beside all others.
+void ShowLink::work() {
+    std::deque<v1::Set> wanted;
+    std::optional<Steering> steering;
+    std::optional<std::uint32_t> fish;
+    {
+        const std::lock_guard lock(mutex_);
+        wanted = std::exchange(wanted_, {});
+        steering = std::exchange(steering_, {});
+        fish = std::exchange(fish_, {});
+    }
+    if (steering) client_.steer(*steering);
+    try {
+        for (v1::Set& set : wanted) press(set);
+    } catch (const Error& problem) {
+        for (const v1::Set& set : wanted) listener_.said(set.request(), "lost", problem.what());
+        throw;
+    }
+    if (fish) listener_.explained(client_.explain(*fish));
+    const v1::StatusReply status = client_.status();
+    listener_.heard(status, client_.run());
+}
+
+// Asked once; what takes longer is asked for again at the next turn.
+void ShowLink::press(v1::Set& set) {
+    const v1::SetReply reply = client_.ask(set);
+    const std::uint64_t id = set.request();
+    if (reply.request() != id) return this->set(std::move(set));  // an answer to another
+    if (reply.outcome() == v1::OUTCOME_PREPARING) {
+        if (std::exchange(waitingFor_[id], reply.reason()) != reply.reason())
+            listener_.said(id, "waiting", reply.reason());
+        return this->set(std::move(set));
+    }
+    waitingFor_.erase(id);
+    const bool isDone = reply.outcome() == v1::OUTCOME_DONE;
+    listener_.said(id, isDone ? "done" : "refused", reply.reason());
+}
+
+}  // namespace aquarama::console

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// The console's way to the master of a show, on a thread of its own: what it says five times a
+// second, and what it is told.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/ask/request_client.h"
+#include "common/base/units.h"
+
+namespace aquarama::console {
+
+// Called from the link's thread.
+struct ShowListener {
+    std::function<void(const v1::StatusReply&, std::uint64_t run)> heard;
+    std::function<void()> silent;
+    // What has become of a Set: "done", "waiting", "refused", "lost" where
+    // nobody answered; and why.
+    std::function<void(std::uint64_t id, const std::string& outcome, const std::string& why)> said;
+    std::function<void(const v1::Explanation&)> explained;
+};
+
+class ShowLink {
+  public:
+    // Throws Error where the master's address or the key cannot be read.
+    ShowLink(const ask::AskedMaster& master, ShowListener listener);
+    ~ShowLink();
+    ShowLink(const ShowLink&) = delete;
+    ShowLink& operator=(const ShowLink&) = delete;
+
+    // From any thread; none waits.
+    void set(v1::Set set);  // its request names it in what is said
+    void steer(const Steering& steering);
+    void explain(std::uint32_t fish);
+
+  private:
+    void run();
+    void work();
+    void press(v1::Set& set);
+
+    ask::RequestClient client_;
+    ShowListener listener_;
+    std::map<std::uint64_t, std::string> waitingFor_;  // of the link's thread
+    std::mutex mutex_;                                 // guards what follows
+    std::condition_variable changed_;
+    bool ended_ = false;
+    std::deque<v1::Set> wanted_;
+    std::optional<Steering> steering_;
+    std::optional<std::uint32_t> fish_;
+    std::thread thread_;
+};
+
+}  // namespace aquarama::console

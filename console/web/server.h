@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// A small web server: one thread, HTTP/1.1 and WebSockets, plain or over TLS. No header of Boost is
+// seen outside of this folder.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace aquarama::web {
+
+// What a browser or a program asks for. Headers that are absent are empty.
+struct HttpRequest {
+    std::string method = {}, target = {};
+    std::string host = {}, origin = {}, cookie = {}, authorization = {};
+    std::string contentType = {}, fetchSite = {}, etag = {};
+    std::string body = {};
+};
+
+struct HttpReply {
+    int status = 200;
+    std::string type = "text/plain; charset=utf-8";
+    std::string body = {};
+    std::vector<std::pair<std::string, std::string>> headers = {};
+};
+
+// Shared by all who get it.
+using Payload = std::shared_ptr<const std::string>;
+
+// The sending end of a WebSocket. Holds the latest of each topic, so nothing grows with a slow
+// reader. Of the server's thread.
+class Outbox {
+  public:
+    virtual ~Outbox() = default;
+    // Replaces what waits under this topic.
+    virtual void put(const std::string& topic, Payload payload, bool isBinary) = 0;
+    // Ends the connection with this code of the application (4000 to 4999).
+    virtual void close(std::uint16_t code) = 0;
+};
+
+// What the server does for its clients. All calls come from the server's thread.
+class Service {
+  public:
+    virtual ~Service() = default;
+    [[nodiscard]] virtual HttpReply answer(const HttpRequest& request) = 0;
+    // One end of a WebSocket that was opened; destroyed when it is closed.
+    class Connection {
+      public:
+        virtual ~Connection() = default;
+        virtual void hear(const std::string& text) = 0;
+    };
+    // Lets a WebSocket in, or says in `refusal` why not. The outbox outlives the connection.
+    [[nodiscard]] virtual std::unique_ptr<Connection> open(const HttpRequest& request,
+                                                           Outbox& outbox,
+                                                           HttpReply& refusal) = 0;
+    // Ten times a second.
+    virtual void tick() = 0;
+};
+
+struct ServerOptions {
+    std::string address = "127.0.0.1";
+    std::uint16_t port = 0;       // 0: a free one
+    std::string certificateFile;  // PEM; empty: without TLS
+    std::string keyFile;
+};
+
+// Bounds. What exceeds them is cut off and counted.
+inline constexpr std::size_t kMostConnections =
+    512;  // above, the one that waits longest is cut off
+inline constexpr std::size_t kMostHeaderBytes = 8192;
+inline constexpr std::size_t kMostBodyBytes = 65536;
+inline constexpr std::size_t kMostMessageBytes = 65536;
+
+// One thread calls run(); the others may call post() and stop().
+class WebServer {
+  public:
+    // Listens. Throws Error: the address cannot be had, a certificate that cannot be read.
+    WebServer(const ServerOptions& options, Service& service);
+    ~WebServer();
+    WebServer(const WebServer&) = delete;
+    WebServer& operator=(const WebServer&) = delete;
+
+    void run();   // until stop()
+    void stop();  // from any thread
+    // Has the server's thread do something soon; from any thread.
+    void post(std::function<void()> what);
+    [[nodiscard]] std::uint16_t port() const;  // that it listens at
+    // Connections that were cut off: too many, too large, too slow, or not HTTP.
+    [[nodiscard]] std::uint64_t cutOff() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace aquarama::web

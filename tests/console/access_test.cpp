@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "console/access.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace aquarama::console {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AccessTest : public testing::Test {
+  protected:
+    AccessTest() {
+        folder_ = fs::temp_directory_path() / ("aquarama-access-" + std::to_string(getpid()));
+        fs::remove_all(folder_);
+    }
+    ~AccessTest() override { fs::remove_all(folder_); }
+
+    std::optional<std::string> pair(Access& access, const std::string& code, UnixSeconds now) {
+        return access.pair(code, "Anna", now, spent_);
+    }
+    std::string everythingKept() const {
+        std::string all;
+        for (const auto& entry : fs::directory_iterator(folder_)) {
+            std::ifstream file(entry.path());
+            all += std::string(std::istreambuf_iterator<char>(file), {});
+        }
+        return all;
+    }
+
+    fs::path folder_;
+    bool spent_ = false;
+};
+
+TEST_F(AccessTest, aCodeLetsOneBrowserInOnceAndItsSessionOutlivesTheProgram) {
+    std::string secret;
+    {
+        Access access(folder_);
+        const std::string code = access.makeCode(ConsoleRole::Operator, 1000);
+        EXPECT_FALSE(access.hasPeople());
+        secret = pair(access, code, 1001).value();
+        EXPECT_FALSE(pair(access, code, 1002));
+        EXPECT_EQ(everythingKept().find(secret), std::string::npos);
+        EXPECT_EQ(everythingKept().find(plainCode(code)), std::string::npos);
+    }
+    const Access later(folder_);
+    ASSERT_TRUE(later.session(secret, 2000));
+    EXPECT_EQ(later.session(secret, 2000)->role, ConsoleRole::Operator);
+    EXPECT_EQ(later.session(secret, 2000)->name, "Anna");
+    EXPECT_FALSE(later.session(secret, 1000 + 31 * 86400));
+    EXPECT_FALSE(later.session(secret.substr(1) + "0", 2000));
+    EXPECT_FALSE(later.session("", 2000));
+}
+
+TEST_F(AccessTest, aCodeIsReadAsPeopleTypeIt) {
+    EXPECT_EQ(plainCode(" w54a-9o0i l"), "W54A90011");
+    Access access(folder_);
+    std::string code = access.makeCode(ConsoleRole::Watcher, 0);
+    for (char& c : code) c = static_cast<char>(std::tolower(c));
+    EXPECT_TRUE(pair(access, code, 1));
+}
+
+TEST_F(AccessTest, aCodeEndsAfterTenMinutesAndAfterFiveWrongTries) {
+    Access access(folder_);
+    EXPECT_FALSE(pair(access, access.makeCode(ConsoleRole::Crew, 0), 601));
+    const std::string code = access.makeCode(ConsoleRole::Crew, 1000);
+    for (int i = 0; i < 4; ++i) EXPECT_FALSE(pair(access, "00000000", 1001));
+    EXPECT_FALSE(spent_);
+    EXPECT_FALSE(pair(access, "00000000", 1001));
+    EXPECT_TRUE(spent_);
+    EXPECT_FALSE(pair(access, code, 1002));
+    // Another code is refused for a while, which grows.
+    const std::string next = access.makeCode(ConsoleRole::Crew, 1003);
+    EXPECT_FALSE(pair(access, next, 1010));
+    EXPECT_TRUE(pair(access, next, 1032));
+}
+
+TEST_F(AccessTest, whoIsRevokedIsOutAndATokenKnowsItsRole) {
+    Access access(folder_);
+    const std::string secret = pair(access, access.makeCode(ConsoleRole::Crew, 0), 1).value();
+    access.revoke(access.people().at(0).id);
+    EXPECT_FALSE(access.session(secret, 2));
+    const std::string token = access.makeToken("companion", ConsoleRole::Operator, 3);
+    EXPECT_EQ(access.token(token)->role, ConsoleRole::Operator);
+    EXPECT_EQ(everythingKept().find(token), std::string::npos);
+    EXPECT_NE(access.makeToken("companion", ConsoleRole::Watcher, 4), token);
+    EXPECT_FALSE(access.token(token)) << "a new token of the same name ends the old one";
+}
+
+TEST_F(AccessTest, othersCannotReadWhatIsKept) {
+    Access access(folder_);
+    EXPECT_EQ(fs::status(folder_).permissions() & fs::perms::mask, fs::perms::owner_all);
+}
+
+}  // namespace
+}  // namespace aquarama::console

@@ -1,0 +1,170 @@
+"""A desk with its console, for tests: a real show, its address and codes; and clients that say what no browser says."""
+
+import base64
+import http.client
+import json
+import os
+import re
+import secrets
+import socket
+import struct
+import sys
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "end_to_end"))
+
+from show import BIN, aquarama, children_of, end, rig_on_free_ports, start, temporary_folder, wait_until  # noqa: E402,F401
+
+
+class Desk:
+    """`aquarama run` of a desk; test patterns need no world, and are drawn at once."""
+
+    # Three nodes share two cores with a browser: a slow wall leaves them room.
+    def __init__(self, *arguments, refresh_hz=15):
+        self.folder = temporary_folder()
+        self.rig = rig_on_free_ports(self.folder.name, replace=((r"refresh_hz: 60", f"refresh_hz: {refresh_hz}"),))
+        self.log = Path(self.folder.name) / "log"
+        self.show = start("run", self.rig, "--headless", "--live", *arguments, log=self.log)
+        try:
+            wait_until(lambda: "showing" in self.said() and "console at" in self.said(), 90, "the first frame and the console")
+        except AssertionError:
+            self.close()
+            raise
+
+    def close(self):
+        end([self.show])
+        self.folder.cleanup()
+
+    def said(self):
+        return self.log.read_text()
+
+    @property
+    def address(self):
+        return re.findall(r"console at http://(\S+)", self.said())[-1]
+
+    def code(self, role=None):
+        """A pairing code: that of the first start, or one that is made now."""
+        if role is None:
+            return re.findall(r"pairing code (\S+)", self.said())[-1]
+        return aquarama("console", self.rig, "--pair", role).stdout.split()[0]
+
+    def token(self, role):
+        return aquarama("console", self.rig, "--token", role, "--role", role).stdout.strip()
+
+    def status(self, *fields):
+        """What `aquarama status` says, field -> value of its line about the show; `late` in all."""
+        text = aquarama("status", self.rig).stdout
+        shown = dict(pair.split(" ", 1) for pair in re.split(r" {3}", re.search(r"show +(.*)", text)[1]))
+        rows = re.findall(r"^(\w+) +(absent|preparing|in step|late) +(\d+) +(\d+)", text, re.M)
+        shown["late"] = sum(int(row[2]) for row in rows)
+        shown["dropped"] = sum(int(row[3]) for row in rows)
+        shown["conditions"] = [row[1] for row in rows]
+        shown["frame"] = int(re.search(r"frame (\d+)", text)[1])
+        return shown
+
+    def console_process(self):
+        return next((pid for command, pid in children_of(self.show).items() if "aquarama-console" in command), None)
+
+    # --- clients
+
+    def request(self, method, target, body=None, **headers):
+        """Status, headers and body of an answer; a header that is None is left out."""
+        connection = http.client.HTTPConnection(self.address, timeout=10)
+        given = {name.replace("_", "-"): value for name, value in headers.items() if value is not None}
+        content = json.dumps(body) if body is not None else None
+        if content is not None and "Content-Type" not in given:
+            given["Content-Type"] = "application/json"
+        connection.putrequest(method, target, skip_host="Host" in given, skip_accept_encoding=True)
+        for name, value in given.items():
+            connection.putheader(name, value)
+        if content is not None:
+            connection.putheader("Content-Length", str(len(content)))
+        connection.endheaders(content.encode() if content else None)
+        answer = connection.getresponse()
+        text = answer.read()
+        connection.close()
+        return answer.status, dict(answer.getheaders()), text.decode(errors="replace")
+
+    def pair(self, code, name="test"):
+        """The cookie of a new session."""
+        status, headers, text = self.request("POST", "/pair", {"code": code, "name": name}, Origin=f"http://{self.address}")
+        assert status == 200, text
+        return headers["Set-Cookie"].split(";")[0]
+
+
+class Socket:
+    """A WebSocket by hand. `status` is that of the upgrade: 101, or why not."""
+
+    def __init__(self, desk, target="/ws", **headers):
+        host, port = desk.address.split(":")
+        self.socket = socket.create_connection((host, int(port)), timeout=10)
+        key = base64.b64encode(secrets.token_bytes(16)).decode()
+        given = {"Host": desk.address, "Origin": f"http://{desk.address}", "Upgrade": "websocket", "Connection": "Upgrade",
+                 "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": key} | {n.replace("_", "-"): v for n, v in headers.items()}
+        lines = [f"GET {target} HTTP/1.1"] + [f"{name}: {value}" for name, value in given.items() if value is not None]
+        self.socket.sendall(("\r\n".join(lines) + "\r\n\r\n").encode())
+        self.buffer = b""
+        while b"\r\n\r\n" not in self.buffer:
+            part = self.socket.recv(4096)
+            if not part:
+                break
+            self.buffer += part
+        head, _, self.buffer = self.buffer.partition(b"\r\n\r\n")
+        self.status = int(head.split()[1])
+
+    def close(self):
+        self.socket.close()
+
+    def say(self, message, opcode=1):
+        content = message if isinstance(message, bytes) else json.dumps(message).encode()
+        self.socket.sendall(frame(content, opcode))
+
+    def take(self, count):
+        while len(self.buffer) < count:
+            part = self.socket.recv(65536)
+            if not part:
+                raise ConnectionError("closed")
+            self.buffer += part
+        taken, self.buffer = self.buffer[:count], self.buffer[count:]
+        return taken
+
+    def hear(self):
+        """The next message: an object, or the bytes of a picture; a closed one raises."""
+        first, second = self.take(2)
+        size = second & 0x7F
+        if size == 126:
+            size, = struct.unpack(">H", self.take(2))
+        elif size == 127:
+            size, = struct.unpack(">Q", self.take(8))
+        content = self.take(size)
+        opcode = first & 0x0F
+        if opcode == 8:
+            raise ConnectionError(f"closed {struct.unpack('>H', content[:2])[0] if content else ''}")
+        if opcode == 9:
+            self.say(content, 10)
+            return self.hear()
+        return json.loads(content) if opcode == 1 else content
+
+    def hear_until(self, wanted, seconds=15):
+        deadline = time.monotonic() + seconds
+        while time.monotonic() < deadline:
+            message = self.hear()
+            if wanted(message):
+                return message
+        raise AssertionError("not heard in time")
+
+    def command(self, run, identity=None, **what):
+        """Says it, and waits until it is done or refused."""
+        identity = str(identity or secrets.randbits(63) | 1)
+        self.say({"command": {"id": identity, "run": run, **what}})
+        ended = self.hear_until(lambda m: isinstance(m, dict) and m.get("done", {}).get("id") == identity and m["done"]["outcome"] != "waiting")
+        return ended["done"]
+
+
+def frame(content, opcode=1, mask=b"\0\0\0\0"):
+    """One whole frame of a client."""
+    size = len(content)
+    head = bytes([0x80 | opcode])
+    head += bytes([0x80 | size]) if size < 126 else bytes([0x80 | 126]) + struct.pack(">H", size) if size < 65536 else bytes([0x80 | 127]) + struct.pack(">Q", size)
+    return head + mask + content

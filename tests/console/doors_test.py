@@ -1,0 +1,262 @@
+"""What the console refuses, whoever asks; and that the wall is unharmed by it, and by the console's death."""
+
+import os
+import resource
+import secrets
+import signal
+import socket
+import ssl
+import subprocess
+import time
+import unittest
+from pathlib import Path
+
+from desk import BIN, Desk, Socket, aquarama, frame, wait_until
+
+
+class Doors(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.desk = Desk("--pattern", "grid")
+        cls.addClassCleanup(cls.desk.close)
+        cls.origin = f"http://{cls.desk.address}"
+        cls.cookie = cls.desk.pair(cls.desk.code())
+        cls.watcher, cls.operator, cls.crew = (cls.desk.token(role) for role in ("watcher", "operator", "crew"))
+
+    def bearer(self, token):
+        return {"Authorization": f"Bearer {token}"}
+
+    def test_a_table_of_requests(self):
+        ask = self.desk.request
+        own = {"Origin": self.origin}
+        command = {"command": {"id": "1", "run": "1", "black": True}}
+        other = "http://evil.example"
+        for expected, method, target, body, headers in (
+                (200, "GET", "/", None, {}),
+                (200, "HEAD", "/console.js", None, {}),
+                (421, "GET", "/", None, {"Host": "evil.example"}),
+                (421, "POST", "/pair", {"code": "x"}, {"Host": "evil.example", "Origin": "http://evil.example"}),
+                (404, "GET", "/../etc/passwd", None, {"Cookie": self.cookie}),
+                (401, "GET", "/metrics", None, {}),
+                (401, "GET", "/bundle.tar", None, {}),
+                (401, "GET", "/metrics", None, self.bearer("0" * 32)),
+                (401, "GET", "/metrics", None, {"Cookie": self.cookie[:-1] + ("0" if self.cookie[-1] != "0" else "1")}),
+                (200, "GET", "/metrics", None, self.bearer(self.watcher)),
+                (200, "GET", "/metrics", None, {"Cookie": self.cookie}),
+                (404, "GET", "/command", None, {"Cookie": self.cookie}),  # nothing that is got acts
+                (404, "GET", "/pair?code=1", None, {"Cookie": self.cookie}),
+                (403, "POST", "/command", command, {"Cookie": self.cookie}),  # no origin, no token
+                (403, "POST", "/command", command, {"Cookie": self.cookie, "Origin": other}),
+                (403, "POST", "/command", command, {"Cookie": self.cookie, "Origin": "null"}),
+                (403, "POST", "/command", command, {"Cookie": self.cookie, **own, "Sec_Fetch_Site": "cross-site"}),
+                (415, "POST", "/command", command, {"Cookie": self.cookie, **own, "Content_Type": "text/plain"}),
+                (401, "POST", "/command", command, own),
+                (400, "POST", "/command", {"command": 7}, {"Cookie": self.cookie, **own}),
+                (400, "POST", "/command", {"nothing": 7}, self.bearer(self.operator)),
+                (403, "POST", "/command", {"command": {"id": "2", "run": "1", "black": True}}, self.bearer(self.watcher)),
+                (403, "POST", "/command", {"command": {"id": "3", "run": "1", "revoke": "x"}}, self.bearer(self.operator)),
+                (403, "POST", "/command", {"command": {"id": "4", "run": "1", "black": True}}, self.bearer(self.operator)),  # another show
+                (403, "POST", "/command", {"command": {"id": "0", "run": "1", "black": True}}, self.bearer(self.operator)),
+                (400, "POST", "/pair", {"nothing": 1}, own),
+                (403, "POST", "/pair", {"code": "00000000"}, own),
+                (403, "POST", "/pair", {"code": "00000000"}, {"Origin": other}),
+                (405, "PUT", "/command", command, own),
+                (405, "DELETE", "/", None, own),
+        ):
+            if "Content_Type" in headers:
+                headers = {k.replace("_", "-"): v for k, v in headers.items()}
+            status, given, _ = ask(method, target, body, **headers)
+            self.assertEqual(status, expected, (method, target, headers))
+            self.assertIn("default-src 'none'", given["Content-Security-Policy"])
+            self.assertNotIn("Access-Control-Allow-Origin", given)
+        self.assertEqual(self.desk.status()["black"], "off")
+
+    def test_over_the_socket_the_same_holds(self):
+        for expected, headers in (
+                (101, {"Cookie": self.cookie}),
+                (401, {}),
+                (403, {"Cookie": self.cookie, "Origin": "http://evil.example"}),
+                (403, {"Cookie": self.cookie, "Origin": None}),
+                (421, {"Cookie": self.cookie, "Host": "evil.example"}),
+                (101, {"Origin": None, **self.bearer(self.watcher)})):
+            client = Socket(self.desk, **headers)
+            self.assertEqual(client.status, expected, headers)
+            client.close()
+        self.assertEqual(Socket(self.desk, "/other", Cookie=self.cookie).status, 404)
+
+    def test_roles_are_held_to_where_a_command_is_carried_out(self):
+        before = self.desk.status()
+        for token, allowed in ((self.watcher, {"pointAt"}), (self.operator, {"pointAt", "black", "freeze", "pattern"}),
+                               (self.crew, {"pointAt", "black", "freeze", "pattern", "newCode"})):
+            client = Socket(self.desk, Origin=None, **self.bearer(token))
+            run = client.hear()["snapshot"]["wall"]["run"]
+            for what, value in (("black", False), ("freeze", False), ("pattern", "grid"), ("newCode", "WATCHER"),
+                                ("pointAt", {"channel": "left", "x": 0.5, "y": 0.5})):
+                done = client.command(run, **{what: value})
+                self.assertEqual(done["outcome"], "done" if what in allowed else "refused", (what, done))
+            client.say({"helm": {"ahead": 127}})
+            client.close()
+        self.assertEqual(self.desk.status()["pattern"], before["pattern"])
+
+    def test_a_command_is_a_wanted_value_and_carried_out_once(self):
+        client = Socket(self.desk, Cookie=self.cookie)
+        run = client.hear()["snapshot"]["wall"]["run"]
+        self.assertEqual(client.command(run, black=True)["outcome"], "done")
+        self.assertEqual(client.command(run, black=True)["outcome"], "done")
+        self.assertEqual(self.desk.status()["black"], "on")
+        identity = secrets.randbits(62) | 1
+        self.assertEqual(client.command(run, identity, black=False)["outcome"], "done")
+        self.assertEqual(client.command(run, black=True)["outcome"], "done")
+        self.assertEqual(client.command(run, identity, black=False)["outcome"], "done")  # said again: answered, not done
+        self.assertEqual(self.desk.status()["black"], "on")
+        self.assertEqual(client.command(run, black=False)["outcome"], "done")
+        for what in ({"scene": "none/such"}, {"scene": ""}, {"quality": "best"}, {"pattern": "scan"}, {"pattern": "x\ny"},
+                     {"restart": "nobody"}, {"scene": "x" * 500}, {"acknowledge": "nothing"}):
+            done = client.command(run, **what)
+            self.assertEqual(done["outcome"], "refused", what)
+            self.assertTrue(done["reason"])
+        self.assertEqual(client.command(str(int(run) ^ 1), black=True)["outcome"], "refused")
+        client.close()
+
+    def test_floods_and_fragments_are_cut_off_and_the_wall_is_unharmed(self):
+        host, port = self.desk.address.split(":")
+        address = (host, int(port))
+        before = self.desk.status()
+        soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+        count = min(10_000, hard - 200)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, count + 200), hard))
+        idle = []
+        for _ in range(count):
+            client = socket.socket()
+            client.setblocking(False)
+            client.connect_ex(address)
+            idle.append(client)
+        slow = [socket.create_connection(address) for _ in range(100)]
+        for client in slow:
+            client.sendall(b"GET / HTTP/1.1\r\nHost: ")
+        begun = time.monotonic()
+        self.assertEqual(self.desk.request("GET", "/")[0], 200)
+        self.assertLess(time.monotonic() - begun, 2, f"an honest request beside {count} idle sockets")
+        for client in idle:
+            client.close()
+        giant = {"a header of 20 kB": b"GET / HTTP/1.1\r\nHost: x\r\nX: " + b"y" * 20_000,
+                 "a body of 1 MB": b"POST /pair HTTP/1.1\r\nHost: x\r\nContent-Length: 1000000\r\n\r\n" + b"y" * 100_000,
+                 "no HTTP": secrets.token_bytes(3000)}
+        for what, content in giant.items():
+            client = socket.create_connection(address, timeout=8)
+            try:
+                client.sendall(content)
+                while client.recv(4096):
+                    pass
+            except (ConnectionError, BrokenPipeError):
+                pass
+            client.close()
+        for client in slow:  # five seconds for a whole request
+            client.settimeout(8)
+            try:
+                self.assertEqual(client.recv(100), b"")
+            except ConnectionError:
+                pass
+            client.close()
+        self.cut_frames()
+        status = self.desk.request("GET", "/metrics", **self.bearer(self.watcher))[2]
+        cut_off = int(float(status.split("aquarama_console_cut_off_connections_total ")[1].split()[0]))
+        self.assertGreater(cut_off, 100)
+        after = self.desk.status()
+        self.assertEqual((after["late"], after["dropped"]), (before["late"], before["dropped"]))
+        self.assertGreater(after["frame"], before["frame"])
+
+    def cut_frames(self):
+        """Each leaves a console that serves the next."""
+        whole = frame(b'{"command":{"id":"7","run":"1","black":true}}')
+        pieces = [whole[:cut] for cut in range(1, len(whole), 7)]
+        pieces += [b"\x81\xff" + b"\xff" * 8 + b"\0\0\0\0", b"\xff\xff\xff", frame(b"x" * 70_000), b"\x81\x05hello"]
+        for piece in pieces:
+            client = Socket(self.desk, Cookie=self.cookie)
+            self.assertEqual(client.status, 101)
+            client.socket.sendall(piece)
+            client.close()
+        noisy = Socket(self.desk, Cookie=self.cookie)
+        with self.assertRaises(ConnectionError):
+            for _ in range(300):
+                noisy.say(b"{no json")
+            while True:
+                noisy.hear()
+        client = Socket(self.desk, Cookie=self.cookie)
+        self.assertIn("snapshot", client.hear())
+        client.close()
+
+    def test_pictures_are_pulled_and_name_their_frame(self):
+        clients = [Socket(self.desk, Cookie=self.cookie) for _ in range(3)]
+        frames = {}
+        for client in clients:
+            client.hear()
+            client.say({"look": {"channels": ["left"], "widthPx": 240}})
+            picture = client.hear_until(lambda message: isinstance(message, bytes))
+            channel, _, width, height, number = (int.from_bytes(picture[a:b], "little") for a, b in ((0, 2), (2, 4), (4, 6), (6, 8), (8, 16)))
+            self.assertEqual((channel, width, height), (0, 240, 180))
+            self.assertEqual(picture[16:18], b"\xff\xd8")
+            frames[client] = number
+        # Who does not say that it has drawn one gets no other; who does, the next.
+        clients[0].say({"seen": {"channel": 0}})
+        clients[0].say({"look": {"channels": ["left"], "widthPx": 240}})
+        following = clients[0].hear_until(lambda message: isinstance(message, bytes))
+        self.assertGreater(int.from_bytes(following[8:16], "little"), frames[clients[0]])
+        silent = time.monotonic() + 1.5
+        while time.monotonic() < silent:
+            self.assertFalse(isinstance(clients[1].hear(), bytes), "a picture before the last was drawn")
+        for client in clients:
+            client.close()
+
+    def test_x_killed_it_costs_no_frame_and_comes_back_with_what_it_knew(self):
+        client = Socket(self.desk, Cookie=self.cookie)
+        run = client.hear()["snapshot"]["wall"]["run"]
+        self.assertEqual(client.command(run, black=True)["outcome"], "done")
+        before = self.desk.status()
+        for _ in range(3):
+            process = self.desk.console_process()
+            started = self.desk.said().count("console at")
+            os.kill(process, signal.SIGKILL)
+            wait_until(lambda: self.desk.said().count("console at") > started, 20, "the console to be started again")
+            wait_until(lambda: self.desk.request("GET", "/me", Cookie=self.cookie)[2].find("crew") > 0, 10, "the session")
+        after = self.desk.status()
+        self.assertEqual((after["late"], after["dropped"]), (before["late"], before["dropped"]))
+        self.assertGreater(after["frame"], before["frame"])
+        again = Socket(self.desk, Cookie=self.cookie)
+        snapshot = again.hear()["snapshot"]
+        wait_until(lambda: self.desk.status()["black"] == "on", 5, "the wall to be black still")
+        self.assertIn("black on", [event["what"] for event in snapshot["events"]["events"]])
+        self.assertEqual(again.command(run, black=False)["outcome"], "done")
+
+    def test_past_the_loopback_only_with_a_certificate(self):
+        refused = aquarama("console", self.desk.rig, "--listen", "127.0.0.2", "--port", "0")
+        self.assertEqual((refused.returncode, refused.stdout), (1, ""))
+        self.assertIn("--certify 127.0.0.2", refused.stderr)
+        self.assertEqual(len(refused.stderr.strip().splitlines()), 1)
+        made = aquarama("console", self.desk.rig, "--certify", "127.0.0.2", "master.local").stdout
+        authority = made.split("once: ")[1].split()[0]
+        self.assertEqual(Path(authority).stat().st_mode & 0o077, 0)
+        text = Path(self.desk.rig).read_text()
+        other = Path(self.desk.folder.name) / "desk.tls"  # nodes' pictures go to the first console
+        other.mkdir(exist_ok=True)
+        rig = other / "desk.txtpb"
+        rig.write_text("\n".join(line for line in text.splitlines() if "watch:" not in line))
+        with open(other / "log", "w") as log:
+            console = subprocess.Popen([BIN / "aquarama-console", rig, "--listen", "127.0.0.2", "--port", "0"], stdout=log, stderr=log)
+        try:
+            wait_until(lambda: "console at https://" in (other / "log").read_text(), 10, "the console over TLS")
+            port = int((other / "log").read_text().split("https://127.0.0.2:")[1].split()[0])
+            context = ssl.create_default_context(cafile=authority)
+            for name in ("127.0.0.2", "master.local"):
+                with socket.create_connection(("127.0.0.2", port)) as raw, context.wrap_socket(raw, server_hostname=name) as tls:
+                    tls.sendall(f"GET /me HTTP/1.1\r\nHost: 127.0.0.2:{port}\r\nConnection: close\r\n\r\n".encode())
+                    self.assertIn(b"200 OK", tls.recv(1000))
+            with socket.create_connection(("127.0.0.2", port)) as raw, self.assertRaises(ssl.SSLError):
+                ssl.create_default_context().wrap_socket(raw, server_hostname="127.0.0.2")
+        finally:
+            console.terminate()
+            console.wait(10)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "console/files_of_show.h"
+
+namespace aquarama::console {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FilesTest : public testing::Test {
+  protected:
+    FilesTest()
+        : folder_{fs::temp_directory_path() / ("aquarama-files-" + std::to_string(getpid()))} {
+        fs::create_directories(folder_);
+    }
+    ~FilesTest() override { fs::remove_all(folder_); }
+    fs::path write(const std::string& name, const std::string& text) {
+        std::ofstream(folder_ / name) << text;
+        return folder_ / name;
+    }
+    fs::path folder_;
+};
+
+TEST_F(FilesTest, anArchiveIsReadByTar) {
+    const std::string large(100'000, 'x');
+    write("bundle.tar", tarOf({{"a.txt", "one\n"}, {"log/b.jsonl", large}, {"empty", ""}}));
+    const std::string command = "cd " + folder_.string() + " && tar xf bundle.tar";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    EXPECT_EQ(fs::file_size(folder_ / "a.txt"), 4U);
+    EXPECT_EQ(fs::file_size(folder_ / "log/b.jsonl"), large.size());
+    EXPECT_EQ(fs::file_size(folder_ / "empty"), 0U);
+}
+
+TEST_F(FilesTest, aLogIsFilteredAndWhatIsNoLineOfItIsLeftOut) {
+    const fs::path log =
+        write("log.jsonl",
+              R"({"time":"t1","node":"left","frame":7,"severity":"info","text":"showing"})"
+              "\nno json\n[1,2]\n{\"node\":5,\"frame\":\"x\"}\n"
+              R"({"time":"t2","node":"right","frame":8,"severity":"warning","text":"too slow"})"
+              "\n{\"cut");
+    browser::Look look;
+    EXPECT_EQ(tailOf(log, look).rows_size(), 3);
+    EXPECT_EQ(tailOf(log, look).rows(0).frame(), 7U);
+    look.set_log_node("right");
+    ASSERT_EQ(tailOf(log, look).rows_size(), 1);
+    EXPECT_EQ(tailOf(log, look).rows(0).text(), "too slow");
+    look.set_log_text("fast");
+    EXPECT_EQ(tailOf(log, look).rows_size(), 0);
+    look.clear_log_node();
+    look.clear_log_text();
+    look.set_log_problems_only(true);
+    EXPECT_EQ(tailOf(log, look).rows_size(), 2) << "what has no severity is no information";
+    EXPECT_NE(tailOf(folder_ / "none.jsonl", look).problem(), "");
+}
+
+TEST_F(FilesTest, onlyTheEndOfALongLogIsReadFromTheBeginningOfALine) {
+    std::string text;
+    for (int i = 0; i < 40'000; ++i)
+        text += R"({"node":"left","severity":"info","text":"line )" + std::to_string(i) + "\"}\n";
+    const auto tail = tailOf(write("long.jsonl", text), {});
+    ASSERT_EQ(tail.rows_size(), 300);
+    EXPECT_EQ(tail.rows(299).text(), "line 39999");
+    EXPECT_EQ(tail.rows(0).text(), "line 39700");
+}
+
+TEST_F(FilesTest, eventsAreThereAgainAfterAStart) {
+    {
+        EventBook book(folder_ / "events.jsonl");
+        book.add("Anna", "black on");
+        book.add("wall", "\xff is no text");
+        for (int i = 0; i < 300; ++i) book.add("wall", std::to_string(i));
+        EXPECT_EQ(book.list().events_size(), 200);
+    }
+    const EventBook again(folder_ / "events.jsonl");
+    EXPECT_EQ(again.list().events_size(), 200);
+    EXPECT_EQ(again.list().events(0).what(), "299");
+}
+
+}  // namespace
+}  // namespace aquarama::console

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "console/opening.h"
+
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "common/base/log.h"
+
+namespace aquarama::console {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr UnixSeconds kTen = 1767258000;  // 2026-01-01 10:00 in Berlin, a Thursday
+constexpr double kHour = 3600;
+const std::string kText =
+    "zone: \"Europe/Berlin\"\nopen { days: [THURSDAY] from: \"10:00\" to: \"18:00\" scene: "
+    "\"reef\" }\n";
+
+class OpeningTest : public testing::Test {
+  protected:
+    OpeningTest()
+        : folder_{fs::temp_directory_path() / ("aquarama-opening-" + std::to_string(getpid()))} {
+        fs::create_directories(folder_);
+    }
+    ~OpeningTest() override { fs::remove_all(folder_); }
+    fs::path folder_;
+};
+
+TEST_F(OpeningTest, withoutHoursNothingIsEverDue) {
+    const Opening opening(folder_);
+    EXPECT_FALSE(opening.due(kTen));
+    EXPECT_FALSE(opening.isClosed(kTen));
+    EXPECT_FALSE(opening.hours(kTen).present());
+}
+
+TEST_F(OpeningTest, whatIsWantedIsDueUntilItIsDoneAndWhatPeopleSetMeanwhileHolds) {
+    Opening opening(folder_);
+    opening.setText(kText);
+    ASSERT_TRUE(opening.due(kTen - 60));
+    EXPECT_FALSE(opening.due(kTen - 60)->isOpen);
+    opening.done({});
+    EXPECT_FALSE(opening.due(kTen - 1));
+    EXPECT_TRUE(opening.isClosed(kTen - 1));
+    const auto open = opening.due(kTen);
+    ASSERT_TRUE(open);
+    EXPECT_EQ(*open, (config::WantedHours{true, "reef", ""}));
+    EXPECT_TRUE(opening.due(kTen + 5)) << "not done yet";
+    opening.done(*open);
+    for (double t = 0; t < 8 * kHour; t += 60) EXPECT_FALSE(opening.due(kTen + t)) << t;
+    EXPECT_TRUE(opening.due(kTen + 8 * kHour));
+}
+
+// After a power cut, at whatever moment, what should be is brought about, and nothing twice.
+TEST_F(OpeningTest, aRestartInAnySecondGoesOnWithTheHours) {
+    Opening(folder_).setText(kText);
+    for (double t = -2 * kHour; t < 10 * kHour; t += 977) {
+        Opening opening(folder_);
+        const bool isOpen = t >= 0 && t < 8 * kHour;
+        const auto due = opening.due(kTen + t);
+        if (due) {
+            EXPECT_EQ(due->isOpen, isOpen);
+            opening.done(*due);
+        }
+        EXPECT_FALSE(Opening(folder_).due(kTen + t));
+        EXPECT_EQ(opening.isClosed(kTen + t), !isOpen);
+    }
+}
+
+TEST_F(OpeningTest, aHoldRestsItForServiceWorkAndEndsByItself) {
+    Opening opening(folder_);
+    opening.setText(kText);
+    opening.hold(2, kTen);
+    EXPECT_FALSE(Opening(folder_).due(kTen + 60)) << "also after a restart";
+    EXPECT_EQ(opening.heldUntil(kTen), kTen + 2 * kHour);
+    EXPECT_FALSE(opening.isClosed(kTen + 1)) << "a wall in service is not off on purpose";
+    EXPECT_TRUE(opening.due(kTen + 2 * kHour));
+    opening.hold(1000, kTen);
+    EXPECT_EQ(opening.heldUntil(kTen), kTen + 10 * kHour);
+    opening.hold(0, kTen);
+    EXPECT_TRUE(opening.due(kTen));
+}
+
+TEST_F(OpeningTest, theNextHourIsSaid) {
+    Opening opening(folder_);
+    opening.setText(kText);
+    const browser::Hours before = opening.hours(kTen - 30 * 60);
+    EXPECT_EQ(before.next() + " " + before.next_at() + " " + before.next_scene(),
+              "opens 10:00 reef");
+    EXPECT_EQ(opening.hours(kTen + 7.5 * kHour).next(), "closes");
+    EXPECT_EQ(opening.hours(kTen + 1 * kHour).next(), "stays");
+}
+
+TEST_F(OpeningTest, aTextWithAMistakeChangesNothing) {
+    Opening opening(folder_);
+    opening.setText(kText);
+    EXPECT_THROW(opening.setText("zone: \"Europe/Berlin\" open {}"), Error);
+    EXPECT_EQ(opening.hours(kTen).text(), kText);
+    EXPECT_EQ(Opening(folder_).hours(kTen).text(), kText);
+    opening.setText("");
+    EXPECT_FALSE(Opening(folder_).hours(kTen).present());
+}
+
+}  // namespace
+}  // namespace aquarama::console

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "console/overview.h"
+
+#include <gtest/gtest.h>
+
+namespace aquarama::console {
+namespace {
+
+v1::StatusReply statusWith(v1::NodeCondition condition) {
+    v1::StatusReply status;
+    status.set_pace(v1::PACE_LIVE);
+    status.set_frame(1'000'000'000'000);
+    wire::Show show;
+    show.scene = "reef";
+    show.black = true;
+    wire::writeShow(show, *status.mutable_show());
+    v1::NodeStatus& node = *status.add_nodes();
+    node.set_name("left");
+    node.set_condition(condition);
+    node.mutable_report()->set_build("0.1.0 abc");
+    return status;
+}
+
+browser::Wall heardWall(v1::NodeCondition condition) {
+    browser::Wall wall = wallOf(statusWith(condition), 7, "0.1.0 abc");
+    wall.set_heard_s(100);
+    return wall;
+}
+
+TEST(Overview, aWallInStepHasNoFaults) {
+    EXPECT_TRUE(faultsOf(heardWall(v1::NODE_IN_STEP), 101).empty());
+}
+
+TEST(Overview, aNodeThatIsNotInStepIsAFaultWithItsCause) {
+    for (const auto condition : {v1::NODE_ABSENT, v1::NODE_PREPARING, v1::NODE_LATE}) {
+        const auto faults = faultsOf(heardWall(condition), 101);
+        ASSERT_EQ(faults.size(), 1U);
+        EXPECT_TRUE(faults[0].text.starts_with("node left is ")) << faults[0].text;
+        EXPECT_GT(faults[0].text.size(), std::string("node left is preparing: ").size());
+    }
+}
+
+TEST(Overview, aMasterThatIsSilentIsOneFaultWhateverItsNodesWere) {
+    const auto faults = faultsOf(heardWall(v1::NODE_ABSENT), 104);
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0].key, "master");
+}
+
+TEST(Overview, anotherBuildHotCardsAndOtherFishAreFaults) {
+    v1::StatusReply status = statusWith(v1::NODE_IN_STEP);
+    status.mutable_nodes(0)->mutable_report()->set_gpu_celsius(90);
+    status.mutable_nodes(0)->set_hash_mismatches(1);
+    browser::Wall wall = wallOf(status, 7, "0.2.0 def");
+    wall.set_heard_s(100);
+    EXPECT_EQ(faultsOf(wall, 101).size(), 3U);
+}
+
+TEST(Overview, numbersThatAreZeroAndLargeOnesReachTheBrowser) {
+    browser::ToBrowser message;
+    *message.mutable_wall() = heardWall(v1::NODE_IN_STEP);
+    const std::string json = jsonOf(message);
+    EXPECT_NE(json.find(R"("frame":"1000000000000")"), std::string::npos) << json;
+    EXPECT_NE(json.find(R"("black":true)"), std::string::npos);
+    EXPECT_NE(json.find(R"("late":"0")"), std::string::npos);
+}
+
+TEST(Overview, whatABrowserMayNotSayIsRefused) {
+    EXPECT_TRUE(readBrowser(R"({"command":{"id":"7","run":"1","black":true}})"));
+    EXPECT_TRUE(readBrowser(R"({"alive":{}})"));
+    const std::string deep(20'000, '[');
+    for (const std::string& text : {std::string("{"),
+                                    std::string("[]"),
+                                    std::string(R"({"command":{"id":-1}})"),
+                                    std::string(R"({"command":{"id":1e99}})"),
+                                    std::string(R"({"nothing":1})"),
+                                    std::string(R"({"command":{"black":true,"freeze":true}})"),
+                                    R"({"look":{"topics":)" + deep,
+                                    std::string(70'000, ' ')})
+        EXPECT_FALSE(readBrowser(text)) << text.substr(0, 60);
+    std::string many = R"({"look":{"topics":["a")";
+    for (int i = 0; i < 64; ++i) many += R"(,"a")";
+    EXPECT_FALSE(readBrowser(many + "]}}"));
+}
+
+TEST(Overview, ringsKeepTenMinutesBySecondsAndADayByTheLargestOfEachMinute) {
+    FigureRings rings;
+    browser::Wall wall = heardWall(v1::NODE_IN_STEP);
+    for (int second = 1; second <= 1500 * 60; ++second) {
+        wall.set_frame_median_ms(static_cast<float>(second % 60 == 30 ? second : 1));
+        rings.add(wall);
+    }
+    const browser::History history = rings.history();
+    ASSERT_EQ(history.ten_minutes_size(), 3);  // frame, node left, skew
+    EXPECT_EQ(history.ten_minutes(0).values_size(), 600);
+    ASSERT_EQ(history.day(0).values_size(), 1440);
+    EXPECT_EQ(history.day(0).values(1439), 1499 * 60 + 30);
+}
+
+TEST(Overview, whatChangesIsSaidInWords) {
+    browser::Wall before = heardWall(v1::NODE_IN_STEP);
+    browser::Wall after = heardWall(v1::NODE_LATE);
+    after.set_black(false);
+    EXPECT_EQ(changesOf(before, after),
+              (std::vector<std::string>{"light again", "node left is late"}));
+    EXPECT_TRUE(changesOf(before, before).empty());
+}
+
+}  // namespace
+}  // namespace aquarama::console

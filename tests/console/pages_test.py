@@ -1,0 +1,347 @@
+"""The pages in Debian's chromium, against running desks: what an operator sees and does, by pointer and by keyboard.
+
+With AQUARAMA_SHOTS=FOLDER it writes pictures of the pages there, as docs/draw_pictures.sh has them.
+"""
+
+import os
+import re
+import signal
+import sys
+import time
+import unittest
+from pathlib import Path
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+except ImportError:
+    webdriver = None
+
+from desk import Desk, wait_until
+
+DRIVER = Path("/usr/bin/chromedriver")
+if webdriver is None or not DRIVER.exists():
+    missing = "chromium-driver and python3-selenium are needed to test the console's pages (packaging/packages/console-test.txt)"
+    if os.environ.get("CI"):
+        sys.exit(missing)
+    print("SKIPPED:", missing)
+    sys.exit(0)
+
+AXE = (Path(__file__).parent / "axe/axe.min.js").read_text()
+PAGES = ["wall", "nodes", "events", "schedule", "doctor", "log", "mind", "people"]
+SHOTS = os.environ.get("AQUARAMA_SHOTS")
+
+
+def browser(width=1280, height=900, language="en"):
+    options = webdriver.ChromeOptions()
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking", f"--window-size={width},{height}"):
+        options.add_argument(argument)
+    options.add_experimental_option("prefs", {"intl.accept_languages": language})
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    driver = webdriver.Chrome(service=Service(str(DRIVER)), options=options)
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 700})
+    return driver
+
+
+class Pages(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.desk = Desk(*(() if SHOTS else ("--pattern", "grid")))
+        cls.addClassCleanup(cls.desk.close)
+        cls.driver = browser()
+        cls.addClassCleanup(cls.driver.quit)
+        cls.pair(cls.driver, cls.desk.code(), "Anna")
+
+    @classmethod
+    def pair(cls, driver, code, name):
+        driver.get(f"http://{cls.desk.address}/")
+        cls.find(driver, "#code").send_keys(code)
+        cls.find(driver, "#name").send_keys(name)
+        cls.find(driver, "form button").click()
+        cls.find(driver, "header h1")
+
+    @staticmethod
+    def find(driver, selector, seconds=10):
+        deadline = time.monotonic() + seconds
+        while time.monotonic() < deadline:
+            found = driver.find_elements(By.CSS_SELECTOR, selector)
+            if found:
+                return found[0]
+            time.sleep(0.02)
+        raise AssertionError(f"{selector} is not on the page")
+
+    def setUp(self):
+        self.open("wall")
+
+    def tearDown(self):
+        said = [entry for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE" and "WebSocket" not in entry["message"]]
+        self.assertEqual(said, [], "errors, or violations of the policy")
+
+    def open(self, page, driver=None):
+        driver = driver or self.driver
+        driver.get(f"http://{self.desk.address}/#{page}")
+        wait_until(lambda: driver.execute_script("return document.querySelector('nav a[aria-current]')?.hash") == f"#{page}", 10, page)
+
+    def text(self, selector="body", driver=None):
+        return (driver or self.driver).execute_script("return document.querySelector(arguments[0])?.innerText ?? ''", selector)
+
+    def button(self, label, driver=None):
+        for one in (driver or self.driver).find_elements(By.CSS_SELECTOR, "button"):
+            if one.text == label:
+                return one
+        raise AssertionError(f"no button {label}")
+
+    def hold(self, label, seconds=1.3):
+        ActionChains(self.driver).click_and_hold(self.button(label)).pause(seconds).release().perform()
+
+    def shot(self, name, driver=None):
+        if SHOTS:
+            (driver or self.driver).save_screenshot(f"{SHOTS}/console_{name}.png")
+
+    def is_drawn_black(self, channel):
+        """Whether the preview of a channel is black; None before there is a picture."""
+        return self.driver.execute_script("""
+            const canvas = document.querySelectorAll('.views canvas')[arguments[0]];
+            const codes = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+            let most = 0, drawn = false;
+            for (let i = 0; i < codes.length; i += 4) { most = Math.max(most, codes[i], codes[i+1], codes[i+2]); drawn ||= codes[i+3] > 0; }
+            return drawn ? most < 12 : null;""", channel)
+
+    def test_the_page_shows_what_status_says(self):
+        self.open("nodes")
+        wait_until(lambda: self.text("tbody").count("in step") == 3, 10, "three nodes in step")
+        rows = [row.split()[0] for row in self.text("tbody").splitlines() if row.split() and row.split()[0] in ("left", "middle", "right")]
+        self.assertEqual(rows, ["left", "middle", "right"])
+        self.open("wall")
+        shown = self.desk.status()
+        figures = self.text("section[aria-labelledby=figures]")
+        for value in (shown["scene"], shown["quality"], shown["pattern"]):
+            self.assertIn(value, figures)
+        frame = lambda: int(re.search(r"Frame\s+(\d+)", self.text("section[aria-labelledby=figures]"))[1])
+        before = self.desk.status()["frame"]
+        time.sleep(0.5)
+        self.assertGreaterEqual(frame(), before)
+        self.assertLessEqual(frame(), self.desk.status()["frame"])
+
+    def test_black_is_held_shown_in_the_preview_and_undone_by_one_tap(self):
+        wait_until(lambda: self.is_drawn_black(0) is False, 15, "a picture with light in it")
+        self.shot("wall")
+        self.hold("Black", 0.4)
+        time.sleep(0.5)
+        self.assertEqual(self.desk.status()["black"], "off", "held for too short a time")
+        place = self.button("Black").location
+        self.hold("Black")
+        wait_until(lambda: "the wall is black" in self.text("header"), 5, "the page to say so")
+        self.assertEqual(self.desk.status()["black"], "on")
+        wait_until(lambda: all(self.is_drawn_black(channel) for channel in range(3)), 15, "black previews")
+        self.shot("black")
+        undo = self.button("Light again")
+        self.assertEqual(undo.location, place, "the way back is where black was")
+        undo.click()
+        wait_until(lambda: self.desk.status()["black"] == "off", 5, "light again")
+        self.open("events")
+        self.assertRegex(self.text("ol.events"), r"Anna\s+black off[^$]*Anna\s+black on")
+        self.shot("events")
+
+    def test_keyboard_alone_reaches_and_fires_everything(self):
+        reached = set()
+        for _ in range(60):
+            ActionChains(self.driver).send_keys(Keys.TAB).perform()
+            reached.add(self.driver.execute_script("return document.activeElement.id || document.activeElement.innerText.split('\\u00a0')[0]"))
+        self.assertLessEqual({"Wall", "Nodes", "Events", "Doctor", "Log", "Mind", "People", "Black", "Freeze", "scene", "quality", "pattern", "Take the helm"}, reached)
+        self.driver.execute_script("[...document.querySelectorAll('button')].find(b => b.innerText === 'Black').focus()")
+        ActionChains(self.driver).key_down(Keys.ENTER).pause(1.3).key_up(Keys.ENTER).perform()
+        wait_until(lambda: self.desk.status()["black"] == "on", 5, "black by keyboard")
+        self.driver.execute_script("[...document.querySelectorAll('button')].find(b => b.innerText === 'Light again').focus()")
+        ActionChains(self.driver).send_keys(Keys.ENTER).perform()
+        wait_until(lambda: self.desk.status()["black"] == "off", 5, "light by keyboard")
+        self.driver.execute_script("[...document.querySelectorAll('button')].find(b => b.innerText === 'Freeze').focus()")
+        ActionChains(self.driver).send_keys(" ").perform()
+        wait_until(lambda: self.desk.status()["freeze"] == "on", 5, "frozen by keyboard")
+        wait_until(lambda: "Let it move" in self.text(), 5, "the page to show it")
+        self.button("Let it move").click()
+        wait_until(lambda: self.desk.status()["freeze"] == "off", 5, "moving")
+
+    def test_the_helm_is_taken_by_one_tap(self):
+        self.button("Take the helm").click()
+        forward = self.find(self.driver, "button[aria-label=ahead]")
+        ActionChains(self.driver).click_and_hold(forward).perform()
+        wait_until(lambda: "pilot steers" in self.text("section[aria-labelledby=helm]"), 5, "the operator to steer")
+        ActionChains(self.driver).release().perform()
+        wait_until(lambda: "nobody steers" in self.text("section[aria-labelledby=helm]"), 5, "hands off")
+        self.button("Give the helm back").click()
+
+    def test_a_pattern_is_chosen_and_shown(self):
+        other = "grey" if not SHOTS else "grid"
+        before = self.desk.status()["pattern"]
+        for value in (other, before):
+            self.driver.execute_script("""const list = document.querySelector('#pattern'); list.value = arguments[0];
+                                          list.dispatchEvent(new Event('change'));""", value)
+            row = self.find(self.driver, "#pattern").find_element(By.XPATH, "..")
+            wait_until(lambda: row.find_element(By.CSS_SELECTOR, "button").is_enabled(), 3, "the button")
+            ActionChains(self.driver).click_and_hold(row.find_element(By.CSS_SELECTOR, "button")).pause(1.3).release().perform()
+            wait_until(lambda: self.desk.status()["pattern"] == value, 30, value)
+
+    def test_a_stale_page_dims_and_holds_commands_back_until_it_hears_again(self):
+        console = self.desk.console_process()
+        places = lambda: [(e.location, e.size) for e in self.driver.find_elements(By.CSS_SELECTOR, "nav a, main button")]
+        before = places()
+        os.kill(console, signal.SIGSTOP)
+        try:
+            begun = time.monotonic()
+            wait_until(lambda: "stale" in self.driver.find_element(By.TAG_NAME, "html").get_attribute("class"), 5, "a stale page")
+            self.assertLessEqual(time.monotonic() - begun, 2.6)
+            self.assertFalse(any(b.is_enabled() for b in self.driver.find_elements(By.CSS_SELECTOR, "main button")))
+            self.assertIn("Nothing heard from the console", self.text("header"))
+            self.assertEqual(places(), before, "nothing moves")
+            self.shot("stale")
+        finally:
+            os.kill(console, signal.SIGCONT)
+        begun = time.monotonic()
+        wait_until(lambda: self.driver.find_element(By.TAG_NAME, "html").get_attribute("class") == "", 5, "a live page")
+        self.assertLessEqual(time.monotonic() - begun, 3)
+        self.assertEqual(places(), before, "nothing moves")
+
+    def test_a_watcher_sees_and_changes_nothing(self):
+        driver = browser()
+        try:
+            self.pair(driver, self.desk.code("watcher"), "Wim")
+            wait_until(lambda: "watcher" in self.text("header", driver), 5, "a watcher")
+            self.assertFalse(any(b.is_enabled() for b in driver.find_elements(By.CSS_SELECTOR, "main button")))
+            # Hiding is not security: the same said past the page is refused.
+            driver.execute_async_script("""
+                const done = arguments[0], socket = new WebSocket(`ws://${location.host}/ws`);
+                socket.onmessage = event => {
+                  const message = JSON.parse(event.data);
+                  if (message.snapshot) socket.send(JSON.stringify({command: {id: '99', run: message.snapshot.wall.run, black: true}}));
+                  if (message.done) { window.refusal = message.done.reason; socket.close(); done(); }
+                };""")
+            self.assertEqual(driver.execute_script("return window.refusal"), "only operator may do this")
+            self.assertEqual(self.desk.status()["black"], "off")
+        finally:
+            driver.quit()
+
+    def test_a_node_is_restarted_and_comes_back(self):
+        self.open("nodes")
+        time.sleep(5)  # a process that ends sooner than that after its start is taken for broken
+        before = self.desk.said().count("showing")
+        row = self.driver.find_element(By.XPATH, "//tr[th='right']")
+        ActionChains(self.driver).click_and_hold(row.find_element(By.CSS_SELECTOR, "button")).pause(1.3).release().perform()
+        wait_until(lambda: self.desk.said().count("showing") > before, 60, "the node to show again")
+        wait_until(lambda: self.text("tbody").count("in step") == 3, 30, "all in step")
+        self.open("events")
+        self.assertIn("restart node right", self.text("ol.events"))
+        self.open("nodes")
+        time.sleep(5 if SHOTS else 0)
+        self.shot("nodes")
+
+    def test_the_doctor_is_asked_from_the_page(self):
+        self.open("doctor")
+        self.button("Ask the doctor").click()
+        wait_until(lambda: re.search(r"\d+ pass, \d+ warn, 0 fail", self.text("main")), 30, "its findings")
+        self.assertIn("node middle", self.text("tbody"))
+        self.shot("doctor")
+
+    def test_the_schedule_closes_the_wall_and_a_hold_rests_it(self):
+        self.open("schedule")
+        text = self.find(self.driver, "#hours")
+        text.send_keys('zone: "Europe/Berlin" nonsense')
+        self.button("Save").click()
+        wait_until(lambda: "hours.txtpb:1:" in self.text("header"), 5, "the mistake with its place")
+        self.button("Hold for two hours").click()
+        wait_until(lambda: "service" in self.text("header"), 5, "a hold that is seen")
+        text.clear()
+        text.send_keys('zone: "UTC"')
+        self.button("Save").click()
+        wait_until(lambda: not self.button("Save").is_enabled(), 5, "saved hours")
+        self.assertIn("held until", self.text("main"))
+        time.sleep(1.5)
+        self.assertEqual(self.desk.status()["black"], "off", "held")
+        self.button("Let the schedule go on").click()
+        wait_until(lambda: self.desk.status()["black"] == "on", 10, "closed: hours without a span")
+        wait_until(lambda: "closed" in self.text("header"), 5, "closed, not broken")
+        # By hand again, until the hours want something else.
+        self.driver.execute_script("location.hash = 'wall'")
+        wait_until(lambda: "Light again" in self.text(), 5, "the way back")
+        self.button("Light again").click()
+        wait_until(lambda: self.desk.status()["black"] == "off", 5, "light by hand")
+        time.sleep(1.5)
+        self.assertEqual(self.desk.status()["black"], "off")
+        self.open("schedule")
+        if SHOTS:
+            text = self.find(self.driver, "#hours")
+            text.clear()
+            text.send_keys('zone: "Europe/Berlin"\nopen { days: [TUESDAY, WEDNESDAY, THURSDAY, FRIDAY] from: "00:00" to: "24:00" scene: "reef" }\nexceptions { date: "2026-12-24" }  # closed')
+            self.button("Save").click()
+            time.sleep(3)
+        self.shot("schedule")
+        self.driver.execute_script("const text = document.querySelector('#hours'); text.value = ''; text.dispatchEvent(new Event('input'));")
+        self.button("Save").click()
+        wait_until(lambda: "No hours are set" in self.text("main"), 5, "no hours")
+
+    def test_the_log_is_filtered(self):
+        self.open("log")
+        wait_until(lambda: "showing" in self.text("tbody"), 10, "the log")
+        self.find(self.driver, "#logText").send_keys("takes part")
+        wait_until(lambda: self.text("tbody") and "showing" not in self.text("tbody"), 5, "filtered lines")
+        self.assertIn("takes part", self.text("tbody"))
+        self.shot("log")
+
+    def test_a_fish_is_asked_what_it_has_in_mind(self):
+        self.open("mind")
+        number = self.find(self.driver, "#fish")
+        number.clear()
+        number.send_keys("7" + Keys.ENTER)
+        wait_until(lambda: "mind of fish 7" in self.text("main"), 10, "the fish")
+        wait_until(lambda: re.search(r"\b7\b", self.text("pre")), 10, "what it has in mind")
+        self.assertEqual(len(self.driver.find_elements(By.CSS_SELECTOR, "meter")), 3)
+        # The fish at a place of a picture: the node says which, of the frame that is shown.
+        wait_until(lambda: "frame" in self.text("figcaption"), 15, "a picture")
+        self.find(self.driver, ".views figure:nth-child(2) canvas").click()
+        wait_until(lambda: re.search(r"mind of fish \d+|no fish", self.text("main")), 10, "an answer")
+        time.sleep(1)
+        self.shot("mind")
+
+    def test_axe_finds_nothing_on_any_page_on_desk_and_phone(self):
+        self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.setDeviceMetricsOverride", {"width": 1280, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+        self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.setEmulatedMedia", {"features": []})
+        self.driver.execute_script(AXE)  # the pages are one document
+        for width, height, scheme in ((1280, 900, "dark"), (390, 844, "light")):
+            self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 700})
+            self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+            for page in PAGES:
+                self.driver.execute_script("location.hash = arguments[0]", page)
+                wait_until(lambda: self.driver.execute_script("return document.querySelector('nav a[aria-current]').hash") == f"#{page}", 5, page)
+                time.sleep(0.2)
+                found = self.driver.execute_async_script("const done = arguments[0]; axe.run().then(result => done(result.violations.map(v => [v.id, v.nodes[0].html, v.nodes[0].failureSummary])));")
+                self.assertEqual(found, [], (page, width, scheme))
+                self.assertLessEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), width, f"{page} at {width} px")
+                if page == "wall" and width < 700:
+                    time.sleep(3 if SHOTS else 0)
+                    self.shot("phone")
+
+    def test_another_language_is_chosen_and_kept(self):
+        self.driver.execute_script("localStorage.setItem('language', 'de')")
+        self.driver.refresh()
+        wait_until(lambda: "Wieder hell" in self.text() or "Schwarz" in self.text(), 5, "German")
+        self.assertEqual(self.driver.execute_script("return document.documentElement.lang"), "de")
+        self.driver.execute_script("localStorage.removeItem('language')")
+        self.driver.refresh()
+        wait_until(lambda: "Black" in self.text(), 5, "English")
+
+    def test_the_first_picture_of_the_page_is_there_within_a_second(self):
+        paints = []
+        for _ in range(3):
+            self.driver.refresh()
+            self.find(self.driver, "header h1")
+            paints.append(self.driver.execute_script("return performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? 1e9"))
+            asked = self.driver.execute_script("return performance.getEntriesByType('resource').map(entry => new URL(entry.name).host)")
+            self.assertEqual(set(asked), {self.desk.address})
+        self.assertLess(min(paints), 1000)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
