@@ -21,20 +21,26 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+// Crockford's base 32, without I, L, O and U: five bits a letter.
 constexpr std::string_view kCrockford = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";
 constexpr std::size_t kCodeLetters = 8;
 constexpr double kCodeSeconds = 600;
+// 30 days, as long as the cookie that cookieOf() makes.
 constexpr double kSessionSeconds = 30.0 * 86400;
 constexpr int kMostWrong = 5;
+// Seconds. The pause after a code that was spent by wrong guesses doubles up to this.
 constexpr double kLongestPause = 3600;
+// Of sessions and of tokens each. The oldest session gives way; another token is refused.
 constexpr std::size_t kMostHolders = 256;
 constexpr std::uintmax_t kMostFileBytes = 1U << 20U;
 constexpr std::size_t kMostNameBytes = 40;
 
+// Names in the state folder. Other runs of the program write the codes and the tokens as well.
 constexpr const char* kCodeFile = "pairing.json";
 constexpr const char* kSessionFile = "sessions.json";
 constexpr const char* kTokenFile = "tokens.json";
 
+// Throws Error where OpenSSL has no random numbers.
 template <std::size_t count>
 std::array<unsigned char, count> randomBytes() {
     std::array<unsigned char, count> bytes{};
@@ -109,6 +115,7 @@ std::optional<Holder> holderOf(const std::vector<Holder>& holders, std::string_v
 
 }  // namespace
 
+// The words of the files and of the pages; roleNamed() reads them.
 std::string_view nameOf(ConsoleRole role) {
     switch (role) {
         case ConsoleRole::Watcher:
@@ -140,6 +147,7 @@ std::string freshSecret() {
     return text;
 }
 
+// In hexadecimal, without a salt: what is hashed is random.
 std::string hashOfSecret(std::string_view secret) {
     return toHex(digestOf(std::string(secret)));
 }

@@ -20,9 +20,12 @@ using What = browser::Command::WhatCase;
 
 constexpr std::size_t kMostVisitors = 64;
 constexpr int kTicksASecond = 10;
+// A look, or a picture that nobody has confirmed, is forgotten after three seconds.
 constexpr int kTicksOfALook = 3 * kTicksASecond;
+// A visitor that exceeds one of these two is disconnected with kClosedNoisy.
 constexpr int kMostMessagesASecond = 200;
 constexpr int kMostMalformed = 10;
+// Close codes of RFC 6455's private range, 4000 to 4999.
 constexpr std::uint16_t kClosedUnpaired = 4001, kClosedNoisy = 4008;
 
 // What somebody must be for a command; empty for what is none.
@@ -740,6 +743,10 @@ void Console::everySecond() {
     *alerts.mutable_alerts() = alertList();
     sendToAll("alerts", alerts);
     hearDoctor();
+    tendVisitors();
+}
+
+void Console::tendVisitors() {
     for (Visitor* visitor : visitors_) {
         visitor->messages = 0;
         if (visitor->holder.until > 0 && visitor->holder.until < unixNow())

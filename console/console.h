@@ -127,6 +127,8 @@ class Console final : public web::Service {
     void keepHours();
     [[nodiscard]] std::uint32_t wantedWidth(int channel) const;
     void everySecond();
+    // Closes who has lost its pairing, and sends each what its page shows.
+    void tendVisitors();
     void hearDoctor();
     void sendWall();
     // What its page shows now, beside the wall.

@@ -29,6 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+// Of the list in memory; the file is only added to.
 constexpr std::size_t kMostEvents = 200;
 
 // The last `most` bytes of a file, from the beginning of a line; empty where it cannot be read.
@@ -168,6 +169,7 @@ fs::path stateFolderOf(const std::string& rigPath) {
     return userFolder("XDG_STATE_HOME", ".local/state") / "console" / fs::path(rigPath).stem();
 }
 
+// The path at which the master's openLog() writes.
 fs::path logOf(const std::string& rigPath) {
     return userFolder("XDG_STATE_HOME", ".local/state") / "logs" /
            (fs::path(rigPath).stem().string() + ".jsonl");
@@ -276,6 +278,7 @@ void EventBook::add(const std::string& who, const std::string& what) {
          << '\n';
 }
 
+// The newest event comes first.
 browser::EventList EventBook::list() const {
     browser::EventList list;
     for (const browser::Event& event : events_) *list.add_events() = event;

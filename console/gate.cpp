@@ -12,6 +12,7 @@ namespace {
 using web::HttpReply;
 using web::HttpRequest;
 
+// How the Authorization header begins with a token (RFC 6750).
 constexpr std::string_view kBearer = "Bearer ";
 
 // Whole, with the port: browsers send it so.

@@ -18,9 +18,12 @@ namespace {
 
 using nlohmann::json;
 
+// Names in the state folder: the text of the hours, and what was brought about last.
 constexpr const char* kHoursFile = "hours.txtpb";
 constexpr const char* kDoneFile = "opening.json";
+// How long before the opening lamps go on, and how long the shutters wait for the slowest lamp.
 constexpr double kWarmUpSeconds = 180;
+// A hold that was forgotten ends within this time.
 constexpr double kMostHoldHours = 10;
 constexpr double kHourSeconds = 3600;
 
@@ -108,6 +111,7 @@ std::optional<config::WantedHours> Opening::due(UnixSeconds now) const {
     return done_ == wanted ? std::nullopt : std::optional(wanted);
 }
 
+// Written to the disk at once, so that a restart of the console repeats nothing.
 void Opening::done(const config::WantedHours& wanted) {
     done_ = wanted;
     keep();

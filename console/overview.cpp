@@ -155,6 +155,7 @@ void FigureRings::add(const std::string& name, float value) {
     if (ring.minutes.size() > kMinutes) ring.minutes.pop_front();
 }
 
+// To be called once a second: minutes are counted by the calls.
 void FigureRings::add(const browser::Wall& wall) {
     constexpr int kSecondsOfMinute = 60;
     secondsOfMinute_ = (secondsOfMinute_ + 1) % kSecondsOfMinute;

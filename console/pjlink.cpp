@@ -24,6 +24,7 @@ using std::chrono::milliseconds;
 
 constexpr auto kBetweenLooks = std::chrono::seconds(20);   // more often, and some of them hang
 constexpr auto kAfterACommand = std::chrono::seconds(10);  // which some need to themselves
+// For the connection, and for each answer.
 constexpr milliseconds kPatience{2000};
 
 // False when the time is over.
@@ -36,6 +37,7 @@ bool waitFor(int socket, short what, Clock::time_point end) {
 // A connection that never waits longer than it is told.
 class Line {
   public:
+    // Takes numeric IPv4 addresses only. isOpen() is false where nobody accepts in time.
     Line(const config::ControlledProjector& projector, milliseconds patience)
         : patience_{patience},
           socket_{socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)} {
@@ -58,6 +60,7 @@ class Line {
 
     [[nodiscard]] bool isOpen() const { return isOpen_; }
 
+    // PJLink ends a command by a carriage return. False where the line was not taken whole.
     bool say(const std::string& text) {
         const std::string line = text + "\r";
         return send(socket_, line.data(), line.size(), MSG_NOSIGNAL) ==
@@ -199,6 +202,7 @@ ProjectorFacts lookAtProjector(const config::ControlledProjector& projector,
 ProjectorWatch::ProjectorWatch(config::ControlledProjector projector)
     : projector_{std::move(projector)}, thread_{[this] { run(); }} {}
 
+// Returns when the exchange that is under way has ended.
 ProjectorWatch::~ProjectorWatch() {
     {
         const std::lock_guard lock(mutex_);
@@ -220,6 +224,7 @@ void ProjectorWatch::want(std::optional<bool> power, std::optional<bool> shut) {
     changed_.notify_all();
 }
 
+// A copy: the thread of the watch replaces what is kept.
 ProjectorFacts ProjectorWatch::facts() const {
     const std::lock_guard lock(mutex_);
     return facts_;

@@ -22,6 +22,7 @@ namespace aquarama {
 
 namespace {
 
+// Options of all subcommands, each of which uses some. Lengths are pixels.
 struct AdjustOptions {
     std::string rig, channel, with;
     glm::dvec2 place{}, by{};
@@ -78,6 +79,7 @@ class AdjustedRig {
         print();
     }
 
+    // Numbers begin at 1, as `remove` takes them.
     void print() const {
         int number = 0;
         for (const AdjustmentLine& line : lines())
@@ -122,6 +124,7 @@ class AdjustedRig {
     std::string text_;
 };
 
+// Throws Error where the rig does not hold with the new entry; the file is unchanged then.
 void append(const AdjustOptions& options, const std::string& entry) {
     AdjustedRig rig(options.rig);
     std::string text = rig.text();
@@ -129,6 +132,7 @@ void append(const AdjustOptions& options, const std::string& entry) {
     rig.write(text + entry + "\n");
 }
 
+// A place in the text format of protobuf.
 std::string placeText(const AdjustOptions& options, glm::dvec2 place) {
     return fmt::format("{} {{ x_px: {} y_px: {} }}",
                        options.isOfPicture ? "picture" : "panorama",
@@ -136,6 +140,7 @@ std::string placeText(const AdjustOptions& options, glm::dvec2 place) {
                        place.y);
 }
 
+// A radius of 0 is left out: the default of the schema holds.
 void movePoint(const AdjustOptions& options) {
     append(options,
            fmt::format("points {{ channel: \"{}\" {} right_px: {} down_px: {}{} }}",
@@ -146,6 +151,7 @@ void movePoint(const AdjustOptions& options) {
                        options.radius > 0 ? fmt::format(" radius_px: {}", options.radius) : ""));
 }
 
+// Reads "X,Y". Throws Error where the text is none.
 glm::dvec2 cornerIn(const std::string& text) {
     glm::dvec2 corner{};
     const std::size_t comma = text.find(',');
@@ -155,6 +161,7 @@ glm::dvec2 cornerIn(const std::string& text) {
     return corner;
 }
 
+// A mask without a channel holds for all of them.
 void mask(const AdjustOptions& options) {
     std::string entry = "masks {";
     if (!options.channel.empty()) entry += fmt::format(" channel: \"{}\"", options.channel);
@@ -164,6 +171,7 @@ void mask(const AdjustOptions& options) {
     append(options, entry + " }");
 }
 
+// A limit without `with` holds for all neighbours of the channel.
 void limitBlend(const AdjustOptions& options) {
     append(options,
            fmt::format("blends {{ channel: \"{}\"{} width_px: {} }}",
@@ -176,6 +184,7 @@ void list(const AdjustOptions& options) {
     AdjustedRig(options.rig).print();
 }
 
+// Throws Error where the list has no such number.
 void removeOne(const AdjustOptions& options) {
     AdjustedRig rig(options.rig);
     const std::vector<AdjustmentLine> lines = rig.lines();
@@ -187,6 +196,7 @@ void removeOne(const AdjustOptions& options) {
     rig.write(config::withoutEntry(rig.text(), lines[options.number - 1].place));
 }
 
+// A subcommand with the argument RIG, which all of them take.
 template <class Run>
 AddedCommand<AdjustOptions> addOne(CommandLine& line,
                                    CLI::App& parent,
@@ -229,6 +239,7 @@ void addMask(CommandLine& line, CLI::App& parent) {
 
 }  // namespace
 
+// `aquarama adjust` alone is an error that names the subcommands.
 void addAdjust(CommandLine& line) {
     struct Nothing {};
     const auto adjust = line.add<Nothing>(

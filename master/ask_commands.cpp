@@ -33,6 +33,7 @@ namespace {
 
 using ask::AskedMaster;
 
+// The options by which a command finds its master.
 void describeMaster(CLI::App& command, AskedMaster& asked) {
     asked.rig = supervisor::kDefaultRig;
     command.add_option("RIG", asked.rig, "whose master is asked")->capture_default_str();
@@ -108,7 +109,9 @@ void steer(const AskedMaster& asked) {
     if (onScreen) std::cout << '\n';
 }
 
+// Of explain --follow, whose help says twice a second.
 constexpr auto kBetweenLooks = std::chrono::milliseconds(500);
+// ANSI escapes: the cursor goes home, then the screen is erased.
 constexpr const char* kClearScreen = "\x1b[H\x1b[2J";
 
 struct ExplainOptions {
@@ -129,6 +132,7 @@ void print(std::uint32_t fish, std::size_t school, std::span<const std::string> 
     std::cout.flush();
 }
 
+// With --follow it goes on until somebody interrupts it.
 void explainLive(const ExplainOptions& options) {
     ask::RequestClient master = options.asked.connect();
     const bool onScreen = options.follow && isatty(STDOUT_FILENO) != 0;
@@ -176,6 +180,7 @@ bool switchedOn(const SetOptions& options) {
     throw Error(options.what + " is on or off, not \"" + options.value + "\"");
 }
 
+// Throws Error where no pattern has this name.
 v1::Pattern patternIn(const SetOptions& options) {
     if (const auto pattern = wire::patternNamed(options.value))
         return static_cast<v1::Pattern>(*pattern);
@@ -199,6 +204,7 @@ void set(const SetOptions& options) {
 
 }  // namespace
 
+// Shows the operator's key where a folder of keys is given.
 ask::RequestClient connectToMaster(const std::string& rigPath, const std::string& keyFolder) {
     AskedMaster asked{.rig = rigPath, .address = {}, .key = {}};
     if (!keyFolder.empty()) asked.key = config::keyFileIn(keyFolder, "operator").string();

@@ -52,6 +52,7 @@ std::string dateIn(const std::string& name) {
            name.substr(15) + " UTC";
 }
 
+// Numbers begin at 1, as --use takes them.
 void print(const std::vector<FileVersion>& versions, const std::string& file) {
     for (std::size_t i = 0; i < versions.size(); ++i)
         std::cout << fmt::format("{:3}  {}  {}{}\n",
@@ -83,6 +84,8 @@ void check(config::Rig rig, const std::string& path, const FileVersion& version)
     wall::checkGeometry(rig, path);
 }
 
+// A chosen version is checked with the whole rig before it is put in place. The list is printed in
+// either case.
 void listOrUse(const CalibrationsOptions& options) {
     const config::Rig rig = config::parseRig(config::readTextFile(options.rig), options.rig);
     if (rig.calibration.empty())

@@ -34,6 +34,7 @@ struct ConvertOptions {
     int version = 2;
 };
 
+// Reads "1920x1080". Throws Error where the text is no size that a picture may have.
 glm::ivec2 sizeIn(const std::string& text) {
     const std::size_t cross = std::min(text.find('x'), text.size());
     const std::string_view width = std::string_view(text).substr(0, cross);
@@ -45,6 +46,7 @@ glm::ivec2 sizeIn(const std::string& text) {
     return *size;
 }
 
+// An option that was not given leaves the default of the format.
 formats::ReadOptions readOptionsOf(const ConvertOptions& options) {
     formats::ReadOptions reading{.upsideDown = options.upsideDown};
     if (!options.size.empty()) reading.sizePixels = sizeIn(options.size);
@@ -100,6 +102,7 @@ formats::WallFile readAny(const ConvertOptions& options) {
     return wallFileOf(rig);
 }
 
+// Throws Error where the size is missing or larger than a display.
 void requireSize(const formats::FileChannel& channel, const std::string& source) {
     const glm::ivec2 size = channel.sizePixels;
     if (size.x < 1 || size.y < 1)
@@ -113,6 +116,7 @@ void requireSize(const formats::FileChannel& channel, const std::string& source)
                                 size.y));
 }
 
+// Whether the channel has no warp, or one with a sample at the centre of each pixel.
 bool isPlain(const formats::FileChannel& channel) {
     return !channel.warp || (channel.warp->sampling == formats::Sampling::Centres &&
                              channel.warp->size == channel.sizePixels);
@@ -137,6 +141,7 @@ std::string lineOf(const formats::FileChannel& channel) {
                        channel.colour ? ", colour" : "");
 }
 
+// Throws Error where OUT is not named .mpcdi, before anything is read.
 void convert(const ConvertOptions& options) {
     if (!options.out.ends_with(".mpcdi"))
         throw Error(options.out + ": only MPCDI is written; name it NAME.mpcdi");

@@ -39,6 +39,7 @@ struct DoctorOptions {
     bool json = false;
 };
 
+// Only Fail makes the exit status 1.
 enum class Verdict : std::uint8_t { Pass, Warn, Fail };
 
 // What was found about one thing, and what to do about it.
@@ -47,6 +48,7 @@ struct Finding {
     std::string subject, what, todo;
 };
 
+// Kept in the order in which they were found.
 class Findings {
   public:
     void pass(std::string subject, std::string what) {
@@ -78,14 +80,18 @@ class Findings {
     std::vector<Finding> all_;
 };
 
+// 2^30 bytes, for repertoires, keys and logs; here and on the machines of nodes.
 constexpr std::uint64_t kLeastDiskBytes = std::uint64_t{1} << 30U;
+// An older key is still valid, and gets a warning.
 constexpr double kOldKeyDays = 365;
 constexpr float kSlowRoundTripMs = 5;  // the release of a frame is said 2 ms before it
 constexpr float kMostUnansweredPercent = 1;
 
+// What to do about a clock, for this machine and for each node's.
 constexpr const char* kSynchronise =
     "install chrony or linuxptp, so that the logs of all machines agree; frames do not need it";
 
+// In units of 10^9 bytes.
 std::string gigabytes(std::uint64_t bytes) {
     return fmt::format("{:.0f} GB free", static_cast<double>(bytes) / 1e9);
 }
@@ -97,6 +103,7 @@ double daysSince(const std::string& day) {
     return std::difftime(std::time(nullptr), timegm(&date)) / 86400;
 }
 
+// A key that is missing or revoked fails; an old one is a warning.
 void lookAtKey(Findings& findings, const fs::path& folder, const std::string& name) {
     try {
         const config::KeyFile key = config::readKeyFile(config::keyFileIn(folder, name));
@@ -228,6 +235,7 @@ void lookAtTime(Findings& findings, const std::string& subject, const v1::NodeSt
             kSynchronise);
 }
 
+// llvmpipe is Mesa's renderer for machines without a graphics card.
 void lookAtReport(Findings& findings, const std::string& subject, const v1::NodeStatus& node) {
     const v1::NodeReport& report = node.report();
     const bool isSoftware = report.renderer().find("llvmpipe") != std::string::npos;
@@ -248,6 +256,7 @@ void lookAtReport(Findings& findings, const std::string& subject, const v1::Node
                    "make room on its disk");
 }
 
+// A node that has sent no report yet is judged by what the master knows of it.
 void lookAtNode(Findings& findings, const config::Rig& rig, const v1::NodeStatus& node) {
     const std::string subject = "node " + node.name();
     const std::string machine =
@@ -292,6 +301,7 @@ bool lookAtShow(Findings& findings, const DoctorOptions& options, const config::
     return true;
 }
 
+// Only where no show runs: a running master holds both ports.
 void lookAtPorts(Findings& findings, const config::Rig& rig) {
     findings.attempt("ports", [&] {
         for (const std::string& address : {rig.controlAddress, rig.stateAddress})
@@ -305,6 +315,7 @@ void lookAtPorts(Findings& findings, const config::Rig& rig) {
                    "start it (aquarama run, or the services of all machines) and ask again");
 }
 
+// A rig that cannot be read ends it, because all other checks need it.
 Findings lookOver(const DoctorOptions& options) {
     Findings findings;
     config::Rig rig;
@@ -319,6 +330,7 @@ Findings lookOver(const DoctorOptions& options) {
     return findings;
 }
 
+// In the order of Verdict.
 constexpr std::array kVerdicts{"pass", "warn", "fail"};
 
 void print(const Findings& findings) {

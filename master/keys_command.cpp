@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 using config::KeyFile;
 using config::KeyRole;
 
+// The name of the master's own key.
 constexpr std::string_view kMaster = "master";
 
 struct KeyOptions {
@@ -40,11 +41,13 @@ struct KeyOptions {
     }
 };
 
+// In UTC, as key files have it.
 std::string today() {
     const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
     return fmt::format("{:%Y-%m-%d}", fmt::gmtime(now));
 }
 
+// Throws Error where the rig is of one machine, which needs no keys.
 config::Rig keyedRig(const KeyOptions& options) {
     config::Rig rig = config::readRig(options.rig);
     if (!config::needsKeys(rig))
@@ -64,6 +67,7 @@ std::vector<std::pair<std::string, KeyRole>> holdersOf(const config::Rig& rig) {
     return holders;
 }
 
+// A channel and a role of one name would share a key file. Throws Error with the place in the rig.
 void requireOwnNames(const KeyOptions& options, const config::Rig& rig) {
     for (const config::Channel& channel : rig.channels)
         if (std::ranges::find(config::kRoleNames, channel.name) != config::kRoleNames.end())
@@ -73,6 +77,7 @@ void requireOwnNames(const KeyOptions& options, const config::Rig& rig) {
                 "channel \"" + channel.name + "\" has the name of a role: rename it"));
 }
 
+// Throws Error where the rig has no keys yet.
 KeyFile masterOf(const KeyOptions& options) {
     const fs::path path = config::keyFileIn(options.keys(), kMaster);
     if (!fs::exists(path))
@@ -82,6 +87,7 @@ KeyFile masterOf(const KeyOptions& options) {
     return config::readKeyFile(path);
 }
 
+// `masterKey` is empty here: the caller sets it.
 KeyFile freshKey(const config::Rig& rig,
                  const KeyOptions& options,
                  std::string name,
@@ -149,6 +155,7 @@ KeyFile chosen(const KeyOptions& options) {
                 "; there are " + names);
 }
 
+// A second revocation keeps the day of the first. Throws Error for the master's key.
 void revokeKey(const KeyOptions& options) {
     KeyFile key = chosen(options);
     if (key.role == KeyRole::Master)
@@ -169,6 +176,7 @@ void rotateMaster(const KeyOptions& options, const KeyFile& fresh) {
     std::cout << "the master has a new key; start it again, and bundle every other key anew\n";
 }
 
+// The new key is valid, also where the old one was revoked.
 void rotateKey(const KeyOptions& options) {
     const config::Rig rig = keyedRig(options);
     const KeyFile old = chosen(options);
@@ -179,6 +187,7 @@ void rotateKey(const KeyOptions& options) {
     std::cout << fresh.name << " has a new key; bundle it anew\n";
 }
 
+// Throws Error for the master's key, for a revoked one, and where the file is there already.
 void bundleKey(const KeyOptions& options) {
     const config::Rig rig = keyedRig(options);
     KeyFile key = chosen(options);
@@ -228,6 +237,7 @@ AddedCommand<KeyOptions> addOneKey(CommandLine& line,
 
 }  // namespace
 
+// `allowed` reads the folder at each call, so that a revocation holds for a running master.
 std::optional<net::MasterKeys> masterKeysOf(const config::Rig& rig,
                                             const supervisor::ShowOptions& show) {
     if (!config::needsKeys(rig)) return std::nullopt;

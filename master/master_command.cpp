@@ -56,6 +56,7 @@ std::optional<config::QualityTier> qualityOf(const config::Rig& rig, const Maste
 
 constexpr std::string_view kSceneEnding = ".txtpb";
 
+// Names without their ending, sorted, for the text of an error.
 std::string scenesIn(const fs::path& folder) {
     std::vector<std::string> names;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
@@ -126,6 +127,8 @@ class RigFileWatch {
     RigFileWatch(config::Rig rig, std::string path)
         : rig_{std::move(rig)}, path_{std::move(path)}, seen_{look()} {}
 
+    // Nothing where no file has changed. Throws Error where the new files are wrong, once for each
+    // change.
     std::optional<config::Rig> operator()() {
         auto now = look();
         if (now == seen_) return std::nullopt;

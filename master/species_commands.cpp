@@ -53,6 +53,7 @@ struct SearchOptions {
     std::size_t trials = 1000;
 };
 
+// The bytes of the whole file; empty where it cannot be read.
 std::string textOf(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};

@@ -33,6 +33,8 @@ struct DotPicture {
     }
 };
 
+// Weights 1, 2 and 1 of red, green and blue, in linear light by the camera's response. Sets `size`
+// to that of the picture.
 scan::Plane luminanceOf(scan::PictureSource& source, std::size_t index, glm::ivec2& size) {
     const config::Scan& scan = source.scan();
     const Picture picture = source.picture(index);
@@ -47,6 +49,7 @@ scan::Plane luminanceOf(scan::PictureSource& source, std::size_t index, glm::ive
     return light;
 }
 
+// A level that no channel shows: the picture of the black wall.
 bool isBlack(const config::ScanPattern& pattern) {
     return pattern.kind == Kind::Level && pattern.lit == 0;
 }
@@ -64,6 +67,7 @@ std::size_t blackFor(const config::Scan& scan, std::size_t index) {
     return *best;
 }
 
+// Throws Error where there is no black picture or where it has another size.
 DotPicture dotPicture(scan::PictureSource& source, std::size_t index) {
     DotPicture picture;
     picture.light = luminanceOf(source, index, picture.size);
@@ -204,6 +208,8 @@ std::vector<std::uint64_t> roundsIn(const config::Scan& scan) {
     return rounds;
 }
 
+// Step 0 shows all dots; step k shows those whose number has bit k - 1. A spot counts as lit above
+// half of its light in step 0.
 void readNumbers(scan::PictureSource& source,
                  std::uint64_t round,
                  std::size_t channels,

@@ -12,6 +12,7 @@
 
 namespace aquarama::drift {
 
+// One dot in a camera's picture, and the channel that shows it.
 struct SeenDot {
     std::size_t channel = 0;
     int dot = 0;         // of its picture: wall::scanDotPlace()

@@ -20,6 +20,7 @@ namespace aquarama::drift {
 
 namespace {
 
+// A channel with fewer dots is not judged: the fit of its slopes has six terms for each axis.
 constexpr std::size_t kLeastDots = 8;
 
 // A dot of the reference and where it is now; camera pixels.
@@ -30,6 +31,7 @@ struct DotPair {
     glm::dmat2 channelFromCamera{1.0};
 };
 
+// Both axes are divided by half the width, so that a unit is as long across as down.
 glm::dvec2 fromMiddle(int dot, glm::ivec2 size) {
     return (wall::scanDotPlace(dot, size) - glm::dvec2(size) / 2.0) / (size.x / 2.0);
 }
@@ -131,6 +133,8 @@ class CameraMoveSearch {
             move_ = move;
         }
     }
+    // Weighted least squares for four unknowns at a fixed bend. The small diagonal keeps the system
+    // solvable where all weights are 0.
     [[nodiscard]] CameraMove fitted(const std::vector<double>& weights, double bend) const {
         Eigen::Matrix4d square = 1e-9 * Eigen::Matrix4d::Identity();
         Eigen::Vector4d right = Eigen::Vector4d::Zero();
@@ -149,6 +153,7 @@ class CameraMoveSearch {
             cost += std::log1p(std::pow(glm::length(ownWay(pair, move, size_)) / kNoise, 2));
         return cost;
     }
+    // Reweighted in each step: a dot that disagrees counts less in the next one. The bend stays.
     [[nodiscard]] CameraMove refined(CameraMove move) const {
         constexpr int kSteps = 40;
         for (int step = 0; step < kSteps; ++step) {
@@ -198,6 +203,8 @@ Eigen::Matrix<double, 3, 2> smoothWay(std::span<const DotPair> pairs,
     return way;
 }
 
+// `turn` is the antisymmetric part of the linear movement, `zoom` half its trace; pixels at the
+// sides of the picture.
 ChannelDrift driftOfChannel(std::span<const DotPair> pairs,
                             const CameraMove& move,
                             glm::dvec2 size,
@@ -219,6 +226,7 @@ ChannelDrift driftOfChannel(std::span<const DotPair> pairs,
     return drift;
 }
 
+// Null where the dot is not among them. The pointer is valid as long as `dots` is unchanged.
 const SeenDot* found(const std::vector<SeenDot>& dots, const SeenDot& wanted) {
     const auto at = std::ranges::find_if(dots, [&](const SeenDot& dot) {
         return dot.channel == wanted.channel && dot.dot == wanted.dot;
@@ -250,6 +258,8 @@ std::vector<DotPair> pairsOf(const Reference& reference,
 
 }  // namespace
 
+// The camera's movement is found first, from the dots of all channels; a channel is judged by what
+// is left.
 WallDrift driftOf(const Reference& reference,
                   const std::vector<SeenDot>& now,
                   const config::Rig& rig) {
@@ -285,6 +295,8 @@ const char* nameOf(DriftVerdict verdict) {
                                             : "not seen";
 }
 
+// Reads [channel, dot, x, y, radius]. Throws Error where the channel is not the rig's or a number
+// is out of its range.
 SeenDot dotFrom(const nlohmann::json& in, const config::Rig& rig, glm::ivec2 cameraPixels) {
     const auto channel =
         std::ranges::find(rig.channels, in.at(0).get<std::string>(), &config::Channel::name);
@@ -302,6 +314,7 @@ SeenDot dotFrom(const nlohmann::json& in, const config::Rig& rig, glm::ivec2 cam
 
 }  // namespace
 
+// Channels are written by their names: their order in the rig may change.
 std::string textOf(const Reference& reference, const config::Rig& rig) {
     nlohmann::ordered_json dots = nlohmann::ordered_json::array();
     for (const SeenDot& dot : reference.dots)
@@ -316,6 +329,7 @@ std::string textOf(const Reference& reference, const config::Rig& rig) {
            "\n";
 }
 
+// Every exception, that of the JSON library too, becomes an Error that says what to do.
 Reference parseReference(const std::string& text,
                          const std::string& source,
                          const config::Rig& rig) {

@@ -28,6 +28,7 @@ struct Reference {
                                        const std::string& source,
                                        const config::Rig& rig);
 
+// NotSeen: too few of the dots were found again.
 enum class DriftVerdict : std::uint8_t { InPlace, Moved, NotSeen };
 
 // Pixels of the channel's own picture.
@@ -39,6 +40,7 @@ struct ChannelDrift {
     std::size_t dots = 0;
 };
 
+// The result for a whole wall; `channels` are in the order of the rig's.
 struct WallDrift {
     double cameraPixels = 0;    // by which the camera's picture moved, in the mean
     bool isCameraLost = false;  // it moved too far to tell anything of projectors
@@ -54,6 +56,7 @@ inline constexpr double kMostDriftPixels = 0.5;
                                 const std::vector<SeenDot>& now,
                                 const config::Rig& rig);
 
+// One line for the terminal, without its end.
 [[nodiscard]] std::string lineOf(const config::Channel& channel, const ChannelDrift& drift);
 // For other programs.
 [[nodiscard]] std::string jsonOf(const WallDrift& drift, const config::Rig& rig);

@@ -13,8 +13,11 @@ namespace aquarama::page {
 
 namespace {
 
+// Codes of sRGB, 0 to 1: a grey that neither colour scale contains, so that nobody reads it as a
+// value.
 constexpr glm::vec3 kNoValue(0.55F, 0.57F, 0.6F);
 
+// Converts codes of 8 bits (0 to 255) to codes from 0 to 1.
 constexpr glm::vec3 bytes(int red, int green, int blue) {
     return {static_cast<float>(red) / 255,
             static_cast<float>(green) / 255,
@@ -23,12 +26,14 @@ constexpr glm::vec3 bytes(int red, int green, int blue) {
 
 }  // namespace
 
+// Six samples of matplotlib's viridis, at equal steps.
 const ColourScale kGrowing{bytes(68, 1, 84),
                            bytes(65, 68, 135),
                            bytes(42, 120, 142),
                            bytes(34, 168, 132),
                            bytes(122, 209, 81),
                            bytes(253, 231, 37)};
+// ColorBrewer's RdBu of six classes, turned round: it begins with blue.
 const ColourScale kAround{bytes(33, 102, 172),
                           bytes(103, 169, 207),
                           bytes(209, 229, 240),
@@ -43,6 +48,7 @@ Field emptyField(glm::ivec2 sizePixels) {
                 std::numeric_limits<double>::quiet_NaN())};
 }
 
+// Magnitudes are compared: a negative value counts by its absolute value.
 double largestOf(const Field& field) {
     double largest = 0;
     for (const double value : field.values)
@@ -62,6 +68,7 @@ std::string cssColour(glm::vec3 codes) {
     return fmt::format("rgb({} {} {})", rounded.x, rounded.y, rounded.z);
 }
 
+// Where `low` and `high` are equal, every value gets the first colour of the scale.
 Picture colouredField(const Field& field, const ColourScale& scale, double low, double high) {
     Picture picture{.sizePixels = field.sizePixels, .bits = 8, .rgb = {}};
     for (const double value : field.values) {
@@ -73,6 +80,7 @@ Picture colouredField(const Field& field, const ColourScale& scale, double low, 
     return picture;
 }
 
+// RFC 4648, with padding and without line breaks.
 std::string base64(std::span<const std::byte> content) {
     constexpr const char* kLetters =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -123,6 +131,7 @@ std::string escaped(const std::string& text) {
     return out;
 }
 
+// The picture is stretched to the full width and to `height`; its pixels need not be square.
 std::string drawing(const Picture& picture,
                     double height,
                     const std::string& overlay,
@@ -144,6 +153,7 @@ std::string line(const std::vector<glm::dvec2>& points, const std::string& colou
     return text + "\"/>";
 }
 
+// CSS interpolates linearly between the colours, as colourAt() does.
 std::string scaleBar(const ColourScale& scale, const std::string& low, const std::string& high) {
     std::string stops;
     for (const glm::vec3& colour : scale) stops += ", " + cssColour(colour);
@@ -157,13 +167,17 @@ std::string scaleBar(const ColourScale& scale, const std::string& low, const std
 
 namespace {
 
+// Units of the SVG drawing. The space left of kPlotLeft holds the labels of the axis.
 constexpr double kPlotHeight = 260, kPlotLeft = 80, kPlotRight = 990, kPlotTop = 24,
                  kPlotBottom = 230;
 
+// The vertical place of a value, in units of the drawing, which grow downwards. Values outside 0 to
+// `most` lie on the edge.
 double plotted(double value, double most) {
     return kPlotBottom - (kPlotBottom - kPlotTop) * std::clamp(value / most, 0.0, 1.0);
 }
 
+// Horizontal lines at equal steps from 0 to `most`, each with its value at the left.
 std::string axis(double most, int ticks) {
     std::string text;
     for (int i = 0; i <= ticks; ++i) {
@@ -182,6 +196,7 @@ std::string axis(double most, int ticks) {
     return text;
 }
 
+// Each value lies in the middle of its step, as the centre of a pixel does.
 std::string curveLine(const Curve& curve, double most) {
     std::vector<glm::dvec2> points;
     const double step = (kPlotRight - kPlotLeft) /
@@ -194,6 +209,7 @@ std::string curveLine(const Curve& curve, double most) {
 
 }  // namespace
 
+// Values above `most` are drawn at the top edge. The names of the curves follow below the drawing.
 std::string plot(const std::vector<Curve>& curves,
                  double most,
                  int ticks,

@@ -21,6 +21,8 @@ namespace aquarama::page {
 
 namespace {
 
+// The hall as the solve has it: fitted lenses, poses and screen. It knows no brightness, so light()
+// returns what was sent.
 class SolvedFall final : public Fall {
   public:
     explicit SolvedFall(const solve::SolvedHall& hall) : hall_{hall} {}
@@ -56,6 +58,8 @@ class SolvedFall final : public Fall {
     const solve::SolvedHall& hall_;
 };
 
+// The hall as the simulation has it. Places of the panorama are those of the rig's own screen,
+// without its displacement.
 class TrueFall final : public Fall {
   public:
     explicit TrueFall(const hall::TrueHall& hall)
@@ -107,6 +111,7 @@ std::unique_ptr<Fall> fallOf(const hall::TrueHall& hall) {
     return std::make_unique<TrueFall>(hall);
 }
 
+// The light of all channels adds up. Each pixel is sampled once, at its centre.
 Light seenPanorama(const Fall& fall,
                    const hall::DrawnWall& wall,
                    const hall::Content& content,
@@ -145,6 +150,7 @@ void raise(double& value, double other) {
 
 }  // namespace
 
+// Each row is one task and writes only its own pixels, so no lock is needed.
 ErrorMaps errorMaps(const Fall& fall,
                     const hall::DrawnWall& wall,
                     glm::ivec2 panoramaPixels,
@@ -164,6 +170,7 @@ ErrorMaps errorMaps(const Fall& fall,
     return maps;
 }
 
+// The solve holds metres, the map millimetres.
 Field displacementMap(const solve::SolvedHall& hall, glm::ivec2 sizePixels) {
     constexpr double kMillimetres = 1000;
     Field field = emptyField(sizePixels);
@@ -174,6 +181,7 @@ Field displacementMap(const solve::SolvedHall& hall, glm::ivec2 sizePixels) {
     return field;
 }
 
+// Six colours: the seventh channel has the first one again.
 glm::vec3 channelColour(std::size_t channel) {
     constexpr std::array<glm::vec3, 6> kColours{{{0.95F, 0.25F, 0.1F},
                                                  {0.05F, 0.45F, 0.95F},
@@ -184,6 +192,7 @@ glm::vec3 channelColour(std::size_t channel) {
     return kColours[channel % kColours.size()];
 }
 
+// Each channel's colour is weighted by its share of the light at the point.
 Light sharesOfLight(const hall::DrawnWall& wall, glm::ivec2 sizePixels) {
     Light light = darkness(sizePixels);
     overPixels(sizePixels, [&](int x, int y, glm::dvec2 place) {
@@ -194,6 +203,7 @@ Light sharesOfLight(const hall::DrawnWall& wall, glm::ivec2 sizePixels) {
     return light;
 }
 
+// The samples lie at the centres of equal steps; a step without screen counts as 0.
 std::vector<std::vector<double>> shareProfile(const hall::DrawnWall& wall, int steps) {
     std::vector<std::vector<double>> profile(wall.wall().channels());
     for (int x = 0; x < steps; ++x) {
@@ -204,6 +214,8 @@ std::vector<std::vector<double>> shareProfile(const hall::DrawnWall& wall, int s
     return profile;
 }
 
+// Walks clockwise from the top left, through the centres of the outermost pixels. Pieces of a
+// single point are dropped.
 std::vector<std::vector<glm::dvec2>> footprint(const wall::Wall& wall,
                                                std::size_t channel,
                                                glm::ivec2 channelPixels) {
@@ -227,6 +239,8 @@ std::vector<std::vector<glm::dvec2>> footprint(const wall::Wall& wall,
 
 namespace {
 
+// Yaw, pitch and roll, radians. A pose's own frame has z ahead and y down; the flip of both gives
+// the frame of the rig's angles.
 glm::dvec3 anglesOf(const solve::PoseParameters& pose) {
     glm::dmat3 ownFromWall;
     ceres::AngleAxisToRotationMatrix(pose.data(), &ownFromWall[0][0]);
@@ -236,6 +250,7 @@ glm::dvec3 anglesOf(const solve::PoseParameters& pose) {
 
 }  // namespace
 
+// Differences of angles are brought into the range from -pi to pi.
 Hang hangOf(const solve::SolvedHall& hall, std::size_t channel) {
     namespace lens = solve::lens;
     const config::Projector& rig = hall.rig.channels[channel].projector;

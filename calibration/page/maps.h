@@ -45,6 +45,8 @@ class Fall {
 struct ErrorMaps {
     Field neighbours, absolute;
 };
+// A pixel that no channel lights has no value; one that a single channel lights has none in
+// `neighbours`.
 [[nodiscard]] ErrorMaps errorMaps(const Fall& fall,
                                   const hall::DrawnWall& wall,
                                   glm::ivec2 panoramaPixels,

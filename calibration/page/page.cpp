@@ -67,6 +67,7 @@ svg .label {{ font-size: 20px; font-weight: 600; fill: #fff; stroke: #000; strok
 <h1>Calibration of {0}</h1>
 )";
 
+// Title and explanation are escaped here; `content` is HTML already.
 std::string section(const std::string& title, const std::string& what, const std::string& content) {
     return fmt::format(
         "<section><h2>{}</h2>\n<p>{}</p>\n{}</section>\n", escaped(title), escaped(what), content);
@@ -89,6 +90,7 @@ std::string verdict(const CalibrationPage& page) {
                        escaped(what));
 }
 
+// One row of the table of figures. All three texts are escaped here.
 std::string row(const std::string& name, const std::string& value, const std::string& meaning) {
     return fmt::format(
         "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"dim\">{}</td></tr>\n",
@@ -97,10 +99,13 @@ std::string row(const std::string& name, const std::string& value, const std::st
         escaped(meaning));
 }
 
+// Pixels of the panorama, as the head of the page says.
 std::string pixels(double value) {
     return fmt::format("{:.3f} px", value);
 }
 
+// A simulation is told apart in words: its errors come from the truth, others from places that were
+// kept from the solve.
 std::string figureTable(const solve::Figures& figures) {
     const std::string source =
         figures.isTrue ? "From the truth of the simulated hall, at points that the solve has not "
@@ -162,13 +167,16 @@ class Writer {
     [[nodiscard]] double height() const {
         return kDrawingWidth * rig_.panoramaPixels.y / rig_.panoramaPixels.x;
     }
+    // A size in pixels with the aspect of the panorama, and with at least two rows.
     [[nodiscard]] glm::ivec2 sized(int width) const {
         return {width, std::max(2, width * rig_.panoramaPixels.y / rig_.panoramaPixels.x)};
     }
+    // From shares of the unrolled screen (0 to 1) to units of the drawing.
     [[nodiscard]] glm::dvec2 drawn(glm::dvec2 unrolled) const {
         return unrolled * glm::dvec2(kDrawingWidth, height());
     }
 
+    // The parts that need a wall file. Throws Error where it cannot be read.
     [[nodiscard]] std::string calibrated() const {
         const hall::DrawnWall before(rig_);
         const hall::DrawnWall after(hall::withWallFile(rig_, page_.wallFile));
@@ -203,6 +211,7 @@ class Writer {
                                "the screen as the camera sees it"));
     }
 
+    // The name is put into the page as it is: only constants are given.
     [[nodiscard]] std::string grid(const Fall& fall,
                                    const hall::DrawnWall& wall,
                                    const std::string& name) const {
@@ -211,6 +220,7 @@ class Writer {
         return "<p>" + name + "</p>\n" + drawing(pictureOf(seen, 8, 0), height(), "", name);
     }
 
+    // Both pictures are of the same hall; only what the nodes draw differs.
     [[nodiscard]] std::string beforeAndAfter(const Fall& fall,
                                              const hall::DrawnWall& before,
                                              const hall::DrawnWall& after) const {
@@ -232,6 +242,8 @@ class Writer {
                scaleBar(kGrowing, "0", fmt::format("{:.2g} px", most));
     }
 
+    // A circle for each place that was kept from the solve. `most`: pixels at the end of the colour
+    // scale.
     [[nodiscard]] std::string heldOutDots(double most) const {
         std::string dots;
         for (const solve::Parting& parting : page_.solved.partings) {
@@ -246,6 +258,8 @@ class Writer {
         return dots;
     }
 
+    // Without a truth only the dots are known, and the field below them is empty. The scale ends at
+    // 0.2 pixels at least: small errors are not stretched over all colours.
     [[nodiscard]] std::string errors(const Fall& fall, const hall::DrawnWall& after) const {
         constexpr int kWidth = 500;
         std::string text;
@@ -273,6 +287,7 @@ class Writer {
                                      "absolute errors"));
     }
 
+    // No text where the solve gave no uncertainty.
     [[nodiscard]] std::string uncertainty() const {
         const Field field{page_.solved.uncertainty.size, page_.solved.uncertainty.pixels};
         if (field.values.empty()) return {};
@@ -283,6 +298,7 @@ class Writer {
                        mapped(field, std::max(0.1, largestOf(field)), "", "uncertainty"));
     }
 
+    // A white line lies below each dashed one, so that it is seen on every colour.
     [[nodiscard]] std::string footprints(const hall::DrawnWall& after) const {
         constexpr int kWidth = 600;
         std::string overlay;
@@ -314,6 +330,7 @@ class Writer {
                                "footprints and blend"));
     }
 
+    // channelColour() is linear light; CSS takes codes of sRGB.
     [[nodiscard]] static std::string colourOf(std::size_t channel) {
         glm::vec3 codes = channelColour(channel);
         for (int c = 0; c < 3; ++c)
@@ -343,6 +360,7 @@ class Writer {
         return curve;
     }
 
+    // Brightness that was not measured is computed by greyCurve().
     [[nodiscard]] std::string profiles(const Fall& fall,
                                        const hall::DrawnWall& before,
                                        const hall::DrawnWall& after) const {
@@ -369,6 +387,7 @@ class Writer {
                        plot(brightness, 2, 4, "brightness along the wall"));
     }
 
+    // Both ends of the scale are equally far from 0, and at least 1 mm.
     [[nodiscard]] std::string displacement() const {
         constexpr int kWidth = 250;
         const Field field = displacementMap(hall_, sized(kWidth));
@@ -383,6 +402,7 @@ class Writer {
                 scaleBar(kAround, fmt::format("{:.0f} mm", -most), fmt::format("{:.0f} mm", most)));
     }
 
+    // Centimetres, degrees and percent; Hang has metres, radians and shares.
     [[nodiscard]] std::string projectorRow(std::size_t channel) const {
         constexpr double kCentimetres = 100;
         const Hang hang = hangOf(hall_, channel);

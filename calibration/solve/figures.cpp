@@ -140,15 +140,26 @@ void judgeOutline(Figures& figures, const SolveFigures& solved) {
 
 }  // namespace
 
+namespace {
+
+// Exchanged cables make channels look hidden, so what the solve found goes first.
+void takeFaults(Figures& figures,
+                const std::vector<scan::CameraView>& views,
+                const Solved& solved) {
+    const auto takeAll = [&](const std::vector<scan::ScanFault>& faults) {
+        for (const scan::ScanFault& fault : faults)
+            take(figures, fault.refuses ? Judgement::Refuse : Judgement::Warn, fault);
+    };
+    takeAll(solved.faults);
+    for (const scan::CameraView& view : views) takeAll(view.faults);
+}
+
+}  // namespace
+
 Figures judged(const std::vector<scan::CameraView>& views, const Solved& solved) {
     Figures figures;
     figures.verdict = Judgement::Pass;
-    // Exchanged cables make channels look hidden, so what the solve found goes first.
-    for (const scan::ScanFault& fault : solved.faults)
-        take(figures, fault.refuses ? Judgement::Refuse : Judgement::Warn, fault);
-    for (const scan::CameraView& view : views)
-        for (const scan::ScanFault& fault : view.faults)
-            take(figures, fault.refuses ? Judgement::Refuse : Judgement::Warn, fault);
+    takeFaults(figures, views, solved);
     if (solved.faults.empty()) {
         judgeOverlaps(figures, solved.figures);
         judgeOutline(figures, solved.figures);

@@ -70,11 +70,7 @@ class Calibration {
             source_ = scan::openFolder(options_.keep, rig_);
         }
         const auto begin = Clock::now();
-        std::vector<scan::CameraView> views;
-        for (std::uint32_t i = 0; i < source_->scan().cameras.size(); ++i) {
-            say(fmt::format("reading {} pictures", source_->scan().pictures.size()));
-            views.push_back(scan::decode(*source_, i, rig_));
-        }
+        const std::vector<scan::CameraView> views = decoded();
         const solve::Solved solved = solve::solveHall(rig_, wall_, views, say);
         solve::Figures figures = solve::judged(views, solved);
         if (figures.verdict != solve::Judgement::Refuse) write(solved, views.front(), figures);
@@ -97,6 +93,15 @@ class Calibration {
     [[nodiscard]] std::string keptIn() const {
         if (!options_.keep.empty()) return options_.keep;
         return std::filesystem::path(options_.out).replace_extension(".scan").string();
+    }
+
+    [[nodiscard]] std::vector<scan::CameraView> decoded() {
+        std::vector<scan::CameraView> views;
+        for (std::uint32_t i = 0; i < source_->scan().cameras.size(); ++i) {
+            say(fmt::format("reading {} pictures", source_->scan().pictures.size()));
+            views.push_back(scan::decode(*source_, i, rig_));
+        }
+        return views;
     }
 
     void openPictures() {

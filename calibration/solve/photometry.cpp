@@ -271,6 +271,18 @@ std::vector<float> responseOf(const std::vector<Response>& levels, int colour) {
     return response;
 }
 
+// White of what a picture shows, where the channel is alone.
+glm::dvec3 whiteBeside(const scan::SampledPicture& picture,
+                       const ChannelSamples& channel,
+                       const std::vector<Sample>& samples) {
+    Sum sum;
+    for (const Sample& sample : samples) {
+        const glm::dvec3 whites = channel.whites(picture.pattern.lit, sample.index);
+        if (sample.isAlone) sum.add(whites, whites);
+    }
+    return sum.share();
+}
+
 // Full red, green and blue, scaled so that their sum is white.
 std::optional<glm::dmat3> primariesOf(const ChannelSamples& channel,
                                       const std::vector<Sample>& samples) {
@@ -282,13 +294,7 @@ std::optional<glm::dmat3> primariesOf(const ChannelSamples& channel,
         const scan::SampledPicture* picture = channel.level(light);
         if (picture == nullptr) return std::nullopt;
         own[colour] = sumOf(*picture, channel, samples).share();
-        if (colour > 0) continue;
-        Sum sum;
-        for (const Sample& sample : samples) {
-            const glm::dvec3 whites = channel.whites(picture->pattern.lit, sample.index);
-            if (sample.isAlone) sum.add(whites, whites);
-        }
-        white = sum.share();
+        white = whiteBeside(*picture, channel, samples);
     }
     const glm::dvec3 scale = white / (own * glm::dvec3(1));
     for (int colour = 0; colour < 3; ++colour) own[colour] *= scale;
@@ -370,32 +376,40 @@ void setBlacks(std::vector<ChannelLight>& channels, const std::vector<BlackSampl
         channels[static_cast<std::size_t>(c)].black = std::clamp(solved(c), 0.0, 0.1);
 }
 
-// Pixels where every channel that lights one is understood there.
-std::vector<BlackSample> blackSamples(const config::Rig& rig,
-                                      const scan::CameraView& view,
-                                      const std::vector<ChannelLight>& channels) {
+// A pixel of the camera, where every channel that lights it is understood.
+std::optional<BlackSample> blackSampleAt(const config::Rig& rig,
+                                         const scan::CameraView& view,
+                                         const std::vector<ChannelLight>& channels,
+                                         std::size_t pixel) {
     // Of its white a channel gives more than this to all that it lights, and less by way of the
     // screen.
     constexpr double kUnlit = 0.2;
-    const Light& black = ChannelSamples(view, 0).black();
-    std::vector<double> middles;
-    for (const ChannelLight& channel : channels) middles.push_back(channel.white.at({0.5, 0.5}));
+    BlackSample sample;
+    bool isLit = false;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        const glm::dvec2 place(view.channels[c].place[pixel]);
+        const bool isHere = !std::isnan(place.x + place.y);
+        const double middle = channels[c].white.at({0.5, 0.5});
+        if (!isHere && double(view.channels[c].light[pixel]) > kUnlit * middle) return std::nullopt;
+        isLit = isLit || isHere;
+        const glm::dvec2 size(rig.channels[c].sizePixels);
+        sample.whites.push_back(isHere ? channels[c].white.at(place / size) : 0);
+    }
+    return isLit ? std::optional(std::move(sample)) : std::nullopt;
+}
+
+std::vector<BlackSample> blackSamples(const config::Rig& rig,
+                                      const scan::CameraView& view,
+                                      const std::vector<ChannelLight>& channels) {
+    const ChannelSamples any(view, 0);
+    const Light& black = any.black();
     std::vector<BlackSample> samples;
     for (int y = 0; y < black.sizePixels.y; ++y)
         for (int x = 0; x < black.sizePixels.x; ++x) {
-            const std::size_t p = scan::pixelOfSample(view, x, y);
-            BlackSample sample{.black = luminance(glm::dvec3(black.at(x, y))), .whites = {}};
-            bool isSure = !std::isnan(sample.black), isLit = false;
-            for (std::size_t c = 0; c < channels.size(); ++c) {
-                const glm::dvec2 place(view.channels[c].place[p]);
-                const bool isHere = !std::isnan(place.x + place.y);
-                isSure =
-                    isSure && (isHere || double(view.channels[c].light[p]) < kUnlit * middles[c]);
-                isLit = isLit || isHere;
-                const glm::dvec2 size(rig.channels[c].sizePixels);
-                sample.whites.push_back(isHere ? channels[c].white.at(place / size) : 0);
-            }
-            if (isLit && isSure) samples.push_back(std::move(sample));
+            auto sample = blackSampleAt(rig, view, channels, scan::pixelOfSample(view, x, y));
+            if (!sample || std::isnan(black.at(x, y).x)) continue;
+            sample->black = luminance(glm::dvec3(black.at(x, y)));
+            samples.push_back(std::move(*sample));
         }
     return samples;
 }

@@ -95,25 +95,30 @@ LinePoint pointAt(const hall::TrueHall& truth, glm::dvec2 place, glm::dvec2 side
     return point;
 }
 
-std::vector<Line> linesOf(const hall::TrueHall& truth) {
+// At a place of the other axis; empty where the screen is not there.
+Line lineAlong(const hall::TrueHall& truth, int axis, double at) {
     const glm::dvec2 panorama(truth.rig().panoramaPixels);
     const double step = 1.0 / double{kPoints};
+    const glm::dvec2 side(step, step * panorama.x / panorama.y);
+    const auto count = static_cast<std::size_t>(1 / side[axis] + 1e-6);
+    Line line;
+    for (std::size_t i = 0; i < count; ++i) {
+        glm::dvec2 place(at);
+        place[axis] = (static_cast<double>(i) + 0.5) * side[axis];
+        LinePoint point = pointAt(truth, place, side);
+        if (!point.samples.empty()) line.push_back(std::move(point));
+    }
+    // Without the edges of the screen, where a wall may stay dark.
+    const auto edge = static_cast<std::ptrdiff_t>(line.size() / 50 + 1);
+    if (line.size() <= count / 2) return {};
+    return {line.begin() + edge, line.end() - edge};
+}
+
+std::vector<Line> linesOf(const hall::TrueHall& truth) {
     std::vector<Line> lines;
     for (const int axis : {0, 1})
-        for (const double at : {0.15, 0.3, 0.5, 0.7, 0.85}) {
-            glm::dvec2 side(step, step * panorama.x / panorama.y);
-            const std::size_t count = axis == 0 ? kPoints : static_cast<std::size_t>(1 / side.y);
-            Line line;
-            for (std::size_t i = 0; i < count; ++i) {
-                glm::dvec2 place(at);
-                place[axis] = (static_cast<double>(i) + 0.5) * side[axis];
-                LinePoint point = pointAt(truth, place, side);
-                if (!point.samples.empty()) line.push_back(std::move(point));
-            }
-            // Without the edges of the screen, where a wall may stay dark.
-            const auto edge = static_cast<std::ptrdiff_t>(line.size() / 50 + 1);
-            if (line.size() > count / 2) lines.emplace_back(line.begin() + edge, line.end() - edge);
-        }
+        for (const double at : {0.15, 0.3, 0.5, 0.7, 0.85})
+            lines.push_back(lineAlong(truth, axis, at));
     return lines;
 }
 

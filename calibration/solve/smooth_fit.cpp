@@ -69,20 +69,21 @@ class Equations {
     Eigen::Index rows_ = 0;
 };
 
-void addSmoothness(Equations& equations, const SmoothField& field) {
+// Three controls in a row, across or down.
+void addBends(Equations& equations, const SmoothField& field, glm::ivec2 way) {
     const glm::ivec2 controls = field.cells() + 3;
-    for (int row = 0; row < controls.y; ++row)
-        for (int column = 0; column < controls.x; ++column) {
-            equations.addSize(field.control(column, row));
-            if (column > 0 && column + 1 < controls.x)
-                equations.addBend({field.control(column - 1, row),
-                                   field.control(column, row),
-                                   field.control(column + 1, row)});
-            if (row > 0 && row + 1 < controls.y)
-                equations.addBend({field.control(column, row - 1),
-                                   field.control(column, row),
-                                   field.control(column, row + 1)});
-        }
+    for (int row = way.y; row + way.y < controls.y; ++row)
+        for (int column = way.x; column + way.x < controls.x; ++column)
+            equations.addBend({field.control(column - way.x, row - way.y),
+                               field.control(column, row),
+                               field.control(column + way.x, row + way.y)});
+}
+
+void addSmoothness(Equations& equations, const SmoothField& field) {
+    for (std::size_t control = 0; control < field.controls().size(); ++control)
+        equations.addSize(control);
+    addBends(equations, field, {1, 0});
+    addBends(equations, field, {0, 1});
 }
 
 FieldPair fitted(const std::vector<Measured>& measured,

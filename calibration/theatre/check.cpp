@@ -69,6 +69,7 @@ std::string lineOfTour(const config::Scene& scene) {
                 scene.idleSeconds);
 }
 
+// A length of 0 means that the light never changes. `startsAt` is a share of a day.
 std::string lineOf(const config::Day& day) {
     if (day.lengthSeconds <= 0) return said("light: always as at %.3g of a day\n", day.startsAt);
     return said("light: a day of %.4g s, from %.3g on, down to %.3g at midnight\n",
@@ -79,10 +80,13 @@ std::string lineOf(const config::Day& day) {
 
 constexpr int kAlong = 12001;  // samples of the screen's mid-height; a hundredth of a degree each
 
+// The azimuth of a point or direction of the wall frame, in degrees.
 double degreesAt(glm::dvec3 point) {
     return wall::azimuthOf(point) / kRadiansPerDegree<double>;
 }
 
+// Such a screen is described by azimuths and by heights in metres, all others by angles from the
+// sweet spot.
 bool isUprightCylinder(const config::Screen& screen) {
     return screen.shape == config::ScreenShape::Cylinder && screen.tiltRadians == 0;
 }
@@ -165,6 +169,7 @@ std::string sideways(double degrees) {
 
 }  // namespace
 
+// Throws Error where a species cannot be read or the water has no room for the fish.
 std::string inventoryOf(const config::Scene& scene, const std::string& path) {
     const std::vector<config::CastSpecies> cast = config::readCastSpecies(scene, path);
     const std::size_t fish = config::fishIn(scene);
@@ -242,6 +247,8 @@ std::vector<ChannelOverlap> overlapsOf(const config::Rig& rig,
 
 }  // namespace
 
+// Azimuths on an upright cylinder are from the origin of the wall frame, on other screens from the
+// sweet spot.
 ChannelSurvey surveyChannel(const config::Rig& rig, const wall::Wall& wall, std::size_t channel) {
     assert(channel < rig.channels.size());
     const wall::Optics& own = wall.channel(channel);
@@ -266,6 +273,8 @@ ChannelSurvey surveyChannel(const config::Rig& rig, const wall::Wall& wall, std:
     return survey;
 }
 
+// Samples a grid of 601 by 151 places. Points that are masked or that no channel lights do not
+// count.
 double worstBlendSum(const wall::Wall& wall) {
     constexpr glm::ivec2 kGrid(601, 151);
     double worst = 0;
@@ -284,6 +293,7 @@ double worstBlendSum(const wall::Wall& wall) {
 
 namespace {
 
+// An elevation in words.
 std::string upward(double degrees) {
     return said("%.1f deg %s", std::abs(degrees), degrees < 0 ? "down" : "up");
 }

@@ -24,6 +24,7 @@
 namespace aquarama {
 namespace {
 
+// To standard output, without a line end of its own.
 void say(const std::string& text) {
     std::fputs(text.c_str(), stdout);
 }
@@ -40,6 +41,7 @@ config::Rig readCheckedRig(const std::string& path) {
     return checkedRig(config::readTextFile(path), path);
 }
 
+// How much the rig's file of adjustments holds.
 std::string byHand(const config::Adjustments& adjustments) {
     return fmt::format("by hand: {} control points, {} masks, {} limits of blends\n",
                        adjustments.points.size(),
@@ -95,6 +97,7 @@ int checkAll(const std::vector<std::string>& paths) {
     return status;
 }
 
+// Lengths in metres, angles in degrees.
 std::string textOf(const config::Screen& screen) {
     const double degrees = screen.arcRadians / kRadiansPerDegree<double>;
     const std::string tilt = screen.tiltRadians == 0
@@ -127,6 +130,8 @@ std::string textOf(const config::Screen& screen) {
     return {};
 }
 
+// Says what the file holds, without any geometry of the wall. show() wants the path, which is not
+// used.
 void inspectRig(const config::Rig& rig, const std::string& /*path*/) {
     std::printf("rig \"%s\": %zu channels\n", rig.name.c_str(), rig.channels.size());
     std::printf("scene: %s\n", rig.scene.c_str());
@@ -170,6 +175,8 @@ struct Clip {
     theatre::Filming filming;
 };
 
+// The callback only chooses the job, which runs when the whole line has been read. `options` must
+// outlive it.
 void describeCompose(CLI::App& app, Composition& options, cli::Job& job) {
     CLI::App& compose = *app.add_subcommand(
         "compose", "make DIR/panorama.png and DIR/hall.png from DIR/channel-NAME.png");

@@ -19,6 +19,7 @@ namespace aquarama::theatre {
 
 namespace {
 
+// Fixed: the same command gives the same picture, with the same noise.
 constexpr std::uint32_t kCameraSeed = 1;
 
 // By which nodes draw.
@@ -27,6 +28,7 @@ config::Rig drawnRig(const SimulatedView& options) {
     return hall::withWallFile(config::readRigAsHung(options.rigPath), options.wallPath);
 }
 
+// One picture is enough. A channel in stereo has one for each eye instead of the plain one.
 bool hasChannelPictures(const config::Rig& rig, const std::string& folder) {
     return std::ranges::any_of(rig.channels, [&](const config::Channel& channel) {
         const std::string name = folder + "/channel-" + channel.name;
@@ -61,6 +63,7 @@ Picture seenInHall(const hall::TrueHall& truth, const std::vector<Light>& sent) 
         0);
 }
 
+// With the faults and the noise of the simulated camera, unlike seenByPlainCamera().
 Picture seenByCamera(const hall::TrueHall& truth, const std::vector<Light>& sent) {
     std::vector<config::ScanPattern> whites;  // the camera is exposed for them
     for (std::size_t i = 0; i < truth.channels(); ++i)
@@ -69,6 +72,7 @@ Picture seenByCamera(const hall::TrueHall& truth, const std::vector<Light>& sent
     return camera.pictureOf(hall::allThrown(truth, sent));
 }
 
+// The truth is that of --hall; what is sent comes from the rig and its wall file.
 Picture seenIn(const config::Rig& hung, const SimulatedView& options, bool isCamera) {
     const hall::TrueHall truth(hung, hall::hallFrom("--hall", options.hall, hung));
     const std::vector<Light> sent = sentPictures(options, drawnRig(options));
@@ -93,6 +97,7 @@ Light seenByPlainCamera(const config::Rig& drawn, const config::Rig& hung, const
     return seen;
 }
 
+// Without --hall: the pictures are composed as the rig and its wall file say.
 Picture seenAsDrawn(const SimulatedView& options, bool isCamera) {
     const config::Rig drawn = drawnRig(options);
     const Projectors projectors(drawn);

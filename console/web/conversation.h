@@ -34,6 +34,7 @@ namespace http = beast::http;
 using Tcp = asio::ip::tcp;
 using Executor = asio::io_context::executor_type;
 using Socket = asio::basic_stream_socket<Tcp, Executor>;
+// A TCP stream with a deadline for its operations.
 using PlainStream = beast::basic_stream<Tcp, Executor>;
 using Clock = std::chrono::steady_clock;
 
@@ -89,6 +90,7 @@ class TopicOutbox final : public Outbox {
         wake.cancel();
     }
 
+    // A new topic beyond this number is dropped, so that an outbox is bounded.
     static constexpr std::size_t kMostTopics = 200;
     std::map<std::string, std::pair<Payload, bool>> waiting;
     asio::basic_waitable_timer<Clock, asio::wait_traits<Clock>, Executor>
@@ -98,6 +100,7 @@ class TopicOutbox final : public Outbox {
 };
 
 using BeastRequest = http::request<http::string_body>;
+// Between the types of Beast and the plain ones of the service; defined in server.cpp.
 [[nodiscard]] HttpRequest requestOf(const BeastRequest& in);
 [[nodiscard]] http::response<http::string_body> responseOf(const BeastRequest& in, HttpReply reply);
 
@@ -105,6 +108,7 @@ using BeastRequest = http::request<http::string_body>;
 void converse(Shared& shared, Socket socket);
 void converseOverTls(Shared& shared, asio::ssl::context& tls, Socket socket);
 
+// Sends what waits, one topic at a time, until the connection fails or a close code was sent.
 template <class Stream>
 asio::awaitable<void> speak(beast::websocket::stream<Stream>& socket, TopicOutbox& outbox) {
     beast::error_code error;
@@ -137,6 +141,8 @@ struct LiveSocket {
     std::unique_ptr<Service::Connection> connection;
 };
 
+// Hands each whole message of text to the service; others are ignored. Its end ends speak() as
+// well.
 template <class Stream>
 asio::awaitable<void> listen(Shared& shared, std::shared_ptr<LiveSocket<Stream>> live) {
     beast::error_code error;
@@ -154,11 +160,13 @@ asio::awaitable<void> listen(Shared& shared, std::shared_ptr<LiveSocket<Stream>>
     live->outbox.wake.cancel();
 }
 
+// Holds the socket alive while speak() runs.
 template <class Stream>
 asio::awaitable<void> speakFor(std::shared_ptr<LiveSocket<Stream>> live) {
     co_await speak(live->socket, live->outbox);
 }
 
+// Returns whether the connection may serve another request.
 template <class Stream>
 asio::awaitable<bool> sayTo(Stream& stream, const BeastRequest& request, HttpReply reply) {
     beast::error_code error;
@@ -167,6 +175,8 @@ asio::awaitable<bool> sayTo(Stream& stream, const BeastRequest& request, HttpRep
     co_return !error && response.keep_alive();
 }
 
+// The stream has no deadline from here on: the WebSocket's pings find out a dead client. A refusal
+// is said as plain HTTP.
 template <class Stream>
 asio::awaitable<void> upgrade(Shared& shared,
                               Stream stream,

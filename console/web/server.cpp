@@ -8,6 +8,7 @@ namespace aquarama::web {
 
 namespace {
 
+// Empty where the request lacks the field.
 std::string header(const BeastRequest& in, http::field field) {
     const auto value = in[field];
     return {value.data(), value.size()};
@@ -60,6 +61,7 @@ http::response<http::string_body> responseOf(const BeastRequest& in, HttpReply r
     return out;
 }
 
+// All but `io` and the atomic counter belongs to the thread that calls run().
 struct WebServer::Impl {
     Impl(const ServerOptions& options, Service& service) : shared{io, service}, acceptor{io} {
         try {
@@ -74,6 +76,7 @@ struct WebServer::Impl {
         asio::co_spawn(io, keepTime(), asio::detached);
     }
 
+    // Throws Boost's system_error, which the constructor turns into an Error.
     void listenAt(const ServerOptions& options) {
         const Tcp::endpoint end{asio::ip::make_address(options.address), options.port};
         acceptor.open(end.protocol());
@@ -82,6 +85,7 @@ struct WebServer::Impl {
         acceptor.listen();
     }
 
+    // TLS 1.2 and later. Throws Error where the certificate or its key cannot be read.
     void readCertificate(const ServerOptions& options) {
         try {
             tls.emplace(asio::ssl::context::tls_server);
@@ -94,6 +98,7 @@ struct WebServer::Impl {
         }
     }
 
+    // An error of one connection is passed over; a closed acceptor ends it.
     asio::awaitable<void> accept() {
         while (true) {
             beast::error_code error;
@@ -105,6 +110,8 @@ struct WebServer::Impl {
         }
     }
 
+    // At the limit, the connection that has waited longest without a whole request is cut off.
+    // Where none waits, the new one is.
     void begin(Socket socket) {
         if (shared.connections >= kMostConnections) {
             ++shared.cutOff;
@@ -123,6 +130,7 @@ struct WebServer::Impl {
             converse(shared, std::move(socket));
     }
 
+    // Calls Service::tick() 100 ms after the last call has returned.
     asio::awaitable<void> keepTime() {
         asio::steady_timer timer{io};
         while (true) {
@@ -157,6 +165,7 @@ void WebServer::post(std::function<void()> what) {
     asio::post(impl_->io, std::move(what));
 }
 
+// The port that the system chose where the options have 0.
 std::uint16_t WebServer::port() const {
     return impl_->acceptor.local_endpoint().port();
 }

@@ -23,6 +23,7 @@ struct HttpRequest {
     std::string body = {};
 };
 
+// What the service answers. `headers` are added to those that every reply has.
 struct HttpReply {
     int status = 200;
     std::string type = "text/plain; charset=utf-8";
@@ -48,11 +49,13 @@ class Outbox {
 class Service {
   public:
     virtual ~Service() = default;
+    // For every request that opens no WebSocket.
     [[nodiscard]] virtual HttpReply answer(const HttpRequest& request) = 0;
     // One end of a WebSocket that was opened; destroyed when it is closed.
     class Connection {
       public:
         virtual ~Connection() = default;
+        // A whole message of text, of kMostMessageBytes at most.
         virtual void hear(const std::string& text) = 0;
     };
     // Lets a WebSocket in, or says in `refusal` why not. The outbox outlives the connection.
@@ -63,6 +66,7 @@ class Service {
     virtual void tick() = 0;
 };
 
+// Where to listen, and with which certificate.
 struct ServerOptions {
     std::string address = "127.0.0.1";
     std::uint16_t port = 0;       // 0: a free one

@@ -68,11 +68,13 @@ std::filesystem::path siblingProgram(const std::string& name) {
     return program;
 }
 
+// Blocked signals stay pending until sigtimedwait() takes them.
 void listenForSignals() {
     const sigset_t signals = heardSignals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
+// The arguments are made before fork(): the child allocates no memory.
 pid_t start(const Command& command) {
     assert(command.program.is_absolute());
     const std::vector<char*> arguments = argumentVector(command);
@@ -92,6 +94,7 @@ pid_t start(const Command& command) {
     _exit(127);
 }
 
+// One SIGCHLD may stand for several deaths: reap() asks until none is left.
 Heard waitForChildren(std::chrono::milliseconds atMost) {
     const sigset_t signals = heardSignals();
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(atMost);
@@ -101,6 +104,7 @@ Heard waitForChildren(std::chrono::milliseconds atMost) {
     return {.interrupted = signal > 0 && signal != SIGCHLD, .endings = reap()};
 }
 
+// execv() returns only where it fails.
 void become(const Command& command) {
     const std::vector<char*> arguments = argumentVector(command);
     execv(command.program.c_str(), arguments.data());
@@ -108,6 +112,7 @@ void become(const Command& command) {
                 std::system_category().message(errno));
 }
 
+// Children inherit the writing end only. The reading end never blocks.
 ErrorPipe::ErrorPipe() {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
@@ -128,6 +133,7 @@ ErrorPipe::~ErrorPipe() {
     close(writing_);
 }
 
+// What follows the last line end counts as a line.
 std::vector<std::string> ErrorPipe::heard() const {
     std::string text;
     std::array<char, 4096> bytes{};

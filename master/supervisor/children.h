@@ -17,6 +17,7 @@ namespace aquarama::supervisor {
 // The program `aquarama-NAME` beside it. Throws Error where it is missing.
 [[nodiscard]] std::filesystem::path siblingProgram(const std::string& name);
 
+// An absolute path, and the arguments without the program's own name.
 struct Command {
     std::filesystem::path program;
     std::vector<std::string> arguments;

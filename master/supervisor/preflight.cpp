@@ -23,6 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// In words, of the last system call that failed: call it before any other.
 std::string reason() {
     return std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): this process has one thread
 }
@@ -55,6 +56,7 @@ bool isTaken(const addrinfo& place) {
 
 }  // namespace
 
+// Of X11 or of Wayland. Only the environment is looked at.
 void requireDisplay() {
     if (!isSet("DISPLAY") && !isSet("WAYLAND_DISPLAY"))
         throw Error(
@@ -62,6 +64,7 @@ void requireDisplay() {
             "--headless");
 }
 
+// An address that is not numeric passes.
 void requireFreePort(const std::string& address) {
     assert(address.starts_with("tcp://"));
     const std::size_t host = address.find("//") + 2;
@@ -92,6 +95,7 @@ bool looksLikeRecording(const std::string& path) {
     return firstBytesOf(path).find("AQREC") != std::string::npos;
 }
 
+// Its letters are the first bytes of the file.
 bool looksLikeRepertoire(const std::string& path) {
     return firstBytesOf(path).starts_with("AQREP");
 }
@@ -119,6 +123,7 @@ ClipPipes::ClipPipes(std::vector<std::string> channels) : channels_(std::move(ch
     folder_ = pattern;
 }
 
+// Throws nothing: what cannot be removed stays.
 ClipPipes::~ClipPipes() {
     std::error_code none;
     fs::remove_all(folder_, none);

@@ -39,6 +39,7 @@ constexpr const char* kMaster = "master";
 constexpr const char* kClip = "clip";
 constexpr const char* kConsole = "console";
 
+// A child and how it is started; `child` is 0 while it does not run.
 struct Process {
     std::string name;
     Command command;
@@ -58,6 +59,7 @@ struct Process {
     [[nodiscard]] bool running() const { return child != 0; }
 };
 
+// An option with its value. An empty value means that the option was not given.
 void append(std::vector<std::string>& arguments,
             const std::string& name,
             const std::string& value) {
@@ -66,6 +68,7 @@ void append(std::vector<std::string>& arguments,
     arguments.push_back(value);
 }
 
+// The program is this one, with its command `master`.
 Process masterProcess(const RunOptions& options) {
     const ShowOptions& show = options.show;
     std::vector<std::string> arguments{"master", show.rigPath};
@@ -97,6 +100,7 @@ Process clipProcess(const RunOptions& options, const std::string& pipes) {
     return {.name = kClip, .command = {siblingProgram("calibrate"), arguments}, .started = {}};
 }
 
+// Where the rig needs keys, the node gets its key file instead of a name and an address.
 Process nodeProcess(const RunOptions& options,
                     const config::Rig& rig,
                     const config::Channel& channel,
@@ -207,6 +211,7 @@ void endAll(std::vector<Process>& processes) {
     }
 }
 
+// How a process ended, for a sentence that begins with its name.
 std::string described(const Ending& ending) {
     return ending.signal != 0 ? "was killed by signal " + std::to_string(ending.signal)
                               : "ended with status " + std::to_string(ending.exitCode);
@@ -234,6 +239,7 @@ void renewConsole(const ErrorPipe& errors, Process& console, const Ending& endin
 // What the death of one process means for the show.
 enum class Verdict { GoesOn, Over, Failed };
 
+// Starts the process again where the show can go on.
 Verdict judge(const RunOptions& options,
               const ErrorPipe& errors,
               Process& process,
@@ -316,6 +322,7 @@ bool compose(const RunOptions& options, const ErrorPipe& errors) {
     }
 }
 
+// Names the pictures on standard output; says nothing where none were asked for.
 void sayWhatWasMade(const RunOptions& options, const config::Rig& rig) {
     if (options.snapshotFolder.empty()) return;
     std::cout << "pictures in " << options.snapshotFolder << ": panorama.png, hall.png";

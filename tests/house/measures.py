@@ -9,8 +9,8 @@ import os
 import pathlib
 import sys
 
-MOST_FILES = 495            # .h .cpp .proto .py and shaders
-MOST_FOLDERS = 35           # that hold such files
+MOST_FILES = 566            # .h .cpp .proto .py and shaders
+MOST_FOLDERS = 39           # that hold such files
 MOST_LINES_P95 = 26         # of a function
 MOST_LINES = 60
 MOST_COMPLEXITY_P95 = 6     # cyclomatic
