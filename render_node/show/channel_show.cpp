@@ -222,7 +222,11 @@ bool ChannelShow::bringOn(std::uint32_t look) {
 }
 
 session::Release ChannelShow::play() {
-    while (const std::optional<wire::StateFrame> state = session_.nextFrame()) {
+    // On the target, for the operator's console. Looked at after nextFrame(): until then this
+    // thread has real-time priority, and would keep other nodes of its machine from their release.
+    std::optional<wire::StateFrame> presented;
+    while (std::optional<wire::StateFrame> state = session_.nextFrame()) {
+        if (presented) showOperator(*std::exchange(presented, {}));
         FrameTimes times{.state = session_.stateArrival()};
         controls_.show(state->show);
         buildNext();
@@ -245,8 +249,8 @@ session::Release ChannelShow::play() {
         watchBlanks(state->frame);
         trace_.write(state->frame, times);
         if (film_ && isFilmed(state->frame)) film(state->frame);
-        if (seen && console_) showOperator(*state);
         undrawn_ = seen ? std::nullopt : state;
+        if (seen && console_) presented = std::move(state);
         if (!std::exchange(shown_, true)) logInfo("showing");
     }
     return session_.interruption();
