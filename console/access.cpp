@@ -24,15 +24,18 @@ using nlohmann::json;
 // Crockford's base 32, without I, L, O and U: five bits a letter.
 constexpr std::string_view kCrockford = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";
 constexpr std::size_t kCodeLetters = 8;
+// Ten minutes, as the text beside the code says.
 constexpr double kCodeSeconds = 600;
 // 30 days, as long as the cookie that cookieOf() makes.
 constexpr double kSessionSeconds = 30.0 * 86400;
+// The code ends with this wrong guess.
 constexpr int kMostWrong = 5;
 // Seconds. The pause after a code that was spent by wrong guesses doubles up to this.
 constexpr double kLongestPause = 3600;
 // Of sessions and of tokens each. The oldest session gives way; another token is refused.
 constexpr std::size_t kMostHolders = 256;
 constexpr std::uintmax_t kMostFileBytes = 1U << 20U;
+// A longer name is cut; see shownName().
 constexpr std::size_t kMostNameBytes = 40;
 
 // Names in the state folder. Other runs of the program write the codes and the tokens as well.
@@ -127,6 +130,7 @@ std::string_view nameOf(ConsoleRole role) {
     }
 }
 
+// Nothing where no role has this name.
 std::optional<ConsoleRole> roleNamed(std::string_view name) {
     for (const ConsoleRole role : {ConsoleRole::Watcher, ConsoleRole::Operator, ConsoleRole::Crew})
         if (nameOf(role) == name) return role;

@@ -19,6 +19,7 @@ enum class ConsoleRole : std::uint8_t { Watcher = 1, Operator = 2, Crew = 3 };
 
 // Seconds of Unix time.
 using UnixSeconds = double;
+// By the system's clock, which somebody may set.
 [[nodiscard]] UnixSeconds unixNow();
 
 // Whoever has been let in: a browser by a session, a machine by a token.
@@ -32,6 +33,7 @@ struct Holder {
 
 // 256 random bits, as 64 hexadecimal digits.
 [[nodiscard]] std::string freshSecret();
+// What the files hold instead of a secret, in hexadecimal.
 [[nodiscard]] std::string hashOfSecret(std::string_view secret);
 
 // The lists of a rig's console in one folder, readable by its owner only. One thread uses it.
@@ -56,18 +58,21 @@ class Access {
 
     // The holder of a session's secret, where it is valid.
     [[nodiscard]] std::optional<Holder> session(std::string_view secret, UnixSeconds now) const;
+    // All sessions, also those that have run out.
     [[nodiscard]] std::vector<Holder> people() const { return sessions_; }
     // Ends a session.
     void revoke(const std::string& id);
 
     // A new token for a machine; its secret is shown once.
     std::string makeToken(const std::string& name, ConsoleRole role, UnixSeconds now);
+    // The holder of a machine's token. A file that cannot be read lets nobody in, and is logged.
     [[nodiscard]] std::optional<Holder> token(std::string_view secret) const;
 
   private:
     std::filesystem::path folder_;
     std::vector<Holder> sessions_;
     int wrong_ = 0;
+    // For which others are refused after the next spent code.
     double pauseSeconds_ = 30;
     UnixSeconds refusedUntil_ = 0;
 };

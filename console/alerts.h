@@ -38,6 +38,7 @@ class Alerts {
     [[nodiscard]] const std::vector<StandingAlert>& standing() const { return standing_; }
 
   private:
+    // Since when each fault that is there now has lasted.
     std::map<std::string, UnixSeconds> pending_;
     std::vector<StandingAlert> standing_;
 };

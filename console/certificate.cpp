@@ -17,6 +17,7 @@ namespace aquarama::console {
 
 namespace {
 
+// A deleter that calls one of OpenSSL's functions.
 template <auto release>
 struct Releaser {
     template <class T>
@@ -29,6 +30,7 @@ using Certificate = std::unique_ptr<X509, Releaser<X509_free>>;
 using Memory = std::unique_ptr<BIO, Releaser<BIO_free>>;
 
 constexpr const char* kAuthorityName = "Aquarama console authority";
+// Certificates are valid from a day ago: the clock of a tablet may be slow.
 constexpr long kDaySeconds = 86400;
 
 // Of OpenSSL's functions, which fail for lack of memory only.
@@ -65,6 +67,7 @@ void writeCertificate(const std::filesystem::path& path, X509* certificate) {
     write(path, textOf(memory.get()));
 }
 
+// Throws Error where the file cannot be read; null where it holds no such object.
 template <class Read>
 auto readPem(const std::filesystem::path& path, Read read) {
     constexpr std::uintmax_t kMostBytes = 64U << 10U;

@@ -18,6 +18,7 @@ using web::HttpReply;
 using web::HttpRequest;
 using What = browser::Command::WhatCase;
 
+// Browsers that are connected at a time; another one gets status 503.
 constexpr std::size_t kMostVisitors = 64;
 constexpr int kTicksASecond = 10;
 // A look, or a picture that nobody has confirmed, is forgotten after three seconds.

@@ -68,14 +68,17 @@ class Console final : public web::Service {
     };
     // What a visitor says; called by its connection.
     void hear(Visitor& visitor, const std::string& text);
+    // Called when the connection ends; the visitor is destroyed after it.
     void forget(Visitor& visitor);
 
   private:
     using Command = browser::Command;
+    // A command that the master has not answered yet.
     struct Pending {
         Visitor* visitor = nullptr;  // null: has gone
         std::string who, what;
     };
+    // What a channel was last asked for. `ticksToAsk`: until it is asked again.
     struct PictureState {
         int ticksToAsk = 0;
         std::uint64_t number = 0;
@@ -88,6 +91,7 @@ class Console final : public web::Service {
     web::HttpReply look(const web::HttpRequest& request);
     web::HttpReply obey(const web::HttpRequest& request, const Holder& holder);
     web::HttpReply refused(int status, const std::string& why);
+    // In the log: a code for the first browser.
     void showCode(ConsoleRole role);
 
     // Commands.
@@ -110,6 +114,7 @@ class Console final : public web::Service {
     [[nodiscard]] browser::Done settle(std::uint64_t id,
                                        const std::string& outcome,
                                        const std::string& why);
+    // Adds an event and sends the list to everybody.
     void note(const std::string& who, const std::string& what);
 
     // From the other threads, on the server's.
@@ -160,8 +165,10 @@ class Console final : public web::Service {
     std::string code_;  // the last pairing code that somebody asked for in a page
     std::set<Visitor*> visitors_;
     std::map<std::uint64_t, Pending> pending_;
+    // The last answers: a command that is repeated is not carried out twice.
     std::deque<browser::Done> settled_;
     std::map<int, PictureState> pictures_;
+    // By the number of the question.
     std::map<std::uint64_t, Visitor*> fishAsked_;
     browser::Mind mind_;
     std::uint64_t number_ = 0;  // of questions to nodes

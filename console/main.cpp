@@ -24,9 +24,11 @@ namespace {
 
 using namespace aquarama;
 
+// Where neither the option nor the rig's console_port says another.
 constexpr std::uint16_t kDefaultPort = 7480;
 constexpr const char* kLoopback = "127.0.0.1";
 
+// What the command line says; empty where an option was not given.
 struct Options {
     std::string rig, key, listen = kLoopback, pair, token;
     std::string role = "watcher";

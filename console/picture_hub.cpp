@@ -12,11 +12,14 @@ namespace aquarama::console {
 
 namespace {
 
+// Bounds what strangers can make the hub remember.
 constexpr std::size_t kMostPeers = 256;
+// Questions beyond this number are lost; the console asks again.
 constexpr std::size_t kMostQuestions = 64;
 
 }  // namespace
 
+// Throws Error where the address cannot be had. The thread starts last.
 PictureHub::PictureHub(const std::string& watchAddress,
                        const std::optional<net::MasterKeys>& keys,
                        PictureListener listener)
@@ -26,6 +29,7 @@ PictureHub::PictureHub(const std::string& watchAddress,
       listener_{std::move(listener)},
       thread_{[this] { run(); }} {}
 
+// The thread is woken, and ended before its members are.
 PictureHub::~PictureHub() {
     ended_ = true;
     channels_->wake();

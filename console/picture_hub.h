@@ -24,6 +24,8 @@ struct PictureListener {
     std::function<void(const std::string& channel, const v1::FishReply&)> fish;
 };
 
+// Asks the nodes for their pictures and for the fish at a place. The socket belongs to a thread of
+// its own.
 class PictureHub {
   public:
     // Throws Error where it cannot listen at the address. `keys`: past the loopback.

@@ -76,7 +76,9 @@ class ProjectorWatch {
     [[nodiscard]] const std::string& name() const { return projector_.name; }
 
   private:
+    // The thread: it ends soon after ended_ is set.
     void run();
+    // Sends what brings the projector to what is wanted.
     void press(const ProjectorFacts& facts);
 
     config::ControlledProjector projector_;

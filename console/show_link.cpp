@@ -10,7 +10,9 @@ namespace aquarama::console {
 
 namespace {
 
+// Between two questions for the master's state.
 constexpr auto kBetweenLooks = std::chrono::milliseconds(200);
+// Of commands that wait for the link's thread.
 constexpr std::size_t kMostWanted = 64;
 
 }  // namespace
@@ -18,6 +20,7 @@ constexpr std::size_t kMostWanted = 64;
 ShowLink::ShowLink(const ask::AskedMaster& master, ShowListener listener)
     : client_{master.connect()}, listener_{std::move(listener)}, thread_{[this] { run(); }} {}
 
+// Waits for the question that is under way.
 ShowLink::~ShowLink() {
     {
         const std::lock_guard lock(mutex_);

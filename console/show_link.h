@@ -29,6 +29,7 @@ struct ShowListener {
     std::function<void(const v1::Explanation&)> explained;
 };
 
+// Asks the master for its state, and tells it what is wanted, on a thread of its own.
 class ShowLink {
   public:
     // Throws Error where the master's address or the key cannot be read.
@@ -53,6 +54,7 @@ class ShowLink {
     std::mutex mutex_;                                 // guards what follows
     std::condition_variable changed_;
     bool ended_ = false;
+    // Not sent yet.
     std::deque<v1::Set> wanted_;
     std::optional<Steering> steering_;
     std::optional<std::uint32_t> fish_;

@@ -180,6 +180,7 @@ void limitBlend(const AdjustOptions& options) {
                        options.width));
 }
 
+// Also creates the file where the rig names one that does not exist yet.
 void list(const AdjustOptions& options) {
     AdjustedRig(options.rig).print();
 }

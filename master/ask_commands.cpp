@@ -114,6 +114,7 @@ constexpr auto kBetweenLooks = std::chrono::milliseconds(500);
 // ANSI escapes: the cursor goes home, then the screen is erased.
 constexpr const char* kClearScreen = "\x1b[H\x1b[2J";
 
+// Options of `explain`: of a running master or of a recording.
 struct ExplainOptions {
     std::uint32_t fish = 0;
     AskedMaster asked;
@@ -163,6 +164,7 @@ void explainReplay(const ExplainOptions& options) {
     print(options.fish, world.world().traits().size(), world.explain(options.fish));
 }
 
+// A recording goes before a running master.
 void explain(const ExplainOptions& options) {
     options.recording.empty() ? explainLive(options) : explainReplay(options);
 }

@@ -26,6 +26,7 @@ namespace aquarama {
 
 namespace {
 
+// Options of `convert`. `version` is that of MPCDI.
 struct ConvertOptions {
     std::string in, out;
     std::string size;      // "1920x1080"; empty: as the file says
@@ -95,6 +96,7 @@ bool isRig(const std::string& path) {
     return path.ends_with(".txtpb");
 }
 
+// Throws Error where the file is of no known format or the geometry of the rig does not hold.
 formats::WallFile readAny(const ConvertOptions& options) {
     if (!isRig(options.in)) return formats::readWallFile(options.in, readOptionsOf(options));
     const config::Rig rig = config::readRig(options.in);
@@ -130,6 +132,7 @@ void resample(formats::WallFile& file, const std::string& source) {
     }
 }
 
+// What the channel has, for the terminal.
 std::string lineOf(const formats::FileChannel& channel) {
     return fmt::format("{}: {} x {} pixels, {}{}{}{}",
                        channel.name,

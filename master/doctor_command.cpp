@@ -33,6 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Options of `doctor`. `json`: for other programs, as the console.
 struct DoctorOptions {
     std::string rig = supervisor::kDefaultRig;
     std::string keyFolder;  // empty: the user's
@@ -85,6 +86,7 @@ constexpr std::uint64_t kLeastDiskBytes = std::uint64_t{1} << 30U;
 // An older key is still valid, and gets a warning.
 constexpr double kOldKeyDays = 365;
 constexpr float kSlowRoundTripMs = 5;  // the release of a frame is said 2 ms before it
+// Of the pings; more is a warning.
 constexpr float kMostUnansweredPercent = 1;
 
 // What to do about a clock, for this machine and for each node's.
@@ -333,6 +335,7 @@ Findings lookOver(const DoctorOptions& options) {
 // In the order of Verdict.
 constexpr std::array kVerdicts{"pass", "warn", "fail"};
 
+// One line for each, the verdict first.
 void print(const Findings& findings) {
     for (const Finding& finding : findings.all())
         std::cout << fmt::format("{}  {:<14} {}{}{}\n",
@@ -343,6 +346,7 @@ void print(const Findings& findings) {
                                  finding.todo);
 }
 
+// The console reads these fields by name: files_of_show.cpp.
 void printJson(const Findings& findings) {
     nlohmann::json list = nlohmann::json::array();
     for (const Finding& finding : findings.all())

@@ -86,6 +86,7 @@ void inspectRecording(const std::string& path) {
     printDoubts(path, recording);
 }
 
+// Options of `inspect`. A report is only for a repertoire.
 struct InspectOptions {
     std::string file;
     std::string report;  // folder for a page; empty: none
@@ -119,6 +120,8 @@ void inspect(const InspectOptions& options) {
 
 }  // namespace
 
+// Returns the exit status: 1 where the worlds differ. Throws Error where there is no hash to
+// compare.
 int checkReplay(const std::string& path) {
     const wire::Recording recording = wire::readRecording(path);
     printDoubts(path, recording);

@@ -30,6 +30,7 @@ using config::KeyRole;
 // The name of the master's own key.
 constexpr std::string_view kMaster = "master";
 
+// Options of all subcommands, each of which uses some.
 struct KeyOptions {
     std::string rig = supervisor::kDefaultRig;
     std::string folder;  // empty: config::keyFolderOf()
@@ -130,6 +131,7 @@ void makeKeys(const KeyOptions& options) {
               << " NAME writes the file that another machine needs\n";
 }
 
+// Never prints a secret key.
 void listKeys(const KeyOptions& options) {
     masterOf(options);
     const std::vector<KeyFile> keys = config::readKeyFolder(options.keys());

@@ -12,11 +12,13 @@ namespace aquarama {
 
 namespace {
 
+// Commands that the help lists under one heading.
 struct Group {
     const char* heading;
     std::vector<void (*)(CommandLine&)> commands;
 };
 
+// In the order of the help.
 const std::array kGroups{
     Group{"A show on this machine", {addRun, addReplay}},
     Group{"While a show runs", {addConsole, addDoctor, addStatus, addSet, addPilot, addExplain}},

@@ -38,6 +38,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// `lockstep`: frame n shows tick n. `resume`: a show goes on after its master has died.
 struct MasterOptions {
     supervisor::ShowOptions show;
     bool lockstep = false;
@@ -54,6 +55,7 @@ std::optional<config::QualityTier> qualityOf(const config::Rig& rig, const Maste
     return rig.quality;
 }
 
+// A scene is a file where its name ends so, else a name beside the rig's scene.
 constexpr std::string_view kSceneEnding = ".txtpb";
 
 // Names without their ending, sorted, for the text of an error.

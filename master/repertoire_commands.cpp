@@ -27,6 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Options of `capture`. Empty folders: no report is written, and the config folder is searched for.
 struct CaptureOptions {
     std::vector<std::string> species;  // names or files; none: all
     std::string out;
@@ -87,6 +88,7 @@ int captureAll(const CaptureOptions& options) {
     return status;
 }
 
+// Options of `export`. `cycles`: how often the segment is repeated.
 struct ExportOptions {
     std::string file;
     std::string segment;
@@ -95,6 +97,7 @@ struct ExportOptions {
     std::string config;
 };
 
+// In the order of motion::Action, of which only the captured ones are in a repertoire.
 std::vector<std::string> segmentNames() {
     std::vector<std::string> names;
     names.reserve(motion::kCapturedActions);
@@ -111,6 +114,7 @@ motion::Action actionNamed(const std::string& segment) {
     return static_cast<motion::Action>(found - names.begin());
 }
 
+// By the ending of the name. Throws Error where it is neither .glb nor .gltf.
 report::GltfContainer containerOf(const fs::path& path) {
     if (path.extension() == ".glb") return report::GltfContainer::Binary;
     if (path.extension() == ".gltf") return report::GltfContainer::Text;
@@ -154,6 +158,7 @@ void describeConfig(CLI::App& command, std::string& folder) {
     command.add_option("--config", folder, "folder that holds scenes and species");
 }
 
+// An empty name has the folder searched for.
 fs::path configFolder(const std::string& given) {
     return given.empty() ? capture::findConfigFolder() : fs::path(given);
 }

@@ -16,6 +16,7 @@ namespace aquarama {
 
 namespace {
 
+// For CLI::Validator: an empty text means that the name is good.
 std::string clipNameProblem(const std::string& path) {
     if (path.ends_with(".mp4") || path.ends_with(".webp")) return {};
     return "\"" + path + "\" is not FILE.mp4 or FILE.webp";
@@ -46,17 +47,20 @@ void describePictures(CLI::App& command, supervisor::RunOptions& options) {
         "clock is read.");
 }
 
+// Throws Error where the rig needs keys and has none, before a process is started.
 int runWith(const supervisor::RunOptions& options) {
     const config::Rig rig = config::readRig(options.show.rigPath);
     static_cast<void>(masterKeysOf(rig, options.show));  // says at once where there are none
     return supervisor::runShow(options, rig);
 }
 
+// Options of `replay`. With `check` no wall is started and only hashes are compared.
 struct ReplayOptions {
     supervisor::RunOptions run;
     bool check = false;
 };
 
+// Throws Error before anything is started where the file is no recording.
 int replay(const ReplayOptions& options) {
     supervisor::requireRecording(options.run.show.replayPath);
     return options.check ? checkReplay(options.run.show.replayPath) : runWith(options.run);
@@ -69,12 +73,14 @@ struct HandedOver {
     std::vector<std::string> first;  // its own subcommand, before the arguments
 };
 
+// Does not return: the other program takes the place of this process.
 void handOver(const HandedOver& to) {
     supervisor::Command other{supervisor::siblingProgram(to.program), to.first};
     for (const std::string& argument : to.command->remaining()) other.arguments.push_back(argument);
     supervisor::become(other);
 }
 
+// A command that another program of the installation carries out, with all of its arguments.
 void addHandedOver(CommandLine& line,
                    const std::string& name,
                    const std::string& what,
@@ -100,6 +106,7 @@ void describeWorld(CLI::App& command, supervisor::ShowOptions& options) {
     command.add_option("--record", options.recordPath, "write the show to this new file");
 }
 
+// What `run`, `replay` and `master` have in common about the wall.
 void describeWall(CLI::App& command, supervisor::ShowOptions& options) {
     command.add_option("--frames", options.frames, "end after so many frames")
         ->check(cli::wholeNumber(1, cli::kMostShownFrames));

@@ -46,6 +46,7 @@ void printGaits(const GaitsOptions& options) {
         std::cout << capture::turnTableRow(config::readSpecies(file.string())) << std::flush;
 }
 
+// Options of `search`. The journal lies beside `out`.
 struct SearchOptions {
     std::string species;
     std::string out;

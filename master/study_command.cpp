@@ -26,6 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Without a folder for the data, they go to a temporary one. `minutes` is time of the world.
 struct StudyOptions {
     std::string out;
     std::string config;
@@ -55,6 +56,7 @@ class DataFolder {
         if (!isKept_) fs::remove_all(path_, ignored);
     }
 
+    // Names the file on stderr where it is kept: stdout is for the tables.
     void write(const std::string& name, const std::string& text) const {
         writeWhole(path_ / name, std::as_bytes(std::span(text)));
         if (isKept_) std::cerr << (path_ / name).string() << '\n';

@@ -289,6 +289,7 @@ WallDrift driftOf(const Reference& reference,
 
 namespace {
 
+// As jsonOf() writes it.
 const char* nameOf(DriftVerdict verdict) {
     return verdict == DriftVerdict::InPlace ? "in place"
            : verdict == DriftVerdict::Moved ? "moved"
@@ -352,6 +353,7 @@ Reference parseReference(const std::string& text,
     }
 }
 
+// Pixels of the channel's own picture, with what to do where it is not in place.
 std::string lineOf(const config::Channel& channel, const ChannelDrift& drift) {
     if (drift.verdict == DriftVerdict::NotSeen)
         return fmt::format(
@@ -372,6 +374,7 @@ std::string lineOf(const config::Channel& channel, const ChannelDrift& drift) {
         drift.zoom);
 }
 
+// Channels are in the order of the rig's; `verdict` is in the words of nameOf().
 std::string jsonOf(const WallDrift& drift, const config::Rig& rig) {
     nlohmann::ordered_json channels = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < drift.channels.size(); ++i) {

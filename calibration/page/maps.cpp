@@ -104,9 +104,11 @@ void overPixels(glm::ivec2 sizePixels, const Work& work) {
 
 }  // namespace
 
+// The hall must outlive what is returned.
 std::unique_ptr<Fall> fallOf(const solve::SolvedHall& hall) {
     return std::make_unique<SolvedFall>(hall);
 }
+// The hall must outlive what is returned.
 std::unique_ptr<Fall> fallOf(const hall::TrueHall& hall) {
     return std::make_unique<TrueFall>(hall);
 }

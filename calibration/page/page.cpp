@@ -148,6 +148,7 @@ class Writer {
     explicit Writer(const CalibrationPage& page)
         : page_{page}, hall_{*page.solved.hall}, rig_{hall_.rig} {}
 
+    // A refused calibration has no wall file: the parts that compare with one are left out.
     std::string html() {
         std::string text = fmt::format(fmt::runtime(kHead), escaped(rig_.name));
         text += verdict(page_);

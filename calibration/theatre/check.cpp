@@ -41,6 +41,7 @@ const char* nameOf(config::Gathering gathering) {
                                                 : "the school journeys past the eye";
 }
 
+// With a comma and a blank between them.
 std::string joined(const std::vector<std::string>& names) {
     std::string list;
     for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
@@ -60,6 +61,7 @@ std::string lineOf(const config::Species& species) {
     return line;
 }
 
+// A tour without stops goes round the water.
 std::string lineOfTour(const config::Scene& scene) {
     if (!scene.tour) return "submarine: stays at the eye until somebody steers\n";
     const std::size_t stops = scene.tour->stops.size();
@@ -300,6 +302,7 @@ std::string upward(double degrees) {
 
 }  // namespace
 
+// A span of more than 350 degrees is called all round.
 std::string oneLine(const ChannelSurvey& survey) {
     constexpr double kNearlyRound = 350;
     std::string line = survey.name + ": lights ";

@@ -37,6 +37,7 @@ config::Rig checkedRig(const std::string& text, const std::string& path) {
     return rig;
 }
 
+// Throws Error as checkedRig() does, and where the file cannot be read.
 config::Rig readCheckedRig(const std::string& path) {
     return checkedRig(config::readTextFile(path), path);
 }

@@ -54,6 +54,7 @@ std::vector<Light> sentPictures(const SimulatedView& options, const config::Rig&
 // A panorama for the light that the screen throws on the room.
 constexpr glm::ivec2 kGlowPixels(640, 320);
 
+// By an eye at the back of the hall, in 8 bits of sRGB.
 Picture seenInHall(const hall::TrueHall& truth, const std::vector<Light>& sent) {
     const hall::LitScreen screen(truth, sent);
     const auto light = [&](glm::dvec3 point) { return screen.at(point); };
@@ -114,6 +115,7 @@ Picture seenAsDrawn(const SimulatedView& options, bool isCamera) {
 
 }  // namespace
 
+// A hall decides between the true wall and the wall as the rig has it.
 void drawView(const SimulatedView& options) {
     const bool isCamera = options.view == "camera";
     writePng(options.outPath,

@@ -95,7 +95,9 @@ class TopicOutbox final : public Outbox {
     std::map<std::string, std::pair<Payload, bool>> waiting;
     asio::basic_waitable_timer<Clock, asio::wait_traits<Clock>, Executor>
         wake;  // cancelled when there is something
+    // Once it is set, what still waits is not sent.
     std::optional<std::uint16_t> closeCode;
+    // Set by listen() when the client has gone.
     bool isClosed = false;
 };
 

@@ -157,10 +157,12 @@ void WebServer::run() {
     impl_->io.run();
 }
 
+// Asio lets any thread call this.
 void WebServer::stop() {
     impl_->io.stop();
 }
 
+// What is posted after the end of run() is not done.
 void WebServer::post(std::function<void()> what) {
     asio::post(impl_->io, std::move(what));
 }

@@ -63,6 +63,7 @@ class ErrorPipe {
     [[nodiscard]] std::vector<std::string> heard() const;
 
   private:
+    // The end that does not block, and the end that children inherit.
     int reading_ = -1;
     int writing_ = -1;
 };

@@ -22,6 +22,7 @@ void requireRecording(const std::string& path);
 
 // What a file is by its first bytes; false where it cannot be read.
 [[nodiscard]] bool looksLikeRecording(const std::string& path);
+// Of a repertoire, as `aquarama capture` writes them.
 [[nodiscard]] bool looksLikeRepertoire(const std::string& path);
 
 // Whether a clip of `of` is composed of all channels: the panorama and the hall.

@@ -49,6 +49,7 @@ struct Process {
     Clock::time_point started;
     bool proven = false;  // has lived long enough once
 
+    // Arguments for the first start only are replaced by those for later ones.
     void launch() {
         Command now = command;
         for (std::string& argument : std::exchange(firstTimeOnly, laterOnly))
@@ -56,6 +57,7 @@ struct Process {
         child = start(now);
         started = Clock::now();
     }
+    // Until deaths() has seen its end.
     [[nodiscard]] bool running() const { return child != 0; }
 };
 
@@ -170,6 +172,7 @@ void shareCores(const config::Rig& rig) {
            /*overwrite=*/0);
 }
 
+// False only when all of them have ended.
 bool anyRunning(const std::vector<Process>& processes) {
     return std::ranges::any_of(processes, &Process::running);
 }
@@ -275,6 +278,7 @@ void endConsole(const std::vector<Process>& processes) {
     if (console != processes.end() && console->running()) kill(console->child, SIGTERM);
 }
 
+// How the watch over a show has ended.
 enum class Outcome { Finished, Interrupted, Failed };
 
 // Watches until the master has ended and every node with it, or something failed, or we are asked
@@ -353,6 +357,7 @@ std::vector<Process> processesOf(const RunOptions& options,
 
 }  // namespace
 
+// All that can be checked is checked first, so that a mistake leaves no process behind.
 int runShow(const RunOptions& options, const config::Rig& rig) {
     assert(!rig.channels.empty());
     if (!options.headless) requireDisplay();
