@@ -91,7 +91,7 @@ void addTheatre(CommandLine& line);    // hands over to aquarama-calibrate
 void addCalibrations(CommandLine& line);
 void addDrift(CommandLine& line);  // hands over to aquarama-solve
 void addAdjust(CommandLine& line);
-void addConsole(CommandLine& line);    // hands over to aquarama-console
+void addConsole(CommandLine& line);  // hands over to aquarama-console
 void addInspect(CommandLine& line);
 void addConvert(CommandLine& line);
 void addCapture(CommandLine& line);

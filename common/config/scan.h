@@ -25,8 +25,8 @@ struct ScanPattern {
         Dots   // step 0: all dots; step n: those with bit n - 1 in their number
     };
     Kind kind = Kind::Level;
-    // Gray: bit, the coarsest is 0; phase: step of kScanPhaseSteps; level: exposed for 4^-step of the
-    // time.
+    // Gray: bit, the coarsest is 0; phase: step of kScanPhaseSteps; level: exposed for 4^-step of
+    // the time.
     std::uint8_t step = 0;
     std::uint16_t finestPixels = 16;  // width of the finest stripe of the Gray code
     bool inverse = false;             // Gray: dark and lit are swapped
