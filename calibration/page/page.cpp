@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "calibration/page/drawing.h"
 #include "calibration/page/maps.h"
 #include "calibration/solve/statistics.h"
 #include "common/base/units.h"
@@ -104,6 +105,32 @@ std::string pixels(double value) {
     return fmt::format("{:.3f} px", value);
 }
 
+// What is known of light and colour: of a simulated hall what is left, else what evening costs.
+std::string lightRows(const solve::Figures& figures) {
+    std::string rows;
+    if (figures.seams) {
+        rows +=
+            row("Steps of light",
+                fmt::format("{:.1f}, {:.1f} and {:.1f} %",
+                            100 * figures.seams->grey2,
+                            100 * figures.seams->grey18,
+                            100 * figures.seams->grey100),
+                "The largest about an overlap, for grey of 2, 18 and 100 %; good is 3, 1 and 1.");
+        rows += row("Steps of colour",
+                    fmt::format("{:.2f}", figures.seams->colour),
+                    "CIEDE2000 from one side of an overlap to the other, mean; good is 0.7.");
+    }
+    if (figures.brightness)
+        rows +=
+            row("Kept light",
+                fmt::format("{:.0f} %, contrast {:.0f} %",
+                            100 * figures.brightness->keptLight,
+                            100 * figures.brightness->keptContrast),
+                "Of what the projectors give at their brightest, and of white against black, so "
+                "that neighbours look alike.");
+    return rows;
+}
+
 // A simulation is told apart in words: its errors come from the truth, others from places that were
 // kept from the solve.
 std::string figureTable(const solve::Figures& figures) {
@@ -132,6 +159,7 @@ std::string figureTable(const solve::Figures& figures) {
                 fmt::format("{:.3f} projector px", figures.fitRms),
                 "What models of lenses and screen leave over at the places that they were fitted "
                 "to; it is corrected afterwards and is no measure of accuracy.");
+    rows += lightRows(figures);
     rows += row("Points", fmt::format("{}", figures.overlapPoints), "of the neighbours' errors.");
     rows += row("Cost",
                 fmt::format("{} pictures, {:.0f} s, {:.0f} MB",
@@ -361,7 +389,7 @@ class Writer {
         return curve;
     }
 
-    // Brightness that was not measured is computed by greyCurve().
+    // Brightness where the truth is known: a camera's scan has seen the wall as it was before.
     [[nodiscard]] std::string profiles(const Fall& fall,
                                        const hall::DrawnWall& before,
                                        const hall::DrawnWall& after) const {
@@ -371,21 +399,15 @@ class Writer {
             const std::size_t i = shares.size();
             shares.push_back({rig_.channels[i].name, colourOf(i), values});
         }
-        std::vector<Curve> brightness = page_.brightness;
-        if (brightness.empty())
-            brightness = {greyCurve(fall, before, "before", {0.6F, 0.6F, 0.6F}),
-                          greyCurve(fall, after, "after", {0.1F, 0.55F, 0.9F})};
-        const std::string measured =
-            page_.truth != nullptr || !page_.brightness.empty()
-                ? "Grey of 18 % along the middle of the wall; 1 is its mean."
-                : "Grey of 18 % along the middle of the wall, if all projectors were equally "
-                  "bright; 1 is its mean.";
-        return section("Shares of light",
-                       "What each projector gives along the middle of the wall.",
-                       plot(shares, 1, 4, "shares of light")) +
-               section("Brightness through the seams",
-                       measured,
-                       plot(brightness, 2, 4, "brightness along the wall"));
+        const std::string text = section("Shares of light",
+                                         "What each projector gives along the middle of the wall.",
+                                         plot(shares, 1, 4, "shares of light"));
+        if (page_.truth == nullptr) return text;
+        const std::vector<Curve> brightness{greyCurve(fall, before, "before", {0.6F, 0.6F, 0.6F}),
+                                            greyCurve(fall, after, "after", {0.1F, 0.55F, 0.9F})};
+        return text + section("Brightness through the seams",
+                              "Grey of 18 % along the middle of the wall; 1 is its mean.",
+                              plot(brightness, 2, 4, "brightness along the wall"));
     }
 
     // Both ends of the scale are equally far from 0, and at least 1 mm.

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "calibration/hall/true_hall.h"
-#include "calibration/page/drawing.h"
 #include "calibration/scan/decode.h"
 #include "calibration/solve/figures.h"
 #include "calibration/solve/solve.h"
@@ -20,8 +19,6 @@ struct CalibrationPage {
     const std::vector<scan::CameraView>& views;
     const hall::TrueHall* truth = nullptr;  // of a simulation
     std::string wallFile = {};              // that was written; empty: none was
-    // Brightness along the middle of the wall, where it was measured; 1 is even.
-    std::vector<Curve> brightness = {};
 };
 
 // The whole page. Takes seconds; uses all processors. Throws Error where the wall file cannot be
