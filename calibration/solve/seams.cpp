@@ -70,7 +70,7 @@ double colourDifference(glm::dvec3 one, glm::dvec3 other, glm::dvec3 white) {
 namespace {
 
 constexpr std::size_t kPoints = 480;  // of a profile
-constexpr std::size_t kWithin = 2;    // samples across and down whose mean a point is
+constexpr std::size_t kWithin = 3;    // samples across and down whose mean a point is
 
 // A profile's points along a row or a column of the true screen: each is the mean of a square of
 // samples, as wide as the points are apart, as a luminance camera sees it.
