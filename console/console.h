@@ -32,6 +32,9 @@ struct ConsoleOptions {
     std::string build;        // version and commit
 };
 
+// Of a WebSocket whose session has ended; from RFC 6455's private range, 4000 to 4999.
+inline constexpr std::uint16_t kClosedUnpaired = 4001;
+
 // Holds no truth of the show: killed and started again, nothing changes on the wall. All functions
 // are called by the server's thread.
 class Console final : public web::Service {

@@ -11,20 +11,6 @@ namespace aquarama::console {
 
 namespace {
 
-// As aquarama status has it.
-std::string conditionWord(v1::NodeCondition condition) {
-    switch (condition) {
-        case v1::NODE_ABSENT:
-            return "absent";
-        case v1::NODE_PREPARING:
-            return "preparing";
-        case v1::NODE_IN_STEP:
-            return "in step";
-        default:
-            return "late";
-    }
-}
-
 // Why a node is not as it should be; empty where nothing is known to be wrong.
 std::string causeOf(const v1::NodeStatus& node) {
     if (node.hash_mismatches() > 0) return "shows other fish than were sent";
@@ -46,7 +32,7 @@ void addNode(browser::Wall& wall, const v1::NodeStatus& from, const std::string&
     const v1::NodeReport& report = from.report();
     browser::Node& node = *wall.add_nodes();
     node.set_name(from.name());
-    node.set_condition(conditionWord(from.condition()));
+    node.set_condition(wire::wordFor(from.condition()));
     node.set_cause(causeOf(from));
     node.set_late(from.late());
     node.set_dropped(from.dropped());

@@ -24,7 +24,6 @@
 #include "common/net/clock.h"
 #include "common/wall/wall.h"
 #include "master/commands.h"
-#include "master/conductor/requests.h"
 #include "master/supervisor/preflight.h"
 
 namespace aquarama {
@@ -266,7 +265,7 @@ void lookAtNode(Findings& findings, const config::Rig& rig, const v1::NodeStatus
     findings.judge(node.condition() == v1::NODE_IN_STEP,
                    node.condition() == v1::NODE_ABSENT ? Verdict::Fail : Verdict::Warn,
                    subject,
-                   conductor::wordFor(node.condition()) + ", " + machine,
+                   wire::wordFor(node.condition()) + ", " + machine,
                    node.condition() == v1::NODE_ABSENT
                        ? "start it there: aquarama-node --key FILE; see its output"
                        : "it draws more slowly than the others: see its frame times");

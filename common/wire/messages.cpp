@@ -476,6 +476,19 @@ Steering steeringOf(const v1::Input& input) {
     return steering;
 }
 
+std::string wordFor(v1::NodeCondition condition) {
+    switch (condition) {
+        case v1::NODE_ABSENT:
+            return "absent";
+        case v1::NODE_PREPARING:
+            return "preparing";
+        case v1::NODE_IN_STEP:
+            return "in step";
+        default:
+            return "late";
+    }
+}
+
 std::string bytesOf(const Digest& digest) {
     return {digest.bytes.begin(), digest.bytes.end()};
 }

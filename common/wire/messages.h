@@ -78,6 +78,9 @@ void writeScanPattern(const config::ScanPattern& pattern, v1::ScanPattern& messa
 // The steering of a decoded input of kind INPUT_STEER.
 [[nodiscard]] Steering steeringOf(const v1::Input& input);
 
+// "in step", "late" ...: the words that operators see.
+[[nodiscard]] std::string wordFor(v1::NodeCondition condition);
+
 // A digest as the bytes of a field, and back; the bytes are 32, as decode() has checked.
 [[nodiscard]] std::string bytesOf(const Digest& digest);
 [[nodiscard]] Digest digestIn(const std::string& bytes);

@@ -19,19 +19,6 @@ int headingDegrees(const wire::Eye& eye) {
 
 }  // namespace
 
-std::string wordFor(v1::NodeCondition condition) {
-    switch (condition) {
-        case v1::NODE_ABSENT:
-            return "absent";
-        case v1::NODE_PREPARING:
-            return "preparing";
-        case v1::NODE_IN_STEP:
-            return "in step";
-        default:
-            return "late";
-    }
-}
-
 std::string submarineText(const v1::StatusReply& status) {
     const wire::Eye eye = wire::readEye(status.eye()).value_or(wire::Eye{});
     const glm::vec3 at = eye.positionMetres;
@@ -92,7 +79,7 @@ std::string statusText(const v1::StatusReply& status) {
     for (const v1::NodeStatus& node : status.nodes()) {
         text += fmt::format("{:<16} {:<10} {:>8} {:>8} {:>8}  {}\n",
                             node.name(),
-                            wordFor(node.condition()),
+                            wire::wordFor(node.condition()),
                             node.late(),
                             node.dropped(),
                             node.hash_mismatches() == 0 ? "same" : "differs",

@@ -8,9 +8,6 @@
 
 namespace aquarama::conductor {
 
-// "in step", "late" ...
-[[nodiscard]] std::string wordFor(v1::NodeCondition condition);
-
 // Where the submarine is, how fast, and who steers it; one line.
 [[nodiscard]] std::string submarineText(const v1::StatusReply& status);
 
