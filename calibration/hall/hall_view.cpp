@@ -75,7 +75,12 @@ HallView::Arrival HallView::arrivalAt(glm::dvec2 pixel) const {
             .normal = hall_.screen().normalAt(meeting->point),
             .place = hall_.screen().shape().unrolled(meeting->foot),
             .isThere = true,
-            .isScreen = meeting->isScreen};
+            .isWhite = meeting->isScreen && !meeting->isMarked};
+}
+
+bool HallView::isWhite(glm::dvec2 pixel) const {
+    const auto meeting = hall_.screen().meet(eye_.ray(pixel));
+    return meeting && meeting->isScreen && !meeting->isMarked;
 }
 
 HallView::Arrival HallView::arrivalIn(const std::vector<Arrival>& grid, int x, int y) const {
@@ -84,7 +89,7 @@ HallView::Arrival HallView::arrivalIn(const std::vector<Arrival>& grid, int x, i
     const std::size_t below = first + static_cast<std::size_t>(gridWidth_);
     const std::array corners{&grid[first], &grid[first + 1], &grid[below], &grid[below + 1]};
     const auto alike = [&](const Arrival* arrival) {
-        return arrival->isThere && arrival->isScreen == corners[0]->isScreen;
+        return arrival->isThere && arrival->isWhite == corners[0]->isWhite;
     };
     if (!std::ranges::all_of(corners, alike)) return arrivalAt(glm::dvec2(x, y) + 0.5);
     const double s = double(x % step_) / step_, t = double(y % step_) / step_;
@@ -97,7 +102,7 @@ HallView::Arrival HallView::arrivalIn(const std::vector<Arrival>& grid, int x, i
             .normal = glm::normalize(between(&Arrival::normal)),
             .place = between(&Arrival::place),
             .isThere = true,
-            .isScreen = corners[0]->isScreen};
+            .isWhite = corners[0]->isWhite};
 }
 
 float HallView::roomLight(const Arrival& arrival) const {
@@ -123,7 +128,7 @@ HallView::Row HallView::rowOf(const std::vector<Arrival>& grid, int y) const {
 }
 
 void HallView::add(const Arrival& arrival, int column, Row& row) const {
-    row.coverage.push_back(arrival.isScreen ? kFullCoverage : 0);
+    row.coverage.push_back(arrival.isWhite ? kFullCoverage : 0);
     row.place.emplace_back(arrival.place);
     row.room.push_back(roomLight(arrival));
     if (spot_) row.spot.push_back(spotLight(arrival));
@@ -147,18 +152,18 @@ void HallView::addBeam(const Arrival& arrival,
 // At the screen's edges, how much of a pixel is screen.
 std::vector<std::uint8_t> HallView::smoothed(int y) const {
     std::vector<std::uint8_t> coverage = rows_[static_cast<std::size_t>(y)].coverage;
-    const auto isScreen = [&](int x, int row) {
+    const auto isLit = [&](int x, int row) {
         const glm::ivec2 at = glm::clamp(glm::ivec2(x, row), glm::ivec2(0), size_ - 1);
         return rows_[static_cast<std::size_t>(at.y)].coverage[static_cast<std::size_t>(at.x)] > 0;
     };
     for (int x = 0; x < size_.x; ++x) {
-        const int screens = isScreen(x, y) + isScreen(x - 1, y) + isScreen(x + 1, y) +
-                            isScreen(x, y - 1) + isScreen(x, y + 1);
-        if (screens % 5 == 0) continue;
+        const int lit =
+            isLit(x, y) + isLit(x - 1, y) + isLit(x + 1, y) + isLit(x, y - 1) + isLit(x, y + 1);
+        if (lit % 5 == 0) continue;
         int parts = 0;
         for (int i = 0; i < kFullCoverage; ++i) {
             const glm::dvec2 part(i % 4 + 0.5, i / 4 + 0.5);
-            parts += hall_.screen().hit(eye_.ray(glm::dvec2(x, y) + part / 4.0)) ? 1 : 0;
+            parts += isWhite(glm::dvec2(x, y) + part / 4.0) ? 1 : 0;
         }
         coverage[static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(parts);
     }

@@ -51,7 +51,7 @@ class HallView {
     };
     struct Row {
         std::vector<std::vector<Beam>> beams;  // of each channel
-        std::vector<std::uint8_t> coverage;    // by the screen, in parts of kFullCoverage
+        std::vector<std::uint8_t> coverage;    // by white screen, in parts of kFullCoverage
         std::vector<float> room, spot;         // light of lamps; spot may be empty
         std::vector<glm::vec2> place;          // on the unrolled smooth screen
     };
@@ -59,9 +59,11 @@ class HallView {
     struct Arrival {
         glm::dvec3 point{}, normal{};
         glm::dvec2 place{};
-        bool isThere = false, isScreen = false;
+        bool isThere = false;
+        bool isWhite = false;  // screen, and no tape on it
     };
     [[nodiscard]] Arrival arrivalAt(glm::dvec2 pixel) const;
+    [[nodiscard]] bool isWhite(glm::dvec2 pixel) const;
     [[nodiscard]] Arrival arrivalIn(const std::vector<Arrival>& grid, int x, int y) const;
     [[nodiscard]] Row rowOf(const std::vector<Arrival>& grid, int y) const;
     void add(const Arrival& arrival, int column, Row& row) const;

@@ -260,6 +260,8 @@ config::Hall randomHall(const config::Rig& rig, std::uint32_t seed, double scale
     drawCamera(chance, TrueHall(rig, hall).outline(), hall.camera);
     hall.darkLight = chance.between(0.0005, 0.003);
     hall.roomLight = chance.between(0.2, 0.5);
+    constexpr double kMarkMetres = 0.001;  // how well a crew sticks its tape
+    hall.screen.marksOffMetres = {chance.within(kMarkMetres), chance.within(kMarkMetres)};
     return hall;
 }
 

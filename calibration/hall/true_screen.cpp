@@ -54,6 +54,7 @@ TrueScreen::TrueScreen(const config::Rig& rig, const config::Hall& hall)
     : shape_{wall::makeSurface(trueRig(rig, hall))} {
     addBumps(hall.screen);
     addDents(hall.screen);
+    addMarks(hall.screen, hall.faults.flatScreen ? config::ScreenShape::Flat : rig.screen.shape);
 }
 
 // Waves of any direction in space, so that no shape has a seam or a pole, as high as is asked where
@@ -86,6 +87,12 @@ void TrueScreen::addDents(const config::HallScreen& screen) {
     for (const config::HallDent& dent : screen.dents)
         if (const auto middle = shape_->at(dent.place))
             dents_.push_back({*middle, dent.radiusMetres, dent.depthMetres});
+}
+
+void TrueScreen::addMarks(const config::HallScreen& screen, config::ScreenShape shape) {
+    marksOff_ = screen.marksOffMetres;
+    if (!marksOff_.empty()) marks_ = wall::markPlaces(shape, *shape_);
+    marks_.resize(std::min(marks_.size(), marksOff_.size()));
 }
 
 double TrueScreen::heightAt(glm::dvec3 foot) const {
@@ -133,6 +140,8 @@ std::optional<TrueScreen::Meeting> TrueScreen::meet(const wall::Ray& ray) const 
     if (!approach(ray, *smooth, meeting)) return std::nullopt;
     const glm::dvec3 normal = glm::normalize(shape_->normalAt(meeting.foot));
     meeting.isScreen = shape_->hit({meeting.foot + kBefore * normal, -normal}, 0).has_value();
+    for (std::size_t i = 0; i < marks_.size(); ++i)
+        meeting.isMarked |= marks_[i].covers(meeting.foot, marksOff_[i], 0);
     return meeting;
 }
 

@@ -11,6 +11,7 @@
 
 #include "common/config/hall.h"
 #include "common/config/rig.h"
+#include "common/wall/mark.h"
 #include "common/wall/surface.h"
 
 namespace aquarama::hall {
@@ -28,6 +29,7 @@ class TrueScreen {
     struct Meeting {
         glm::dvec3 point{}, foot{};  // the foot is on the smooth shape under the bumps
         bool isScreen = false;
+        bool isMarked = false;  // covered by the crew's tape
     };
     // Within 1e-6 metres along the ray.
     [[nodiscard]] std::optional<Meeting> meet(const wall::Ray& ray) const;
@@ -55,6 +57,7 @@ class TrueScreen {
     void addBumps(const config::HallScreen& screen);
     [[nodiscard]] double highestBump() const;
     void addDents(const config::HallScreen& screen);
+    void addMarks(const config::HallScreen& screen, config::ScreenShape shape);
     [[nodiscard]] std::optional<glm::dvec3> footOf(glm::dvec3 point) const;
     // How far a point is before the bumpy screen; nothing far beside it.
     [[nodiscard]] std::optional<double> gap(glm::dvec3 point, glm::dvec3& foot) const;
@@ -66,6 +69,8 @@ class TrueScreen {
     std::unique_ptr<const wall::ScreenSurface> shape_;
     std::vector<Wave> waves_;
     std::vector<Dent> dents_;
+    std::vector<wall::MarkPlace> marks_;
+    std::vector<double> marksOff_;  // metres along the edge
 };
 
 }  // namespace aquarama::hall

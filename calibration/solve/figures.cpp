@@ -98,26 +98,28 @@ void judgeOverlaps(Figures& figures, const SolveFigures& solved) {
 
 // By the noise of what was seen; the models' own errors come on top.
 void judgePlace(Figures& figures, const SolveFigures& solved) {
-    constexpr double kMostPixels = 0.8;
+    constexpr double kMostPixels = 1;
     if (solved.absoluteSigma <= kMostPixels) return;
     take(
         figures,
         Judgement::Warn,
         {"place_not_sure",
          fmt::format("neighbours agree, but the whole picture may be off by {:.1f} panorama pixels "
-                     "(RMS): use a finer camera, or bring it nearer so that the screen fills its "
-                     "picture",
+                     "(RMS): mark the middle of the screen's upper and lower edge with strips of "
+                     "dark tape, 50 mm by 150 mm, and let the screen fill the camera's picture",
                      solved.absoluteSigma)});
 }
 
-// A round edge does not tell how it is turned about its axis.
-void judgeDome(Figures& figures, const config::Rig& rig) {
-    if (rig.screen.shape != config::ScreenShape::Dome) return;
+// A round edge does not tell how it is turned about its axis, but a mark on it does.
+void judgeDome(Figures& figures, const Solved& solved) {
+    if (solved.hall->rig.screen.shape != config::ScreenShape::Dome || solved.figures.marks > 0)
+        return;
     take(figures,
          Judgement::Warn,
          {"dome_front",
-          "the camera does not see where the front of a dome is: what is in front is known as well "
-          "as the rig knows where its projectors hang; turn them in the rig where it is off"});
+          "the camera does not see where the front of a dome is: stick strips of dark tape, 50 mm "
+          "by 150 mm, on its edge straight ahead and straight behind, from the edge inwards, and "
+          "scan again"});
 }
 
 void judgeOutline(Figures& figures, const SolveFigures& solved) {
@@ -164,7 +166,7 @@ Figures judged(const std::vector<scan::CameraView>& views, const Solved& solved)
         judgeOverlaps(figures, solved.figures);
         judgeOutline(figures, solved.figures);
         judgePlace(figures, solved.figures);
-        judgeDome(figures, solved.hall->rig);
+        judgeDome(figures, solved);
     }
     figures.overlapRms = solved.figures.overlapRms;
     figures.overlapP95 = solved.figures.overlapP95;

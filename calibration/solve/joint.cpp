@@ -205,13 +205,13 @@ class OutlineCost {
     double weight_;
 };
 
-// Keeps each value near an expected one.
+// Keeps a value of a block near an expected one.
 struct NearCost {
-    std::vector<double> expected, sigma;
+    std::size_t index;
+    double expected, sigma;
     template <class T>
     bool operator()(T const* const* parameters, T* residual) const {
-        for (std::size_t i = 0; i < expected.size(); ++i)
-            residual[i] = (parameters[0][i] - expected[i]) / sigma[i];
+        residual[0] = (parameters[0][index] - expected) / sigma;
         return true;
     }
 };
@@ -234,20 +234,23 @@ struct FlatCost {
     }
 };
 
-// How far a value may be from what the rig and makers of lenses say: standard deviations.
+// How far a value may be from what the rig and makers of lenses say: standard deviations. They
+// decide what the pictures leave open alone, and a value that is far off is let go (Cauchy's loss).
 struct Expectation {
-    static constexpr double kPositionMetres = 0.25;
-    static constexpr double kTurnRadians = 0.15;
-    static constexpr double kFocalShare = 0.1;
+    static constexpr double kPositionMetres = 0.08;
+    static constexpr double kTurnRadians = 0.04;
+    static constexpr double kFocalShare = 0.02;
     static constexpr double kAspect = 0.004;
-    static constexpr double kCentreShare = 0.3;  // of a projector's picture: lens shift
-    static constexpr double kCameraCentreShare = 0.015;
+    static constexpr double kCentreShare = 0.03;  // of a projector's picture: lens shift
+    static constexpr double kCameraCentreShare = 0.005;
     static constexpr double kCameraFocalShare = 0.5;
-    static constexpr double kRadial = 0.08;
-    static constexpr double kHigherRadial = 0.03;
-    static constexpr double kTangential = 0.001;
-    static constexpr double kDisplacementMetres = 0.02;
-    static constexpr double kBendMetres = 0.008;  // between neighbouring controls
+    // Of the distance from the axis of the picture's farthest corner: r^2, r^4, r^6 of Brown's
+    // model.
+    static constexpr glm::dvec3 kRadial{0.008, 0.004, 0.002};
+    static constexpr glm::dvec3 kCameraRadial{0.03, 0.01, 0.003};
+    static constexpr double kTangential = 0.0005;
+    static constexpr double kDisplacementMetres = 0.03;
+    static constexpr double kBendMetres = 0.015;  // between neighbouring controls
 };
 
 std::vector<int> heldLensParameters(FreeParts stage, bool isCamera) {
@@ -410,22 +413,37 @@ class JointProblem::Problem {
         problem_.SetManifold(device.lens.data(),
                              held.empty() ? nullptr : new ceres::SubsetManifold(lens::Count, held));
     }
-    void expect(double* block, std::vector<double> expected, std::vector<double> sigma) {
-        const int count = static_cast<int>(expected.size());
-        auto* cost = new ceres::DynamicAutoDiffCostFunction<NearCost, 4>(
-            new NearCost{std::move(expected), std::move(sigma)});
-        cost->AddParameterBlock(count);
-        cost->SetNumResiduals(count);
-        problem_.AddResidualBlock(cost, nullptr, block);
+    void expect(double* block,
+                const std::vector<double>& expected,
+                const std::vector<double>& sigma) {
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            auto* cost = new ceres::DynamicAutoDiffCostFunction<NearCost, 4>(
+                new NearCost{i, expected[i], sigma[i]});
+            cost->AddParameterBlock(static_cast<int>(expected.size()));
+            cost->SetNumResiduals(1);
+            problem_.AddResidualBlock(cost, new ceres::CauchyLoss(3.0), block);
+        }
     }
-    static std::vector<double> lensSigma(double focal, double centre, const LensParameters& lens) {
+    // Shares of the focal length and of the picture's width, and of the distance of its farthest
+    // corner from the axis.
+    struct LensSpread {
+        double focal, centre;
+        glm::dvec3 radial;
+    };
+    static std::vector<double> lensSigma(const LensSpread& spread,
+                                         const LensParameters& lens,
+                                         glm::ivec2 size) {
+        const glm::dvec2 centre(lens[lens::CentreX], lens[lens::CentreY]);
+        const glm::dvec2 farthest = glm::max(centre, glm::dvec2(size) - centre);
+        const double corner = glm::length(farthest) / lens[lens::Focal];
         std::vector<double> sigma(lens::Count);
-        sigma[lens::Focal] = focal * lens[lens::Focal];
+        sigma[lens::Focal] = spread.focal * lens[lens::Focal];
         sigma[lens::Aspect] = Expectation::kAspect;
-        sigma[lens::CentreX] = sigma[lens::CentreY] = centre;
-        sigma[lens::K1] = sigma[lens::K2] = Expectation::kRadial;
-        sigma[lens::K3] = Expectation::kHigherRadial;
-        sigma[lens::P1] = sigma[lens::P2] = Expectation::kTangential;
+        sigma[lens::CentreX] = sigma[lens::CentreY] = spread.centre * size.x;
+        sigma[lens::K1] = spread.radial.x / std::pow(corner, 2);
+        sigma[lens::K2] = spread.radial.y / std::pow(corner, 4);
+        sigma[lens::K3] = spread.radial.z / std::pow(corner, 6);
+        sigma[lens::P1] = sigma[lens::P2] = Expectation::kTangential / corner;
         return sigma;
     }
     void expectCamera(Device& camera, glm::ivec2 size) {
@@ -433,18 +451,23 @@ class JointProblem::Problem {
         likely[lens::CentreX] = 0.5 * size.x;
         likely[lens::CentreY] = 0.5 * size.y;
         for (const auto i : {lens::K1, lens::K2, lens::K3, lens::P1, lens::P2}) likely[i] = 0;
-        expect(
-            camera.lens.data(),
-            {likely.begin(), likely.end()},
-            lensSigma(
-                Expectation::kCameraFocalShare, Expectation::kCameraCentreShare * size.x, likely));
+        expect(camera.lens.data(),
+               {likely.begin(), likely.end()},
+               lensSigma({Expectation::kCameraFocalShare,
+                          Expectation::kCameraCentreShare,
+                          Expectation::kCameraRadial},
+                         likely,
+                         size));
         problem_.AddParameterBlock(camera.pose.data(), 6);
     }
     void expectProjector(Device& projector, const Device& expected, glm::ivec2 size) {
         const LensParameters& lens = expected.lens;
-        expect(projector.lens.data(),
-               {lens.begin(), lens.end()},
-               lensSigma(Expectation::kFocalShare, Expectation::kCentreShare * size.x, lens));
+        expect(
+            projector.lens.data(),
+            {lens.begin(), lens.end()},
+            lensSigma({Expectation::kFocalShare, Expectation::kCentreShare, Expectation::kRadial},
+                      lens,
+                      size));
         problem_.AddParameterBlock(projector.pose.data(), 6);
         // Of the turn, and of the position: the shift of a pose is in its own frame, so it is held
         // as loosely as the larger of the two moves it.

@@ -193,12 +193,11 @@ class CameraCurve {
 };
 
 // The view with its samples corrected, all in the exposure of the first picture.
-scan::CameraView corrected(const scan::CameraView& view) {
+scan::CameraView corrected(scan::CameraView view) {
     const CameraCurve curve(view);
-    scan::CameraView better = view;
-    for (scan::SampledPicture& picture : better.samples)
+    for (scan::SampledPicture& picture : view.samples)
         for (glm::vec3& light : picture.light.rgb) light = picture.scale * curve.corrected(light);
-    return better;
+    return view;
 }
 
 // Light of some samples, and the luminance of white there.
@@ -459,8 +458,8 @@ std::vector<double> risingCurve(const std::vector<glm::dvec2>& points,
 }
 
 std::optional<std::vector<ChannelLight>> measureLight(const config::Rig& rig,
-                                                      const scan::CameraView& seen) {
-    const scan::CameraView view = corrected(seen);
+                                                      scan::CameraView seen) {
+    const scan::CameraView view = corrected(std::move(seen));
     std::vector<ChannelLight> channels(rig.channels.size());
     for (std::size_t c = 0; c < channels.size(); ++c) {
         const ChannelSamples channel(view, c);

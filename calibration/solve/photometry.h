@@ -28,10 +28,10 @@ struct ChannelLight {
     std::array<std::vector<float>, 3> response;
 };
 
-// Of each channel. Nothing where the view lacks a channel's white, red, green or levels, or sees
-// too little of one.
+// Of each channel; places of the view that are not a number are left out. Nothing where it lacks a
+// channel's white, red, green or levels, or sees too little of one.
 [[nodiscard]] std::optional<std::vector<ChannelLight>> measureLight(const config::Rig& rig,
-                                                                    const scan::CameraView& view);
+                                                                    scan::CameraView view);
 
 // A smooth curve through points (x and y rising) that rises everywhere, after Fritsch and Carlson
 // (1980), at rising places; before the first point it is straight.

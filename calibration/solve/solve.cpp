@@ -88,6 +88,17 @@ std::vector<OutlineTie> outlinesOf(const SolvedHall& hall,
     return ties;
 }
 
+std::vector<MarkTie> marksOf(const SolvedHall& hall, const std::vector<scan::CameraView>& views) {
+    std::vector<MarkTie> marks;
+    for (std::uint32_t i = 0; i < views.size(); ++i) {
+        const Device& camera = hall.cameras[i];
+        const std::vector<MarkTie> more = markTies(
+            views[i].room, i, hall.rig.screen.shape, hall.screen, camera.lens, camera.pose);
+        marks.insert(marks.end(), more.begin(), more.end());
+    }
+    return marks;
+}
+
 // One pass of the joint solve: what is free, where the outline is looked for, and how far off
 // outline and ties may be, beside their own noise.
 struct Pass {
@@ -186,8 +197,11 @@ void fit(Solved& solved, const std::vector<scan::CameraView>& views) {
             if (!tie.heldOut) joint.add(tie, round.tiePixels);
         const std::vector<OutlineTie> outline = outlinesOf(hall, views, round.outlineReach);
         for (const OutlineTie& tie : outline) joint.add(tie, round.outlinePixels);
+        const std::vector<MarkTie> marks = marksOf(hall, views);
+        for (const MarkTie& mark : marks) joint.add(mark.tie, mark.sigma);
         joint.solve(round.stage, round.mostSteps);
         if (&round != &kPasses.back()) continue;
+        solved.figures.marks = marks.size();
         solved.figures.outlinePoints = outline.size();
         solved.figures.outlineRms = outlineRms(hall, outline);
         solved.figures.absoluteSigma = rootMeanSquare(joint.uncertainty(0, someSeen(solved.ties)));
@@ -225,14 +239,23 @@ Solved solveHall(const config::Rig& rig,
                  const std::vector<scan::CameraView>& views,
                  const std::function<void(const std::string&)>& progress) {
     constexpr std::size_t kMostWindows = 2500;
+    std::vector<Tie> ties;
+    for (std::uint32_t i = 0; i < views.size(); ++i) {
+        const std::vector<Tie> more = tiesOf(views[i], i, kMostWindows);
+        ties.insert(ties.end(), more.begin(), more.end());
+    }
+    return solveTies(rig, wall, views, std::move(ties), progress);
+}
+
+Solved solveTies(const config::Rig& rig,
+                 const wall::Wall& wall,
+                 const std::vector<scan::CameraView>& views,
+                 std::vector<Tie> ties,
+                 const std::function<void(const std::string&)>& progress) {
     Solved solved{.hall = std::make_unique<SolvedHall>(rig, wall, cellsFor(wall.screen())),
-                  .ties = {},
+                  .ties = std::move(ties),
                   .figures = {},
                   .faults = {}};
-    for (std::uint32_t i = 0; i < views.size(); ++i) {
-        const std::vector<Tie> ties = tiesOf(views[i], i, kMostWindows);
-        solved.ties.insert(solved.ties.end(), ties.begin(), ties.end());
-    }
     progress("finding the camera");
     if (!begin(solved, views)) return solved;
     progress("fitting projectors, camera and screen");

@@ -22,6 +22,7 @@ struct SolveFigures {
     std::size_t overlapPoints = 0;
     double outlineRms = 0;  // pixels of the camera
     std::size_t outlinePoints = 0;
+    std::size_t marks = 0;  // strips of tape that were found
     // How well the whole picture's place is known, by the noise alone.
     double absoluteSigma = 0;
 };
@@ -54,6 +55,12 @@ struct Solved {
 [[nodiscard]] Solved solveHall(const config::Rig& rig,
                                const wall::Wall& wall,
                                const std::vector<scan::CameraView>& views,
+                               const std::function<void(const std::string&)>& progress);
+// The same of ties that are known; of a view only its size and the picture of the room count.
+[[nodiscard]] Solved solveTies(const config::Rig& rig,
+                               const wall::Wall& wall,
+                               const std::vector<scan::CameraView>& views,
+                               std::vector<Tie> ties,
                                const std::function<void(const std::string&)>& progress);
 
 }  // namespace aquarama::solve

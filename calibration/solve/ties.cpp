@@ -282,4 +282,109 @@ std::vector<OutlineTie> outlineTies(const Light& room,
     return ties;
 }
 
+namespace {
+
+// The light across a strip of tape, in steps of so many metres to both sides of where it belongs.
+constexpr double kMarkStepMetres = 0.002;
+constexpr int kMarkReach = 150;  // steps
+using MarkProfile = std::array<double, 2 * kMarkReach + 1>;
+
+// Where a camera sees a place of the plane that touches the screen at a mark.
+class SeenMark {
+  public:
+    SeenMark(const BumpyScreen& screen,
+             const LensParameters& lens,
+             const PoseParameters& pose,
+             const wall::MarkPlace& place)
+        : screen_{screen}, lens_{lens}, pose_{pose}, place_{place} {}
+    [[nodiscard]] std::optional<glm::dvec2> at(double inwards, double along) const {
+        const glm::dvec3 base = place_.at(inwards, along);
+        return seenBy(lens_, pose_, screen_.at(screen_.screen().unrolled(base)).point);
+    }
+    // The mean of a few lines; nothing where one of them leaves the picture.
+    [[nodiscard]] std::optional<MarkProfile> profile(const Light& room) const {
+        constexpr std::array kLines{0.3, 0.4, 0.5, 0.6, 0.7};  // shares of the strip's length
+        MarkProfile light{};
+        for (int i = -kMarkReach; i <= kMarkReach; ++i)
+            for (const double line : kLines) {
+                const auto seen = at(line * wall::kMarkLengthMetres, i * kMarkStepMetres);
+                if (!seen || seen->x < 0 || seen->y < 0 || seen->x > room.sizePixels.x ||
+                    seen->y > room.sizePixels.y)
+                    return std::nullopt;
+                light.at(static_cast<std::size_t>(i + kMarkReach)) +=
+                    luminance(bilinear(room, *seen)) / kLines.size();
+            }
+        return light;
+    }
+
+  private:
+    const BumpyScreen& screen_;
+    const LensParameters& lens_;
+    const PoseParameters& pose_;
+    const wall::MarkPlace& place_;
+};
+
+// The steps to where a profile crosses a level, from a step on in a direction; nothing where it
+// does not.
+std::optional<double> crossing(const MarkProfile& light, int from, int direction, double level) {
+    for (int i = from; i > 0 && i + 1 < static_cast<int>(light.size()); i += direction) {
+        const double here = light.at(static_cast<std::size_t>(i)),
+                     next = light.at(static_cast<std::size_t>(i + direction));
+        if (next < level) continue;
+        return i + direction * (level - here) / (next - here);
+    }
+    return std::nullopt;
+}
+
+// The middle of a dark strip as wide as tape, in metres from the middle of the profile.
+std::optional<double> stripIn(const MarkProfile& light) {
+    constexpr double kMostLight = 0.5;                     // of what is beside it
+    constexpr double kLeastWidth = 0.6, kMostWidth = 1.5;  // of the tape's
+    MarkProfile sorted = light;
+    std::ranges::nth_element(sorted, sorted.begin() + kMarkReach);
+    const double white = sorted.at(kMarkReach);
+    const auto darkest = std::ranges::min_element(light);
+    if (white <= 0 || *darkest > kMostLight * white) return std::nullopt;
+    const double level = (white + *darkest) / 2;
+    const auto index = static_cast<int>(darkest - light.begin());
+    const auto left = crossing(light, index, -1, level), right = crossing(light, index, 1, level);
+    if (!left || !right) return std::nullopt;
+    const double width = (*right - *left) * kMarkStepMetres / wall::kMarkWidthMetres;
+    if (width < kLeastWidth || width > kMostWidth) return std::nullopt;
+    return ((*left + *right) / 2 - kMarkReach) * kMarkStepMetres;
+}
+
+}  // namespace
+
+std::vector<MarkTie> markTies(const Light& room,
+                              std::uint32_t camera,
+                              config::ScreenShape shape,
+                              const BumpyScreen& screen,
+                              const LensParameters& lens,
+                              const PoseParameters& pose) {
+    constexpr double kStuckMetres = 0.001;
+    constexpr double kInwards = wall::kMarkLengthMetres / 2;
+    std::vector<MarkTie> ties;
+    if (room.rgb.empty()) return ties;
+    for (const wall::MarkPlace& place : wall::markPlaces(shape, screen.screen())) {
+        const SeenMark mark(screen, lens, pose, place);
+        const auto profile = mark.profile(room);
+        const auto off = profile ? stripIn(*profile) : std::nullopt;
+        if (!off) continue;
+        const auto seen = mark.at(kInwards, *off), beside = mark.at(kInwards, *off + kStuckMetres);
+        if (!seen || !beside) continue;
+        const glm::dvec2 unrolled = screen.screen().unrolled(place.at(kInwards, 0));
+        const auto base = screen.screen().at(unrolled);
+        if (!base) continue;
+        ties.push_back({{.camera = camera,
+                         .unrolled = unrolled,
+                         .base = *base,
+                         .baseNormal = glm::normalize(screen.screen().normalAt(*base)),
+                         .seen = *seen,
+                         .across = glm::normalize(*beside - *seen)},
+                        glm::distance(*seen, *beside)});
+    }
+    return ties;
+}
+
 }  // namespace aquarama::solve

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the solver takes of a camera's view: places that the camera and a channel share, and where
-// the camera sees the outline of the screen.
+// the camera sees the outline of the screen and marks on it.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 
 #include "calibration/scan/decode.h"
 #include "calibration/solve/model.h"
+#include "common/wall/mark.h"
 
 namespace aquarama::solve {
 
@@ -48,5 +49,20 @@ struct OutlineTie {
                                                   const LensParameters& lens,
                                                   const PoseParameters& pose,
                                                   double reach);
+
+// A strip of tape that marks the middle of an edge.
+struct MarkTie {
+    OutlineTie tie;    // a point in the strip; across the strip
+    double sigma = 0;  // standard deviation, pixels of the camera: of how well crews stick tape
+};
+
+// Looks in the room's light for dark strips as wide as tape about where they belong
+// (wall::markPlaces). What is not there, or not as wide, is left out.
+[[nodiscard]] std::vector<MarkTie> markTies(const Light& room,
+                                            std::uint32_t camera,
+                                            config::ScreenShape shape,
+                                            const BumpyScreen& screen,
+                                            const LensParameters& lens,
+                                            const PoseParameters& pose);
 
 }  // namespace aquarama::solve

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/solve/wall_of.h"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <thread>
 
 #include "common/base/worker_pool.h"
+#include "common/wall/mark.h"
 
 namespace aquarama::solve {
 
@@ -40,6 +42,28 @@ formats::FileChannel regionOf(const SolvedHall& hall, std::size_t channel, Worke
     return region;
 }
 
+// The view without what it knows of samples on the crew's tape.
+scan::CameraView withoutMarks(const SolvedHall& hall, scan::CameraView view) {
+    constexpr double kMarginMetres = 0.03;
+    const auto marks = wall::markPlaces(hall.rig.screen.shape, hall.nominal.screen());
+    if (view.samples.empty() || marks.empty()) return view;
+    const glm::ivec2 samples = view.samples.front().light.sizePixels;
+    for (int y = 0; y < samples.y; ++y)
+        for (int x = 0; x < samples.x; ++x) {
+            const std::size_t pixel = scan::pixelOfSample(view, x, y);
+            const auto width = static_cast<std::size_t>(view.sizePixels.x);
+            const auto seen = hall.placeSeen(0, glm::dvec2(pixel % width, pixel / width) + 0.5);
+            const auto isMark = [&](const wall::MarkPlace& mark) {
+                return seen && mark.covers(seen->point, 0, kMarginMetres);
+            };
+            if (std::ranges::any_of(marks, isMark))
+                for (scan::ChannelView& channel : view.channels)
+                    if (!channel.place.empty())
+                        channel.place[pixel] = glm::vec2(std::numeric_limits<float>::quiet_NaN());
+        }
+    return view;
+}
+
 }  // namespace
 
 formats::WallFile wallFileOf(const SolvedHall& hall) {
@@ -54,7 +78,7 @@ formats::WallFile wallFileOf(const SolvedHall& hall) {
 
 ShadedWall shadedWallOf(const SolvedHall& hall, const scan::CameraView& view) {
     ShadedWall wall{.file = wallFileOf(hall), .brightness = {}};
-    if (const auto lights = measureLight(hall.rig, view))
+    if (const auto lights = measureLight(hall.rig, withoutMarks(hall, view)))
         wall.brightness = shade(hall, *lights, wall.file);
     return wall;
 }

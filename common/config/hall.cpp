@@ -51,9 +51,11 @@ HallScreen screenOf(const v1::HallScreen& in) {
                       .bumpSeed = in.bump_seed(),
                       .dents = {},
                       .albedo = in.albedo(),
-                      .bounces = in.bounces()};
+                      .bounces = in.bounces(),
+                      .marksOffMetres = {}};
     for (const v1::HallDent& dent : in.dents())
         screen.dents.push_back({{dent.u(), dent.v()}, dent.radius_m(), dent.depth_m()});
+    for (const v1::HallMark& mark : in.marks()) screen.marksOffMetres.push_back(mark.off_m());
     return screen;
 }
 

@@ -32,6 +32,7 @@ struct HallScreen {
     std::vector<HallDent> dents = {};
     double albedo = 1;
     bool bounces = false;
+    std::vector<double> marksOffMetres = {};  // of each strip of tape, along the edge
 };
 
 // Terms of Brown's model on tangents, and the share of light that the corners lack.

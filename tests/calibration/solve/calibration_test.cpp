@@ -2,7 +2,10 @@
 // Simulated halls are calibrated from the pictures of their camera, and held to the truth. With
 // AQUARAMA_SOAK at full size and in numbers.
 #include <array>
+#include <cmath>
 #include <cstdlib>
+#include <numeric>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -75,13 +78,11 @@ void print(const std::string& what, const Outcome& outcome) {
     std::fflush(stdout);
 }
 
-bool isWithinBounds(const WallErrors& errors, bool isDome) {
+bool isWithinBounds(const WallErrors& errors) {
     return rootMeanSquare(errors.overlap) <= 0.2 && quantile(errors.overlap, 0.95) <= 0.45 &&
-           quantile(errors.overlap, 1) <= 1.0 && (isDome || rootMeanSquare(errors.absolute) <= 1.0);
+           quantile(errors.overlap, 1) <= 1.0 && rootMeanSquare(errors.absolute) <= 1.0;
 }
 
-// A camera does not see how a dome is turned about its axis, so of a dome the absolute place is as
-// the crew has measured its projectors, and the verdict says so.
 TEST(Calibration, ofRandomHallsIsWithinItsBounds) {
     const double scale = isSoak() ? 1 : 0.25;
     const std::uint32_t rigs = isSoak() ? 20 : 6;
@@ -90,10 +91,10 @@ TEST(Calibration, ofRandomHallsIsWithinItsBounds) {
         const bool isDome = rig.screen.shape == config::ScreenShape::Dome;
         const Outcome outcome = calibrated(rig, hall::randomHall(rig, seed, scale), true);
         print("rig " + std::to_string(seed), outcome);
-        EXPECT_EQ(outcome.figures.verdict, isDome ? Judgement::Warn : Judgement::Pass)
+        EXPECT_EQ(outcome.figures.verdict, Judgement::Pass)
             << "rig " << seed << ": " << outcome.figures.cause;
         EXPECT_GT(outcome.errors.overlap.size(), 500U);
-        EXPECT_TRUE(isWithinBounds(outcome.errors, isDome)) << "rig " << seed;
+        EXPECT_TRUE(isWithinBounds(outcome.errors)) << "rig " << seed;
         ASSERT_TRUE(outcome.figures.brightness.has_value());
         EXPECT_GT(outcome.figures.brightness->keptLight, 0.7);
         EXPECT_LE(outcome.seams.grey18, 0.01) << "rig " << seed;
@@ -105,13 +106,89 @@ TEST(Calibration, ofRandomHallsIsWithinItsBounds) {
     }
 }
 
+// What the windows of a scan would tell, but for what goes wrong in decoding it: a scan at full
+// size takes minutes.
+std::vector<Tie> exactTies(const hall::TrueHall& truth) {
+    constexpr int kWindow = 55;  // pixels of the camera
+    constexpr double kNoise = 0.02;
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal(0, kNoise);
+    const glm::ivec2 windows = truth.hall().camera.sizePixels / kWindow;
+    std::vector<Tie> ties;
+    for (int i = 0; i < windows.x * windows.y; ++i) {
+        const glm::ivec2 at(i % windows.x, i / windows.x);
+        const glm::dvec2 seen = (glm::dvec2(at) + 0.5) * double{kWindow};
+        const auto point = truth.pointSeen(seen);
+        for (std::uint32_t channel = 0; point && channel < truth.channels(); ++channel)
+            if (const auto place = truth.pixelOf(channel, *point))
+                ties.push_back({.camera = 0,
+                                .channel = channel,
+                                .seen = seen,
+                                .place = *place + glm::dvec2(normal(random), normal(random)),
+                                .sigma = kNoise,
+                                .heldOut = (at.x + 2 * at.y) % 5 == 0,
+                                .window = static_cast<std::uint32_t>(i)});
+    }
+    return ties;
+}
+
+// How far the picture lies from where it belongs, in panorama pixels, and whether the solve warns.
+struct PlaceOutcome {
+    double absolute = 0;
+    bool warns = false;
+};
+PlaceOutcome placed(const config::Rig& rig, const config::Hall& hall) {
+    const hall::TrueHall truth(rig, hall);
+    hall::SimulatedCamera camera(truth, {{.kind = config::ScanPattern::Kind::Room}});
+    std::vector<scan::CameraView> views(1);
+    views[0].sizePixels = hall.camera.sizePixels;
+    views[0].room = scan::lightOf(camera.picture(0), camera.scan().cameras.front().response);
+    const wall::Wall wall(rig);
+    const Solved solved = solveTies(rig, wall, views, exactTies(truth), [](const std::string&) {});
+    std::vector<double> errors;
+    for (const glm::dvec3& point : truth.screenPoints(2000)) {
+        const auto pixel = truth.cameraPixelOf(point);
+        const auto place = pixel ? solved.hall->placeSeen(0, *pixel) : std::nullopt;
+        const glm::dvec2 belongs = truth.unrolled(point) * glm::dvec2(rig.panoramaPixels);
+        if (place && !std::isnan(belongs.x))
+            errors.push_back(glm::distance(solved.hall->panoramaPixel(place->point), belongs));
+    }
+    EXPECT_GT(errors.size(), 1000U);
+    return {rootMeanSquare(errors), judged(views, solved).verdict != Judgement::Pass};
+}
+
+// At full size, where a pixel of the panorama is about a millimetre. Without the crew's tape a
+// picture may be off, but the solve says so.
+TEST(Calibration, knowsWhereThePictureIsByTheMarksOnTheScreen) {
+    std::vector<std::uint32_t> seeds{1, 3, 4};  // a dome, a flat wall, a cylinder
+    if (isSoak()) {
+        seeds.resize(20);
+        std::iota(seeds.begin(), seeds.end(), 1U);
+    }
+    for (const std::uint32_t seed : seeds) {
+        const config::Rig rig = hall::randomRig(seed, 1);
+        config::Hall hall = hall::randomHall(rig, seed, 1);
+        const PlaceOutcome marked = placed(rig, hall);
+        hall.screen.marksOffMetres.clear();
+        const PlaceOutcome bare = placed(rig, hall);
+        std::printf("rig %u: absolute RMS %.3f panorama px%s; without marks %.3f%s\n",
+                    seed,
+                    marked.absolute,
+                    marked.warns ? ", warned of" : "",
+                    bare.absolute,
+                    bare.warns ? ", warned of" : "");
+        std::fflush(stdout);
+        EXPECT_LE(marked.absolute, 1.0) << "rig " << seed;
+        EXPECT_TRUE(bare.absolute <= 1.0 || bare.warns) << "rig " << seed;
+    }
+}
+
 // Each is refused or warned of, or solved within the bounds.
 TEST(Calibration, passesNoHallWithAFaultThatItDoesNotSolve) {
     const std::uint32_t draws = isSoak() ? 200 : 3;
     for (std::uint32_t draw = 0; draw < draws; ++draw) {
         const std::size_t kind = draw % hall::kHallFaultNames.size();
         const config::Rig rig = hall::randomRig(100 + draw, 0.25);
-        const bool isDome = rig.screen.shape == config::ScreenShape::Dome;
         const config::Hall hall = hall::withFault(rig,
                                                   hall::randomHall(rig, 100 + draw, 0.25),
                                                   static_cast<hall::HallFault>(kind),
@@ -124,7 +201,7 @@ TEST(Calibration, passesNoHallWithAFaultThatItDoesNotSolve) {
         const bool isNamed = !outcome.figures.cause.empty() && !outcome.figures.advice.empty();
         EXPECT_TRUE(outcome.figures.verdict == Judgement::Pass || isNamed) << what;
         const bool isFalse =
-            outcome.figures.verdict == Judgement::Pass && !isWithinBounds(outcome.errors, isDome);
+            outcome.figures.verdict == Judgement::Pass && !isWithinBounds(outcome.errors);
         EXPECT_FALSE(isFalse) << what << " is a false accept";
     }
 }

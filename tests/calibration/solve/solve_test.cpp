@@ -5,9 +5,12 @@
 #include <cmath>
 #include <random>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "common/config/rig.h"
+#include "common/wall/mark.h"
 #include "tests/support/source_folder.h"
 
 namespace aquarama::solve {
@@ -106,6 +109,63 @@ TEST(Solve, findsACrookedHallOfItsOwnModel) {
     ASSERT_GT(count, 300);
     EXPECT_LT(solved.figures.overlapRms, 0.1);
     EXPECT_LT(std::sqrt(sum / count), 0.5);
+}
+
+// Where the first camera sees a point.
+glm::dvec2 seenAt(const SolvedHall& hall, glm::dvec3 point) {
+    const Device& camera = hall.cameras.front();
+    const Two<double> pixel =
+        pixelOf(camera.lens.data(), camera.pose.data(), Three<double>{point.x, point.y, point.z});
+    return {pixel[0], pixel[1]};
+}
+
+// A dark strip of so many millimetres at the middle of the upper edge, as far from there as is
+// said, and where it is found.
+struct FoundMark {
+    double offMillimetres;
+    std::size_t count;
+};
+FoundMark foundMark(double widthMillimetres, double offMillimetres) {
+    const config::Rig rig = config::readRig(test::sourceFolder() + "/config/desk.txtpb");
+    const wall::Wall wall(rig);
+    SolvedHall hall(rig, wall, glm::ivec2(4));
+    const glm::ivec2 size(1280, 720);
+    hall.cameras = {cameraAt({0.4, 0.2, 2.2}, {0.05, -0.03, 0.01}, 0.485 * size.x, size)};
+    const auto places = wall::markPlaces(config::ScreenShape::Cylinder, wall.screen());
+    const wall::MarkPlace& place = places.front();
+    Light room = darkness(size);
+    const auto middle = seenAt(hall, place.at(0, 0));
+    constexpr int kParts = 4;  // of a pixel's side
+    for (int y = -60 * kParts; y < 60 * kParts; ++y)
+        for (int x = -60 * kParts; x < 60 * kParts; ++x) {
+            const glm::dvec2 at = middle + (glm::dvec2(x, y) + 0.5) / double{kParts};
+            const auto seen = hall.placeSeen(0, at);
+            if (!seen || seen->unrolled.y < 0) continue;
+            const glm::dvec3 off = seen->point - place.edge;
+            const bool isTape = std::abs(glm::dot(off, place.along) - offMillimetres / 1000) <
+                                    widthMillimetres / 2000 &&
+                                glm::dot(off, place.inwards) < wall::kMarkLengthMetres;
+            room.at(static_cast<int>(at.x), static_cast<int>(at.y)) +=
+                glm::vec3(isTape ? 0.01F : 0.4F) / 16.0F;
+        }
+    const Device& camera = hall.cameras.front();
+    const auto ties = markTies(room, 0, rig.screen.shape, hall.screen, camera.lens, camera.pose);
+    if (ties.empty()) return {0, 0};
+    const OutlineTie& tie = ties.front().tie;
+    const glm::dvec2 expected = seenAt(hall, hall.screen.at(tie.unrolled).point);
+    const double pixels = glm::dot(tie.seen - expected, tie.across);
+    return {pixels / ties.front().sigma, ties.size()};  // of a millimetre
+}
+
+TEST(Marks, areFoundToAMillimetreWhereTheyAreAsWideAsTape) {
+    for (const double off : {0.0, 17.0, -120.0}) {
+        const FoundMark found = foundMark(50, off);
+        ASSERT_EQ(found.count, 1U) << off;
+        EXPECT_NEAR(found.offMillimetres, off, 1) << off;
+    }
+    EXPECT_EQ(foundMark(0, 0).count, 0U);
+    EXPECT_EQ(foundMark(20, 0).count, 0U) << "a cable";
+    EXPECT_EQ(foundMark(100, 0).count, 0U) << "a loudspeaker";
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "common/base/log.h"
 #include "common/base/units.h"
+#include "common/wall/mark.h"
 #include "rigs.h"
 
 namespace aquarama::wall {
@@ -97,6 +98,29 @@ TEST(Screens, aDomesFisheyeGrowsWithTheAngleFromItsAxis) {
     tipped.tiltRadians = 90 * kDegree;
     expectNear(surfaceOf(tipped)->at({0.5, 0.5}).value(), {0, 0, -4});
     expectNear(surfaceOf(tipped)->at({0.5, 1}).value(), {0, -4, 0});
+}
+
+// The middle of a strip's inner half is on the strip and on the screen; beside it is neither.
+TEST(Marks, liePointingInwardsFromTheMiddleOfAnEdge) {
+    using config::ScreenShape;
+    const auto flat = markPlaces(ScreenShape::Flat, *surfaceOf(flatScreen()));
+    ASSERT_EQ(flat.size(), 2U);
+    expectNear(flat[0].edge, {0, 1, -3});
+    expectNear(flat[0].inwards, {0, -1, 0});
+    expectNear(flat[1].edge, {0, -1, -3});
+    expectNear(flat[1].inwards, {0, 1, 0});
+    EXPECT_TRUE(flat[0].covers({0.024, 0.86, -3}, 0, 0));
+    EXPECT_FALSE(flat[0].covers({0.026, 0.86, -3}, 0, 0));
+    EXPECT_FALSE(flat[0].covers({0, 0.84, -3}, 0, 0));
+    EXPECT_FALSE(flat[0].covers({0, 0.86, -3}, 0.03, 0)) << "stuck beside it";
+    EXPECT_TRUE(flat[0].covers({0, 0.84, -3}, 0, 0.02));
+    EXPECT_TRUE(flat[0].covers({0.03 * flat[0].along.x, 0.86, -3}, 0.03, 0));
+    const auto dome = markPlaces(ScreenShape::Dome, *surfaceOf(domeScreen()));
+    ASSERT_EQ(dome.size(), 2U);
+    expectNear(dome[0].edge, {0, 0, 4});
+    expectNear(dome[1].edge, {0, 0, -4});
+    EXPECT_GT(dome[1].inwards.y, 0.99);
+    EXPECT_TRUE(markPlaces(ScreenShape::Panels, *surfaceOf(flatScreen())).empty());
 }
 
 TEST(Screens, aTiltLowersTheFrontOfEveryShape) {
