@@ -75,6 +75,10 @@ Picture seenByCamera(const hall::TrueHall& truth, const std::vector<Light>& sent
 
 // The truth is that of --hall; what is sent comes from the rig and its wall file.
 Picture seenIn(const config::Rig& hung, const SimulatedView& options, bool isCamera) {
+    if (!options.wallPath.empty() && hasChannelPictures(hung, options.folder))
+        throw Error("--wall: " + options.folder +
+                    " has pictures of channels, which are thrown as they are: leave --wall out, or "
+                    "give a folder with panorama.png alone");
     const hall::TrueHall truth(hung, hall::hallFrom("--hall", options.hall, hung));
     const std::vector<Light> sent = sentPictures(options, drawnRig(options));
     return isCamera ? seenByCamera(truth, sent) : seenInHall(truth, sent);

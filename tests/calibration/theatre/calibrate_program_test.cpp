@@ -198,6 +198,8 @@ TEST_F(Program, theatreDrawsAPanorama) {
 TEST_F(Program, theatreRefusesWhatDoesNotFitInOneLine) {
     writePng(folder() + "/panorama.png", pictureOf(darkness({64, 32}), 8, 0));
     std::filesystem::create_directory(folder() + "/empty");
+    std::filesystem::create_directory(folder() + "/sent");
+    writePng(folder() + "/sent/channel-left.png", pictureOf(darkness({64, 32}), 8, 0));
     const std::string frame = " --frame " + folder(), out = " --out " + folder() + "/seen.png";
     const std::string hall = " --view hall";
     for (const auto& [arguments, why] :
@@ -206,6 +208,8 @@ TEST_F(Program, theatreRefusesWhatDoesNotFitInOneLine) {
           std::pair{kDesk + frame + hall + out + " --wall none.mpcdi", "none.mpcdi"},
           std::pair{kDesk + frame + hall + out + " --wall " + kDesk, "desk.txtpb"},
           std::pair{kDesk + frame + "/empty" + hall + out, "channel-left.png: cannot be read"},
+          std::pair{kDesk + frame + "/sent" + hall + out + " --hall random:7 --wall x.mpcdi",
+                    "sent has pictures of channels"},
           std::pair{kDesk + frame + hall + " --out /dev/null/x.png", "--out"},
           std::pair{std::string("none.txtpb") + frame + hall + out, "none.txtpb"}}) {
         const Outcome outcome = calibrate("theatre " + arguments);
