@@ -458,6 +458,7 @@ void Console::askPictures() {
 
 // Ten times a second; the wall is sent five times.
 void Console::tick() {
+    if (options_.service != nullptr) options_.service->alive(0);
     constexpr int kTicksOfAWall = 2;
     ++ticks_;
     for (Visitor* visitor : visitors_) {
