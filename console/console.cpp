@@ -458,7 +458,6 @@ void Console::askPictures() {
 
 // Ten times a second; the wall is sent five times.
 void Console::tick() {
-    if (options_.service != nullptr) options_.service->alive(0);
     constexpr int kTicksOfAWall = 2;
     ++ticks_;
     for (Visitor* visitor : visitors_) {
@@ -505,6 +504,7 @@ void Console::everySecond() {
     sendToAll("alerts", alerts);
     hearDoctor();
     tendVisitors();
+    if (options_.service != nullptr) options_.service->alive(0);
 }
 
 void Console::tendVisitors() {

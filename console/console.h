@@ -31,7 +31,7 @@ struct ConsoleOptions {
     config::Rig rig;
     ask::AskedMaster master;             // of this rig, with the operator's key where it needs one
     std::string build;                   // version and commit
-    ServiceNotifier* service = nullptr;  // hears of every tick; null: nobody
+    ServiceNotifier* service = nullptr;  // hears of every second; null: nobody
 };
 
 // Of a WebSocket whose session has ended; from RFC 6455's private range, 4000 to 4999.
