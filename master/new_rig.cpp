@@ -396,6 +396,13 @@ std::vector<Connector> wallMonitors(std::vector<Connector> connected) {
     return connected;
 }
 
+double usualDiagonal(const std::vector<Connector>& monitors) {
+    for (const Connector& one : monitors)
+        if (const auto size = believableSize(one.monitor))
+            return std::round(glm::length(*size) / kMetresAnInch);
+    return kDiagonalInches;
+}
+
 RigPlan planOf(NewRigWishes wishes,
                const std::vector<Connector>& connected,
                const std::string& name) {

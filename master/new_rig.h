@@ -56,6 +56,9 @@ inline constexpr int kMostNewChannels = 16;
 // The monitors that a wall is made of: without a laptop's own panel, where there are others.
 [[nodiscard]] std::vector<Connector> wallMonitors(std::vector<Connector> connected);
 
+// Of the picture of the first of them that tells its size; kDiagonalInches where none does.
+[[nodiscard]] double usualDiagonal(const std::vector<Connector>& monitors);
+
 // Fills in what was not said, from the monitors that are connected and from habit. Throws Error
 // where there are too few monitors.
 [[nodiscard]] RigPlan planOf(NewRigWishes wishes,

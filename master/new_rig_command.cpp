@@ -150,10 +150,12 @@ void askCount(Dialogue& dialogue, NewRigWishes& wishes) {
     wishes.count = static_cast<int>(*count);
 }
 
-void askMeasures(Dialogue& dialogue, NewRigWishes& wishes) {
+void askMeasures(Dialogue& dialogue, NewRigWishes& wishes, const std::vector<Connector>& monitors) {
     if (wishes.kind == WallKind::Televisions) {
-        dialogue.number(
-            "Diagonal of each picture, inches", wishes.diagonalInches, kDiagonalInches, kInches);
+        dialogue.number("Diagonal of each picture, inches",
+                        wishes.diagonalInches,
+                        usualDiagonal(monitors),
+                        kInches);
         dialogue.number("Width of the frame round it, metres", wishes.bezel, 0.01, kFrame);
         if (*wishes.count > 1)
             dialogue.number(
@@ -181,10 +183,11 @@ void askMeasures(Dialogue& dialogue, NewRigWishes& wishes) {
 // Everything that the options have not said.
 void askAll(NewRigWishes& wishes, const std::vector<Connector>& connected) {
     Dialogue dialogue;
+    const std::vector<Connector> monitors = wallMonitors(connected);
     askKind(dialogue, wishes);
-    askConnectors(dialogue, wishes, wallMonitors(connected));
+    askConnectors(dialogue, wishes, monitors);
     askCount(dialogue, wishes);
-    askMeasures(dialogue, wishes);
+    askMeasures(dialogue, wishes, monitors);
 }
 
 // Of the reef: beside the rig where it is there, else the one that comes with the programs.

@@ -8,10 +8,12 @@ import time
 import unittest
 from pathlib import Path
 
-from show import BIN, CHANNELS, ROOT, control_address, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
+from show import BIN, CHANNELS, ROOT, aquarama, control_address, end, free_ports, rig_on_free_ports, start, temporary_folder, trace, wait_until
 from windows_test import Display
 
-SIZE = 480, 360  # of each monitor, as the desk's channels
+SIZE = 480, 360         # of each monitor, as the desk's channels
+TELEVISION = 640, 360   # wider
+MODES = {SIZE: "13.32 480 488 528 592 360 361 364 375", TELEVISION: "17.75 640 664 720 800 360 363 368 374"}  # clock in MHz and timing
 CONFIGURATION = """
 Section "ServerFlags"
   Option "AutoAddDevices" "false"
@@ -26,7 +28,7 @@ Section "Monitor"
   Identifier "monitor"
   HorizSync 5-1000
   VertRefresh 5-200
-  Modeline "480x360" 13.32 480 488 528 592 360 361 364 375
+  Modeline "MODE" TIMING
 EndSection
 Section "Screen"
   Identifier "screen"
@@ -35,8 +37,8 @@ Section "Screen"
   DefaultDepth 24
   SubSection "Display"
     Depth 24
-    Modes "480x360"
-    Virtual 1440 360
+    Modes "MODE"
+    Virtual ALL
   EndSubSection
 EndSection
 """
@@ -45,9 +47,10 @@ EndSection
 class Monitors(Display):
     """An X server with three outputs, without a window manager, as aquarama-x@.service starts it."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, size=SIZE):
+        self.size, self.mode = size, f"{size[0]}x{size[1]}"
         configuration = Path(folder, "xorg.conf")
-        configuration.write_text(CONFIGURATION)
+        configuration.write_text(CONFIGURATION.replace("MODE", self.mode).replace("TIMING", MODES[size]).replace("ALL", f"{3 * size[0]} {size[1]}"))
         read, write = os.pipe()
         # -sharevts and -novtswitch: it takes no terminal of the machine that runs the tests.
         self.server = subprocess.Popen(
@@ -60,7 +63,7 @@ class Monitors(Display):
         try:
             for place in range(3):
                 if place > 0:
-                    self.xrandr("--addmode", f"DUMMY{place}", "480x360")
+                    self.xrandr("--addmode", f"DUMMY{place}", self.mode)
                 self.plug(place)
         except BaseException:
             self.close()
@@ -70,7 +73,7 @@ class Monitors(Display):
         subprocess.run(["xrandr", *words], env=self.environment, check=True, capture_output=True, timeout=20)
 
     def plug(self, place):
-        self.xrandr("--output", f"DUMMY{place}", "--mode", "480x360", "--pos", f"{SIZE[0] * place}x0")
+        self.xrandr("--output", f"DUMMY{place}", "--mode", self.mode, "--pos", f"{self.size[0] * place}x0")
         self.xrandr("--query")  # the driver looks at its outputs only when somebody asks
 
     def unplug(self, place):
@@ -90,7 +93,16 @@ class Monitors(Display):
     def colours_at(self, place):
         """How many colours the monitor shows in a grid of places."""
         _, _, pixel = self.screenshot()
-        return len({pixel(SIZE[0] * place + i * SIZE[0] // 24, j * SIZE[1] // 18) for i in range(1, 24) for j in range(1, 18)})
+        width, height = self.size
+        return len({pixel(width * place + i * width // 24, j * height // 18) for i in range(1, 24) for j in range(1, 18)})
+
+    def save(self, path):
+        """All monitors as they are now, as a picture."""
+        from PIL import Image
+        width, height, pixel = self.screenshot()
+        picture = Image.new("RGB", (width, height))
+        picture.putdata([pixel(x, y) for y in range(height) for x in range(width)])
+        picture.save(path)
 
 
 def takes_outputs():
@@ -182,6 +194,67 @@ class ThreeMonitors(unittest.TestCase):
         self.assertEqual(self.display.colours_at(0), 1)
         self.assertEqual(self.display.screenshot()[2](SIZE[0] + 240, 180), (255, 255, 255), "the screen itself is black")
         self.assertEqual(self.frames("left"), -1)
+
+
+@unittest.skipUnless(takes_outputs(), "as above")
+class ThreeTelevisions(unittest.TestCase):
+    """docs/three_televisions.md, step by step. Where AQUARAMA_SHOTS names a folder, its pictures are left there."""
+
+    def setUp(self):
+        self.folder = temporary_folder()
+        self.display = Monitors(self.folder.name, TELEVISION)
+        self.shots = os.environ.get("AQUARAMA_SHOTS")
+        self.show = None
+
+    def tearDown(self):
+        if self.show:
+            end([self.show], 20)
+        self.display.close()
+        self.folder.cleanup()
+
+    def frames(self):
+        return min(max(trace(self.folder.name, channel), default=-1) for channel in CHANNELS)
+
+    def start_show(self, *arguments):
+        for channel in CHANNELS:
+            Path(self.folder.name, f"{channel}.csv").unlink(missing_ok=True)
+        self.show = subprocess.Popen([BIN / "aquarama", "run", self.rig, "--trace", self.folder.name, *arguments], env=self.display.environment,
+                                     cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        wait_until(lambda: self.frames() >= 5 or self.show.poll() is not None, 120, "five frames of each")
+        self.assertIsNone(self.show.poll())
+
+    def end_show(self):
+        """By q in the middle window, as the guide says."""
+        window = next(place[4] for title, place in self.display.windows().items() if title.startswith("Aquarama middle"))
+        self.display.press(window, "q")
+        self.assertEqual(self.show.wait(30), 0)
+
+    def test_from_a_new_rig_to_a_picture_on_all_three(self):
+        self.rig = Path(self.folder.name, "school.txtpb")
+        made = aquarama("new-rig", self.rig, "--screen", "televisions", "--monitors", "DUMMY0,DUMMY1,DUMMY2", "--size", self.display.mode,
+                        "--diagonal", 55, "--angle", 50, "--distance", 1.2)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertEqual(aquarama("check", self.rig).returncode, 0)
+        if self.shots:
+            shutil.copy(self.rig, self.shots)
+        text = self.rig.read_text()
+        # Beside other shows of this machine, and without a graphics card.
+        for port, other in zip((7400, 7401, 7402, 7480), free_ports(4)):
+            text = text.replace(str(port), str(other))
+        self.rig.write_text(text.replace("membership_s: 1", "present_deadline_s: 2 membership_s: 5"))
+
+        self.start_show("--pattern", "grid")
+        self.assertEqual([self.display.window_of(channel) for channel in CHANNELS], [(TELEVISION[0] * i, 0, *TELEVISION) for i in range(3)])
+        self.assertTrue(all(self.display.colours_at(place) > 1 for place in range(3)))
+        if self.shots:
+            self.display.save(Path(self.shots, "televisions_grid.png"))
+        self.end_show()
+        if self.shots:
+            self.start_show("--scene", "config/scenes/reef.txtpb", "--quality", "medium")
+            wait_until(lambda: self.frames() >= 60, 300, "a second of the reef")
+            self.display.save(Path(self.shots, "televisions_reef.png"))
+            self.end_show()
+            aquarama("run", self.rig, "--headless", "--quality", "medium", "--frames", 61, "--snapshot", self.shots, timeout=600)
 
 
 class Outputs(unittest.TestCase):

@@ -144,6 +144,9 @@ TEST(NewRig, takesWhatMonitorsSayOfThemselvesButNotALaptopsPanel) {
     EXPECT_EQ(plan.channels[1].connector, "HDMI-1");
     EXPECT_EQ(plan.channels[0].sizeMetres, glm::dvec2(1.21, 0.68));
     EXPECT_NEAR(plan.channels[2].sizeMetres.x, 1.2176, 0.001) << "of 55 inches";
+    EXPECT_EQ(usualDiagonal({liar, television("DP-1")}), 55);
+    EXPECT_EQ(usualDiagonal({{"DP-1", {"", {1920, 1080}, 60, {0.71, 0.40}}}}), 32);
+    EXPECT_EQ(usualDiagonal({liar}), kDiagonalInches);
     const config::Rig rig = rigOf(plan);
     EXPECT_EQ(rig.name, "school");
     EXPECT_EQ(rig.channels[2].display.connector, "HDMI-3");
