@@ -504,6 +504,7 @@ void Console::everySecond() {
     sendToAll("alerts", alerts);
     hearDoctor();
     tendVisitors();
+    if (options_.service != nullptr) options_.service->alive(0);
 }
 
 void Console::tendVisitors() {

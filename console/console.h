@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/ask/request_client.h"
+#include "common/base/service_notifier.h"
 #include "common/config/rig.h"
 #include "console/access.h"
 #include "console/alerts.h"
@@ -28,8 +29,9 @@ namespace aquarama::console {
 
 struct ConsoleOptions {
     config::Rig rig;
-    ask::AskedMaster master;  // of this rig, with the operator's key where it needs one
-    std::string build;        // version and commit
+    ask::AskedMaster master;             // of this rig, with the operator's key where it needs one
+    std::string build;                   // version and commit
+    ServiceNotifier* service = nullptr;  // hears of every second; null: nobody
 };
 
 // Of a WebSocket whose session has ended; from RFC 6455's private range, 4000 to 4999.

@@ -11,6 +11,7 @@
 #include <sys/resource.h>
 
 #include "common/base/log.h"
+#include "common/base/service_notifier.h"
 #include "common/cli/command_line.h"
 #include "common/config/rig.h"
 #include "console/access.h"
@@ -97,9 +98,11 @@ void serve(const Options& options, const config::Rig& rig, console::Access& acce
     cli::holdSignals();
     constexpr int kNice = 5;  // the wall goes before
     setpriority(PRIO_PROCESS, 0, kNice);
+    ServiceNotifier service;
     console::Console desk({.rig = rig,
                            .master = {.rig = options.rig, .address = {}, .key = options.key},
-                           .build = cli::buildText()},
+                           .build = cli::buildText(),
+                           .service = &service},
                           access);
     const web::ServerOptions where = serverOptions(options, rig);
     web::WebServer server(where, desk);
@@ -107,7 +110,9 @@ void serve(const Options& options, const config::Rig& rig, console::Access& acce
     logInfo("console at {}://{}:{}", isTls ? "https" : "http", where.address, server.port());
     desk.begin(server, console::doorsOf(where.address, server.port(), isTls, options.names));
     const cli::SignalWatch watch([&] { server.stop(); });
+    service.ready();
     server.run();
+    service.stopping();
     desk.end();
 }
 

@@ -48,6 +48,10 @@ declare -A way=(
     [console_schedule.png]=console
     [console_phone.png]=console
     [console_mind.png]=console
+    [televisions_plan.svg]=televisions
+    [televisions_grid.webp]=televisions
+    [televisions_reef.webp]=televisions
+    [televisions_hall.webp]=televisions
 )
 
 # Each leaves its pictures in $drawn.
@@ -149,6 +153,11 @@ PYTHON
 console() {
     cmake --build --preset show-tests --target aquarama-console
     AQUARAMA_BIN=$PWD/$bin AQUARAMA_SHOTS=$drawn /usr/bin/python3 tests/console/pages_test.py
+}
+# The steps of the guide, as their test goes through them, on three monitors of an X server of its own.
+televisions() {
+    AQUARAMA_BIN=$PWD/$bin AQUARAMA_SHOTS=$drawn /usr/bin/python3 tests/end_to_end/monitors_test.py ThreeTelevisions
+    /usr/bin/python3 docs/draw_televisions.py "$drawn"
 }
 modules() {
     cmake --preset show-tests --graphviz="$drawn/cmake.dot" >/dev/null

@@ -85,6 +85,7 @@ void addStatus(CommandLine& line);
 void addSet(CommandLine& line);
 void addPilot(CommandLine& line);
 void addExplain(CommandLine& line);
+void addNewRig(CommandLine& line);
 void addCheck(CommandLine& line);      // hands over to aquarama-calibrate
 void addCalibrate(CommandLine& line);  // hands over to aquarama-solve
 void addTheatre(CommandLine& line);    // hands over to aquarama-calibrate

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -178,6 +179,15 @@ void lookAtMachine(Findings& findings, const DoctorOptions& options, const confi
     for (const config::Channel& channel : rig.channels) lookAtKey(findings, folder, channel.name);
 }
 
+// The line of the monitor at this connector, or of the only one where it is empty; nothing where
+// there is none.
+std::optional<std::string> monitorIn(const v1::NodeReport& report, const std::string& connector) {
+    if (connector.empty() && report.monitors_size() != 1) return std::nullopt;
+    for (const std::string& monitor : report.monitors())
+        if (connector.empty() || monitor.starts_with(connector + " ")) return monitor;
+    return std::nullopt;
+}
+
 // What the node's machine has, against what the rig says of its channel.
 void lookAtMonitors(Findings& findings,
                     const std::string& subject,
@@ -186,21 +196,21 @@ void lookAtMonitors(Findings& findings,
     for (const std::string& monitor : report.monitors())
         findings.pass(subject, "monitor " + monitor);
     if (channel.display.mode != config::DisplayMode::Fullscreen) return;
-    const int wanted = channel.display.monitor;
-    const bool isThere = wanted < report.monitors_size();
-    findings.judge(
-        isThere,
-        Verdict::Warn,
-        subject,
-        fmt::format("the rig wants its monitor {} of {}", wanted, report.monitors_size()),
-        "see its cables, or correct display.monitor; without a display (--headless) "
-        "nothing is shown there");
-    if (!isThere) return;
-    const std::string size = fmt::format("{}x{}", channel.sizePixels.x, channel.sizePixels.y);
-    findings.judge(report.monitors(wanted).find(" " + size + " ") != std::string::npos,
+    const std::string& wanted = channel.display.connector;
+    const auto found = monitorIn(report, wanted);
+    const std::string name = wanted.empty() ? "its only monitor" : "monitor " + wanted;
+    findings.judge(found.has_value(),
                    Verdict::Warn,
                    subject,
-                   fmt::format("monitor {} is to show {}", wanted, size),
+                   fmt::format("the rig wants {}, of {}", name, report.monitors_size()),
+                   "see its cables, or correct display.connector; without a display (--headless) "
+                   "nothing is shown there");
+    if (!found) return;
+    const std::string size = fmt::format("{}x{}", channel.sizePixels.x, channel.sizePixels.y);
+    findings.judge(found->find(" " + size + " ") != std::string::npos,
+                   Verdict::Warn,
+                   subject,
+                   fmt::format("{} is to show {}", name, size),
                    "it is at another size now: correct the channel's, or the monitor's mode");
 }
 

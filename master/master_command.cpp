@@ -43,7 +43,8 @@ struct MasterOptions {
     supervisor::ShowOptions show;
     bool lockstep = false;
     bool resume = false;
-    std::shared_ptr<LogFile> log;  // of a show by the clock
+    std::shared_ptr<LogFile> log;        // of a show by the clock
+    ServiceNotifier* service = nullptr;  // of a show that runs
 };
 
 // None: the nodes measure which they can draw. In lockstep no clock is read, so nothing is
@@ -175,6 +176,7 @@ conductor::ConductorOptions conductorOptions(const config::Rig& rig, const Maste
     conductor.frames = options.show.frames;
     conductor.traceDirectory = options.show.traceFolder;
     conductor.log = options.log.get();
+    conductor.service = options.service;
     if (!rig.files.empty()) conductor.changedRig = RigFileWatch(rig, options.show.rigPath);
     return conductor;
 }
@@ -272,6 +274,7 @@ std::shared_ptr<LogFile> openLog(const std::string& rigPath) {
 // refused at once.
 void runMaster(const MasterOptions& options) {
     cli::holdSignals();
+    ServiceNotifier service;
     const config::Rig rig = config::readRig(options.show.rigPath);
     wall::checkGeometry(rig, options.show.rigPath);
     cli::requireFolder("--trace", options.show.traceFolder);
@@ -279,9 +282,11 @@ void runMaster(const MasterOptions& options) {
     cli::requireFile("--record", options.show.recordPath);
     auto channels =
         net::bindMaster(rig.controlAddress, rig.stateAddress, {}, masterKeysOf(rig, options.show));
-    MasterOptions logging = options;
-    if (!options.lockstep) logging.log = openLog(options.show.rigPath);
-    (options.show.replayPath.empty() ? showNew : showAgain)(rig, logging, std::move(channels));
+    MasterOptions telling = options;
+    telling.service = &service;
+    if (!options.lockstep) telling.log = openLog(options.show.rigPath);
+    service.beginLongWork("making the world");
+    (options.show.replayPath.empty() ? showNew : showAgain)(rig, telling, std::move(channels));
     setLogListener({});
 }
 

@@ -131,6 +131,14 @@ std::string textOf(const config::Screen& screen) {
     return {};
 }
 
+std::string placeOf(const config::Display& display) {
+    if (display.mode == config::DisplayMode::Window)
+        return "window at " + std::to_string(display.windowPosition.x) + ", " +
+               std::to_string(display.windowPosition.y);
+    return "fullscreen on " +
+           (display.connector.empty() ? "the only monitor" : "monitor " + display.connector);
+}
+
 // Says what the file holds, without any geometry of the wall. show() wants the path, which is not
 // used.
 void inspectRig(const config::Rig& rig, const std::string& /*path*/) {
@@ -149,11 +157,7 @@ void inspectRig(const config::Rig& rig, const std::string& /*path*/) {
                 rig.timing.presentDeadlineSeconds,
                 rig.timing.membershipSeconds);
     for (const config::Channel& channel : rig.channels) {
-        const bool window = channel.display.mode == config::DisplayMode::Window;
-        const std::string place =
-            window ? "window at " + std::to_string(channel.display.windowPosition.x) + ", " +
-                         std::to_string(channel.display.windowPosition.y)
-                   : "fullscreen on monitor " + std::to_string(channel.display.monitor);
+        const std::string place = placeOf(channel.display);
         std::printf("channel %u \"%s\": %d x %d pixels, %s, device %s\n",
                     channel.id,
                     channel.name.c_str(),

@@ -91,16 +91,6 @@ std::string pythonWith(const std::vector<std::string>& modules) {
                 packages + " (apt), or name another Python in AQUARAMA_PYTHON");
 }
 
-fs::path findScript(const std::string& script) {
-    const fs::path program = fs::read_symlink("/proc/self/exe");
-    for (fs::path folder = program.parent_path();; folder = folder.parent_path()) {
-        for (const fs::path& candidate : {folder / script, folder / "share/aquarama" / script})
-            if (fs::is_regular_file(candidate)) return candidate;
-        if (folder == folder.root_path()) break;
-    }
-    throw Error(program.string() + ": no " + script + " above it, which draws the figures");
-}
-
 }  // namespace
 
 void requireFolder(const std::string& option, const std::string& folder) {
@@ -115,6 +105,16 @@ void requireFile(const std::string& option, const std::string& file) {
                                    : tryFolder(fs::absolute(file).parent_path()));
 }
 
+std::string findData(const std::string& file) {
+    const fs::path program = fs::read_symlink("/proc/self/exe");
+    for (fs::path folder = program.parent_path();; folder = folder.parent_path()) {
+        for (const fs::path& candidate : {folder / file, folder / "share/aquarama" / file})
+            if (fs::is_regular_file(candidate)) return candidate.string();
+        if (folder == folder.root_path()) break;
+    }
+    throw Error(program.string() + ": no " + file + " above it; install it beside the programs");
+}
+
 void requirePython(const std::vector<std::string>& modules) {
     static_cast<void>(pythonWith(modules));
 }
@@ -124,7 +124,7 @@ void runPython(const std::vector<std::string>& modules,
                const std::vector<std::string>& arguments) {
     assert(!modules.empty());
     assert(script.ends_with(".py"));
-    std::vector<std::string> all{"-B", findScript(script).string()};  // -B: writes no bytecode
+    std::vector<std::string> all{"-B", findData(script)};  // -B: writes no bytecode
     all.insert(all.end(), arguments.begin(), arguments.end());
     std::cout.flush();
     if (!succeeds(pythonWith(modules), all, Output::Shown))

@@ -18,13 +18,17 @@ void requireFolder(const std::string& option, const std::string& folder);
 // The same for the folder of a file; nor may the file be a folder.
 void requireFile(const std::string& option, const std::string& file);
 
+// The path of a file that comes with the programs ("config/scenes/reef.txtpb"): that of the source
+// tree, or of share/aquarama of an installation, which is nearest above the running program. Throws
+// Error where there is none.
+[[nodiscard]] std::string findData(const std::string& file);
+
 // Throws Error, which says what to install, where no Python has all of the modules. Tried are
 // python3 of the PATH and that of the system, or only the one that AQUARAMA_PYTHON names.
 void requirePython(const std::vector<std::string>& modules);
 
-// Runs a script ("master/study/draw_study.py") with the first Python that has the modules: that of
-// the source tree, or of share/aquarama of an installation, which is nearest above the running
-// program. Throws Error where it is missing or fails.
+// Runs a script ("master/study/draw_study.py"), found as findData() does, with the first Python
+// that has the modules. Throws Error where it is missing or fails.
 void runPython(const std::vector<std::string>& modules,
                const std::string& script,
                const std::vector<std::string>& arguments);

@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "common/base/connectors.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/base/units.h"
@@ -223,11 +224,27 @@ void checkDevice(const TextReader& file, const v1::Display& in) {
                         "\": write auto, nvidia, mesa, surfaceless or device:N");
 }
 
+// Former rigs counted monitors; the count shifts when one is off.
+void refuseCounted(const TextReader& file, const v1::Display& in, const std::string& machine) {
+    if (!in.has_monitor()) return;
+    const std::string where = machine.empty() ? "this machine has " + namesOf(connectedMonitors())
+                                              : "xrandr on machine " + machine + " lists them";
+    file.refuse(in,
+                "monitor",
+                "monitor: " + std::to_string(in.monitor()) +
+                    " counts monitors, and means another one when one is off: name the connector, "
+                    "as connector: \"HDMI-1\"; " +
+                    where);
+}
+
 Display displayOf(const TextReader& file, const v1::Display& in) {
+    constexpr std::size_t kMostConnectorBytes = 32;
     checkDevice(file, in);
+    if (in.connector().size() > kMostConnectorBytes)
+        file.refuse(in, "connector", "connector is longer than any: write as xrandr lists it");
     Display display{
         .mode = in.mode() == v1::Display::WINDOW ? DisplayMode::Window : DisplayMode::Fullscreen,
-        .monitor = static_cast<int>(in.monitor()),
+        .connector = connectorName(in.connector()),
         .windowPosition = {in.window_x_px(), in.window_y_px()},
         .device = in.device()};
     if (in.has_refresh_hz()) display.refreshHertz = in.refresh_hz();
@@ -250,6 +267,7 @@ Channel channelOf(const TextReader& file, const v1::Channel& in, const Stereo& s
                     "name",
                     "channel name \"" + in.name() +
                         "\" also names files: use up to 32 of a-z, 0-9, _ and -");
+    refuseCounted(file, in.display(), in.machine());
     Channel channel{.id = in.id(),
                     .name = in.name(),
                     .sizePixels = sizeOf(in),
@@ -276,10 +294,14 @@ Channel channelOf(const TextReader& file, const v1::Channel& in, const Stereo& s
     return channel;
 }
 
+std::string monitorText(const std::string& connector) {
+    return connector.empty() ? "the only monitor" : "connector \"" + connector + "\"";
+}
+
 void refuseOverlaps(const TextReader& file, const v1::Rig& in) {
     std::set<std::uint32_t> ids;
     std::set<std::string> names;
-    std::set<std::pair<std::string, std::uint32_t>> monitors;  // of a machine
+    std::set<std::pair<std::string, std::string>> monitors;  // machine and connector
     for (const v1::Channel& channel : in.channels()) {
         const auto giveOwn = ": give \"" + channel.name() + "\" its own";
         if (!ids.insert(channel.id()).second)
@@ -294,11 +316,11 @@ void refuseOverlaps(const TextReader& file, const v1::Rig& in) {
                 "name \"" + channel.name() + "\" is taken by another channel: give each its own");
         const v1::Display& display = channel.display();
         const bool isWhole = display.mode() == v1::Display::FULLSCREEN;
-        if (isWhole && !monitors.emplace(channel.machine(), display.monitor()).second)
+        const std::string connector = connectorName(display.connector());
+        if (isWhole && !monitors.emplace(channel.machine(), connector).second)
             file.refuse(display,
-                        "monitor",
-                        "monitor " + std::to_string(display.monitor()) +
-                            " already shows another channel" + giveOwn);
+                        "connector",
+                        monitorText(connector) + " already shows another channel" + giveOwn);
     }
 }
 

@@ -113,7 +113,7 @@ struct Stereo {
 // Where and how a node shows its channel.
 struct Display {
     DisplayMode mode = DisplayMode::Window;
-    int monitor = 0;                          // index of the monitor, for fullscreen
+    std::string connector = {};               // for fullscreen; empty: the only monitor
     glm::ivec2 windowPosition{};              // top left corner on the desktop, for a window
     std::string device = "auto";              // auto | nvidia | mesa | surfaceless | device:N
     std::optional<double> refreshHertz = {};  // refused where the monitor's differs

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -123,21 +125,52 @@ class IgnoredErrors : public pb::io::ErrorCollector {
     void AddError(int /*line*/, int /*column*/, const std::string& /*why*/) override {}
 };
 
-std::vector<std::string> outermostNames(const std::string& text) {
+// Calls visit(token) for each outside of all brackets, in order.
+void eachOutermost(const std::string& text,
+                   const std::function<void(const pb::io::Tokenizer::Token&)>& visit) {
     pb::io::ArrayInputStream stream(text.data(), static_cast<int>(text.size()));
     IgnoredErrors errors;
     pb::io::Tokenizer tokens(&stream, &errors);
     tokens.set_comment_style(pb::io::Tokenizer::SH_COMMENT_STYLE);
-    std::vector<std::string> names;
     int depth = 0;
     while (tokens.Next()) {
         const std::string& token = tokens.current().text;
         if (token == "{" || token == "<") ++depth;
         if (token == "}" || token == ">") --depth;
-        if (depth == 0 && tokens.current().type == pb::io::Tokenizer::TYPE_IDENTIFIER)
-            names.push_back(token);
+        if (depth == 0) visit(tokens.current());
     }
+}
+
+std::vector<std::string> outermostNames(const std::string& text) {
+    std::vector<std::string> names;
+    eachOutermost(text, [&](const pb::io::Tokenizer::Token& token) {
+        if (token.type == pb::io::Tokenizer::TYPE_IDENTIFIER) names.push_back(token.text);
+    });
     return names;
+}
+
+constexpr const char* kVersion = "version";
+
+// What a text says of its format is looked at before all else: what a later one holds is unknown
+// here, and the first unknown field would be a poor cause. Throws Error.
+void refuseLaterVersion(const std::string& text,
+                        const std::string& source,
+                        const pb::Descriptor& type) {
+    const pb::FieldDescriptor* field = type.FindFieldByName(kVersion);
+    if (field == nullptr) return;
+    const double newest = field->options().GetExtension(v1::rule).most();
+    std::string before;
+    eachOutermost(text, [&](const pb::io::Tokenizer::Token& token) {
+        if (token.text == ":") return;
+        const bool isVersion = before == kVersion && token.type == pb::io::Tokenizer::TYPE_INTEGER;
+        before = token.text;
+        if (isVersion && std::strtod(token.text.c_str(), nullptr) > newest)
+            throw Error(placed(source,
+                               counted(token.line, token.column),
+                               "version " + token.text + " of a " + spelledOut(type.name()) +
+                                   " is of a later release; this one reads up to version " +
+                                   shown(newest) + ": update the programs"));
+    });
 }
 
 }  // namespace
@@ -178,6 +211,7 @@ FileKind fileKindOf(const std::string& text) {
 
 TextReader::TextReader(const std::string& text, std::string source, Message& message)
     : source_(std::move(source)), message_(&message) {
+    refuseLaterVersion(text, source_, *message.GetDescriptor());
     FirstError error(source_);
     pb::TextFormat::Parser parser;
     parser.RecordErrorsTo(&error);

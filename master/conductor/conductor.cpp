@@ -156,6 +156,7 @@ ShowReport Conductor::run() {
             "no real-time priority: frames are late where this machine is busy; "
             "docs/cluster.md says how to allow it");
     startSimulation();
+    if (options_.service != nullptr) options_.service->ready();
     while (!over_ && !stopped_) {
         const net::Instant now = net::monotonicNow();
         hear(now);
@@ -165,12 +166,14 @@ ShowReport Conductor::run() {
         conduct(now);
         nameMissing(now);
         count(now);
+        sayAlive(now);
         if (now - lastPublished_ > kBeacon) {
             channels_->publishState(beacon_);
             lastPublished_ = now;
         }
         channels_->wait(untilDue());
     }
+    if (options_.service != nullptr) options_.service->stopping();
     simulationThread_.reset();
     sayFarewell();
     if (keeping_.valid()) keeping_.wait();

@@ -20,6 +20,7 @@
 
 #include "common/base/digest.h"
 #include "common/base/log.h"
+#include "common/base/service_notifier.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
 #include "common/motion/motor.h"
@@ -75,6 +76,7 @@ struct ConductorOptions {
     std::vector<std::string> expected;     // the channels that take part; empty: all of the rig
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
     LogFile* log = nullptr;                // of the whole show; null: none
+    ServiceNotifier* service = nullptr;    // hears of every turn of the frame loop; null: nobody
     net::Instant patience =
         std::chrono::seconds(60);  // lockstep: silence of a node that ends the show
 };
@@ -158,6 +160,8 @@ class Conductor {
     [[nodiscard]] Figures makeFigures();
     // Once a second.
     void count(net::Instant now);
+    // To the service manager, as long as ticks come.
+    void sayAlive(net::Instant now);
 
     // Messages (reception.cpp). `node` is a place in slots_; a peer may be none of them.
     void hear(net::Instant now);  // all that has arrived, within bounds
@@ -340,6 +344,8 @@ class Conductor {
     net::Metrics metrics_;
     Figures figures_;
     net::Instant lastCount_{};
+    std::optional<Tick> lastTick_;  // that has come from the tick thread, and when
+    net::Instant lastTickAt_{};
     std::uint64_t publishedBytes_ = 0;
 };
 

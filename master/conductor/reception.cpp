@@ -523,6 +523,16 @@ void Conductor::count(net::Instant now) {
     }
 }
 
+// A tick that does not come is a hang of this process too, unless the world is to stand still.
+void Conductor::sayAlive(net::Instant now) {
+    constexpr net::Instant kLongestTick = std::chrono::seconds(2);
+    if (options_.service == nullptr) return;
+    const bool isStill = isLockstep() || control_.wanted().freeze;
+    if (isStill || snapshots_.newest() != std::exchange(lastTick_, snapshots_.newest()))
+        lastTickAt_ = now;
+    if (now - lastTickAt_ < kLongestTick) options_.service->alive(report_.frames);
+}
+
 v1::Envelope Conductor::status(net::Instant now) const {
     v1::Envelope message;
     v1::StatusReply& reply = *message.mutable_status_reply();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <glm/gtc/quaternion.hpp>
+#include <pthread.h>
 
 #include "common/base/log.h"
 
@@ -94,7 +95,7 @@ SimulationThread::SimulationThread(Simulation& simulation,
     : simulation_(simulation),
       lastTick_(lastTick),
       onTick_(std::move(onTick)),
-      thread_([this, pace] { pace == wire::Pace::Live ? runLive() : runLockstep(); }) {}
+      thread_([this, pace] { run(pace); }) {}
 
 SimulationThread::~SimulationThread() {
     {
@@ -166,6 +167,11 @@ bool SimulationThread::put(net::Instant due) {
     const bool taken = snapshots_.put(std::move(snapshot));
     onTick_();
     return taken;
+}
+
+void SimulationThread::run(wire::Pace pace) {
+    pthread_setname_np(pthread_self(), "ticks");  // for debuggers, and tests that hold it
+    pace == wire::Pace::Live ? runLive() : runLockstep();
 }
 
 void SimulationThread::runLockstep() {

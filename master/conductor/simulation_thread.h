@@ -61,6 +61,7 @@ class SimulationThread {
     [[nodiscard]] bool betweenTicks(Job job);
 
   private:
+    void run(wire::Pace pace);
     void runLive();
     void runLockstep();
     bool put(net::Instant due);

@@ -18,6 +18,7 @@
 #include <GLFW/glfw3.h>
 #include <glm/common.hpp>
 
+#include "common/base/connectors.h"
 #include "common/base/log.h"
 #include "render_node/gl/context.h"
 
@@ -75,15 +76,39 @@ class GlfwLibrary {
     GlfwLibrary& operator=(const GlfwLibrary&) = delete;
 };
 
-// The monitor with the rig's index, from 0, in GLFW's order. Throws Error where there is none.
-GLFWmonitor* monitorAt(int index) {
+// Those that show something now; valid until the next pumpEvents().
+std::span<GLFWmonitor*> allMonitors() {
     int count = 0;
     GLFWmonitor** monitors = glfwGetMonitors(&count);
-    if (index < 0 || index >= count) {
-        throw Error("display: there is no monitor " + std::to_string(index) +
-                    "; this machine has " + std::to_string(count) + ", numbered from 0");
-    }
-    return monitors[index];
+    return {monitors, static_cast<std::size_t>(count)};
+}
+
+// "HDMI-1, DP-2", as their connectors are named.
+std::string monitorNames() {
+    std::string names;
+    for (GLFWmonitor* monitor : allMonitors())
+        names += (names.empty() ? "" : ", ") + connectorName(glfwGetMonitorName(monitor));
+    return names.empty() ? "none" : names;
+}
+
+// At this connector; without a name the only one. Null: not there now.
+GLFWmonitor* monitorAt(const std::string& connector) {
+    const auto monitors = allMonitors();
+    if (connector.empty()) return monitors.size() == 1 ? monitors.front() : nullptr;
+    const auto found = std::ranges::find(monitors, connector, [](GLFWmonitor* monitor) {
+        return connectorName(glfwGetMonitorName(monitor));
+    });
+    return found == monitors.end() ? nullptr : *found;
+}
+
+// The same. Throws Error where it is not there.
+GLFWmonitor* requireMonitor(const std::string& connector) {
+    if (GLFWmonitor* monitor = monitorAt(connector)) return monitor;
+    if (connector.empty() && !allMonitors().empty())
+        throw Error("display: this machine has several monitors (" + monitorNames() +
+                    "); name the channel's in its display, as connector: \"HDMI-1\"");
+    throw Error("display: there is no monitor " + connector + "; this machine has " +
+                monitorNames() + ": correct the channel's connector, or see its cable");
 }
 
 bool refreshDiffers(const config::Display& display, const GLFWvidmode& mode) {
@@ -96,36 +121,50 @@ std::string described(const GLFWvidmode& mode) {
 }
 
 // The video mode of the monitor that has exactly the channel's size, and its refresh rate where one
-// is given. Throws Error: a scaled picture would have a wrong warp.
-GLFWvidmode modeFor(const config::Display& display, glm::ivec2 size, GLFWmonitor* monitor) {
+// is given: a scaled picture would have a wrong warp. Null: it has none.
+const GLFWvidmode* modeOf(const config::Display& display, glm::ivec2 size, GLFWmonitor* monitor) {
     int count = 0;
     const GLFWvidmode* modes = glfwGetVideoModes(monitor, &count);
     for (const GLFWvidmode& mode : std::span{modes, static_cast<std::size_t>(count)})
         if (glm::ivec2(mode.width, mode.height) == size && !refreshDiffers(display, mode))
-            return mode;
+            return &mode;
+    return nullptr;
+}
+
+// Of a monitor without that mode.
+[[noreturn]] void refuseMode(const config::Display& display,
+                             glm::ivec2 size,
+                             GLFWmonitor* monitor) {
     const std::string wanted =
         text(size) + (display.refreshHertz
                           ? " at " + std::to_string(std::lround(*display.refreshHertz)) + " Hz"
                           : "");
-    throw Error("display: monitor " + std::to_string(display.monitor) + " (" +
-                glfwGetMonitorName(monitor) + ") cannot show the channel's " + wanted +
-                ", it is at " + described(*glfwGetVideoMode(monitor)) +
+    throw Error("display: monitor " + connectorName(glfwGetMonitorName(monitor)) +
+                " cannot show the channel's " + wanted + ", it is at " +
+                described(*glfwGetVideoMode(monitor)) +
                 "; correct the channel's size or refresh rate, or the cable's monitor");
 }
 
-// Index of the monitor that contains this point of the desktop; the first one where none does.
-int monitorUnder(glm::ivec2 place) {
-    int count = 0;
-    GLFWmonitor** monitors = glfwGetMonitors(&count);
-    for (int i = 0; i < count; ++i) {
-        glm::ivec2 corner{};
-        glfwGetMonitorPos(monitors[i], &corner.x, &corner.y);
-        const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
-        const glm::ivec2 inside = place - corner;
-        if (inside.x >= 0 && inside.y >= 0 && inside.x < mode->width && inside.y < mode->height)
-            return i;
-    }
-    return 0;
+// Its place on the desktop.
+glm::ivec2 cornerOf(GLFWmonitor* monitor) {
+    glm::ivec2 corner{};
+    glfwGetMonitorPos(monitor, &corner.x, &corner.y);
+    return corner;
+}
+
+// The monitor that contains this point of the desktop; the first one where none does. Throws Error:
+// there is none at all.
+GLFWmonitor* monitorUnder(glm::ivec2 place) {
+    const auto monitors = allMonitors();
+    if (monitors.empty()) throw Error("display: this machine has no monitor; see its cables");
+    const auto contains = [place](GLFWmonitor* monitor) {
+        const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+        const glm::ivec2 inside = place - cornerOf(monitor);
+        return inside ==
+               glm::clamp(inside, glm::ivec2(0), glm::ivec2(mode->width, mode->height) - 1);
+    };
+    const auto found = std::ranges::find_if(monitors, contains);
+    return found == monitors.end() ? monitors.front() : *found;
 }
 
 // Deleter of std::unique_ptr<GLFWwindow>.
@@ -281,6 +320,7 @@ class WindowContext : public Context {
         countsBlanks_ =
             native_.x != nullptr &&
             epoxy_has_glx_extension(native_.x, DefaultScreen(native_.x), "GLX_OML_sync_control");
+        blacken();
         release();
     }
     [[nodiscard]] std::unique_ptr<Workspace> makeWorkspace() override {
@@ -312,12 +352,10 @@ class WindowContext : public Context {
     }
     [[nodiscard]] std::optional<std::string> loss() const override { return lossOfContext(); }
     [[nodiscard]] std::vector<std::string> monitors() const override {
-        int count = 0;
-        GLFWmonitor** all = glfwGetMonitors(&count);
         std::vector<std::string> texts;
-        for (GLFWmonitor* monitor : std::span{all, static_cast<std::size_t>(count)}) {
+        for (GLFWmonitor* monitor : allMonitors()) {
             const GLFWvidmode& mode = *glfwGetVideoMode(monitor);
-            texts.push_back(std::string(glfwGetMonitorName(monitor)) + " " +
+            texts.push_back(connectorName(glfwGetMonitorName(monitor)) + " " +
                             std::to_string(mode.width) + "x" + std::to_string(mode.height) + " " +
                             std::to_string(mode.refreshRate) + " Hz");
         }
@@ -326,6 +364,7 @@ class WindowContext : public Context {
     void pumpEvents(std::chrono::milliseconds atMost) override {
         assert(atMost.count() >= 0);
         glfwWaitEventsTimeout(std::chrono::duration<double>(atMost).count());
+        keepInPlace();
     }
     [[nodiscard]] std::optional<char> nextKey() override {
         if (keys_.empty()) return std::nullopt;
@@ -360,6 +399,20 @@ class WindowContext : public Context {
     // Place of the pointer in pixels of the framebuffer, from the top left corner.
     [[nodiscard]] glm::vec2 cursor() const;
     void toggleFullscreen();
+    // The channel's, or that under its window. Throws Error where there is none.
+    [[nodiscard]] GLFWmonitor* ownMonitor() const {
+        return display_.mode == config::DisplayMode::Fullscreen
+                   ? requireMonitor(display_.connector)
+                   : monitorUnder(display_.windowPosition);
+    }
+    // Black until the first frame, whatever was on the screen before.
+    void blacken();
+    // Monitors come, go and move while the channel is drawn: its window goes with its connector.
+    void keepInPlace();
+    [[nodiscard]] bool isOn(GLFWmonitor* monitor) const;
+    void stayOn(GLFWmonitor* monitor);
+    void waitAside();
+    void enter(GLFWmonitor* monitor);
 
     // First, so that GLFW ends after the window.
     GlfwLibrary library_;
@@ -370,6 +423,11 @@ class WindowContext : public Context {
     NativeContext native_;
     bool countsBlanks_ = false;
     std::atomic<glm::ivec2> framebuffer_{glm::ivec2(0)};
+    // Whether its monitor is gone, and by the key f it has no whole monitor for now.
+    bool isAside_ = false;
+    bool isTakenOff_ = false;
+    int attempts_ = 0;  // to enter its monitor
+    std::chrono::steady_clock::time_point lookedAt_;
     // Pressed, not yet taken by nextKey().
     std::deque<char> keys_;
     std::deque<glm::vec2> clicks_;
@@ -396,8 +454,10 @@ void WindowContext::open(const std::string& title) {
     glfwWindowHint(GLFW_STEREO, quadBuffered_ ? GLFW_TRUE : GLFW_FALSE);
     GLFWmonitor* monitor = nullptr;
     if (display_.mode == config::DisplayMode::Fullscreen) {
-        monitor = monitorAt(display_.monitor);
-        glfwWindowHint(GLFW_REFRESH_RATE, modeFor(display_, size_, monitor).refreshRate);
+        monitor = requireMonitor(display_.connector);
+        const GLFWvidmode* mode = modeOf(display_, size_, monitor);
+        if (mode == nullptr) refuseMode(display_, size_, monitor);
+        glfwWindowHint(GLFW_REFRESH_RATE, mode->refreshRate);
     }
     window_.reset(glfwCreateWindow(size_.x, size_.y, title.c_str(), monitor, nullptr));
     if (!window_ && quadBuffered_) {
@@ -411,8 +471,73 @@ void WindowContext::open(const std::string& title) {
     }
     if (monitor == nullptr && placesWindows())
         glfwSetWindowPos(window_.get(), display_.windowPosition.x, display_.windowPosition.y);
+    // A whole monitor is for those who look at the wall: no pointer lies on it.
+    if (monitor != nullptr) glfwSetInputMode(window_.get(), GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
     glfwShowWindow(window_.get());
     glfwPollEvents();
+}
+
+void WindowContext::blacken() {
+    glClearColor(0, 0, 0, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    swap();
+}
+
+// GLFW makes an ordinary window of one whose monitor goes, somewhere on the desktop, and leaves it
+// there.
+void WindowContext::keepInPlace() {
+    constexpr auto kBetweenLooks = std::chrono::milliseconds(250);
+    if (display_.mode != config::DisplayMode::Fullscreen || isTakenOff_) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - lookedAt_ < kBetweenLooks) return;
+    lookedAt_ = now;
+    if (GLFWmonitor* monitor = monitorAt(display_.connector))
+        stayOn(monitor);
+    else
+        waitAside();
+}
+
+void WindowContext::stayOn(GLFWmonitor* monitor) {
+    constexpr int kMostAttempts = 8;  // where a window manager has its own mind
+    if (!isAside_ && isOn(monitor))
+        attempts_ = 0;
+    else if (attempts_++ < kMostAttempts)
+        enter(monitor);
+}
+
+// A window in its mode at its corner.
+bool WindowContext::isOn(GLFWmonitor* monitor) const {
+    if (glfwGetWindowMonitor(window_.get()) != monitor) return false;
+    if (!placesWindows()) return true;
+    glm::ivec2 place{};
+    glfwGetWindowPos(window_.get(), &place.x, &place.y);
+    const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+    return place == cornerOf(monitor) && glm::ivec2(mode->width, mode->height) == size_ &&
+           framebuffer_.load() == size_;
+}
+
+// Beyond the desktop, where it covers no other channel; it is drawn on.
+void WindowContext::waitAside() {
+    attempts_ = 0;
+    if (std::exchange(isAside_, true)) return;
+    logWarning("monitor {} is gone; its channel is drawn on until it is back", display_.connector);
+    const glm::ivec2 place = -2 * size_;
+    glfwSetWindowMonitor(
+        window_.get(), nullptr, place.x, place.y, size_.x, size_.y, GLFW_DONT_CARE);
+}
+
+void WindowContext::enter(GLFWmonitor* monitor) {
+    const GLFWvidmode* mode = modeOf(display_, size_, monitor);
+    if (mode == nullptr) {
+        logWarning("monitor {} has no mode of {}", display_.connector, text(size_));
+        return;
+    }
+    if (std::exchange(isAside_, false)) logInfo("monitor {} is back", display_.connector);
+    glfwSetWindowMonitor(window_.get(), monitor, 0, 0, size_.x, size_.y, mode->refreshRate);
+    if (!placesWindows()) return;
+    // Without a window manager GLFW leaves the window where it was.
+    const glm::ivec2 corner = cornerOf(monitor);
+    glfwSetWindowPos(window_.get(), corner.x, corner.y);
 }
 
 // A window whose pixels are not the projector's pixels would show a wrong warp, so the node refuses
@@ -425,13 +550,12 @@ void WindowContext::check() {
         throw Error("display: the window has " + text(actual) + " pixels, the channel " +
                     text(size_) + "; choose a monitor, scale or place where it fits");
     }
-    const int index = display_.mode == config::DisplayMode::Fullscreen
-                          ? display_.monitor
-                          : monitorUnder(display_.windowPosition);
-    const GLFWvidmode mode = *glfwGetVideoMode(monitorAt(index));
+    GLFWmonitor* monitor = ownMonitor();
+    const GLFWvidmode mode = *glfwGetVideoMode(monitor);
     if (refreshDiffers(display_, mode)) {
-        throw Error("display: monitor " + std::to_string(index) + " runs " + described(mode) +
-                    ", the channel wants " + std::to_string(*display_.refreshHertz) +
+        throw Error("display: monitor " + connectorName(glfwGetMonitorName(monitor)) + " runs " +
+                    described(mode) + ", the channel wants " +
+                    std::to_string(*display_.refreshHertz) +
                     " Hz; set the monitor or the channel's refresh rate");
     }
 }
@@ -499,15 +623,14 @@ glm::vec2 WindowContext::cursor() const {
 // Between the rig's place on the desktop and the whole monitor under it. The size of the
 // framebuffer may change; channel_show.cpp then fits the picture into it.
 void WindowContext::toggleFullscreen() {
-    if (glfwGetWindowMonitor(window_.get()) != nullptr) {
+    isTakenOff_ = glfwGetWindowMonitor(window_.get()) != nullptr;
+    if (isTakenOff_) {
         const glm::ivec2 place = display_.windowPosition;
         glfwSetWindowMonitor(
             window_.get(), nullptr, place.x, place.y, size_.x, size_.y, GLFW_DONT_CARE);
         return;
     }
-    GLFWmonitor* monitor = monitorAt(display_.mode == config::DisplayMode::Fullscreen
-                                         ? display_.monitor
-                                         : monitorUnder(display_.windowPosition));
+    GLFWmonitor* monitor = ownMonitor();
     const GLFWvidmode mode = *glfwGetVideoMode(monitor);
     glfwSetWindowMonitor(window_.get(), monitor, 0, 0, mode.width, mode.height, mode.refreshRate);
 }

@@ -27,8 +27,10 @@ constexpr net::Instant kComplaint = seconds(3);  // between two lines that say w
 constexpr net::Instant kFarthest =
     milliseconds(250);  // a release further ahead is a clock gone wrong
 constexpr net::Instant kReport = seconds(5);
-constexpr std::size_t kPings = 200;  // of ten seconds
-constexpr int kSpoiltBlobs = 3;      // deliveries of a blob that fail before we give up
+constexpr net::Instant kBetweenCalls = milliseconds(250);  // while the render thread waits
+constexpr net::Instant kLongestTurn = seconds(2);          // of a net thread that is at work
+constexpr std::size_t kPings = 200;                        // of ten seconds
+constexpr int kSpoiltBlobs = 3;  // deliveries of a blob that fail before we give up
 
 // Takes a moment, and never changes.
 std::uint64_t ownMotorHash() {
@@ -151,10 +153,18 @@ void Mailbox::expectJoin() {
     nextLook_.reset();
 }
 
+void Mailbox::await(std::unique_lock<std::mutex>& lock, const std::function<bool()>& isDone) {
+    while (!changed_.wait_for(lock, kBetweenCalls, isDone)) {
+        lock.unlock();
+        if (whileWaiting_) whileWaiting_();
+        lock.lock();
+    }
+}
+
 JoinOutcome Mailbox::awaitJoin() {
     std::unique_lock lock(mutex_);
     const auto isOver = [&] { return interruption_ == Release::Quit; };
-    changed_.wait(lock, [&] { return join_ || isOver(); });
+    await(lock, [&] { return join_ || isOver(); });
     if (isOver()) return Ended{};
     return *std::exchange(join_, {});
 }
@@ -176,14 +186,14 @@ std::optional<ArrivedState> Mailbox::takeNext() {
 std::optional<ArrivedState> Mailbox::takeState() {
     std::unique_lock lock(mutex_);
     std::optional<ArrivedState> taken;
-    changed_.wait(lock, [&] { return interruption_ || (taken = takeNext()); });
+    await(lock, [&] { return interruption_ || (taken = takeNext()); });
     return taken;
 }
 
 std::optional<ReleaseOrder> Mailbox::awaitRelease(Frame frame) {
     std::unique_lock lock(mutex_);
     const auto isReleased = [&] { return release_ && release_->frame >= frame; };
-    changed_.wait(lock, [&] { return isReleased() || interruption_; });
+    await(lock, [&] { return isReleased() || interruption_; });
     return isReleased() ? release_ : std::nullopt;  // the last frame is shown before the end
 }
 
@@ -240,7 +250,12 @@ void MasterLink::run() {
     if (session_ != 0) sayFarewell();
 }
 
+bool MasterLink::isAtWork() const {
+    return net::monotonicNow() - lastTurn_.load() < kLongestTurn;
+}
+
 void MasterLink::turn() {
+    lastTurn_ = net::monotonicNow();
     while (const auto request = requests_.tryTake()) {
         std::visit([&](const auto& what) { handle(what); }, *request);
     }

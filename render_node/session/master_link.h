@@ -65,6 +65,8 @@ class Mailbox {
     void interrupt(Release why);  // Rejoin or Quit; nothing comes back after Quit
 
     // The render thread's side. Each blocks until there is an answer.
+    // Called while one of them waits, without the lock.
+    void whileWaiting(std::function<void()> call) { whileWaiting_ = std::move(call); }
     void expectJoin();  // forgets everything that came before
     [[nodiscard]] JoinOutcome awaitJoin();
     [[nodiscard]] std::optional<ArrivedState> takeState();  // empty: interrupted
@@ -78,10 +80,13 @@ class Mailbox {
 
   private:
     [[nodiscard]] std::optional<ArrivedState> takeNext();
+    // Returns with the lock held, once this is true.
+    void await(std::unique_lock<std::mutex>& lock, const std::function<bool()>& isDone);
 
     static constexpr std::size_t kStates = 8;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
+    std::function<void()> whileWaiting_;  // of the render thread
     std::optional<JoinOutcome> join_;
     std::optional<Release> interruption_;
     std::optional<wire::Pace> pace_;  // set once frames are expected
@@ -149,6 +154,8 @@ class MasterLink {
     [[nodiscard]] const Traffic& traffic() const { return traffic_; }
     void stop();  // from any thread
     [[nodiscard]] bool isToRestart() const { return isToRestart_; }
+    // Whether the net thread has looked for messages in the last seconds; from any thread.
+    [[nodiscard]] bool isAtWork() const;
 
     // The net thread; returns after stop(), having said farewell.
     void run();
@@ -218,6 +225,7 @@ class MasterLink {
     std::unique_ptr<net::NodeChannels> channels_;
     net::BoundedQueue<Request> requests_{64};
     std::atomic<bool> stopped_ = false, isToRestart_ = false;
+    std::atomic<net::Instant> lastTurn_{net::monotonicNow()};
 
     bool connectionUsed_ = false;
     Phase phase_ = Phase::Outside;

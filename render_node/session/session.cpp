@@ -231,6 +231,11 @@ class LinkSession final : public Session {
     }
     std::optional<ExplainedMind> latestMind() const override { return mailbox_.latestMind(); }
 
+    void whileWaiting(std::function<void()> call) override {
+        mailbox_.whileWaiting([this, call = std::move(call)] {
+            if (link_.isAtWork()) call();
+        });
+    }
     void stop() override { link_.stop(); }
     bool isToRestart() const override { return link_.isToRestart(); }
 

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -95,6 +96,9 @@ class Session {
     // Asks what goes on in the mind of a fish; the answer comes when it comes.
     virtual void askMind(std::uint32_t fish) = 0;
     [[nodiscard]] virtual std::optional<ExplainedMind> latestMind() const = 0;
+    // Called four times a second while the render thread waits in one of the functions above, as
+    // long as the net thread is at work.
+    virtual void whileWaiting(std::function<void()> call) = 0;
     virtual void stop() = 0;
     // Whether the session has ended since this node is to be started again.
     [[nodiscard]] virtual bool isToRestart() const = 0;

@@ -127,10 +127,12 @@ double BuiltLook::secondsAFrame(config::QualityTier quality) {
 ChannelShow::ChannelShow(session::Session& session,
                          gl::Context& context,
                          Controls& controls,
+                         ServiceNotifier& service,
                          const NodeOptions& options)
     : session_{session},
       context_{context},
       controls_{controls},
+      service_{service},
       options_{options},
       trace_{options.traceFolder, options.channel} {
     assert(options_.filmEvery > 0);
@@ -149,9 +151,11 @@ void ChannelShow::run(session::Admission first) {
     while (admission) {
         build(std::move(*admission));
         session_.prepared(stage_->admission().look, stage_->bears());
+        service_.ready();
         const session::Release end = play();
         if (end == session::Release::Quit) break;
         logInfo("lost the master; joining again");
+        service_.status("the master is gone; waiting for it");
         admission = session_.join();
     }
     if (!shown_ || options_.snapshotFolder.empty()) return;
@@ -174,7 +178,9 @@ void ChannelShow::build(session::Admission admission) {
         throw Error("channel \"" + options_.channel +
                     "\" has another size than before; start its node again");
     stage_.reset();  // first, so that the GPU need not hold both
+    service_.beginLongWork("building what is shown");
     enter(std::make_unique<BuiltLook>(context_, options_.channel, std::move(admission)));
+    service_.endLongWork();
     shown_ = false;
 }
 
@@ -221,6 +227,13 @@ bool ChannelShow::bringOn(std::uint32_t look) {
     return true;
 }
 
+void ChannelShow::bringTo(config::QualityTier quality) {
+    if (quality == stage_->quality()) return;
+    service_.beginLongWork("building another quality");
+    stage_->bringTo(quality);
+    service_.endLongWork();
+}
+
 session::Release ChannelShow::play() {
     // On the target, for the operator's console. Looked at after nextFrame(): until then this
     // thread has real-time priority, and would keep other nodes of its machine from their release.
@@ -232,7 +245,7 @@ session::Release ChannelShow::play() {
         buildNext();
         if (!bringOn(state->show.look)) return session::Release::Rejoin;
         feed(state->eye);
-        stage_->bringTo(state->show.quality);
+        bringTo(state->show.quality);
         const bool seen = isSeen(state->frame);
         if (seen) {
             draw(*state);
@@ -246,6 +259,7 @@ session::Release ChannelShow::play() {
         if (release == session::Release::Skip) continue;
         if (seen) context_.swap();
         times.present = now();
+        service_.alive(++framesShown_);
         watchBlanks(state->frame);
         trace_.write(state->frame, times);
         if (film_ && isFilmed(state->frame)) film(state->frame);

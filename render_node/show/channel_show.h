@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/service_notifier.h"
 #include "common/base/units.h"
 #include "common/config/rig.h"
 #include "common/motion/reconstruct.h"
@@ -83,6 +84,7 @@ class BuiltLook {
     [[nodiscard]] config::QualityTier bears() const { return bears_; }
     // Of OpenGL, for people.
     [[nodiscard]] const std::string& renderer() const { return renderer_; }
+    [[nodiscard]] config::QualityTier quality() const { return quality_; }  // of the picture
     // Makes the picture anew where it is of another tier. The workspace is current.
     void bringTo(config::QualityTier quality);
 
@@ -108,12 +110,13 @@ class BuiltLook {
 // The drawing loop.
 
 // Runs on the drawing thread; construct, use and destroy it there. The next look is built on a
-// thread of its own. Session, context and controls must outlive it.
+// thread of its own. Session, context, controls and service must outlive it.
 class ChannelShow {
   public:
     ChannelShow(session::Session& session,
                 gl::Context& context,
                 Controls& controls,
+                ServiceNotifier& service,
                 const NodeOptions& options);
 
     ~ChannelShow();
@@ -134,6 +137,8 @@ class ChannelShow {
     // thread of its own.
     [[nodiscard]] bool bringOn(std::uint32_t look);
     void enter(std::unique_ptr<BuiltLook> stage);
+    // Makes the picture anew where the wall is to be of another tier.
+    void bringTo(config::QualityTier quality);
     // Draws and presents frames until the master is lost (Rejoin) or the show ends (Quit).
     [[nodiscard]] session::Release play();
     // Draws and projects a frame, for quad buffers once for each eye, and waits for the GPU. The
@@ -163,6 +168,7 @@ class ChannelShow {
     session::Session& session_;
     gl::Context& context_;
     Controls& controls_;
+    ServiceNotifier& service_;  // hears of every frame that was presented
     NodeOptions options_;
     Trace trace_;
     // Sends frames to the program that encodes a clip; null: none.
@@ -181,8 +187,9 @@ class ChannelShow {
     std::optional<std::uint32_t> watched_;
     // When the fish was last chosen and the master asked.
     std::chrono::nanoseconds askedAt_{};
-    // Whether a frame of this show has been presented.
+    // Whether a frame of this show has been presented, and how many were since the node began.
     bool shown_ = false;
+    std::uint64_t framesShown_ = 0;
     // The last frame, where it was not drawn because nobody saw it.
     std::optional<wire::StateFrame> undrawn_;
 };

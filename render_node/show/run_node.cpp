@@ -7,6 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include <pthread.h>
+
+#include "common/base/service_notifier.h"
 #include "common/cli/command_line.h"
 #include "common/wall/wall.h"
 #include "render_node/gl/context.h"
@@ -45,9 +48,11 @@ std::unique_ptr<gl::Context> openContext(const NodeOptions& options,
 void show(session::Session& session,
           gl::Context& context,
           Controls& controls,
+          ServiceNotifier& service,
           const NodeOptions& options,
           session::Admission admission) {
-    ChannelShow(session, context, controls, options).run(std::move(admission));
+    pthread_setname_np(pthread_self(), "frames");  // for debuggers, and tests that hold it
+    ChannelShow(session, context, controls, service, options).run(std::move(admission));
 }
 
 }  // namespace
@@ -57,7 +62,13 @@ bool runNode(const NodeOptions& options) {
     cli::holdSignals();
     const std::unique_ptr<session::Session> session =
         session::connectSession(options.channel, options.masterAddress, options.keys);
-    const cli::SignalWatch watch([&] { session->stop(); });
+    ServiceNotifier service;
+    const cli::SignalWatch watch([&] {
+        service.stopping();
+        session->stop();
+    });
+    session->whileWaiting([&] { service.alive(0); });
+    service.status("waiting for the master at " + options.masterAddress);
     std::optional<session::Admission> admission = session->join();
     if (!admission) return session->isToRestart();
     const std::size_t channel = channelIndex(admission->rig, options.channel);
@@ -66,7 +77,7 @@ bool runNode(const NodeOptions& options) {
     NodeOptions described = options;
     described.monitors = context->monitors();
     std::future<void> drawing = std::async(std::launch::async, [&] {
-        show(*session, *context, controls, described, std::move(*admission));
+        show(*session, *context, controls, service, described, std::move(*admission));
     });
     while (drawing.wait_for(0s) != std::future_status::ready) {
         context->pumpEvents(kPatience);

@@ -9,7 +9,7 @@ from pathlib import Path
 from show import BIN, ROOT, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, wait_until
 
 PROGRAMS = ["aquarama", "aquarama-node", "aquarama-calibrate"]
-COMMANDS = ["run", "replay", "master", "node", "capture", "export", "gaits", "search", "fidelity", "controllers", "study", "check",
+COMMANDS = ["new-rig", "run", "replay", "master", "node", "capture", "export", "gaits", "search", "fidelity", "controllers", "study", "check",
             "inspect", "status", "pilot", "explain"]
 STARTED = r"starting the master and 3 nodes of \S+\n(\[.*\n)*"
 

@@ -57,7 +57,7 @@ class Doctor(unittest.TestCase):
         said = " ".join(what for _, what, _ in found["node left"])
         for word in ("in step", "OpenGL", "build 0.1.0", "round trip", "jitter", "real-time", "free"):
             self.assertIn(word, said)
-        self.assertIn("monitor 0 of 0", said)
+        self.assertIn("its only monitor, of 0", said)
         self.assertNotIn("monitor", " ".join(what for _, what, _ in found["node middle"]))
         text = aquarama("doctor", self.rig)
         self.assertRegex(text.stdout, r"fail +node right +absent")

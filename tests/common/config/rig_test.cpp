@@ -32,7 +32,7 @@ channels {
   width_px: 320
   height_px: 240
   projector { position { x_m: 0.5 y_m: 1 z_m: 0.25 } yaw_deg: 20 pitch_deg: -3 roll_deg: 1.5 focal_x_px: 300 focal_y_px: 310 principal_x_px: 150 principal_y_px: -20 }
-  display { mode: FULLSCREEN monitor: 1 device: "device:2" refresh_hz: 50 }
+  display { mode: FULLSCREEN connector: "HDMI-A-2" device: "device:2" refresh_hz: 50 }
 }
 channels {
   id: 5
@@ -70,7 +70,7 @@ TEST(Rig, everyValueArrivesInItsPlace) {
     EXPECT_EQ(left.projector.focalPixels, glm::dvec2(300, 310));
     EXPECT_EQ(left.projector.principalPixels, glm::dvec2(150, -20));
     EXPECT_EQ(left.display.mode, DisplayMode::Fullscreen);
-    EXPECT_EQ(left.display.monitor, 1);
+    EXPECT_EQ(left.display.connector, "HDMI-2") << "as X names it";
     EXPECT_EQ(left.display.device, "device:2");
     EXPECT_EQ(left.display.refreshHertz, 50);
     EXPECT_EQ(left.place.line, 11);
@@ -235,8 +235,16 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"idTaken", "id: 5", "id: 4", "id: 4", "taken"},
         Mistake{"nameTaken", "name: \"right\"", "name: \"left\"", "name", "taken"},
         Mistake{"nameWithSlash", "name: \"right\"", "name: \"../x\"", "name", "also names files"},
-        Mistake{
-            "monitorTaken", "mode: WINDOW", "mode: FULLSCREEN monitor: 1", "monitor", "already"},
+        Mistake{"connectorTaken",
+                "mode: WINDOW",
+                "mode: FULLSCREEN connector: \"HDMI-2\"",
+                "connector",
+                "\"HDMI-2\" already"},
+        Mistake{"monitorsCounted",
+                "connector: \"HDMI-A-2\"",
+                "monitor: 1",
+                "monitor",
+                "name the connector, as connector: \"HDMI-1\"; this machine has "},
         Mistake{"bindAnywhere",
                 "tcp://127.0.0.1:7400",
                 "tcp://*:7400",

@@ -177,9 +177,10 @@ TEST_F(WindowTest, aMonitorThatIsNotTheChannelsIsRefused) {
     display.mode = config::DisplayMode::Fullscreen;
     EXPECT_THAT(refusalOf(display, {1400, 1050}),
                 testing::HasSubstr("cannot show the channel's 1400 x 1050"));
-    display.monitor = 3;
-    EXPECT_THAT(refusalOf(display, VirtualDisplay::kSize), testing::HasSubstr("no monitor 3"));
-    display.monitor = 0;
+    display.connector = "HDMI-9";
+    EXPECT_THAT(refusalOf(display, VirtualDisplay::kSize),
+                testing::HasSubstr("no monitor HDMI-9; this machine has screen"));
+    display.connector.clear();
     display.refreshHertz = 119.88;
     EXPECT_THAT(refusalOf(display, VirtualDisplay::kSize), testing::HasSubstr("120 Hz"));
     display.mode = config::DisplayMode::Window;

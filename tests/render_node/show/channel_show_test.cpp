@@ -46,7 +46,7 @@ class ChannelShowTest : public testing::Test {
               const NodeOptions& chosen,
               wire::Pattern pattern = wire::Pattern::Grey) {
         Controls controls(session, true);
-        ChannelShow(session, context_, controls, chosen).run(admissionTo(pattern));
+        ChannelShow(session, context_, controls, service_, chosen).run(admissionTo(pattern));
     }
     [[nodiscard]] std::vector<std::string> traceLines() const {
         std::istringstream text(fileText(folder_ + "/middle.csv"));
@@ -58,6 +58,7 @@ class ChannelShowTest : public testing::Test {
     std::string folder_ = testing::TempDir() + "aquarama_channel_show_test";
     Events events_;
     CountingContext context_{events_, {480, 360}};
+    ServiceNotifier service_;
 };
 
 TEST_F(ChannelShowTest, everyFrameIsReadyBeforeItIsSwapped) {
@@ -196,7 +197,8 @@ TEST_F(ChannelShowTest, dropsFoodAtAnArmsLengthBeforeTheEyeOfTheFrame) {
     controls.press('c');
     controls.click({0, 180});
     controls.click({480, 180});  // just outside
-    ChannelShow(session, context_, controls, options()).run(admissionTo(wire::Pattern::Grey));
+    ChannelShow(session, context_, controls, service_, options())
+        .run(admissionTo(wire::Pattern::Grey));
     ASSERT_EQ(session.drops_.size(), 2U);
     EXPECT_LT(glm::distance(session.drops_[0], {4, -6, -2.5F}), 0.5F);
     EXPECT_LT(session.drops_[1].x, session.drops_[0].x - 0.2F);
@@ -209,7 +211,8 @@ TEST_F(ChannelShowTest, aSeaWithoutFishHasNoMinds) {
     FakeSession session(events_, {{frameNumber(0), session::Release::Present}});
     Controls controls(session, true);
     controls.press('e');
-    ChannelShow(session, context_, controls, options()).run(admissionTo(wire::Pattern::Grey));
+    ChannelShow(session, context_, controls, service_, options())
+        .run(admissionTo(wire::Pattern::Grey));
     EXPECT_EQ(events_, (Events{"prepared", "ready 0", "swap"}));
 }
 

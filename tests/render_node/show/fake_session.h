@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <deque>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -65,6 +66,7 @@ class FakeSession : public session::Session {
     [[nodiscard]] std::optional<session::ExplainedMind> latestMind() const override {
         return mind_;
     }
+    void whileWaiting(std::function<void()> /*call*/) override {}
     void stop() override { events_.emplace_back("stop"); }
 
     std::optional<session::Admission> rejoin_, nextLook_;
