@@ -116,7 +116,8 @@ Console::Console(ConsoleOptions options, Access& access)
     : options_{std::move(options)},
       access_{access},
       events_{stateFolderOf(options_.master.rig) / "events.jsonl"},
-      opening_{stateFolderOf(options_.master.rig)} {
+      opening_{stateFolderOf(options_.master.rig)},
+      panorama_{options_.master.rig} {
     wall_.set_heard(false);
 }
 
@@ -503,6 +504,8 @@ void Console::everySecond() {
     *alerts.mutable_alerts() = alertList();
     sendToAll("alerts", alerts);
     hearDoctor();
+    if (panorama_.update())
+        for (Visitor* visitor : visitors_) visitor->hasPanorama = false;
     tendVisitors();
 }
 
@@ -526,6 +529,7 @@ void Console::hearDoctor() {
 // A page gets what it shows, and no other page does.
 void Console::sendTopics(Visitor& visitor) {
     if (wants(visitor, "log")) sendLog(visitor);
+    if (wants(visitor, "panorama")) sendPanorama(visitor);
     if (!wants(visitor, "history")) visitor.hasHistory = false;
     browser::ToBrowser message;
     if (wants(visitor, "doctor")) {
@@ -553,6 +557,14 @@ void Console::sendLog(Visitor& visitor) {
     if (text != visitor.sentLog)
         visitor.outbox->put("log", std::make_shared<const std::string>(text), false);
     visitor.sentLog = std::move(text);
+}
+
+// Once, and again when it is another.
+void Console::sendPanorama(Visitor& visitor) {
+    if (panorama_.panorama().meshes().empty() || std::exchange(visitor.hasPanorama, true)) return;
+    browser::ToBrowser message;
+    *message.mutable_panorama() = panorama_.panorama();
+    sendTo(visitor, "panorama", message);
 }
 
 // To the crew alone.

@@ -20,6 +20,7 @@
 #include "console/gate.h"
 #include "console/opening.h"
 #include "console/overview.h"
+#include "console/panorama.h"
 #include "console/picture_hub.h"
 #include "console/show_link.h"
 #include "console/web/server.h"
@@ -64,7 +65,7 @@ class Console final : public web::Service {
         browser::Look look = {};
         int ticksToLook = 0;                       // until the look is forgotten
         std::map<int, int> picturesUnderWay = {};  // channel -> ticks until it is asked again
-        bool hasHistory = false;
+        bool hasHistory = false, hasPanorama = false;
         std::string sentLog = {};
         int messages = 0;  // in this second
         int malformed = 0;
@@ -143,6 +144,7 @@ class Console final : public web::Service {
     void sendTopics(Visitor& visitor);
     void sendLog(Visitor& visitor);
     void sendPeople(Visitor& visitor);
+    void sendPanorama(Visitor& visitor);
     void takeLook(Visitor& visitor, const browser::Look& look);
     void sendTo(Visitor& visitor, const std::string& topic, const browser::ToBrowser& message);
     void sendToAll(const std::string& topic, const browser::ToBrowser& message);
@@ -162,6 +164,7 @@ class Console final : public web::Service {
     std::uint64_t openingId_ = 0;
     Alerts alerts_;
     FigureRings figures_;
+    PanoramaWatch panorama_;
     browser::Wall wall_;
     browser::DoctorReport doctor_;
     std::future<browser::DoctorReport> doctorRun_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pages: each is {look: what it needs to be told, view: what it shows of the link's knowledge}.
 import {html, nothing, svg} from '/vendor/lit-html.js';
-import {Plot, button, dateTime, holdButton, ms, skewBars, state, t, time, views, word} from '/widgets.js';
+import {Plot, button, dateTime, holdButton, ms, skewBars, state, t, time, views, wholeWall, word} from '/widgets.js';
 
 const QUALITIES = ['low', 'medium', 'high', 'ultra', 'auto'];
 const PATTERNS = ['world', 'grid', 'grey'];
@@ -15,10 +15,10 @@ function chooser(link, what, values, shown, act) {
   const chosen = wish[what] ?? shown;
   const choose = event => { wish[what] = event.target.value; link.dispatchEvent(new Event('change')); };
   const done = () => { act(chosen); delete wish[what]; };
-  return html`<div class="row"><label for=${what}>${t(`wall.${what}`)}</label>
+  return html`<label for=${what}>${t(`wall.${what}`)}</label>
     <select id=${what} ?disabled=${!link.may('OPERATOR')} @change=${choose}>
       ${values.map(value => html`<option value=${value} ?selected=${value === chosen}>${word(value)}</option>`)}</select>
-    ${holdButton(t('wall.apply'), done, {disabled: !link.may('OPERATOR') || chosen === shown})}</div>`;
+    ${holdButton(t('wall.apply'), done, {disabled: !link.may('OPERATOR') || chosen === shown, of: what})}`;
 }
 
 // Black is held; the way back is one tap, in the same place.
@@ -78,26 +78,26 @@ function helmPanel(link) {
 }
 
 function figures(wall) {
-  return html`<section class="panel" aria-labelledby="figures"><h2 id="figures">${t('wall.now')}</h2><dl>
+  return html`<section class="panel figures" aria-labelledby="figures"><h2 id="figures">${t('wall.now')}</h2><dl>
     <dt>${t('wall.scene')}</dt><dd>${word(wall.scene)}</dd><dt>${t('wall.quality')}</dt><dd>${word(wall.quality)}</dd>
     <dt>${t('wall.pattern')}</dt><dd>${word(wall.pattern)}</dd>
     <dt>${t('wall.frame')}</dt><dd>${wall.frame} · ${t('wall.tick')} ${wall.tick}</dd>
     <dt>${t('wall.frameTime')}</dt><dd>${ms(wall.frameMedianMs)} · 99 % ${ms(wall.frameP99Ms)}</dd>
     <dt>${t('wall.skew')}</dt><dd>${ms(wall.skewMedianMs, 2)} · 99 % ${ms(wall.skewP99Ms, 2)}</dd>
-    <dt>${t('wall.nodes')}</dt><dd>${(wall.nodes ?? []).map(node => html`${node.name} ${state(node.condition)} `)}</dd></dl></section>`;
+    <dt>${t('wall.nodes')}</dt><dd>${(wall.nodes ?? []).map(node => html`<span class="whole-word">${node.name} ${state(node.condition)}</span> `)}</dd></dl></section>`;
 }
 
 const wallPage = {
-  look: link => ({channels: namesOf(link), widthPx: 480}),
-  view: link => html`<h2 class="hidden">${t('page.wall')}</h2>${views(channelsOf(link))}
-    <p class="note">${t('preview.note')}</p>
-    <div class="panels">${light(link)}${figures(link.wall)}
-      <section class="panel" aria-labelledby="shown"><h2 id="shown">${t('wall.shown')}</h2>
+  look: link => ({topics: ['panorama'], channels: namesOf(link), widthPx: 480}),
+  view: link => html`<h2 class="hidden">${t('page.wall')}</h2><div class="wall"><div class="pictures">${wholeWall(link)}${views(channelsOf(link))}
+      <p class="note">${t('preview.note')}</p></div>
+    <div class="controls">${light(link)}
+      <section class="panel" aria-labelledby="shown"><h2 id="shown">${t('wall.shown')}</h2><div class="choosers">
         ${chooser(link, 'scene', link.known.snapshot.scenes, link.wall.scene, value => link.command({scene: value}, `${t('wall.scene')}: ${word(value)}`))}
         ${chooser(link, 'quality', QUALITIES, link.wall.quality, value => link.command({quality: value}, `${t('wall.quality')}: ${word(value)}`))}
         ${chooser(link, 'pattern', PATTERNS, link.wall.pattern, value => link.command({pattern: value}, `${t('wall.pattern')}: ${word(value)}`))}
-        <p class="note">${t('wall.patternNote')}</p></section>
-      ${helmPanel(link)}</div>`,
+        </div><p class="note">${t('wall.patternNote')}</p></section>
+      ${helmPanel(link)}</div>${figures(link.wall)}</div>`,
 };
 
 // --- nodes
@@ -241,18 +241,12 @@ function drawnMind(lines) {
 
 
 const mindPage = {
-  look: link => ({topics: ['mind'], channels: namesOf(link), widthPx: 480}),
+  look: link => ({topics: ['mind', 'panorama'], channels: namesOf(link), widthPx: 480}),
   view: link => {
     const mind = link.known.mind;
-    const point = (channel, preview, event) => {
-      if (link.isStale || preview.frame === null) return;
-      const place = preview.canvas.getBoundingClientRect();
-      const share = (value, from, size) => Math.min(1, Math.max(0, (value - from) / size));
-      link.command({pointAt: {channel: channel.name, frame: preview.frame,
-        x: share(event.clientX, place.left, place.width), y: share(event.clientY, place.top, place.height)}}, t('mind.asking'));
-    };
+    const point = (channel, {frame, x, y}) => link.command({pointAt: {channel: channel.name, frame, x, y}}, t('mind.asking'));
     const ask = event => { event.preventDefault(); link.command({mind: Number(event.target.fish.value)}, t('mind.asking')); };
-    return html`<div class="mind">${views(channelsOf(link), point)}<p class="note">${t('mind.hint')}</p>
+    return html`<div class="mind">${wholeWall(link, point)}<p class="note">${t('mind.hint')}</p>
       <section class="panel"><h2>${mind && mind.fish >= 0 ? t('mind.of', {fish: mind.fish}) : t('page.mind')}</h2>
       <form class="row" @submit=${ask}><label for="fish">${t('mind.number')}</label><input id="fish" name="fish" type="number" min="0" max="99999" value="0">
         <button ?disabled=${!link.may('WATCHER')}>${t('mind.ask')}</button></form>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parts of pages: texts, buttons that are held, previews, plots.
 import {html, svg, nothing} from '/vendor/lit-html.js';
+import {Panorama} from '/panorama.js';
 
 // --- texts, one file a language
 
@@ -22,8 +23,8 @@ export const word = text => texts[`word.${text}`] ?? text;
 
 // --- buttons
 
-// Acts only after it was held for a second, by pointer, Enter or space.
-export function holdButton(label, act, {disabled = false, primary = false} = {}) {
+// Acts only after it was held for a second, by pointer, Enter or space. `of` tells buttons of one label apart.
+export function holdButton(label, act, {disabled = false, primary = false, of = nothing} = {}) {
   const begin = event => {
     const button = event.currentTarget;
     if (event.type === 'keydown' && (event.repeat || !['Enter', ' '].includes(event.key))) return;
@@ -38,7 +39,7 @@ export function holdButton(label, act, {disabled = false, primary = false} = {})
     button.classList.remove('holding');
   };
   const end = event => stop(event.currentTarget);
-  return html`<button class="hold ${primary ? 'primary' : ''}" ?disabled=${disabled} title=${t('hold.hint')} aria-description=${t('hold.hint')}
+  return html`<button class="hold ${primary ? 'primary' : ''}" data-of=${of} ?disabled=${disabled} title=${t('hold.hint')} aria-description=${t('hold.hint')}
     @pointerdown=${begin} @pointerup=${end} @pointerleave=${end} @pointercancel=${end} @blur=${end}
     @keydown=${begin} @keyup=${end} @contextmenu=${event => event.preventDefault()}><span>${label}</span></button>`;
 }
@@ -64,7 +65,8 @@ export const state = name => {
 
 // --- previews: the latest picture of each channel, kept outside of what is rendered
 
-const canvases = new Map();  // channel number -> {canvas, frame, at, busy}
+const canvases = new Map();  // channel number -> {canvas, frame, at}
+const panorama = new Panorama();
 export function previewOf(number, width, height) {
   let preview = canvases.get(number);
   if (!preview) {
@@ -78,25 +80,41 @@ export function previewOf(number, width, height) {
 }
 export async function showPicture(link, {channel, frame, jpeg}) {
   const preview = canvases.get(channel);
-  if (preview?.canvas.isConnected) {
+  if (preview?.canvas.isConnected || panorama.canvas.isConnected) {
     try {
       const picture = await createImageBitmap(jpeg);
       if (preview.canvas.width !== picture.width) {
         preview.canvas.width = picture.width;
         preview.canvas.height = picture.height;
       }
-      preview.canvas.getContext('2d').drawImage(picture, 0, 0);
+      const context = preview.canvas.getContext('2d', {willReadFrequently: true});
+      context.drawImage(picture, 0, 0);
+      panorama.take(channel, frame, context.getImageData(0, 0, picture.width, picture.height));
       picture.close();
       Object.assign(preview, {frame, at: performance.now()});
     } catch { /* cut off: the next one comes */ }
   }
   link.seen(channel);
 }
-export const views = (channels, onPoint) => html`<div class="views">${channels.map((channel, number) => {
+// The unrolled wall. onPoint is told the channel's number, its frame, and the place in its picture that was clicked.
+export function wholeWall(link, onPoint) {
+  const {channels} = link.known.snapshot;
+  channels.forEach((channel, number) => previewOf(number, channel.widthPx, channel.heightPx));
+  panorama.place(link.known.panorama);
+  const {canvas} = panorama;
+  canvas.setAttribute('role', 'img');
+  canvas.setAttribute('aria-label', t('preview.wall'));
+  canvas.onclick = onPoint ? event => {
+    const place = canvas.getBoundingClientRect();
+    const found = panorama.channelAt((event.clientX - place.left) / place.width, (event.clientY - place.top) / place.height);
+    if (found?.frame) onPoint(channels[found.channel], found);
+  } : null;
+  return html`<figure class="whole">${canvas}<figcaption>${panorama.isPlaced ? panorama.caption : t('preview.none')}</figcaption></figure>`;
+}
+export const views = channels => html`<div class="views">${channels.map((channel, number) => {
   const preview = previewOf(number, channel.widthPx, channel.heightPx);
   preview.canvas.setAttribute('role', 'img');
   preview.canvas.setAttribute('aria-label', t('preview.of', {name: channel.name}));
-  preview.canvas.onclick = onPoint ? event => onPoint(channel, preview, event) : null;
   const old = performance.now() - preview.at;
   const caption = preview.frame === null || old > 5000 ? t('preview.none') : t('preview.frame', {frame: preview.frame});
   return html`<figure>${preview.canvas}<figcaption>${channel.name} · ${caption}</figcaption></figure>`;

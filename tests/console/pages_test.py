@@ -3,6 +3,8 @@
 With AQUARAMA_SHOTS=FOLDER it writes pictures of the pages there, as docs/draw_pictures.sh has them.
 """
 
+import base64
+import io
 import os
 import re
 import signal
@@ -20,7 +22,7 @@ try:
 except ImportError:
     webdriver = None
 
-from desk import Desk, wait_until
+from desk import Desk, aquarama, rig_on_free_ports, wait_until
 
 DRIVER = Path("/usr/bin/chromedriver")
 if webdriver is None or not DRIVER.exists():
@@ -30,9 +32,27 @@ if webdriver is None or not DRIVER.exists():
     print("SKIPPED:", missing)
     sys.exit(0)
 
+import numpy as np  # with python3-scipy of packaging/packages/test.txt
+from PIL import Image
+from scipy.ndimage import gaussian_filter
+
 AXE = (Path(__file__).parent / "axe/axe.min.js").read_text()
 PAGES = ["wall", "nodes", "events", "schedule", "doctor", "log", "mind", "people"]
 SHOTS = os.environ.get("AQUARAMA_SHOTS")
+
+
+def similarity(a, b):
+    """Structural similarity (Wang et al. 2004) of two grey pictures with codes 0 to 255, in the mean: 1 where they are equal."""
+    mean = lambda picture: gaussian_filter(picture, 1.5)
+    ma, mb = mean(a), mean(b)
+    va, vb, both = mean(a * a) - ma * ma, mean(b * b) - mb * mb, mean(a * b) - ma * mb
+    c1, c2 = (0.01 * 255) ** 2, (0.03 * 255) ** 2
+    return float(np.mean((2 * ma * mb + c1) * (2 * both + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2))))
+
+
+def grey(picture, size=None):
+    picture = picture.convert("L")
+    return np.asarray(picture if size in (None, picture.size) else picture.resize(size, Image.BOX), float)
 
 
 def browser(width=1280, height=900, language="en"):
@@ -146,6 +166,27 @@ class Pages(unittest.TestCase):
         self.assertRegex(self.text("ol.events"), r"Anna\s+black off[^$]*Anna\s+black on")
         self.shot("events")
 
+    def drawn(self, selector):
+        """A canvas of the page as a picture."""
+        url = self.driver.execute_script("return document.querySelector(arguments[0]).toDataURL('image/png')", selector)
+        return Image.open(io.BytesIO(base64.b64decode(url.split(",")[1])))
+
+    def test_the_previews_and_the_panorama_are_the_wall(self):
+        """Against the pictures that a show of its own leaves with --snapshot: of the grid, which is the same in each frame."""
+        folder = Path(self.desk.folder.name) / "still"
+        folder.mkdir()
+        still = aquarama("run", rig_on_free_ports(folder), "--headless", "--pattern", "grid", "--frames", "2", "--snapshot", folder)
+        self.assertEqual(still.returncode, 0, still.stderr)
+        wait_until(lambda: re.search(r"^frames? \d+( to \d+)?$", self.text("figure.whole figcaption")), 15, "a panorama of all channels")
+        time.sleep(0.3)
+        for number, name in enumerate(("left", "middle", "right"), 1):
+            preview = grey(self.drawn(f".views figure:nth-child({number}) canvas"))
+            self.assertGreater(similarity(preview, grey(Image.open(folder / f"channel-{name}.png"), preview.shape[::-1])), 0.95, name)
+        panorama = grey(self.drawn("figure.whole canvas"))
+        wall = grey(Image.open(folder / "panorama.png"), panorama.shape[::-1])
+        self.assertGreater(similarity(panorama, wall), 0.97)
+        self.assertLess(similarity(np.roll(panorama, 2, axis=1), wall), 0.8, "two pixels beside it is another wall")
+
     def test_keyboard_alone_reaches_and_fires_everything(self):
         reached = set()
         for _ in range(60):
@@ -180,9 +221,9 @@ class Pages(unittest.TestCase):
         for value in (other, before):
             self.driver.execute_script("""const list = document.querySelector('#pattern'); list.value = arguments[0];
                                           list.dispatchEvent(new Event('change'));""", value)
-            row = self.find(self.driver, "#pattern").find_element(By.XPATH, "..")
-            wait_until(lambda: row.find_element(By.CSS_SELECTOR, "button").is_enabled(), 3, "the button")
-            ActionChains(self.driver).click_and_hold(row.find_element(By.CSS_SELECTOR, "button")).pause(1.3).release().perform()
+            show = self.find(self.driver, "button[data-of=pattern]")
+            wait_until(show.is_enabled, 3, "the button")
+            ActionChains(self.driver).click_and_hold(show).pause(1.3).release().perform()
             wait_until(lambda: self.desk.status()["pattern"] == value, 30, value)
 
     def test_a_stale_page_dims_and_holds_commands_back_until_it_hears_again(self):
@@ -300,7 +341,7 @@ class Pages(unittest.TestCase):
         self.assertEqual(len(self.driver.find_elements(By.CSS_SELECTOR, "meter")), 3)
         # The fish at a place of a picture: the node says which, of the frame that is shown.
         wait_until(lambda: "frame" in self.text("figcaption"), 15, "a picture")
-        self.find(self.driver, ".views figure:nth-child(2) canvas").click()
+        self.find(self.driver, "figure.whole canvas").click()
         wait_until(lambda: re.search(r"mind of fish \d+|no fish", self.text("main")), 10, "an answer")
         time.sleep(1)
         self.shot("mind")
