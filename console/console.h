@@ -82,6 +82,12 @@ class Console final : public web::Service {
         Visitor* visitor = nullptr;  // null: has gone
         std::string who, what;
     };
+    // A pattern of a scan, said to the master each second while the page of `visitor` is open.
+    struct ShownScan {
+        Visitor* visitor = nullptr;  // null: none is shown
+        std::uint64_t id = 0;        // of the command
+        v1::HeldScan held;
+    };
     // What a channel was last asked for. `ticksToAsk`: until it is asked again.
     struct PictureState {
         int ticksToAsk = 0;
@@ -102,17 +108,27 @@ class Console final : public web::Service {
     [[nodiscard]] browser::Done carryOut(const Holder& holder,
                                          Visitor* visitor,
                                          const Command& command);
+    [[nodiscard]] browser::Done carryOutAllowed(const Holder& holder,
+                                                Visitor* visitor,
+                                                const Command& command);
     [[nodiscard]] browser::Done carryOutHere(const Holder& holder,
                                              Visitor* visitor,
                                              const Command& command);
     [[nodiscard]] browser::Done tellWall(const Holder& holder,
                                          Visitor* visitor,
-                                         const Command& command);
+                                         const Command& command,
+                                         const v1::Set& set);
     // Each carries one out; why not, where it is refused.
     [[nodiscard]] std::string acknowledge(const Holder& holder, const std::string& alert);
     [[nodiscard]] std::string carryOutOfHall(const Holder& holder, const Command& command);
     [[nodiscard]] std::string takeHours(const Holder& holder, const std::string& text);
     [[nodiscard]] std::string sendAway(const Holder& holder, const std::string& person);
+    [[nodiscard]] browser::Done useKept(const Holder& holder,
+                                        Visitor* visitor,
+                                        const Command& command);
+    [[nodiscard]] browser::Done showScan(const Holder& holder,
+                                         Visitor* visitor,
+                                         const Command& command);
     void askFish(Visitor* visitor, const browser::PointAt& at);
     void runDoctor();
     [[nodiscard]] browser::Done settle(std::uint64_t id,
@@ -139,10 +155,15 @@ class Console final : public web::Service {
     // Closes who has lost its pairing, and sends each what its page shows.
     void tendVisitors();
     void hearDoctor();
+    void hearCalibrations();
+    void keepScan();
     void sendWall();
     // What its page shows now, beside the wall.
     void sendTopics(Visitor& visitor);
     void sendLog(Visitor& visitor);
+    void sendHistory(Visitor& visitor, bool isAll);
+    void sendHours(Visitor& visitor);
+    void sendCalibrations(Visitor& visitor);
     void sendPeople(Visitor& visitor);
     void sendPanorama(Visitor& visitor);
     void takeLook(Visitor& visitor, const browser::Look& look);
@@ -150,6 +171,8 @@ class Console final : public web::Service {
     void sendToAll(const std::string& topic, const browser::ToBrowser& message);
     [[nodiscard]] browser::ToBrowser snapshotFor(const Visitor& visitor) const;
     [[nodiscard]] browser::AlertList alertList() const;
+    // Passwords and text are the crew's alone.
+    [[nodiscard]] browser::Hours hoursFor(const Visitor& visitor) const;
     [[nodiscard]] browser::People peopleFor(const Holder& holder) const;
     [[nodiscard]] int channelIndexOf(const std::string& channel) const;
     [[nodiscard]] bool isWatched(const Visitor& visitor, int channel) const;
@@ -168,6 +191,11 @@ class Console final : public web::Service {
     browser::Wall wall_;
     browser::DoctorReport doctor_;
     std::future<browser::DoctorReport> doctorRun_;
+    browser::Calibrations calibrations_;
+    std::future<browser::Calibrations> calibrationsRead_;
+    std::future<std::string> calibrationUse_;  // why it was refused
+    std::uint64_t calibrationUseId_ = 0;       // of the command
+    ShownScan scan_;
     std::string code_;  // the last pairing code that somebody asked for in a page
     std::set<Visitor*> visitors_;
     std::map<std::uint64_t, Pending> pending_;
@@ -177,7 +205,8 @@ class Console final : public web::Service {
     // By the number of the question.
     std::map<std::uint64_t, Visitor*> fishAsked_;
     browser::Mind mind_;
-    std::uint64_t number_ = 0;  // of questions to nodes
+    std::uint64_t number_ = 0;                               // of questions to nodes
+    const std::uint64_t holder_ = ask::freshRequest() | 1U;  // of scans; never 0
     std::uint64_t refused_ = 0;
     int ticks_ = 0;
     std::unique_ptr<PictureHub> hub_;

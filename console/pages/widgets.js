@@ -44,8 +44,30 @@ export function holdButton(label, act, {disabled = false, primary = false, of = 
     @keydown=${begin} @keyup=${end} @contextmenu=${event => event.preventDefault()}><span>${label}</span></button>`;
 }
 
-export const button = (label, act, {disabled = false, pressed} = {}) =>
-  html`<button ?disabled=${disabled} aria-pressed=${pressed ?? nothing} @click=${act}>${label}</button>`;
+export const button = (label, act, {disabled = false, pressed, of = nothing} = {}) =>
+  html`<button data-of=${of} ?disabled=${disabled} aria-pressed=${pressed ?? nothing} @click=${act}>${label}</button>`;
+
+// --- what is chosen from a list
+
+export const QUALITIES = ['low', 'medium', 'high', 'ultra', 'auto'];
+export const PATTERNS = ['world', 'grid', 'grey'];
+export const channelsOf = link => link.known.snapshot?.channels ?? [];
+export const namesOf = link => channelsOf(link).map(channel => channel.name);
+// What the page of the log shows; the nodes' page sets it too.
+export const filter = {logNode: '', logText: '', logProblemsOnly: false};
+
+const wish = {};  // what was chosen in a list and not yet shown
+export function chooser(link, what, values, shown, act) {
+  const chosen = wish[what] ?? shown;
+  const choose = event => { wish[what] = event.target.value; link.dispatchEvent(new Event('change')); };
+  const done = () => { act(chosen); delete wish[what]; };
+  return html`<label for=${what}>${t(`wall.${what}`)}</label>
+    <select id=${what} ?disabled=${!link.may('OPERATOR')} @change=${choose}>
+      ${values.map(value => html`<option value=${value} ?selected=${value === chosen}>${word(value)}</option>`)}</select>
+    ${holdButton(t('wall.apply'), done, {disabled: !link.may('OPERATOR') || chosen === shown, of: what})}`;
+}
+export const patternChooser = link =>
+  chooser(link, 'pattern', PATTERNS, link.wall.pattern, value => link.command({pattern: value}, `${t('wall.pattern')}: ${word(value)}`));
 
 // --- what is said in words
 
@@ -57,6 +79,7 @@ export const ms = (value, digits = 1) => `${(value ?? 0).toFixed(digits)} ms`;
 const SHAPES = {'in step': ['●', 'good'], late: ['▲', 'warn'], preparing: ['◐', 'warn'], absent: ['✖', 'bad'],
                 pass: ['●', 'good'], warn: ['▲', 'warn'], fail: ['✖', 'bad'],
                 firing: ['✖', 'bad'], over: ['◌', 'warn'], acknowledged: ['✓', 'quiet'],
+                'in place': ['●', 'good'], moved: ['✖', 'bad'], 'not seen': ['▲', 'warn'], refuse: ['✖', 'bad'],
                 info: ['·', 'quiet'], warning: ['▲', 'warn'], error: ['✖', 'bad']};
 export const state = name => {
   const [shape, kind] = SHAPES[name] ?? ['?', 'quiet'];
@@ -140,10 +163,13 @@ export class Plot {
   element = Object.assign(document.createElement('div'), {className: 'plot'});
   #plot = null;
   #names = '';
+  isEmpty = true;
   constructor(stepSeconds) { this.step = stepSeconds; }
+  // series: [{name, values in ms, null where there are none}], all of one length at their newest end.
   show(series) {
     const wide = this.element.clientWidth;
-    if (!wide || !series.length) return;
+    this.isEmpty = !series.some(one => one.values.some(value => value !== null));
+    if (!wide || this.isEmpty) return;
     const names = series.map(one => one.name).join();
     const colour = getComputedStyle(document.body).color;
     if (names !== this.#names || this.colour !== colour) {
@@ -152,15 +178,15 @@ export class Plot {
       this.colour = colour;
       const axis = {stroke: colour, grid: {stroke: '#8884', width: 1}, ticks: {stroke: '#8888'}};
       this.#plot = new uPlot({
-        width: wide, height: 220, scales: {x: {time: true}},
-        axes: [axis, {...axis, values: (_, ticks) => ticks.map(tick => `${tick} ms`), size: 70}],
-        series: [{}, ...series.map((one, i) => ({label: one.name, stroke: COLOURS[i % COLOURS.length], width: 1.5}))],
+        width: wide, height: 200, scales: {x: {time: true}, y: {range: (_, low, high) => [0, Math.max(0.01, high * 1.1)]}},
+        axes: [axis, {...axis, values: (_, ticks) => ticks.map(tick => `${tick} ms`), size: 74}],
+        series: [{}, ...series.map((one, i) => ({label: one.name, stroke: COLOURS[i % COLOURS.length], width: 1.5, points: {show: false}}))],
       }, [[], ...series.map(() => [])], this.element);
     }
     const count = Math.max(0, ...series.map(one => one.values.length));
     const now = Date.now() / 1000;
     const times = Array.from({length: count}, (_, i) => now - (count - 1 - i) * this.step);
-    if (Math.abs(wide - this.#plot.width) > 2) this.#plot.setSize({width: wide, height: 220});
+    if (Math.abs(wide - this.#plot.width) > 2) this.#plot.setSize({width: wide, height: 200});
     this.#plot.setData([times, ...series.map(({values}) => Array(count - values.length).fill(null).concat(values))]);
   }
 }
