@@ -36,7 +36,8 @@ std::optional<ConsoleRole> roleFor(What what) {
                                                     {What::kNewCode, ConsoleRole::Crew},
                                                     {What::kRevoke, ConsoleRole::Crew},
                                                     {What::kProjector, ConsoleRole::Crew},
-                                                    {What::kUseCalibration, ConsoleRole::Crew}};
+                                                    {What::kUseCalibration, ConsoleRole::Crew},
+                                                    {What::kPower, ConsoleRole::Crew}};
     const auto role = kRoles.find(what);
     return role == kRoles.end() ? std::nullopt : std::optional(role->second);
 }
@@ -252,6 +253,8 @@ std::string Console::carryOutOfHall(const Holder& holder, const Command& command
             if (!opening_.setProjector(command.projector())) return "there is no such projector";
             note(holder.name, "switched projector " + command.projector().name());
             return {};
+        case What::kPower:
+            return switchMachine(holder, command.power());
         case What::kNewCode:
             code_ = access_.makeCode(
                 static_cast<ConsoleRole>(std::clamp(static_cast<int>(command.new_code()), 1, 3)),
@@ -261,6 +264,17 @@ std::string Console::carryOutOfHall(const Holder& holder, const Command& command
         default:
             return sendAway(holder, command.revoke());
     }
+}
+
+// The service of the machine ends the show in order.
+std::string Console::switchMachine(const Holder& holder, const std::string& word) {
+    try {
+        sayPower(kPowerFolder, word);
+    } catch (const Error& problem) {
+        return problem.what();
+    }
+    note(holder.name, "machine: " + word);
+    return {};
 }
 
 // A mistake is answered with its place in the text.

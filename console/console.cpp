@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -654,6 +655,7 @@ browser::ToBrowser Console::snapshotFor(const Visitor& visitor) const {
     snapshot.set_rig(options_.rig.name);
     snapshot.set_role(static_cast<browser::Role>(visitor.holder.role));
     snapshot.set_name(visitor.holder.name);
+    snapshot.set_has_power(std::filesystem::is_directory(kPowerFolder));
     for (const config::Channel& from : options_.rig.channels) {
         browser::Channel& channel = *snapshot.add_channels();
         channel.set_name(from.name);

@@ -122,6 +122,7 @@ class Console final : public web::Service {
     [[nodiscard]] std::string acknowledge(const Holder& holder, const std::string& alert);
     [[nodiscard]] std::string carryOutOfHall(const Holder& holder, const Command& command);
     [[nodiscard]] std::string takeHours(const Holder& holder, const std::string& text);
+    [[nodiscard]] std::string switchMachine(const Holder& holder, const std::string& word);
     [[nodiscard]] std::string sendAway(const Holder& holder, const std::string& person);
     [[nodiscard]] browser::Done useKept(const Holder& holder,
                                         Visitor* visitor,

@@ -80,6 +80,8 @@ const kind = name => numbers.includes(name) ? 'n' : '';
 const nodeRow = link => node => html`<tr><th scope="row">${node.name}</th>
   ${Object.entries(columns).map(([name, cell]) => html`<td class=${kind(name)} data-head=${t(`nodes.${name}`)}>${cell(link, node)}</td>`)}</tr>`;
 
+const power = (link, word) => holdButton(t(`nodes.${word}`), () => link.command({power: word}, t(`nodes.${word}`)),
+                                         {disabled: !link.may('CREW') || !link.known.snapshot.hasPower, of: word});
 function service(link) {
   const held = link.wall.heldUntilS > 0;
   return html`<section class="panel"><h2>${t('nodes.service')}</h2>
@@ -87,7 +89,9 @@ function service(link) {
     <div class="row">${held ? button(t('hours.goOn'), () => link.command({holdHours: 0}, t('hours.goOn')), {disabled: !link.may('OPERATOR')})
       : button(t('hours.hold'), () => link.command({holdHours: 2}, t('hours.hold')), {disabled: !link.may('OPERATOR')})}
       <a class="button" href="/bundle.tar" download>${t('log.bundle')}</a></div>
-    <p class="note">${t('nodes.serviceNote')}</p></section>`;
+    <p class="note">${t('nodes.serviceNote')}</p>
+    <div class="row">${power(link, 'reboot')}${power(link, 'poweroff')}</div>
+    <p class="note">${t(link.known.snapshot.hasPower ? 'nodes.powerNote' : 'nodes.noPower')}</p></section>`;
 }
 
 export const nodesPage = {
