@@ -112,7 +112,7 @@ browser::Panorama panoramaOf(const config::Rig& rig) {
     panorama.set_height_px(static_cast<std::uint32_t>(rig.panoramaPixels.y));
     for (std::size_t i = 0; i < rig.channels.size(); ++i) {
         Mesh mesh(wall, i, rig.channels[i].sizePixels);
-        mesh.extend();
+        for (int round = 0; round < 2; ++round) mesh.extend();  // so corners have two neighbours
         browser::ChannelMesh& out = *panorama.add_meshes();
         out.set_columns(kMeshPoints.x);
         out.set_rows(kMeshPoints.y);

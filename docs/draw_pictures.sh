@@ -48,6 +48,7 @@ declare -A way=(
     [console_schedule.png]=console
     [console_phone.png]=console
     [console_mind.png]=console
+    [console_calibration.png]=console
 )
 
 # Each leaves its pictures in $drawn.

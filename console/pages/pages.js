@@ -182,7 +182,7 @@ const mindPage = {
     const mind = link.known.mind;
     const point = (channel, {frame, x, y}) => link.command({pointAt: {channel: channel.name, frame, x, y}}, t('mind.asking'));
     const ask = event => { event.preventDefault(); link.command({mind: Number(event.target.fish.value)}, t('mind.asking')); };
-    return html`<div class="mind">${wholeWall(link, point)}<p class="note">${t('mind.hint')}</p>
+    return html`<div class="mind"><div>${wholeWall(link, point)}<p class="note">${t('mind.hint')}</p></div>
       <section class="panel"><h2>${mind && mind.fish >= 0 ? t('mind.of', {fish: mind.fish}) : t('page.mind')}</h2>
       <form class="row" @submit=${ask}><label for="fish">${t('mind.number')}</label><input id="fish" name="fish" type="number" min="0" max="99999" value="0">
         <button ?disabled=${!link.may('WATCHER')}>${t('mind.ask')}</button></form>

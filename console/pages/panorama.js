@@ -3,6 +3,7 @@
 // pictures overlap, as on the wall. What a projector adds by itself (its black, its own colours) is not in it.
 import {t} from '/widgets.js';
 
+const BETWEEN_MS = 200;  // five a second: as many as pictures come
 const MOST_WIDTH = 960, MOST_WIDTH_PHONE = 640;
 const decode = code => code <= 0.04045 ? code / 12.92 : ((code + 0.055) / 1.055) ** 2.4;
 const encode = light => light <= 0.0031308 ? 12.92 * light : 1.055 * light ** (1 / 2.4) - 0.055;
@@ -85,6 +86,7 @@ export class Panorama {
   #samples = [];
   #pictures = new Map();  // channel number -> {frame, at, image}
   #isDue = false;
+  #drawnAt = -Infinity;
 
   // Of the console; made use of once.
   place(message) {
@@ -98,15 +100,16 @@ export class Panorama {
   }
   get isPlaced() { return this.#message !== null; }
 
-  // The newest picture of a channel. Those that come together are drawn together.
+  // The newest picture of a channel. Those that come together are drawn together, and no oftener than pictures come.
   take(channel, frame, image) {
     this.#pictures.set(channel, {frame, image, at: performance.now()});
     if (this.#isDue || !this.canvas.isConnected) return;
     this.#isDue = true;
-    setTimeout(() => { this.#isDue = false; this.#draw(); }, 60);
+    setTimeout(() => { this.#isDue = false; this.#draw(); }, Math.max(60, this.#drawnAt + BETWEEN_MS - performance.now()));
   }
 
   #draw() {
+    this.#drawnAt = performance.now();
     const {width, height} = this.canvas;
     const light = new Float32Array(3 * width * height);
     this.#samples.forEach((samples, channel) => {
@@ -125,7 +128,7 @@ export class Panorama {
   get caption() {
     const shown = this.#samples.map((_, channel) => this.#pictures.get(channel));
     const frames = shown.filter(one => one && performance.now() - one.at < 5000).map(one => Number(one.frame));
-    if (!frames.length) return t('preview.none');
+    if (!frames.length) return shown.some(one => one) ? t('preview.noneNew') : t('preview.none');
     const first = Math.min(...frames), last = Math.max(...frames);
     const text = first === last ? t('preview.frame', {frame: first}) : t('preview.frames', {first, last});
     return frames.length < shown.length ? `${text} · ${t('preview.missing', {n: shown.length - frames.length})}` : text;

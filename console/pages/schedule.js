@@ -191,7 +191,7 @@ function standing(link) {
   const next = t(`hours.${hours.next ?? 'stays'}`, {at: hours.nextAt, scene: hours.nextScene ? word(hours.nextScene) : t('hours.sceneAsItWas')});
   return html`<section class="panel"><h2>${t('page.schedule')}</h2>
     <p role="status">${held ? html`<strong class="warn">▲ ${t('hours.held', {time: time(link.wall.heldUntilS)})}</strong>`
-      : hours.present ? html`<strong class=${hours.open ? 'good' : 'quiet'}>${hours.open ? '●' : '○'} ${t(hours.open ? 'hours.isOpen' : 'hours.isClosed')}</strong> ${next}` : t('hours.none')}</p>
+      : hours.present ? html`<strong class=${hours.open ? 'good' : 'quiet'}>${hours.open ? '●' : '○'} ${t(hours.open ? 'hours.isOpen' : link.wall.black ? 'hours.isClosed' : 'hours.isLitByHand')}</strong> ${next}` : t('hours.none')}</p>
     <div class="row">${held ? button(t('hours.goOn'), () => link.command({holdHours: 0}, t('hours.goOn')), {disabled: !link.may('OPERATOR')})
       : button(t('hours.hold'), () => link.command({holdHours: 2}, t('hours.hold')), {disabled: !link.may('OPERATOR')})}<span class="note">${t('hours.holdNote')}</span></div></section>`;
 }

@@ -139,7 +139,7 @@ export const views = channels => html`<div class="views">${channels.map((channel
   preview.canvas.setAttribute('role', 'img');
   preview.canvas.setAttribute('aria-label', t('preview.of', {name: channel.name}));
   const old = performance.now() - preview.at;
-  const caption = preview.frame === null || old > 5000 ? t('preview.none') : t('preview.frame', {frame: preview.frame});
+  const caption = preview.frame === null ? t('preview.none') : t(old > 5000 ? 'preview.old' : 'preview.frame', {frame: preview.frame});
   return html`<figure>${preview.canvas}<figcaption>${channel.name} · ${caption}</figcaption></figure>`;
 })}</div>`;
 
