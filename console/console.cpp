@@ -140,7 +140,7 @@ void Console::begin(web::WebServer& server, Doors doors) {
     if (!options_.rig.watchAddress.empty())
         hub_ = std::make_unique<PictureHub>(
             options_.rig.watchAddress,
-            watchKeysOf(options_.master.rig),
+            watchKeysOf(options_.master.rig, options_.keyFolder),
             PictureListener{[=, this](const std::string& channel, const v1::FramePicture& picture) {
                                 here([=, this] { heardPicture(channel, picture); });
                             },

@@ -29,8 +29,9 @@ namespace aquarama::console {
 
 struct ConsoleOptions {
     config::Rig rig;
-    ask::AskedMaster master;  // of this rig, with the operator's key where it needs one
-    std::string build;        // version and commit
+    ask::AskedMaster master;     // of this rig, with the operator's key where it needs one
+    std::string keyFolder = {};  // of the master's keys; empty: the rig's own
+    std::string build;           // version and commit
 };
 
 // Of a WebSocket whose session has ended; from RFC 6455's private range, 4000 to 4999.

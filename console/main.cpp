@@ -12,6 +12,7 @@
 
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
+#include "common/config/keys.h"
 #include "common/config/rig.h"
 #include "console/access.h"
 #include "console/certificate.h"
@@ -30,7 +31,7 @@ constexpr const char* kLoopback = "127.0.0.1";
 
 // What the command line says; empty where an option was not given.
 struct Options {
-    std::string rig, key, listen = kLoopback, pair, token;
+    std::string rig, keys, key, listen = kLoopback, pair, token;
     std::string role = "watcher";
     std::vector<std::string> certify, names;
     int port = -1;  // the rig's
@@ -45,7 +46,8 @@ void describe(CLI::App& app, Options& options) {
     app.add_option("--listen", options.listen, "address of a network card, for other machines")
         ->capture_default_str();
     app.add_option("--name", options.names, "another name of this machine that browsers may use");
-    app.add_option("--key", options.key, "file of the operator's key, where the rig needs keys");
+    app.add_option("--keys", options.keys, "folder of the master's keys, where the rig needs them");
+    app.add_option("--key", options.key, "file of the operator's key; else that of the folder");
     app.add_option("--pair", options.pair, "print a code that lets one more browser in, and end")
         ->check(role);
     app.add_option(
@@ -92,13 +94,21 @@ void certify(const Options& options) {
               << "\nits SHA-256 fingerprint: " << print << '\n';
 }
 
+// The operator's, of the folder that was given; empty: of the rig's own folder, where one is
+// needed.
+std::string keyOf(const Options& options) {
+    if (!options.key.empty() || options.keys.empty()) return options.key;
+    return config::keyFileIn(options.keys, "operator").string();
+}
+
 // Until a signal.
 void serve(const Options& options, const config::Rig& rig, console::Access& access) {
     cli::holdSignals();
     constexpr int kNice = 5;  // the wall goes before
     setpriority(PRIO_PROCESS, 0, kNice);
     console::Console desk({.rig = rig,
-                           .master = {.rig = options.rig, .address = {}, .key = options.key},
+                           .master = {.rig = options.rig, .address = {}, .key = keyOf(options)},
+                           .keyFolder = options.keys,
                            .build = cli::buildText()},
                           access);
     const web::ServerOptions where = serverOptions(options, rig);
