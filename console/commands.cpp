@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <future>
+#include <map>
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
@@ -19,29 +20,26 @@ using What = browser::Command::WhatCase;
 
 // What somebody must be for a command; empty for what is none.
 std::optional<ConsoleRole> roleFor(What what) {
-    switch (what) {
-        case What::kRunDoctor:
-        case What::kPointAt:
-        case What::kMind:
-            return ConsoleRole::Watcher;
-        case What::kBlack:
-        case What::kFreeze:
-        case What::kScene:
-        case What::kQuality:
-        case What::kPattern:
-        case What::kRestart:
-        case What::kAcknowledge:
-        case What::kHoldHours:
-            return ConsoleRole::Operator;
-        case What::kHoursText:
-        case What::kNewCode:
-        case What::kRevoke:
-        case What::kProjector:
-            return ConsoleRole::Crew;
-        case What::WHAT_NOT_SET:
-            break;
-    }
-    return std::nullopt;
+    static const std::map<What, ConsoleRole> kRoles{{What::kRunDoctor, ConsoleRole::Watcher},
+                                                    {What::kPointAt, ConsoleRole::Watcher},
+                                                    {What::kMind, ConsoleRole::Watcher},
+                                                    {What::kBlack, ConsoleRole::Operator},
+                                                    {What::kFreeze, ConsoleRole::Operator},
+                                                    {What::kScene, ConsoleRole::Operator},
+                                                    {What::kQuality, ConsoleRole::Operator},
+                                                    {What::kPattern, ConsoleRole::Operator},
+                                                    {What::kRestart, ConsoleRole::Operator},
+                                                    {What::kAcknowledge, ConsoleRole::Operator},
+                                                    {What::kHoldHours, ConsoleRole::Operator},
+                                                    {What::kScan, ConsoleRole::Operator},
+                                                    {What::kHoursText, ConsoleRole::Crew},
+                                                    {What::kNewCode, ConsoleRole::Crew},
+                                                    {What::kRevoke, ConsoleRole::Crew},
+                                                    {What::kProjector, ConsoleRole::Crew},
+                                                    {What::kUseCalibration, ConsoleRole::Crew},
+                                                    {What::kPower, ConsoleRole::Crew}};
+    const auto role = kRoles.find(what);
+    return role == kRoles.end() ? std::nullopt : std::optional(role->second);
 }
 
 // For the list of events.
@@ -85,6 +83,8 @@ std::string textOf(const v1::Set& set) {
     if (set.has_scene()) return "scene " + set.scene();
     if (set.has_quality()) return "quality " + set.quality();
     if (set.has_restart()) return "restart node " + set.restart();
+    if (set.has_scan())
+        return set.scan().has_pattern() ? "a pattern of a scan" : "no pattern of a scan";
     return "pattern " + std::string(wire::nameOf(static_cast<wire::Pattern>(set.pattern())));
 }
 
@@ -100,6 +100,7 @@ bool isSendable(const v1::Set& set) {
     if (set.has_scene()) return isName(set.scene());
     if (set.has_quality()) return isName(set.quality());
     if (set.has_restart()) return isName(set.restart());
+    if (set.has_scan()) return true;
     return set.pattern() != v1::PATTERN_SCAN;
 }
 
@@ -107,6 +108,41 @@ bool isSendable(const v1::Set& set) {
 bool isPlace(const browser::PointAt& at) {
     const auto isShare = [](float number) { return number >= 0 && number <= 1; };
     return isShare(at.x()) && isShare(at.y());
+}
+
+// The channels that show a pattern, a bit each; nothing where there is none of that name.
+std::optional<std::uint64_t> litIn(const std::string& channel, const config::Rig& rig) {
+    if (channel.empty()) return ~std::uint64_t{0};
+    for (std::size_t i = 0; i < rig.channels.size(); ++i)
+        if (rig.channels[i].name == channel) return std::uint64_t{1} << i;
+    return std::nullopt;
+}
+
+// For the eye, so without the tag that a camera reads. Nothing where there is no such pattern.
+std::optional<config::ScanPattern> scanPatternOf(const browser::ScanCommand& command,
+                                                 const config::Rig& rig) {
+    using Kind = config::ScanPattern::Kind;
+    static const std::map<std::string, Kind> kKinds{{"white", Kind::Level},
+                                                    {"columns", Kind::GrayColumns},
+                                                    {"rows", Kind::GrayRows},
+                                                    {"dots", Kind::Dots},
+                                                    {"room", Kind::Room}};
+    constexpr std::uint32_t kMostStep = 15;
+    const auto kind = kKinds.find(command.kind());
+    const auto lit = litIn(command.channel(), rig);
+    if (kind == kKinds.end() || !lit || command.step() > kMostStep) return std::nullopt;
+    return config::ScanPattern{.kind = kind->second,
+                               .step = static_cast<std::uint8_t>(command.step()),
+                               .lit = *lit,
+                               .tagged = false};
+}
+
+// The beginning of a time, as versions of files are named; so it is no option of a command line.
+bool isVersion(const std::string& name) {
+    constexpr std::string_view kLetters = "0123456789T-";
+    constexpr std::size_t kLeast = 17, kMost = 32;
+    return name.size() >= kLeast && name.size() <= kMost &&
+           name.find_first_not_of(kLetters) == std::string::npos;
 }
 
 }  // namespace
@@ -142,13 +178,24 @@ browser::Done Console::carryOut(const Holder& holder, Visitor* visitor, const Co
         return settle(
             command.id(), "refused", "only " + std::string(nameOf(*needed)) + " may do this");
     }
-    return setOf(command) ? tellWall(holder, visitor, command)
-                          : carryOutHere(holder, visitor, command);
+    return carryOutAllowed(holder, visitor, command);
+}
+
+// By where it goes.
+browser::Done Console::carryOutAllowed(const Holder& holder,
+                                       Visitor* visitor,
+                                       const Command& command) {
+    if (command.has_scan()) return showScan(holder, visitor, command);
+    if (command.has_use_calibration()) return useKept(holder, visitor, command);
+    if (const auto set = setOf(command)) return tellWall(holder, visitor, command, *set);
+    return carryOutHere(holder, visitor, command);
 }
 
 // The master answers later; saidOfSet() passes that on.
-browser::Done Console::tellWall(const Holder& holder, Visitor* visitor, const Command& command) {
-    const v1::Set set = *setOf(command);
+browser::Done Console::tellWall(const Holder& holder,
+                                Visitor* visitor,
+                                const Command& command,
+                                const v1::Set& set) {
     if (!wall_.heard()) return settle(command.id(), "refused", "the master does not answer");
     if (command.run() != wall_.run())
         return settle(command.id(),
@@ -206,6 +253,8 @@ std::string Console::carryOutOfHall(const Holder& holder, const Command& command
             if (!opening_.setProjector(command.projector())) return "there is no such projector";
             note(holder.name, "switched projector " + command.projector().name());
             return {};
+        case What::kPower:
+            return switchMachine(holder, command.power());
         case What::kNewCode:
             code_ = access_.makeCode(
                 static_cast<ConsoleRole>(std::clamp(static_cast<int>(command.new_code()), 1, 3)),
@@ -215,6 +264,17 @@ std::string Console::carryOutOfHall(const Holder& holder, const Command& command
         default:
             return sendAway(holder, command.revoke());
     }
+}
+
+// The service of the machine ends the show in order.
+std::string Console::switchMachine(const Holder& holder, const std::string& word) {
+    try {
+        sayPower(kPowerFolder, word);
+    } catch (const Error& problem) {
+        return problem.what();
+    }
+    note(holder.name, "machine: " + word);
+    return {};
 }
 
 // A mistake is answered with its place in the text.
@@ -235,6 +295,37 @@ std::string Console::sendAway(const Holder& holder, const std::string& person) {
         if (one->holder.id == person) one->outbox->close(kClosedUnpaired);
     note(holder.name, "sent a browser away");
     return {};
+}
+
+// Held by the page: a browser that goes takes it along.
+browser::Done Console::showScan(const Holder& holder, Visitor* visitor, const Command& command) {
+    const browser::ScanCommand& scan = command.scan();
+    const auto pattern = scanPatternOf(scan, options_.rig);
+    const bool isShown = !scan.kind().empty();
+    if (isShown && (!pattern || visitor == nullptr))
+        return settle(command.id(), "refused", "there is no such pattern, or no page to hold it");
+    v1::Set set;
+    set.set_request(command.id());
+    set.mutable_scan()->set_holder(holder_);
+    if (pattern) wire::writeScanPattern(*pattern, *set.mutable_scan()->mutable_pattern());
+    const browser::Done done = tellWall(holder, visitor, command, set);
+    const bool isHeld = isShown && done.outcome() == "waiting";
+    scan_ = isHeld ? ShownScan{visitor, command.id(), set.scan()} : ShownScan{};
+    return done;
+}
+
+// One at a time, beside the frames; hearCalibrations() says how it ended.
+browser::Done Console::useKept(const Holder& holder, Visitor* visitor, const Command& command) {
+    const std::string& name = command.use_calibration();
+    if (!isVersion(name)) return settle(command.id(), "refused", "there is no such calibration");
+    if (calibrationUse_.valid())
+        return settle(command.id(), "refused", "another one is being put in place; say it again");
+    pending_[command.id()] = {visitor, holder.name, "calibration " + name};
+    calibrationUseId_ = command.id();
+    calibrationUse_ = std::async(std::launch::async, [rig = options_.master.rig, name] {
+        return useCalibration(rig, name);
+    });
+    return settle(command.id(), "waiting", "");
 }
 
 // The answer comes by heardFish(); of too many questions the oldest is lost.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -63,6 +64,14 @@ v1::Set setOfHours(const config::WantedHours& wanted) {
     return set;
 }
 
+// What is said of a scan again and again; nobody asks how it went.
+v1::Set setOf(const v1::HeldScan& scan) {
+    v1::Set set;
+    set.set_request(ask::freshRequest());
+    *set.mutable_scan() = scan;
+    return set;
+}
+
 // The shutters of projectors wait for that.
 bool isInStep(const browser::Wall& wall) {
     return wall.heard() && std::ranges::all_of(wall.nodes(), [](const browser::Node& node) {
@@ -116,7 +125,8 @@ Console::Console(ConsoleOptions options, Access& access)
     : options_{std::move(options)},
       access_{access},
       events_{stateFolderOf(options_.master.rig) / "events.jsonl"},
-      opening_{stateFolderOf(options_.master.rig)} {
+      opening_{stateFolderOf(options_.master.rig)},
+      panorama_{options_.master.rig} {
     wall_.set_heard(false);
 }
 
@@ -130,7 +140,7 @@ void Console::begin(web::WebServer& server, Doors doors) {
     if (!options_.rig.watchAddress.empty())
         hub_ = std::make_unique<PictureHub>(
             options_.rig.watchAddress,
-            watchKeysOf(options_.master.rig),
+            watchKeysOf(options_.master.rig, options_.keyFolder),
             PictureListener{[=, this](const std::string& channel, const v1::FramePicture& picture) {
                                 here([=, this] { heardPicture(channel, picture); });
                             },
@@ -291,6 +301,7 @@ void Console::forget(Visitor& visitor) {
     visitors_.erase(&visitor);
     for (auto& [id, pending] : pending_)
         if (pending.visitor == &visitor) pending.visitor = nullptr;
+    if (scan_.visitor == &visitor) scan_ = {};
     std::erase_if(fishAsked_, [&](const auto& one) { return one.second == &visitor; });
 }
 
@@ -364,6 +375,7 @@ void Console::saidOfHours(const std::string& outcome, const std::string& why) {
 // Whoever asked may have gone; the event is noted all the same.
 void Console::saidOfSet(std::uint64_t id, const std::string& outcome, const std::string& why) {
     const bool isEnded = outcome != "waiting";
+    if (id == scan_.id && outcome != "done" && isEnded) scan_ = {};
     if (id == openingId_ && isEnded && beingOpened_) return saidOfHours(outcome, why);
     const auto pending = pending_.find(id);
     if (pending == pending_.end()) return;
@@ -461,11 +473,12 @@ void Console::tick() {
     constexpr int kTicksOfAWall = 2;
     ++ticks_;
     for (Visitor* visitor : visitors_) {
-        if (visitor->ticksToLook > 0) --visitor->ticksToLook;
+        if (visitor->ticksToLook > 0 && --visitor->ticksToLook == 0) visitor->hasHistory = false;
         for (auto& [channel, ticks] : visitor->picturesUnderWay) --ticks;
         std::erase_if(visitor->picturesUnderWay, [](const auto& one) { return one.second <= 0; });
     }
     askPictures();
+    figures_.add(wall_);
     if (ticks_ % kTicksASecond == 0) everySecond();
     if (ticks_ % kTicksOfAWall == 0) sendWall();
 }
@@ -494,8 +507,8 @@ void Console::keepHours() {
 
 // Also what people should notice although they look at nothing.
 void Console::everySecond() {
-    if (wall_.heard()) figures_.add(wall_);
     keepHours();
+    keepScan();
     const auto lines =
         alerts_.update(faultsOf(wall_, unixNow()), unixNow(), opening_.isClosed(unixNow()));
     for (const std::string& line : lines) note("alert", line);
@@ -503,6 +516,9 @@ void Console::everySecond() {
     *alerts.mutable_alerts() = alertList();
     sendToAll("alerts", alerts);
     hearDoctor();
+    hearCalibrations();
+    if (panorama_.update())
+        for (Visitor* visitor : visitors_) visitor->hasPanorama = false;
     tendVisitors();
     if (options_.service != nullptr) options_.service->alive(0);
 }
@@ -512,7 +528,9 @@ void Console::tendVisitors() {
         visitor->messages = 0;
         if (visitor->holder.until > 0 && visitor->holder.until < unixNow())
             visitor->outbox->close(kClosedUnpaired);
-        if (visitor->ticksToLook > 0) sendTopics(*visitor);
+        if (visitor->ticksToLook <= 0) continue;
+        if (visitor->hasHistory) sendHistory(*visitor, false);
+        sendTopics(*visitor);
     }
 }
 
@@ -524,25 +542,40 @@ void Console::hearDoctor() {
     doctor_.set_running(false);
 }
 
+// Likewise.
+void Console::hearCalibrations() {
+    constexpr std::chrono::seconds kNow{0};
+    if (calibrationsRead_.valid() && calibrationsRead_.wait_for(kNow) == std::future_status::ready)
+        calibrations_ = calibrationsRead_.get();
+    if (!calibrationUse_.valid() || calibrationUse_.wait_for(kNow) != std::future_status::ready)
+        return;
+    const std::string refusal = calibrationUse_.get();
+    saidOfSet(calibrationUseId_, refusal.empty() ? "done" : "refused", refusal);
+}
+
+// The master ends it by itself three seconds after the last word.
+void Console::keepScan() {
+    if (scan_.visitor == nullptr) return;
+    if (scan_.visitor->ticksToLook <= 0 || !wants(*scan_.visitor, "calibrations"))
+        scan_ = {};  // the page was left
+    else
+        link_->set(setOf(scan_.held));
+}
+
 // A page gets what it shows, and no other page does.
 void Console::sendTopics(Visitor& visitor) {
     if (wants(visitor, "log")) sendLog(visitor);
+    if (wants(visitor, "panorama")) sendPanorama(visitor);
+    if (wants(visitor, "calibrations")) sendCalibrations(visitor);
     if (!wants(visitor, "history")) visitor.hasHistory = false;
     browser::ToBrowser message;
     if (wants(visitor, "doctor")) {
         *message.mutable_doctor() = doctor_;
         sendTo(visitor, "doctor", message);
     }
-    if (wants(visitor, "history") && !std::exchange(visitor.hasHistory, true)) {
-        *message.mutable_history() = figures_.history();
-        sendTo(visitor, "history", message);
-    }
-    if (wants(visitor, "hours")) {
-        *message.mutable_hours() = opening_.hours(unixNow());
-        sendTo(visitor, "hours", message);
-        *message.mutable_projectors() = opening_.projectors();
-        sendTo(visitor, "projectors", message);
-    }
+    if (wants(visitor, "history") && !std::exchange(visitor.hasHistory, true))
+        sendHistory(visitor, true);
+    if (wants(visitor, "hours")) sendHours(visitor);
     if (wants(visitor, "people")) sendPeople(visitor);
 }
 
@@ -554,6 +587,41 @@ void Console::sendLog(Visitor& visitor) {
     if (text != visitor.sentLog)
         visitor.outbox->put("log", std::make_shared<const std::string>(text), false);
     visitor.sentLog = std::move(text);
+}
+
+// All of it under a topic of its own: what is newer does not replace it while it waits.
+void Console::sendHistory(Visitor& visitor, bool isAll) {
+    browser::ToBrowser message;
+    *message.mutable_history() = isAll ? figures_.history() : figures_.lastSecond();
+    sendTo(visitor, isAll ? "history" : "history of a second", message);
+}
+
+// With the projectors, which have hours too.
+void Console::sendHours(Visitor& visitor) {
+    browser::ToBrowser message;
+    *message.mutable_hours() = hoursFor(visitor);
+    sendTo(visitor, "hours", message);
+    *message.mutable_projectors() = opening_.projectors();
+    sendTo(visitor, "projectors", message);
+}
+
+// They are read again while somebody looks.
+void Console::sendCalibrations(Visitor& visitor) {
+    if (!calibrationsRead_.valid())
+        calibrationsRead_ = std::async(std::launch::async,
+                                       [rig = options_.master.rig] { return calibrationsOf(rig); });
+    browser::ToBrowser message;
+    *message.mutable_calibrations() = calibrations_;
+    message.mutable_calibrations()->set_held_scan(scan_.visitor == &visitor);
+    sendTo(visitor, "calibrations", message);
+}
+
+// Once, and again when it is another.
+void Console::sendPanorama(Visitor& visitor) {
+    if (panorama_.panorama().meshes().empty() || std::exchange(visitor.hasPanorama, true)) return;
+    browser::ToBrowser message;
+    *message.mutable_panorama() = panorama_.panorama();
+    sendTo(visitor, "panorama", message);
 }
 
 // To the crew alone.
@@ -588,6 +656,7 @@ browser::ToBrowser Console::snapshotFor(const Visitor& visitor) const {
     snapshot.set_rig(options_.rig.name);
     snapshot.set_role(static_cast<browser::Role>(visitor.holder.role));
     snapshot.set_name(visitor.holder.name);
+    snapshot.set_has_power(std::filesystem::is_directory(kPowerFolder));
     for (const config::Channel& from : options_.rig.channels) {
         browser::Channel& channel = *snapshot.add_channels();
         channel.set_name(from.name);
@@ -601,9 +670,17 @@ browser::ToBrowser Console::snapshotFor(const Visitor& visitor) const {
     snapshot.mutable_wall()->set_now_s(unixNow());
     *snapshot.mutable_events() = events_.list();
     *snapshot.mutable_alerts() = alertList();
-    *snapshot.mutable_hours() = opening_.hours(unixNow());
+    *snapshot.mutable_hours() = hoursFor(visitor);
     *snapshot.mutable_projectors() = opening_.projectors();
     return message;
+}
+
+browser::Hours Console::hoursFor(const Visitor& visitor) const {
+    browser::Hours hours = opening_.hours(unixNow());
+    if (visitor.holder.role == ConsoleRole::Crew) return hours;
+    hours.clear_text();
+    for (browser::ControlledProjector& one : *hours.mutable_projectors()) one.clear_password();
+    return hours;
 }
 
 // In the order in which they began.

@@ -21,6 +21,7 @@
 #include "console/gate.h"
 #include "console/opening.h"
 #include "console/overview.h"
+#include "console/panorama.h"
 #include "console/picture_hub.h"
 #include "console/show_link.h"
 #include "console/web/server.h"
@@ -30,6 +31,7 @@ namespace aquarama::console {
 struct ConsoleOptions {
     config::Rig rig;
     ask::AskedMaster master;             // of this rig, with the operator's key where it needs one
+    std::string keyFolder = {};          // of the master's keys; empty: the rig's own
     std::string build;                   // version and commit
     ServiceNotifier* service = nullptr;  // hears of every second; null: nobody
 };
@@ -66,7 +68,7 @@ class Console final : public web::Service {
         browser::Look look = {};
         int ticksToLook = 0;                       // until the look is forgotten
         std::map<int, int> picturesUnderWay = {};  // channel -> ticks until it is asked again
-        bool hasHistory = false;
+        bool hasHistory = false, hasPanorama = false;
         std::string sentLog = {};
         int messages = 0;  // in this second
         int malformed = 0;
@@ -82,6 +84,12 @@ class Console final : public web::Service {
     struct Pending {
         Visitor* visitor = nullptr;  // null: has gone
         std::string who, what;
+    };
+    // A pattern of a scan, said to the master each second while the page of `visitor` is open.
+    struct ShownScan {
+        Visitor* visitor = nullptr;  // null: none is shown
+        std::uint64_t id = 0;        // of the command
+        v1::HeldScan held;
     };
     // What a channel was last asked for. `ticksToAsk`: until it is asked again.
     struct PictureState {
@@ -103,17 +111,28 @@ class Console final : public web::Service {
     [[nodiscard]] browser::Done carryOut(const Holder& holder,
                                          Visitor* visitor,
                                          const Command& command);
+    [[nodiscard]] browser::Done carryOutAllowed(const Holder& holder,
+                                                Visitor* visitor,
+                                                const Command& command);
     [[nodiscard]] browser::Done carryOutHere(const Holder& holder,
                                              Visitor* visitor,
                                              const Command& command);
     [[nodiscard]] browser::Done tellWall(const Holder& holder,
                                          Visitor* visitor,
-                                         const Command& command);
+                                         const Command& command,
+                                         const v1::Set& set);
     // Each carries one out; why not, where it is refused.
     [[nodiscard]] std::string acknowledge(const Holder& holder, const std::string& alert);
     [[nodiscard]] std::string carryOutOfHall(const Holder& holder, const Command& command);
     [[nodiscard]] std::string takeHours(const Holder& holder, const std::string& text);
+    [[nodiscard]] std::string switchMachine(const Holder& holder, const std::string& word);
     [[nodiscard]] std::string sendAway(const Holder& holder, const std::string& person);
+    [[nodiscard]] browser::Done useKept(const Holder& holder,
+                                        Visitor* visitor,
+                                        const Command& command);
+    [[nodiscard]] browser::Done showScan(const Holder& holder,
+                                         Visitor* visitor,
+                                         const Command& command);
     void askFish(Visitor* visitor, const browser::PointAt& at);
     void runDoctor();
     [[nodiscard]] browser::Done settle(std::uint64_t id,
@@ -140,16 +159,24 @@ class Console final : public web::Service {
     // Closes who has lost its pairing, and sends each what its page shows.
     void tendVisitors();
     void hearDoctor();
+    void hearCalibrations();
+    void keepScan();
     void sendWall();
     // What its page shows now, beside the wall.
     void sendTopics(Visitor& visitor);
     void sendLog(Visitor& visitor);
+    void sendHistory(Visitor& visitor, bool isAll);
+    void sendHours(Visitor& visitor);
+    void sendCalibrations(Visitor& visitor);
     void sendPeople(Visitor& visitor);
+    void sendPanorama(Visitor& visitor);
     void takeLook(Visitor& visitor, const browser::Look& look);
     void sendTo(Visitor& visitor, const std::string& topic, const browser::ToBrowser& message);
     void sendToAll(const std::string& topic, const browser::ToBrowser& message);
     [[nodiscard]] browser::ToBrowser snapshotFor(const Visitor& visitor) const;
     [[nodiscard]] browser::AlertList alertList() const;
+    // Passwords and text are the crew's alone.
+    [[nodiscard]] browser::Hours hoursFor(const Visitor& visitor) const;
     [[nodiscard]] browser::People peopleFor(const Holder& holder) const;
     [[nodiscard]] int channelIndexOf(const std::string& channel) const;
     [[nodiscard]] bool isWatched(const Visitor& visitor, int channel) const;
@@ -164,9 +191,15 @@ class Console final : public web::Service {
     std::uint64_t openingId_ = 0;
     Alerts alerts_;
     FigureRings figures_;
+    PanoramaWatch panorama_;
     browser::Wall wall_;
     browser::DoctorReport doctor_;
     std::future<browser::DoctorReport> doctorRun_;
+    browser::Calibrations calibrations_;
+    std::future<browser::Calibrations> calibrationsRead_;
+    std::future<std::string> calibrationUse_;  // why it was refused
+    std::uint64_t calibrationUseId_ = 0;       // of the command
+    ShownScan scan_;
     std::string code_;  // the last pairing code that somebody asked for in a page
     std::set<Visitor*> visitors_;
     std::map<std::uint64_t, Pending> pending_;
@@ -176,7 +209,8 @@ class Console final : public web::Service {
     // By the number of the question.
     std::map<std::uint64_t, Visitor*> fishAsked_;
     browser::Mind mind_;
-    std::uint64_t number_ = 0;  // of questions to nodes
+    std::uint64_t number_ = 0;                               // of questions to nodes
+    const std::uint64_t holder_ = ask::freshRequest() | 1U;  // of scans; never 0
     std::uint64_t refused_ = 0;
     int ticks_ = 0;
     std::unique_ptr<PictureHub> hub_;

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <span>
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,9 @@
 
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/base/versions.h"
+#include "common/cli/command_line.h"
+#include "common/config/rig.h"
 #include "common/config/text_file.h"
 
 namespace aquarama::console {
@@ -61,6 +65,51 @@ std::vector<std::string> linesOf(const std::string& text) {
 std::string textIn(const json& object, const char* field) {
     const auto found = object.find(field);
     return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+// 0 where the field is missing or no number.
+float numberIn(const json& object, const char* field) {
+    const auto found = object.find(field);
+    return found != object.end() && found->is_number() ? found->get<float>() : 0;
+}
+
+// A whole file of JSON; null where there is none, or it is something else.
+json jsonIn(const fs::path& file) {
+    constexpr std::uintmax_t kMostBytes = 1U << 20U;
+    const json object = json::parse(endOf(file, kMostBytes), nullptr, false);
+    return object.is_object() ? object : json();
+}
+
+// As calibrate has left its figures.
+void addKept(browser::Calibrations& list, const FileVersion& from) {
+    browser::KeptCalibration& kept = *list.add_kept();
+    kept.set_name(from.name);
+    kept.set_in_use(from.isInUse);
+    const json figures = json::parse(from.note, nullptr, false);
+    if (!figures.is_object()) return;
+    kept.set_verdict(textIn(figures, "verdict"));
+    kept.set_cause(textIn(figures, "cause"));
+    kept.set_overlap_rms_px(numberIn(figures, "overlap_rms_px"));
+    kept.set_overlap_max_px(numberIn(figures, "overlap_max_px"));
+    kept.set_absolute_rms_px(numberIn(figures, "absolute_rms_px"));
+}
+
+// As drift has left it beside the wall file; nothing where it never looked.
+void addDrift(browser::Calibrations& list, fs::path wallFile) {
+    const fs::path last = wallFile.replace_extension(".drift.last.json");
+    const json look = jsonIn(last);
+    if (look.is_null() || !look.contains("channels") || !look["channels"].is_array()) return;
+    browser::Drift& drift = *list.mutable_drift();
+    drift.set_looked(textIn(look, "looked"));
+    drift.set_learned(textIn(look, "learned"));
+    drift.set_camera_lost(look.value("camera_lost", json()) == true);
+    drift.set_camera_moved_px(numberIn(look, "camera_moved_px"));
+    for (const json& from : look["channels"]) {
+        browser::ChannelDrift& channel = *drift.add_channels();
+        channel.set_name(textIn(from, "name"));
+        channel.set_verdict(textIn(from, "verdict"));
+        channel.set_shift_px(numberIn(from, "shift_px"));
+    }
 }
 
 // By all that the page filters by.
@@ -106,24 +155,52 @@ std::string readUntil(int pipe, std::chrono::steady_clock::time_point end) {
     return text;
 }
 
-// Without a shell: no name of a file is read as a command.
-Said runProgram(const fs::path& program, std::vector<std::string> arguments) {
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) return {};
+// As a C library takes them: pointers, and null after the last.
+std::vector<char*> pointersTo(std::vector<std::string>& words) {
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
+// Of this process, but for the pipe of its supervisor, to whom the program's errors are no news.
+std::vector<std::string> environmentOfOthers() {
+    const std::string left = std::string(cli::kErrorPipeVariable) + "=";
+    std::vector<std::string> variables;
+    for (char** one = environ; *one != nullptr; ++one)
+        if (!std::string_view(*one).starts_with(left)) variables.emplace_back(*one);
+    return variables;
+}
+
+// The program `aquarama`, which stands beside this one; -1 where it cannot be started. Without a
+// shell: no name of a file is read as a command.
+pid_t startAquarama(std::vector<std::string> arguments, int output, bool withErrors) {
+    const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "aquarama";
     arguments.insert(arguments.begin(), program.string());
-    std::vector<char*> words;
-    for (std::string& argument : arguments) words.push_back(argument.data());
-    words.push_back(nullptr);
+    std::vector<std::string> variables = environmentOfOthers();
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    pid_t child = 0;
-    const int failed =
-        posix_spawn(&child, program.c_str(), &actions, nullptr, words.data(), environ);
+    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+    if (withErrors) posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
+    pid_t child = -1;
+    const int failed = posix_spawn(&child,
+                                   program.c_str(),
+                                   &actions,
+                                   nullptr,
+                                   pointersTo(arguments).data(),
+                                   pointersTo(variables).data());
     posix_spawn_file_actions_destroy(&actions);
+    return failed == 0 ? child : -1;
+}
+
+// To its end, or to the end of its minute.
+Said runAquarama(std::vector<std::string> arguments, bool withErrors) {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) return {};
+    const pid_t child = startAquarama(std::move(arguments), ends[1], withErrors);
     close(ends[1]);
     Said said;
-    if (failed == 0) {
+    if (child > 0) {
         said.text = readUntil(ends[0], std::chrono::steady_clock::now() + std::chrono::minutes(1));
         kill(child, SIGTERM);
         int status = 0;
@@ -206,8 +283,7 @@ browser::LogTail tailOf(const fs::path& log, const browser::Look& look) {
 // In a process of its own: it may hang on a network that does.
 browser::DoctorReport askDoctor(const std::string& rigPath) {
     browser::DoctorReport report;
-    const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "aquarama";
-    const Said said = runProgram(program, {"doctor", rigPath, "--json"});
+    const Said said = runAquarama({"doctor", rigPath, "--json"}, false);
     report.set_at_s(unixNow());
     const json list = json::parse(said.text, nullptr, false);
     if (!list.is_array()) {
@@ -222,6 +298,41 @@ browser::DoctorReport askDoctor(const std::string& rigPath) {
         finding.set_todo(textIn(one, "todo"));
     }
     return report;
+}
+
+// A rig without a calibration has an empty list.
+browser::Calibrations calibrationsOf(const std::string& rigPath) {
+    browser::Calibrations list;
+    try {
+        const config::Rig rig = config::parseRig(config::readTextFile(rigPath), rigPath);
+        list.set_file(rig.calibration);
+        const std::string file =
+            rig.calibration.empty() ? rigPath : config::besideFile(rigPath, rig.calibration);
+        if (!rig.calibration.empty())
+            for (const FileVersion& version : versionsOf(file)) addKept(list, version);
+        addDrift(list, file);
+    } catch (const std::exception& problem) {
+        list.set_problem(problem.what());
+    }
+    return list;
+}
+
+// The program checks it with the whole rig before it puts it in place.
+std::string useCalibration(const std::string& rigPath, const std::string& name) {
+    const Said said = runAquarama({"calibrations", rigPath, "--use=" + name}, true);
+    if (said.status == 0) return {};
+    const std::vector<std::string> lines = linesOf(said.text);
+    return lines.empty() ? "it could not be put in place" : lines.back();
+}
+
+// Whole at once: the service reads it as soon as it is there.
+void sayPower(const fs::path& folder, const std::string& word) {
+    if (word != "poweroff" && word != "reboot") throw Error("the word is poweroff or reboot");
+    if (!fs::is_directory(folder))
+        throw Error("this machine takes no such word: it has no " + folder.string() +
+                    "; switch it off by hand");
+    const std::string line = word + "\n";
+    writeWhole(folder / "word", std::as_bytes(std::span(line)));
 }
 
 // Each file is filled up to whole blocks; two empty ones end it.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the console reads on the master's machine beside the wall: the log of the show, scenes, the
-// doctor's findings; and its own list of events.
+// doctor's findings, calibrations; and its own list of events.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +30,18 @@ namespace aquarama::console {
 
 // Asks `aquarama doctor`, which lies beside this program; takes seconds, a minute at most.
 [[nodiscard]] browser::DoctorReport askDoctor(const std::string& rigPath);
+
+// Those that were kept of the rig's wall file, and drift's last look; may take seconds.
+[[nodiscard]] browser::Calibrations calibrationsOf(const std::string& rigPath);
+// Puts one of them in place, by `aquarama calibrations`, which lies beside this program; takes
+// seconds. Why not, where it is refused.
+[[nodiscard]] std::string useCalibration(const std::string& rigPath, const std::string& name);
+
+// Where a machine takes the word that powers it off, if it does: its service carries it out.
+inline constexpr const char* kPowerFolder = "/run/aquarama/power";
+// Leaves `poweroff` or `reboot` there. Throws Error for another word, and where there is no such
+// folder.
+void sayPower(const std::filesystem::path& folder, const std::string& word);
 
 // Files as one archive (ustar). Each may have some megabytes; names up to 99 bytes.
 [[nodiscard]] std::string tarOf(const std::vector<std::pair<std::string, std::string>>& files);

@@ -13,6 +13,7 @@
 #include "common/base/log.h"
 #include "common/base/service_notifier.h"
 #include "common/cli/command_line.h"
+#include "common/config/keys.h"
 #include "common/config/rig.h"
 #include "console/access.h"
 #include "console/certificate.h"
@@ -31,7 +32,7 @@ constexpr const char* kLoopback = "127.0.0.1";
 
 // What the command line says; empty where an option was not given.
 struct Options {
-    std::string rig, key, listen = kLoopback, pair, token;
+    std::string rig, keys, key, listen = kLoopback, pair, token;
     std::string role = "watcher";
     std::vector<std::string> certify, names;
     int port = -1;  // the rig's
@@ -46,7 +47,8 @@ void describe(CLI::App& app, Options& options) {
     app.add_option("--listen", options.listen, "address of a network card, for other machines")
         ->capture_default_str();
     app.add_option("--name", options.names, "another name of this machine that browsers may use");
-    app.add_option("--key", options.key, "file of the operator's key, where the rig needs keys");
+    app.add_option("--keys", options.keys, "folder of the master's keys, where the rig needs them");
+    app.add_option("--key", options.key, "file of the operator's key; else that of the folder");
     app.add_option("--pair", options.pair, "print a code that lets one more browser in, and end")
         ->check(role);
     app.add_option(
@@ -93,6 +95,13 @@ void certify(const Options& options) {
               << "\nits SHA-256 fingerprint: " << print << '\n';
 }
 
+// The operator's, of the folder that was given; empty: of the rig's own folder, where one is
+// needed.
+std::string keyOf(const Options& options) {
+    if (!options.key.empty() || options.keys.empty()) return options.key;
+    return config::keyFileIn(options.keys, "operator").string();
+}
+
 // Until a signal.
 void serve(const Options& options, const config::Rig& rig, console::Access& access) {
     cli::holdSignals();
@@ -100,9 +109,10 @@ void serve(const Options& options, const config::Rig& rig, console::Access& acce
     setpriority(PRIO_PROCESS, 0, kNice);
     ServiceNotifier service;
     console::Console desk({.rig = rig,
-                           .master = {.rig = options.rig, .address = {}, .key = options.key},
-                           .build = cli::buildText(),
-                           .service = &service},
+                            .master = {.rig = options.rig, .address = {}, .key = keyOf(options)},
+                            .keyFolder = options.keys,
+                            .build = cli::buildText(),
+                            .service = &service},
                           access);
     const web::ServerOptions where = serverOptions(options, rig);
     web::WebServer server(where, desk);

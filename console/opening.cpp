@@ -32,6 +32,43 @@ void write(const std::filesystem::path& path, const std::string& text) {
     writeWhole(path, std::as_bytes(std::span(text)));
 }
 
+// "18:00"; of the next day as well, whose midnight is "00:00".
+std::string clockOf(int minute) {
+    constexpr int kHourMinutes = 60, kDayHours = 24;
+    return fmt::format("{:02}:{:02}", minute / kHourMinutes % kDayHours, minute % kHourMinutes);
+}
+
+// As a form has them.
+void addSpans(google::protobuf::RepeatedPtrField<browser::OpenSpan>& out,
+              const std::vector<config::OpenSpan>& spans) {
+    for (const config::OpenSpan& from : spans) {
+        browser::OpenSpan& span = *out.Add();
+        for (const int day : from.weekdays) span.add_weekdays(static_cast<std::uint32_t>(day));
+        span.set_from(clockOf(from.from));
+        span.set_to(clockOf(from.to));
+        span.set_scene(from.scene);
+        span.set_quality(from.quality);
+    }
+}
+
+// All that the text says.
+void addForm(browser::Hours& message, const config::Hours& hours) {
+    message.set_zone(hours.zone);
+    addSpans(*message.mutable_spans(), hours.open);
+    for (const config::ExceptionDay& from : hours.exceptions) {
+        browser::ExceptionDay& day = *message.add_exceptions();
+        const auto [year, month, number] = from.date;
+        day.set_date(fmt::format("{:04}-{:02}-{:02}", year, month, number));
+        addSpans(*day.mutable_spans(), from.open);
+    }
+    for (const config::ControlledProjector& from : hours.projectors) {
+        browser::ControlledProjector& projector = *message.add_projectors();
+        projector.set_name(from.name);
+        projector.set_address(fmt::format("{}:{}", from.host, from.port));
+        projector.set_password(from.password);
+    }
+}
+
 }  // namespace
 
 // Whatever is wrong with what was kept, the console starts.
@@ -171,16 +208,19 @@ browser::Hours Opening::hours(UnixSeconds now) const {
     message.set_present(hours_.has_value());
     message.set_next("stays");
     if (!hours_) return message;
+    addForm(message, *hours_);
     const config::WantedHours wanted = wantedIn(now);
     message.set_open(wanted.isOpen);
+    message.set_scene(wanted.scene);
+    message.set_quality(wanted.quality);
     for (int minute = 1; minute <= kMinutes; ++minute) {
         const UnixSeconds then = now - std::fmod(now, kMinuteSeconds) + minute * kMinuteSeconds;
         const config::WantedHours next = wantedIn(then);
         if (next == wanted) continue;
         message.set_next(!next.isOpen ? "closes" : wanted.isOpen ? "changes" : "opens");
         message.set_next_scene(next.scene);
-        const int clock = config::civilTime(hours_->zone, static_cast<long long>(then)).minute;
-        message.set_next_at(fmt::format("{:02}:{:02}", clock / kMinutes, clock % kMinutes));
+        message.set_next_at(
+            clockOf(config::civilTime(hours_->zone, static_cast<long long>(then)).minute));
         break;
     }
     return message;

@@ -42,6 +42,7 @@ void addNode(browser::Wall& wall, const v1::NodeStatus& from, const std::string&
     node.set_other_build(!report.build().empty() && report.build() != build);
     node.set_renderer(report.renderer());
     for (const std::string& monitor : report.monitors()) node.add_monitors(monitor);
+    node.set_picture_ms(from.picture_ms());
     node.set_picture_median_ms(report.picture_median_ms());
     node.set_picture_p99_ms(report.picture_p99_ms());
     node.set_round_trip_ms(report.round_trip_median_ms());
@@ -61,6 +62,20 @@ void takeShow(browser::Wall& wall, const wire::Show& show) {
         static_cast<std::uint32_t>(std::lround(100 * std::clamp(show.brightness, 0.0F, 1.0F))));
 }
 
+// Of FigureRings.
+constexpr std::uint32_t kTenthsOfMinute = 600;
+constexpr std::uint16_t kNothingHeard = 65535;
+
+// The last of them, little-endian.
+std::string bytesOf(const std::deque<std::uint16_t>& values, std::size_t most) {
+    std::string bytes;
+    for (std::size_t i = values.size() - std::min(values.size(), most); i < values.size(); ++i) {
+        bytes += static_cast<char>(values[i] & 0xFFU);
+        bytes += static_cast<char>(values[i] >> 8U);
+    }
+    return bytes;
+}
+
 }  // namespace
 
 // Names what the master numbers.
@@ -77,6 +92,8 @@ browser::Wall wallOf(const v1::StatusReply& status, std::uint64_t run, const std
     wall.set_frame_p99_ms(status.frame_p99_ms());
     wall.set_skew_median_ms(status.skew_median_ms());
     wall.set_skew_p99_ms(status.skew_p99_ms());
+    wall.set_frame_peak_ms(status.frame_peak_ms());
+    wall.set_skew_peak_ms(status.skew_peak_ms());
     for (const std::uint32_t count : status.skew_counts()) wall.add_skew_counts(count);
     wall.set_refused_packets(status.refused_packets());
     for (const v1::NodeStatus& node : status.nodes()) addNode(wall, node, build);
@@ -130,39 +147,54 @@ std::vector<std::string> changesOf(const browser::Wall& before, const browser::W
 }
 
 // The minute's largest: a mean would hide what people saw.
-void FigureRings::add(const std::string& name, float value) {
-    constexpr std::size_t kSeconds = 600, kMinutes = 1440;
+void FigureRings::add(const std::string& name, float ms, bool isHeard) {
+    constexpr std::size_t kTenths = 6000, kMinutes = 1440;
+    constexpr float kScale = 100, kMost = 65534;
     Ring& ring = rings_[name];
-    ring.seconds.push_back(value);
-    if (ring.seconds.size() > kSeconds) ring.seconds.pop_front();
-    ring.largest = std::max(ring.largest, value);
-    if (secondsOfMinute_ != 0) return;
-    ring.minutes.push_back(std::exchange(ring.largest, 0.0F));
+    const float scaled = std::clamp(ms * kScale, 0.0F, kMost);
+    const std::uint16_t value = isHeard ? static_cast<std::uint16_t>(scaled) : kNothingHeard;
+    ring.tenths.push_back(value);
+    if (ring.tenths.size() > kTenths) ring.tenths.pop_front();
+    if (isHeard) ring.largest = std::max(ring.largest, value);
+    if (tenths_ % kTenthsOfMinute != 0) return;
+    ring.minutes.push_back(std::exchange(ring.largest, std::uint16_t{0}));
     if (ring.minutes.size() > kMinutes) ring.minutes.pop_front();
 }
 
-// To be called once a second: minutes are counted by the calls.
+// Minutes are counted by the calls. Of a master that is silent the places stay empty.
 void FigureRings::add(const browser::Wall& wall) {
-    constexpr int kSecondsOfMinute = 60;
-    secondsOfMinute_ = (secondsOfMinute_ + 1) % kSecondsOfMinute;
-    add("frame", wall.frame_median_ms());
-    add("skew", wall.skew_p99_ms());
+    ++tenths_;
+    add("frame", wall.frame_peak_ms(), wall.heard());
+    add("skew", wall.skew_peak_ms(), wall.heard());
     for (const browser::Node& node : wall.nodes())
-        add("node " + node.name(), node.picture_median_ms());
+        add("node " + node.name(),
+            node.picture_ms(),
+            wall.heard() && node.condition() != "absent" && node.condition() != "preparing");
 }
 
 // In the order of their names.
-browser::History FigureRings::history() const {
+browser::History FigureRings::newest(std::size_t tenths, std::size_t minutes) const {
     browser::History history;
+    history.set_tenths(tenths_);
+    history.set_minutes(tenths_ / kTenthsOfMinute);
     for (const auto& [name, ring] : rings_) {
-        browser::Series& seconds = *history.add_ten_minutes();
-        seconds.set_name(name);
-        seconds.mutable_values()->Add(ring.seconds.begin(), ring.seconds.end());
-        browser::Series& minutes = *history.add_day();
-        minutes.set_name(name);
-        minutes.mutable_values()->Add(ring.minutes.begin(), ring.minutes.end());
+        for (auto* const series : {history.add_ten_minutes(), history.add_day()})
+            series->set_name(name);
+        history.mutable_ten_minutes()->rbegin()->set_values(bytesOf(ring.tenths, tenths));
+        history.mutable_day()->rbegin()->set_values(bytesOf(ring.minutes, minutes));
     }
     return history;
+}
+
+browser::History FigureRings::history() const {
+    constexpr std::size_t kAll = 1U << 16U;
+    return newest(kAll, kAll);
+}
+
+// A little more than that: whoever missed one second has it from the next.
+browser::History FigureRings::lastSecond() const {
+    constexpr std::size_t kTenths = 25, kMinutes = 2;
+    return newest(kTenths, kMinutes);
 }
 
 // Of the wall as a whole, so that one address tells of all machines.

@@ -26,22 +26,26 @@ namespace aquarama::console {
 [[nodiscard]] std::vector<std::string> changesOf(const browser::Wall& before,
                                                  const browser::Wall& after);
 
-// Figures of the last ten minutes by the second, and of the last day by the minute (its largest).
+// Figures of the last ten minutes by tenths of a second, and of the last day by the minute (its
+// largest).
 class FigureRings {
   public:
-    // Once a second.
+    // Ten times a second.
     void add(const browser::Wall& wall);
+    // All of them, or what is newer than a second.
     [[nodiscard]] browser::History history() const;
+    [[nodiscard]] browser::History lastSecond() const;
 
   private:
     struct Ring {
-        std::deque<float> seconds, minutes;
-        float largest = 0;  // of the minute under way
+        std::deque<std::uint16_t> tenths, minutes;  // as Series.values has them
+        std::uint16_t largest = 0;                  // of the minute under way
     };
-    void add(const std::string& name, float value);
+    void add(const std::string& name, float ms, bool isHeard);
+    [[nodiscard]] browser::History newest(std::size_t tenths, std::size_t minutes) const;
 
     std::map<std::string, Ring> rings_;
-    int secondsOfMinute_ = 0;
+    std::uint32_t tenths_ = 0;  // since the start
 };
 
 // For Prometheus, text format 0.0.4.

@@ -100,9 +100,11 @@ void PictureHub::hear(const net::FromPeer& from) {
 }
 
 // Nodes know the master's public key already; so the console shows the same.
-std::optional<net::MasterKeys> watchKeysOf(const std::string& rigPath) {
+std::optional<net::MasterKeys> watchKeysOf(const std::string& rigPath,
+                                           const std::string& keyFolder) {
     if (!config::needsKeys(config::readRig(rigPath))) return std::nullopt;
-    const auto folder = config::keyFolderOf(rigPath);
+    const std::filesystem::path folder =
+        keyFolder.empty() ? config::keyFolderOf(rigPath) : std::filesystem::path(keyFolder);
     const config::KeyFile own = config::readKeyFile(config::keyFileIn(folder, "master"));
     const auto allowed = [folder] {
         net::Allowed nodes;

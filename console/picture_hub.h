@@ -39,6 +39,7 @@ class PictureHub {
     // From any thread. A node that is not there is asked nothing.
     void askPicture(const std::string& channel, std::uint64_t number, std::uint32_t widthPixels);
     void askFish(const std::string& channel, const v1::FishRequest& request);
+    [[nodiscard]] std::string address() const { return channels_->controlAddress(); }
 
   private:
     void run();
@@ -57,8 +58,9 @@ class PictureHub {
     std::thread thread_;
 };
 
-// Its master's keys, and whose nodes may connect; nothing where the rig needs none. Throws Error
-// where they cannot be read.
-[[nodiscard]] std::optional<net::MasterKeys> watchKeysOf(const std::string& rigPath);
+// Its master's keys, and whose nodes may connect; nothing where the rig needs none. `keyFolder`:
+// empty for the rig's own. Throws Error where they cannot be read.
+[[nodiscard]] std::optional<net::MasterKeys> watchKeysOf(const std::string& rigPath,
+                                                         const std::string& keyFolder);
 
 }  // namespace aquarama::console

@@ -11,7 +11,7 @@ namespace aquarama::console {
 namespace {
 
 // Between two questions for the master's state.
-constexpr auto kBetweenLooks = std::chrono::milliseconds(200);
+constexpr auto kBetweenLooks = std::chrono::milliseconds(100);
 // Of commands that wait for the link's thread.
 constexpr std::size_t kMostWanted = 64;
 
@@ -57,7 +57,7 @@ void ShowLink::explain(std::uint32_t fish) {
     changed_.notify_all();
 }
 
-// Five times a second, and at once for hands and questions.
+// Ten times a second, and at once for hands and questions.
 void ShowLink::run() {
     std::unique_lock lock(mutex_);
     while (!ended_) {

@@ -52,6 +52,7 @@ declare -A way=(
     [televisions_grid.webp]=televisions
     [televisions_reef.webp]=televisions
     [televisions_hall.webp]=televisions
+    [console_calibration.png]=console
 )
 
 # Each leaves its pictures in $drawn.

@@ -375,7 +375,10 @@ std::string lineOf(const config::Channel& channel, const ChannelDrift& drift) {
 }
 
 // Channels are in the order of the rig's; `verdict` is in the words of nameOf().
-std::string jsonOf(const WallDrift& drift, const config::Rig& rig) {
+std::string jsonOf(const WallDrift& drift,
+                   const std::string& looked,
+                   const Reference& reference,
+                   const config::Rig& rig) {
     nlohmann::ordered_json channels = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < drift.channels.size(); ++i) {
         const ChannelDrift& one = drift.channels[i];
@@ -388,7 +391,9 @@ std::string jsonOf(const WallDrift& drift, const config::Rig& rig) {
                             {"zoom_px", one.zoom},
                             {"dots", one.dots}});
     }
-    return nlohmann::ordered_json{{"camera_moved_px", drift.cameraPixels},
+    return nlohmann::ordered_json{{"looked", looked},
+                                  {"learned", reference.learned},
+                                  {"camera_moved_px", drift.cameraPixels},
                                   {"camera_lost", drift.isCameraLost},
                                   {"channels", channels}}
                .dump(2) +

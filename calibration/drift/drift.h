@@ -59,6 +59,9 @@ inline constexpr double kMostDriftPixels = 0.5;
 // One line for the terminal, without its end.
 [[nodiscard]] std::string lineOf(const config::Channel& channel, const ChannelDrift& drift);
 // For other programs.
-[[nodiscard]] std::string jsonOf(const WallDrift& drift, const config::Rig& rig);
+[[nodiscard]] std::string jsonOf(const WallDrift& drift,
+                                 const std::string& looked,  // when, as Reference::learned
+                                 const Reference& reference,
+                                 const config::Rig& rig);
 
 }  // namespace aquarama::drift

@@ -37,6 +37,12 @@ struct DriftOptions {
     bool learns = false;
 };
 
+// "2026-11-24T21:03:01Z"
+std::string timeNow() {
+    const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+}
+
 // One look at the dots of a wall.
 class DriftWatch {
   public:
@@ -77,11 +83,9 @@ class DriftWatch {
     }
 
     int learn() {
-        const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-        const drift::Reference reference{
-            .learned = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now)),
-            .cameraPixels = source_->picture(0).sizePixels,
-            .dots = drift::numberedDots(*source_, rig_)};
+        const drift::Reference reference{.learned = timeNow(),
+                                         .cameraPixels = source_->picture(0).sizePixels,
+                                         .dots = drift::numberedDots(*source_, rig_)};
         const drift::WallDrift self = drift::driftOf(reference, reference.dots, rig_);
         for (std::size_t i = 0; i < rig_.channels.size(); ++i)
             if (self.channels[i].verdict == drift::DriftVerdict::NotSeen)
@@ -116,10 +120,10 @@ class DriftWatch {
     }
 
     void report(const drift::WallDrift& drift, const drift::Reference& reference) const {
-        if (!options_.report.empty()) {
-            const std::string text = drift::jsonOf(drift, rig_);
-            writeWhole(fs::path(options_.report) / "drift.json", std::as_bytes(std::span(text)));
-        }
+        const std::string text = drift::jsonOf(drift, timeNow(), reference, rig_);
+        const auto bytes = std::as_bytes(std::span(text));
+        if (!options_.report.empty()) writeWhole(fs::path(options_.report) / "drift.json", bytes);
+        writeWhole(beside(".drift.last.json"), bytes);  // for the operator's console
         std::printf("since %s; the camera moved by %.2f of its pixels\n",
                     reference.learned.c_str(),
                     drift.cameraPixels);

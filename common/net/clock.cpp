@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <sched.h>
@@ -138,6 +139,17 @@ std::vector<std::uint32_t> RecentTimes::countsUpTo(std::span<const Instant> edge
     return counts;
 }
 
+void RecentPeak::add(Instant now, Instant time) {
+    constexpr Instant kTenth = std::chrono::milliseconds(100);
+    if (now - begun_ >= kTenth) {
+        before_ = std::exchange(largest_, Instant{});
+        begun_ = now;
+    }
+    largest_ = std::max(largest_, time);
+}
+float RecentPeak::ms() const {
+    return std::chrono::duration<float, std::milli>(std::max(before_, largest_)).count();
+}
 float RecentTimes::quantileMs(double quantile) const {
     assert(quantile >= 0);
     assert(quantile <= 1);

@@ -106,4 +106,15 @@ class RecentTimes {
     std::deque<Instant> times_;
 };
 
+// The longest of a few recent durations: of this tenth of a second and of the one before in which
+// there were any. So whoever asks ten times a second misses none.
+class RecentPeak {
+  public:
+    void add(Instant now, Instant time);
+    [[nodiscard]] float ms() const;  // 0 where there is nothing yet
+
+  private:
+    Instant begun_{}, before_{}, largest_{};
+};
+
 }  // namespace aquarama::net

@@ -191,12 +191,18 @@ bool isValid(const v1::LogLine& m) {
 
 bool isValid(const v1::NodeStatus& m) {
     return (!m.has_report() || isValid(m.report())) && isName(m.name()) &&
-           isOneOf(m.condition(), v1::NodeCondition_IsValid) && isText(m.machine(), kMostNameBytes);
+           isOneOf(m.condition(), v1::NodeCondition_IsValid) &&
+           isText(m.machine(), kMostNameBytes) && std::isfinite(m.picture_ms());
 }
 
 bool isValid(const v1::StatusReply& m) {
-    const std::array numbers{
-        m.frame_median_ms(), m.frame_p99_ms(), m.skew_median_ms(), m.skew_p99_ms(), m.speed_m_s()};
+    const std::array numbers{m.frame_median_ms(),
+                             m.frame_p99_ms(),
+                             m.frame_peak_ms(),
+                             m.skew_median_ms(),
+                             m.skew_p99_ms(),
+                             m.skew_peak_ms(),
+                             m.speed_m_s()};
     const auto isFinite = [](float number) { return std::isfinite(number); };
     return isOneOf(m.pace(), v1::Pace_IsValid) && std::ranges::all_of(numbers, isFinite) &&
            readEye(m.eye()) && readShow(m.show()) && isText(m.change(), kMostReasonBytes) &&

@@ -95,7 +95,7 @@ export class Link extends EventTarget {
   sayLook() { this.say({look: this.look}); }
   seen(channel) { this.say({seen: {channel}}); }
 
-  // A wanted value, as {black: true}; `text` is shown until it is done.
+  // A wanted value, as {black: true}; `text` is shown until it is done. Returns its number in `commands`.
   command(wanted, text) {
     if (this.isStale) return;
     const id = bigRandom();
@@ -103,6 +103,7 @@ export class Link extends EventTarget {
     while (this.commands.size > 20) this.commands.delete(this.commands.keys().next().value);
     this.say({command: {id, run: this.wall.run ?? '0', ...wanted}});
     this.#tell();
+    return id;
   }
 
   async pair(code, name) {

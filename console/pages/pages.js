@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pages: each is {look: what it needs to be told, view: what it shows of the link's knowledge}.
 import {html, nothing, svg} from '/vendor/lit-html.js';
-import {Plot, button, dateTime, holdButton, ms, skewBars, state, t, time, views, word} from '/widgets.js';
-
-const QUALITIES = ['low', 'medium', 'high', 'ultra', 'auto'];
-const PATTERNS = ['world', 'grid', 'grey'];
-const channelsOf = link => link.known.snapshot?.channels ?? [];
-const namesOf = link => channelsOf(link).map(channel => channel.name);
+import {calibrationPage} from '/calibration.js';
+import {nodesPage} from '/nodes.js';
+import {schedulePage} from '/schedule.js';
+import {QUALITIES, button, channelsOf, chooser, dateTime, filter, holdButton, ms, namesOf, patternChooser, state, t, time, views, wholeWall, word} from '/widgets.js';
 
 // --- the wall
-
-const wish = {};  // what was chosen in a list and not yet shown
-function chooser(link, what, values, shown, act) {
-  const chosen = wish[what] ?? shown;
-  const choose = event => { wish[what] = event.target.value; link.dispatchEvent(new Event('change')); };
-  const done = () => { act(chosen); delete wish[what]; };
-  return html`<div class="row"><label for=${what}>${t(`wall.${what}`)}</label>
-    <select id=${what} ?disabled=${!link.may('OPERATOR')} @change=${choose}>
-      ${values.map(value => html`<option value=${value} ?selected=${value === chosen}>${word(value)}</option>`)}</select>
-    ${holdButton(t('wall.apply'), done, {disabled: !link.may('OPERATOR') || chosen === shown})}</div>`;
-}
 
 // Black is held; the way back is one tap, in the same place.
 function light(link) {
@@ -78,76 +65,26 @@ function helmPanel(link) {
 }
 
 function figures(wall) {
-  return html`<section class="panel" aria-labelledby="figures"><h2 id="figures">${t('wall.now')}</h2><dl>
+  return html`<section class="panel figures" aria-labelledby="figures"><h2 id="figures">${t('wall.now')}</h2><dl>
     <dt>${t('wall.scene')}</dt><dd>${word(wall.scene)}</dd><dt>${t('wall.quality')}</dt><dd>${word(wall.quality)}</dd>
     <dt>${t('wall.pattern')}</dt><dd>${word(wall.pattern)}</dd>
     <dt>${t('wall.frame')}</dt><dd>${wall.frame} · ${t('wall.tick')} ${wall.tick}</dd>
     <dt>${t('wall.frameTime')}</dt><dd>${ms(wall.frameMedianMs)} · 99 % ${ms(wall.frameP99Ms)}</dd>
     <dt>${t('wall.skew')}</dt><dd>${ms(wall.skewMedianMs, 2)} · 99 % ${ms(wall.skewP99Ms, 2)}</dd>
-    <dt>${t('wall.nodes')}</dt><dd>${(wall.nodes ?? []).map(node => html`${node.name} ${state(node.condition)} `)}</dd></dl></section>`;
+    <dt>${t('wall.nodes')}</dt><dd>${(wall.nodes ?? []).map(node => html`<span class="whole-word">${node.name} ${state(node.condition)}</span> `)}</dd></dl></section>`;
 }
 
 const wallPage = {
-  look: link => ({channels: namesOf(link), widthPx: 480}),
-  view: link => html`<h2 class="hidden">${t('page.wall')}</h2>${views(channelsOf(link))}
-    <p class="note">${t('preview.note')}</p>
-    <div class="panels">${light(link)}${figures(link.wall)}
-      <section class="panel" aria-labelledby="shown"><h2 id="shown">${t('wall.shown')}</h2>
+  look: link => ({topics: ['panorama'], channels: namesOf(link), widthPx: 480}),
+  view: link => html`<h2 class="hidden">${t('page.wall')}</h2><div class="wall"><div class="pictures">${wholeWall(link)}${views(channelsOf(link))}
+      <p class="note">${t('preview.note')}</p></div>
+    <div class="controls">${light(link)}
+      <section class="panel" aria-labelledby="shown"><h2 id="shown">${t('wall.shown')}</h2><div class="choosers">
         ${chooser(link, 'scene', link.known.snapshot.scenes, link.wall.scene, value => link.command({scene: value}, `${t('wall.scene')}: ${word(value)}`))}
         ${chooser(link, 'quality', QUALITIES, link.wall.quality, value => link.command({quality: value}, `${t('wall.quality')}: ${word(value)}`))}
-        ${chooser(link, 'pattern', PATTERNS, link.wall.pattern, value => link.command({pattern: value}, `${t('wall.pattern')}: ${word(value)}`))}
-        <p class="note">${t('wall.patternNote')}</p></section>
-      ${helmPanel(link)}</div>`,
-};
-
-// --- nodes
-
-const tenMinutes = new Plot(1), day = new Plot(60);
-let appendedAt = 0;
-const frames = {seconds: [], minutes: []};
-function takeHistory(link) {
-  const history = link.known.history;
-  if (history && frames.of !== history) {
-    frames.of = history;
-    frames.seconds = (history.tenMinutes ?? []).map(one => ({name: one.name, values: [...(one.values ?? [])]}));
-    frames.minutes = (history.day ?? []).map(one => ({name: one.name, values: [...(one.values ?? [])]}));
-  }
-  if (performance.now() - appendedAt < 1000 || link.isStale) return;
-  appendedAt = performance.now();
-  const values = {frame: link.wall.frameMedianMs, skew: link.wall.skewP99Ms};
-  for (const node of link.wall.nodes ?? []) values[`node ${node.name}`] = node.pictureMedianMs;
-  for (const one of frames.seconds) {
-    one.values.push(values[one.name] ?? null);
-    if (one.values.length > 600) one.values.shift();
-  }
-  tenMinutes.show(frames.seconds);
-  day.show(frames.minutes);
-}
-
-const nodeRow = link => node => html`<tr>
-  <th scope="row">${node.name}</th><td>${state(node.condition)}${node.cause ? html`<div class="note">${word(node.cause)}</div>` : nothing}</td>
-  <td class="n">${ms(node.pictureMedianMs)}<div class="note">99 % ${ms(node.pictureP99Ms)}</div></td>
-  <td class="n">${node.late}</td><td class="n">${node.dropped}</td>
-  <td>${Number(node.hashMismatches) ? html`<span class="bad">✖ ${t('nodes.differs')}</span>` : html`<span class="good">● ${t('nodes.same')}</span>`}</td>
-  <td class="n">${ms(node.roundTripMs, 2)}</td><td class="n">${node.celsius ? `${node.celsius.toFixed(0)} °C` : '–'}</td>
-  <td>${(node.monitors ?? []).join(', ') || '–'}</td>
-  <td>${node.host || '–'}<div class="note" title=${node.renderer}>${node.renderer.split(' (')[0]}</div></td>
-  <td>${node.otherBuild ? html`<span class="warn">▲ ${node.build}</span>` : node.build || '–'}</td>
-  <td>${holdButton(t('nodes.restart'), () => link.command({restart: node.name}, t('nodes.restarting', {name: node.name})), {disabled: !link.may('OPERATOR')})}</td></tr>`;
-
-const nodesPage = {
-  look: () => ({topics: ['history']}),
-  view: link => {
-    takeHistory(link);
-    const heads = ['node', 'condition', 'picture', 'late', 'dropped', 'fish', 'roundTrip', 'celsius', 'monitors', 'machine', 'build', 'act'];
-    const numbers = ['picture', 'late', 'dropped', 'roundTrip', 'celsius'];
-    return html`<section class="panel wide"><div class="scroll" tabindex="0" role="region" aria-label=${t('page.nodes')}><table><caption>${t('page.nodes')}</caption>
-      <thead><tr>${heads.map(head => html`<th scope="col" class=${numbers.includes(head) ? 'n' : ''}>${t(`nodes.${head}`)}</th>`)}</tr></thead>
-      <tbody>${(link.wall.nodes ?? []).map(nodeRow(link))}</tbody></table></div></section>
-      <div class="panels"><section class="panel"><h2>${t('skew.title')}</h2>${skewBars(link.wall.skewCounts)}</section>
-      <section class="panel wide"><h2>${t('nodes.tenMinutes')}</h2>${tenMinutes.element}</section>
-      <section class="panel wide"><h2>${t('nodes.day')}</h2>${day.element}</section></div>`;
-  },
+        ${patternChooser(link)}
+        </div><p class="note">${t('wall.patternNote')}</p></section>
+      ${helmPanel(link)}</div>${figures(link.wall)}</div>`,
 };
 
 // --- doctor
@@ -187,7 +124,6 @@ const eventsPage = {
 
 // --- log
 
-const filter = {logNode: '', logText: '', logProblemsOnly: false};
 const logPage = {
   look: () => ({topics: ['log'], ...filter}),
   view: link => {
@@ -196,7 +132,7 @@ const logPage = {
     return html`<section class="panel wide"><h2>${t('page.log')}</h2>
       <div class="row"><label for="logNode">${t('log.node')}</label><select id="logNode" @change=${event => change('logNode', event.target.value)}>
         <option value="">${t('log.all')}</option>${['master', ...namesOf(link)].map(name => html`<option ?selected=${name === filter.logNode}>${name}</option>`)}</select>
-      <label for="logText">${t('log.text')}</label><input id="logText" type="search" maxlength="100" @input=${event => change('logText', event.target.value)}>
+      <label for="logText">${t('log.text')}</label><input id="logText" type="search" maxlength="100" .value=${filter.logText} @input=${event => change('logText', event.target.value)}>
       ${button(t('log.problems'), () => change('logProblemsOnly', !filter.logProblemsOnly), {pressed: String(filter.logProblemsOnly)})}
       <a class="button" href="/bundle.tar" download>${t('log.bundle')}</a></div>
       ${log.problem ? html`<p class="warn">${log.problem}</p>` : nothing}
@@ -241,61 +177,16 @@ function drawnMind(lines) {
 
 
 const mindPage = {
-  look: link => ({topics: ['mind'], channels: namesOf(link), widthPx: 480}),
+  look: link => ({topics: ['mind', 'panorama'], channels: namesOf(link), widthPx: 480}),
   view: link => {
     const mind = link.known.mind;
-    const point = (channel, preview, event) => {
-      if (link.isStale || preview.frame === null) return;
-      const place = preview.canvas.getBoundingClientRect();
-      const share = (value, from, size) => Math.min(1, Math.max(0, (value - from) / size));
-      link.command({pointAt: {channel: channel.name, frame: preview.frame,
-        x: share(event.clientX, place.left, place.width), y: share(event.clientY, place.top, place.height)}}, t('mind.asking'));
-    };
+    const point = (channel, {frame, x, y}) => link.command({pointAt: {channel: channel.name, frame, x, y}}, t('mind.asking'));
     const ask = event => { event.preventDefault(); link.command({mind: Number(event.target.fish.value)}, t('mind.asking')); };
-    return html`<div class="mind">${views(channelsOf(link), point)}<p class="note">${t('mind.hint')}</p>
+    return html`<div class="mind"><div>${wholeWall(link, point)}<p class="note">${t('mind.hint')}</p></div>
       <section class="panel"><h2>${mind && mind.fish >= 0 ? t('mind.of', {fish: mind.fish}) : t('page.mind')}</h2>
       <form class="row" @submit=${ask}><label for="fish">${t('mind.number')}</label><input id="fish" name="fish" type="number" min="0" max="99999" value="0">
         <button ?disabled=${!link.may('WATCHER')}>${t('mind.ask')}</button></form>
       <div role="status">${!mind ? t('mind.none') : mind.fish < 0 ? t('mind.noFish') : html`${mind.lines?.length ? drawnMind(mind.lines) : nothing}<pre>${(mind.lines ?? []).join('\n')}</pre>`}</div></section></div>`;
-  },
-};
-
-// --- the schedule
-
-const EXAMPLE = `zone: "${Intl.DateTimeFormat().resolvedOptions().timeZone}"
-open { days: [TUESDAY, WEDNESDAY, THURSDAY, FRIDAY] from: "10:00" to: "18:00" scene: "reef" }
-open { days: [SATURDAY, SUNDAY] from: "10:00" to: "20:00" scene: "reef" quality: "high" }
-exceptions { date: "2026-12-24" }  # closed
-`;
-let draft = null;  // a text that is being written
-const projectorRow = link => one => html`<tr><th scope="row">${one.name}</th>
-  <td><span class=${one.power === 'on' ? 'good' : one.power === 'off' ? 'quiet' : 'warn'}>${one.power === 'on' ? '●' : one.power === 'off' ? '○' : '▲'} ${word(one.power)}</span></td>
-  <td>${t(one.shut ? 'projector.isShut' : 'projector.isOpen')}</td><td class="n">${t('projector.hours', {n: one.lampHours})}</td>
-  <td class=${one.problems?.length ? 'bad' : ''}>${(one.problems ?? []).join(', ') || '–'}</td>
-  <td><div class="row">${holdButton(t(one.shut ? 'projector.open' : 'projector.shut'), () => link.command({projector: {name: one.name, shut: !one.shut}}, one.name), {disabled: !link.may('CREW')})}
-    ${holdButton(t(one.power === 'on' ? 'projector.off' : 'projector.on'), () => link.command({projector: {name: one.name, power: one.power !== 'on'}}, one.name), {disabled: !link.may('CREW')})}</div></td></tr>`;
-
-const schedulePage = {
-  look: () => ({topics: ['hours']}),
-  view: link => {
-    const hours = link.known.hours ?? {};
-    const held = link.wall.heldUntilS > 0;
-    const projectors = link.known.projectors?.projectors ?? [];
-    const next = t(`hours.${hours.next ?? 'stays'}`, {at: hours.nextAt, scene: hours.nextScene ? word(hours.nextScene) : ''});
-    if (draft === (hours.text ?? '')) draft = null;  // saved
-    const write = text => { draft = text; link.dispatchEvent(new Event('change')); };
-    const save = () => link.command({hoursText: draft}, t('hours.save'));
-    return html`<section class="panel"><h2>${t('page.schedule')}</h2>
-      <p role="status">${held ? html`<strong class="warn">▲ ${t('hours.held', {time: time(link.wall.heldUntilS)})}</strong>`
-        : hours.present ? html`<strong>${t(hours.open ? 'hours.isOpen' : 'hours.isClosed')}</strong> ${next}` : t('hours.none')}</p>
-      <div class="row">${held ? button(t('hours.goOn'), () => link.command({holdHours: 0}, t('hours.goOn')), {disabled: !link.may('OPERATOR')})
-        : button(t('hours.hold'), () => link.command({holdHours: 2}, t('hours.hold')), {disabled: !link.may('OPERATOR')})}<span class="note">${t('hours.holdNote')}</span></div></section>
-      ${projectors.length ? html`<section class="panel"><div class="scroll" tabindex="0" role="region" aria-label=${t('projector.title')}><table><caption>${t('projector.title')}</caption><tbody>${projectors.map(projectorRow(link))}</tbody></table></div></section>` : nothing}
-      <section class="panel"><h2><label for="hours">${t('hours.text')}</label></h2>
-      <textarea id="hours" rows="10" spellcheck="false" ?readonly=${!link.may('CREW')} .value=${draft ?? hours.text ?? ''} @input=${event => write(event.target.value)}></textarea>
-      <div class="row">${button(t('hours.save'), save, {disabled: !link.may('CREW') || draft === null})}
-      ${button(t('hours.example'), () => write(EXAMPLE), {disabled: !link.may('CREW') || hours.present})}</div>
-      <p class="note">${t('hours.textNote')}</p></section>`;
   },
 };
 
@@ -318,4 +209,5 @@ const peoplePage = {
   },
 };
 
-export const pages = {wall: wallPage, nodes: nodesPage, events: eventsPage, schedule: schedulePage, doctor: doctorPage, log: logPage, mind: mindPage, people: peoplePage};
+export const pages = {wall: wallPage, nodes: nodesPage, events: eventsPage, schedule: schedulePage, calibration: calibrationPage,
+                      doctor: doctorPage, log: logPage, mind: mindPage, people: peoplePage};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parts of pages: texts, buttons that are held, previews, plots.
 import {html, svg, nothing} from '/vendor/lit-html.js';
+import {Panorama} from '/panorama.js';
 
 // --- texts, one file a language
 
@@ -22,8 +23,8 @@ export const word = text => texts[`word.${text}`] ?? text;
 
 // --- buttons
 
-// Acts only after it was held for a second, by pointer, Enter or space.
-export function holdButton(label, act, {disabled = false, primary = false} = {}) {
+// Acts only after it was held for a second, by pointer, Enter or space. `of` tells buttons of one label apart.
+export function holdButton(label, act, {disabled = false, primary = false, of = nothing} = {}) {
   const begin = event => {
     const button = event.currentTarget;
     if (event.type === 'keydown' && (event.repeat || !['Enter', ' '].includes(event.key))) return;
@@ -38,13 +39,35 @@ export function holdButton(label, act, {disabled = false, primary = false} = {})
     button.classList.remove('holding');
   };
   const end = event => stop(event.currentTarget);
-  return html`<button class="hold ${primary ? 'primary' : ''}" ?disabled=${disabled} title=${t('hold.hint')} aria-description=${t('hold.hint')}
+  return html`<button class="hold ${primary ? 'primary' : ''}" data-of=${of} ?disabled=${disabled} title=${t('hold.hint')} aria-description=${t('hold.hint')}
     @pointerdown=${begin} @pointerup=${end} @pointerleave=${end} @pointercancel=${end} @blur=${end}
     @keydown=${begin} @keyup=${end} @contextmenu=${event => event.preventDefault()}><span>${label}</span></button>`;
 }
 
-export const button = (label, act, {disabled = false, pressed} = {}) =>
-  html`<button ?disabled=${disabled} aria-pressed=${pressed ?? nothing} @click=${act}>${label}</button>`;
+export const button = (label, act, {disabled = false, pressed, of = nothing} = {}) =>
+  html`<button data-of=${of} ?disabled=${disabled} aria-pressed=${pressed ?? nothing} @click=${act}>${label}</button>`;
+
+// --- what is chosen from a list
+
+export const QUALITIES = ['low', 'medium', 'high', 'ultra', 'auto'];
+export const PATTERNS = ['world', 'grid', 'grey'];
+export const channelsOf = link => link.known.snapshot?.channels ?? [];
+export const namesOf = link => channelsOf(link).map(channel => channel.name);
+// What the page of the log shows; the nodes' page sets it too.
+export const filter = {logNode: '', logText: '', logProblemsOnly: false};
+
+const wish = {};  // what was chosen in a list and not yet shown
+export function chooser(link, what, values, shown, act) {
+  const chosen = wish[what] ?? shown;
+  const choose = event => { wish[what] = event.target.value; link.dispatchEvent(new Event('change')); };
+  const done = () => { act(chosen); delete wish[what]; };
+  return html`<label for=${what}>${t(`wall.${what}`)}</label>
+    <select id=${what} ?disabled=${!link.may('OPERATOR')} @change=${choose}>
+      ${values.map(value => html`<option value=${value} ?selected=${value === chosen}>${word(value)}</option>`)}</select>
+    ${holdButton(t('wall.apply'), done, {disabled: !link.may('OPERATOR') || chosen === shown, of: what})}`;
+}
+export const patternChooser = link =>
+  chooser(link, 'pattern', PATTERNS, link.wall.pattern, value => link.command({pattern: value}, `${t('wall.pattern')}: ${word(value)}`));
 
 // --- what is said in words
 
@@ -56,6 +79,7 @@ export const ms = (value, digits = 1) => `${(value ?? 0).toFixed(digits)} ms`;
 const SHAPES = {'in step': ['●', 'good'], late: ['▲', 'warn'], preparing: ['◐', 'warn'], absent: ['✖', 'bad'],
                 pass: ['●', 'good'], warn: ['▲', 'warn'], fail: ['✖', 'bad'],
                 firing: ['✖', 'bad'], over: ['◌', 'warn'], acknowledged: ['✓', 'quiet'],
+                'in place': ['●', 'good'], moved: ['✖', 'bad'], 'not seen': ['▲', 'warn'], refuse: ['✖', 'bad'],
                 info: ['·', 'quiet'], warning: ['▲', 'warn'], error: ['✖', 'bad']};
 export const state = name => {
   const [shape, kind] = SHAPES[name] ?? ['?', 'quiet'];
@@ -64,7 +88,8 @@ export const state = name => {
 
 // --- previews: the latest picture of each channel, kept outside of what is rendered
 
-const canvases = new Map();  // channel number -> {canvas, frame, at, busy}
+const canvases = new Map();  // channel number -> {canvas, frame, at}
+const panorama = new Panorama();
 export function previewOf(number, width, height) {
   let preview = canvases.get(number);
   if (!preview) {
@@ -78,27 +103,43 @@ export function previewOf(number, width, height) {
 }
 export async function showPicture(link, {channel, frame, jpeg}) {
   const preview = canvases.get(channel);
-  if (preview?.canvas.isConnected) {
+  if (preview?.canvas.isConnected || panorama.canvas.isConnected) {
     try {
       const picture = await createImageBitmap(jpeg);
       if (preview.canvas.width !== picture.width) {
         preview.canvas.width = picture.width;
         preview.canvas.height = picture.height;
       }
-      preview.canvas.getContext('2d').drawImage(picture, 0, 0);
+      const context = preview.canvas.getContext('2d', {willReadFrequently: true});
+      context.drawImage(picture, 0, 0);
+      panorama.take(channel, frame, context.getImageData(0, 0, picture.width, picture.height));
       picture.close();
       Object.assign(preview, {frame, at: performance.now()});
     } catch { /* cut off: the next one comes */ }
   }
   link.seen(channel);
 }
-export const views = (channels, onPoint) => html`<div class="views">${channels.map((channel, number) => {
+// The unrolled wall. onPoint is told the channel's number, its frame, and the place in its picture that was clicked.
+export function wholeWall(link, onPoint) {
+  const {channels} = link.known.snapshot;
+  channels.forEach((channel, number) => previewOf(number, channel.widthPx, channel.heightPx));
+  panorama.place(link.known.panorama);
+  const {canvas} = panorama;
+  canvas.setAttribute('role', 'img');
+  canvas.setAttribute('aria-label', t('preview.wall'));
+  canvas.onclick = onPoint ? event => {
+    const place = canvas.getBoundingClientRect();
+    const found = panorama.channelAt((event.clientX - place.left) / place.width, (event.clientY - place.top) / place.height);
+    if (found?.frame) onPoint(channels[found.channel], found);
+  } : null;
+  return html`<figure class="whole">${canvas}<figcaption>${panorama.isPlaced ? panorama.caption : t('preview.none')}</figcaption></figure>`;
+}
+export const views = channels => html`<div class="views">${channels.map((channel, number) => {
   const preview = previewOf(number, channel.widthPx, channel.heightPx);
   preview.canvas.setAttribute('role', 'img');
   preview.canvas.setAttribute('aria-label', t('preview.of', {name: channel.name}));
-  preview.canvas.onclick = onPoint ? event => onPoint(channel, preview, event) : null;
   const old = performance.now() - preview.at;
-  const caption = preview.frame === null || old > 5000 ? t('preview.none') : t('preview.frame', {frame: preview.frame});
+  const caption = preview.frame === null ? t('preview.none') : t(old > 5000 ? 'preview.old' : 'preview.frame', {frame: preview.frame});
   return html`<figure>${preview.canvas}<figcaption>${channel.name} · ${caption}</figcaption></figure>`;
 })}</div>`;
 
@@ -122,10 +163,13 @@ export class Plot {
   element = Object.assign(document.createElement('div'), {className: 'plot'});
   #plot = null;
   #names = '';
+  isEmpty = true;
   constructor(stepSeconds) { this.step = stepSeconds; }
+  // series: [{name, values in ms, null where there are none}], all of one length at their newest end.
   show(series) {
     const wide = this.element.clientWidth;
-    if (!wide || !series.length) return;
+    this.isEmpty = !series.some(one => one.values.some(value => value !== null));
+    if (!wide || this.isEmpty) return;
     const names = series.map(one => one.name).join();
     const colour = getComputedStyle(document.body).color;
     if (names !== this.#names || this.colour !== colour) {
@@ -134,15 +178,15 @@ export class Plot {
       this.colour = colour;
       const axis = {stroke: colour, grid: {stroke: '#8884', width: 1}, ticks: {stroke: '#8888'}};
       this.#plot = new uPlot({
-        width: wide, height: 220, scales: {x: {time: true}},
-        axes: [axis, {...axis, values: (_, ticks) => ticks.map(tick => `${tick} ms`), size: 70}],
-        series: [{}, ...series.map((one, i) => ({label: one.name, stroke: COLOURS[i % COLOURS.length], width: 1.5}))],
+        width: wide, height: 200, scales: {x: {time: true}, y: {range: (_, low, high) => [0, Math.max(0.01, high * 1.1)]}},
+        axes: [axis, {...axis, values: (_, ticks) => ticks.map(tick => `${tick} ms`), size: 74}],
+        series: [{}, ...series.map((one, i) => ({label: one.name, stroke: COLOURS[i % COLOURS.length], width: 1.5, points: {show: false}}))],
       }, [[], ...series.map(() => [])], this.element);
     }
     const count = Math.max(0, ...series.map(one => one.values.length));
     const now = Date.now() / 1000;
     const times = Array.from({length: count}, (_, i) => now - (count - 1 - i) * this.step);
-    if (Math.abs(wide - this.#plot.width) > 2) this.#plot.setSize({width: wide, height: 220});
+    if (Math.abs(wide - this.#plot.width) > 2) this.#plot.setSize({width: wide, height: 200});
     this.#plot.setData([times, ...series.map(({values}) => Array(count - values.length).fill(null).concat(values))]);
   }
 }

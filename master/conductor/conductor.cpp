@@ -303,6 +303,7 @@ void Conductor::release(net::Instant now) {
     if (black_ && *black_ <= next_) control_.blackShown();
     if (report_.frames++ > 0) {
         frameTimes_.add(at - lastRelease_);
+        framePeak_.add(now, at - lastRelease_);
         figures_.frameSeconds(net::secondsIn(at - lastRelease_));
     }
     lastRelease_ = at;

@@ -146,6 +146,7 @@ class Conductor {
         std::optional<net::Blanks> blanks;             // of its display, in the master's clock
         net::Instant lastFed{};      // when a visitor last dropped food in its window
         std::uint64_t logLines = 0;  // of its node, in this second
+        net::RecentPeak pictures;    // how long those of its node take
         Frame released;              // the newest that its node says it has shown
     };
 
@@ -340,6 +341,7 @@ class Conductor {
     ShowChange keptOnDisk_;
     ShowReport report_;
     RecentTimes frameTimes_;
+    net::RecentPeak framePeak_, skewPeak_;
     SkewMeter skew_;
     net::Metrics metrics_;
     Figures figures_;

@@ -290,10 +290,15 @@ void Conductor::ready(std::size_t node, const v1::Ready& ready, net::Instant now
     barrier_.ready(node, frame, now);
     slots_[node].mismatches = ready.hash_mismatches();
     slots_[node].blanks = blanksIn(ready);
+    if (ready.has_picture_us())
+        slots_[node].pictures.add(now, std::chrono::microseconds(ready.picture_us()));
     if (ready.has_released_frame()) {
         slots_[node].released = std::max(slots_[node].released, Frame{ready.released_frame()});
         const auto skew = skew_.add({ready.released_frame()}, ready.released_ns());
-        if (skew) figures_.skewSeconds(net::secondsIn(*skew));
+        if (skew) {
+            figures_.skewSeconds(net::secondsIn(*skew));
+            skewPeak_.add(now, *skew);
+        }
     }
     // It asks again for a release that never came.
     if (lastPresent_ && frame <= lastPresent_->first)
@@ -541,6 +546,8 @@ v1::Envelope Conductor::status(net::Instant now) const {
     reply.set_tick(report_.tick.value);
     reply.set_frame_median_ms(frameTimes_.quantileMs(0.5));
     reply.set_frame_p99_ms(frameTimes_.quantileMs(0.99));
+    reply.set_frame_peak_ms(framePeak_.ms());
+    reply.set_skew_peak_ms(skewPeak_.ms());
     reply.set_skew_median_ms(skew_.skews().quantileMs(0.5));
     reply.set_skew_p99_ms(skew_.skews().quantileMs(0.99));
     for (const std::uint32_t count : skew_.skews().countsUpTo(kSkewEdges))
@@ -560,6 +567,7 @@ v1::Envelope Conductor::status(net::Instant now) const {
         node.set_dropped(slot.dropped);
         node.set_hash_mismatches(slot.mismatches);
         node.set_machine(slot.machine);
+        node.set_picture_ms(slot.pictures.ms());
         if (slot.report) *node.mutable_report() = *slot.report;
     }
     return message;

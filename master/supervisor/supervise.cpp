@@ -131,8 +131,7 @@ std::optional<Process> consoleProcess(const RunOptions& options, const config::R
     if (rig.consolePort == 0 || options.lockstep() || !std::filesystem::exists(program))
         return std::nullopt;
     std::vector<std::string> arguments{options.show.rigPath};
-    if (config::needsKeys(rig) && !options.show.keyFolder.empty())
-        append(arguments, "--key", config::keyFileIn(options.show.keyFolder, "operator").string());
+    if (config::needsKeys(rig)) append(arguments, "--keys", options.show.keyFolder);
     return Process{.name = kConsole, .command = {program, arguments}, .started = {}};
 }
 

@@ -354,6 +354,8 @@ void MasterLink::sayReady() {
     v1::Ready& ready = *message.mutable_ready();
     ready.set_frame(finished_->frame.value);
     ready.set_hash_mismatches(traffic_.mismatches);
+    ready.set_picture_us(
+        static_cast<std::uint32_t>(finished_->took / std::chrono::microseconds(1)));
     const auto masters = [&](net::Instant own) {
         return (own + clock_.offset(own).value_or(net::Instant{})).count();
     };

@@ -118,11 +118,12 @@ ConsoleLink::~ConsoleLink() {
     thread_.join();
 }
 
-// Rare: most frames find nobody who looks.
+// Rare: most frames find nobody who looks. One that was being made when its look went is lost.
 std::optional<int> ConsoleLink::wantedWidth() {
     const std::lock_guard lock(mutex_);
     const net::Instant now = net::monotonicNow();
-    if (!request_ || beingMade_ != 0 || now - lastPicture_ < kBetweenPictures) return std::nullopt;
+    const bool isMaking = beingMade_ != 0 && now - lastPicture_ < kPatience;
+    if (!request_ || isMaking || now - lastPicture_ < kBetweenPictures) return std::nullopt;
     const auto [number, width] = *std::exchange(request_, {});
     if (now - requestedAt_ > kPatience) return std::nullopt;
     beingMade_ = number;

@@ -67,14 +67,19 @@ class Wall:
     def on(machine, *command):
         sh("ip", "netns", "exec", machine, *map(str, command))
 
-    def aquarama(self, machine, *arguments):
-        return subprocess.run(["ip", "netns", "exec", machine, BIN / "aquarama", *map(str, arguments)],
-                              capture_output=True, text=True, timeout=60)
+    def run(self, machine, *command):
+        environment = os.environ | {"XDG_STATE_HOME": str(self.folder / "state")}
+        return subprocess.run(["ip", "netns", "exec", machine, *map(str, command)], capture_output=True, text=True, timeout=60, env=environment)
 
-    def start(self, machine, *arguments):
+    def aquarama(self, machine, *arguments):
+        return self.run(machine, BIN / "aquarama", *arguments)
+
+    def start(self, name, *arguments, on=None):
+        """On the machine of that name, or on another."""
+        machine = on or name
         environment = os.environ | {"LP_NUM_THREADS": "0", "XDG_STATE_HOME": str(self.folder / "state")}
         with open(self.folder / "log", "a") as log:
-            self.processes[machine] = subprocess.Popen(["ip", "netns", "exec", machine, *map(str, arguments)], stdout=log,
+            self.processes[name] = subprocess.Popen(["ip", "netns", "exec", machine, *map(str, arguments)], stdout=log,
                                                        stderr=subprocess.STDOUT, env=environment, cwd=ROOT)
 
     def start_master(self):
@@ -305,6 +310,44 @@ def random_starts(wall, options):
     assert lost == 0
 
 
+# Run on the master's machine, whose loopback the console listens at: which channels' pictures come.
+LOOK = """
+import sys
+from types import SimpleNamespace
+sys.path.insert(0, sys.argv[1])
+from desk import Socket
+client = Socket(SimpleNamespace(address=sys.argv[2]), Origin=None, Authorization="Bearer " + sys.argv[3])
+names = [channel["name"] for channel in client.hear()["snapshot"]["channels"]]
+seen = set()
+while len(seen) < len(names):
+    client.say({"look": {"channels": names, "widthPx": 64}})
+    message = client.hear()
+    if isinstance(message, bytes):
+        seen.add(names[message[0]])
+print(*sorted(seen))
+"""
+
+
+def console(wall, _):
+    """Pictures of nodes on other machines, over the watch socket with keys; and what it costs the wall to lose its console."""
+    program = BIN / "aquarama-console"
+    if not program.exists():
+        print("SKIPPED: the console is not built")
+        return
+    token = wall.run("master", program, wall.rig, "--token", "cluster").stdout.strip()
+    since = time.monotonic_ns()
+    wall.start("console", program, wall.rig, "--keys", wall.keys, on="master")
+    begin = time.monotonic()
+    wall.seconds_until(lambda: "console at http://127.0.0.1:7480" in (wall.folder / "log").read_text(), "the console")
+    looked = wall.run("master", "python3", "-c", LOOK, ROOT / "tests/console", "127.0.0.1:7480", token)
+    seconds = time.monotonic() - begin
+    wall.kill("console")
+    time.sleep(1)
+    gap = wall.longest_gap_ms(CHANNELS, since)
+    assert looked.stdout.split() == sorted(CHANNELS) and wall.all_in_step() and gap < GAP_MS, (looked, gap)
+    report("a console looks at all and is killed", pictures_s=f"{seconds:.1f}", longest_gap_ms=f"{gap:.0f}")
+
+
 def keys(wall, _):
     denied = {}
     for name, arguments in {"no key": ["--master", f"tcp://{ADDRESS['master']}:7400"],
@@ -350,6 +393,7 @@ def main():
             master_again(wall, options)
             loss(wall, options)
             hurt_at_random(wall, options)
+            console(wall, options)
             keys(wall, options)
             random_starts(wall, options)
             slow_cable(wall, options)

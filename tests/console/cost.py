@@ -23,7 +23,7 @@ def figures(desk):
 
 def look(desk, cookie, ended):
     client = Socket(desk, Cookie=cookie)
-    client.say({"look": {"topics": ["log", "doctor", "history", "hours", "people"], "channels": ["left", "middle", "right"], "widthPx": 480}})
+    client.say({"look": {"topics": ["log", "doctor", "history", "hours", "people", "panorama", "calibrations"], "channels": ["left", "middle", "right"], "widthPx": 480}})
     said = time.monotonic()
     while not ended.is_set():
         message = client.hear()
@@ -31,7 +31,7 @@ def look(desk, cookie, ended):
             client.say({"seen": {"channel": int.from_bytes(message[:2], "little")}})
         if time.monotonic() - said > 1:
             said = time.monotonic()
-            client.say({"look": {"topics": ["log", "history"], "channels": ["left", "middle", "right"], "widthPx": 480}})
+            client.say({"look": {"topics": ["log", "history", "panorama", "calibrations"], "channels": ["left", "middle", "right"], "widthPx": 480}})
     client.close()
 
 

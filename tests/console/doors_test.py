@@ -86,17 +86,62 @@ class Doors(unittest.TestCase):
 
     def test_roles_are_held_to_where_a_command_is_carried_out(self):
         before = self.desk.status()
-        for token, allowed in ((self.watcher, {"pointAt"}), (self.operator, {"pointAt", "black", "freeze", "pattern"}),
-                               (self.crew, {"pointAt", "black", "freeze", "pattern", "newCode"})):
+        for token, allowed in ((self.watcher, {"pointAt"}), (self.operator, {"pointAt", "black", "freeze", "pattern", "scan"}),
+                               (self.crew, {"pointAt", "black", "freeze", "pattern", "scan", "newCode"})):
             client = Socket(self.desk, Origin=None, **self.bearer(token))
             run = client.hear()["snapshot"]["wall"]["run"]
-            for what, value in (("black", False), ("freeze", False), ("pattern", "grid"), ("newCode", "WATCHER"),
-                                ("pointAt", {"channel": "left", "x": 0.5, "y": 0.5})):
+            for what, value in (("black", False), ("freeze", False), ("pattern", "grid"), ("newCode", "WATCHER"), ("scan", {}),
+                                ("useCalibration", "--help"), ("power", "nonsense"), ("pointAt", {"channel": "left", "x": 0.5, "y": 0.5})):
                 done = client.command(run, **{what: value})
                 self.assertEqual(done["outcome"], "done" if what in allowed else "refused", (what, done))
             client.say({"helm": {"ahead": 127}})
             client.close()
         self.assertEqual(self.desk.status()["pattern"], before["pattern"])
+
+    def test_secrets_of_the_hours_are_told_to_the_crew_alone(self):
+        text = 'zone: "UTC"\nprojectors { name: "left" address: "127.0.0.1:1" password: "secret" }\n'
+        crew = Socket(self.desk, Origin=None, **self.bearer(self.crew))
+        run = crew.hear()["snapshot"]["wall"]["run"]
+        self.assertEqual(crew.command(run, holdHours=1)["outcome"], "done")
+        self.assertEqual(crew.command(run, hoursText=text)["outcome"], "done")
+        try:
+            for token, secret in ((self.watcher, ""), (self.operator, ""), (self.crew, "secret")):
+                client = Socket(self.desk, Origin=None, **self.bearer(token))
+                told = [client.hear()["snapshot"]["hours"]]
+                client.say({"look": {"topics": ["hours"]}})
+                told.append(client.hear_until(lambda message: isinstance(message, dict) and "hours" in message)["hours"])
+                for hours in told:
+                    self.assertEqual(hours["projectors"][0].get("password", ""), secret)
+                    self.assertEqual(hours.get("text", ""), text if secret else "")
+                client.close()
+        finally:
+            crew.command(run, hoursText="")
+            crew.command(run, holdHours=0)
+            crew.close()
+
+    def test_two_desks_on_one_machine_know_nothing_of_each_other(self):
+        state = os.environ["XDG_STATE_HOME"]  # a desk brings one of its own
+        other = Desk("--pattern", "grid", refresh_hz=6)
+        try:
+            cookie = other.pair(other.code())
+            self.assertNotEqual(cookie.split("=")[0], self.cookie.split("=")[0], "browsers know no ports of cookies")
+            for desk, theirs in ((self.desk, cookie), (other, self.cookie)):
+                self.assertEqual(desk.request("GET", "/metrics", Cookie=theirs)[0], 401)
+                self.assertEqual(desk.request("GET", "/metrics", **self.bearer("0" * 32))[0], 401)
+            self.assertEqual(other.request("GET", "/metrics", **self.bearer(self.crew))[0], 401)
+            mine, its = Socket(self.desk, Cookie=self.cookie), Socket(other, Cookie=f"{self.cookie}; {cookie}")
+            runs = [client.hear()["snapshot"]["wall"]["run"] for client in (mine, its)]
+            self.assertNotEqual(*runs)
+            self.assertEqual(its.command(runs[0], black=True)["outcome"], "refused", "meant for the other show")
+            self.assertEqual(its.command(runs[1], black=True)["outcome"], "done")
+            self.assertEqual((self.desk.status()["black"], other.status()["black"]), ("off", "on"))
+            for client in (mine, its):
+                client.say({"look": {"channels": ["left"], "widthPx": 64}})
+                self.assertEqual(client.hear_until(lambda message: isinstance(message, bytes))[16:18], b"\xff\xd8")
+                client.close()
+        finally:
+            os.environ["XDG_STATE_HOME"] = state
+            other.close()
 
     def test_a_command_is_a_wanted_value_and_carried_out_once(self):
         client = Socket(self.desk, Cookie=self.cookie)

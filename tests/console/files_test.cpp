@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "common/base/log.h"
+#include "common/config/text_file.h"
 #include "console/files_of_show.h"
+#include "tests/support/source_folder.h"
 
 namespace aquarama::console {
 namespace {
@@ -67,6 +70,43 @@ TEST_F(FilesTest, onlyTheEndOfALongLogIsReadFromTheBeginningOfALine) {
     ASSERT_EQ(tail.rows_size(), 300);
     EXPECT_EQ(tail.rows(299).text(), "line 39999");
     EXPECT_EQ(tail.rows(0).text(), "line 39700");
+}
+
+TEST_F(FilesTest, whatWasKeptOfACalibrationIsReadWithItsFiguresAndDriftsLastLook) {
+    std::string rig = config::readTextFile(test::sourceFolder() + "/config/desk.txtpb");
+    const std::string path = write("desk.txtpb", rig).string();
+    EXPECT_EQ(calibrationsOf(path).file(), "");
+    write("desk.txtpb", rig + "calibration: \"hall.mpcdi\"\n");
+    EXPECT_EQ(calibrationsOf(path).file(), "hall.mpcdi");
+    fs::create_directories(folder_ / "hall.history");
+    write("hall.mpcdi", "second");
+    write("hall.history/2026-01-24T210301.mpcdi", "first");
+    write("hall.history/2026-02-24T210301.mpcdi", "second");
+    write("hall.history/2026-01-24T210301.json",
+          R"({"verdict":"warn","cause":"a lamp","overlap_rms_px":0.5,"overlap_max_px":"x"})");
+    write("hall.history/2026-02-24T210301.json", "{cut");
+    write("hall.drift.last.json",
+          R"({"looked":"2026-03-01T05:00:20Z","channels":[{"name":"left","verdict":"moved"},7]})");
+    const browser::Calibrations list = calibrationsOf(path);
+    EXPECT_EQ(list.problem(), "");
+    ASSERT_EQ(list.kept_size(), 2);
+    EXPECT_TRUE(list.kept(0).in_use());
+    EXPECT_EQ(list.kept(0).verdict(), "");
+    EXPECT_EQ(list.kept(1).cause(), "a lamp");
+    EXPECT_FLOAT_EQ(list.kept(1).overlap_rms_px(), 0.5F);
+    EXPECT_FLOAT_EQ(list.kept(1).overlap_max_px(), 0);
+    ASSERT_EQ(list.drift().channels_size(), 2);
+    EXPECT_EQ(list.drift().channels(0).verdict(), "moved");
+    write("desk.txtpb", "nonsense");
+    EXPECT_NE(calibrationsOf(path).problem(), "");
+}
+
+TEST_F(FilesTest, aMachineIsToldOneOfTwoWordsWhereItTakesThem) {
+    EXPECT_THROW(sayPower(folder_ / "none", "reboot"), Error);
+    EXPECT_THROW(sayPower(folder_, "reboot; rm"), Error);
+    EXPECT_FALSE(fs::exists(folder_ / "word"));
+    sayPower(folder_, "reboot");
+    EXPECT_EQ(config::readTextFile((folder_ / "word").string()), "reboot\n");
 }
 
 TEST_F(FilesTest, eventsAreThereAgainAfterAStart) {

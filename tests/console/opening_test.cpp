@@ -94,6 +94,29 @@ TEST_F(OpeningTest, theNextHourIsSaid) {
     EXPECT_EQ(opening.hours(kTen + 1 * kHour).next(), "stays");
 }
 
+// What a form shows is what the text says.
+TEST_F(OpeningTest, theTextIsToldAsAFormHasIt) {
+    Opening opening(folder_);
+    opening.setText(
+        "zone: \"UTC\"\nopen { days: [FRIDAY, SATURDAY] from: \"19:00\" to: \"01:30\" quality: "
+        "\"low\" }\nopen { days: [SUNDAY] from: \"09:05\" to: \"24:00\" scene: \"reef\" }\n"
+        "exceptions { date: \"2026-12-31\" open { from: \"10:00\" to: \"14:00\" } }\n"
+        "projectors { name: \"left\" address: \"192.168.7.21\" password: \"secret\" }\n");
+    const browser::Hours hours = opening.hours(kTen);
+    EXPECT_EQ(hours.zone(), "UTC");
+    ASSERT_EQ(hours.spans_size(), 2);
+    EXPECT_EQ(hours.spans(0).weekdays(1), 6U);
+    EXPECT_EQ(hours.spans(0).from() + hours.spans(0).to() + hours.spans(0).quality(),
+              "19:0001:30low");
+    EXPECT_EQ(hours.spans(1).from() + hours.spans(1).to() + hours.spans(1).scene(),
+              "09:0500:00reef");
+    ASSERT_EQ(hours.exceptions_size(), 1);
+    EXPECT_EQ(hours.exceptions(0).date(), "2026-12-31");
+    EXPECT_EQ(hours.exceptions(0).spans(0).to(), "14:00");
+    EXPECT_EQ(hours.projectors(0).address(), "192.168.7.21:4352");
+    EXPECT_EQ(hours.projectors(0).password(), "secret");
+}
+
 TEST_F(OpeningTest, aTextWithAMistakeChangesNothing) {
     Opening opening(folder_);
     opening.setText(kText);

@@ -82,18 +82,46 @@ TEST(Overview, whatABrowserMayNotSayIsRefused) {
     EXPECT_FALSE(readBrowser(many + "]}}"));
 }
 
-TEST(Overview, ringsKeepTenMinutesBySecondsAndADayByTheLargestOfEachMinute) {
+// A value of a series, in ms; below 0 where nothing was heard.
+double valueAt(const browser::Series& series, std::size_t i) {
+    const auto byte = [&](std::size_t at) {
+        return static_cast<unsigned char>(series.values()[2 * i + at]);
+    };
+    const int value = byte(0) + 256 * byte(1);
+    return value == 65535 ? -1 : value / 100.0;
+}
+
+TEST(Overview, ringsKeepTenMinutesByTenthsOfASecondAndADayByTheLargestOfEachMinute) {
     FigureRings rings;
     browser::Wall wall = heardWall(v1::NODE_IN_STEP);
-    for (int second = 1; second <= 1500 * 60; ++second) {
-        wall.set_frame_median_ms(static_cast<float>(second % 60 == 30 ? second : 1));
+    for (int tenth = 1; tenth <= 1500 * 600; ++tenth) {
+        const int minute = tenth / 600;
+        wall.set_frame_peak_ms(static_cast<float>(tenth % 600 == 300 ? 2 + minute % 500 : 1));
         rings.add(wall);
     }
     const browser::History history = rings.history();
+    EXPECT_EQ(history.tenths(), 900'000U);
+    EXPECT_EQ(history.minutes(), 1500U);
     ASSERT_EQ(history.ten_minutes_size(), 3);  // frame, node left, skew
-    EXPECT_EQ(history.ten_minutes(0).values_size(), 600);
-    ASSERT_EQ(history.day(0).values_size(), 1440);
-    EXPECT_EQ(history.day(0).values(1439), 1499 * 60 + 30);
+    EXPECT_EQ(history.ten_minutes(0).values().size(), 2 * 6000U);
+    ASSERT_EQ(history.day(0).values().size(), 2 * 1440U);
+    EXPECT_EQ(valueAt(history.day(0), 1439), 2 + 1499 % 500);
+    EXPECT_EQ(valueAt(history.ten_minutes(0), 5999), 1);
+}
+
+TEST(Overview, aMasterThatIsSilentLeavesPlacesEmptyAndTheLastSecondIsTheEndOfAll) {
+    FigureRings rings;
+    browser::Wall wall = heardWall(v1::NODE_IN_STEP);
+    wall.set_frame_peak_ms(700);  // more than fits
+    for (int tenth = 0; tenth < 50; ++tenth) rings.add(wall);
+    wall.set_heard(false);
+    for (int tenth = 0; tenth < 7; ++tenth) rings.add(wall);
+    const browser::Series all = rings.history().ten_minutes(0);
+    const browser::Series last = rings.lastSecond().ten_minutes(0);
+    EXPECT_EQ(valueAt(all, 49), 655.34);
+    EXPECT_EQ(valueAt(all, 50), -1);
+    ASSERT_GE(last.values().size(), 2 * 10U);
+    EXPECT_EQ(all.values().substr(all.values().size() - last.values().size()), last.values());
 }
 
 TEST(Overview, whatChangesIsSaidInWords) {

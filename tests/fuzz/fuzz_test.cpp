@@ -114,6 +114,9 @@ TEST(Fuzz, whatBrowsersSayIsRefusedOrReadWithinBounds) {
          R"({"command":{"id":"12345678901234567890","run":"7","black":true}})",
          R"({"command":{"id":"1","run":"7","pointAt":{"channel":"left","frame":"12","x":0.5,"y":1e-3}}})",
          R"({"helm":{"ahead":127,"turn":-127}})",
+         R"({"command":{"id":"2","run":"7","scan":{"kind":"columns","step":4,"channel":"left"}}})",
+         R"({"command":{"id":"3","run":"7","useCalibration":"2026-01-24T210301"}})",
+         R"({"command":{"id":"4","run":"7","projector":{"name":"left","power":true}}})",
          R"({"seen":{"channel":2}})"})
         seeds.push_back(inputOf(std::as_bytes(std::span{text})));
     feed(fuzzBrowser, seeds, 20000);

@@ -117,6 +117,20 @@ TEST(RecentTimes, areCountedUpToEachEdgeAndAboveAll) {
     EXPECT_EQ(times.countsUpTo(edges), (std::vector<std::uint32_t>{3, 2, 1}));
 }
 
+TEST(RecentPeak, isTheLongestOfThisTenthOfASecondAndTheOneBefore) {
+    using std::chrono::milliseconds;
+    RecentPeak peak;
+    EXPECT_EQ(peak.ms(), 0);
+    peak.add(milliseconds(1000), milliseconds(17));
+    peak.add(milliseconds(1017), milliseconds(90));
+    peak.add(milliseconds(1034), milliseconds(16));
+    EXPECT_EQ(peak.ms(), 90);
+    peak.add(milliseconds(1120), milliseconds(18));
+    EXPECT_EQ(peak.ms(), 90) << "whoever asks now has not heard of it";
+    peak.add(milliseconds(1220), milliseconds(15));
+    EXPECT_EQ(peak.ms(), 18);
+}
+
 TEST(BlankMeter, findsThePeriodOfADisplay) {
     std::mt19937 random(7);
     BlankMeter meter;

@@ -318,6 +318,8 @@ TEST(Messages, aWelcomeOrAStatusThatLiesIsRefused) {
     EXPECT_FALSE(told([](v1::StatusReply& s) { s.clear_pace(); }));
     EXPECT_FALSE(told([](v1::StatusReply& s) { s.mutable_eye()->RemoveLast(); }));
     EXPECT_FALSE(told([](v1::StatusReply& s) { s.set_skew_p99_ms(INFINITY); }));
+    EXPECT_FALSE(told([](v1::StatusReply& s) { s.set_frame_peak_ms(NAN); }));
+    EXPECT_FALSE(told([](v1::StatusReply& s) { s.mutable_nodes(0)->set_picture_ms(NAN); }));
     EXPECT_FALSE(told([](v1::StatusReply& s) { s.mutable_nodes(0)->clear_condition(); }));
     EXPECT_FALSE(told([](v1::StatusReply& s) { s.mutable_nodes(0)->set_name(""); }));
     EXPECT_FALSE(told([](v1::StatusReply& s) {

@@ -440,6 +440,25 @@ TEST_F(Reception, reportsReleaseSkewFromWhatNodesSay) {
     }
     EXPECT_FLOAT_EQ(status().skew_median_ms(), 3.0F);
     EXPECT_FLOAT_EQ(status().skew_p99_ms(), 3.0F);
+    EXPECT_FLOAT_EQ(status().skew_peak_ms(), 3.0F);
+    EXPECT_GT(status().frame_peak_ms(), 0);
+}
+
+TEST_F(Reception, tellsTheLongestPictureOfEachNode) {
+    const test::StageMaster master(lockstepOf({"left", "right"}), net_.master());
+    Peer left(net_), right(net_);
+    ASSERT_TRUE(left.join("left"));
+    ASSERT_TRUE(right.join("right"));
+    for (std::uint64_t frame = 0; frame < 5; ++frame) {
+        ASSERT_TRUE(left.seeState());
+        v1::Envelope ready = test::ready(frame);
+        ready.mutable_ready()->set_picture_us(frame == 4 ? 30'500 : 9000);
+        left.say(ready);
+        right.say(test::ready(frame));  // of an older build: says nothing of it
+        ASSERT_TRUE(left.hear(v1::Envelope::kPresent));
+    }
+    EXPECT_FLOAT_EQ(status().nodes(0).picture_ms(), 30.5F);
+    EXPECT_FLOAT_EQ(status().nodes(1).picture_ms(), 0);
 }
 
 // All nodes draw at one tier: the finest that each of them bears, also those that have left.

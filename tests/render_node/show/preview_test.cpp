@@ -163,6 +163,20 @@ TEST_F(ConsoleLinkTest, aPictureIsMadeForARequestOnlyAndNamesItAndItsFrame) {
     EXPECT_GT(net::monotonicNow() - begun, 100ms) << "five a second at most";
 }
 
+// Its look goes with all that was drawn for it.
+TEST_F(ConsoleLinkTest, aPictureThatIsLostHoldsNoLaterOneBack) {
+    ASSERT_TRUE(hear(v1::Envelope::kWatchHello));
+    ask(7);
+    ASSERT_EQ(wanted(), 64);
+    std::this_thread::sleep_for(1s);
+    ask(8);
+    ASSERT_EQ(wanted(), 64);
+    link_.put({43}, corners({64, 48}));
+    const auto message = hear(v1::Envelope::kFramePicture);
+    ASSERT_TRUE(message);
+    EXPECT_EQ(message->frame_picture().number(), 8U);
+}
+
 TEST_F(ConsoleLinkTest, aQuestionOfAFishIsAnsweredWithTheFrameThatWasLookedAt) {
     ASSERT_TRUE(hear(v1::Envelope::kWatchHello));
     v1::Envelope question;

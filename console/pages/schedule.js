@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page of the schedule: hours as a form. What is saved is the text of it, which the console holds to its schema; what is
+// wrong stands beside the field that it is wrong in.
+import {html, nothing, svg} from '/vendor/lit-html.js';
+import {QUALITIES, button, holdButton, language, t, time, word} from '/widgets.js';
+
+const DAYS = ['MONDAY', 'TUESDAY', 'WEDNESDAY', 'THURSDAY', 'FRIDAY', 'SATURDAY', 'SUNDAY'];
+const dayName = (number, style) => new Date(Date.UTC(2024, 0, number)).toLocaleDateString(language(), {weekday: style, timeZone: 'UTC'});  // 2024 began with a Monday
+
+// --- the text of a form
+
+const quoted = text => `"${String(text).replace(/[\\"]/g, '\\$&').replace(/[\u0000-\u001f]/g, ' ')}"`;
+// And where each field begins in it: [{line, column, field}], both from 1, in the order of the text.
+export function textOf(form) {
+  const places = [];
+  let line = '', lines = [];
+  const at = (field, piece) => { places.push({line: lines.length + 1, column: line.length + 1, field}); line += piece; };
+  const end = () => { lines.push(line); line = ''; };
+  const put = (prefix, object, names) => {
+    for (const name of names) if (object[name]) at(`${prefix}.${name}`, ` ${name}: ${quoted(object[name])}`);
+  };
+  // Times stand there even when they are empty: that is a mistake, and is said where it is.
+  const span = (prefix, one) => {
+    for (const name of ['from', 'to']) at(`${prefix}.${name}`, ` ${name}: ${quoted(one[name])}`);
+    put(prefix, one, ['scene', 'quality']);
+  };
+  at('zone', `zone: ${quoted(form.zone)}`);
+  end();
+  form.spans.forEach((one, i) => {
+    at(`spans.${i}.weekdays`, 'open {');
+    at(`spans.${i}.weekdays`, ` days: [${one.weekdays.map(day => DAYS[day - 1]).join(', ')}]`);
+    span(`spans.${i}`, one);
+    line += ' }';
+    end();
+  });
+  form.exceptions.forEach((day, i) => {
+    at(`exceptions.${i}.date`, 'exceptions {');
+    at(`exceptions.${i}.date`, ` date: ${quoted(day.date)}`);
+    day.spans.forEach((one, j) => {
+      at(`exceptions.${i}.spans.${j}.from`, ' open {');
+      span(`exceptions.${i}.spans.${j}`, one);
+      line += ' }';
+    });
+    line += ' }';
+    end();
+  });
+  form.projectors.forEach((one, i) => {
+    at(`projectors.${i}.name`, 'projectors {');
+    for (const name of ['name', 'address']) at(`projectors.${i}.${name}`, ` ${name}: ${quoted(one[name])}`);
+    put(`projectors.${i}`, one, ['password']);
+    line += ' }';
+    end();
+  });
+  return {text: `${lines.join('\n')}\n`, places};
+}
+// Of "hours.txtpb:3:25: what is wrong": the field, and what is wrong in it.
+export function mistakeIn(reason, places) {
+  const found = reason.match(/^hours\.txtpb:(\d+):(\d+): (.*)$/s);
+  if (!found) return {field: '', what: reason};
+  const [line, column] = [Number(found[1]), Number(found[2])];
+  const before = places.filter(place => place.line === line && place.column <= column);
+  return {field: (before.at(-1) ?? places.filter(place => place.line <= line).at(-1))?.field ?? '', what: found[3]};
+}
+
+// --- what is being written
+
+let form = null;       // null: as it is kept
+let sent = null;       // {id, places} of the last that was saved
+let textDraft = null;  // of the text
+const formOf = hours => ({zone: hours.zone || Intl.DateTimeFormat().resolvedOptions().timeZone, spans: structuredClone(hours.spans ?? []),
+                          exceptions: structuredClone(hours.exceptions ?? []), projectors: structuredClone(hours.projectors ?? [])});
+const redraw = link => link.dispatchEvent(new Event('change'));
+function edit(link, change) {
+  form ??= formOf(link.known.hours ?? {});
+  change(form);
+  redraw(link);
+}
+const freshSpan = () => ({weekdays: [2, 3, 4, 5], from: '10:00', to: '18:00', scene: '', quality: ''});
+function save(link) {
+  const {text, places} = textOf(form ?? formOf(link.known.hours ?? {}));
+  sent = {id: link.command({hoursText: text}, t('hours.save')), places};
+}
+function mistake(link) {
+  const command = sent && link.commands.get(sent.id);
+  if (command?.outcome === 'done') { form = null; sent = null; }
+  return command?.outcome === 'refused' ? mistakeIn(command.reason, sent.places) : null;
+}
+
+// --- fields
+
+// A field with its name above and what is wrong with it below. `wrong`: of mistake().
+function field(name, label, wrong, input) {
+  const isWrong = wrong?.field === name;
+  const id = `h-${name.replaceAll('.', '-')}`;
+  return html`<span class="field"><label for=${id}>${label}</label>${input({id, invalid: isWrong ? 'true' : nothing, about: isWrong ? `${id}-wrong` : nothing})}
+    ${isWrong ? html`<span class="bad" role="alert" id=${`${id}-wrong`}>✖ ${wrong.what}</span>` : nothing}</span>`;
+}
+function write(link, wrong, object, name, path, label, type = 'text') {
+  return field(path, label, wrong, ({id, invalid, about}) => html`<input id=${id} type=${type} .value=${object[name] ?? ''} ?disabled=${!link.may('CREW')}
+    aria-invalid=${invalid} aria-describedby=${about} autocomplete="off" @change=${event => edit(link, now => { at(now, path)[name] = event.target.value; })}>`);
+}
+function choose(link, wrong, object, name, path, label, values) {
+  const known = values.includes(object[name]) || !object[name] ? values : [...values, object[name]];
+  return field(path, label, wrong, ({id, invalid, about}) => html`<select id=${id} ?disabled=${!link.may('CREW')} aria-invalid=${invalid} aria-describedby=${about}
+    @change=${event => edit(link, now => { at(now, path)[name] = event.target.value; })}>
+    <option value="" ?selected=${!object[name]}>${t('hours.asItWas')}</option>
+    ${known.map(value => html`<option value=${value} ?selected=${value === object[name]}>${word(value)}</option>`)}</select>`);
+}
+// The part of a form that a path such as spans.0.from is in.
+const at = (form, path) => path.split('.').slice(0, -1).reduce((part, name) => part[name], form);
+
+function spanFields(link, wrong, one, path) {
+  return html`${write(link, wrong, one, 'from', `${path}.from`, t('hours.from'), 'time')}${write(link, wrong, one, 'to', `${path}.to`, t('hours.to'), 'time')}
+    ${choose(link, wrong, one, 'scene', `${path}.scene`, t('wall.scene'), link.known.snapshot.scenes ?? [])}
+    ${choose(link, wrong, one, 'quality', `${path}.quality`, t('wall.quality'), QUALITIES)}`;
+}
+function days(link, wrong, one, path) {
+  const toggle = day => edit(link, now => {
+    const span = at(now, `${path}.weekdays`);
+    span.weekdays = span.weekdays.includes(day) ? span.weekdays.filter(other => other !== day) : [...span.weekdays, day].sort();
+  });
+  const isWrong = wrong?.field === `${path}.weekdays`;
+  return html`<span class="field"><span class="label">${t('hours.days')}</span><span class="days" role="group" aria-label=${t('hours.days')}>${DAYS.map((_, i) => html`<button type="button"
+    aria-pressed=${String(one.weekdays.includes(i + 1))} aria-label=${dayName(i + 1, 'long')} ?disabled=${!link.may('CREW')} @click=${() => toggle(i + 1)}>${dayName(i + 1, 'short')}</button>`)}</span>
+    ${isWrong ? html`<span class="bad" role="alert">✖ ${wrong.what}</span>` : nothing}</span>`;
+}
+const remove = (link, path, what) => button(t(what === 'exception' ? 'hours.removeDay' : 'hours.remove'), () => edit(link, now => { at(now, path).splice(Number(path.split('.').at(-1)), 1); }),
+                                           {disabled: !link.may('CREW'), of: what});
+const add = (link, label, change) => button(label, () => edit(link, change), {disabled: !link.may('CREW')});
+
+// A week as bars; hours of the next day are on the next one.
+function week(hours) {
+  const minute = text => { const [h, m] = (text || '0:0').split(':').map(Number); return 60 * h + m; };
+  const bars = [];
+  for (const span of hours.spans) for (const day of span.weekdays) {
+    const from = minute(span.from), to = minute(span.to) > from ? minute(span.to) : minute(span.to) + 1440;
+    bars.push([day - 1, from, Math.min(to, 1440)]);
+    if (to > 1440) bars.push([day % 7, 0, to - 1440]);
+  }
+  const said = hours.spans.map(span => `${span.weekdays.map(day => dayName(day, 'long')).join(', ')}: ${span.from} – ${span.to}`).join('; ');
+  const x = minutes => 40 + minutes / 1440 * 560;
+  return html`<svg class="week" viewBox="0 0 610 150" role="img" aria-label=${said || t('hours.alwaysClosed')}>
+    ${[0, 6, 12, 18, 24].map(hour => svg`<line x1=${x(60 * hour)} x2=${x(60 * hour)} y1="4" y2="132"></line><text x=${x(60 * hour)} y="146" text-anchor="middle">${hour}</text>`)}
+    ${DAYS.map((_, i) => svg`<text x="32" y=${17 + 18 * i} text-anchor="end">${dayName(i + 1, 'short')}</text>`)}
+    ${bars.map(([day, from, to]) => svg`<rect x=${x(from)} width=${x(to) - x(from)} y=${6 + 18 * day} height="13" rx="2"></rect>`)}</svg>`;
+}
+
+function hoursForm(link) {
+  const wrong = mistake(link);
+  const now = form ?? formOf(link.known.hours ?? {});
+  const isCrew = link.may('CREW');
+  const hasComments = /^\s*#|[^"]#/m.test(link.known.hours?.text ?? '');
+  return html`<section class="panel hours" aria-labelledby="week"><h2 id="week">${t('hours.week')}</h2>${week(now)}
+    <ol class="spans">${now.spans.map((one, i) => html`<li>${days(link, wrong, one, `spans.${i}`)}${spanFields(link, wrong, one, `spans.${i}`)}${remove(link, `spans.${i}`, 'span')}</li>`)}</ol>
+    <div class="row">${add(link, t('hours.addSpan'), form => form.spans.push(freshSpan()))}</div>
+    <h2>${t('hours.exceptions')}</h2>
+    <ol class="spans">${now.exceptions.map((day, i) => html`<li>${write(link, wrong, day, 'date', `exceptions.${i}.date`, t('hours.date'), 'date')}
+      ${day.spans.length ? nothing : html`<span class="note">${t('hours.closedAllDay')}</span>`}
+      ${day.spans.map((one, j) => html`<span class="inner">${spanFields(link, wrong, one, `exceptions.${i}.spans.${j}`)}${remove(link, `exceptions.${i}.spans.${j}`, 'span of a day')}</span>`)}
+      ${add(link, t('hours.addSpanOfDay'), form => form.exceptions[i].spans.push(freshSpan()))}${remove(link, `exceptions.${i}`, 'exception')}</li>`)}</ol>
+    <div class="row">${add(link, t('hours.addException'), form => form.exceptions.push({date: '', spans: []}))}</div>
+    <h2>${t('projector.title')}</h2><p class="note">${t('hours.projectorNote')}</p>
+    <ol class="spans">${now.projectors.map((one, i) => html`<li>${write(link, wrong, one, 'name', `projectors.${i}.name`, t('projector.name'))}
+      ${write(link, wrong, one, 'address', `projectors.${i}.address`, t('projector.address'))}
+      ${isCrew ? write(link, wrong, one, 'password', `projectors.${i}.password`, t('projector.password')) : nothing}${remove(link, `projectors.${i}`, 'projector')}</li>`)}</ol>
+    <div class="row">${add(link, t('hours.addProjector'), form => form.projectors.push({name: '', address: '', password: ''}))}</div>
+    <h2>${t('hours.clock')}</h2>${write(link, wrong, now, 'zone', 'zone', t('hours.zone'))}
+    ${wrong && !wrong.field ? html`<p class="bad" role="alert">✖ ${wrong.what}</p>` : nothing}
+    <div class="row save"><button class="primary" ?disabled=${!isCrew || (form === null && link.known.hours?.present)} @click=${() => save(link)}>${t('hours.save')}</button>
+      ${button(t('hours.discard'), () => { form = null; sent = null; redraw(link); }, {disabled: form === null})}
+      ${form !== null ? html`<span class="warn">▲ ${t('hours.notSaved')}</span>` : nothing}
+      ${form !== null && hasComments ? html`<span class="note">${t('hours.losesComments')}</span>` : nothing}</div></section>`;
+}
+
+// The same as text: for who copies it from one hall to another.
+function asText(link) {
+  const kept = link.known.hours?.text ?? '';
+  if (textDraft === kept) textDraft = null;  // saved
+  const write = event => { textDraft = event.target.value; redraw(link); };
+  return html`<section class="panel"><details><summary>${t('hours.text')}</summary>
+    <textarea id="hours" rows="10" spellcheck="false" aria-label=${t('hours.text')} ?readonly=${!link.may('CREW')} .value=${textDraft ?? kept} @input=${write}></textarea>
+    <div class="row">${button(t('hours.saveText'), () => link.command({hoursText: textDraft}, t('hours.saveText')), {disabled: !link.may('CREW') || textDraft === null})}</div>
+    <p class="note">${t('hours.textNote')}</p></details></section>`;
+}
+
+// --- now, and projectors
+
+function standing(link) {
+  const hours = link.known.hours ?? {};
+  const held = link.wall.heldUntilS > 0;
+  const next = t(`hours.${hours.next ?? 'stays'}`, {at: hours.nextAt, scene: hours.nextScene ? word(hours.nextScene) : t('hours.sceneAsItWas')});
+  return html`<section class="panel"><h2>${t('page.schedule')}</h2>
+    <p role="status">${held ? html`<strong class="warn">▲ ${t('hours.held', {time: time(link.wall.heldUntilS)})}</strong>`
+      : hours.present ? html`<strong class=${hours.open ? 'good' : 'quiet'}>${hours.open ? '●' : '○'} ${t(hours.open ? 'hours.isOpen' : link.wall.black ? 'hours.isClosed' : 'hours.isLitByHand')}</strong> ${next}` : t('hours.none')}</p>
+    <div class="row">${held ? button(t('hours.goOn'), () => link.command({holdHours: 0}, t('hours.goOn')), {disabled: !link.may('OPERATOR')})
+      : button(t('hours.hold'), () => link.command({holdHours: 2}, t('hours.hold')), {disabled: !link.may('OPERATOR')})}<span class="note">${t('hours.holdNote')}</span></div></section>`;
+}
+const SHAPES = {on: ['●', 'good'], off: ['○', 'quiet']};
+const projectorRow = link => one => {
+  const [shape, kind] = SHAPES[one.power] ?? ['▲', 'warn'];
+  return html`<tr><th scope="row">${one.name}</th><td data-head=${t('projector.power')}><span class=${kind}>${shape} ${word(one.power)}</span></td>
+  <td data-head=${t('projector.shutter')}>${t(one.shut ? 'projector.isShut' : 'projector.isOpen')}</td><td class="n" data-head=${t('projector.lamp')}>${t('projector.hours', {n: one.lampHours})}</td>
+  <td data-head=${t('projector.problems')} class=${one.problems?.length ? 'bad' : ''}>${(one.problems ?? []).join(', ') || '–'}</td>
+  <td data-head=""><div class="row">${holdButton(t(one.shut ? 'projector.open' : 'projector.shut'), () => link.command({projector: {name: one.name, shut: !one.shut}}, one.name), {disabled: !link.may('CREW')})}
+    ${holdButton(t(one.power === 'on' ? 'projector.off' : 'projector.on'), () => link.command({projector: {name: one.name, power: one.power !== 'on'}}, one.name), {disabled: !link.may('CREW')})}</div></td></tr>`;
+};
+function projectors(link) {
+  const list = link.known.projectors?.projectors ?? [];
+  if (!list.length) return nothing;
+  const all = (label, wanted) => holdButton(label, () => link.command({projector: wanted}, label), {disabled: !link.may('CREW'), of: 'all'});
+  return html`<section class="panel"><div class="scroll" tabindex="0" role="region" aria-label=${t('projector.title')}><table class="cards"><caption>${t('projector.title')}</caption>
+    <thead><tr><th scope="col">${t('projector.name')}</th>${['power', 'shutter', 'lamp', 'problems'].map(name => html`<th scope="col" class=${name === 'lamp' ? 'n' : ''}>${t(`projector.${name}`)}</th>`)}<td></td></tr></thead>
+    <tbody>${list.map(projectorRow(link))}</tbody></table></div>
+    <div class="row">${all(t('projector.allOn'), {power: true})}${all(t('projector.allOff'), {power: false})}${all(t('projector.allShut'), {shut: true})}${all(t('projector.allOpen'), {shut: false})}</div></section>`;
+}
+
+export const schedulePage = {
+  look: () => ({topics: ['hours']}),
+  view: link => html`${standing(link)}${projectors(link)}${hoursForm(link)}${link.role === 'CREW' ? asText(link) : nothing}`,
+};
