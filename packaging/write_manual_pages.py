@@ -107,7 +107,7 @@ def main():
     programs, out = map(pathlib.Path, sys.argv[1:])
     out.mkdir(parents=True, exist_ok=True)
     shown = subprocess.run([programs / "aquarama", "--version"], capture_output=True, text=True, check=True)
-    version = shown.stdout.split()[0]
+    version = shown.stdout.split()[1]
     for program in sorted(programs.iterdir()):
         if program.name not in SUMMARIES:
             sys.exit(f"write_manual_pages.py: {program.name} has no line in SUMMARIES; write one")
