@@ -68,7 +68,7 @@ class Installed(unittest.TestCase):
                          ["aquarama", "aquarama-calibrate", "aquarama-console", "aquarama-node", "aquarama-solve"])
         for program in self.programs:
             said = called(program, "--version", cwd="/", env=self.alone)
-            self.assertEqual((said.returncode, said.stdout.split()[1]), (0, VERSION), program.name + said.stderr)
+            self.assertEqual((said.returncode, said.stdout.split("\n")[0].split()[-1]), (0, VERSION), program.name + said.stderr)
 
     def test_installed_rigs_scenes_and_species_are_good(self):
         config = self.root / "usr/share/aquarama/config"
