@@ -49,7 +49,7 @@ class Installed(unittest.TestCase):
         if done.returncode != 0:
             raise RuntimeError(done.stdout + done.stderr)
         cls.files = {str(path.relative_to(cls.root)) for path in cls.root.rglob("*") if path.is_file()}
-        cls.programs = sorted((cls.root / "usr/bin").iterdir())
+        cls.programs = [path for path in sorted((cls.root / "usr/bin").iterdir()) if path.name != "aquarama-hall"]
         cls.alone = {"HOME": str(cls.root / "nobody"), "PATH": "/usr/bin:/bin"}
 
     @classmethod
@@ -86,7 +86,6 @@ class Installed(unittest.TestCase):
     def test_each_program_has_a_page_with_all_its_commands_and_options(self):
         programs = self.root / "programs"
         shutil.copytree(self.root / "usr/bin", programs, copy_function=os.symlink)
-        (programs / "aquarama-hall").symlink_to(ROOT / "packaging/hall/aquarama-hall")
         written = called(ROOT / "packaging/write_manual_pages.py", programs, self.root / "pages", env=self.alone)
         self.assertEqual(written.returncode, 0, written.stderr)
         listed = {Path(source).name for source, _ in lines_of("manpages")}
