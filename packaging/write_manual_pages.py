@@ -25,6 +25,7 @@ COMMAND_GROUP = re.compile(r"^(A show|While a show|Files|Fish and|Worlds|Command
 def escaped(text):
     """As roff shows it: no request at a line's start, hyphens that can be searched for and copied."""
     text = text.replace("\\", "\\e").replace("-", "\\-")
+    text = re.sub(r",(?=\S)", ",\\\\:", text)  # where a long list of values may be broken
     return "\\&" + text if text.startswith((".", "'")) else text
 
 
@@ -98,7 +99,7 @@ def page(program, version):
     name = program.name
     others = ", ".join(f"\\fB{escaped(other)}\\fR(1)" for other in sorted(SUMMARIES) if other != name)
     yield f'.TH {name.upper()} 1 "" "Aquarama {version}" "Aquarama"'
-    yield from (".SH NAME", escaped(f"{name} - {SUMMARIES[name]}"))
+    yield from (".ad l", ".SH NAME", escaped(f"{name} - {SUMMARIES[name]}"))
     yield from sections(program, [])
     yield from (".SH SEE ALSO", others)
 
