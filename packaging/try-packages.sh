@@ -13,6 +13,7 @@ built=false
 [ $# -gt 0 ] || { echo "usage: packaging/try-packages.sh [--built] RELEASE..., for example bookworm trixie" >&2; exit 2; }
 source packaging/bare_systems.sh
 
+version_before=0.1.0  # the first release has none before it: the same files under a lower version
 most_exposed=2.5  # by systemd-analyze security, of 10
 packages=(aquarama aquarama-master aquarama-node aquarama-calibrate aquarama-console aquarama-kiosk aquarama-doc)
 
@@ -34,7 +35,7 @@ build() {
     local installed=$SECONDS
     logged "build-debs failed" "$root" "packaging/build-debs /debs/now"
     say "packages for the build $((installed - start)) s, build $((SECONDS - installed)) s"
-    logged "build-debs --version failed" "$root" "packaging/build-debs --version 0.1.0 /debs/before"
+    logged "build-debs --version failed" "$root" "packaging/build-debs --version $version_before /debs/before"
     logged "lintian found something" "$root" \
         "useradd reader && runuser -u reader -- lintian --fail-on error,warning,info /debs/now/*.changes"
     cat "$work/log"
@@ -49,16 +50,18 @@ build() {
 install() {
     logged "the packages of $1 cannot be installed" "$root" \
         "DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends --allow-downgrades /debs/$1/*.deb"
-    local version
+    local version expected=$version_before
+    [ "$1" = before ] || expected=$(sed -n '1s/.*(\(.*\)).*/\1/p' packaging/debian/changelog)
     version=$(in_system "$root" "dpkg-query -W -f '\${Version}' aquarama-master")
-    case $1:$version in now:0.1.0 | before:0.[!1]* | before:[!0]*) fail "version $version is installed" ;; esac
+    [ "$version" = "$expected" ] || fail "version $version is installed, not $expected"
     say "installed $version"
 }
 
 # What a hall has after some weeks: a rig, keys, a calibration, what was set, a changed file of configuration.
 live_in() {
     logged "no hall can be set up" "$root" "set -e
-        sed 's#\"scenes/#\"/usr/share/aquarama/config/scenes/#' /usr/share/aquarama/config/theatre.txtpb >/etc/aquarama/rigs/hall.txtpb
+        sed 's#\"scenes/#\"/usr/share/aquarama/config/scenes/#; s#//127.0.0.1#//192.168.7.1#' \
+            /usr/share/aquarama/config/theatre.txtpb >/etc/aquarama/rigs/hall.txtpb
         aquarama-hall check hall.txtpb
         aquarama-hall keys new hall.txtpb
         aquarama-hall convert hall.txtpb hall.mpcdi
