@@ -120,7 +120,8 @@ try_desk() {
 
 require_left() {
     local left
-    left=$(in_system "$root" "find / -xdev \( -path /aquarama -o -path /debs -o -path /proc -o -path /sys -o -path /dev -o -path /home \) -prune \
+    left=$(in_system "$root" "find / -xdev \( -path /aquarama -o -path /debs -o -path /proc -o -path /sys -o -path /dev -o -path /run -o -path /home \
+        -o -path /var/cache/man \) -prune \
         -o -path '*aquarama*' -print" | grep -Ev '^/(etc/aquarama(/(rigs|keys|nodes)(/.*)?)?|var/lib/aquarama(/.*)?)$' || true)
     [ "$left" = "$1" ] || { diff <(echo "$1") <(echo "$left") >&2; fail "purged packages leave other files than are the hall's own"; }
 }
@@ -154,11 +155,12 @@ try() {
     ! in_system "$root" "ls /usr/bin/aquarama* /usr/share/aquarama /usr/lib/systemd/system/aquarama*" >/dev/null 2>&1 ||
         fail "removed packages leave programs or units"
     in_system "$root" "grep -q '^MASTER_ARGUMENTS=--quality low' /etc/aquarama/hall.conf" || fail "the removal takes hall.conf"
+    [[ $(enabled_units) = *aquarama-node@left.service* ]] || fail "the removal forgets which channels were enabled"
     say "removal keeps rigs, keys, calibration, what was set, and hall.conf"
     logged "the packages cannot be purged" "$root" "DEBIAN_FRONTEND=noninteractive apt-get purge -y ${packages[*]}"
     require_kept "the purge"
     require_left ""
-    say "purge keeps rigs, keys, calibration and what was set; hall.conf, cache and all else are gone"
+    say "purge keeps rigs, keys, calibration and what was set; hall.conf, cache, enabled channels and all else are gone"
     install now
     require_kept "an installation anew"
     say "an installation anew finds them"
