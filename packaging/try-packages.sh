@@ -65,7 +65,7 @@ live_in() {
         aquarama-hall check hall.txtpb
         aquarama-hall keys new hall.txtpb
         aquarama-hall convert hall.txtpb hall.mpcdi
-        install -d -o aquarama -m 700 /var/lib/aquarama /var/lib/aquarama/shows /var/cache/aquarama
+        runuser -u aquarama -- mkdir /var/lib/aquarama/shows /var/cache/aquarama/derived
         echo 'black: true' >/var/lib/aquarama/shows/hall.txtpb
         echo 'NODE=--key /etc/aquarama/keys/hall/left.key' >/etc/aquarama/nodes/left.conf
         echo 'MASTER_ARGUMENTS=--quality low' >>/etc/aquarama/hall.conf
