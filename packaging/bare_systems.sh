@@ -70,4 +70,11 @@ clone_into() {
     git -C "$1/aquarama" checkout --quiet --detach "$commit"
 }
 
+fail() { echo "$(basename "$0"): $release: $1" >&2; exit 1; }
+
+# logged WHAT ROOT COMMAND: in the system; shows the end of the log where it fails, and ends with WHAT.
+logged() {
+    in_system "$2" "$3" >"$work/log" 2>&1 || { tail -n 20 "$work/log" >&2; fail "$1"; }
+}
+
 commit=$(git rev-parse HEAD)  # the same for all, whatever is committed meanwhile

@@ -17,13 +17,7 @@ version_before=0.1.0  # the first release has none before it: the same files und
 most_exposed=2.5  # by systemd-analyze security, of 10
 packages=(aquarama aquarama-master aquarama-node aquarama-calibrate aquarama-console aquarama-kiosk aquarama-doc)
 
-fail() { echo "try-packages.sh: $release: $1" >&2; exit 1; }
 say() { printf '%s: %s\n' "$release" "$1"; }
-
-# logged WHAT ROOT COMMAND: in the system; shows the end of the log where it fails.
-logged() {
-    in_system "$2" "$3" >"$work/log" 2>&1 || { tail -n 20 "$work/log" >&2; fail "$1"; }
-}
 
 # The packages of HEAD in build/debs/RELEASE/now, those of the version before in before.
 build() {
