@@ -1,0 +1,163 @@
+#!/usr/bin/env bash
+# try-packages.sh [--built] RELEASE...: Aquarama's packages on a fresh Debian (bookworm, trixie), one release after the other.
+#
+# In one minimal system it builds the packages of HEAD, and once more as version 0.1.0, and asks lintian. In another it
+# installs, upgrades, downgrades, removes and purges them, and looks each time at what is kept; asks systemd-analyze about
+# the units; and has a normal user make the desk's panorama. The packages are left in build/debs/RELEASE; --built takes those that an
+# earlier run left there. Needs root and debootstrap: without them it ends with status 77, in CI with 1.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+built=false
+[ "${1:-}" = --built ] && { built=true; shift; }
+[ $# -gt 0 ] || { echo "usage: packaging/try-packages.sh [--built] RELEASE..., for example bookworm trixie" >&2; exit 2; }
+source packaging/bare_systems.sh
+
+version_before=0.1.0  # the first release has none before it: the same files under a lower version
+most_exposed=2.5  # by systemd-analyze security, of 10
+packages=(aquarama aquarama-master aquarama-node aquarama-calibrate aquarama-console aquarama-kiosk aquarama-doc)
+
+say() { printf '%s: %s\n' "$release" "$1"; }
+
+# The packages of HEAD in build/debs/RELEASE/now, those of the version before in before.
+build() {
+    local root=$work/$release-build debs=build/debs/$release start=$SECONDS
+    make_system "$release" "$root"
+    clone_into "$root"
+    local lists=(packaging/packages/{run,calibrate,console,debs}.txt)
+    logged "packages cannot be installed" "$root" "packaging/install-packages.sh ${lists[*]}"
+    local installed=$SECONDS
+    logged "build-debs failed" "$root" "packaging/build-debs /debs/now"
+    say "packages for the build $((installed - start)) s, build $((SECONDS - installed)) s"
+    logged "build-debs --version failed" "$root" "packaging/build-debs --version $version_before /debs/before"
+    logged "lintian found something" "$root" \
+        "useradd reader && runuser -u reader -- lintian --fail-on error,warning /debs/now/*.changes"
+    say "lintian is content"
+    rm -rf "$debs"
+    mkdir -p "$debs"
+    cp -rt "$debs" "$root"/debs/{now,before}
+    rm -rf --one-file-system "$root"
+}
+
+# install FOLDER: all packages of /debs/FOLDER, with what they need.
+install() {
+    logged "the packages of $1 cannot be installed" "$root" \
+        "DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends --allow-downgrades /debs/$1/*.deb"
+    local version expected=$version_before
+    [ "$1" = before ] || expected=$(sed -n '1s/.*(\(.*\)).*/\1/p' packaging/debian/changelog)
+    version=$(in_system "$root" "dpkg-query -W -f '\${Version}' aquarama-master")
+    [ "$version" = "$expected" ] || fail "version $version is installed, not $expected"
+    say "installed $version"
+}
+
+# What a hall has after some weeks: a rig, keys, a calibration, what was set, a changed file of configuration.
+live_in() {
+    logged "no hall can be set up" "$root" "set -e
+        sed 's#\"scenes/#\"/usr/share/aquarama/config/scenes/#; s#//127.0.0.1#//192.168.7.1#' \
+            /usr/share/aquarama/config/theatre.txtpb >/etc/aquarama/rigs/hall.txtpb
+        aquarama-hall check hall.txtpb
+        aquarama-hall keys new hall.txtpb
+        aquarama-hall convert hall.txtpb hall.mpcdi
+        runuser -u aquarama -- mkdir /var/lib/aquarama/shows /var/cache/aquarama/derived
+        echo 'black: true' >/var/lib/aquarama/shows/hall.txtpb
+        echo 'NODE=--key /etc/aquarama/keys/hall/left.key' >/etc/aquarama/nodes/left.conf
+        echo 'MASTER_ARGUMENTS=--quality low' >>/etc/aquarama/hall.conf
+        systemctl enable aquarama-node@left.service"
+    kept=$(kept_files)
+    enabled=$(enabled_units)
+}
+
+# Names, owners, permissions and content of what must outlive the packages.
+kept_files() {
+    in_system "$root" "cd / && find etc/aquarama/rigs etc/aquarama/keys etc/aquarama/nodes var/lib/aquarama \
+        -printf '%M %u %p\n' -type f -exec sha256sum {} + | sort"
+}
+
+enabled_units() { in_system "$root" "cd /etc/systemd/system && find . -name '*aquarama*' | sort"; }
+
+require_kept() { [ "$(kept_files)" = "$kept" ] || { diff <(echo "$kept") <(kept_files) >&2; fail "$1 changes the hall's own files"; }; }
+
+require_unchanged() {
+    require_kept "$1"
+    [ "$(enabled_units)" = "$enabled" ] || { diff <(echo "$enabled") <(enabled_units) >&2; fail "$1 changes what is enabled"; }
+    in_system "$root" "grep -q '^MASTER_ARGUMENTS=--quality low' /etc/aquarama/hall.conf" || fail "$1 takes hall.conf back"
+}
+
+# systemd-analyze verify and security, of every unit.
+ask_systemd() {
+    local units
+    units=$(in_system "$root" "cd /usr/lib/systemd/system && ls -d aquarama*.target aquarama*.service aquarama*.path |
+        sed 's/@/@left/'" | tr '\n' ' ')
+    logged "systemd-analyze verify found something" "$root" "systemd-analyze verify --man=yes $units"
+    ! grep -i aquarama "$work/log" || fail "systemd-analyze verify found something"
+    say "systemd-analyze verify is content with $units"
+    for unit in $units; do
+        case $unit in *.service) ;; *) continue ;; esac
+        logged "$unit is exposed" "$root" \
+            "systemd-analyze security --offline=true --no-pager --threshold=$(tr -d . <<<$most_exposed) $unit"
+        say "$(tail -n 1 "$work/log" | sed 's/^[^O]*//; s/ [^ ]*$//')"
+    done
+}
+
+# The desk's panorama, by somebody who has an account and no more.
+try_desk() {
+    logged "the installed desk makes no panorama" "$root" "useradd --create-home visitor && cd /home/visitor &&
+        runuser -u visitor -- aquarama run /usr/share/aquarama/config/desk.txtpb --headless --frames 3 --snapshot show"
+    python3 packaging/check_pictures.py "$root/home/visitor/show"
+    say "the desk's panorama is drawn by the installed programs: $(in_system "$root" 'aquarama --version' | head -n 2 | tr -s '\n ' ' ')"
+    logged "a manual page cannot be read" "$root" \
+        'for page in aquarama aquarama-calibrate aquarama-console aquarama-hall aquarama-node aquarama-solve; do
+             test -s /usr/share/man/man1/$page.1.gz || exit 1
+         done'
+}
+
+require_left() {
+    local left
+    left=$(in_system "$root" "find / -xdev \( -path /aquarama -o -path /debs -o -path /proc -o -path /sys -o -path /dev -o -path /run -o -path /home \
+        -o -path /var/cache/man \) -prune \
+        -o -path '*aquarama*' -print" | grep -Ev '^/(etc/aquarama(/(rigs|keys|nodes)(/.*)?)?|var/lib/aquarama(/.*)?)$' || true)
+    [ "$left" = "$1" ] || { diff <(echo "$1") <(echo "$left") >&2; fail "purged packages leave other files than are the hall's own"; }
+}
+
+try() {
+    release=$1
+    $built || build
+    root=$work/$release
+    make_system "$release" "$root"
+    clone_into "$root"
+    cp -r "build/debs/$release" "$root/debs"
+    # Documents and manual pages are left out by some images of Debian; here they are looked at.
+    rm -f "$root"/etc/dpkg/dpkg.cfg.d/*exclude*
+    logged "systemd cannot be installed" "$root" \
+        "apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends systemd systemd-sysv man-db"
+
+    install before
+    live_in
+    install now
+    require_unchanged "the upgrade"
+    install before
+    require_unchanged "the downgrade"
+    install now
+    require_unchanged "the upgrade"
+    say "upgrade, downgrade and upgrade keep rigs, keys, calibration, what was set, hall.conf, and what is enabled"
+    ask_systemd
+    try_desk
+
+    logged "the packages cannot be removed" "$root" "DEBIAN_FRONTEND=noninteractive apt-get remove -y ${packages[*]}"
+    require_kept "the removal"
+    ! in_system "$root" "ls /usr/bin/aquarama* /usr/share/aquarama /usr/lib/systemd/system/aquarama*" >/dev/null 2>&1 ||
+        fail "removed packages leave programs or units"
+    in_system "$root" "grep -q '^MASTER_ARGUMENTS=--quality low' /etc/aquarama/hall.conf" || fail "the removal takes hall.conf"
+    [[ $(enabled_units) = *aquarama-node@left.service* ]] || fail "the removal forgets which channels were enabled"
+    say "removal keeps rigs, keys, calibration, what was set, and hall.conf"
+    logged "the packages cannot be purged" "$root" "DEBIAN_FRONTEND=noninteractive apt-get purge -y ${packages[*]}"
+    require_kept "the purge"
+    require_left ""
+    say "purge keeps rigs, keys, calibration and what was set; hall.conf, cache, enabled channels and all else are gone"
+    install now
+    require_kept "an installation anew"
+    say "an installation anew finds them"
+    rm -rf --one-file-system "$root"
+}
+
+for one in "$@"; do try "$one"; done

@@ -1,0 +1,210 @@
+"""An installation is whole, and what the packages say of it holds: files, units, versions, manual pages, dependencies.
+
+packaging/try-packages.sh builds and installs the packages themselves.
+"""
+
+import os
+import re
+import shutil
+import stat
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = Path(os.environ["AQUARAMA_BIN"]).parent
+DEBIAN = ROOT / "packaging/debian"
+UNITS = "usr/lib/systemd/system"
+MOST_EXPOSED = 2.5  # by systemd-analyze security, of 10
+VERSION = re.search(r"project\(aquarama VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
+
+
+def called(*command, **more):
+    return subprocess.run([*map(str, command)], capture_output=True, text=True, check=False, **more)
+
+
+def unit_files():
+    """Each unit of the packages by the name that debhelper gives it: PACKAGE.NAME.service is NAME.service."""
+    for path in sorted(DEBIAN.iterdir()):
+        parts = path.name.split(".")
+        if parts[-1] in ("service", "target", "path"):
+            yield ".".join(parts[-2:]), path
+
+
+def lines_of(name):
+    """(source, folder) of each line of the packages' lists of this kind."""
+    for path in sorted(DEBIAN.glob(f"*.{name}")):
+        for line in path.read_text().splitlines():
+            source, *folder = line.split()
+            yield source, folder[0] if folder else None
+
+
+class Installed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.root = Path(cls.folder.name)
+        done = called("cmake", "--install", BUILD, "--prefix", "/usr", env={**os.environ, "DESTDIR": str(cls.root)})
+        if done.returncode != 0:
+            raise RuntimeError(done.stdout + done.stderr)
+        cls.files = {str(path.relative_to(cls.root)) for path in cls.root.rglob("*") if path.is_file()}
+        cls.programs = [path for path in sorted((cls.root / "usr/bin").iterdir()) if path.name != "aquarama-hall"]
+        cls.alone = {"HOME": str(cls.root / "nobody"), "PATH": "/usr/bin:/bin"}
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_each_file_is_in_a_package_and_each_packaged_file_is_there(self):
+        named = [source for source, _ in lines_of("install")]
+        homeless = {file for file in self.files if not any(file == name or file.startswith(name + "/") for name in named)}
+        self.assertEqual(homeless, set())
+        for name in named:
+            self.assertTrue((self.root / name).exists() or (ROOT / name).exists(), name)
+
+    def test_programs_run_from_where_they_are_installed(self):
+        self.assertEqual([program.name for program in self.programs],
+                         ["aquarama", "aquarama-calibrate", "aquarama-console", "aquarama-node", "aquarama-solve"])
+        for program in self.programs:
+            said = called(program, "--version", cwd="/", env=self.alone)
+            self.assertEqual((said.returncode, said.stdout.split("\n")[0].split()[-1]), (0, VERSION), program.name + said.stderr)
+
+    def test_installed_rigs_scenes_and_species_are_good(self):
+        config = self.root / "usr/share/aquarama/config"
+        of_source = {path.relative_to(ROOT / "config") for path in (ROOT / "config").rglob("*") if path.is_file()}
+        self.assertEqual({path.relative_to(config) for path in config.rglob("*") if path.is_file()}, of_source)
+        rigs = sorted(config.glob("*.txtpb"))
+        said = called(self.root / "usr/bin/aquarama", "check", *rigs, *sorted(config.glob("s*/*.txtpb")), cwd="/", env=self.alone)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertGreater(len(rigs), 5)
+
+    def test_scripts_that_draw_figures_are_installed(self):
+        for source in (ROOT / "master").rglob("*.py"):
+            self.assertTrue((self.root / "usr/share/aquarama" / source.relative_to(ROOT)).is_file(), source)
+
+    def test_each_program_has_a_page_with_all_its_commands_and_options(self):
+        programs = self.root / "programs"
+        shutil.copytree(self.root / "usr/bin", programs, copy_function=os.symlink)
+        written = called(ROOT / "packaging/write_manual_pages.py", programs, self.root / "pages", env=self.alone)
+        self.assertEqual(written.returncode, 0, written.stderr)
+        listed = {Path(source).name for source, _ in lines_of("manpages")}
+        self.assertEqual({path.name for path in (self.root / "pages").iterdir()}, listed)
+        page = (self.root / "pages/aquarama.1").read_text()
+        for command in re.findall(r"^  ([a-z]+)  ", called(programs / "aquarama", "--help").stdout, re.M):
+            self.assertIn(f'.SS "{command}"', page)
+            said = called(programs / "aquarama", command, "--help").stdout
+            of_page = page if f'.SS "{command}"\nSee' not in page else "".join(
+                path.read_text() for path in (self.root / "pages").iterdir())
+            for option in re.findall(r"^  (?:-\w,)?(--[\w-]+)", said, re.M):
+                self.assertIn(option.replace("-", "\\-"), of_page, command)
+
+
+class Units(unittest.TestCase):
+    """The units in a root of their own, where what other packages bring is stood in for."""
+
+    @classmethod
+    def setUpClass(cls):
+        if not shutil.which("systemd-analyze"):
+            if os.environ.get("CI"):
+                raise RuntimeError("no systemd-analyze; install what packaging/packages/test.txt names")
+            raise unittest.SkipTest("no systemd-analyze: the units are not checked")
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.root = Path(cls.folder.name)
+        (cls.root / UNITS).mkdir(parents=True)
+        for path in Path("/lib/systemd/system").iterdir():
+            if path.suffix in (".target", ".slice", ".mount", ".path"):
+                shutil.copy(path, cls.root / UNITS)
+        cls.units = []
+        for name, path in unit_files():
+            shutil.copy(path, cls.root / UNITS / name)
+            cls.units.append(name)
+        for program in re.findall(r"^Exec\w+=(\S+)", cls.text(), re.M):
+            target = cls.root / program[1:]
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy("/bin/true", target)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    @classmethod
+    def text(cls):
+        return "\n".join(path.read_text() for _, path in unit_files())
+
+    def verified(self, *units):
+        return called("systemd-analyze", "verify", "--man=no", f"--root={self.root}", *units).stderr
+
+    def test_systemd_finds_nothing(self):
+        units = [name.replace("@", "@left") for name in self.units]
+        self.assertEqual(sorted(units), ["aquarama-console.service", "aquarama-master.service", "aquarama-node@left.service",
+                                         "aquarama-power.path", "aquarama-power.service", "aquarama-x@left.service", "aquarama.target"])
+        self.assertEqual(self.verified(*units), "")
+
+    def test_a_key_in_the_wrong_section_is_found(self):
+        text = (DEBIAN / "aquarama-master.service").read_text().replace("StartLimitIntervalSec=0\n", "")
+        (self.root / UNITS / "aquarama-wrong.service").write_text(text.replace("[Service]\n", "[Service]\nStartLimitIntervalSec=0\n"))
+        self.assertIn("StartLimitIntervalSec", self.verified("aquarama-wrong.service"))
+
+    def test_services_are_little_exposed(self):
+        services = [name for name in self.units if name.endswith(".service")]
+        for name in services:
+            said = called("systemd-analyze", "security", "--offline=true", "--no-pager", self.root / UNITS / name).stdout
+            exposed = float(re.search(r"exposure level for \S+: ([\d.]+)", said).group(1))
+            self.assertLessEqual(exposed, MOST_EXPOSED, name)
+
+    def test_what_shows_the_wall_is_started_again_for_ever(self):
+        for name, path in unit_files():
+            if name.endswith(".service") and "power" not in name:
+                unit, service = path.read_text().split("[Service]")
+                self.assertIn("StartLimitIntervalSec=0", unit, name)
+                self.assertIn("Restart=always", service, name)
+                self.assertEqual("WatchdogSec=10" in service, name.startswith(("aquarama-master", "aquarama-node")), name)
+
+
+class Power(unittest.TestCase):
+    def tried(self, text):
+        """What systemctl is told, exit status, and whether the word is still there."""
+        with tempfile.TemporaryDirectory() as folder:
+            word, told = Path(folder, "word"), Path(folder, "told")
+            word.write_text(text)
+            stand_in = Path(folder, "systemctl")
+            stand_in.write_text(f'#!/bin/sh\necho "$@" >{told}\n')
+            stand_in.chmod(stand_in.stat().st_mode | stat.S_IXUSR)
+            done = called(ROOT / "packaging/hall/power", word, env={"PATH": f"{folder}:/usr/bin:/bin"})
+            return told.read_text().strip() if told.exists() else None, done.returncode, word.exists()
+
+    def test_each_word_is_done_once(self):
+        self.assertEqual(self.tried("poweroff\n"), ("--no-block poweroff", 0, False))
+        self.assertEqual(self.tried("reboot"), ("--no-block reboot", 0, False))
+
+    def test_any_other_word_does_nothing(self):
+        for text in ("", "halt\n", "poweroff; reboot\n", "isolate rescue.target\n"):
+            self.assertEqual(self.tried(text), (None, 1, False), text)
+
+
+class Release(unittest.TestCase):
+    def test_all_tell_one_version(self):
+        self.assertEqual(re.match(r"aquarama \(([^)]*)\)", (DEBIAN / "changelog").read_text()).group(1), VERSION)
+        headings = re.findall(r"^## (.+)", (ROOT / "CHANGELOG.md").read_text(), re.M)
+        newest = next(heading for heading in headings if heading != "Unreleased")
+        self.assertRegex(newest, rf"^{re.escape(VERSION)} - \d{{4}}-\d\d-\d\d$")
+
+    def test_packages_are_built_from_what_the_lists_name(self):
+        control = (DEBIAN / "control").read_text()
+        built_from = set(re.search(r"Build-Depends:\n(.*?)\n\n", control, re.S).group(1).replace(",", " ").split())
+        for name in ("run", "calibrate", "console"):
+            lines = (ROOT / f"packaging/packages/{name}.txt").read_text().splitlines()
+            listed = {package for line in lines if not line.startswith("#") for package in line.split()}
+            self.assertEqual({package for package in listed if package.endswith("-dev")} - built_from, set(), name)
+
+    def test_each_package_has_what_its_name_says(self):
+        packages = set(re.findall(r"^Package: (\S+)", (DEBIAN / "control").read_text(), re.M))
+        self.assertEqual(packages, {"aquarama", *(f"aquarama-{name}" for name in
+                                                  ("master", "node", "calibrate", "console", "kiosk", "doc"))})
+        for path in DEBIAN.glob("aquarama*"):
+            self.assertIn(path.name.split(".")[0].rstrip("@"), packages)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
