@@ -550,6 +550,7 @@ void Console::hearCalibrations() {
     if (!calibrationUse_.valid() || calibrationUse_.wait_for(kNow) != std::future_status::ready)
         return;
     const std::string refusal = calibrationUse_.get();
+    calibrationsDue_ = 0;
     saidOfSet(calibrationUseId_, refusal.empty() ? "done" : "refused", refusal);
 }
 
@@ -605,13 +606,18 @@ void Console::sendHours(Visitor& visitor) {
     sendTo(visitor, "projectors", message);
 }
 
-// They are read again while somebody looks.
+// Read again every five seconds while somebody looks: there may be thirty large files.
 void Console::sendCalibrations(Visitor& visitor) {
-    if (!calibrationsRead_.valid())
+    constexpr int kTicksBetween = 5 * kTicksASecond;
+    const bool isDue = !calibrations_ || ticks_ >= calibrationsDue_;
+    if (isDue && !calibrationsRead_.valid()) {
+        calibrationsDue_ = ticks_ + kTicksBetween;
         calibrationsRead_ = std::async(std::launch::async,
                                        [rig = options_.master.rig] { return calibrationsOf(rig); });
+    }
+    if (!calibrations_) return;
     browser::ToBrowser message;
-    *message.mutable_calibrations() = calibrations_;
+    *message.mutable_calibrations() = *calibrations_;
     message.mutable_calibrations()->set_held_scan(scan_.visitor == &visitor);
     sendTo(visitor, "calibrations", message);
 }

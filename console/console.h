@@ -195,7 +195,8 @@ class Console final : public web::Service {
     browser::Wall wall_;
     browser::DoctorReport doctor_;
     std::future<browser::DoctorReport> doctorRun_;
-    browser::Calibrations calibrations_;
+    std::optional<browser::Calibrations> calibrations_;  // as they were last read
+    int calibrationsDue_ = 0;                            // tick at which they are read again
     std::future<browser::Calibrations> calibrationsRead_;
     std::future<std::string> calibrationUse_;  // why it was refused
     std::uint64_t calibrationUseId_ = 0;       // of the command
