@@ -38,11 +38,17 @@ class SolvedFall final : public Fall {
                                                     glm::dvec3 point) const override {
         const solve::Device& projector = hall_.projectors[channel];
         const solve::Three<double> at{point.x, point.y, point.z};
-        if (solve::inFrame(projector.pose.data(), at)[2] <= 0) return std::nullopt;
+        const solve::Three<double> seen = solve::inFrame(projector.pose.data(), at);
+        if (seen[2] <= 0) return std::nullopt;
+        const glm::dvec2 tangent(seen[0] / seen[2], seen[1] / seen[2]);
         const solve::Two<double> model =
-            solve::pixelOf(projector.lens.data(), projector.pose.data(), at);
+            solve::imaged(projector.lens.data(), solve::Two<double>{tangent.x, tangent.y});
         const glm::dvec2 size(hall_.rig.channels[channel].sizePixels);
         const glm::dvec2 modelled(model[0], model[1]);
+        // Far beside its picture a lens may fold, and what is there is no part of it.
+        constexpr double kSame = 1e-6;
+        if (glm::distance(solve::tangentOf(projector.lens, modelled).tangent, tangent) > kSame)
+            return std::nullopt;
         glm::dvec2 pixel = modelled;  // the correction is that of the pixel itself
         for (int i = 0; i < 3; ++i) pixel = modelled + hall_.corrections[channel].at(pixel / size);
         const bool inside = glm::clamp(pixel, glm::dvec2(0), size) == pixel;
