@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // `aquarama new-rig`: asks about the wall, or takes options, and writes a rig.
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iostream>
+#include <iterator>
+#include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -144,9 +148,11 @@ void askConnectors(Dialogue& dialogue,
 
 void askCount(Dialogue& dialogue, NewRigWishes& wishes) {
     if (wishes.count) return;
-    if (!wishes.windows) return void(wishes.count = static_cast<int>(wishes.connectors.size()));
     std::optional<double> count;
-    dialogue.number("How many", count, 3, kCount);
+    if (wishes.windows)
+        dialogue.number("How many", count, 3, kCount);
+    else
+        count = static_cast<double>(wishes.connectors.size());
     wishes.count = static_cast<int>(*count);
 }
 

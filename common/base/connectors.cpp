@@ -62,7 +62,7 @@ void takeTiming(const Descriptor& timing, MonitorFacts& facts) {
     const glm::ivec2 total =
         facts.sizePixels + glm::ivec2(timing.twelve(3, 4, 0), timing.twelve(6, 7, 0));
     if (total.x * total.y > 0)
-        facts.refreshHertz = double(timing.clockHertz()) / (total.x * total.y);
+        facts.refreshHertz = static_cast<double>(timing.clockHertz()) / (total.x * total.y);
     facts.sizeMetres = glm::dvec2(timing.twelve(12, 14, 4), timing.twelve(13, 14, 0)) / 1000.0;
 }
 

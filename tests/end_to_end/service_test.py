@@ -162,6 +162,25 @@ class Services(unittest.TestCase):
         self.assertIn("STOPPING=1", master.within(10, lambda message: message == "STOPPING=1"))
         self.assertEqual(master.process.wait(10), 0)
 
+    def test_a_node_that_hangs_is_started_again_and_is_back_in_step(self):
+        # As systemd does it: no sign of life for as long as is allowed, so it is killed, and another is started.
+        self.master().await_ready()
+        node = self.node()
+        node.await_ready()
+        wait_until(lambda: self.condition() == "in step", PATIENCE, "the node to be in step")
+        held = Held(node.process, "frames")
+        try:
+            messages = ["WATCHDOG=1"]
+            while any("WATCHDOG=1" in message for message in messages):
+                messages = node.within(ALLOWED)
+            self.assertIsNone(node.process.poll(), "it has ended by itself")
+        finally:
+            node.process.kill()
+            os.waitpid(held.thread, WALL)  # a debugger buries what it held, or the process stays
+            node.process.wait(10)
+        self.node().await_ready()
+        wait_until(lambda: self.condition() == "in step", PATIENCE, "the node that was started in its place to be in step")
+
     @unittest.skipUnless((BIN / "aquarama-console").exists(), "the console is not built")
     def test_a_console_is_ready_when_it_listens(self):
         console = self.serve(BIN / "aquarama-console", self.rig, "--port", "0")

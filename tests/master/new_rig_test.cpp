@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/new_rig.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
