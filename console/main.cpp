@@ -109,10 +109,10 @@ void serve(const Options& options, const config::Rig& rig, console::Access& acce
     setpriority(PRIO_PROCESS, 0, kNice);
     ServiceNotifier service;
     console::Console desk({.rig = rig,
-                            .master = {.rig = options.rig, .address = {}, .key = keyOf(options)},
-                            .keyFolder = options.keys,
-                            .build = cli::buildText(),
-                            .service = &service},
+                           .master = {.rig = options.rig, .address = {}, .key = keyOf(options)},
+                           .keyFolder = options.keys,
+                           .build = cli::buildText(),
+                           .service = &service},
                           access);
     const web::ServerOptions where = serverOptions(options, rig);
     web::WebServer server(where, desk);

@@ -106,7 +106,7 @@ try_desk() {
     python3 packaging/check_pictures.py "$root/home/visitor/show"
     say "the desk's panorama is drawn by the installed programs: $(in_system "$root" 'aquarama --version' | head -n 2 | tr -s '\n ' ' ')"
     logged "a manual page cannot be read" "$root" \
-        'for page in aquarama aquarama-calibrate aquarama-console aquarama-hall aquarama-node aquarama-solve; do
+        'for page in aquarama aquarama-calibrate aquarama-console aquarama-hall aquarama-node aquarama-outputs aquarama-solve; do
              test -s /usr/share/man/man1/$page.1.gz || exit 1
          done'
 }

@@ -14,6 +14,7 @@ SUMMARIES = {  # what --help does not say in a line
     "aquarama-calibrate": "check a rig, compose what its projectors show",
     "aquarama-console": "the operator's console of a show, for browsers",
     "aquarama-hall": "run a command of aquarama as the services of a hall do",
+    "aquarama-outputs": "pin a machine's outputs, so that a projector that is off changes none",
     "aquarama-node": "show one channel of a wall, in step with all others",
     "aquarama-solve": "find by camera how projectors hang before their screen",
 }

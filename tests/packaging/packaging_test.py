@@ -49,7 +49,7 @@ class Installed(unittest.TestCase):
         if done.returncode != 0:
             raise RuntimeError(done.stdout + done.stderr)
         cls.files = {str(path.relative_to(cls.root)) for path in cls.root.rglob("*") if path.is_file()}
-        cls.programs = [path for path in sorted((cls.root / "usr/bin").iterdir()) if path.name != "aquarama-hall"]
+        cls.programs = [path for path in sorted((cls.root / "usr/bin").iterdir()) if path.name not in ("aquarama-hall", "aquarama-outputs")]
         cls.alone = {"HOME": str(cls.root / "nobody"), "PATH": "/usr/bin:/bin"}
 
     @classmethod
