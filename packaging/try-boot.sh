@@ -76,7 +76,7 @@ logged "the packages cannot be installed" "$root" "apt-get update -qq && DEBIAN_
     --no-install-recommends systemd-sysv udev linux-image-amd64 initramfs-tools zstd /debs/*.deb"
 set_up
 rm -rf "$root/debs" "$root"/var/cache/apt/archives/*.deb
-mke2fs -q -t ext4 -d "$root" "$work/hall.img" 2G
+mke2fs -q -t ext4 -d "$root" "$work/hall.img" 2G >/dev/null
 
 began=$SECONDS
 qemu-system-x86_64 -accel tcg,thread=multi -cpu max -smp 2 -m 1500 -no-reboot -display none -vga std -nic none \
