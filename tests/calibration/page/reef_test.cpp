@@ -70,8 +70,8 @@ class Reef : public testing::Test {
         }
         return theatre::readChannels(rig_, pictures);
     }
-    // What the sweet spot sees of them: all of the panorama, or, to be quick, the part about the
-    // first seam.
+    // What the sweet spot sees of them, over the area of each pixel of the panorama: one sample of
+    // it would tell of borders between projectors' pixels that no eye sees.
     [[nodiscard]] Picture seen(const hall::TrueHall& hall, const std::vector<Light>& sent) const {
         const hall::LitScreen screen(hall, sent);
         const auto fall = fallOf(hall);
@@ -79,10 +79,15 @@ class Reef : public testing::Test {
         WorkerPool(std::thread::hardware_concurrency())
             .run(static_cast<std::size_t>(light.sizePixels.y), [&](std::size_t row) {
                 const int y = static_cast<int>(row);
-                for (int x = 0; x < light.sizePixels.x; ++x)
-                    if (const auto point =
-                            fall->seenAt((glm::dvec2(x, y) + 0.5) / glm::dvec2(light.sizePixels)))
-                        light.at(x, y) = screen.at(*point);
+                constexpr int kParts = 3;  // of a pixel's side
+                for (int i = 0; i < light.sizePixels.x * kParts * kParts; ++i) {
+                    const int x = i / (kParts * kParts), part = i % (kParts * kParts);
+                    const glm::dvec2 at =
+                        glm::dvec2(x, y) +
+                        (glm::dvec2(part % kParts, part / kParts) + 0.5) / double{kParts};
+                    if (const auto point = fall->seenAt(at / glm::dvec2(light.sizePixels)))
+                        light.at(x, y) += screen.at(*point) / float{kParts * kParts};
+                }
             });
         return rounded(light);
     }
