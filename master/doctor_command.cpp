@@ -345,7 +345,7 @@ Findings lookOver(const DoctorOptions& options) {
 constexpr std::array kVerdicts{"pass", "warn", "fail"};
 
 // One line for each, the verdict first.
-void print(const Findings& findings) {
+void printTable(const Findings& findings) {
     for (const Finding& finding : findings.all())
         std::cout << fmt::format("{}  {:<14} {}{}{}\n",
                                  kVerdicts.at(static_cast<std::size_t>(finding.verdict)),
@@ -369,7 +369,7 @@ void printJson(const Findings& findings) {
 // 1 where something fails.
 int doctor(const DoctorOptions& options) {
     const Findings findings = lookOver(options);
-    (options.json ? printJson : print)(findings);
+    (options.json ? printJson : printTable)(findings);
     return std::ranges::any_of(
         findings.all(), [](const Finding& finding) { return finding.verdict == Verdict::Fail; });
 }

@@ -118,11 +118,24 @@ bool isValid(const v1::HeldScan& m) {
     return m.holder() != 0 && (!m.has_pattern() || readScanPattern(m.pattern()));
 }
 
+bool isValid(const v1::MachineOfNode& m) {
+    return m.has_run() && isName(m.channel()) && isOneOf(m.word(), v1::PowerWord_IsValid);
+}
+
 bool isValid(const v1::Set& m) {
     return m.has_request() && (!m.has_scene() || isName(m.scene())) &&
            (!m.has_quality() || isName(m.quality())) &&
            (!m.has_pattern() || isChosenPattern(m.pattern())) &&
-           (!m.has_scan() || isValid(m.scan())) && (!m.has_restart() || isName(m.restart()));
+           (!m.has_scan() || isValid(m.scan())) && (!m.has_restart() || isName(m.restart())) &&
+           (!m.has_machine() || isValid(m.machine()));
+}
+
+bool isValid(const v1::PowerOrder& m) {
+    return m.has_request() && isOneOf(m.word(), v1::PowerWord_IsValid);
+}
+
+bool isValid(const v1::PowerReply& m) {
+    return m.has_request() && isText(m.refusal(), kMostReasonBytes);
 }
 
 bool isValid(const v1::SetReply& m) {
@@ -274,6 +287,10 @@ bool isValid(const v1::Envelope& m) {
             return isValid(m.set());
         case v1::Envelope::kSetReply:
             return isValid(m.set_reply());
+        case v1::Envelope::kPowerOrder:
+            return isValid(m.power_order());
+        case v1::Envelope::kPowerReply:
+            return isValid(m.power_reply());
         case v1::Envelope::kNodeReport:
             return isValid(m.node_report());
         case v1::Envelope::kLogLine:

@@ -20,6 +20,8 @@ constexpr net::Instant kRepeat = std::chrono::seconds(1);
 // To build a look; software OpenGL on a busy machine takes some ten seconds.
 constexpr net::Instant kMostPreparing = std::chrono::seconds(120);
 constexpr std::string_view kAuto = "auto";
+// Requests that are known again when they are repeated.
+constexpr std::size_t kRemembered = 16;
 
 template <class Result>
 bool isReady(const std::future<Result>& future) {
@@ -132,28 +134,85 @@ Answer Conductor::scan(const std::string& user, const v1::HeldScan& scan, net::I
     return missing.empty() ? Answer{} : Answer{Outcome::Preparing, "not shown yet by " + missing};
 }
 
+std::string Conductor::objectionToEnding(const std::string& channel) const {
+    if (isLockstep()) return "a node of a show in lockstep is not restarted";
+    const auto node = seatNamed(channel);
+    if (!node) return "the rig has no channel " + channel;
+    if (slots_[*node].peer.empty()) return channel + " is absent: start it on its machine";
+    return {};
+}
+
 Answer Conductor::restart(const std::string& user, const v1::Set& set) {
-    constexpr std::size_t kRemembered = 16;
-    if (isLockstep()) return {Outcome::Refused, "a node of a show in lockstep is not restarted"};
     if (std::ranges::find(restarts_, set.request()) != restarts_.end()) return {};
-    const auto node = seatNamed(set.restart());
-    if (!node) return {Outcome::Refused, "the rig has no channel " + set.restart()};
-    if (slots_[*node].peer.empty())
-        return {Outcome::Refused, set.restart() + " is absent: start it on its machine"};
+    if (std::string objection = objectionToEnding(set.restart()); !objection.empty())
+        return {Outcome::Refused, std::move(objection)};
     restarts_.push_back(set.request());
     if (restarts_.size() > kRemembered) restarts_.pop_front();
     logInfo("{} restarts node {}", user, set.restart());
     v1::Envelope message;
     message.mutable_leave();
-    say(slots_[*node].peer, std::move(message));
+    say(slots_[*seatNamed(set.restart())].peer, std::move(message));
     return {};
 }
 
+// Nodes of another build do not say whether their machine takes the word.
+std::string Conductor::objectionToPower(const v1::MachineOfNode& machine) const {
+    const std::string& channel = machine.channel();
+    if (machine.run() != session_) return "the show was started again meanwhile";
+    if (std::string objection = objectionToEnding(channel); !objection.empty()) return objection;
+    const auto& report = slots_[*seatNamed(channel)].report;
+    if (!report) return "nothing is known of the machine of " + channel + " yet; say it again";
+    if (report->takes_power_word()) return {};
+    return "the machine of " + channel + " takes no such word; set up aquarama-power.path there";
+}
+
+Answer Conductor::answerTo(const PowerRequest& request, net::Instant now) const {
+    constexpr net::Instant kPatience = std::chrono::seconds(3);
+    const std::string machine = "the machine of " + slots_[request.node].name;
+    if (request.refusal) {
+        if (request.refusal->empty()) return {};
+        return {Outcome::Refused, *request.refusal};
+    }
+    if (now - request.said < kPatience) return {Outcome::Preparing, machine + " is told"};
+    return {Outcome::Refused, machine + " has not answered; look whether it ends"};
+}
+
+// Said once: a word that was lost is not said again by itself.
+Answer Conductor::switchMachine(const std::string& user, const v1::Set& set, net::Instant now) {
+    const auto known = std::ranges::find(powerRequests_, set.request(), &PowerRequest::request);
+    if (known != powerRequests_.end()) return answerTo(*known, now);
+    if (std::string objection = objectionToPower(set.machine()); !objection.empty())
+        return {Outcome::Refused, std::move(objection)};
+    powerRequests_.push_back({set.request(), *seatNamed(set.machine().channel()), now, {}});
+    if (powerRequests_.size() > kRemembered) powerRequests_.pop_front();
+    const PowerRequest& request = powerRequests_.back();
+    logInfo("{} switches the machine of {}: {}",
+            user,
+            set.machine().channel(),
+            set.machine().word() == v1::POWER_OFF ? "poweroff" : "reboot");
+    v1::Envelope message;
+    message.mutable_power_order()->set_request(set.request());
+    message.mutable_power_order()->set_word(set.machine().word());
+    say(slots_[request.node].peer, std::move(message));
+    return answerTo(request, now);
+}
+
+void Conductor::switched(std::size_t node, const v1::PowerReply& reply) {
+    const auto known = std::ranges::find(powerRequests_, reply.request(), &PowerRequest::request);
+    if (known != powerRequests_.end() && known->node == node) known->refusal = reply.refusal();
+}
+
+Answer Conductor::carryOut(const std::string& user, const v1::Set& set, net::Instant now) {
+    if (set.has_scan()) return scan(user, set.scan(), now);
+    if (set.has_restart()) return restart(user, set);
+    if (set.has_machine()) return switchMachine(user, set, now);
+    return change(user, set);
+}
+
+// Whoever shows no key is an account of this machine.
 void Conductor::set(const net::FromPeer& from, const v1::Set& set, net::Instant now) {
     const std::string user = from.user.empty() ? "somebody here" : from.user;
-    const Answer answer = set.has_scan()      ? scan(user, set.scan(), now)
-                          : set.has_restart() ? restart(user, set)
-                                              : change(user, set);
+    const Answer answer = carryOut(user, set, now);
     v1::Envelope message;
     v1::SetReply& reply = *message.mutable_set_reply();
     if (set.has_scan() && answer.outcome == Outcome::Done) reply.set_frame(newestReleased().value);

@@ -42,7 +42,9 @@ class HeldScan;
 class Input;
 class LogLine;
 class Look;
+class MachineOfNode;
 class NodeReport;
+class PowerReply;
 class Prepared;
 class Ready;
 class Set;
@@ -199,6 +201,7 @@ class Conductor {
     void handle(std::size_t node, const v1::Input& input, net::Instant now);
     // What the show shall be.
     void set(const net::FromPeer& from, const v1::Set& set, net::Instant now);
+    [[nodiscard]] Answer carryOut(const std::string& user, const v1::Set& set, net::Instant now);
     [[nodiscard]] Answer change(const std::string& user, const v1::Set& set);
     // Why a change is refused; empty where it is not.
     [[nodiscard]] std::string objectionTo(const v1::Set& set) const;
@@ -206,6 +209,25 @@ class Conductor {
     [[nodiscard]] Answer scan(const std::string& user, const v1::HeldScan& scan, net::Instant now);
     // A node is to end; the same request again does nothing more.
     [[nodiscard]] Answer restart(const std::string& user, const v1::Set& set);
+    // Why a node cannot be ended by a word; empty where it can.
+    [[nodiscard]] std::string objectionToEnding(const std::string& channel) const;
+    // A node leaves the word for its machine; the same request again hears what became of it.
+    struct PowerRequest {
+        std::uint64_t request = 0;
+        std::size_t node = 0;
+        net::Instant said{};
+        std::optional<std::string> refusal =
+            {};  // none: not answered yet; empty: the word was left
+    };
+    [[nodiscard]] Answer switchMachine(const std::string& user,
+                                       const v1::Set& set,
+                                       net::Instant now);
+    // Why no machine is told; empty where it is.
+    [[nodiscard]] std::string objectionToPower(const v1::MachineOfNode& machine) const;
+    // What has become of it.
+    [[nodiscard]] Answer answerTo(const PowerRequest& request, net::Instant now) const;
+    // The node has left the word, or says why it has not.
+    void switched(std::size_t node, const v1::PowerReply& reply);
     [[nodiscard]] std::string objectionToScan() const;
     // The channels that have not shown the pattern of the scan yet; empty where all have.
     [[nodiscard]] std::string notShowingScan() const;
@@ -286,8 +308,9 @@ class Conductor {
     ScanHold scan_;
     bool windowsEndShow_;
     std::deque<std::uint64_t> restarts_;  // requests that were carried out, the last few
-    std::unique_ptr<v1::Look> look_;      // that is shown
-    std::string sceneName_;               // of it
+    std::deque<PowerRequest> powerRequests_;
+    std::unique_ptr<v1::Look> look_;  // that is shown
+    std::string sceneName_;           // of it
     Blobs blobs_;
     std::unique_ptr<net::MasterChannels> channels_;
     std::uint64_t session_;

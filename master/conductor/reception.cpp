@@ -112,6 +112,7 @@ bool mayNodeSay(const std::string& channel, const v1::Envelope& message) {
         case v1::Envelope::kBlobRequest:
         case v1::Envelope::kPrepared:
         case v1::Envelope::kFarewell:
+        case v1::Envelope::kPowerReply:
         case v1::Envelope::kExplainRequest:
             return true;
         default:
@@ -227,6 +228,8 @@ void Conductor::takeOfNode(std::size_t node, const v1::Envelope& message, net::I
             return;
         case v1::Envelope::kLogLine:
             return note(node, message.log_line());
+        case v1::Envelope::kPowerReply:
+            return switched(node, message.power_reply());
         case v1::Envelope::kInput:
             return handle(node, message.input(), now);
         case v1::Envelope::kFarewell:

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "common/base/log.h"
+#include "common/base/machine_power.h"
 
 namespace aquarama::session {
 namespace {
@@ -414,6 +415,8 @@ void MasterLink::takeOfRun(const v1::Envelope& message) {
         case v1::Envelope::kLeave:
             isToRestart_ = true;
             return stop();
+        case v1::Envelope::kPowerOrder:
+            return switchMachine(message.power_order());
         case v1::Envelope::kExplanation: {
             const v1::Explanation& mind = message.explanation();
             return mailbox_.tellMind({mind.fish(), {mind.lines().begin(), mind.lines().end()}});
@@ -421,6 +424,22 @@ void MasterLink::takeOfRun(const v1::Envelope& message) {
         default:
             return;
     }
+}
+
+// The service of the machine ends this node in order.
+void MasterLink::switchMachine(const v1::PowerOrder& order) {
+    const std::string word = order.word() == v1::POWER_OFF ? "poweroff" : "reboot";
+    v1::Envelope message;
+    v1::PowerReply& reply = *message.mutable_power_reply();
+    reply.set_request(order.request());
+    try {
+        sayPower(powerFolder(), word);
+        logInfo("the master has this machine switched: {}", word);
+    } catch (const Error& problem) {
+        logWarning("the master asks for {}, and is refused: {}", word, problem.what());
+        reply.set_refusal(printable(problem.what()));
+    }
+    say(std::move(message));
 }
 
 void MasterLink::readState(const net::ByteVector& bytes) {
@@ -662,6 +681,7 @@ void MasterLink::sayReport(net::Instant now) {
     report.set_free_disk_bytes(cache_.freeBytes());
     report.set_clock_synchronised(net::isClockSynchronised());
     report.set_real_time(isInRealTime_);
+    report.set_takes_power_word(takesPowerWord(powerFolder()));
     report.set_picture_median_ms(pictures_.quantileMs(0.5));
     report.set_picture_p99_ms(pictures_.quantileMs(0.99));
     report.set_clock_drift_ppm(static_cast<float>(clock_.driftPpm()));

@@ -192,6 +192,7 @@ class MasterLink {
     void beReleased(const v1::Present& present);
     void beDismissed(const std::string& reason);
     void end();
+    void switchMachine(const v1::PowerOrder& order);
 
     [[nodiscard]] bool isFetching() const;
     // Of what is fetched.

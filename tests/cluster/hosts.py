@@ -35,6 +35,7 @@ class Wall:
 
     def __init__(self, folder):
         self.folder, self.processes = Path(folder), {}
+        self.power_folder("left").mkdir(parents=True)
         self.shared = self.mixed = 0
         self.build_network()
         self.rig = self.folder / "hall.txtpb"
@@ -77,10 +78,15 @@ class Wall:
     def start(self, name, *arguments, on=None):
         """On the machine of that name, or on another."""
         machine = on or name
-        environment = os.environ | {"LP_NUM_THREADS": "0", "XDG_STATE_HOME": str(self.folder / "state")}
+        environment = os.environ | {"LP_NUM_THREADS": "0", "XDG_STATE_HOME": str(self.folder / "state"),
+                                    "AQUARAMA_POWER_FOLDER": str(self.power_folder(machine))}
         with open(self.folder / "log", "a") as log:
             self.processes[name] = subprocess.Popen(["ip", "netns", "exec", machine, *map(str, arguments)], stdout=log,
                                                        stderr=subprocess.STDOUT, env=environment, cwd=ROOT)
+
+    def power_folder(self, machine):
+        """Where its word goes; only left's is there."""
+        return self.folder / "power" / machine
 
     def start_master(self):
         (self.folder / "master.csv").unlink(missing_ok=True)
@@ -310,14 +316,16 @@ def random_starts(wall, options):
     assert lost == 0
 
 
-# Run on the master's machine, whose loopback the console listens at: which channels' pictures come.
+# Run on the master's machine, whose loopback the console listens at: which channels' pictures come; then what becomes of the word
+# to two machines, of which the first takes it.
 LOOK = """
 import sys
 from types import SimpleNamespace
 sys.path.insert(0, sys.argv[1])
 from desk import Socket
 client = Socket(SimpleNamespace(address=sys.argv[2]), Origin=None, Authorization="Bearer " + sys.argv[3])
-names = [channel["name"] for channel in client.hear()["snapshot"]["channels"]]
+snapshot = client.hear()["snapshot"]
+names = [channel["name"] for channel in snapshot["channels"]]
 seen = set()
 while len(seen) < len(names):
     client.say({"look": {"channels": names, "widthPx": 64}})
@@ -325,16 +333,19 @@ while len(seen) < len(names):
     if isinstance(message, bytes):
         seen.add(names[message[0]])
 print(*sorted(seen))
+for name in ("left", "right"):
+    print(client.command(snapshot["wall"]["run"], machine={"channel": name, "word": "reboot"})["outcome"])
 """
 
 
 def console(wall, _):
-    """Pictures of nodes on other machines, over the watch socket with keys; and what it costs the wall to lose its console."""
+    """Pictures of nodes on other machines, over the watch socket with keys, and the word that switches one of these; and what it costs the
+    wall to lose its console."""
     program = BIN / "aquarama-console"
     if not program.exists():
         print("SKIPPED: the console is not built")
         return
-    token = wall.run("master", program, wall.rig, "--token", "cluster").stdout.strip()
+    token = wall.run("master", program, wall.rig, "--token", "cluster", "--role", "crew").stdout.strip()
     since = time.monotonic_ns()
     wall.start("console", program, wall.rig, "--keys", wall.keys, on="master")
     begin = time.monotonic()
@@ -344,7 +355,10 @@ def console(wall, _):
     wall.kill("console")
     time.sleep(1)
     gap = wall.longest_gap_ms(CHANNELS, since)
-    assert looked.stdout.split() == sorted(CHANNELS) and wall.all_in_step() and gap < GAP_MS, (looked, gap)
+    word = wall.power_folder("left") / "word"
+    assert looked.stdout.split() == [*sorted(CHANNELS), "done", "refused"] and word.read_text() == "reboot\n", looked
+    word.unlink()
+    assert wall.all_in_step() and gap < GAP_MS, gap
     report("a console looks at all and is killed", pictures_s=f"{seconds:.1f}", longest_gap_ms=f"{gap:.0f}")
 
 

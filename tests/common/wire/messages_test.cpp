@@ -55,7 +55,8 @@ TEST(Messages, haveTheBytesThatTheyAlwaysHad) {
         "f78471573ccb309e", "32c7dff52456d642", "723425cc2d64413d", "e69c1fd821f63d79",
         "425830a2b520f0ca", "29a174b799c59ec5", "558a5f2ea6ef6d50", "33077d3d8b2446b3",
         "d7e28540e2a7e592", "d93655f93549c7a7", "4c05463c5a8485f5", "89a4419730a1cf45",
-        "bcad3b13c61f2ed5", "cf655d4fb58a2d05"};
+        "bcad3b13c61f2ed5", "cf655d4fb58a2d05", "6411a903ac5e3a96", "7a993e5d651d16c4",
+        "d5f7b860de73152a", "d9a07501cef5a5cd"};
     const std::vector<Packet> packets = samplePackets();
     ASSERT_EQ(packets.size(), digests.size());
     for (std::size_t i = 0; i < packets.size(); ++i)

@@ -223,6 +223,22 @@ inline v1::Envelope sampleStatus() {
     return message;
 }
 
+// How a machine is switched, from the operator to its node and back.
+inline std::vector<v1::Envelope> samplePower() {
+    std::vector<v1::Envelope> messages(4);
+    messages[0].mutable_set()->set_request(78);
+    v1::MachineOfNode& machine = *messages[0].mutable_set()->mutable_machine();
+    machine.set_run(0x0123456789ABCDEFU);
+    machine.set_channel("left");
+    machine.set_word(v1::POWER_OFF);
+    messages[1].mutable_power_order()->set_request(78);
+    messages[1].mutable_power_order()->set_word(v1::POWER_REBOOT);
+    messages[2].mutable_power_reply()->set_request(78);
+    messages[2].mutable_power_reply()->set_refusal("this machine takes no such word");
+    messages[3].mutable_node_report()->set_takes_power_word(true);
+    return messages;
+}
+
 // What a node and the operator's console say to each other, and the order to make way.
 inline std::vector<v1::Envelope> sampleWatch() {
     std::vector<v1::Envelope> messages(6);
@@ -290,6 +306,7 @@ inline std::vector<Packet> samplePackets() {
     for (const v1::Envelope& message : after) packets.push_back(encode(kSession, message));
     for (const v1::Envelope& message : sampleWatch()) packets.push_back(encode(kSession, message));
     packets.push_back(encodeState(kSession, viewOf(sampleScanState())));
+    for (const v1::Envelope& message : samplePower()) packets.push_back(encode(kSession, message));
     return packets;
 }
 

@@ -208,6 +208,76 @@ TEST_F(Reception, aNodeIsAskedToMakeWayOnceForEachRequest) {
     EXPECT_TRUE(node.hearsNo(v1::Envelope::kLeave, milliseconds(200)));
 }
 
+class MachineSwitch : public Reception {
+  protected:
+    MachineSwitch() { EXPECT_TRUE(node.join("left")); }
+    void report(bool takesPowerWord) {
+        v1::Envelope message;
+        message.mutable_node_report()->set_takes_power_word(takesPowerWord);
+        node.say(message);
+    }
+    v1::SetReply ask(std::uint64_t request, const std::string& channel = "left") {
+        v1::Envelope message;
+        message.mutable_set()->set_request(request);
+        v1::MachineOfNode& machine = *message.mutable_set()->mutable_machine();
+        machine.set_run(run == 0 ? node.session : run);
+        machine.set_channel(channel);
+        machine.set_word(v1::POWER_REBOOT);
+        asker.say(message);
+        return asker.hear(v1::Envelope::kSetReply).value_or(v1::Envelope{}).set_reply();
+    }
+    void answer(std::uint64_t request, const std::string& refusal) {
+        v1::Envelope message;
+        message.mutable_power_reply()->set_request(request);
+        message.mutable_power_reply()->set_refusal(refusal);
+        node.say(message);
+    }
+
+    const test::StageMaster master{ConductorOptions{}, net_.master()};
+    Peer node{net_}, asker{net_};
+    std::uint64_t run = 0;  // that is named; 0: the master's
+};
+
+TEST_F(MachineSwitch, isToldOnceAndWhatItAnswersIsPassedOn) {
+    report(true);
+    EXPECT_EQ(ask(1).outcome(), v1::OUTCOME_PREPARING);
+    const auto order = node.hear(v1::Envelope::kPowerOrder);
+    ASSERT_TRUE(order);
+    EXPECT_EQ(order->power_order().word(), v1::POWER_REBOOT);
+    EXPECT_EQ(ask(1).outcome(), v1::OUTCOME_PREPARING) << "said again";
+    answer(1, "");
+    EXPECT_EQ(ask(1).outcome(), v1::OUTCOME_DONE);
+    EXPECT_EQ(ask(2).outcome(), v1::OUTCOME_PREPARING);
+    ASSERT_TRUE(node.hear(v1::Envelope::kPowerOrder));
+    answer(2, "it takes no word");
+    EXPECT_EQ(ask(2).reason(), "it takes no word");
+    EXPECT_EQ(ask(1).outcome(), v1::OUTCOME_DONE);
+    EXPECT_TRUE(node.hearsNo(v1::Envelope::kPowerOrder, milliseconds(200)));
+}
+
+TEST_F(MachineSwitch, isRefusedWhereNothingCouldComeOfIt) {
+    EXPECT_THAT(ask(1).reason(), testing::HasSubstr("nothing is known of the machine of left"));
+    report(false);
+    EXPECT_THAT(ask(2).reason(), testing::HasSubstr("takes no such word"));
+    report(true);
+    EXPECT_EQ(ask(3, "right").reason(), "right is absent: start it on its machine");
+    EXPECT_EQ(ask(4, "nobody").reason(), "the rig has no channel nobody");
+    run = node.session + 1;
+    EXPECT_EQ(ask(5).reason(), "the show was started again meanwhile");
+    EXPECT_TRUE(node.hearsNo(v1::Envelope::kPowerOrder, milliseconds(200)));
+}
+
+TEST_F(MachineSwitch, thatIsNotAnsweredSaysSoAndIsNotSaidAgain) {
+    report(true);
+    EXPECT_EQ(ask(1).outcome(), v1::OUTCOME_PREPARING);
+    ASSERT_TRUE(node.hear(v1::Envelope::kPowerOrder));
+    v1::SetReply reply;
+    const net::Instant end = net::monotonicNow() + seconds(10);
+    while ((reply = ask(1)).outcome() == v1::OUTCOME_PREPARING && net::monotonicNow() < end)
+        EXPECT_TRUE(node.hearsNo(v1::Envelope::kPowerOrder, milliseconds(200)));
+    EXPECT_THAT(reply.reason(), testing::HasSubstr("the machine of left has not answered"));
+}
+
 TEST_F(Reception, aWindowEndsTheShowOnlyWhereTheRigSaysSo) {
     config::Rig rig = test::StageMaster::deskRig();
     rig.windowsEndShow = false;

@@ -2,6 +2,8 @@
 // A session against a master that says whatever a test wants it to say.
 #include "render_node/session/session.h"
 
+#include <cstdlib>
+#include <fstream>
 #include <future>
 #include <random>
 
@@ -215,6 +217,32 @@ TEST_F(SessionTest, answersWhileItChecksALargeBlob) {
     EXPECT_EQ(next->look, 2U);
     EXPECT_EQ(*next->rig.files.at("hall.pfm"), *map);
     EXPECT_EQ(net::BlobCache(blobs_).find(digest), *map);
+}
+
+TEST_F(SessionTest, leavesTheWordForItsMachineOrSaysWhyNot) {
+    const std::filesystem::path folder = test::freshDirectory();
+    std::filesystem::create_directories(folder);
+    setenv("AQUARAMA_POWER_FOLDER", folder.c_str(), 1);
+    becomeMember(wire::Pace::Live, {5});
+    EXPECT_TRUE(master_.hear(v1::Envelope::kNodeReport)->node_report().takes_power_word());
+    v1::Envelope order;
+    order.mutable_power_order()->set_request(7);
+    order.mutable_power_order()->set_word(v1::POWER_OFF);
+    master_.say(order);
+    const auto done = master_.hear(v1::Envelope::kPowerReply);
+    ASSERT_TRUE(done);
+    EXPECT_EQ(done->power_reply().request(), 7U);
+    EXPECT_EQ(done->power_reply().refusal(), "");
+    std::string word;
+    EXPECT_TRUE(std::getline(std::ifstream(folder / "word"), word));
+    EXPECT_EQ(word, "poweroff");
+    std::filesystem::remove_all(folder);
+    master_.say(order);
+    const auto refused = master_.hear(v1::Envelope::kPowerReply);
+    ASSERT_TRUE(refused);
+    EXPECT_THAT(refused->power_reply().refusal(), testing::HasSubstr("takes no such word"));
+    EXPECT_FALSE(std::filesystem::exists(folder));
+    unsetenv("AQUARAMA_POWER_FOLDER");
 }
 
 TEST_F(SessionTest, aRefusalIsAnErrorThatSaysWhy) {
