@@ -10,6 +10,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "common/base/log.h"
+#include "common/base/machine_power.h"
 #include "console/console.h"
 
 namespace aquarama::console {
@@ -37,7 +38,8 @@ std::optional<ConsoleRole> roleFor(What what) {
                                                     {What::kRevoke, ConsoleRole::Crew},
                                                     {What::kProjector, ConsoleRole::Crew},
                                                     {What::kUseCalibration, ConsoleRole::Crew},
-                                                    {What::kPower, ConsoleRole::Crew}};
+                                                    {What::kPower, ConsoleRole::Crew},
+                                                    {What::kMachine, ConsoleRole::Crew}};
     const auto role = kRoles.find(what);
     return role == kRoles.end() ? std::nullopt : std::optional(role->second);
 }
@@ -45,6 +47,16 @@ std::optional<ConsoleRole> roleFor(What what) {
 // For the list of events.
 std::string onOff(bool on) {
     return on ? "on" : "off";
+}
+
+// Of the machine of a node; a word that is none stays unspecified.
+v1::MachineOfNode machineIn(const browser::Command& command) {
+    v1::MachineOfNode machine;
+    machine.set_run(command.run());
+    machine.set_channel(command.machine().channel());
+    if (command.machine().word() == "poweroff") machine.set_word(v1::POWER_OFF);
+    if (command.machine().word() == "reboot") machine.set_word(v1::POWER_REBOOT);
+    return machine;
 }
 
 // Of a command for the wall, for the master; empty where it is of something else.
@@ -71,6 +83,9 @@ std::optional<v1::Set> setOf(const browser::Command& command) {
         case What::kRestart:
             set.set_restart(command.restart());
             return set;
+        case What::kMachine:
+            *set.mutable_machine() = machineIn(command);
+            return set;
         default:
             return std::nullopt;
     }
@@ -83,6 +98,10 @@ std::string textOf(const v1::Set& set) {
     if (set.has_scene()) return "scene " + set.scene();
     if (set.has_quality()) return "quality " + set.quality();
     if (set.has_restart()) return "restart node " + set.restart();
+    if (set.has_machine())
+        return (set.machine().word() == v1::POWER_OFF ? "poweroff of the machine of "
+                                                      : "reboot of the machine of ") +
+               set.machine().channel();
     if (set.has_scan())
         return set.scan().has_pattern() ? "a pattern of a scan" : "no pattern of a scan";
     return "pattern " + std::string(wire::nameOf(static_cast<wire::Pattern>(set.pattern())));
@@ -95,12 +114,19 @@ bool isName(const std::string& text) {
                text, [](char c) { return static_cast<unsigned char>(c) >= 0x20 && c != 0x7F; });
 }
 
+// Of a scene, a tier or a node, where the value is one.
+std::optional<std::string> nameIn(const v1::Set& set) {
+    if (set.has_scene()) return set.scene();
+    if (set.has_quality()) return set.quality();
+    if (set.has_restart()) return set.restart();
+    if (set.has_machine()) return set.machine().channel();
+    return std::nullopt;
+}
+
 // Of one value, as setOf() makes it.
 bool isSendable(const v1::Set& set) {
-    if (set.has_scene()) return isName(set.scene());
-    if (set.has_quality()) return isName(set.quality());
-    if (set.has_restart()) return isName(set.restart());
-    if (set.has_scan()) return true;
+    if (const auto name = nameIn(set); name && !isName(*name)) return false;
+    if (set.has_machine()) return set.machine().word() != v1::POWER_UNSPECIFIED;
     return set.pattern() != v1::PATTERN_SCAN;
 }
 
@@ -269,7 +295,7 @@ std::string Console::carryOutOfHall(const Holder& holder, const Command& command
 // The service of the machine ends the show in order.
 std::string Console::switchMachine(const Holder& holder, const std::string& word) {
     try {
-        sayPower(kPowerFolder, word);
+        sayPower(powerFolder(), word);
     } catch (const Error& problem) {
         return problem.what();
     }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+// The life of the console: what master and nodes say, and what is due.
 #include "console/console.h"
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <utility>
 
-#include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
 #include "common/base/log.h"
@@ -14,45 +13,6 @@
 namespace aquarama::console {
 
 namespace {
-
-using web::HttpReply;
-using web::HttpRequest;
-
-// Browsers that are connected at a time; another one gets status 503.
-constexpr std::size_t kMostVisitors = 64;
-constexpr int kTicksASecond = 10;
-// A look, or a picture that nobody has confirmed, is forgotten after three seconds.
-constexpr int kTicksOfALook = 3 * kTicksASecond;
-// A visitor that exceeds one of these two is disconnected with kClosedNoisy.
-constexpr int kMostMessagesASecond = 200;
-constexpr int kMostMalformed = 10;
-// As kClosedUnpaired.
-constexpr std::uint16_t kClosedNoisy = 4008;
-
-// Hands at the submarine, brought into the range of the wire.
-Steering steeringOf(const browser::Helm& helm) {
-    const auto axis = [](int value) {
-        return static_cast<std::int8_t>(std::clamp(value, -kFullSteering, int{kFullSteering}));
-    };
-    return {.ahead = axis(helm.ahead()),
-            .aside = axis(helm.aside()),
-            .up = axis(helm.up()),
-            .turn = axis(helm.turn()),
-            .tilt = axis(helm.tilt())};
-}
-
-// A code and a name of whoever types it; an empty code where the text is none.
-struct PairingRequest {
-    std::string code, name;
-};
-PairingRequest pairingIn(const std::string& body) {
-    const auto asked = nlohmann::json::parse(body, nullptr, false);
-    const auto text = [&](const char* field) -> std::string {
-        if (!asked.is_object() || !asked.contains(field) || !asked[field].is_string()) return {};
-        return asked[field].get<std::string>();
-    };
-    return {text("code"), text("name")};
-}
 
 // What the master is told where the hours want this.
 v1::Set setOfHours(const config::WantedHours& wanted) {
@@ -79,17 +39,6 @@ bool isInStep(const browser::Wall& wall) {
            });
 }
 
-// Whether the page of a visitor shows this.
-bool wants(const Console::Visitor& visitor, const char* topic) {
-    const auto& topics = visitor.look.topics();
-    return std::ranges::find(topics, topic) != topics.end();
-}
-
-// Text that is none becomes question marks: a reply is never malformed.
-std::string jsonOfObject(const nlohmann::json& object) {
-    return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 // Little-endian: channel, 0, width, height of 16 bits each, frame of 64; then the JPEG.
 web::Payload framed(int channel, const v1::FramePicture& picture) {
     std::string bytes;
@@ -103,21 +52,6 @@ web::Payload framed(int channel, const v1::FramePicture& picture) {
     add(picture.frame(), 8);
     return std::make_shared<const std::string>(bytes + picture.jpeg());
 }
-
-// A WebSocket of one visitor.
-class VisitorConnection final : public web::Service::Connection {
-  public:
-    VisitorConnection(Console& console, std::unique_ptr<Console::Visitor> visitor)
-        : console_{console}, visitor_{std::move(visitor)} {}
-    ~VisitorConnection() override { console_.forget(*visitor_); }
-    VisitorConnection(const VisitorConnection&) = delete;
-    VisitorConnection& operator=(const VisitorConnection&) = delete;
-    void hear(const std::string& text) override { console_.hear(*visitor_, text); }
-
-  private:
-    Console& console_;
-    std::unique_ptr<Console::Visitor> visitor_;
-};
 
 }  // namespace
 
@@ -183,168 +117,6 @@ void Console::note(const std::string& who, const std::string& what) {
     *message.mutable_events() = events_.list();
     sendToAll("events", message);
 }
-
-// --- requests
-
-// Counted, and shown in the foot of every page.
-HttpReply Console::refused(int status, const std::string& why) {
-    ++refused_;
-    return {.status = status, .body = why + "\n"};
-}
-
-// Nothing that is got acts; whoever sends it, host and origin come first.
-HttpReply Console::answer(const HttpRequest& request) {
-    const bool reads = request.method == "GET" || request.method == "HEAD";
-    if (auto objection = objectionTo(request, doors_, !reads)) {
-        ++refused_;
-        return *std::move(objection);
-    }
-    if (request.method == "POST") return act(request);
-    if (!reads) return refused(405, "only GET, HEAD and POST");
-    if (auto page = pageAt(request)) return *std::move(page);
-    const auto holder = holderOf(request, doors_, access_);
-    if (request.target == "/me")
-        return {.type = "application/json",
-                .body = jsonOfObject({{"name", holder ? holder->name : ""},
-                                      {"role", holder ? nameOf(holder->role) : ""}})};
-    return holder ? look(request) : refused(401, "not paired");
-}
-
-// For whoever is let in; the pages themselves are for everybody.
-HttpReply Console::look(const HttpRequest& request) {
-    if (request.target == "/metrics")
-        return {.type = "text/plain; version=0.0.4", .body = metricsOf(wall_, server_->cutOff())};
-    if (request.target == "/bundle.tar") {
-        std::string events;
-        const browser::EventList list = events_.list();
-        for (const browser::Event& event : list.events())
-            events += fmt::format("{:.0f} {}: {}\n", event.at_s(), event.who(), event.what());
-        browser::ToBrowser status;
-        *status.mutable_wall() = wall_;
-        return {.type = "application/x-tar",
-                .body = bundleOf(options_.master.rig,
-                                 {{"events.txt", events}, {"status.json", jsonOf(status)}}),
-                .headers = {{"Content-Disposition", "attachment; filename=\"aquarama.tar\""}}};
-    }
-    return {.status = 404, .body = "there is no such page\n"};
-}
-
-// Forms of other pages cannot send JSON without asking the browser first.
-HttpReply Console::act(const HttpRequest& request) {
-    if (!request.contentType.starts_with("application/json"))
-        return refused(415, "only application/json");
-    if (request.target == "/pair") return pair(request);
-    if (request.target == "/leave") return leave(request);
-    if (request.target != "/command") return refused(404, "there is nothing to act on here");
-    const auto holder = holderOf(request, doors_, access_);
-    return holder ? obey(request, *holder) : refused(401, "not paired");
-}
-
-// The one thing that somebody without a session may do.
-HttpReply Console::pair(const HttpRequest& request) {
-    const PairingRequest asked = pairingIn(request.body);
-    if (asked.code.empty()) return refused(400, "give the code that the console has shown");
-    bool isSpent = false;
-    const auto secret = access_.pair(asked.code, asked.name, unixNow(), isSpent);
-    if (secret) {
-        code_.clear();
-        note("console", "a browser was let in");
-        return {.body = "welcome\n", .headers = {{"Set-Cookie", cookieOf(doors_, *secret)}}};
-    }
-    if (isSpent) note("console", "five wrong pairing codes: the code has ended");
-    if (isSpent && !access_.hasPeople()) showCode(ConsoleRole::Crew);
-    return refused(403, "this is not the code, or it has ended");
-}
-
-// The session ends on this side, whatever the browser does with its cookie.
-HttpReply Console::leave(const HttpRequest& request) {
-    const auto holder = access_.session(sessionIn(request, doors_), unixNow());
-    if (holder) access_.revoke(holder->id);
-    return {.body = "goodbye\n", .headers = {{"Set-Cookie", cookieOf(doors_, "")}}};
-}
-
-// For programs, as Companion: one command in one request.
-HttpReply Console::obey(const HttpRequest& request, const Holder& holder) {
-    const auto message = readBrowser(request.body);
-    if (!message || !message->has_command()) return refused(400, "this is no command");
-    browser::ToBrowser reply;
-    *reply.mutable_done() = carryOut(holder, nullptr, message->command());
-    const bool isRefused = reply.done().outcome() == "refused";
-    return {.status = isRefused ? 403 : 200, .type = "application/json", .body = jsonOf(reply)};
-}
-
-// The first message is a whole snapshot: a page shows nothing before it.
-std::unique_ptr<web::Service::Connection> Console::open(const HttpRequest& request,
-                                                        web::Outbox& outbox,
-                                                        HttpReply& refusal) {
-    const auto holder = holderOf(request, doors_, access_);
-    if (auto objection = objectionTo(request, doors_, true)) {
-        ++refused_;
-        refusal = *std::move(objection);
-    } else if (request.target != "/ws") {
-        refusal = refused(404, "the console is at /ws");
-    } else if (!holder) {
-        refusal = refused(401, "not paired");
-    } else if (visitors_.size() >= kMostVisitors) {
-        refusal = refused(503, "too many browsers look already; close one");
-    } else {
-        auto visitor = std::make_unique<Visitor>(Visitor{.holder = *holder, .outbox = &outbox});
-        visitors_.insert(visitor.get());
-        sendTo(*visitor, "0", snapshotFor(*visitor));  // before all other topics
-        return std::make_unique<VisitorConnection>(*this, std::move(visitor));
-    }
-    return nullptr;
-}
-
-// What it has asked for goes on, and is answered to nobody.
-void Console::forget(Visitor& visitor) {
-    visitors_.erase(&visitor);
-    for (auto& [id, pending] : pending_)
-        if (pending.visitor == &visitor) pending.visitor = nullptr;
-    if (scan_.visitor == &visitor) scan_ = {};
-    std::erase_if(fishAsked_, [&](const auto& one) { return one.second == &visitor; });
-}
-
-// --- what browsers say
-
-// A visitor that is noisy is sent away, and may come again.
-void Console::hear(Visitor& visitor, const std::string& text) {
-    const auto message = readBrowser(text);
-    if (!message) ++visitor.malformed;
-    const bool isNoisy = ++visitor.messages > kMostMessagesASecond;
-    if (isNoisy || visitor.malformed > kMostMalformed) visitor.outbox->close(kClosedNoisy);
-    if (isNoisy || !message) {
-        ++refused_;
-        return;
-    }
-    switch (message->message_case()) {
-        case browser::FromBrowser::kLook:
-            return takeLook(visitor, message->look());
-        case browser::FromBrowser::kSeen:
-            visitor.picturesUnderWay.erase(static_cast<int>(message->seen().channel()));
-            return;
-        case browser::FromBrowser::kHelm:
-            if (visitor.holder.role >= ConsoleRole::Operator)
-                link_->steer(steeringOf(message->helm()));
-            return;
-        case browser::FromBrowser::kCommand: {
-            browser::ToBrowser reply;
-            *reply.mutable_done() = carryOut(visitor.holder, &visitor, message->command());
-            return sendTo(visitor, fmt::format("done {}", message->command().id()), reply);
-        }
-        default:
-            return;  // it is there
-    }
-}
-
-// Said every second; what is new in it is answered at once.
-void Console::takeLook(Visitor& visitor, const browser::Look& look) {
-    const bool isNew = look.SerializeAsString() != visitor.look.SerializeAsString();
-    visitor.look = look;
-    visitor.ticksToLook = kTicksOfALook;
-    if (isNew) sendTopics(visitor);
-}
-
 // --- what master and nodes say
 
 // Changes are told from looks at the wall, so it does not matter who made them.
@@ -424,7 +196,7 @@ void Console::heardMind(const v1::Explanation& explanation) {
     mind.set_tick(explanation.tick());
     for (const std::string& line : explanation.lines()) mind.add_lines(line);
     for (Visitor* visitor : visitors_)
-        if (wants(*visitor, "mind")) sendTo(*visitor, "mind", message);
+        if (visitor->wants("mind")) sendTo(*visitor, "mind", message);
 }
 
 // --- what is due
@@ -481,17 +253,6 @@ void Console::tick() {
     figures_.add(wall_);
     if (ticks_ % kTicksASecond == 0) everySecond();
     if (ticks_ % kTicksOfAWall == 0) sendWall();
-}
-
-// What the console itself knows is added to what the master has said.
-void Console::sendWall() {
-    wall_.set_now_s(unixNow());
-    wall_.set_held_until_s(opening_.heldUntil(unixNow()));
-    wall_.set_watching(static_cast<std::uint32_t>(visitors_.size()));
-    wall_.set_refused_requests(refused_ + server_->cutOff());
-    browser::ToBrowser message;
-    *message.mutable_wall() = wall_;
-    sendToAll("wall", message);
 }
 
 // One change at a time: its end is waited for.
@@ -557,164 +318,10 @@ void Console::hearCalibrations() {
 // The master ends it by itself three seconds after the last word.
 void Console::keepScan() {
     if (scan_.visitor == nullptr) return;
-    if (scan_.visitor->ticksToLook <= 0 || !wants(*scan_.visitor, "calibrations"))
+    if (scan_.visitor->ticksToLook <= 0 || !scan_.visitor->wants("calibrations"))
         scan_ = {};  // the page was left
     else
         link_->set(setOf(scan_.held));
-}
-
-// A page gets what it shows, and no other page does.
-void Console::sendTopics(Visitor& visitor) {
-    if (wants(visitor, "log")) sendLog(visitor);
-    if (wants(visitor, "panorama")) sendPanorama(visitor);
-    if (wants(visitor, "calibrations")) sendCalibrations(visitor);
-    if (!wants(visitor, "history")) visitor.hasHistory = false;
-    browser::ToBrowser message;
-    if (wants(visitor, "doctor")) {
-        *message.mutable_doctor() = doctor_;
-        sendTo(visitor, "doctor", message);
-    }
-    if (wants(visitor, "history") && !std::exchange(visitor.hasHistory, true))
-        sendHistory(visitor, true);
-    if (wants(visitor, "hours")) sendHours(visitor);
-    if (wants(visitor, "people")) sendPeople(visitor);
-}
-
-// Where it has changed.
-void Console::sendLog(Visitor& visitor) {
-    browser::ToBrowser message;
-    *message.mutable_log() = tailOf(logOf(options_.master.rig), visitor.look);
-    std::string text = jsonOf(message);
-    if (text != visitor.sentLog)
-        visitor.outbox->put("log", std::make_shared<const std::string>(text), false);
-    visitor.sentLog = std::move(text);
-}
-
-// All of it under a topic of its own: what is newer does not replace it while it waits.
-void Console::sendHistory(Visitor& visitor, bool isAll) {
-    browser::ToBrowser message;
-    *message.mutable_history() = isAll ? figures_.history() : figures_.lastSecond();
-    sendTo(visitor, isAll ? "history" : "history of a second", message);
-}
-
-// With the projectors, which have hours too.
-void Console::sendHours(Visitor& visitor) {
-    browser::ToBrowser message;
-    *message.mutable_hours() = hoursFor(visitor);
-    sendTo(visitor, "hours", message);
-    *message.mutable_projectors() = opening_.projectors();
-    sendTo(visitor, "projectors", message);
-}
-
-// Read again every five seconds while somebody looks: there may be thirty large files.
-void Console::sendCalibrations(Visitor& visitor) {
-    constexpr int kTicksBetween = 5 * kTicksASecond;
-    const bool isDue = !calibrations_ || ticks_ >= calibrationsDue_;
-    if (isDue && !calibrationsRead_.valid()) {
-        calibrationsDue_ = ticks_ + kTicksBetween;
-        calibrationsRead_ = std::async(std::launch::async,
-                                       [rig = options_.master.rig] { return calibrationsOf(rig); });
-    }
-    if (!calibrations_) return;
-    browser::ToBrowser message;
-    *message.mutable_calibrations() = *calibrations_;
-    message.mutable_calibrations()->set_held_scan(scan_.visitor == &visitor);
-    sendTo(visitor, "calibrations", message);
-}
-
-// Once, and again when it is another.
-void Console::sendPanorama(Visitor& visitor) {
-    if (panorama_.panorama().meshes().empty() || std::exchange(visitor.hasPanorama, true)) return;
-    browser::ToBrowser message;
-    *message.mutable_panorama() = panorama_.panorama();
-    sendTo(visitor, "panorama", message);
-}
-
-// To the crew alone.
-void Console::sendPeople(Visitor& visitor) {
-    if (visitor.holder.role != ConsoleRole::Crew) return;
-    browser::ToBrowser message;
-    *message.mutable_people() = peopleFor(visitor.holder);
-    sendTo(visitor, "people", message);
-}
-
-// Under its topic: an older one that waits still is replaced.
-void Console::sendTo(Visitor& visitor,
-                     const std::string& topic,
-                     const browser::ToBrowser& message) {
-    visitor.outbox->put(topic, std::make_shared<const std::string>(jsonOf(message)), false);
-}
-
-// Written once, shared by all.
-void Console::sendToAll(const std::string& topic, const browser::ToBrowser& message) {
-    if (visitors_.empty()) return;
-    const auto payload = std::make_shared<const std::string>(jsonOf(message));
-    for (Visitor* visitor : visitors_) visitor->outbox->put(topic, payload, false);
-}
-
-// All that a page needs to draw itself.
-browser::ToBrowser Console::snapshotFor(const Visitor& visitor) const {
-    constexpr std::uint32_t kSchema = 1;
-    browser::ToBrowser message;
-    browser::Snapshot& snapshot = *message.mutable_snapshot();
-    snapshot.set_schema(kSchema);
-    snapshot.set_build(options_.build);
-    snapshot.set_rig(options_.rig.name);
-    snapshot.set_role(static_cast<browser::Role>(visitor.holder.role));
-    snapshot.set_name(visitor.holder.name);
-    snapshot.set_has_power(std::filesystem::is_directory(kPowerFolder));
-    for (const config::Channel& from : options_.rig.channels) {
-        browser::Channel& channel = *snapshot.add_channels();
-        channel.set_name(from.name);
-        channel.set_machine(from.machine);
-        channel.set_width_px(static_cast<std::uint32_t>(from.sizePixels.x));
-        channel.set_height_px(static_cast<std::uint32_t>(from.sizePixels.y));
-    }
-    for (const std::string& scene : scenesBeside(options_.master.rig, options_.rig.scene))
-        snapshot.add_scenes(scene);
-    *snapshot.mutable_wall() = wall_;
-    snapshot.mutable_wall()->set_now_s(unixNow());
-    *snapshot.mutable_events() = events_.list();
-    *snapshot.mutable_alerts() = alertList();
-    *snapshot.mutable_hours() = hoursFor(visitor);
-    *snapshot.mutable_projectors() = opening_.projectors();
-    return message;
-}
-
-browser::Hours Console::hoursFor(const Visitor& visitor) const {
-    browser::Hours hours = opening_.hours(unixNow());
-    if (visitor.holder.role == ConsoleRole::Crew) return hours;
-    hours.clear_text();
-    for (browser::ControlledProjector& one : *hours.mutable_projectors()) one.clear_password();
-    return hours;
-}
-
-// In the order in which they began.
-browser::AlertList Console::alertList() const {
-    browser::AlertList list;
-    for (const StandingAlert& from : alerts_.standing()) {
-        browser::Alert& alert = *list.add_alerts();
-        alert.set_key(from.key);
-        alert.set_text(from.text);
-        alert.set_since_s(from.since);
-        alert.set_state(from.isAcknowledged ? "acknowledged" : from.isOver ? "over" : "firing");
-    }
-    return list;
-}
-
-// For the crew; secrets and hashes are in none of it.
-browser::People Console::peopleFor(const Holder& holder) const {
-    browser::People people;
-    people.set_code(code_);
-    for (const Holder& from : access_.people()) {
-        browser::Person& person = *people.add_people();
-        person.set_id(from.id);
-        person.set_name(from.name);
-        person.set_role(static_cast<browser::Role>(from.role));
-        person.set_since_s(from.since);
-        person.set_self(from.id == holder.id);
-    }
-    return people;
 }
 
 }  // namespace aquarama::console

@@ -72,6 +72,9 @@ class Console final : public web::Service {
         std::string sentLog = {};
         int messages = 0;  // in this second
         int malformed = 0;
+
+        // Whether its page shows this.
+        [[nodiscard]] bool wants(const char* topic) const;
     };
     // What a visitor says; called by its connection.
     void hear(Visitor& visitor, const std::string& text);
@@ -80,6 +83,9 @@ class Console final : public web::Service {
 
   private:
     using Command = browser::Command;
+    static constexpr int kTicksASecond = 10;
+    // A look, or a picture that nobody has confirmed, is forgotten after three seconds.
+    static constexpr int kTicksOfALook = 3 * kTicksASecond;
     // A command that the master has not answered yet.
     struct Pending {
         Visitor* visitor = nullptr;  // null: has gone
@@ -165,7 +171,9 @@ class Console final : public web::Service {
     // What its page shows now, beside the wall.
     void sendTopics(Visitor& visitor);
     void sendLog(Visitor& visitor);
+    void sendDoctor(Visitor& visitor);
     void sendHistory(Visitor& visitor, bool isAll);
+    void sendWholeHistory(Visitor& visitor);
     void sendHours(Visitor& visitor);
     void sendCalibrations(Visitor& visitor);
     void sendPeople(Visitor& visitor);

@@ -10,7 +10,6 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
-#include <span>
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
@@ -323,16 +322,6 @@ std::string useCalibration(const std::string& rigPath, const std::string& name) 
     if (said.status == 0) return {};
     const std::vector<std::string> lines = linesOf(said.text);
     return lines.empty() ? "it could not be put in place" : lines.back();
-}
-
-// Whole at once: the service reads it as soon as it is there.
-void sayPower(const fs::path& folder, const std::string& word) {
-    if (word != "poweroff" && word != "reboot") throw Error("the word is poweroff or reboot");
-    if (!fs::is_directory(folder))
-        throw Error("this machine takes no such word: it has no " + folder.string() +
-                    "; switch it off by hand");
-    const std::string line = word + "\n";
-    writeWhole(folder / "word", std::as_bytes(std::span(line)));
 }
 
 // Each file is filled up to whole blocks; two empty ones end it.

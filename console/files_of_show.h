@@ -37,12 +37,6 @@ namespace aquarama::console {
 // seconds. Why not, where it is refused.
 [[nodiscard]] std::string useCalibration(const std::string& rigPath, const std::string& name);
 
-// Where a machine takes the word that powers it off, if it does: its service carries it out.
-inline constexpr const char* kPowerFolder = "/run/aquarama/power";
-// Leaves `poweroff` or `reboot` there. Throws Error for another word, and where there is no such
-// folder.
-void sayPower(const std::filesystem::path& folder, const std::string& word);
-
 // Files as one archive (ustar). Each may have some megabytes; names up to 99 bytes.
 [[nodiscard]] std::string tarOf(const std::vector<std::pair<std::string, std::string>>& files);
 // The logs of a show, its rig, and these other files.

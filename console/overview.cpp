@@ -48,6 +48,7 @@ void addNode(browser::Wall& wall, const v1::NodeStatus& from, const std::string&
     node.set_round_trip_ms(report.round_trip_median_ms());
     node.set_celsius(report.gpu_celsius());
     node.set_drift_ppm(report.clock_drift_ppm());
+    node.set_takes_power(report.takes_power_word());
 }
 
 // What is wanted, and how much light there is on the way to it.

@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include <glm/matrix.hpp>
+
 #include "common/base/log.h"
 #include "common/wall/wall.h"
 
@@ -94,6 +96,24 @@ glm::vec2 firstEye(config::StereoMode mode) {
     return {1, 1};
 }
 
+// As console.proto has it: undoes what the last pass of a node does for a projector.
+void addColour(browser::ChannelMesh& mesh, const formats::ChannelColour& colour) {
+    constexpr int kCodes = 256;
+    constexpr double kScale = 65535;
+    std::string light;
+    for (const std::vector<float>& response : colour.response)
+        for (int code = 0; code < kCodes; ++code) {
+            const double share = formats::lightFor(response, double(code) / (kCodes - 1));
+            const auto value = static_cast<unsigned>(std::lround(kScale * share));
+            light += static_cast<char>(value & 0xFFU);
+            light += static_cast<char>(value >> 8U);
+        }
+    mesh.set_light_of_codes(light);
+    const glm::mat3 rows(glm::transpose(glm::inverse(glm::dmat3(colour.mix))));
+    for (int row = 0; row < 3; ++row)
+        for (int own = 0; own < 3; ++own) mesh.add_light_of_own(rows[row][own]);
+}
+
 // Those that cannot be looked at have the earliest time.
 std::vector<fs::file_time_type> timesOf(const std::vector<fs::path>& files) {
     std::vector<fs::file_time_type> times;
@@ -120,6 +140,7 @@ browser::Panorama panoramaOf(const config::Rig& rig) {
         const glm::vec2 eye = firstEye(wall::stereoOf(rig, i).mode);
         out.set_eye_width(eye.x);
         out.set_eye_height(eye.y);
+        if (const auto* colour = wall.channel(i).colour()) addColour(out, *colour);
     }
     return panorama;
 }

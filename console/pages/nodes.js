@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of the nodes: how each is, and how they were.
 import {html, nothing} from '/vendor/lit-html.js';
-import {Plot, button, filter, holdButton, ms, skewBars, state, t, time, word} from '/widgets.js';
+import {Plot, button, channelsOf, filter, holdButton, ms, skewBars, state, t, time, word} from '/widgets.js';
 
 // --- figures of the last ten minutes and of the last day
 
@@ -82,6 +82,22 @@ const nodeRow = link => node => html`<tr><th scope="row">${node.name}</th>
 
 const power = (link, word) => holdButton(t(`nodes.${word}`), () => link.command({power: word}, t(`nodes.${word}`)),
                                          {disabled: !link.may('CREW') || !link.known.snapshot.hasPower, of: word});
+// Machines beside the master's, as the rig has them: name -> the channels on it.
+function machinesOf(link) {
+  const machines = new Map();
+  for (const {machine, name} of channelsOf(link)) if (machine) machines.set(machine, [...machines.get(machine) ?? [], name]);
+  return machines;
+}
+// Told through any of its nodes that is there.
+function machine(link, [name, channels]) {
+  const told = (link.wall.nodes ?? []).find(node => channels.includes(node.name) && node.takesPower && node.condition !== 'absent');
+  const act = word => {
+    const label = t(`nodes.${word}Of`, {name});
+    return holdButton(label, () => link.command({machine: {channel: told.name, word}}, label), {disabled: !link.may('CREW') || !told, of: `${word} ${name}`});
+  };
+  return html`<div class="row">${act('reboot')}${act('poweroff')}</div>
+    <p class="note">${t(told ? 'nodes.machineNote' : 'nodes.noMachine', {name, channels: channels.join(', ')})}</p>`;
+}
 function service(link) {
   const held = link.wall.heldUntilS > 0;
   return html`<section class="panel"><h2>${t('nodes.service')}</h2>
@@ -91,7 +107,8 @@ function service(link) {
       <a class="button" href="/bundle.tar" download>${t('log.bundle')}</a></div>
     <p class="note">${t('nodes.serviceNote')}</p>
     <div class="row">${power(link, 'reboot')}${power(link, 'poweroff')}</div>
-    <p class="note">${t(link.known.snapshot.hasPower ? 'nodes.powerNote' : 'nodes.noPower')}</p></section>`;
+    <p class="note">${t(link.known.snapshot.hasPower ? 'nodes.powerNote' : 'nodes.noPower')}</p>
+    ${[...machinesOf(link)].map(one => machine(link, one))}</section>`;
 }
 
 export const nodesPage = {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The unrolled wall, put together in the browser: each channel's picture lies where its mesh says, and light adds up where
-// pictures overlap, as on the wall. What a projector adds by itself (its black, its own colours) is not in it.
+// pictures overlap, as on the wall. What a projector adds by itself (its black) is not in it.
 import {t} from '/widgets.js';
 
 const BETWEEN_MS = 200;  // five a second: as many as pictures come
@@ -66,17 +66,31 @@ export function samplesOf(mesh, width, height) {
   return {places: Uint32Array.from(places), across: Float32Array.from(across), down: Float32Array.from(down)};
 }
 
+// What a projector throws for the codes of its picture: of its own red, green and blue, and how much light of the wall's colours
+// (linear Rec. 709) each of these is, row by row; without rows the two are the same.
+function projectorOf({lightOfCodes, lightOfOwn}) {
+  if (!lightOfCodes) return {own: [LIGHT, LIGHT, LIGHT], rows: null};
+  const numbers = new DataView(Uint8Array.from(atob(lightOfCodes), letter => letter.charCodeAt(0)).buffer);
+  const tableOf = primary => Float32Array.from({length: 256}, (_, code) => numbers.getUint16(2 * (256 * primary + code), true) / 65535);
+  return {own: [0, 1, 2].map(tableOf), rows: lightOfOwn};
+}
+
 // Adds the light of a picture (codes of RGBA) where its samples lie.
-function addLight(light, {places, across, down}, {data, width, height}) {
+function addLight(light, {places, across, down, projector: {own, rows}}, {data, width, height}) {
+  const seen = [0, 0, 0];
   for (let i = 0; i < places.length; ++i) {
     const x = Math.min(Math.max(across[i] * width - 0.5, 0), width - 1.001);
     const y = Math.min(Math.max(down[i] * height - 0.5, 0), height - 1.001);
     const left = x | 0, top = y | 0, right = x - left, below = y - top;
     const a = 4 * (top * width + left), c = a + 4 * width;
     const out = 3 * places[i];
+    for (let colour = 0; colour < 3; ++colour) {
+      const table = own[colour];
+      seen[colour] = (1 - below) * ((1 - right) * table[data[a + colour]] + right * table[data[a + 4 + colour]]) +
+                     below * ((1 - right) * table[data[c + colour]] + right * table[data[c + 4 + colour]]);
+    }
     for (let colour = 0; colour < 3; ++colour)
-      light[out + colour] += (1 - below) * ((1 - right) * LIGHT[data[a + colour]] + right * LIGHT[data[a + 4 + colour]]) +
-                             below * ((1 - right) * LIGHT[data[c + colour]] + right * LIGHT[data[c + 4 + colour]]);
+      light[out + colour] += rows ? rows[3 * colour] * seen[0] + rows[3 * colour + 1] * seen[1] + rows[3 * colour + 2] * seen[2] : seen[colour];
   }
 }
 
@@ -95,7 +109,7 @@ export class Panorama {
     const width = Math.min(message.widthPx, innerWidth < 700 ? MOST_WIDTH_PHONE : MOST_WIDTH);
     const height = Math.max(1, Math.round(width * message.heightPx / message.widthPx));
     Object.assign(this.canvas, {width, height});
-    this.#samples = message.meshes.map(mesh => samplesOf(mesh, width, height));
+    this.#samples = message.meshes.map(mesh => ({...samplesOf(mesh, width, height), projector: projectorOf(mesh)}));
     this.#draw();
   }
   get isPlaced() { return this.#message !== null; }
@@ -118,7 +132,7 @@ export class Panorama {
     });
     const drawn = new ImageData(width, height);
     for (let i = 0, to = 0; i < light.length; to += 4) {
-      for (let colour = 0; colour < 3; ++colour) drawn.data[to + colour] = CODES[Math.min(STEPS, light[i++] * STEPS + 0.5 | 0)];
+      for (let colour = 0; colour < 3; ++colour) drawn.data[to + colour] = CODES[Math.max(0, Math.min(STEPS, light[i++] * STEPS + 0.5 | 0))];
       drawn.data[to + 3] = 255;
     }
     this.canvas.getContext('2d').putImageData(drawn, 0, 0);

@@ -8,22 +8,26 @@ import re
 import secrets
 import socket
 import struct
+import subprocess
 import sys
 import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "end_to_end"))
 
-from show import BIN, aquarama, children_of, end, rig_on_free_ports, start, temporary_folder, wait_until  # noqa: E402,F401
+from show import BIN, aquarama, children_of, control_address, end, give_colours, rig_on_free_ports, start, temporary_folder, wait_until  # noqa: E402,F401
 
 
 class Desk:
     """`aquarama run` of a desk; test patterns need no world, and are drawn at once."""
 
     # Three nodes share two cores with a browser: a slow wall leaves them room.
-    def __init__(self, *arguments, refresh_hz=15, calibrated=False):
+    # `machines`: channel -> name of the machine that shows it, whose nodes a test starts (start_node).
+    def __init__(self, *arguments, refresh_hz=15, calibrated=False, machines=None):
         self.folder = temporary_folder()
-        self.rig = rig_on_free_ports(self.folder.name, replace=((r"refresh_hz: 60", f"refresh_hz: {refresh_hz}"),))
+        elsewhere = [(f'name: "{channel}"', f'name: "{channel}" machine: "{machine}"') for channel, machine in (machines or {}).items()]
+        self.rig = rig_on_free_ports(self.folder.name, replace=((r"refresh_hz: 60", f"refresh_hz: {refresh_hz}"), *elsewhere))
+        self.nodes = []
         if calibrated:
             self.calibrate()
         self.log = Path(self.folder.name) / "log"
@@ -35,7 +39,7 @@ class Desk:
             raise
 
     def calibrate(self):
-        """The rig names a wall file from now on: its own geometry. An earlier one, of a projector that hung a little otherwise,
+        """The rig names a wall file from now on: its own geometry, with colours of its projectors. An earlier one, of a projector that hung a little otherwise,
         one that no rig can be shown by, and a look at the dots are kept beside it."""
         folder = Path(self.folder.name)
         history = folder / "hall.history"
@@ -46,6 +50,7 @@ class Desk:
         for rig, name, verdict in ((moved, "2026-01-24T210301", "warn"), (self.rig, "2026-02-24T210301", "pass")):
             done = aquarama("convert", rig, history / f"{name}.mpcdi")
             assert done.returncode == 0, done.stderr
+            give_colours(history / f"{name}.mpcdi")
             figures = {"verdict": verdict, "cause": "" if verdict == "pass" else "a bright window", "overlap_rms_px": 0.031, "overlap_max_px": 0.4, "absolute_rms_px": 0.52}
             (history / f"{name}.json").write_text(json.dumps(figures))
         (history / "2026-01-20T101500.mpcdi").write_text("no wall file")
@@ -55,8 +60,14 @@ class Desk:
             {"looked": "2026-03-01T05:00:20Z", "learned": "2026-02-24T21:03:01Z", "camera_moved_px": 0.31, "camera_lost": False, "channels": channels}))
         self.rig.write_text(text + 'calibration: "hall.mpcdi"\n')
 
+    def start_node(self, channel, **environment):
+        """As the service of another machine does, with variables of its own."""
+        command = [BIN / "aquarama-node", channel, "--master", control_address(self.rig), "--headless"]
+        with open(self.log, "a") as output:
+            self.nodes.append(subprocess.Popen(command, stdout=output, stderr=output, env=os.environ | {"LP_NUM_THREADS": "1"} | environment))
+
     def close(self):
-        end([self.show])
+        end([*self.nodes, self.show])
         self.folder.cleanup()
 
     def said(self):

@@ -303,5 +303,72 @@ class Doors(unittest.TestCase):
             console.wait(10)
 
 
+class OtherMachines(unittest.TestCase):
+    """Two nodes with folders of their own for the word stand for two machines; the third is the master's."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.desk = Desk("--pattern", "grid", refresh_hz=6, machines={"left": "pit", "right": "balcony"})
+        cls.addClassCleanup(cls.desk.close)
+        cls.pit, cls.nowhere = (Path(cls.desk.folder.name) / name for name in ("pit", "nowhere"))
+        cls.pit.mkdir()
+        cls.desk.start_node("left", AQUARAMA_POWER_FOLDER=str(cls.pit))
+        cls.desk.start_node("right", AQUARAMA_POWER_FOLDER=str(cls.nowhere))
+        cls.crew = Socket(cls.desk, Origin=None, Authorization=f"Bearer {cls.desk.token('crew')}")
+        cls.run_number = cls.crew.hear()["snapshot"]["wall"]["run"]
+        cls.wall(lambda nodes: all(node["host"] for node in nodes.values()))
+
+    @classmethod
+    def wall(cls, wanted):
+        """The nodes by name, as soon as they are as they should be."""
+        nodes = lambda message: {node["name"]: node for node in message["wall"]["nodes"]}
+        return nodes(cls.crew.hear_until(lambda message: isinstance(message, dict) and "wall" in message and wanted(nodes(message)), 60))
+
+    def switch(self, channel, word, identity=None, run=None):
+        return self.crew.command(run or self.run_number, identity, machine={"channel": channel, "word": word})
+
+    def events(self):
+        return [event["what"] for event in self.crew.hear_until(lambda message: isinstance(message, dict) and "events" in message)["events"]["events"]]
+
+    def test_the_word_goes_to_the_machine_of_the_node_once(self):
+        word, identity = self.pit / "word", secrets.randbits(62) | 1
+        self.assertEqual(self.switch("left", "reboot", identity), {"id": str(identity), "outcome": "done", "reason": ""})
+        self.assertIn("reboot of the machine of left", self.events())
+        self.assertEqual(word.read_text(), "reboot\n")
+        word.unlink()  # as its service does
+        self.assertEqual(self.switch("left", "reboot", identity)["outcome"], "done")
+        time.sleep(0.5)
+        self.assertFalse(word.exists(), "said again: answered, not done")
+        self.assertEqual(self.switch("left", "poweroff")["outcome"], "done")
+        self.assertEqual(word.read_text(), "poweroff\n")
+        word.unlink()
+
+    def test_only_the_crew_and_only_one_of_two_words_of_this_show(self):
+        operator = Socket(self.desk, Origin=None, Authorization=f"Bearer {self.desk.token('operator')}")
+        self.assertEqual(operator.command(self.run_number, machine={"channel": "left", "word": "poweroff"})["reason"], "only crew may do this")
+        operator.close()
+        for channel, word, run in (("left", "halt", None), ("left", "", None), ("", "reboot", None), ("nobody", "reboot", None),
+                                   ("left", "poweroff", str(int(self.run_number) ^ 1))):
+            self.assertEqual(self.switch(channel, word, run=run)["outcome"], "refused", (channel, word, run))
+        self.assertEqual(list(self.pit.iterdir()), [])
+
+    def test_a_machine_that_is_not_set_up_says_so_and_does_nothing(self):
+        nodes = self.wall(lambda nodes: "takesPower" in nodes["left"])
+        self.assertEqual([nodes[name]["takesPower"] for name in ("left", "right")], [True, False])
+        refused = self.switch("right", "poweroff")
+        self.assertEqual(refused["reason"], "the machine of right takes no such word; set up aquarama-power.path there")
+        self.assertFalse(self.nowhere.exists())
+        self.pit.rename(self.nowhere)  # taken away since the node's last report: the node refuses it itself
+        try:
+            done = self.switch("left", "poweroff")
+            self.assertEqual(done["outcome"], "refused")
+            self.assertIn("takes no such word", done["reason"])
+            self.assertNotIn("\n", done["reason"])
+        finally:
+            self.nowhere.rename(self.pit)
+        self.assertEqual(list(self.pit.iterdir()), [])
+        self.wall(lambda nodes: nodes["left"]["takesPower"])
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)

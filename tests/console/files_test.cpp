@@ -101,14 +101,6 @@ TEST_F(FilesTest, whatWasKeptOfACalibrationIsReadWithItsFiguresAndDriftsLastLook
     EXPECT_NE(calibrationsOf(path).problem(), "");
 }
 
-TEST_F(FilesTest, aMachineIsToldOneOfTwoWordsWhereItTakesThem) {
-    EXPECT_THROW(sayPower(folder_ / "none", "reboot"), Error);
-    EXPECT_THROW(sayPower(folder_, "reboot; rm"), Error);
-    EXPECT_FALSE(fs::exists(folder_ / "word"));
-    sayPower(folder_, "reboot");
-    EXPECT_EQ(config::readTextFile((folder_ / "word").string()), "reboot\n");
-}
-
 TEST_F(FilesTest, eventsAreThereAgainAfterAStart) {
     {
         EventBook book(folder_ / "events.jsonl");

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// What browsers and programs ask of the console: over HTTP, and over a WebSocket. All of it on the
+// server's thread.
+#include <algorithm>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include "console/console.h"
+
+namespace aquarama::console {
+
+namespace {
+
+using web::HttpReply;
+using web::HttpRequest;
+
+// Browsers that are connected at a time; another one gets status 503.
+constexpr std::size_t kMostVisitors = 64;
+// A visitor that exceeds one of these two is disconnected with kClosedNoisy.
+constexpr int kMostMessagesASecond = 200;
+constexpr int kMostMalformed = 10;
+// As kClosedUnpaired.
+constexpr std::uint16_t kClosedNoisy = 4008;
+
+// Hands at the submarine, brought into the range of the wire.
+Steering steeringOf(const browser::Helm& helm) {
+    const auto axis = [](int value) {
+        return static_cast<std::int8_t>(std::clamp(value, -kFullSteering, int{kFullSteering}));
+    };
+    return {.ahead = axis(helm.ahead()),
+            .aside = axis(helm.aside()),
+            .up = axis(helm.up()),
+            .turn = axis(helm.turn()),
+            .tilt = axis(helm.tilt())};
+}
+
+// A code and a name of whoever types it; an empty code where the text is none.
+struct PairingRequest {
+    std::string code, name;
+};
+PairingRequest pairingIn(const std::string& body) {
+    const auto asked = nlohmann::json::parse(body, nullptr, false);
+    const auto text = [&](const char* field) -> std::string {
+        if (!asked.is_object() || !asked.contains(field) || !asked[field].is_string()) return {};
+        return asked[field].get<std::string>();
+    };
+    return {text("code"), text("name")};
+}
+
+// Text that is none becomes question marks: a reply is never malformed.
+std::string jsonOfObject(const nlohmann::json& object) {
+    return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+// A WebSocket of one visitor.
+class VisitorConnection final : public web::Service::Connection {
+  public:
+    VisitorConnection(Console& console, std::unique_ptr<Console::Visitor> visitor)
+        : console_{console}, visitor_{std::move(visitor)} {}
+    ~VisitorConnection() override { console_.forget(*visitor_); }
+    VisitorConnection(const VisitorConnection&) = delete;
+    VisitorConnection& operator=(const VisitorConnection&) = delete;
+    void hear(const std::string& text) override { console_.hear(*visitor_, text); }
+
+  private:
+    Console& console_;
+    std::unique_ptr<Console::Visitor> visitor_;
+};
+
+}  // namespace
+
+// Counted, and shown in the foot of every page.
+HttpReply Console::refused(int status, const std::string& why) {
+    ++refused_;
+    return {.status = status, .body = why + "\n"};
+}
+
+// Nothing that is got acts; whoever sends it, host and origin come first.
+HttpReply Console::answer(const HttpRequest& request) {
+    const bool reads = request.method == "GET" || request.method == "HEAD";
+    if (auto objection = objectionTo(request, doors_, !reads)) {
+        ++refused_;
+        return *std::move(objection);
+    }
+    if (request.method == "POST") return act(request);
+    if (!reads) return refused(405, "only GET, HEAD and POST");
+    if (auto page = pageAt(request)) return *std::move(page);
+    const auto holder = holderOf(request, doors_, access_);
+    if (request.target == "/me")
+        return {.type = "application/json",
+                .body = jsonOfObject({{"name", holder ? holder->name : ""},
+                                      {"role", holder ? nameOf(holder->role) : ""}})};
+    return holder ? look(request) : refused(401, "not paired");
+}
+
+// For whoever is let in; the pages themselves are for everybody.
+HttpReply Console::look(const HttpRequest& request) {
+    if (request.target == "/metrics")
+        return {.type = "text/plain; version=0.0.4", .body = metricsOf(wall_, server_->cutOff())};
+    if (request.target == "/bundle.tar") {
+        std::string events;
+        const browser::EventList list = events_.list();
+        for (const browser::Event& event : list.events())
+            events += fmt::format("{:.0f} {}: {}\n", event.at_s(), event.who(), event.what());
+        browser::ToBrowser status;
+        *status.mutable_wall() = wall_;
+        return {.type = "application/x-tar",
+                .body = bundleOf(options_.master.rig,
+                                 {{"events.txt", events}, {"status.json", jsonOf(status)}}),
+                .headers = {{"Content-Disposition", "attachment; filename=\"aquarama.tar\""}}};
+    }
+    return {.status = 404, .body = "there is no such page\n"};
+}
+
+// Forms of other pages cannot send JSON without asking the browser first.
+HttpReply Console::act(const HttpRequest& request) {
+    if (!request.contentType.starts_with("application/json"))
+        return refused(415, "only application/json");
+    if (request.target == "/pair") return pair(request);
+    if (request.target == "/leave") return leave(request);
+    if (request.target != "/command") return refused(404, "there is nothing to act on here");
+    const auto holder = holderOf(request, doors_, access_);
+    return holder ? obey(request, *holder) : refused(401, "not paired");
+}
+
+// The one thing that somebody without a session may do.
+HttpReply Console::pair(const HttpRequest& request) {
+    const PairingRequest asked = pairingIn(request.body);
+    if (asked.code.empty()) return refused(400, "give the code that the console has shown");
+    bool isSpent = false;
+    const auto secret = access_.pair(asked.code, asked.name, unixNow(), isSpent);
+    if (secret) {
+        code_.clear();
+        note("console", "a browser was let in");
+        return {.body = "welcome\n", .headers = {{"Set-Cookie", cookieOf(doors_, *secret)}}};
+    }
+    if (isSpent) note("console", "five wrong pairing codes: the code has ended");
+    if (isSpent && !access_.hasPeople()) showCode(ConsoleRole::Crew);
+    return refused(403, "this is not the code, or it has ended");
+}
+
+// The session ends on this side, whatever the browser does with its cookie.
+HttpReply Console::leave(const HttpRequest& request) {
+    const auto holder = access_.session(sessionIn(request, doors_), unixNow());
+    if (holder) access_.revoke(holder->id);
+    return {.body = "goodbye\n", .headers = {{"Set-Cookie", cookieOf(doors_, "")}}};
+}
+
+// For programs, as Companion: one command in one request.
+HttpReply Console::obey(const HttpRequest& request, const Holder& holder) {
+    const auto message = readBrowser(request.body);
+    if (!message || !message->has_command()) return refused(400, "this is no command");
+    browser::ToBrowser reply;
+    *reply.mutable_done() = carryOut(holder, nullptr, message->command());
+    const bool isRefused = reply.done().outcome() == "refused";
+    return {.status = isRefused ? 403 : 200, .type = "application/json", .body = jsonOf(reply)};
+}
+
+// The first message is a whole snapshot: a page shows nothing before it.
+std::unique_ptr<web::Service::Connection> Console::open(const HttpRequest& request,
+                                                        web::Outbox& outbox,
+                                                        HttpReply& refusal) {
+    const auto holder = holderOf(request, doors_, access_);
+    if (auto objection = objectionTo(request, doors_, true)) {
+        ++refused_;
+        refusal = *std::move(objection);
+    } else if (request.target != "/ws") {
+        refusal = refused(404, "the console is at /ws");
+    } else if (!holder) {
+        refusal = refused(401, "not paired");
+    } else if (visitors_.size() >= kMostVisitors) {
+        refusal = refused(503, "too many browsers look already; close one");
+    } else {
+        auto visitor = std::make_unique<Visitor>(Visitor{.holder = *holder, .outbox = &outbox});
+        visitors_.insert(visitor.get());
+        sendTo(*visitor, "0", snapshotFor(*visitor));  // before all other topics
+        return std::make_unique<VisitorConnection>(*this, std::move(visitor));
+    }
+    return nullptr;
+}
+
+// What it has asked for goes on, and is answered to nobody.
+void Console::forget(Visitor& visitor) {
+    visitors_.erase(&visitor);
+    for (auto& [id, pending] : pending_)
+        if (pending.visitor == &visitor) pending.visitor = nullptr;
+    if (scan_.visitor == &visitor) scan_ = {};
+    std::erase_if(fishAsked_, [&](const auto& one) { return one.second == &visitor; });
+}
+
+// A visitor that is noisy is sent away, and may come again.
+void Console::hear(Visitor& visitor, const std::string& text) {
+    const auto message = readBrowser(text);
+    if (!message) ++visitor.malformed;
+    const bool isNoisy = ++visitor.messages > kMostMessagesASecond;
+    if (isNoisy || visitor.malformed > kMostMalformed) visitor.outbox->close(kClosedNoisy);
+    if (isNoisy || !message) {
+        ++refused_;
+        return;
+    }
+    switch (message->message_case()) {
+        case browser::FromBrowser::kLook:
+            return takeLook(visitor, message->look());
+        case browser::FromBrowser::kSeen:
+            visitor.picturesUnderWay.erase(static_cast<int>(message->seen().channel()));
+            return;
+        case browser::FromBrowser::kHelm:
+            if (visitor.holder.role >= ConsoleRole::Operator)
+                link_->steer(steeringOf(message->helm()));
+            return;
+        case browser::FromBrowser::kCommand: {
+            browser::ToBrowser reply;
+            *reply.mutable_done() = carryOut(visitor.holder, &visitor, message->command());
+            return sendTo(visitor, fmt::format("done {}", message->command().id()), reply);
+        }
+        default:
+            return;  // it is there
+    }
+}
+
+// Said every second; what is new in it is answered at once.
+void Console::takeLook(Visitor& visitor, const browser::Look& look) {
+    const bool isNew = look.SerializeAsString() != visitor.look.SerializeAsString();
+    visitor.look = look;
+    visitor.ticksToLook = kTicksOfALook;
+    if (isNew) sendTopics(visitor);
+}
+
+}  // namespace aquarama::console
