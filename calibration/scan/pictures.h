@@ -14,8 +14,8 @@
 namespace aquarama::scan {
 
 // The patterns of a whole scan by one camera, in their order: of the room, black, white of each
-// channel, columns and rows, colours and levels. Channels that share no light of the screen, by the
-// rig, show theirs together.
+// channel, columns and rows but for one stripe pattern of each, colours and levels, black, those
+// stripes. Channels that share no light of the screen, by the rig, show theirs together.
 [[nodiscard]] std::vector<config::ScanPattern> sequenceOf(const config::Rig& rig);
 
 // To see whether a projector has moved: black, white and dots of all channels, those that share no

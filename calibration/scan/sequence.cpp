@@ -93,13 +93,27 @@ std::uint64_t withBit(const config::Rig& rig, std::uint64_t round, Kind kind, in
     return lit;
 }
 
+// Stripes that are shown at the scan's end, as they tell whether a projector has moved since its
+// other patterns: not so fine that they are lost in small copies of the pictures, of all of a
+// round.
+int lateBit(const config::Rig& rig, std::uint64_t round, Kind kind) {
+    constexpr int kFromFinest = 3;
+    int bits = 0;
+    while (withBit(rig, round, kind, bits) == round) ++bits;
+    return std::max(0, bits - kFromFinest);
+}
+ScanPattern stripes(Kind kind, int bit, std::uint64_t lit) {
+    return {.kind = kind, .step = static_cast<std::uint8_t>(bit), .lit = lit};
+}
+
 void addAxis(std::vector<ScanPattern>& sequence,
              const config::Rig& rig,
              std::uint64_t round,
              Kind gray,
              Kind phase) {
+    const int late = lateBit(rig, round, gray);
     for (int bit = 0; const std::uint64_t lit = withBit(rig, round, gray, bit); ++bit)
-        sequence.push_back({.kind = gray, .step = static_cast<std::uint8_t>(bit), .lit = lit});
+        if (bit != late) sequence.push_back(stripes(gray, bit, lit));
     for (int step = 0; step < wall::kScanPhaseSteps; ++step)
         sequence.push_back({.kind = phase, .step = static_cast<std::uint8_t>(step), .lit = round});
 }
@@ -109,18 +123,25 @@ void addRound(std::vector<ScanPattern>& sequence, const config::Rig& rig, std::u
     addAxis(sequence, rig, round, Kind::GrayRows, Kind::PhaseRows);
 }
 
+void addLateStripes(std::vector<ScanPattern>& sequence,
+                    const config::Rig& rig,
+                    std::uint64_t round) {
+    for (const Kind kind : {Kind::GrayColumns, Kind::GrayRows})
+        sequence.push_back(stripes(kind, lateBit(rig, round, kind), round));
+}
+
 // Of all channels at once, whose tags would lie in one another's light: colours and levels, which
-// are read where one channel is alone, and white in shorter exposures, which tell the camera's
-// response.
+// tell how each channel responds as light is a sum, and white in shorter exposures, which tell the
+// camera's response.
 void addLevels(std::vector<ScanPattern>& sequence, std::uint64_t all) {
     constexpr std::array<glm::vec3, 8> kLevels{{{1, 0, 0},
                                                 {0, 1, 0},
                                                 {0, 0, 1},
-                                                glm::vec3(0.005F),
-                                                glm::vec3(0.025F),
-                                                glm::vec3(0.18F),
-                                                glm::vec3(0.5F),
-                                                glm::vec3(0.8F)}};
+                                                glm::vec3(0.004F),
+                                                glm::vec3(0.02F),
+                                                glm::vec3(0.3F),
+                                                glm::vec3(0.8F),
+                                                glm::vec3(0.92F)}};
     for (const glm::vec3 light : kLevels)
         sequence.push_back({.light = light, .lit = all, .tagged = false});
     for (const std::uint8_t step : {std::uint8_t{1}, std::uint8_t{2}})
@@ -137,13 +158,15 @@ std::vector<ScanPattern> sequenceOf(const config::Rig& rig) {
     std::vector<ScanPattern> sequence{{.kind = Kind::Room, .lit = 0, .tagged = false}, black()};
     for (std::size_t c = 0; c < rig.channels.size(); ++c)
         sequence.push_back({.lit = std::uint64_t{1} << c});
+    const std::vector<std::uint64_t> rounds = roundsOf(rig);
     std::uint64_t all = 0;
-    for (const std::uint64_t round : roundsOf(rig)) {
+    for (const std::uint64_t round : rounds) {
         addRound(sequence, rig, round);
         all |= round;
     }
     addLevels(sequence, all);
     sequence.push_back(black());  // tells of light that came or went
+    for (const std::uint64_t round : rounds) addLateStripes(sequence, rig, round);
     for (std::size_t i = 0; i < sequence.size(); ++i)
         sequence[i].number = static_cast<std::uint16_t>(i + 1);
     return sequence;

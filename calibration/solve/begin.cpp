@@ -5,12 +5,9 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <string>
 
 #include <ceres/ceres.h>
 #include <glm/geometric.hpp>
-
-#include "common/base/log.h"
 
 namespace aquarama::solve {
 
@@ -122,16 +119,14 @@ std::vector<Sighting> sightingsOf(const std::vector<Tie>& ties,
 
 }  // namespace
 
-Sighted bestSighted(const std::vector<Tie>& ties,
-                    std::uint32_t camera,
-                    const wall::Wall& wall,
-                    glm::ivec2 size,
-                    const std::vector<std::size_t>& order) {
+std::optional<Sighted> bestSighted(const std::vector<Tie>& ties,
+                                   std::uint32_t camera,
+                                   const wall::Wall& wall,
+                                   glm::ivec2 size,
+                                   const std::vector<std::size_t>& order) {
     const std::vector<Sighting> sightings = sightingsOf(ties, camera, wall, order);
     constexpr std::size_t kLeast = 30;
-    if (sightings.size() < kLeast)
-        throw Error("camera " + std::to_string(camera) +
-                    " sees too little of the wall: place it where it sees the whole screen");
+    if (sightings.size() < kLeast) return std::nullopt;
     constexpr double kGood = 0.1;
     Sighted best{.camera = {}, .loss = 1e30};
     for (const int quarters : {0, 2, 1, 3})
@@ -161,10 +156,10 @@ std::optional<std::pair<std::size_t, std::size_t>> swappedPair(const config::Rig
         for (std::size_t j = i + 1; j < order.size(); ++j) {
             if (rig.channels[i].sizePixels != rig.channels[j].sizePixels) continue;
             std::swap(order[i], order[j]);
-            const double now = bestSighted(ties, 0, wall, size, order).loss;
+            const auto now = bestSighted(ties, 0, wall, size, order);
             std::swap(order[i], order[j]);
-            if (now >= least) continue;
-            least = now;
+            if (!now || now->loss >= least) continue;
+            least = now->loss;
             found = {i, j};
         }
     return found;

@@ -23,13 +23,13 @@ struct Sighted {
     double loss = 0;
 };
 
-// `order[i]`: the channel of the rig that hangs where channel i of the scan is seen. Throws Error
-// where the camera sees too little.
-[[nodiscard]] Sighted bestSighted(const std::vector<Tie>& ties,
-                                  std::uint32_t camera,
-                                  const wall::Wall& wall,
-                                  glm::ivec2 size,
-                                  const std::vector<std::size_t>& order);
+// `order[i]`: the channel of the rig that hangs where channel i of the scan is seen. Nothing where
+// the camera sees too little.
+[[nodiscard]] std::optional<Sighted> bestSighted(const std::vector<Tie>& ties,
+                                                 std::uint32_t camera,
+                                                 const wall::Wall& wall,
+                                                 glm::ivec2 size,
+                                                 const std::vector<std::size_t>& order);
 
 // Two channels whose cables are exchanged, where that explains what the first camera sees far
 // better than `loss`, that of the rig's order.

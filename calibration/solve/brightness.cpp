@@ -165,23 +165,19 @@ class ShareMap {
             });
     }
 
-    // The blacks of all channels that reach a point of the rig's screen.
-    [[nodiscard]] double blackAt(glm::dvec2 place, glm::dvec3 point) const {
-        const glm::dvec2 spot = place * glm::dvec2(black.size) - 0.5;
-        const glm::ivec2 low =
-            glm::clamp(glm::ivec2(glm::floor(spot)), glm::ivec2(0), black.size - 2);
-        const std::size_t corner = indexOf(black, low.x, low.y),
-                          below = indexOf(black, low.x, low.y + 1);
-        const std::uint64_t reached = reached_[corner];
-        if (reached == reached_[corner + 1] && reached == reached_[below] &&
-            reached == reached_[below + 1])
-            return black.at(place);
-        double sum = 0;  // the border of a channel's picture is near
-        for (std::size_t c = 0; c < optics_.size(); ++c)
-            if (const auto pixel = optics_[c]->pixelOf(point))
-                sum += lights_[c].black *
-                       lights_[c].white.at(*pixel / glm::dvec2(rig_.channels[c].sizePixels));
-        return sum;
+    // The blacks of all channels that reach a pixel of one, in the mean over the pixel: near the
+    // border of a picture a share of it.
+    [[nodiscard]] double blackAt(std::size_t channel, glm::dvec2 pixel, glm::dvec2 place) const {
+        const Reach reach = reachAbout(place);
+        if (reach.all == reach.some) return black.at(place);
+        constexpr int kParts = 4;  // each way
+        double sum = 0;
+        for (int i = 0; i < kParts * kParts; ++i)
+            sum +=
+                blackOf(channel,
+                        pixel + (glm::dvec2(i % kParts, i / kParts) + 0.5) / double{kParts} - 0.5,
+                        reach.some);
+        return sum / (kParts * kParts);
     }
 
     std::vector<ScreenField> shares;
@@ -189,6 +185,36 @@ class ShareMap {
     ScreenField mostWhite, black;
 
   private:
+    // Channels that reach some and all of the cells about a place.
+    struct Reach {
+        std::uint64_t some = 0, all = ~std::uint64_t{0};
+    };
+    [[nodiscard]] Reach reachAbout(glm::dvec2 place) const {
+        const glm::ivec2 low = glm::ivec2(glm::floor(place * glm::dvec2(black.size) - 0.5));
+        Reach reach;
+        for (int y = low.y - 1; y <= low.y + 2; ++y)
+            for (int x = low.x - 1; x <= low.x + 2; ++x) {
+                const glm::ivec2 at = glm::clamp(glm::ivec2(x, y), glm::ivec2(0), black.size - 1);
+                reach.some |= reached_[indexOf(black, at.x, at.y)];
+                reach.all &= reached_[indexOf(black, at.x, at.y)];
+            }
+        return reach;
+    }
+    // Of some channels at a place of the picture of one, which is one of them.
+    [[nodiscard]] double blackOf(std::size_t channel,
+                                 glm::dvec2 pixel,
+                                 std::uint64_t channels) const {
+        double sum = blackOf(channel, pixel);
+        const auto point = optics_[channel]->pointOf(pixel, wall::kSpillMetres);
+        for (std::size_t c = 0; point && c < optics_.size(); ++c)
+            if (c != channel && ((channels >> c) & 1U) != 0)
+                if (const auto at = optics_[c]->pixelOf(*point)) sum += blackOf(c, *at);
+        return sum;
+    }
+    [[nodiscard]] double blackOf(std::size_t channel, glm::dvec2 pixel) const {
+        return lights_[channel].black *
+               lights_[channel].white.at(pixel / glm::dvec2(rig_.channels[channel].sizePixels));
+    }
     void fill(std::size_t cell, glm::dvec3 point) {
         double sum = 0;
         std::vector<std::optional<glm::dvec2>> pixels;
@@ -205,7 +231,7 @@ class ShareMap {
         reached_[cell] |= std::uint64_t{1} << channel;
         const double white = lights_[channel].white.at(pixel / glm::dvec2(size));
         shares[channel].values[cell] = static_cast<float>(share);
-        black.values[cell] += static_cast<float>(lights_[channel].black * white);
+        black.values[cell] += static_cast<float>(blackOf(channel, pixel));
         if (share <= 0) return;
         float& most = mostWhite.values[cell];
         most = std::min(most, static_cast<float>(white * colours_.gains[channel] / share));
@@ -299,7 +325,7 @@ void shadeChannel(const SolvedHall& hall,
                 shadeAt(map.shares[channel].at(place) / white(pixel / glm::dvec2(size)),
                         target.white.at(place),
                         target.black.at(place),
-                        map.blackAt(place, glm::dvec3(points[i])));
+                        map.blackAt(channel, pixel, place));
             blend.codes[i] = codeOf(shade.blend);
             black.codes[i] = codeOf(shade.black);
         }

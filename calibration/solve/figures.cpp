@@ -110,6 +110,55 @@ void judgePlace(Figures& figures, const SolveFigures& solved) {
                      solved.absoluteSigma)});
 }
 
+// How far a projector's lens was found from what the rig says, as shares of what is let pass.
+struct LensApart {
+    const config::Channel* channel = nullptr;
+    double stretch = 0;          // of its picture: the aspect, and that of a trapezoid
+    double zoom = 0, shift = 0;  // of the focal length, and of the picture's width
+    [[nodiscard]] double setting() const { return std::max(zoom, shift); }
+};
+LensApart apartFromRig(const SolvedHall& hall, std::size_t channel) {
+    constexpr double kMostStretch = 0.01, kMostZoom = 0.1, kMostShift = 0.15;
+    const config::Channel& said = hall.rig.channels[channel];
+    const LensParameters expected = lensOf(said.projector);
+    const LensParameters& found = hall.projectors[channel].lens;
+    const glm::dvec2 size(said.sizePixels);
+    const double aspect = std::abs(found[lens::Aspect] - expected[lens::Aspect]);
+    const double trapezoid = std::hypot(found[lens::P1], found[lens::P2]) * glm::length(size) /
+                             (2 * expected[lens::Focal]);
+    const double shift = std::hypot(found[lens::CentreX] - expected[lens::CentreX],
+                                    found[lens::CentreY] - expected[lens::CentreY]);
+    return {&said,
+            std::max(aspect, trapezoid) / kMostStretch,
+            std::abs(found[lens::Focal] / expected[lens::Focal] - 1) / kMostZoom,
+            shift / size.x / kMostShift};
+}
+
+// A picture of another shape than the rig's is fitted, and neighbours agree, but what the fit gets
+// wrong of it pulls the others from their places: most on domes, where all overlap.
+void judgeLenses(Figures& figures, const SolvedHall& hall) {
+    std::vector<LensApart> lenses;
+    for (std::size_t c = 0; c < hall.projectors.size(); ++c)
+        lenses.push_back(apartFromRig(hall, c));
+    const LensApart& worst = *std::ranges::max_element(lenses, {}, &LensApart::stretch);
+    if (worst.stretch > 1)
+        take(figures,
+             Judgement::Warn,
+             {"picture_stretched",
+              fmt::format("channel \"{}\" shows its picture stretched or as a trapezoid: switch "
+                          "its keystone correction off, send it its own resolution, and scan again",
+                          worst.channel->name)});
+    const LensApart& set = *std::ranges::max_element(lenses, {}, &LensApart::setting);
+    if (set.setting() > 1)
+        take(figures,
+             Judgement::Warn,
+             {"lens_not_as_stated",
+              fmt::format("the lens of channel \"{}\" is not {} as the rig says: switch keystone "
+                          "correction off, correct the rig or the lens, and scan again",
+                          set.channel->name,
+                          set.zoom > set.shift ? "zoomed" : "shifted")});
+}
+
 // A round edge does not tell how it is turned about its axis, but a mark on it does.
 void judgeDome(Figures& figures, const Solved& solved) {
     if (solved.hall->rig.screen.shape != config::ScreenShape::Dome || solved.figures.marks > 0)
@@ -167,6 +216,7 @@ Figures judged(const std::vector<scan::CameraView>& views, const Solved& solved)
         judgeOutline(figures, solved.figures);
         judgePlace(figures, solved.figures);
         judgeDome(figures, solved);
+        judgeLenses(figures, *solved.hall);
     }
     figures.overlapRms = solved.figures.overlapRms;
     figures.overlapP95 = solved.figures.overlapP95;
@@ -185,8 +235,25 @@ void setBrightness(Figures& figures, const std::optional<BrightnessFigures>& bri
          Judgement::Warn,
          {"colour_not_measured",
           "places are right, but light and colour are as the projectors give them: the scan lacks "
-          "levels, or a channel is nowhere alone; scan with all patterns, and let no channel be "
+          "levels, or a channel cannot be told from others; scan with all patterns, and let no "
+          "channel be "
           "wholly covered by others"});
+}
+
+void setForeseen(Figures& figures, const std::optional<ForeseenSeams>& seams) {
+    constexpr double kMostLight = 0.01, kMostDark = 0.03;
+    figures.foreseen = seams;
+    if (!seams) return;
+    const double light = std::max(seams->grey18, seams->grey100);
+    if (light <= kMostLight && seams->grey2 <= kMostDark) return;
+    take(figures,
+         Judgement::Warn,
+         {"seam_visible",
+          fmt::format("a seam of {:.1f} % is to be expected (of {:.1f} % in the dark): let the "
+                      "projectors warm up for half an hour, switch off their automatic brightness, "
+                      "keep lamps and people away, and scan again",
+                      100 * light,
+                      100 * seams->grey2)});
 }
 
 void setTrue(Figures& figures, WallErrors errors) {
@@ -203,6 +270,10 @@ std::string jsonOf(const Figures& figures) {
         return from ? nlohmann::ordered_json(unit * (*from).*value)
                     : nlohmann::ordered_json(nullptr);
     };
+    const auto seam = [&](double Seams::*known, double ForeseenSeams::*foreseen) {
+        return figures.seams ? told(figures.seams, known, 100)
+                             : told(figures.foreseen, foreseen, 100);
+    };
     return nlohmann::ordered_json{
                {"verdict", nameOf(figures.verdict)},
                {"cause", figures.cause},
@@ -213,9 +284,9 @@ std::string jsonOf(const Figures& figures) {
                {"overlap_max_px", figures.overlapMax},
                {"overlap_points", figures.overlapPoints},
                {"absolute_rms_px", figures.absoluteRms},
-               {"seam_percent_grey2", told(figures.seams, &Seams::grey2, 100)},
-               {"seam_percent_grey18", told(figures.seams, &Seams::grey18, 100)},
-               {"seam_percent_grey100", told(figures.seams, &Seams::grey100, 100)},
+               {"seam_percent_grey2", seam(&Seams::grey2, &ForeseenSeams::grey2)},
+               {"seam_percent_grey18", seam(&Seams::grey18, &ForeseenSeams::grey18)},
+               {"seam_percent_grey100", seam(&Seams::grey100, &ForeseenSeams::grey100)},
                {"seam_ciede2000", told(figures.seams, &Seams::colour, 1)},
                {"kept_light", told(figures.brightness, &BrightnessFigures::keptLight, 1)},
                {"kept_contrast", told(figures.brightness, &BrightnessFigures::keptContrast, 1)},

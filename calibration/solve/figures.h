@@ -41,6 +41,8 @@ struct Figures {
     double outlineRms = 0, fitRms = 0;
     std::optional<BrightnessFigures> brightness = {};  // nothing: light and colour are not measured
     std::optional<Seams> seams = {};                   // from ground truth
+    // From the camera's pictures alone; what figures tell where there is no truth.
+    std::optional<ForeseenSeams> foreseen = {};
     double seconds = 0;
     std::size_t pictures = 0;
     double peakMegabytes = 0;
@@ -50,6 +52,8 @@ struct Figures {
 [[nodiscard]] Figures judged(const std::vector<scan::CameraView>& views, const Solved& solved);
 // What evening the light costs; a warning where it could not be measured.
 void setBrightness(Figures& figures, const std::optional<BrightnessFigures>& brightness);
+// Seams that are foreseen; a warning where they can be seen.
+void setForeseen(Figures& figures, const std::optional<ForeseenSeams>& seams);
 // Sets the errors from the truth; the verdict stays.
 void setTrue(Figures& figures, WallErrors errors);
 

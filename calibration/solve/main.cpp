@@ -127,6 +127,7 @@ class Calibration {
         say("evening light and colour");
         const solve::ShadedWall wall = solve::shadedWallOf(*solved.hall, view);
         solve::setBrightness(figures, wall.brightness);
+        solve::setForeseen(figures, wall.seams);
         say("writing the wall file");
         keepVersion(options_.out, "");  // what is there before
         writeDurably(options_.out, formats::encodeMpcdi(wall.file, 2));

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 
 #include <Eigen/Dense>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "calibration/solve/seams.h"
 #include "calibration/solve/smooth_fit.h"
 #include "calibration/solve/statistics.h"
 #include "common/base/picture.h"
@@ -21,102 +23,155 @@ namespace {
 using config::ScanPattern;
 using Kind = ScanPattern::Kind;
 
-constexpr std::ptrdiff_t kLeastSamples = 200;  // where a channel is alone
+constexpr std::size_t kLeastSamples = 200;  // of a channel
 
 double luminance(glm::dvec3 rgb) {
     return glm::dot(rgb, {0.2126, 0.7152, 0.0722});
 }
 
-// The thinned-out pictures of a view that tell of one channel.
-class ChannelSamples {
+// The thinned-out pictures of a view that tell of levels.
+class LevelSamples {
   public:
-    ChannelSamples(const scan::CameraView& view, std::size_t channel)
-        : view_{view}, channel_{channel}, black_{levelOf(view, 0, glm::vec3(0))} {
+    explicit LevelSamples(const scan::CameraView& view)
+        : view_{view}, black_{levelOf(0, glm::vec3(0))} {
         for (std::size_t c = 0; c < view.channels.size(); ++c)
-            whites_.push_back(levelOf(view, std::uint64_t{1} << c, glm::vec3(1)));
+            whites_.push_back(levelOf(std::uint64_t{1} << c, glm::vec3(1)));
     }
 
-    [[nodiscard]] const scan::SampledPicture* level(glm::vec3 light) const {
-        const auto found = std::ranges::find_if(view_.samples, [&](const auto& sample) {
-            return isLit(sample.pattern) && sample.pattern.kind == Kind::Level &&
-                   sample.pattern.light == light;
-        });
-        return found == view_.samples.end() ? nullptr : &*found;
-    }
-    [[nodiscard]] bool isWhole() const {
-        return black_ != nullptr && whites_[channel_] != nullptr &&
-               !view_.channels[channel_].place.empty();
-    }
+    [[nodiscard]] std::size_t channels() const { return whites_.size(); }
     [[nodiscard]] const Light& black() const { return black_->light; }
-
-    // A sample that the channel lights at a known place, and whether no other lights it much.
-    struct Sample {
-        std::size_t index = 0;
-        glm::dvec2 place{};
-        bool isAlone = false;
-    };
-    [[nodiscard]] std::vector<Sample> all() const {
-        std::vector<Sample> samples;
-        const glm::ivec2 size = black().sizePixels;
-        for (int y = 0; y < size.y; ++y)
-            for (int x = 0; x < size.x; ++x) {
-                const glm::dvec2 place(
-                    view_.channels[channel_].place[scan::pixelOfSample(view_, x, y)]);
-                const auto index = static_cast<std::size_t>(y * size.x + x);
-                if (!std::isnan(place.x + place.y + luminance(white(index))))
-                    samples.push_back({index, place, isAlone(index)});
-            }
-        return samples;
+    [[nodiscard]] bool isWhole() const {
+        return black_ != nullptr && std::ranges::find(whites_, nullptr) == whites_.end() &&
+               std::ranges::none_of(view_.channels,
+                                    [](const auto& channel) { return channel.place.empty(); });
     }
-    // White of the channel alone, without black; not a number where the camera was blinded.
-    [[nodiscard]] glm::dvec3 white(std::size_t index) const {
-        return without(*whites_[channel_], index);
+    // Of all channels at once.
+    [[nodiscard]] const scan::SampledPicture* level(glm::vec3 light) const {
+        return levelOf((std::uint64_t{1} << channels()) - 1, light);
     }
-    // A picture without black; and the whites of all channels that it shows, as those are seen
-    // there too, by the light that the screen throws on itself.
+    // Grey levels of all channels below white, rising.
+    [[nodiscard]] std::vector<const scan::SampledPicture*> greys() const {
+        std::vector<const scan::SampledPicture*> greys;
+        for (const auto& sample : view_.samples) {
+            const float grey = sample.pattern.light.x;
+            if (grey > 0 && grey < 1 && level(glm::vec3(grey)) == &sample) greys.push_back(&sample);
+        }
+        std::ranges::sort(greys, {}, [](const auto* sample) { return sample->pattern.light.x; });
+        return greys;
+    }
+    // Without black; not a number where the camera was blinded.
     [[nodiscard]] glm::dvec3 light(const scan::SampledPicture& picture, std::size_t index) const {
-        return without(picture, index);
+        return glm::dvec3(picture.light.rgb[index]) - glm::dvec3(black().rgb[index]);
     }
+    // White of a channel alone.
+    [[nodiscard]] glm::dvec3 white(std::size_t channel, std::size_t index) const {
+        return light(*whites_[channel], index);
+    }
+    // Of all channels of a set.
     [[nodiscard]] glm::dvec3 whites(std::uint64_t lit, std::size_t index) const {
         glm::dvec3 sum(0);
         for (std::size_t c = 0; c < whites_.size(); ++c)
-            if (((lit >> c) & 1U) != 0 && whites_[c] != nullptr) sum += without(*whites_[c], index);
+            if (((lit >> c) & 1U) != 0 && whites_[c] != nullptr) sum += white(c, index);
         return sum;
+    }
+    // The place in a channel's picture that lights a sample; not a number where that is not known.
+    [[nodiscard]] glm::dvec2 place(std::size_t channel, std::size_t index) const {
+        const auto width = static_cast<std::size_t>(black().sizePixels.x);
+        const std::size_t pixel = scan::pixelOfSample(
+            view_, static_cast<int>(index % width), static_cast<int>(index / width));
+        return glm::dvec2(view_.channels[channel].place[pixel]);
     }
 
   private:
-    [[nodiscard]] bool isAlone(std::size_t index) const {
-        constexpr double kBeside = 0.15;  // of its own light: what the screen throws on itself
-        const double own = luminance(white(index));
-        for (std::size_t c = 0; c < whites_.size(); ++c)
-            if (c != channel_ && whites_[c] != nullptr &&
-                !(luminance(without(*whites_[c], index)) < kBeside * own))
-                return false;
-        return true;
-    }
-    [[nodiscard]] static const scan::SampledPicture* levelOf(const scan::CameraView& view,
-                                                             std::uint64_t lit,
-                                                             glm::vec3 light) {
-        const auto found = std::ranges::find_if(view.samples, [&](const auto& sample) {
+    [[nodiscard]] const scan::SampledPicture* levelOf(std::uint64_t lit, glm::vec3 light) const {
+        const auto found = std::ranges::find_if(view_.samples, [&](const auto& sample) {
             return sample.pattern.kind == Kind::Level && sample.pattern.lit == lit &&
                    sample.pattern.light == light && sample.pattern.step == 0;
         });
-        return found == view.samples.end() ? nullptr : &*found;
-    }
-    [[nodiscard]] bool isLit(const ScanPattern& pattern) const {
-        return ((pattern.lit >> channel_) & 1U) != 0;
-    }
-    [[nodiscard]] glm::dvec3 without(const scan::SampledPicture& picture, std::size_t index) const {
-        return glm::dvec3(picture.light.rgb[index]) - glm::dvec3(black().rgb[index]);
+        return found == view_.samples.end() ? nullptr : &*found;
     }
 
     const scan::CameraView& view_;
-    std::size_t channel_;
     const scan::SampledPicture* black_;
     std::vector<const scan::SampledPicture*> whites_;
 };
 
-using Sample = ChannelSamples::Sample;
+// Bands of samples along rows and columns that responses are not told from: shares of the picture,
+// and samples.
+constexpr std::array kBands{0.15, 0.3, 0.5, 0.7, 0.85};
+constexpr int kBandWidth = 5;
+int firstOfBand(double at, int samples) {
+    return static_cast<int>(at * samples) - kBandWidth / 2;
+}
+bool isInBand(int at, int samples) {
+    return std::ranges::any_of(kBands, [&](double band) {
+        const int first = firstOfBand(band, samples);
+        return at >= first && at < first + kBandWidth;
+    });
+}
+bool isHeldOut(glm::ivec2 size, std::size_t index) {
+    const int i = static_cast<int>(index);
+    return isInBand(i % size.x, size.x) || isInBand(i / size.x, size.y);
+}
+
+// A sample that a channel lights at a known place.
+struct Sample {
+    std::size_t index = 0;
+    glm::dvec2 place{};
+};
+
+std::vector<Sample> samplesOf(const LevelSamples& levels, std::size_t channel) {
+    std::vector<Sample> samples;
+    for (std::size_t index = 0; index < levels.black().rgb.size(); ++index) {
+        const glm::dvec2 place = levels.place(channel, index);
+        if (!std::isnan(place.x + place.y + luminance(levels.white(channel, index))))
+            samples.push_back({index, place});
+    }
+    return samples;
+}
+
+double medianWhite(const LevelSamples& levels,
+                   std::size_t channel,
+                   const std::vector<Sample>& samples) {
+    std::vector<double> whites;
+    for (const Sample& sample : samples)
+        whites.push_back(luminance(levels.white(channel, sample.index)));
+    return quantile(std::move(whites), 0.5);
+}
+
+// A sample where it is known what each channel lights it with: its whites' luminance, with what the
+// screen throws on itself.
+struct Mixed {
+    std::size_t index = 0;
+    Eigen::VectorXd whites;
+};
+
+// `medians`: of the channels' whites. Nothing where it is not known, or is not on the screen.
+std::optional<Mixed> mixedAt(const LevelSamples& levels,
+                             const std::vector<double>& medians,
+                             std::size_t index) {
+    // Of its white a channel gives more than this to all that it lights, and less by way of the
+    // screen. More at an unknown place are borders, tags and the crew's tape.
+    constexpr double kUnlit = 0.2, kScreen = 0.5;
+    Mixed sample{index, Eigen::VectorXd(static_cast<Eigen::Index>(medians.size()))};
+    bool isLit = false;
+    for (std::size_t c = 0; c < medians.size(); ++c) {
+        const double white = luminance(levels.white(c, index));
+        const bool isHere = !std::isnan(levels.place(c, index).x);
+        if (!(white < kUnlit * medians[c]) && (!isHere || std::isnan(white))) return std::nullopt;
+        isLit = isLit || (isHere && white > kScreen * medians[c]);
+        sample.whites(static_cast<Eigen::Index>(c)) = white;
+    }
+    return isLit ? std::optional(std::move(sample)) : std::nullopt;
+}
+
+std::vector<Mixed> mixedOf(const LevelSamples& levels, const std::vector<double>& medians) {
+    std::vector<Mixed> mixed;
+    for (std::size_t index = 0; index < levels.black().rgb.size(); ++index)
+        if (!isHeldOut(levels.black().sizePixels, index))
+            if (auto sample = mixedAt(levels, medians, index)) mixed.push_back(std::move(*sample));
+    return mixed;
+}
 
 // How a camera's light differs from what it is taken for: a factor for each of its values, by
 // pictures of one wall in several exposures (Debevec and Malik 1997).
@@ -124,10 +179,11 @@ class CameraCurve {
   public:
     // Of a view without such pictures it changes nothing.
     explicit CameraCurve(const scan::CameraView& view) {
-        const ChannelSamples any(view, 0);
-        if (!any.isWhole()) return;
+        const LevelSamples levels(view);
+        if (!levels.isWhole()) return;
         for (const scan::SampledPicture& picture : view.samples)
-            if (picture.pattern.kind == Kind::Level && picture.pattern.step > 0) add(picture, any);
+            if (picture.pattern.kind == Kind::Level && picture.pattern.step > 0)
+                add(picture, levels);
         solve();
     }
     [[nodiscard]] glm::vec3 corrected(glm::vec3 light) const {
@@ -152,11 +208,11 @@ class CameraCurve {
         put(row, std::isnan(light) ? 0 : light, 1);
         return row.dot(knots_);
     }
-    void add(const scan::SampledPicture& picture, const ChannelSamples& any) {
+    void add(const scan::SampledPicture& picture, const LevelSamples& levels) {
         constexpr double kLeast = 0.003;  // where codes are too coarse
         for (std::size_t i = 0; i < picture.light.rgb.size(); ++i) {
             const glm::dvec3 full =
-                any.whites(picture.pattern.lit, i) + glm::dvec3(any.black().rgb[i]);
+                levels.whites(picture.pattern.lit, i) + glm::dvec3(levels.black().rgb[i]);
             const glm::dvec3 less(picture.light.rgb[i]);
             for (int c = 0; c < 3; ++c)
                 if (full[c] > less[c] && full[c] < 0.9 && less[c] > kLeast)
@@ -200,32 +256,40 @@ scan::CameraView corrected(scan::CameraView view) {
     return view;
 }
 
-// Light of some samples, and the luminance of white there.
-struct Sum {
-    glm::dvec3 light{0};
-    double white = 0;
-    void add(glm::dvec3 more, glm::dvec3 whites) {
-        const double luminous = luminance(whites);
-        if (std::isnan(luminance(more)) || std::isnan(luminous)) return;
-        light += more;
-        white += luminous;
+// Light of each channel (columns) for one unit of its white's luminance, from what samples have of
+// all channels together: light is a sum, on the screen and on the camera.
+class Unmixing {
+  public:
+    explicit Unmixing(const std::vector<Mixed>& samples, std::size_t channels)
+        : samples_{samples}, channels_{static_cast<Eigen::Index>(channels)} {}
+
+    [[nodiscard]] Eigen::Matrix3Xd of(const std::function<glm::dvec3(std::size_t)>& light) const {
+        Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(channels_, channels_);
+        Eigen::MatrixX3d right = Eigen::MatrixX3d::Zero(channels_, 3);
+        for (const Mixed& sample : samples_) {
+            const glm::dvec3 seen = light(sample.index);
+            if (std::isnan(seen.x + seen.y + seen.z)) continue;
+            normal.selfadjointView<Eigen::Lower>().rankUpdate(sample.whites);
+            right += sample.whites * Eigen::RowVector3d(seen.x, seen.y, seen.z);
+        }
+        return normal.selfadjointView<Eigen::Lower>().ldlt().solve(right).transpose();
     }
-    [[nodiscard]] glm::dvec3 share() const { return white > 0 ? light / white : glm::dvec3(0); }
+    // Of how many samples a channel's white is known apart from those of the others.
+    [[nodiscard]] std::vector<double> apart(const std::vector<double>& medians) const {
+        Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(channels_, channels_);
+        for (const Mixed& sample : samples_) normal += sample.whites * sample.whites.transpose();
+        const Eigen::MatrixXd inverse = normal.completeOrthogonalDecomposition().pseudoInverse();
+        std::vector<double> apart;
+        for (Eigen::Index c = 0; c < channels_; ++c)
+            apart.push_back(1 /
+                            (inverse(c, c) * std::pow(medians[static_cast<std::size_t>(c)], 2)));
+        return apart;
+    }
+
+  private:
+    const std::vector<Mixed>& samples_;
+    Eigen::Index channels_;
 };
-
-Sum sumOf(const scan::SampledPicture& picture,
-          const ChannelSamples& channel,
-          const std::vector<Sample>& samples) {
-    Sum sum;
-    for (const Sample& sample : samples)
-        if (sample.isAlone)
-            sum.add(channel.light(picture, sample.index),
-                    channel.whites(picture.pattern.lit, sample.index));
-    return sum;
-}
-
-// Levels that a scan shows beside the whole of its colours, and the codes they are sent in.
-constexpr std::array kLevels{0.005F, 0.025F, 0.18F, 0.5F, 0.8F};
 
 double sentCode(double light) {
     return std::round(255 * srgbFromLinear(light)) / 255;
@@ -270,147 +334,161 @@ std::vector<float> responseOf(const std::vector<Response>& levels, int colour) {
     return response;
 }
 
-// White of what a picture shows, where the channel is alone.
-glm::dvec3 whiteBeside(const scan::SampledPicture& picture,
-                       const ChannelSamples& channel,
-                       const std::vector<Sample>& samples) {
-    Sum sum;
-    for (const Sample& sample : samples) {
-        const glm::dvec3 whites = channel.whites(picture.pattern.lit, sample.index);
-        if (sample.isAlone) sum.add(whites, whites);
-    }
-    return sum.share();
+glm::dvec3 columnOf(const Eigen::Matrix3Xd& lights, std::size_t channel) {
+    const auto column = lights.col(static_cast<Eigen::Index>(channel));
+    return {column(0), column(1), column(2)};
 }
 
-// Full red, green and blue, scaled so that their sum is white.
-std::optional<glm::dmat3> primariesOf(const ChannelSamples& channel,
-                                      const std::vector<Sample>& samples) {
-    glm::dmat3 own(0.0);
-    glm::dvec3 white(0);
+// Full red, green and blue of each channel, scaled so that their sum is white. Nothing where a
+// picture is missing.
+std::vector<glm::dmat3> primariesOf(const LevelSamples& levels,
+                                    const Unmixing& unmixing,
+                                    const std::vector<glm::dvec3>& whites) {
+    std::vector<glm::dmat3> primaries(whites.size());
     for (int colour = 0; colour < 3; ++colour) {
         glm::vec3 light(0);
         light[colour] = 1;
-        const scan::SampledPicture* picture = channel.level(light);
-        if (picture == nullptr) return std::nullopt;
-        own[colour] = sumOf(*picture, channel, samples).share();
-        white = whiteBeside(*picture, channel, samples);
+        const scan::SampledPicture* picture = levels.level(light);
+        if (picture == nullptr) return {};
+        const Eigen::Matrix3Xd lights =
+            unmixing.of([&](std::size_t index) { return levels.light(*picture, index); });
+        for (std::size_t c = 0; c < primaries.size(); ++c)
+            primaries[c][colour] = columnOf(lights, c);
     }
-    const glm::dvec3 scale = white / (own * glm::dvec3(1));
-    for (int colour = 0; colour < 3; ++colour) own[colour] *= scale;
-    return own / luminance(white);
+    for (std::size_t c = 0; c < primaries.size(); ++c) {
+        const glm::dvec3 scale = whites[c] / (primaries[c] * glm::dvec3(1));
+        for (int colour = 0; colour < 3; ++colour) primaries[c][colour] *= scale;
+    }
+    return primaries;
+}
+
+// Of a channel's white, for one unit of luminance.
+glm::dvec3 tintOf(const LevelSamples& levels,
+                  std::size_t channel,
+                  const std::vector<Sample>& samples) {
+    glm::dvec3 sum(0);
+    for (const Sample& sample : samples) sum += levels.white(channel, sample.index);
+    return sum / luminance(sum);
 }
 
 // Whether each colour of a level is clearly brighter than that of the one before, and darker than
 // white: not where a picture shows another level than it should.
 bool rises(glm::dvec3 before, glm::dvec3 light) {
-    constexpr double kLeast = 1.2;
+    constexpr double kLeast = 1.03;
     for (int colour = 0; colour < 3; ++colour)
         if (light[colour] <= 0 || light[colour] >= 1 || light[colour] < kLeast * before[colour])
             return false;
     return true;
 }
 
-bool setColours(ChannelLight& light,
-                const ChannelSamples& channel,
-                const std::vector<Sample>& samples) {
-    const auto primaries = primariesOf(channel, samples);
-    if (!primaries) return false;
-    light.primaries = *primaries;
-    if (!(std::abs(glm::determinant(light.primaries)) > 1e-6)) return false;
-    const glm::dmat3 fromCamera = glm::inverse(light.primaries);
-    std::vector<Response> levels;
-    for (const float level : kLevels) {
-        const scan::SampledPicture* picture = channel.level(glm::vec3(level));
-        if (picture == nullptr) return false;
-        const glm::dvec3 before = levels.empty() ? glm::dvec3(0) : levels.back().light;
-        levels.push_back(
-            {sentCode(double(level)), fromCamera * sumOf(*picture, channel, samples).share()});
-        if (!rises(before, levels.back().light)) return false;
+// What each channel gives of its own colours at the levels of the scan, rising; nothing where they
+// do not rise.
+std::vector<std::vector<Response>> levelsOf(const std::vector<ChannelLight>& channels,
+                                            const LevelSamples& levels,
+                                            const Unmixing& unmixing) {
+    std::vector<std::vector<Response>> responses(channels.size());
+    for (const scan::SampledPicture* picture : levels.greys()) {
+        const Eigen::Matrix3Xd lights =
+            unmixing.of([&](std::size_t index) { return levels.light(*picture, index); });
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            const glm::dvec3 light = glm::inverse(channels[c].primaries) * columnOf(lights, c);
+            if (!rises(responses[c].empty() ? glm::dvec3(0) : responses[c].back().light, light))
+                return {};
+            responses[c].push_back({sentCode(double(picture->pattern.light.x)), light});
+        }
     }
-    for (int colour = 0; colour < 3; ++colour)
-        light.response.at(static_cast<std::size_t>(colour)) = responseOf(levels, colour);
+    return responses;
+}
+
+// Responses of all channels whose primaries are set. False where levels are missing or do not rise.
+bool setResponses(std::vector<ChannelLight>& channels,
+                  const LevelSamples& levels,
+                  const Unmixing& unmixing) {
+    constexpr std::size_t kLeastLevels = 3;
+    const auto responses = levelsOf(channels, levels, unmixing);
+    if (responses.empty() || responses.front().size() < kLeastLevels) return false;
+    for (std::size_t c = 0; c < channels.size(); ++c)
+        for (int colour = 0; colour < 3; ++colour)
+            channels[c].response.at(static_cast<std::size_t>(colour)) =
+                responseOf(responses[c], colour);
     return true;
 }
 
-SmoothField whiteOf(const ChannelSamples& channel,
+SmoothField whiteOf(const LevelSamples& levels,
+                    std::size_t channel,
                     const std::vector<Sample>& samples,
                     glm::dvec2 size) {
     constexpr int kCellsAcross = 32, kRounds = 3;
     // Shares of the median.
     constexpr double kNoise = 0.01, kFar = 0.03;
     constexpr Smoothness kSmoothness{.bend = 0.03, .size = 30};
-    std::vector<double> lights;
-    for (const Sample& sample : samples) lights.push_back(luminance(channel.white(sample.index)));
-    const double median = quantile(lights, 0.5);
+    const double median = medianWhite(levels, channel, samples);
     std::vector<Measured> measured;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-        measured.push_back({samples[i].place / size, {lights[i] / median, 0}, 1 / kNoise});
+    for (const Sample& sample : samples) {
+        const double white = luminance(levels.white(channel, sample.index));
+        measured.push_back({sample.place / size, {white / median, 0}, 1 / kNoise});
+    }
     const glm::ivec2 cells(kCellsAcross, static_cast<int>(kCellsAcross * size.y / size.x));
     SmoothField field = smoothFit(std::move(measured), cells, kSmoothness, kFar, kRounds).first;
     for (double& control : field.controls()) control *= median;
     return field;
 }
 
-// What the picture of black has at a pixel, and the whites of the channels that light it.
-struct BlackSample {
-    double black = 0;
-    std::vector<double> whites;
-};
+// Terms of the light of the room at a sample: it changes smoothly over the camera's picture, as
+// does what the camera's lens lets through.
+constexpr Eigen::Index kRoomTerms = 6;
+Eigen::Matrix<double, kRoomTerms, 1> roomTerms(glm::ivec2 size, std::size_t index) {
+    const auto width = static_cast<std::size_t>(size.x);
+    const glm::dvec2 at = glm::dvec2(index % width, index / width) / glm::dvec2(size) - 0.5;
+    return {1, at.x, at.y, at.x * at.x, at.x * at.y, at.y * at.y};
+}
 
-// Blacks as shares of white, with the light of the room as one more unknown, by least squares.
-void setBlacks(std::vector<ChannelLight>& channels, const std::vector<BlackSample>& samples) {
+// Blacks as shares of white, with the light of the room as unknown as they, by least squares.
+void setBlacks(std::vector<ChannelLight>& channels,
+               const LevelSamples& levels,
+               const std::vector<Mixed>& samples) {
     const auto count = static_cast<Eigen::Index>(channels.size());
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count + 1, count + 1);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(count + 1);
-    for (const BlackSample& sample : samples) {
-        Eigen::VectorXd row(count + 1);
-        for (Eigen::Index c = 0; c < count; ++c)
-            row(c) = sample.whites[static_cast<std::size_t>(c)];
-        row(count) = 1;
-        normal += row * row.transpose();
-        right += sample.black * row;
+    const Eigen::Index terms = count + kRoomTerms;
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(terms, terms);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(terms);
+    for (const Mixed& sample : samples) {
+        const double black = luminance(glm::dvec3(levels.black().rgb[sample.index]));
+        if (std::isnan(black)) continue;
+        Eigen::VectorXd row(terms);
+        row << sample.whites, roomTerms(levels.black().sizePixels, sample.index);
+        // Where it is brighter, a camera of few codes counts better.
+        const double weight = sample.whites.sum();
+        normal += weight * row * row.transpose();
+        right += weight * black * row;
     }
     const Eigen::VectorXd solved = normal.completeOrthogonalDecomposition().solve(right);
     for (Eigen::Index c = 0; c < count; ++c)
         channels[static_cast<std::size_t>(c)].black = std::clamp(solved(c), 0.0, 0.1);
 }
 
-// A pixel of the camera, where every channel that lights it is understood.
-std::optional<BlackSample> blackSampleAt(const config::Rig& rig,
-                                         const scan::CameraView& view,
-                                         const std::vector<ChannelLight>& channels,
-                                         std::size_t pixel) {
-    // Of its white a channel gives more than this to all that it lights, and less by way of the
-    // screen.
-    constexpr double kUnlit = 0.2;
-    BlackSample sample;
-    bool isLit = false;
+// Sets all but the whites. False where the pictures do not tell.
+bool setLight(std::vector<ChannelLight>& channels,
+              const LevelSamples& levels,
+              const std::vector<std::vector<Sample>>& samples) {
+    std::vector<double> medians;
+    std::vector<glm::dvec3> tints;
     for (std::size_t c = 0; c < channels.size(); ++c) {
-        const glm::dvec2 place(view.channels[c].place[pixel]);
-        const bool isHere = !std::isnan(place.x + place.y);
-        const double middle = channels[c].white.at({0.5, 0.5});
-        if (!isHere && double(view.channels[c].light[pixel]) > kUnlit * middle) return std::nullopt;
-        isLit = isLit || isHere;
-        const glm::dvec2 size(rig.channels[c].sizePixels);
-        sample.whites.push_back(isHere ? channels[c].white.at(place / size) : 0);
+        medians.push_back(medianWhite(levels, c, samples[c]));
+        tints.push_back(tintOf(levels, c, samples[c]));
     }
-    return isLit ? std::optional(std::move(sample)) : std::nullopt;
-}
-
-std::vector<BlackSample> blackSamples(const config::Rig& rig,
-                                      const scan::CameraView& view,
-                                      const std::vector<ChannelLight>& channels) {
-    const ChannelSamples any(view, 0);
-    const Light& black = any.black();
-    std::vector<BlackSample> samples;
-    for (int y = 0; y < black.sizePixels.y; ++y)
-        for (int x = 0; x < black.sizePixels.x; ++x) {
-            auto sample = blackSampleAt(rig, view, channels, scan::pixelOfSample(view, x, y));
-            if (!sample || std::isnan(black.at(x, y).x)) continue;
-            sample->black = luminance(glm::dvec3(black.at(x, y)));
-            samples.push_back(std::move(*sample));
-        }
-    return samples;
+    const std::vector<Mixed> mixed = mixedOf(levels, medians);
+    const Unmixing unmixing(mixed, channels.size());
+    if (std::ranges::any_of(unmixing.apart(medians),
+                            [](double apart) { return !(apart >= kLeastSamples); }))
+        return false;
+    const std::vector<glm::dmat3> primaries = primariesOf(levels, unmixing, tints);
+    if (primaries.empty()) return false;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        channels[c].primaries = primaries[c];
+        if (!(std::abs(glm::determinant(primaries[c])) > 1e-6)) return false;
+    }
+    setBlacks(channels, levels, mixed);
+    return setResponses(channels, levels, unmixing);
 }
 
 }  // namespace
@@ -460,18 +538,122 @@ std::vector<double> risingCurve(const std::vector<glm::dvec2>& points,
 std::optional<std::vector<ChannelLight>> measureLight(const config::Rig& rig,
                                                       scan::CameraView seen) {
     const scan::CameraView view = corrected(std::move(seen));
-    std::vector<ChannelLight> channels(rig.channels.size());
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-        const ChannelSamples channel(view, c);
-        if (!channel.isWhole()) return std::nullopt;
-        const std::vector<Sample> samples = channel.all();
-        const auto alone = std::ranges::count_if(samples, &Sample::isAlone);
-        if (alone < kLeastSamples || !setColours(channels[c], channel, samples))
-            return std::nullopt;
-        channels[c].white = whiteOf(channel, samples, rig.channels[c].sizePixels);
+    const LevelSamples levels(view);
+    if (!levels.isWhole()) return std::nullopt;
+    std::vector<std::vector<Sample>> samples;
+    for (std::size_t c = 0; c < levels.channels(); ++c) {
+        samples.push_back(samplesOf(levels, c));
+        if (samples.back().size() < kLeastSamples) return std::nullopt;
     }
-    setBlacks(channels, blackSamples(rig, view, channels));
+    std::vector<ChannelLight> channels(levels.channels());
+    if (!setLight(channels, levels, samples)) return std::nullopt;
+    for (std::size_t c = 0; c < channels.size(); ++c)
+        channels[c].white = whiteOf(levels, c, samples[c], rig.channels[c].sizePixels);
     return channels;
+}
+
+namespace {
+
+// What the finished masks make of even light, where the camera has seen each channel's white.
+class Foresight {
+  public:
+    Foresight(const LevelSamples& levels,
+              const std::vector<ChannelLight>& lights,
+              const formats::WallFile& file)
+        : levels_{levels}, lights_{lights}, file_{file} {
+        for (std::size_t c = 0; c < lights.size(); ++c) {
+            medians_.push_back(lights[c].white.at({0.5, 0.5}));
+            blends_.emplace_back(*file.channels[c].blend);
+            blacks_.emplace_back(*file.channels[c].black);
+        }
+    }
+    [[nodiscard]] double worst(double grey) const {
+        const glm::ivec2 size = levels_.black().sizePixels;
+        double worst = 0;
+        for (const int axis : {0, 1})
+            for (const double band : kBands)
+                worst =
+                    std::max(worst, seamOf(profile(axis, firstOfBand(band, size[1 - axis]), grey)));
+        return worst;
+    }
+
+  private:
+    // Luminance as it will be seen and as the masks mean it, and how many channels give it.
+    struct Seen {
+        double seen = 0, meant = 0;
+        int channels = 0;
+    };
+    // Nothing beside the screen and where it is not known which place of a picture lights it.
+    [[nodiscard]] std::optional<Seen> at(std::size_t index, double grey) const {
+        // Of a channel's white: where it is not meant to be, and past the screen's edge.
+        constexpr double kUnlit = 0.2, kScreen = 0.7;
+        Seen seen;
+        for (std::size_t c = 0; c < lights_.size(); ++c) {
+            const double white = luminance(levels_.white(c, index));
+            const glm::dvec2 place = levels_.place(c, index);
+            const bool isHere = !std::isnan(place.x + place.y);
+            if (std::isnan(white) || (!isHere && white > kUnlit * medians_[c])) return std::nullopt;
+            if (!isHere) continue;
+            const double meant =
+                lights_[c].white.at(place / glm::dvec2(file_.channels[c].sizePixels));
+            if (white < kScreen * meant) return std::nullopt;
+            const double share = shareOf(c, place, grey);
+            seen.seen += white * share;
+            seen.meant += meant * share;
+            ++seen.channels;
+        }
+        return seen.channels > 0 ? std::optional(seen) : std::nullopt;
+    }
+    // Of a channel's white.
+    [[nodiscard]] double shareOf(std::size_t c, glm::dvec2 place, double grey) const {
+        const formats::FileChannel& channel = file_.channels[c];
+        const glm::dvec2 at = place / glm::dvec2(channel.sizePixels);
+        const double lift = double(blacks_[c].at(at).x);
+        const double light = grey * double(blends_[c].at(at).x) * (1 - lift) + lift;
+        const glm::dvec3 own = glm::dmat3(channel.colour->mix) * glm::dvec3(light);
+        return luminance(lights_[c].primaries * own) + lights_[c].black;
+    }
+    [[nodiscard]] std::vector<ProfilePoint> profile(int axis, int first, double grey) const {
+        const glm::ivec2 size = levels_.black().sizePixels;
+        std::vector<ProfilePoint> points;
+        for (int i = 0; i < size[axis]; ++i) {
+            ProfilePoint point;
+            int count = 0;
+            for (int j = 0; j < kBandWidth; ++j) {
+                glm::ivec2 sample(i);
+                sample[1 - axis] = first + j;
+                const auto seen = at(static_cast<std::size_t>(sample.y * size.x + sample.x), grey);
+                if (!seen) continue;
+                point.luminance += seen->seen / seen->meant;
+                point.isShared |= seen->channels > 1;
+                ++count;
+            }
+            if (count < kBandWidth) continue;
+            point.luminance /= count;
+            points.push_back(point);
+        }
+        // Without the edges of the screen, where samples lie half beside it.
+        const auto edge = static_cast<std::ptrdiff_t>(points.size() / 30 + 2);
+        if (points.size() < 20) return {};
+        return {points.begin() + edge, points.end() - edge};
+    }
+
+    const LevelSamples& levels_;
+    const std::vector<ChannelLight>& lights_;
+    const formats::WallFile& file_;
+    std::vector<double> medians_;
+    std::vector<formats::MaskLight> blends_, blacks_;
+};
+
+}  // namespace
+
+ForeseenSeams foreseenSeams(const std::vector<ChannelLight>& lights,
+                            const formats::WallFile& file,
+                            scan::CameraView seen) {
+    const scan::CameraView view = corrected(std::move(seen));
+    const LevelSamples levels(view);
+    const Foresight foresight(levels, lights, file);
+    return {foresight.worst(0.02), foresight.worst(0.18), foresight.worst(1)};
 }
 
 }  // namespace aquarama::solve

@@ -209,18 +209,32 @@ void fit(Solved& solved, const std::vector<scan::CameraView>& views) {
     }
 }
 
-// Finds the cameras by what the rig says of the projectors. False where cables are exchanged.
+// Why a camera cannot be found: by its pictures' own fault where they have one.
+scan::ScanFault tooLittleSeen(const std::vector<scan::CameraView>& views, std::uint32_t camera) {
+    for (const scan::ScanFault& fault : views[camera].faults)
+        if (fault.refuses) return fault;
+    return {"wall_not_seen",
+            fmt::format("camera {} sees too little of the wall: place it where it sees the whole "
+                        "screen",
+                        camera)};
+}
+
+// Finds the cameras by what the rig says of the projectors. False where one sees too little or
+// cables are exchanged.
 bool begin(Solved& solved, const std::vector<scan::CameraView>& views) {
     SolvedHall& hall = *solved.hall;
     std::vector<std::size_t> order(hall.rig.channels.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     for (std::uint32_t i = 0; i < views.size(); ++i) {
-        const Sighted camera =
-            bestSighted(solved.ties, i, hall.nominal, views[i].sizePixels, order);
-        hall.cameras.push_back(camera.camera);
+        const auto camera = bestSighted(solved.ties, i, hall.nominal, views[i].sizePixels, order);
+        if (!camera) {
+            solved.faults.push_back(tooLittleSeen(views, i));
+            return false;
+        }
+        hall.cameras.push_back(camera->camera);
         if (i > 0) continue;
         const auto swapped =
-            swappedPair(hall.rig, hall.nominal, solved.ties, views[i].sizePixels, camera.loss);
+            swappedPair(hall.rig, hall.nominal, solved.ties, views[i].sizePixels, camera->loss);
         if (!swapped) continue;
         solved.faults.push_back(
             {"swapped_outputs",

@@ -50,8 +50,7 @@ struct Solved {
 };
 
 // `wall` is rig's without any wall file: where the crew hung it, about. `progress` is called with
-// what is done now. Takes seconds and uses all processors. Throws Error where there is too little
-// to begin with.
+// what is done now. Takes seconds and uses all processors.
 [[nodiscard]] Solved solveHall(const config::Rig& rig,
                                const wall::Wall& wall,
                                const std::vector<scan::CameraView>& views,

@@ -77,9 +77,12 @@ formats::WallFile wallFileOf(const SolvedHall& hall) {
 }
 
 ShadedWall shadedWallOf(const SolvedHall& hall, const scan::CameraView& view) {
-    ShadedWall wall{.file = wallFileOf(hall), .brightness = {}};
-    if (const auto lights = measureLight(hall.rig, withoutMarks(hall, view)))
+    ShadedWall wall{.file = wallFileOf(hall), .brightness = {}, .seams = {}};
+    const scan::CameraView bare = withoutMarks(hall, view);
+    if (const auto lights = measureLight(hall.rig, bare)) {
         wall.brightness = shade(hall, *lights, wall.file);
+        wall.seams = foreseenSeams(*lights, wall.file, bare);
+    }
     return wall;
 }
 

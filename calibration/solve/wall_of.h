@@ -19,6 +19,7 @@ namespace aquarama::solve {
 struct ShadedWall {
     formats::WallFile file;
     std::optional<BrightnessFigures> brightness;
+    std::optional<ForeseenSeams> seams;
 };
 [[nodiscard]] ShadedWall shadedWallOf(const SolvedHall& hall, const scan::CameraView& view);
 

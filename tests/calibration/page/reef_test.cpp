@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The drawn reef on a calibrated, crooked wall looks, from the sweet spot, as on one whose wall
 // file is the truth. Beside a wall that hangs as its rig says it differs more, whatever the file:
-// pixels lie elsewhere, and projectors that stand nearer are brighter. With AQUARAMA_SOAK at full
-// size.
+// pixels lie elsewhere, and projectors that stand nearer are brighter. Drawn as walls with a
+// graphics card draw it, antialiased. With AQUARAMA_SOAK at full size.
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "calibration/hall/drawn_wall.h"
 #include "calibration/hall/hall_view.h"
 #include "calibration/hall/random_hall.h"
 #include "calibration/hall/simulated_camera.h"
@@ -62,20 +63,20 @@ class Reef : public testing::Test {
         std::ofstream(path) << text << more;
         const std::string pictures = (folder_ / name).string();
         const std::string command = "\"$AQUARAMA_BIN\"/aquarama run " + path +
-                                    " --quality low --headless --frames 2 --snapshot " + pictures +
-                                    " >" + pictures + ".log 2>&1";
+                                    " --quality high --deep --headless --frames 2 --snapshot " +
+                                    pictures + " >" + pictures + ".log 2>&1";
         if (std::system(command.c_str()) != 0) {
             ADD_FAILURE() << config::readTextFile(pictures + ".log");
             return {};
         }
         return theatre::readChannels(rig_, pictures);
     }
-    // What the sweet spot sees of them, over the area of each pixel of the panorama: one sample of
-    // it would tell of borders between projectors' pixels that no eye sees.
-    [[nodiscard]] Picture seen(const hall::TrueHall& hall, const std::vector<Light>& sent) const {
+    // What the sweet spot sees of them, over the area of each pixel of its view: one sample of it
+    // would tell of borders between projectors' pixels that no eye sees.
+    [[nodiscard]] Light seen(const hall::TrueHall& hall, const std::vector<Light>& sent) const {
         const hall::LitScreen screen(hall, sent);
         const auto fall = fallOf(hall);
-        Light light = darkness(rig_.panoramaPixels);
+        Light light = darkness(viewPixels_);
         WorkerPool(std::thread::hardware_concurrency())
             .run(static_cast<std::size_t>(light.sizePixels.y), [&](std::size_t row) {
                 const int y = static_cast<int>(row);
@@ -89,7 +90,18 @@ class Reef : public testing::Test {
                         light.at(x, y) += screen.at(*point) / float{kParts * kParts};
                 }
             });
-        return rounded(light);
+        return light;
+    }
+    // What it sees of an even grey through a rig's blend.
+    [[nodiscard]] Light grey(const hall::TrueHall& hall, const config::Rig& rig) const {
+        return seen(hall,
+                    hall::DrawnWall(rig).pictures([](glm::dvec3) { return glm::vec3(0.5F); }));
+    }
+    // A wall's light as it were where grey is as bright as on another.
+    [[nodiscard]] static Light asBright(Light light, const Light& grey, const Light& other) {
+        for (std::size_t i = 0; i < light.rgb.size(); ++i)
+            if (grey.rgb[i].g > 0) light.rgb[i] *= other.rgb[i].g / grey.rgb[i].g;
+        return light;
     }
     // Without the dither of pictures that are shown.
     [[nodiscard]] static Picture rounded(const Light& light) {
@@ -129,16 +141,21 @@ class Reef : public testing::Test {
         }
         return file;
     }
-    [[nodiscard]] double flip(const Picture& reference, const Picture& other) const {
+    [[nodiscard]] double flip(const Light& reference, const Light& other) const {
         const double pixelsPerDegree =
-            rig_.panoramaPixels.x * kRadiansPerDegree<double> / rig_.screen.arcRadians;
-        const std::vector<double> errors = test::flip(reference, other, pixelsPerDegree);
+            viewPixels_.x * kRadiansPerDegree<double> / rig_.screen.arcRadians;
+        const std::vector<double> errors =
+            test::flip(rounded(reference), rounded(other), pixelsPerDegree);
         return std::accumulate(errors.begin(), errors.end(), 0.0) /
                static_cast<double>(errors.size());
     }
 
     std::string source_ = test::sourceFolder() + "/config/theatre.txtpb";
     config::Rig rig_ = config::readRigAsHung(source_);
+    const double arcMetres_ = rig_.screen.radiusMetres * rig_.screen.arcRadians;
+    // Square ones, as wide as the panorama's, which are less wide than high.
+    glm::ivec2 viewPixels_ = glm::round(rig_.panoramaPixels.x / arcMetres_ *
+                                        glm::dvec2(arcMetres_, rig_.screen.heightMetres));
     fs::path folder_ = fs::path(testing::TempDir()) / ("reef-" + std::to_string(getpid()));
 };
 
@@ -152,18 +169,25 @@ TEST_F(Reef, looksOnACalibratedWallAsOnOneThatIsKnownExactly) {
     const std::vector<Light> found = drawn("found", "calibration: \"found.mpcdi\"\n");
     const std::vector<Light> truth = drawn("truth", "calibration: \"truth.mpcdi\"\n");
     for (const auto* sent : {&plain, &found, &truth}) ASSERT_EQ(sent->size(), rig_.channels.size());
-    const Picture looks = seen(crooked, found), exact = seen(crooked, truth);
+    const Light looks = seen(crooked, found), exact = seen(crooked, truth);
     const double before = flip(exact, seen(crooked, plain)), after = flip(exact, looks);
     std::printf("mean FLIP from the sweet spot: %.4f before, %.4f after\n", before, after);
     EXPECT_GT(before, 0.1);
     EXPECT_LT(after, before / 3);
     EXPECT_LE(after, 0.03);
     const hall::TrueHall straight(rig_, hall::plainHall(rig_, 7, scale));
-    const Picture other = seen(straight, plain);
+    const Light other = seen(straight, plain);
     const double beside = flip(other, looks);
     std::printf("beside a wall that hangs as its rig says: %.4f; a file of the truth: %.4f\n",
                 beside,
                 flip(other, exact));
+    const auto calibratedRig = [&](const std::string& name) {
+        return hall::withWallFile(rig_, (folder_ / name).string());
+    };
+    const Light even = grey(straight, rig_);
+    std::printf("in its light: %.4f; a file of the truth: %.4f\n",
+                flip(other, asBright(looks, grey(crooked, calibratedRig("found.mpcdi")), even)),
+                flip(other, asBright(exact, grey(crooked, calibratedRig("truth.mpcdi")), even)));
     EXPECT_LE(beside, 0.03);
 }
 

@@ -47,5 +47,18 @@ TEST(SequenceTest, EveryChannelIsInOneRound) {
     }
 }
 
+TEST(SequenceTest, EachChannelShowsStripesOfBothAxesAtTheEnd) {
+    for (const std::string name : {"touring", "flat_3", "dome_5", "cave_4", "wall_2x2"}) {
+        const std::vector<config::ScanPattern> sequence = sequenceOf(rigOf(name));
+        const std::size_t late = 2 * roundsOf(sequence).size();
+        std::uint64_t columns = 0, rows = 0;
+        for (std::size_t i = sequence.size() - late; i < sequence.size(); ++i)
+            (sequence[i].kind == Kind::GrayColumns ? columns : rows) |= sequence[i].lit;
+        EXPECT_EQ(columns, rows) << name;
+        EXPECT_EQ(std::popcount(columns), static_cast<int>(rigOf(name).channels.size())) << name;
+        EXPECT_EQ(sequence[sequence.size() - late - 1].light, glm::vec3(0)) << name;  // black again
+    }
+}
+
 }  // namespace
 }  // namespace aquarama::scan

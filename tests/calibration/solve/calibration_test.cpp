@@ -48,6 +48,7 @@ Outcome calibrated(const config::Rig& rig, const config::Hall& hall, bool measur
     constexpr std::size_t kPoints = 10000;
     const ShadedWall shaded = shadedWallOf(*solved.hall, views.front());
     setBrightness(outcome.figures, shaded.brightness);
+    setForeseen(outcome.figures, shaded.seams);
     outcome.errors = errorsOf(truth, rig, shaded.file, kPoints);
     if (!measuresSeams) return outcome;
     const std::string path = testing::TempDir() + "aquarama-calibration.mpcdi";
@@ -88,7 +89,6 @@ TEST(Calibration, ofRandomHallsIsWithinItsBounds) {
     const std::uint32_t rigs = isSoak() ? 20 : 6;
     for (std::uint32_t seed = 1; seed <= rigs; ++seed) {
         const config::Rig rig = hall::randomRig(seed, scale);
-        const bool isDome = rig.screen.shape == config::ScreenShape::Dome;
         const Outcome outcome = calibrated(rig, hall::randomHall(rig, seed, scale), true);
         print("rig " + std::to_string(seed), outcome);
         EXPECT_EQ(outcome.figures.verdict, Judgement::Pass)
@@ -98,11 +98,14 @@ TEST(Calibration, ofRandomHallsIsWithinItsBounds) {
         ASSERT_TRUE(outcome.figures.brightness.has_value());
         EXPECT_GT(outcome.figures.brightness->keptLight, 0.7);
         EXPECT_LE(outcome.seams.grey18, 0.01) << "rig " << seed;
-        EXPECT_LE(outcome.seams.colour, 0.7) << "rig " << seed;
-        // Domes have more: docs/calibration.md.
-        if (isDome) continue;
         EXPECT_LE(outcome.seams.grey100, 0.01) << "rig " << seed;
-        EXPECT_LE(outcome.seams.grey2, 0.03) << "rig " << seed;
+        EXPECT_LE(outcome.seams.colour, 0.7) << "rig " << seed;
+        const bool isDome = rig.screen.shape == config::ScreenShape::Dome;
+        // Asked for is 3 %; one dome has 3.1: docs/calibration.md.
+        EXPECT_LE(outcome.seams.grey2, isDome ? 0.033 : 0.03) << "rig " << seed;
+        ASSERT_TRUE(outcome.figures.foreseen.has_value());
+        EXPECT_NEAR(outcome.figures.foreseen->grey18, outcome.seams.grey18, 0.004);
+        EXPECT_NEAR(outcome.figures.foreseen->grey100, outcome.seams.grey100, 0.004);
     }
 }
 
@@ -185,8 +188,14 @@ TEST(Calibration, knowsWhereThePictureIsByTheMarksOnTheScreen) {
 
 // Each is refused or warned of, or solved within the bounds.
 TEST(Calibration, passesNoHallWithAFaultThatItDoesNotSolve) {
-    const std::uint32_t draws = isSoak() ? 200 : 3;
-    for (std::uint32_t draw = 0; draw < draws; ++draw) {
+    // Swapped cables; of 18 the camera sees next to nothing, the projector of 66 moves behind its
+    // own patterns, and 165 is a dome with a stretched picture.
+    std::vector<std::uint32_t> draws{2, 18, 66, 165};
+    if (isSoak()) {
+        draws.resize(200);
+        std::iota(draws.begin(), draws.end(), 0U);
+    }
+    for (const std::uint32_t draw : draws) {
         const std::size_t kind = draw % hall::kHallFaultNames.size();
         const config::Rig rig = hall::randomRig(100 + draw, 0.25);
         const config::Hall hall = hall::withFault(rig,
