@@ -2,7 +2,7 @@
 
 # Headers that most sources include, parsed once. A source still includes what it uses: the dev preset builds the programs
 # without this.
-option(AQUARAMA_PCH "precompile the headers that most sources include" OFF)
+option(AQUARAMA_PCH "compile sooner: the headers that most sources include, and the commands of a program, once" OFF)
 set(AQUARAMA_COMMON_HEADERS
   <algorithm> <array> <cmath> <cstddef> <cstdint> <filesystem> <functional> <memory> <numbers> <optional> <span> <string>
   <string_view> <utility> <vector>
@@ -126,23 +126,44 @@ function(aquarama_collect_links target result)
   set(${result} ${seen} PARENT_SCOPE)
 endfunction()
 
-# aquarama_test(motion SOURCES a_test.cpp ... [LINK targets...]): one program, one ctest row.
+# aquarama_test(motion [WAITS|REAL_TIME] SOURCES a_test.cpp ... [LINK targets...]): one program, one ctest row.
 function(aquarama_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "WAITS;REAL_TIME" "" "SOURCES;LINK" ${ARGN})
   add_executable(aquarama_${name}_test ${ARG_SOURCES})
   target_link_libraries(aquarama_${name}_test PRIVATE aquarama_test_support ${ARG_LINK} GTest::gmock GTest::gtest_main)
   target_compile_options(aquarama_${name}_test PRIVATE -ffp-contract=off)
   target_precompile_headers(aquarama_${name}_test REUSE_FROM aquarama_test_headers)
   set_target_properties(aquarama_${name}_test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  aquarama_suite(${name} $<TARGET_FILE:aquarama_${name}_test>)
+  set(KIND "")
+  if(ARG_REAL_TIME)
+    set(KIND REAL_TIME)
+  elseif(ARG_WAITS)
+    set(KIND WAITS)
+  endif()
+  aquarama_suite(${name} ${KIND} COMMAND $<TARGET_FILE:aquarama_${name}_test>)
 endfunction()
 
-# aquarama_suite(motion COMMAND...): a ctest row whose processor time is compared with its line in tests/budgets.csv. The
-# timeouts of the test presets are only for programs that hang. Software OpenGL draws with one thread, since ctest runs as
-# many suites at once as there are processors. The user's cache of the programs is in the build folder.
+# aquarama_suite(motion [WAITS|REAL_TIME] COMMAND command...): a ctest row whose processor time is compared with its line in
+# tests/budgets.csv. The timeouts of the test presets are only for programs that hang. Software OpenGL draws with one thread.
+# The user's cache of the programs is in the build folder. What runs at once, where ctest has twice as many places as there
+# are processors:
+#   REAL_TIME: processes wait for one another by the clock, on ports that others use too. One at a time, at first, and beside it
+#              only suites that compute.
+#   WAITS:     a clock counts, but nothing is drawn in time. Beside all but the former.
+#   neither:   computes, and takes the processor when no other process wants it.
 function(aquarama_suite name)
+  cmake_parse_arguments(ARG "WAITS;REAL_TIME" "" "COMMAND" ${ARGN})
   file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/processor_time)
-  add_test(NAME ${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/timed.sh ${CMAKE_BINARY_DIR}/processor_time/${name} ${ARGN})
+  set(WHEN "")
+  if(NOT ARG_REAL_TIME AND NOT ARG_WAITS)
+    set(WHEN chrt --idle 0)
+  endif()
+  add_test(NAME ${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/timed.sh ${CMAKE_BINARY_DIR}/processor_time/${name} ${WHEN} ${ARG_COMMAND})
   set_tests_properties(${name} PROPERTIES WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
     ENVIRONMENT "AQUARAMA_BIN=${CMAKE_BINARY_DIR}/bin;XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/cache;XDG_STATE_HOME=${CMAKE_BINARY_DIR}/state;LP_NUM_THREADS=1")
+  if(ARG_REAL_TIME)
+    set_tests_properties(${name} PROPERTIES PROCESSORS 3 RESOURCE_LOCK wall COST 2000)
+  elseif(ARG_WAITS)
+    set_tests_properties(${name} PROPERTIES PROCESSORS 2 COST 1000)
+  endif()
 endfunction()

@@ -8,6 +8,7 @@ import socket
 import subprocess
 import tempfile
 import time
+import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -39,6 +40,20 @@ def rig_on_free_ports(folder, rig="desk", replace=()):
     path = Path(folder) / f"{rig}.txtpb"
     path.write_text(text)
     return path
+
+
+def give_colours(file):
+    """To a wall file of the desk's channels: projectors of power 2 with other primaries than the wall's."""
+    with zipfile.ZipFile(file) as archive:
+        entries = {name: archive.read(name) for name in archive.namelist()}
+    curve = " ".join(str((i / 255) ** 2) for i in range(256))
+    response = "".join(f"<{primary}>{curve}</{primary}>" for primary in ("red", "green", "blue"))
+    colours = "".join(f'<colour region="{name}"><mix>.8 .1 0 .05 .9 0 0 0 .7</mix>{response}</colour>' for name in CHANNELS)
+    entries["mpcdi.xml"] = entries["mpcdi.xml"].replace(
+        b"</MPCDI>", f'<extensionSet><extension Name="Aquarama">{colours}</extension></extensionSet></MPCDI>'.encode())
+    with zipfile.ZipFile(file, "w") as archive:
+        for name, content in entries.items():
+            archive.writestr(name, content)
 
 
 def control_address(rig):

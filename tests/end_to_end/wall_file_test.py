@@ -7,11 +7,10 @@ import shutil
 import sys
 import time
 import unittest
-import zipfile
 from array import array
 from pathlib import Path
 
-from show import CHANNELS, ROOT, aquarama, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
+from show import CHANNELS, ROOT, aquarama, end, give_colours, rig_on_free_ports, start, temporary_folder, trace, wait_until
 
 sys.path.insert(0, str(ROOT / "packaging"))
 from check_pictures import read_png  # noqa: E402
@@ -77,22 +76,9 @@ class WallFile(unittest.TestCase):
             right, down = displacement(before / f"{name}.png", after / f"{name}.png")
             self.assertLess(max(abs(right), abs(down)), 0.05, name)
 
-    def give_colours(self):
-        """Projectors of power 2 with other primaries than the wall's."""
-        with zipfile.ZipFile(self.file) as archive:
-            entries = {name: archive.read(name) for name in archive.namelist()}
-        curve = " ".join(str((i / 255) ** 2) for i in range(256))
-        response = "".join(f"<{primary}>{curve}</{primary}>" for primary in ("red", "green", "blue"))
-        colours = "".join(f'<colour region="{name}"><mix>.8 .1 0 .05 .9 0 0 0 .7</mix>{response}</colour>' for name in CHANNELS)
-        entries["mpcdi.xml"] = entries["mpcdi.xml"].replace(
-            b"</MPCDI>", f'<extensionSet><extension Name="Aquarama">{colours}</extension></extensionSet></MPCDI>'.encode())
-        with zipfile.ZipFile(self.file, "w") as archive:
-            for name, content in entries.items():
-                archive.writestr(name, content)
-
     def test_colours_change_the_codes_and_not_the_wall(self):
         before = self.snapshot(self.rig, "before")
-        self.give_colours()
+        give_colours(self.file)
         after = self.snapshot(self.rig, "after")
         for name, least, most in (("channel-middle", 3, 100), ("panorama", 0, 0.7)):
             one, other = (read_png(folder / f"{name}.png")[1] for folder in (before, after))
