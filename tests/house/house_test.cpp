@@ -26,9 +26,7 @@ struct SourceFile {
 };
 
 // All headers and sources of some folders.
-std::vector<SourceFile> sourceFiles(
-    const std::vector<std::string>& tops = {
-        "common", "master", "render_node", "calibration", "console"}) {
+std::vector<SourceFile> sourceFilesOf(const std::vector<std::string>& tops) {
     std::vector<SourceFile> all;
     const fs::path root = AQUARAMA_SOURCE_DIR;
     for (const std::string& top : tops) {
@@ -43,13 +41,26 @@ std::vector<SourceFile> sourceFiles(
     return all;
 }
 
-std::vector<Inclusion> inclusions() {
+// The product's, read once.
+const std::vector<SourceFile>& sourceFiles() {
+    static const std::vector<SourceFile> all =
+        sourceFilesOf({"common", "master", "render_node", "calibration", "console"});
+    return all;
+}
+
+std::vector<Inclusion> readInclusions() {
     std::vector<Inclusion> all;
     const std::regex include(R"re(^\s*#include\s+[<"]([^>"]+)[>"])re");
     std::smatch match;
     for (const SourceFile& file : sourceFiles())
         for (const std::string& line : file.lines)
-            if (std::regex_search(line, match, include)) all.push_back({file.path, match[1]});
+            if (line.find('#') != std::string::npos && std::regex_search(line, match, include))
+                all.push_back({file.path, match[1]});
+    return all;
+}
+
+const std::vector<Inclusion>& inclusions() {
+    static const std::vector<Inclusion> all = readInclusions();
     return all;
 }
 
@@ -64,7 +75,10 @@ std::vector<std::string> typesOf(const SourceFile& file) {
     for (const std::string& line : file.lines) {
         if (line == "namespace {") unnamed = true;
         if (line == "}  // namespace") unnamed = false;
-        if (!unnamed && std::regex_search(line, match, definition)) types.push_back(match[1]);
+        const bool mayDefine = line.starts_with("struct ") || line.starts_with("class ") ||
+                               line.starts_with("union ") || line.starts_with("enum ");
+        if (mayDefine && !unnamed && std::regex_search(line, match, definition))
+            types.push_back(match[1]);
     }
     return types;
 }
@@ -76,7 +90,8 @@ std::string namespaceOf(const SourceFile& file) {
     std::string last;
     std::smatch match;
     for (const std::string& line : file.lines)
-        if (std::regex_search(line, match, opening)) last = match[1];
+        if (line.starts_with("namespace ") && std::regex_search(line, match, opening))
+            last = match[1];
     return last;
 }
 
@@ -125,9 +140,11 @@ TEST(House, noTwoTestHeadersDefineOneFunction) {
     const std::regex definition(R"re(^(?:\[\[nodiscard\]\] )?inline [^=(]*?(\w+\([^{]*))re");
     std::map<std::string, std::string> home;
     std::smatch match;
-    for (const SourceFile& file : sourceFiles({"tests"}))
+    for (const SourceFile& file : sourceFilesOf({"tests"}))
         for (const std::string& line : file.lines) {
-            if (!file.path.ends_with(".h") || !std::regex_search(line, match, definition)) continue;
+            if (!file.path.ends_with(".h") || line.find("inline ") == std::string::npos ||
+                !std::regex_search(line, match, definition))
+                continue;
             const std::string function = namespaceOf(file) + "::" + match[1].str();
             const auto [known, isNew] = home.emplace(function, file.path);
             EXPECT_TRUE(isNew || known->second == file.path)
