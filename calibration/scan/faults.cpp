@@ -291,18 +291,22 @@ class FaultFinder {
         const double moved = std::hypot((*found)[1], (*found)[2]) / (*found)[0];
         return moved * evidence_.small.factor * double{evidence_.channels[c].step};
     }
-    // By the white's light and its gradient: what differs is the gradient times the movement.
-    [[nodiscard]] LeastSquares<3> differenceFrom(std::size_t c,
+    // By the white's light and its gradient: what differs is the gradient times the movement, and
+    // what other channels throw here by way of the screen.
+    [[nodiscard]] LeastSquares<4> differenceFrom(std::size_t c,
                                                  const SmallPicture& picture,
                                                  std::uint64_t lit) const {
-        LeastSquares<3> fit;
+        LeastSquares<4> fit;
+        fit.add({0, 0, 0, 1e-3}, 0);  // where no other is lit
         const Plane& white = channels_[c].light;
+        const std::uint64_t others = lit & ~(std::uint64_t{1} << c);
         const auto row = static_cast<std::size_t>(evidence_.small.sizePixels.x);
         for (std::size_t p = row; p + row < white.size(); ++p) {
             if (!isOnlyOf(c, lit, p)) continue;
             const double across = 0.5 * double{white[p + 1] - white[p - 1]};
             const double down = 0.5 * double{white[p + row] - white[p - row]};
-            fit.add({double{white[p]}, across, down}, double{picture.light[p] - (*black_)[p]});
+            fit.add({double{white[p]}, across, down, double{lightAt(p, others)}},
+                    double{picture.light[p] - (*black_)[p]});
         }
         return fit;
     }

@@ -9,6 +9,7 @@
 
 #include "calibration/hall/true_hall.h"
 #include "calibration/solve/brightness.h"
+#include "calibration/solve/foresight.h"
 #include "calibration/solve/seams.h"
 #include "calibration/solve/solve.h"
 #include "common/formats/wall_file.h"

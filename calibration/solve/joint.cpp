@@ -315,7 +315,8 @@ class JointProblem::Problem {
         ceres::Solver::Options options;
         options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
         options.max_num_iterations = steps;
-        options.function_tolerance = 1e-5;
+        // What pictures hardly tell, as how far a camera stands from a flat wall, is found last.
+        options.function_tolerance = 1e-7;
         options.num_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
         options.logging_type = ceres::SILENT;
         ceres::Solver::Summary summary;

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "calibration/solve/seams.h"
+#include "calibration/solve/level_samples.h"
 #include "calibration/solve/smooth_fit.h"
 #include "calibration/solve/statistics.h"
 #include "common/base/picture.h"
@@ -20,99 +20,7 @@ namespace aquarama::solve {
 
 namespace {
 
-using config::ScanPattern;
-using Kind = ScanPattern::Kind;
-
 constexpr std::size_t kLeastSamples = 200;  // of a channel
-
-double luminance(glm::dvec3 rgb) {
-    return glm::dot(rgb, {0.2126, 0.7152, 0.0722});
-}
-
-// The thinned-out pictures of a view that tell of levels.
-class LevelSamples {
-  public:
-    explicit LevelSamples(const scan::CameraView& view)
-        : view_{view}, black_{levelOf(0, glm::vec3(0))} {
-        for (std::size_t c = 0; c < view.channels.size(); ++c)
-            whites_.push_back(levelOf(std::uint64_t{1} << c, glm::vec3(1)));
-    }
-
-    [[nodiscard]] std::size_t channels() const { return whites_.size(); }
-    [[nodiscard]] const Light& black() const { return black_->light; }
-    [[nodiscard]] bool isWhole() const {
-        return black_ != nullptr && std::ranges::find(whites_, nullptr) == whites_.end() &&
-               std::ranges::none_of(view_.channels,
-                                    [](const auto& channel) { return channel.place.empty(); });
-    }
-    // Of all channels at once.
-    [[nodiscard]] const scan::SampledPicture* level(glm::vec3 light) const {
-        return levelOf((std::uint64_t{1} << channels()) - 1, light);
-    }
-    // Grey levels of all channels below white, rising.
-    [[nodiscard]] std::vector<const scan::SampledPicture*> greys() const {
-        std::vector<const scan::SampledPicture*> greys;
-        for (const auto& sample : view_.samples) {
-            const float grey = sample.pattern.light.x;
-            if (grey > 0 && grey < 1 && level(glm::vec3(grey)) == &sample) greys.push_back(&sample);
-        }
-        std::ranges::sort(greys, {}, [](const auto* sample) { return sample->pattern.light.x; });
-        return greys;
-    }
-    // Without black; not a number where the camera was blinded.
-    [[nodiscard]] glm::dvec3 light(const scan::SampledPicture& picture, std::size_t index) const {
-        return glm::dvec3(picture.light.rgb[index]) - glm::dvec3(black().rgb[index]);
-    }
-    // White of a channel alone.
-    [[nodiscard]] glm::dvec3 white(std::size_t channel, std::size_t index) const {
-        return light(*whites_[channel], index);
-    }
-    // Of all channels of a set.
-    [[nodiscard]] glm::dvec3 whites(std::uint64_t lit, std::size_t index) const {
-        glm::dvec3 sum(0);
-        for (std::size_t c = 0; c < whites_.size(); ++c)
-            if (((lit >> c) & 1U) != 0 && whites_[c] != nullptr) sum += white(c, index);
-        return sum;
-    }
-    // The place in a channel's picture that lights a sample; not a number where that is not known.
-    [[nodiscard]] glm::dvec2 place(std::size_t channel, std::size_t index) const {
-        const auto width = static_cast<std::size_t>(black().sizePixels.x);
-        const std::size_t pixel = scan::pixelOfSample(
-            view_, static_cast<int>(index % width), static_cast<int>(index / width));
-        return glm::dvec2(view_.channels[channel].place[pixel]);
-    }
-
-  private:
-    [[nodiscard]] const scan::SampledPicture* levelOf(std::uint64_t lit, glm::vec3 light) const {
-        const auto found = std::ranges::find_if(view_.samples, [&](const auto& sample) {
-            return sample.pattern.kind == Kind::Level && sample.pattern.lit == lit &&
-                   sample.pattern.light == light && sample.pattern.step == 0;
-        });
-        return found == view_.samples.end() ? nullptr : &*found;
-    }
-
-    const scan::CameraView& view_;
-    const scan::SampledPicture* black_;
-    std::vector<const scan::SampledPicture*> whites_;
-};
-
-// Bands of samples along rows and columns that responses are not told from: shares of the picture,
-// and samples.
-constexpr std::array kBands{0.15, 0.3, 0.5, 0.7, 0.85};
-constexpr int kBandWidth = 5;
-int firstOfBand(double at, int samples) {
-    return static_cast<int>(at * samples) - kBandWidth / 2;
-}
-bool isInBand(int at, int samples) {
-    return std::ranges::any_of(kBands, [&](double band) {
-        const int first = firstOfBand(band, samples);
-        return at >= first && at < first + kBandWidth;
-    });
-}
-bool isHeldOut(glm::ivec2 size, std::size_t index) {
-    const int i = static_cast<int>(index);
-    return isInBand(i % size.x, size.x) || isInBand(i / size.x, size.y);
-}
 
 // A sample that a channel lights at a known place.
 struct Sample {
@@ -171,89 +79,6 @@ std::vector<Mixed> mixedOf(const LevelSamples& levels, const std::vector<double>
         if (!isHeldOut(levels.black().sizePixels, index))
             if (auto sample = mixedAt(levels, medians, index)) mixed.push_back(std::move(*sample));
     return mixed;
-}
-
-// How a camera's light differs from what it is taken for: a factor for each of its values, by
-// pictures of one wall in several exposures (Debevec and Malik 1997).
-class CameraCurve {
-  public:
-    // Of a view without such pictures it changes nothing.
-    explicit CameraCurve(const scan::CameraView& view) {
-        const LevelSamples levels(view);
-        if (!levels.isWhole()) return;
-        for (const scan::SampledPicture& picture : view.samples)
-            if (picture.pattern.kind == Kind::Level && picture.pattern.step > 0)
-                add(picture, levels);
-        solve();
-    }
-    [[nodiscard]] glm::vec3 corrected(glm::vec3 light) const {
-        for (int c = 0; c < 3; ++c) light[c] *= static_cast<float>(std::exp(at(double(light[c]))));
-        return light;
-    }
-
-  private:
-    static constexpr Eigen::Index kKnots = 12;
-    using Row = Eigen::Matrix<double, kKnots, 1>;
-
-    // Of the knots' values, linear between them over the camera's codes.
-    static void put(Row& row, double light, double sign) {
-        const double place = srgbFromLinear(std::clamp(light, 0.0, 1.0)) * double{kKnots - 1};
-        const auto low = std::min<Eigen::Index>(kKnots - 2, static_cast<Eigen::Index>(place));
-        const double t = place - static_cast<double>(low);
-        row(low) += sign * (1 - t);
-        row(low + 1) += sign * t;
-    }
-    [[nodiscard]] double at(double light) const {
-        Row row = Row::Zero();
-        put(row, std::isnan(light) ? 0 : light, 1);
-        return row.dot(knots_);
-    }
-    void add(const scan::SampledPicture& picture, const LevelSamples& levels) {
-        constexpr double kLeast = 0.003;  // where codes are too coarse
-        for (std::size_t i = 0; i < picture.light.rgb.size(); ++i) {
-            const glm::dvec3 full =
-                levels.whites(picture.pattern.lit, i) + glm::dvec3(levels.black().rgb[i]);
-            const glm::dvec3 less(picture.light.rgb[i]);
-            for (int c = 0; c < 3; ++c)
-                if (full[c] > less[c] && full[c] < 0.9 && less[c] > kLeast)
-                    add(less[c], full[c], less[c] * double(picture.scale));
-        }
-    }
-    // One light in two exposures; `again` is the first as the second should have it.
-    void add(double less, double full, double again) {
-        constexpr double kMost = 0.25;  // farther off are tags, and what has moved
-        if (std::abs(std::log(full / again)) > kMost) return;
-        Row row = Row::Zero();
-        put(row, less, 1);
-        put(row, full, -1);
-        normal_ += row * row.transpose();
-        right_ += std::log(full / again) * row;
-        ++count_;
-    }
-    void solve() {
-        if (count_ == 0) return;
-        const double smooth = 0.02 * static_cast<double>(count_);
-        for (Eigen::Index i = 1; i + 1 < kKnots; ++i) {
-            Row row = Row::Zero();
-            row(i - 1) = row(i + 1) = 1;
-            row(i) = -2;
-            normal_ += smooth * row * row.transpose();
-        }
-        normal_(kKnots - 1, kKnots - 1) += static_cast<double>(count_);  // the brightest stays
-        knots_ = normal_.ldlt().solve(right_);
-    }
-
-    Row knots_ = Row::Zero(), right_ = Row::Zero();
-    Eigen::Matrix<double, kKnots, kKnots> normal_ = Eigen::Matrix<double, kKnots, kKnots>::Zero();
-    std::size_t count_ = 0;
-};
-
-// The view with its samples corrected, all in the exposure of the first picture.
-scan::CameraView corrected(scan::CameraView view) {
-    const CameraCurve curve(view);
-    for (scan::SampledPicture& picture : view.samples)
-        for (glm::vec3& light : picture.light.rgb) light = picture.scale * curve.corrected(light);
-    return view;
 }
 
 // Light of each channel (columns) for one unit of its white's luminance, from what samples have of
@@ -537,7 +362,7 @@ std::vector<double> risingCurve(const std::vector<glm::dvec2>& points,
 
 std::optional<std::vector<ChannelLight>> measureLight(const config::Rig& rig,
                                                       scan::CameraView seen) {
-    const scan::CameraView view = corrected(std::move(seen));
+    const scan::CameraView view = linearised(std::move(seen));
     const LevelSamples levels(view);
     if (!levels.isWhole()) return std::nullopt;
     std::vector<std::vector<Sample>> samples;
@@ -550,110 +375,6 @@ std::optional<std::vector<ChannelLight>> measureLight(const config::Rig& rig,
     for (std::size_t c = 0; c < channels.size(); ++c)
         channels[c].white = whiteOf(levels, c, samples[c], rig.channels[c].sizePixels);
     return channels;
-}
-
-namespace {
-
-// What the finished masks make of even light, where the camera has seen each channel's white.
-class Foresight {
-  public:
-    Foresight(const LevelSamples& levels,
-              const std::vector<ChannelLight>& lights,
-              const formats::WallFile& file)
-        : levels_{levels}, lights_{lights}, file_{file} {
-        for (std::size_t c = 0; c < lights.size(); ++c) {
-            medians_.push_back(lights[c].white.at({0.5, 0.5}));
-            blends_.emplace_back(*file.channels[c].blend);
-            blacks_.emplace_back(*file.channels[c].black);
-        }
-    }
-    [[nodiscard]] double worst(double grey) const {
-        const glm::ivec2 size = levels_.black().sizePixels;
-        double worst = 0;
-        for (const int axis : {0, 1})
-            for (const double band : kBands)
-                worst =
-                    std::max(worst, seamOf(profile(axis, firstOfBand(band, size[1 - axis]), grey)));
-        return worst;
-    }
-
-  private:
-    // Luminance as it will be seen and as the masks mean it, and how many channels give it.
-    struct Seen {
-        double seen = 0, meant = 0;
-        int channels = 0;
-    };
-    // Nothing beside the screen and where it is not known which place of a picture lights it.
-    [[nodiscard]] std::optional<Seen> at(std::size_t index, double grey) const {
-        // Of a channel's white: where it is not meant to be, and past the screen's edge.
-        constexpr double kUnlit = 0.2, kScreen = 0.7;
-        Seen seen;
-        for (std::size_t c = 0; c < lights_.size(); ++c) {
-            const double white = luminance(levels_.white(c, index));
-            const glm::dvec2 place = levels_.place(c, index);
-            const bool isHere = !std::isnan(place.x + place.y);
-            if (std::isnan(white) || (!isHere && white > kUnlit * medians_[c])) return std::nullopt;
-            if (!isHere) continue;
-            const double meant =
-                lights_[c].white.at(place / glm::dvec2(file_.channels[c].sizePixels));
-            if (white < kScreen * meant) return std::nullopt;
-            const double share = shareOf(c, place, grey);
-            seen.seen += white * share;
-            seen.meant += meant * share;
-            ++seen.channels;
-        }
-        return seen.channels > 0 ? std::optional(seen) : std::nullopt;
-    }
-    // Of a channel's white.
-    [[nodiscard]] double shareOf(std::size_t c, glm::dvec2 place, double grey) const {
-        const formats::FileChannel& channel = file_.channels[c];
-        const glm::dvec2 at = place / glm::dvec2(channel.sizePixels);
-        const double lift = double(blacks_[c].at(at).x);
-        const double light = grey * double(blends_[c].at(at).x) * (1 - lift) + lift;
-        const glm::dvec3 own = glm::dmat3(channel.colour->mix) * glm::dvec3(light);
-        return luminance(lights_[c].primaries * own) + lights_[c].black;
-    }
-    [[nodiscard]] std::vector<ProfilePoint> profile(int axis, int first, double grey) const {
-        const glm::ivec2 size = levels_.black().sizePixels;
-        std::vector<ProfilePoint> points;
-        for (int i = 0; i < size[axis]; ++i) {
-            ProfilePoint point;
-            int count = 0;
-            for (int j = 0; j < kBandWidth; ++j) {
-                glm::ivec2 sample(i);
-                sample[1 - axis] = first + j;
-                const auto seen = at(static_cast<std::size_t>(sample.y * size.x + sample.x), grey);
-                if (!seen) continue;
-                point.luminance += seen->seen / seen->meant;
-                point.isShared |= seen->channels > 1;
-                ++count;
-            }
-            if (count < kBandWidth) continue;
-            point.luminance /= count;
-            points.push_back(point);
-        }
-        // Without the edges of the screen, where samples lie half beside it.
-        const auto edge = static_cast<std::ptrdiff_t>(points.size() / 30 + 2);
-        if (points.size() < 20) return {};
-        return {points.begin() + edge, points.end() - edge};
-    }
-
-    const LevelSamples& levels_;
-    const std::vector<ChannelLight>& lights_;
-    const formats::WallFile& file_;
-    std::vector<double> medians_;
-    std::vector<formats::MaskLight> blends_, blacks_;
-};
-
-}  // namespace
-
-ForeseenSeams foreseenSeams(const std::vector<ChannelLight>& lights,
-                            const formats::WallFile& file,
-                            scan::CameraView seen) {
-    const scan::CameraView view = corrected(std::move(seen));
-    const LevelSamples levels(view);
-    const Foresight foresight(levels, lights, file);
-    return {foresight.worst(0.02), foresight.worst(0.18), foresight.worst(1)};
 }
 
 }  // namespace aquarama::solve

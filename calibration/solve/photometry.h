@@ -13,7 +13,6 @@
 #include "calibration/scan/decode.h"
 #include "calibration/solve/model.h"
 #include "common/config/rig.h"
-#include "common/formats/wall_file.h"
 
 namespace aquarama::solve {
 
@@ -32,17 +31,6 @@ struct ChannelLight {
 // channel's white, red, green or levels, or sees too little of one.
 [[nodiscard]] std::optional<std::vector<ChannelLight>> measureLight(const config::Rig& rig,
                                                                     scan::CameraView view);
-
-// The largest step that even light of 2, 18 and 100 % will have, as shares, foreseen from the
-// camera's pictures: along bands, the whites of the channels as they were seen
-// there against those that the finished masks were made for. Measured as Seams are.
-struct ForeseenSeams {
-    double grey2 = 0, grey18 = 0, grey100 = 0;
-};
-// `lights`: what the file was made of; each of its channels has masks and colour.
-[[nodiscard]] ForeseenSeams foreseenSeams(const std::vector<ChannelLight>& lights,
-                                          const formats::WallFile& file,
-                                          scan::CameraView seen);
 
 // A smooth curve through points (x and y rising) that rises everywhere, after Fritsch and Carlson
 // (1980), at rising places; before the first point it is straight.

@@ -109,9 +109,9 @@ struct Pass {
 };
 // What models of lenses do not know is a tenth of a pixel in the end.
 constexpr std::array kPasses{Pass{FreeParts::Poses, 0.04, 8, 4, 25},
-                             Pass{FreeParts::Lenses, 0.015, 2, 1, 20},
-                             Pass{FreeParts::Bumps, 0.006, 0.7, 0.3, 20},
-                             Pass{FreeParts::Bumps, 0.003, 0.2, 0.12, 25}};
+                             Pass{FreeParts::Lenses, 0.015, 2, 1, 60},
+                             Pass{FreeParts::Bumps, 0.006, 0.7, 0.3, 60},
+                             Pass{FreeParts::Bumps, 0.003, 0.2, 0.12, 60}};
 
 double outlineRms(const SolvedHall& hall, const std::vector<OutlineTie>& outline) {
     std::vector<double> off;

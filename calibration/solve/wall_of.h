@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "calibration/solve/brightness.h"
+#include "calibration/solve/foresight.h"
 #include "calibration/solve/solve.h"
 #include "common/formats/wall_file.h"
 

@@ -95,15 +95,14 @@ TEST(Calibration, ofRandomHallsIsWithinItsBounds) {
             << "rig " << seed << ": " << outcome.figures.cause;
         EXPECT_GT(outcome.errors.overlap.size(), 500U);
         EXPECT_TRUE(isWithinBounds(outcome.errors)) << "rig " << seed;
-        ASSERT_TRUE(outcome.figures.brightness.has_value());
-        EXPECT_GT(outcome.figures.brightness->keptLight, 0.7);
+        const bool hasLight = outcome.figures.brightness && outcome.figures.foreseen;
+        EXPECT_TRUE(hasLight) << "rig " << seed;
+        if (!hasLight) continue;
+        EXPECT_GT(outcome.figures.brightness->keptLight, 0.7) << "rig " << seed;
         EXPECT_LE(outcome.seams.grey18, 0.01) << "rig " << seed;
         EXPECT_LE(outcome.seams.grey100, 0.01) << "rig " << seed;
         EXPECT_LE(outcome.seams.colour, 0.7) << "rig " << seed;
-        const bool isDome = rig.screen.shape == config::ScreenShape::Dome;
-        // Asked for is 3 %; one dome has 3.1: docs/calibration.md.
-        EXPECT_LE(outcome.seams.grey2, isDome ? 0.033 : 0.03) << "rig " << seed;
-        ASSERT_TRUE(outcome.figures.foreseen.has_value());
+        EXPECT_LE(outcome.seams.grey2, 0.03) << "rig " << seed;
         EXPECT_NEAR(outcome.figures.foreseen->grey18, outcome.seams.grey18, 0.004);
         EXPECT_NEAR(outcome.figures.foreseen->grey100, outcome.seams.grey100, 0.004);
     }

@@ -2,11 +2,13 @@
 // Parts of what evens light and colour, against closed forms and published values.
 #include <cmath>
 #include <limits>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "calibration/solve/brightness.h"
+#include "calibration/solve/level_samples.h"
 #include "calibration/solve/photometry.h"
 #include "calibration/solve/seams.h"
 
@@ -28,6 +30,54 @@ TEST(RisingCurve, risesBetweenStepsAndMeetsItsPoints) {
     for (std::size_t i = 1; i < curve.size(); ++i) EXPECT_GE(curve[i], curve[i - 1]) << at[i];
     EXPECT_NEAR(curve[100], 0.01, 1e-9);
     EXPECT_NEAR(curve[120], 0.9, 1e-9);
+}
+
+// Black as a camera counts it whose noise is cut off below zero: to the left one light, to the
+// right another; a corner is bright, as a lamp.
+scan::CameraView darkView(glm::ivec2 size, double left, double right, double noise) {
+    constexpr int kStep = 3;
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal(0, noise);
+    scan::CameraView view;
+    view.sizePixels = size;
+    view.black = darkness(size);
+    view.sampleStep = kStep;
+    Light samples = darkness(size / kStep);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const double light = x < 30 && y < 30 ? 0.5 : x < size.x / 2 ? left : right;
+            const auto counted = static_cast<float>(std::max(0.0, light + normal(random)));
+            view.black.at(x, y) = glm::vec3(counted);
+            if (x / kStep < samples.sizePixels.x && y / kStep < samples.sizePixels.y)
+                samples.at(x / kStep, y / kStep) += counted / float{kStep * kStep};
+        }
+    view.samples.push_back(
+        {{.kind = config::ScanPattern::Kind::Level, .light = glm::vec3(0)}, samples});
+    return view;
+}
+
+// Of the samples between two columns.
+double meanOf(const Light& light, int first, int end) {
+    double sum = 0;
+    for (int y = 20; y < light.sizePixels.y; ++y)
+        for (int x = first; x < end; ++x) sum += double(light.at(x, y).g);
+    return sum / ((end - first) * (light.sizePixels.y - 20));
+}
+
+// Noise that is cut off makes darkness brighter: by 8 and 2 % here.
+TEST(Linearised, blackIsWithoutWhatNoiseAdds) {
+    constexpr double kLeft = 5e-4, kRight = 9e-4, kNoise = 5e-4;
+    const scan::CameraView counted = darkView({600, 300}, kLeft, kRight, kNoise);
+    EXPECT_GT(meanOf(counted.samples[0].light, 5, 95), 1.07 * kLeft);
+    const scan::CameraView view = linearised(counted);
+    EXPECT_NEAR(meanOf(view.samples[0].light, 5, 95), kLeft, 0.02 * kLeft);
+    EXPECT_NEAR(meanOf(view.samples[0].light, 105, 195), kRight, 0.02 * kRight);
+}
+
+TEST(Linearised, blackWithoutNoiseStaysAsItIs) {
+    const scan::CameraView counted = darkView({120, 90}, 1e-3, 4e-3, 0);
+    const scan::CameraView view = linearised(counted);
+    EXPECT_EQ(view.samples[0].light.rgb, counted.samples[0].light.rgb);
 }
 
 // One cell that gives little holds back those about it, as steps on a cone.
