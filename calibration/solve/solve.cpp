@@ -107,11 +107,18 @@ struct Pass {
     double outlinePixels, tiePixels;
     int mostSteps;
 };
-// What models of lenses do not know is a tenth of a pixel in the end.
 constexpr std::array kPasses{Pass{FreeParts::Poses, 0.04, 8, 4, 25},
                              Pass{FreeParts::Lenses, 0.015, 2, 1, 60},
                              Pass{FreeParts::Bumps, 0.006, 0.7, 0.3, 60},
                              Pass{FreeParts::Bumps, 0.003, 0.2, 0.12, 60}};
+
+// What models of lenses do not know is the same in neighbouring windows, so that many of them tell
+// no more than one does: a window counts as far off as the fit before leaves it, times the root of
+// so many.
+double lastTiePixels(double fitRms) {
+    constexpr double kNeighbours = 16, kLeast = kPasses.back().tiePixels, kMost = 0.5;
+    return std::clamp(std::sqrt(kNeighbours) * fitRms, kLeast, kMost);
+}
 
 double outlineRms(const SolvedHall& hall, const std::vector<OutlineTie>& outline) {
     std::vector<double> off;
@@ -193,14 +200,17 @@ void fit(Solved& solved, const std::vector<scan::CameraView>& views) {
     for (const scan::CameraView& view : views) sizes.push_back(view.sizePixels);
     for (const Pass& round : kPasses) {
         JointProblem joint(hall, expected, sizes);
+        const bool isLast = &round == &kPasses.back();
+        const double tiePixels =
+            isLast ? lastTiePixels(fitRms(hall, solved.ties)) : round.tiePixels;
         for (const Tie& tie : solved.ties)
-            if (!tie.heldOut) joint.add(tie, round.tiePixels);
+            if (!tie.heldOut) joint.add(tie, tiePixels);
         const std::vector<OutlineTie> outline = outlinesOf(hall, views, round.outlineReach);
         for (const OutlineTie& tie : outline) joint.add(tie, round.outlinePixels);
         const std::vector<MarkTie> marks = marksOf(hall, views);
         for (const MarkTie& mark : marks) joint.add(mark.tie, mark.sigma);
         joint.solve(round.stage, round.mostSteps);
-        if (&round != &kPasses.back()) continue;
+        if (!isLast) continue;
         solved.figures.marks = marks.size();
         solved.figures.outlinePoints = outline.size();
         solved.figures.outlineRms = outlineRms(hall, outline);
