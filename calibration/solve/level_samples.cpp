@@ -192,7 +192,7 @@ class DarkNoise {
         return {light, (light * light + 1) * below(light) + light * density(light) - mean * mean};
     }
     // The noise that spreads as seen: what is not noise, as an edge, lies far off.
-    static double sigmaOf(std::vector<Spread> spreads) {
+    static double sigmaOf(const std::vector<Spread>& spreads) {
         constexpr double kMost = 25;  // variances
         double sigma = 0;
         for (const Spread& spread : spreads) sigma += spread.square;
