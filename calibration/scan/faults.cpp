@@ -283,7 +283,9 @@ class FaultFinder {
                                                         const SmallPicture& picture) const {
         constexpr float kLeastLevel = 0.3F;
         const ScanPattern& pattern = evidence_.scan.pictures[picture.index].pattern;
-        const bool isLevel = pattern.kind == Kind::Level && weightOf(pattern, c) > kLeastLevel;
+        // Not of shorter exposures: a bent response of the camera looks like a movement in them.
+        const bool isLevel =
+            pattern.kind == Kind::Level && pattern.step == 0 && weightOf(pattern, c) > kLeastLevel;
         if (!isLevel || (channels_[c].cells.empty() && evidence_.channels[c].isTagged))
             return std::nullopt;
         const auto found = differenceFrom(c, picture, pattern.lit).solve();
