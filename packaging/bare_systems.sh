@@ -48,8 +48,7 @@ make_system() {
     else
         tar -C "$2" -xf "$kept"
     fi
-    # How this machine reaches its mirror.
-    cp -r /etc/apt/apt.conf.d /etc/apt/auth.conf.d "$2/etc/apt/"
+    packaging/take-over-mirror.sh "$2/etc/apt"
     cp -L /etc/resolv.conf /etc/hosts "$2/etc/"
 }
 

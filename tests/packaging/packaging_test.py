@@ -183,6 +183,54 @@ class Power(unittest.TestCase):
             self.assertEqual(self.tried(text), (None, 1, False), text)
 
 
+class Mirror(unittest.TestCase):
+    """What a fresh system is told of this machine's apt: how the mirror is reached, and nothing else."""
+
+    SETTINGS = """
+        Acquire::http::Proxy "http://cache.hall:3142/";
+        Acquire::http::Proxy::mirror.hall "DIRECT";
+        Acquire::https::CaInfo "{root}/hall.pem";
+        Acquire::Check-Date "false";
+        Acquire::IndexTargets { deb::DEP-11 { MetaKey "dep11.yml"; }; };
+        Acquire::Languages { "none"; };
+        DPkg::Post-Invoke { "echo a program that the system lacks"; };
+        APT::Install-Recommends "true";
+    """
+
+    def told(self, settings, **environment):
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            (root / "hall.pem").write_text("certificate")
+            (root / "apt.conf").write_text(settings.replace("{root}", folder))
+            done = called(ROOT / "packaging/take-over-mirror.sh", root / "system/etc/apt",
+                          env={**os.environ, "APT_CONFIG": str(root / "apt.conf"), **environment})
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            written = {path.name: path.read_text().replace(folder, "{root}") for path in (root / "system/etc/apt/apt.conf.d").iterdir()}
+            self.assertEqual([*written], ["99mirror"])
+            return written["99mirror"], Path(f"{root}/system{folder}/hall.pem").exists()
+
+    def test_proxy_certificate_and_dates_are_taken_over_and_nothing_else(self):
+        text, certificate = self.told(self.SETTINGS)
+        self.assertTrue(certificate)
+        for line in ('Acquire::http::Proxy "http://cache.hall:3142/";', 'Acquire::http::Proxy::mirror.hall "DIRECT";',
+                     'Acquire::https::CaInfo "{root}/hall.pem";', 'Acquire::Check-Date "false";'):
+            self.assertIn(line, text.splitlines())
+        for line in text.splitlines():
+            self.assertRegex(line, "^Acquire::(https?::|Check-|M..-ValidTime|ForceIPv|Retries)")
+
+    def test_a_proxy_of_the_environment_or_that_a_program_finds_is_written_out(self):
+        text, _ = self.told("", http_proxy="http://of.environment:8080")
+        self.assertIn('Acquire::http::Proxy "http://of.environment:8080";', text.splitlines())
+        with tempfile.TemporaryDirectory() as folder:
+            os.chmod(folder, 0o755)  # apt runs it as a user of its own
+            finder = Path(folder, "finder")
+            finder.write_text("#!/bin/sh\necho http://found.hall:3142/\n")
+            finder.chmod(0o755)
+            text, _ = self.told(f'Acquire::http::Proxy-Auto-Detect "{finder}";')
+        self.assertIn('Acquire::http::Proxy "http://found.hall:3142/";', text.splitlines())
+        self.assertNotIn("Detect", text)
+
+
 class Release(unittest.TestCase):
     def test_all_tell_one_version(self):
         self.assertEqual(re.match(r"aquarama \(([^)]*)\)", (DEBIAN / "changelog").read_text()).group(1), VERSION)
