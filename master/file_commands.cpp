@@ -115,7 +115,7 @@ void inspect(const InspectOptions& options) {
         throw CLI::ValidationError("--report", "is for a repertoire, which " + file + " is not");
     if (file.ends_with(".aqrec") || supervisor::looksLikeRecording(file))
         return inspectRecording(file);
-    supervisor::become({supervisor::siblingProgram("calibrate"), {"inspect", file}});
+    supervisor::become({supervisor::siblingProgram("calibrate"), {"inspect", file}, "aquarama"});
 }
 
 }  // namespace

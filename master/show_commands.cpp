@@ -71,16 +71,18 @@ struct HandedOver {
     const CLI::App* command = nullptr;
     std::string program;
     std::vector<std::string> first;  // its own subcommand, before the arguments
+    std::string name;                // that its errors and its help begin with
 };
 
 // Does not return: the other program takes the place of this process.
 void handOver(const HandedOver& to) {
-    supervisor::Command other{supervisor::siblingProgram(to.program), to.first};
+    supervisor::Command other{supervisor::siblingProgram(to.program), to.first, to.name};
     for (const std::string& argument : to.command->remaining()) other.arguments.push_back(argument);
     supervisor::become(other);
 }
 
-// A command that another program of the installation carries out, with all of its arguments.
+// A command that another program of the installation carries out, with all of its arguments. Where
+// it is a command of the other program as well, that adds its name by itself.
 void addHandedOver(CommandLine& line,
                    const std::string& name,
                    const std::string& what,
@@ -89,7 +91,7 @@ void addHandedOver(CommandLine& line,
     const auto [command, options] = line.add<HandedOver>(name, what, handOver);
     command.prefix_command();
     command.set_help_flag();  // the other program has its own
-    options = {&command, program, first};
+    options = {&command, program, first, first.empty() ? "aquarama " + name : "aquarama"};
 }
 
 }  // namespace

@@ -84,14 +84,14 @@ void show(const std::string& path, void (*showRig)(const config::Rig&, const std
     }
 }
 
-// All of them; returns the exit status.
-int checkAll(const std::vector<std::string>& paths) {
+// All of them; `program` begins each error. Returns the exit status.
+int checkAll(const std::string& program, const std::vector<std::string>& paths) {
     int status = 0;
     for (const std::string& path : paths) {
         try {
             show(path, checkRig);
         } catch (const Error& error) {
-            cli::sayError("aquarama-calibrate check", error.what());
+            cli::sayError(program + " check", error.what());
             status = 1;
         }
     }
@@ -273,7 +273,7 @@ int main(int count, char** arguments) {
                             "species, and say what is in them");
     checking.add_option("FILE", checked, "such as config/desk.txtpb; several are checked in turn")
         ->required();
-    checking.callback([&] { job = [&] { return checkAll(checked); }; });
+    checking.callback([&] { job = [&] { return checkAll(app.get_name(), checked); }; });
 
     Composition composition;
     describeCompose(app, composition, job);

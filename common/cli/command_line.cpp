@@ -31,6 +31,12 @@ std::string commandOf(const CLI::App& app) {
     return name;
 }
 
+// A command that `aquarama` hands over to another program is told by argv[0] as it was typed:
+// "aquarama console". Else the program keeps its own name, whatever its path.
+void takeTypedName(CLI::App& app, const std::string& typed) {
+    if (typed == "aquarama" || typed.starts_with("aquarama ")) app.name(typed);
+}
+
 // To the program and its commands, but for those that hand their arguments to another program.
 void addVersionFlag(CLI::App& app, const std::string& program) {
     if (app.get_prefix_command()) return;
@@ -83,6 +89,7 @@ CLI::Validator between(Number least, Number most, const std::string& kind) {
 
 int runProgram(CLI::App& app, int count, char** arguments, const Job& job) {
     assert(!app.get_name().empty());
+    if (count > 0) takeTypedName(app, arguments[0]);
     addVersionFlag(app, app.get_name());
     try {
         app.parse(count, arguments);

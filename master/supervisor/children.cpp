@@ -31,7 +31,8 @@ sigset_t heardSignals() {
 
 // For execv(); points into the command.
 std::vector<char*> argumentVector(const Command& command) {
-    std::vector<char*> vector{const_cast<char*>(command.program.c_str())};
+    const char* name = command.name.empty() ? command.program.c_str() : command.name.c_str();
+    std::vector<char*> vector{const_cast<char*>(name)};
     for (const std::string& argument : command.arguments)
         vector.push_back(const_cast<char*>(argument.c_str()));
     vector.push_back(nullptr);

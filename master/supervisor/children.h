@@ -21,6 +21,7 @@ namespace aquarama::supervisor {
 struct Command {
     std::filesystem::path program;
     std::vector<std::string> arguments;
+    std::string name = {};  // by which it is told its own (cli::runProgram); empty: its path
 };
 
 // How a child ended: by itself with a code, or by a signal.

@@ -88,7 +88,7 @@ int main(int count, char** arguments) {
     describe(app, options, keyPath);
     return cli::runProgram(app, count, arguments, [&] {
         readKey(keyPath, options);
-        app.name("aquarama-node " + options.channel);
+        app.name(app.get_name() + " " + options.channel);
         cli::requireFolder("--snapshot", options.snapshotFolder);
         cli::requireFolder("--trace", options.traceFolder);
         spdlog::set_default_logger(spdlog::stdout_color_mt("node " + options.channel));

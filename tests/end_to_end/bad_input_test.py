@@ -71,7 +71,7 @@ class Usage(Case):
             ("master RIG", "aquarama master", "--fish", f"{whole} 0 to 1000000"),
             ("explain", "aquarama explain", "--fish", f"{whole} 0 to 1000000"),
             ("explain --fish 1 --replay FILE", "aquarama explain", "--tick", f"{whole} 0 to 1000000000"),
-            ("node NAME --master tcp://127.0.0.1:1 --film PIPE", "aquarama-node", "--film-every", f"{whole} 1 to 10000"),
+            ("node NAME --master tcp://127.0.0.1:1 --film PIPE", "aquarama node", "--film-every", f"{whole} 1 to 10000"),
             ("study", "aquarama study", "--seeds", f"{whole} 1 to 100"),
             ("study", "aquarama study", "--minutes", "a number from 0.1 to 1440"),
             ("study chronicle SCENE", "aquarama study chronicle", "--hours", "a number from 0.01 to 1000"),
@@ -92,11 +92,24 @@ class Usage(Case):
         self.misused("aquarama run: --clip-of requires --clip", "run", "--clip-of", "hall")
         self.misused("aquarama run: --(live|clip) excludes --(live|clip)", "run", "--live", "--clip", "a.mp4")
         self.misused('aquarama run: --clip: "a.avi" is not FILE.mp4 or FILE.webp', "run", "--clip", "a.avi")
-        self.misused("aquarama-node: --deep requires --snapshot", "node", "left", "--master", "tcp://127.0.0.1:1", "--deep")
+        self.misused("aquarama node: --deep requires --snapshot", "node", "left", "--master", "tcp://127.0.0.1:1", "--deep")
 
     def test_a_malformed_address(self):
-        self.misused(r'aquarama-node: --master: "somewhere" is not an address; write it as tcp://HOST:PORT',
+        self.misused(r'aquarama node: --master: "somewhere" is not an address; write it as tcp://HOST:PORT',
                      "node", "left", "--master", "somewhere", "--headless")
+
+    def test_a_command_that_another_program_carries_out_has_the_name_that_was_typed(self):
+        for command in ("check", "theatre", "calibrate", "drift", "node", "console", "inspect"):
+            with self.subTest(command):
+                self.assertRegex(aquarama(command, "--help").stdout, rf"(?m)^Usage: aquarama {command} ")
+                wrong = aquarama(command, "--warp-nine")
+                self.assertRegex(wrong.stderr, rf"\Aaquarama {command}: .*; see aquarama {command} --help\n\Z")
+        for command in ("check", "console", "node"):
+            self.assertTrue(aquarama(command, "--version").stdout.startswith("aquarama"), command)
+        self.refuses(r"aquarama console: nowhere\.txtpb: .*", "console", "nowhere.txtpb")
+        self.refuses(r"aquarama inspect: nowhere\.txtpb: .*", "inspect", "nowhere.txtpb")
+        direct = subprocess.run([BIN / "aquarama-calibrate", "check", "nowhere.txtpb"], capture_output=True, text=True, timeout=60, cwd=ROOT)
+        self.assertRegex(direct.stderr, r"\Aaquarama-calibrate check: nowhere\.txtpb: .*\n\Z")
 
     def test_help_is_for_every_command_and_says_what_inspect_takes(self):
         for command in COMMANDS:
@@ -128,22 +141,22 @@ class Usage(Case):
 class Files(Case):
     def test_an_unknown_field_is_named_with_its_place_in_plain_words(self):
         rig = self.edited((r"screen \{", "screen { curvature: 3"))
-        self.refuses(r'aquarama-calibrate check: \S+/desk\.txtpb:\d+:\d+: screen has no field named "curvature"; correct its name or remove it',
+        self.refuses(r'aquarama check: \S+/desk\.txtpb:\d+:\d+: screen has no field named "curvature"; correct its name or remove it',
                      "check", rig)
 
     def test_overlapping_ids(self):
         rig = self.edited((r"\bid: 2\b", "id: 1"))
-        self.refuses(r"aquarama-calibrate check: \S+/desk\.txtpb:\d+:\d+: .*\b1\b.*", "check", rig)
+        self.refuses(r"aquarama check: \S+/desk\.txtpb:\d+:\d+: .*\b1\b.*", "check", rig)
 
     def test_a_projector_that_misses_the_screen(self):
         rig = Path(self.edited())
         rig.write_text(re.sub(r"yaw_deg: *-?[\d.]+", "yaw_deg: 170", rig.read_text(), count=1))
-        self.refuses(r"aquarama-calibrate check: \S+/desk\.txtpb:\d+:\d+: .*misses the screen.*", "check", rig)
+        self.refuses(r"aquarama check: \S+/desk\.txtpb:\d+:\d+: .*misses the screen.*", "check", rig)
         self.ends(r"aquarama master: \S+/desk\.txtpb:\d+:\d+: .*misses the screen.*", rig)
 
     def test_a_window_of_no_size(self):
         rig = self.edited((r"width_px: *480", "width_px: 0"))
-        self.refuses(r"aquarama-calibrate check: \S+/desk\.txtpb:\d+:\d+: width_px is 0: .*", "check", rig)
+        self.refuses(r"aquarama check: \S+/desk\.txtpb:\d+:\d+: width_px is 0: .*", "check", rig)
 
     def test_all_files_are_checked_and_each_bad_one_gets_a_line(self):
         one, other = self.path / "one.txtpb", self.path / "other.txtpb"
@@ -151,20 +164,20 @@ class Files(Case):
         other.write_text('name: "rig" screen { radius_m: 0 }')
         good = ROOT / "config/scenes/reef.txtpb"
         both = aquarama("check", one, good, other)
-        self.said(both, 1, r"(?s:.+)", r'aquarama-calibrate check: \S+/one\.txtpb:1:\d+: rig has no field named "screens"; .*\n'
-                                       r"aquarama-calibrate check: \S+/other\.txtpb:1:\d+: .*\n")
+        self.said(both, 1, r"(?s:.+)", r'aquarama check: \S+/one\.txtpb:1:\d+: rig has no field named "screens"; .*\n'
+                                       r"aquarama check: \S+/other\.txtpb:1:\d+: .*\n")
         self.assertEqual(both.stdout, aquarama("check", good).stdout)
         self.assertEqual(aquarama("check", good, good).stdout, 2 * both.stdout)
 
     def test_a_rig_that_is_not_there(self):
-        self.refuses(r"aquarama-calibrate check: nowhere\.txtpb: cannot be read.*", "check", "nowhere.txtpb")
+        self.refuses(r"aquarama check: nowhere\.txtpb: cannot be read.*", "check", "nowhere.txtpb")
         self.refuses(r"aquarama run: nowhere\.txtpb: cannot be read.*", "run", "nowhere.txtpb", "--headless", "--frames", 1)
 
     def test_a_scene_that_is_not_there(self):
         self.ends(r"aquarama master: nowhere\.txtpb: cannot be read.*", self.edited(), "--scene", "nowhere.txtpb")
         rig = self.edited((r"reef\.txtpb", "atlantis.txtpb"))
         self.ends(r"aquarama master: \S+/desk\.txtpb:\d+:\d+: .*atlantis.*", rig)
-        self.refuses(r"aquarama-calibrate check: \S+/desk\.txtpb:\d+:\d+: .*atlantis.*", "check", rig, stdout="(.* lights .*\n)*")
+        self.refuses(r"aquarama check: \S+/desk\.txtpb:\d+:\d+: .*atlantis.*", "check", rig, stdout="(.* lights .*\n)*")
 
     def test_a_mistake_in_a_scene_and_in_a_species_of_it(self):
         scene = (ROOT / "config/scenes/reef.txtpb").read_text().replace("../species", str(ROOT / "config/species"))
@@ -178,7 +191,7 @@ class Files(Case):
             (scene.replace(str(ROOT / "config/species/parrotfish"), "odd"), r"\S+/odd\.txtpb:\d+:\d+: .*hunts.*"),
         ]:
             own.write_text(wrong)
-            self.refuses("aquarama-calibrate check: " + expected, "check", own)
+            self.refuses("aquarama check: " + expected, "check", own)
             self.ends("aquarama master: " + expected, self.edited(), "--scene", own)
 
     def test_a_number_of_fish_that_the_scene_cannot_hold(self):
@@ -278,7 +291,7 @@ class Shows(Case):
         master = start("master", rig, "--pattern", "grid")
         try:
             wait_until(lambda: aquarama("status", rig).returncode == 0, 30, "the master")
-            self.refuses("aquarama-node ceiling: .*ceiling.*", "node", "ceiling", "--master", control_address(rig), "--headless")
+            self.refuses("aquarama node ceiling: .*ceiling.*", "node", "ceiling", "--master", control_address(rig), "--headless")
         finally:
             end([master])
 
