@@ -29,6 +29,7 @@
 #include "common/wire/recording.h"
 #include "master/commands.h"
 #include "master/conductor/conductor.h"
+#include "master/conductor/preparation.h"
 #include "master/simulation/living_world.h"
 #include "master/simulation/recorded_world.h"
 
@@ -205,19 +206,40 @@ void show(const config::Rig& rig,
     conductor.run();
 }
 
+// Answers for the master while its world is made, and says the same to the service manager.
+class WorldPreparation {
+  public:
+    WorldPreparation(net::MasterChannels& channels, ServiceNotifier* service)
+        : answers_{channels}, service_{service} {}
+    // From any thread, but never from two at once.
+    void tell(const std::string& what) {
+        const std::string sentence = answers_.tell(what);
+        if (service_ != nullptr) service_->beginLongWork(sentence);
+    }
+
+  private:
+    conductor::Preparation answers_;
+    ServiceNotifier* service_;
+};
+
 // A new world, recorded where that is asked for.
 void showNew(const config::Rig& rig,
              const MasterOptions& options,
              std::unique_ptr<net::MasterChannels> channels) {
     conductor::ConductorOptions conducting = conductorOptions(rig, options);
+    std::optional<WorldPreparation> preparation(std::in_place, *channels, options.service);
     const simulation::Assets assets =
         simulation::readAssets(sceneFile(rig, options.show.rigPath, conducting.wanted.scene),
-                               {.seed = options.show.seed, .fish = options.show.fish});
+                               {.seed = options.show.seed,
+                                .fish = options.show.fish,
+                                .tell = [&](const std::string& what) { preparation->tell(what); }});
+    preparation->tell("making the world");
     simulation::LivingWorld world(simulation::worldOptionsOf(assets));
+    preparation.reset();
     if (options.show.recordPath.empty()) {
         conducting.makeWorld = [rig, show = options.show](const std::string& scene) {
             simulation::Assets next = simulation::readAssets(
-                sceneFile(rig, show.rigPath, scene), {.seed = show.seed, .fish = std::nullopt});
+                sceneFile(rig, show.rigPath, scene), {.seed = show.seed, .fish = {}, .tell = {}});
             auto made = std::make_unique<simulation::LivingWorld>(simulation::worldOptionsOf(next));
             const auto traits = made->world().traits();
             return conductor::NextWorld{
@@ -235,10 +257,13 @@ void showNew(const config::Rig& rig,
 void showAgain(const config::Rig& rig,
                const MasterOptions& options,
                std::unique_ptr<net::MasterChannels> channels) {
+    std::optional<WorldPreparation> preparation(std::in_place, *channels, options.service);
+    preparation->tell("reading the recording");
     const wire::Recording recording = wire::readRecording(options.show.replayPath);
     for (const std::string& doubt : wire::doubtsAbout(recording))
         logWarning("{}: {}", options.show.replayPath, doubt);
     simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
+    preparation.reset();
     conductor::ConductorOptions conducting = conductorOptions(rig, options);
     conducting.whyOneScene = "a recording is shown, and has one scene";
     // In lockstep the world runs ahead of the frames, so the frames are counted instead.
@@ -270,8 +295,8 @@ std::shared_ptr<LogFile> openLog(const std::string& rigPath) {
     }
 }
 
-// Binds the addresses before it makes the world, which takes seconds: a second master of the rig is
-// refused at once.
+// Binds the addresses before it makes the world, which takes seconds, and minutes at the first
+// start: a second master of the rig is refused at once, and who asks meanwhile is answered.
 void runMaster(const MasterOptions& options) {
     cli::holdSignals();
     ServiceNotifier service;

@@ -58,15 +58,19 @@ v1::Envelope RequestClient::ask(const v1::Envelope& question, v1::Envelope::Mess
     constexpr net::Instant kPatience = std::chrono::seconds(2);
     constexpr net::Instant kRepeat = std::chrono::milliseconds(50);
     const net::Instant giveUp = net::monotonicNow() + kPatience;
+    preparing_.clear();
     while (net::monotonicNow() < giveUp) {
         channels_->sendControl(wire::encode(0, question));
         channels_->wait(kRepeat);
         std::optional<v1::Envelope> newest;
         while (const auto bytes = channels_->receiveControl()) {
             auto message = wire::decode(*bytes);
+            if (message && message->has_dismissed()) preparing_ = message->dismissed().reason();
             if (message && message->message_case() == reply) newest = std::move(message);
         }
+        if (!newest && !preparing_.empty()) throw Error(preparing_ + "; ask again in a while");
         if (!newest) continue;
+        preparing_.clear();
         run_ = newest->session();
         return *std::move(newest);
     }

@@ -22,12 +22,16 @@ class RequestClient {
         : address_(controlAddress), channels_(net::connectNode(controlAddress, {}, keys)) {}
 
     // The newest answer; the question is repeated until there is one, since the connection may not
-    // be there yet. Throws Error where nobody answers within two seconds.
+    // be there yet. Throws Error where nobody answers within two seconds, and at once where the
+    // master prepares its show.
     v1::StatusReply status();
     v1::Explanation explain(std::uint32_t fish);
 
     // The run of the master that answered last; 0 before the first answer.
     [[nodiscard]] std::uint64_t run() const { return run_; }
+    // What the master said to the last question instead of an answer: "the master prepares: ...".
+    // Empty where it answered, or nobody did.
+    [[nodiscard]] const std::string& preparing() const { return preparing_; }
 
     // Asks for a change once, and says what has become of it so far.
     v1::SetReply ask(const v1::Set& set);
@@ -45,6 +49,7 @@ class RequestClient {
     std::string address_;
     std::unique_ptr<net::NodeChannels> channels_;
     std::uint64_t run_ = 0;
+    std::string preparing_;
 };
 
 // Of Set.request: no two are the same.

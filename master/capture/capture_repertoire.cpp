@@ -399,6 +399,7 @@ std::vector<RepertoireFile> repertoiresFor(const std::vector<config::Species>& a
         missing.push_back(all[i]);
         missingAt.push_back(i);
     }
+    if (!missing.empty()) run.begins(missing.size());
     const std::vector<CaptureOutcome> outcomes = captureRepertoires(missing, run);
     assert(outcomes.size() == missing.size());
     for (std::size_t k = 0; k < missing.size(); ++k)

@@ -46,6 +46,8 @@ using Progress = std::function<void(double share)>;
 struct CaptureRun {
     unsigned threads = std::thread::hardware_concurrency();
     Progress progress = [](double) {};
+    // Called once by repertoiresFor(), before it simulates: so many species are not in the cache.
+    std::function<void(std::size_t missing)> begins = [](std::size_t) {};
     // Asked by any thread before each job. When it says true, no further job begins.
     std::function<bool()> isStopped = [] { return false; };
 };

@@ -81,12 +81,25 @@ constexpr std::uint32_t kFishOfAThread = 2000;
 
 // The repertoires of the cast, from the cache or by simulation. Throws Error with the first
 // failure.
-std::vector<capture::RepertoireFile> capturedOnce(const std::vector<config::Species>& species) {
+std::vector<capture::RepertoireFile> capturedOnce(
+    const std::vector<config::Species>& species,
+    const std::function<void(const std::string&)>& tell) {
     capture::ProgressBar bar("capturing");
-    std::vector<capture::RepertoireFile> files =
-        capture::repertoiresFor(species,
-                                cacheFolder() / "repertoires",
-                                {.progress = [&](double share) { bar.show(share); }});
+    std::string what;
+    int told = -1;  // per cent
+    const auto show = [&](double share) {
+        bar.show(share);
+        const int percent = static_cast<int>(100 * share);
+        if (tell && percent != std::exchange(told, percent))
+            tell(fmt::format("{}, {} %", what, percent));
+    };
+    const auto begin = [&](std::size_t missing) {
+        what = fmt::format("capturing {} of {} species", missing, species.size());
+        logInfo("{}: once on this machine, it takes minutes", what);
+        show(0);
+    };
+    std::vector<capture::RepertoireFile> files = capture::repertoiresFor(
+        species, cacheFolder() / "repertoires", {.progress = show, .begins = begin});
     // A species that cannot be captured has an error instead of bytes.
     for (const capture::RepertoireFile& file : files)
         if (!file.error.empty()) throw Error(file.error);
@@ -126,7 +139,7 @@ Assets readAssets(const std::string& scenePath, const AssetChoice& choice) {
     }
     place::checkRoom(
         scene, scenePath, config::fishIn(scene), assets.species.front().size.meanMetres);
-    std::vector<capture::RepertoireFile> captured = capturedOnce(assets.species);
+    std::vector<capture::RepertoireFile> captured = capturedOnce(assets.species, choice.tell);
     for (std::size_t i = 0; i < captured.size(); ++i)
         assets.bytes.cast[i].repertoire = std::move(captured[i].bytes);
     return assets;

@@ -186,6 +186,7 @@ TEST(House, generatedMessagesStayWithWhoSpeaks) {
                                             "common/ask/",
                                             "master/conductor/changes.cpp",
                                             "master/conductor/conductor.cpp",
+                                            "master/conductor/preparation.cpp",
                                             "master/conductor/reception.cpp",
                                             "master/conductor/requests.",
                                             "render_node/session/master_link.",
