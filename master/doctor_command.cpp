@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // `aquarama doctor`: looks over a wall before a show: the rig, its keys and ports, this machine,
 // and by the running master every node and its way to it.
-#include <chrono>
-#include <ctime>
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <ifaddrs.h>
 #include <netdb.h>
+#include <netinet/in.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
 #include "common/ask/request_client.h"
+#include "common/base/dates.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/config/keys.h"
@@ -98,11 +100,26 @@ std::string gigabytes(std::uint64_t bytes) {
     return fmt::format("{:.0f} GB free", static_cast<double>(bytes) / 1e9);
 }
 
-// Since the day on which a key was made; 0 where it is none.
-double daysSince(const std::string& day) {
-    std::tm date{};
-    if (strptime(day.c_str(), "%Y-%m-%d", &date) == nullptr) return 0;
-    return std::difftime(std::time(nullptr), timegm(&date)) / 86400;
+// By the day on which it was made, which a wrong clock may have given, or may not have reached.
+void judgeAge(Findings& findings, const config::KeyFile& key) {
+    const std::string subject = "key " + key.name;
+    const double now = systemSeconds();
+    const auto made = secondsOfDay(key.made);
+    const bool isKnown = made && *made <= now;
+    if (!isKnown)
+        return findings.judge(
+            false,
+            Verdict::Warn,
+            subject,
+            "made on " + key.made + ", and the clock of this machine says " + dayOf(now),
+            "its age is not known: set the clock of this machine, or make another key (aquarama "
+            "keys rotate)");
+    const double days = (now - *made) / kSecondsOfDay;
+    findings.judge(days <= kOldKeyDays,
+                   Verdict::Warn,
+                   subject,
+                   fmt::format("{:.0f} days old", days),
+                   "older than a year: aquarama keys rotate makes another");
 }
 
 // A key that is missing or revoked fails; an old one is a warning.
@@ -111,38 +128,119 @@ void lookAtKey(Findings& findings, const fs::path& folder, const std::string& na
         const config::KeyFile key = config::readKeyFile(config::keyFileIn(folder, name));
         if (!key.revoked.empty())
             throw Error("was revoked on " + key.revoked + "; aquarama keys rotate makes another");
-        const double days = daysSince(key.made);
-        findings.judge(days <= kOldKeyDays,
-                       Verdict::Warn,
-                       "key " + name,
-                       fmt::format("{:.0f} days old", days),
-                       "older than a year: aquarama keys rotate makes another");
+        judgeAge(findings, key);
     } catch (const Error& problem) {
         findings.fail("key " + name, problem.what());
     }
 }
 
-// Whether an interface of this machine has the address of the rig.
+// Of an address in the rig, as the system has it; null where it is no number.
+using NumericAddress = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
+NumericAddress numericAddress(std::string host) {
+    if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+    addrinfo numeric{};
+    numeric.ai_flags = AI_NUMERICHOST;
+    numeric.ai_socktype = SOCK_STREAM;
+    addrinfo* found = nullptr;
+    if (getaddrinfo(host.c_str(), nullptr, &numeric, &found) != 0) found = nullptr;
+    return {found, &freeaddrinfo};
+}
+
+// Version 4 or 6, without the port; empty for other families.
+std::string_view bytesOf(const sockaddr* address) {
+    const auto view = [](const auto& bytes) {
+        return std::string_view(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+    };
+    if (address == nullptr) return {};
+    if (address->sa_family == AF_INET)
+        return view(reinterpret_cast<const sockaddr_in*>(address)->sin_addr);
+    if (address->sa_family == AF_INET6)
+        return view(reinterpret_cast<const sockaddr_in6*>(address)->sin6_addr);
+    return {};
+}
+
+// All of 127.0.0.0/8 is this machine, whether an interface names it or not (Debian gives the host's
+// name 127.0.1.1), and so is ::1.
+bool isLoopbackAddress(std::string_view bytes) {
+    constexpr std::size_t kBytes4 = 4;
+    constexpr unsigned char kLoopbackNet = 127;
+    if (bytes.size() == kBytes4) return static_cast<unsigned char>(bytes[0]) == kLoopbackNet;
+    return bytes == std::string_view(reinterpret_cast<const char*>(&in6addr_loopback),
+                                     sizeof in6addr_loopback);
+}
+
+// Whether this machine has the address of the rig: on its loopback or on an interface.
 bool isOwnAddress(const std::string& address) {
     const std::size_t begin = address.find("//") + 2;
     const std::string host = address.substr(begin, address.rfind(':') - begin);
+    if (host == "localhost") return true;
+    const NumericAddress numeric = numericAddress(host);
+    const std::string_view bytes = numeric ? bytesOf(numeric->ai_addr) : std::string_view{};
+    if (bytes.empty()) return false;
+    if (isLoopbackAddress(bytes)) return true;
     ifaddrs* list = nullptr;
     if (getifaddrs(&list) != 0) return false;
     const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> owner(list, &freeifaddrs);
-    for (const ifaddrs* one = list; one != nullptr; one = one->ifa_next) {
-        std::array<char, NI_MAXHOST> text{};
-        if (one->ifa_addr != nullptr && one->ifa_addr->sa_family == AF_INET &&
-            getnameinfo(one->ifa_addr,
-                        sizeof(sockaddr_in),
-                        text.data(),
-                        text.size(),
-                        nullptr,
-                        0,
-                        NI_NUMERICHOST) == 0 &&
-            host == text.data())
-            return true;
+    for (const ifaddrs* one = list; one != nullptr; one = one->ifa_next)
+        if (bytesOf(one->ifa_addr) == bytes) return true;
+    return false;
+}
+
+// A clock before the program's own date spoils hours, certificates and logs.
+void lookAtClock(Findings& findings, bool isAlone) {
+    const double now = systemSeconds();
+    const std::string doubt = clockDoubt(now, static_cast<double>(builtAt()));
+    findings.judge(doubt.empty(),
+                   Verdict::Fail,
+                   "clock",
+                   doubt.empty() ? "says " + dayOf(now) + " (UTC)" : doubt,
+                   kSetTheClock);
+    if (isAlone) return;
+    findings.judge(net::isClockSynchronised(),
+                   Verdict::Warn,
+                   "clock",
+                   net::isClockSynchronised() ? "synchronised" : "not synchronised",
+                   kSynchronise);
+}
+
+// The file of a certificate, where there is one for this user to see: that of the console, or its
+// authority's.
+void lookAtCertificate(Findings& findings,
+                       const fs::path& file,
+                       double noticeDays,
+                       const std::string& todo) {
+    std::error_code hidden;
+    if (!fs::exists(file, hidden)) return;
+    const std::string subject = file.stem().string();
+    try {
+        const Validity validity = validityOf(file);
+        const auto concern = concernAbout(validity, systemSeconds(), noticeDays);
+        findings.judge(!concern,
+                       concern && concern->isUrgent ? Verdict::Fail : Verdict::Warn,
+                       subject,
+                       concern ? concern->what : "valid until " + dayOf(validity.until),
+                       todo);
+    } catch (const Error& problem) {
+        findings.fail(subject, problem.what());
     }
-    return host == "localhost";
+}
+
+// Of this rig's console; its folder is that of console/files_of_show.h.
+void lookAtCertificates(Findings& findings, const std::string& rig) {
+    const fs::path folder =
+        userFolder("XDG_STATE_HOME", ".local/state") / "console" / fs::path(rig).stem() / "tls";
+    lookAtCertificate(findings,
+                      folder / "certificate.pem",
+                      kCertificateNoticeDays,
+                      "a console that runs renews it where its authority's key is (" +
+                          (folder / "authority.key").string() +
+                          "): start it, and see its log; else make another: aquarama console " +
+                          rig + " --certify ADDRESS");
+    lookAtCertificate(findings,
+                      folder / "authority.pem",
+                      kAuthorityNoticeDays,
+                      "make another and install it on each tablet: aquarama console " + rig +
+                          " --certify ADDRESS --new-authority");
 }
 
 // What is needed for a show on this machine, whether one runs or not.
@@ -166,12 +264,8 @@ void lookAtMachine(Findings& findings, const DoctorOptions& options, const confi
                    "repertoires, keys and logs need a gigabyte: make room");
     const bool isAlone = std::ranges::all_of(
         rig.channels, [](const config::Channel& channel) { return channel.machine.empty(); });
-    if (!isAlone)
-        findings.judge(net::isClockSynchronised(),
-                       Verdict::Warn,
-                       "clock",
-                       net::isClockSynchronised() ? "synchronised" : "not synchronised",
-                       kSynchronise);
+    lookAtClock(findings, isAlone);
+    lookAtCertificates(findings, options.rig);
     if (!config::needsKeys(rig)) return findings.pass("keys", "none are needed on one machine");
     const fs::path folder =
         options.keyFolder.empty() ? config::keyFolderOf(options.rig) : fs::path(options.keyFolder);
@@ -292,14 +386,39 @@ void lookAtNode(Findings& findings, const config::Rig& rig, const v1::NodeStatus
     if (channel != rig.channels.end()) lookAtMonitors(findings, subject, *channel, node.report());
 }
 
+// What a master says: its status, or what it prepares; neither where none answers.
+struct MasterAnswer {
+    std::optional<v1::StatusReply> status;
+    std::string preparing;
+};
+MasterAnswer answerOf(ask::RequestClient client) {
+    MasterAnswer answer;
+    try {
+        answer.status = client.status();
+    } catch (const Error&) {
+        answer.preparing = client.preparing();
+    }
+    return answer;
+}
+
 // Asks the master of the running show; false where none runs.
 bool lookAtShow(Findings& findings, const DoctorOptions& options, const config::Rig& rig) {
-    v1::StatusReply status;
+    MasterAnswer answer;
     try {
-        status = connectToMaster(options.rig, options.keyFolder).status();
+        answer = answerOf(connectToMaster(options.rig, options.keyFolder));
     } catch (const Error&) {
         return false;
     }
+    if (!answer.preparing.empty()) {
+        findings.judge(false,
+                       Verdict::Warn,
+                       "show",
+                       answer.preparing,
+                       "nothing is known of the nodes yet: ask again in a while");
+        return true;
+    }
+    if (!answer.status) return false;
+    const v1::StatusReply& status = *answer.status;
     findings.pass("show",
                   fmt::format("runs, frame {}: median {:.1f} ms, 99 % {:.1f} ms; release skew "
                               "{:.2f} ms, 99 % {:.2f} ms",

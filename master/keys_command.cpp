@@ -2,7 +2,6 @@
 // `aquarama keys`: makes, lists, revokes and replaces the keys of a rig, and writes the one file
 // that another machine needs.
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -10,8 +9,9 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <spdlog/fmt/chrono.h>
+#include <spdlog/fmt/fmt.h>
 
+#include "common/base/dates.h"
 #include "common/base/log.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
@@ -42,10 +42,26 @@ struct KeyOptions {
     }
 };
 
-// In UTC, as key files have it.
+// Why the clock is wrong for certain; empty where it may be right.
+std::string doubtOfClock() {
+    return clockDoubt(systemSeconds(), static_cast<double>(builtAt()));
+}
+
+// Throws Error where the clock is wrong: the age of a key that is made now could never be told.
+void requireClock() {
+    if (const std::string doubt = doubtOfClock(); !doubt.empty())
+        throw Error(doubt + ": no key is made now; " + kSetTheClock);
+}
+
+// On standard error: what has to be done now is done all the same.
+void warnOfClock(const std::string& what) {
+    if (const std::string doubt = doubtOfClock(); !doubt.empty())
+        std::cerr << "aquarama keys: " << doubt << "; " << what << "; " << kSetTheClock << '\n';
+}
+
+// In UTC, as key files have it; not before the day on which this program was built.
 std::string today() {
-    const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    return fmt::format("{:%Y-%m-%d}", fmt::gmtime(now));
+    return dayOf(std::max(systemSeconds(), static_cast<double>(builtAt())));
 }
 
 // Throws Error where the rig is of one machine, which needs no keys.
@@ -109,6 +125,7 @@ KeyFile freshKey(const config::Rig& rig,
 void makeKeys(const KeyOptions& options) {
     const config::Rig rig = keyedRig(options);
     requireOwnNames(options, rig);
+    requireClock();
     const fs::path folder = options.keys();
     fs::create_directories(folder);
     fs::permissions(folder, fs::perms::owner_all);
@@ -134,6 +151,7 @@ void makeKeys(const KeyOptions& options) {
 // Never prints a secret key.
 void listKeys(const KeyOptions& options) {
     masterOf(options);
+    warnOfClock("how old a key is cannot be told");
     const std::vector<KeyFile> keys = config::readKeyFolder(options.keys());
     fmt::print("{:<16} {:<10} {:<12} {:<20} {}\n", "name", "role", "made", "state", "public key");
     for (const KeyFile& key : keys)
@@ -163,6 +181,7 @@ void revokeKey(const KeyOptions& options) {
     if (key.role == KeyRole::Master)
         throw Error("the master's key cannot be revoked; replace it (aquarama keys rotate " +
                     options.rig + " master)");
+    warnOfClock("the key is revoked, under the day of the build");
     if (key.revoked.empty()) key.revoked = today();
     config::writeKeyFile(config::keyFileIn(options.keys(), key.name), key);
     std::cout << key.name << " is revoked; a running master cuts it off within two seconds\n";
@@ -182,6 +201,7 @@ void rotateMaster(const KeyOptions& options, const KeyFile& fresh) {
 void rotateKey(const KeyOptions& options) {
     const config::Rig rig = keyedRig(options);
     const KeyFile old = chosen(options);
+    requireClock();
     KeyFile fresh = freshKey(rig, options, old.name, old.role);
     if (old.role == KeyRole::Master) return rotateMaster(options, fresh);
     fresh.masterKey = old.masterKey;
