@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <openssl/rand.h>
 
+#include "common/base/dates.h"
 #include "common/base/digest.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
@@ -34,6 +35,8 @@ constexpr int kMostWrong = 5;
 constexpr double kLongestPause = 3600;
 // Of sessions and of tokens each. The oldest session gives way; another token is refused.
 constexpr std::size_t kMostHolders = 256;
+// Of addresses that have spent a code.
+constexpr std::size_t kMostRefusals = 1024;
 constexpr std::uintmax_t kMostFileBytes = 1U << 20U;
 // A longer name is cut; see shownName().
 constexpr std::size_t kMostNameBytes = 40;
@@ -172,7 +175,7 @@ std::string plainCode(std::string_view typed) {
 }
 
 // Others may neither list nor read the folder.
-Access::Access(fs::path folder) : folder_{std::move(folder)} {
+Access::Access(fs::path folder, UnixSeconds built) : folder_{std::move(folder)}, built_{built} {
     std::error_code failure;
     fs::create_directories(folder_, failure);
     fs::permissions(folder_, fs::perms::owner_all, failure);
@@ -188,47 +191,70 @@ std::string Access::makeCode(ConsoleRole role, UnixSeconds now) {
     std::string code;
     for (const unsigned char byte : bytes) code += kCrockford[byte & 31U];
     write(folder_ / kCodeFile,
-          {{"hash", hashOfSecret(code)}, {"role", nameOf(role)}, {"until", now + kCodeSeconds}});
+          {{"hash", hashOfSecret(code)},
+           {"role", nameOf(role)},
+           {"since", now},
+           {"until", now + kCodeSeconds}});
     wrong_ = 0;
     return code.substr(0, 4) + "-" + code.substr(4);
 }
 
-// The code is read again: another run of the program may have made it.
+// A clock that was set back would refuse it for years: no longer than the longest pause.
+bool Access::isRefused(const std::string& client, UnixSeconds now) const {
+    const auto refusal = refusals_.find(client);
+    return refusal != refusals_.end() && now < refusal->second.until &&
+           refusal->second.until <= now + kLongestPause;
+}
+
+// Bounded: a flood of addresses forgets the oldest by name, which guess no code the more often.
+void Access::refuse(const std::string& client, UnixSeconds now) {
+    if (refusals_.size() >= kMostRefusals && !refusals_.contains(client))
+        refusals_.erase(refusals_.begin());
+    Refusal& refusal = refusals_[client];
+    refusal.until = now + refusal.pauseSeconds;
+    refusal.pauseSeconds = std::min(2 * refusal.pauseSeconds, kLongestPause);
+}
+
+// The code is read again: another run of the program may have made it. One from the future was made
+// before the clock was set back.
 std::optional<std::string> Access::pair(const std::string& code,
-                                        const std::string& name,
+                                        const Applicant& who,
                                         UnixSeconds now,
                                         bool& spent) {
     spent = false;
     const json valid = read(folder_ / kCodeFile);
-    if (now < refusedUntil_ || !valid.is_object() || valid.value("until", 0.0) < now)
+    if (isRefused(who.client, now) || !valid.is_object() || valid.value("until", 0.0) < now ||
+        valid.value("since", now) > now)
         return std::nullopt;
     if (valid.value("hash", "") != hashOfSecret(plainCode(code))) {
         if (++wrong_ < kMostWrong) return std::nullopt;
         spent = true;
-        refusedUntil_ = now + pauseSeconds_;
-        pauseSeconds_ = std::min(2 * pauseSeconds_, kLongestPause);
+        refuse(who.client, now);
         fs::remove(folder_ / kCodeFile);
         return std::nullopt;
     }
     fs::remove(folder_ / kCodeFile);
     std::string secret = freshSecret();
     const std::string hash = hashOfSecret(secret);
-    std::erase_if(sessions_, [&](const Holder& one) { return one.until < now; });
+    const UnixSeconds since = std::max(now, built_);
+    std::erase_if(sessions_, [&](const Holder& one) { return one.until < since; });
     if (sessions_.size() == kMostHolders) sessions_.erase(sessions_.begin());
     sessions_.push_back({hash.substr(0, 12),
                          hash,
-                         shownName(name),
+                         shownName(who.name),
                          roleNamed(valid.value("role", "")).value_or(ConsoleRole::Watcher),
-                         now,
-                         now + kSessionSeconds});
+                         since,
+                         since + kSessionSeconds});
     writeHolders(folder_ / kSessionFile, sessions_);
     return secret;
 }
 
-// One that has run out is none.
+// One that has run out is none, nor one that a clock far ahead has dated.
 std::optional<Holder> Access::session(std::string_view secret, UnixSeconds now) const {
     const auto holder = holderOf(sessions_, secret);
-    return holder && holder->until > now ? holder : std::nullopt;
+    if (!holder || holder->until <= std::max(now, built_)) return std::nullopt;
+    const bool isFromFuture = holder->since > now + kSecondsOfDay;
+    return isFromFuture && clockDoubt(now, built_).empty() ? std::nullopt : holder;
 }
 
 // Its cookie means nothing any more.

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,27 +37,35 @@ struct Holder {
 // What the files hold instead of a secret, in hexadecimal.
 [[nodiscard]] std::string hashOfSecret(std::string_view secret);
 
+// Who shows a code: the name that was typed, and the address it comes from.
+struct Applicant {
+    std::string name, client = {};
+};
+
 // The lists of a rig's console in one folder, readable by its owner only. One thread uses it.
 // Sessions are written by the running console alone; codes and tokens also by other runs of the
-// program, so both are read again whenever they matter.
+// program, so both are read again whenever they matter. A clock that is wrong lengthens nothing:
+// see session().
 class Access {
   public:
-    // Makes the folder. Throws Error where it cannot be used.
-    explicit Access(std::filesystem::path folder);
+    // Makes the folder. `built`: when this program was; no clock before that is right. Throws Error
+    // where the folder cannot be used.
+    explicit Access(std::filesystem::path folder, UnixSeconds built = 0);
 
     // A code of eight letters and digits that lets one browser in within ten minutes, as `role`;
     // the last one ends.
     std::string makeCode(ConsoleRole role, UnixSeconds now);
     // The secret of a new session; empty where this is not the code that is valid now. After five
-    // wrong ones the code ends, and others are refused for a while that doubles each time: the
-    // code is guarded, not an address. `spent` becomes true where this try ended the code.
+    // wrong ones the code ends, from whatever addresses, and whoever guessed last is refused for a
+    // while that doubles each time. `spent` becomes true where this try ended the code.
     std::optional<std::string> pair(const std::string& code,
-                                    const std::string& name,
+                                    const Applicant& who,
                                     UnixSeconds now,
                                     bool& spent);
     [[nodiscard]] bool hasPeople() const { return !sessions_.empty(); }
 
-    // The holder of a session's secret, where it is valid.
+    // The holder of a session's secret, where it is valid. By a clock before the program's build
+    // those are that were at that time; later, none that begins in the future.
     [[nodiscard]] std::optional<Holder> session(std::string_view secret, UnixSeconds now) const;
     // All sessions, also those that have run out.
     [[nodiscard]] std::vector<Holder> people() const { return sessions_; }
@@ -69,12 +78,19 @@ class Access {
     [[nodiscard]] std::optional<Holder> token(std::string_view secret) const;
 
   private:
+    // Of whoever spent a code. `pauseSeconds`: for the next one.
+    struct Refusal {
+        UnixSeconds until = 0;
+        double pauseSeconds = 30;
+    };
+    [[nodiscard]] bool isRefused(const std::string& client, UnixSeconds now) const;
+    void refuse(const std::string& client, UnixSeconds now);
+
     std::filesystem::path folder_;
+    UnixSeconds built_;
     std::vector<Holder> sessions_;
     int wrong_ = 0;
-    // For which others are refused after the next spent code.
-    double pauseSeconds_ = 30;
-    UnixSeconds refusedUntil_ = 0;
+    std::map<std::string, Refusal> refusals_;  // by address
 };
 
 // The part of a pairing code that counts: capitals, without spaces and hyphens, and with the

@@ -14,10 +14,21 @@ bool hasKey(const std::vector<Fault>& faults, const std::string& key) {
 
 }  // namespace
 
+// A minute is more than a busy machine leaves between two looks.
+void Alerts::follow(UnixSeconds now) {
+    constexpr double kLongest = 60;
+    const double passed = now - last_.value_or(now);
+    last_ = now;
+    if (passed >= 0 && passed <= kLongest) return;
+    for (auto& [key, since] : pending_) since += passed;
+    for (StandingAlert& alert : standing_) alert.since += passed;
+}
+
 // What is over ends first, so that a fault that came back is new.
 std::vector<std::string> Alerts::update(const std::vector<Fault>& faults,
                                         UnixSeconds now,
                                         bool isQuiet) {
+    follow(now);
     std::vector<std::string> lines;
     std::erase_if(pending_, [&](const auto& one) { return !hasKey(faults, one.first); });
     for (StandingAlert& alert : standing_) {

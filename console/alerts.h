@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct StandingAlert {
     bool isAcknowledged = false;
 };
 
-// A value without clock; times never go back.
+// A value without clock. Where the times that it is told jump, somebody has set the clock: what has
+// lasted goes on to last, and began as long before the new time.
 class Alerts {
   public:
     // The faults that there are now. Quiet: the wall is off on purpose, and nothing new fires.
@@ -38,6 +40,9 @@ class Alerts {
     [[nodiscard]] const std::vector<StandingAlert>& standing() const { return standing_; }
 
   private:
+    void follow(UnixSeconds now);
+
+    std::optional<UnixSeconds> last_;
     // Since when each fault that is there now has lasted.
     std::map<std::string, UnixSeconds> pending_;
     std::vector<StandingAlert> standing_;

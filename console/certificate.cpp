@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "console/certificate.h"
 
+#include <algorithm>
 #include <array>
+#include <ctime>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include <openssl/evp.h>
 #include <openssl/pem.h>
 #include <openssl/rand.h>
 #include <openssl/x509v3.h>
+#include <sys/stat.h>
 
 #include "common/base/files.h"
 #include "common/base/log.h"
@@ -30,8 +34,11 @@ using Certificate = std::unique_ptr<X509, Releaser<X509_free>>;
 using Memory = std::unique_ptr<BIO, Releaser<BIO_free>>;
 
 constexpr const char* kAuthorityName = "Aquarama console authority";
-// Certificates are valid from a day ago: the clock of a tablet may be slow.
-constexpr long kDaySeconds = 86400;
+// Of a console's certificate, and of the authority: 397 days, and ten years.
+constexpr double kLeafSeconds = 397 * kSecondsOfDay;
+constexpr double kAuthoritySeconds = 3650 * kSecondsOfDay;
+// How long before its end a certificate is renewed.
+constexpr double kRenewSeconds = 31 * kSecondsOfDay;
 
 // Of OpenSSL's functions, which fail for lack of memory only.
 void require(bool isDone) {
@@ -86,8 +93,8 @@ void extend(X509* certificate, X509* issuer, int kind, const std::string& value)
     X509_EXTENSION_free(extension);
 }
 
-// Without extensions and signature.
-Certificate begin(const std::string& name, EVP_PKEY* key, long days) {
+// Without extensions and signature. It is valid from a day ago: the clock of a tablet may be slow.
+Certificate begin(const std::string& name, EVP_PKEY* key, const Validity& validity) {
     Certificate certificate(X509_new());
     std::array<unsigned char, 16> serial{};
     require(RAND_bytes(serial.data(), static_cast<int>(serial.size())) == 1);
@@ -96,8 +103,9 @@ Certificate begin(const std::string& name, EVP_PKEY* key, long days) {
     BN_to_ASN1_INTEGER(number, X509_get_serialNumber(certificate.get()));
     BN_free(number);
     X509_set_version(certificate.get(), X509_VERSION_3);
-    X509_gmtime_adj(X509_getm_notBefore(certificate.get()), -kDaySeconds);
-    X509_gmtime_adj(X509_getm_notAfter(certificate.get()), days * kDaySeconds);
+    ASN1_TIME_set(X509_getm_notBefore(certificate.get()),
+                  static_cast<std::time_t>(validity.from - kSecondsOfDay));
+    ASN1_TIME_set(X509_getm_notAfter(certificate.get()), static_cast<std::time_t>(validity.until));
     X509_set_pubkey(certificate.get(), key);
     X509_NAME_add_entry_by_txt(X509_get_subject_name(certificate.get()),
                                "CN",
@@ -110,11 +118,10 @@ Certificate begin(const std::string& name, EVP_PKEY* key, long days) {
 }
 
 // It signs certificates of consoles, and no further authorities.
-void makeAuthority(const CertificateFiles& files) {
-    constexpr long kYears = 10, kDaysOfYear = 365;
+void makeAuthority(const CertificateFiles& files, UnixSeconds now) {
     const PrivateKey key(EVP_EC_gen("P-256"));
     require(key != nullptr);
-    const Certificate own = begin(kAuthorityName, key.get(), kYears * kDaysOfYear);
+    const Certificate own = begin(kAuthorityName, key.get(), {now, now + kAuthoritySeconds});
     X509_set_issuer_name(own.get(), X509_get_subject_name(own.get()));
     extend(own.get(), own.get(), NID_basic_constraints, "critical,CA:TRUE,pathlen:0");
     extend(own.get(), own.get(), NID_key_usage, "critical,keyCertSign,cRLSign");
@@ -122,6 +129,85 @@ void makeAuthority(const CertificateFiles& files) {
     require(X509_sign(own.get(), key.get(), EVP_sha256()) > 0);
     writeKey(files.authorityKey, key.get());
     writeCertificate(files.authority, own.get());
+}
+
+// The authority with what it signs by.
+struct Issuer {
+    Certificate certificate;
+    PrivateKey key;
+};
+
+// Throws Error where it is elsewhere or damaged.
+Issuer issuerIn(const CertificateFiles& files) {
+    std::error_code none;
+    if (!std::filesystem::exists(files.authorityKey, none))
+        throw Error(files.authorityKey.string() +
+                    ": the authority's key is not there; put it back, or make another authority "
+                    "(--certify ADDRESS --new-authority) and install that on all tablets");
+    Issuer issuer{Certificate(readPem(files.authority, PEM_read_bio_X509)),
+                  PrivateKey(readPem(files.authorityKey, PEM_read_bio_PrivateKey))};
+    if (!issuer.certificate || !issuer.key)
+        throw Error(files.authority.string() +
+                    ": is damaged; make another (--certify ADDRESS --new-authority), and install "
+                    "it on all tablets");
+    return issuer;
+}
+
+// From now on; never longer than its issuer.
+Validity leafValidity(UnixSeconds now, UnixSeconds authorityUntil) {
+    return {now, std::min(now + kLeafSeconds, authorityUntil)};
+}
+
+// A certificate of a console for the holder of this key, without names and signature.
+Certificate leafOf(const Issuer& issuer, EVP_PKEY* key, const Validity& validity) {
+    Certificate own = begin("Aquarama console", key, validity);
+    X509_set_issuer_name(own.get(), X509_get_subject_name(issuer.certificate.get()));
+    extend(own.get(), issuer.certificate.get(), NID_basic_constraints, "critical,CA:FALSE");
+    extend(own.get(), issuer.certificate.get(), NID_key_usage, "critical,digitalSignature");
+    extend(own.get(), issuer.certificate.get(), NID_ext_key_usage, "serverAuth");
+    return own;
+}
+
+// The same names and key for another while: what tablets know stays valid.
+void renewCertificate(const CertificateFiles& files, UnixSeconds now) {
+    const Issuer issuer = issuerIn(files);
+    const Certificate old(readPem(files.certificate, PEM_read_bio_X509));
+    require(old != nullptr);
+    const Certificate fresh = leafOf(
+        issuer, X509_get0_pubkey(old.get()), leafValidity(now, validityOf(files.authority).until));
+    const int names = X509_get_ext_by_NID(old.get(), NID_subject_alt_name, -1);
+    require(names >= 0 && X509_add_ext(fresh.get(), X509_get_ext(old.get(), names), -1) == 1);
+    require(X509_sign(fresh.get(), issuer.key.get(), EVP_sha256()) > 0);
+    writeCertificate(files.certificate, fresh.get());
+}
+
+// Whether the authority beside it has signed it. False where there is none.
+bool isSignedByAuthority(const CertificateFiles& files) {
+    std::error_code none;
+    if (!std::filesystem::exists(files.authority, none)) return false;
+    const Certificate own(readPem(files.certificate, PEM_read_bio_X509));
+    const Certificate authority(readPem(files.authority, PEM_read_bio_X509));
+    return own && authority && X509_check_issued(authority.get(), own.get()) == X509_V_OK &&
+           X509_verify(own.get(), X509_get0_pubkey(authority.get())) == 1;
+}
+
+// SHA-256, as tablets show it.
+std::string fingerprintOf(X509* certificate) {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned size = 0;
+    X509_digest(certificate, EVP_sha256(), digest.data(), &size);
+    std::string print;
+    for (unsigned i = 0; i < size; ++i)
+        print += fmt::format("{}{:02X}", i == 0 ? "" : ":", digest.at(i));
+    return print;
+}
+
+// One that is over or not yet valid serves nobody.
+bool isAuthorityOver(const CertificateFiles& files, UnixSeconds now) {
+    std::error_code none;
+    if (!std::filesystem::exists(files.authority, none)) return true;
+    const Validity validity = validityOf(files.authority);
+    return now < validity.from || now > validity.until;
 }
 
 // "IP:192.168.7.1,DNS:master.local"
@@ -145,34 +231,133 @@ CertificateFiles certificateFilesIn(const std::filesystem::path& folder) {
             folder / "certificate.key"};
 }
 
-// A new key each time; the authority stays, so tablets need nothing new.
-std::string makeCertificate(const CertificateFiles& files, const std::vector<std::string>& names) {
-    if (!std::filesystem::exists(files.authority)) makeAuthority(files);
-    const Certificate issuer(readPem(files.authority, PEM_read_bio_X509));
-    const PrivateKey issuerKey(readPem(files.authorityKey, PEM_read_bio_PrivateKey));
-    if (!issuer || !issuerKey)
-        throw Error(files.authority.string() +
-                    ": is damaged; remove it, and install the new one on all tablets");
-    constexpr long kDays = 397;
+// A new key each time; the authority stays as long as it can, so tablets need nothing new.
+MadeCertificate makeCertificate(const CertificateFiles& files,
+                                const std::vector<std::string>& names,
+                                const CertificateClock& clock,
+                                bool takesNewAuthority) {
+    if (const std::string doubt = clockDoubt(clock.now, clock.built); !doubt.empty())
+        throw Error(doubt + ": no certificate is made now; " + kSetTheClock);
+    MadeCertificate made;
+    made.isNewAuthority = takesNewAuthority || isAuthorityOver(files, clock.now);
+    if (made.isNewAuthority) makeAuthority(files, clock.now);
+    const Issuer issuer = issuerIn(files);
     const PrivateKey key(EVP_EC_gen("P-256"));
     require(key != nullptr);
-    const Certificate own = begin("Aquarama console", key.get(), kDays);
-    X509_set_issuer_name(own.get(), X509_get_subject_name(issuer.get()));
-    extend(own.get(), issuer.get(), NID_basic_constraints, "critical,CA:FALSE");
-    extend(own.get(), issuer.get(), NID_key_usage, "critical,digitalSignature");
-    extend(own.get(), issuer.get(), NID_ext_key_usage, "serverAuth");
-    extend(own.get(), issuer.get(), NID_subject_alt_name, alternativeNames(names));
-    require(X509_sign(own.get(), issuerKey.get(), EVP_sha256()) > 0);
+    const Validity validity = leafValidity(clock.now, validityOf(files.authority).until);
+    const Certificate own = leafOf(issuer, key.get(), validity);
+    extend(own.get(), issuer.certificate.get(), NID_subject_alt_name, alternativeNames(names));
+    require(X509_sign(own.get(), issuer.key.get(), EVP_sha256()) > 0);
     writeKey(files.key, key.get());
     writeCertificate(files.certificate, own.get());
+    made.fingerprint = fingerprintOf(issuer.certificate.get());
+    made.until = validity.until;
+    return made;
+}
 
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned size = 0;
-    X509_digest(issuer.get(), EVP_sha256(), digest.data(), &size);
-    std::string print;
-    for (unsigned i = 0; i < size; ++i)
-        print += fmt::format("{}{:02X}", i == 0 ? "" : ":", digest.at(i));
-    return print;
+CertificateKeeper::CertificateKeeper(CertificateFiles files, std::string certify, UnixSeconds built)
+    : files_{std::move(files)}, certify_{std::move(certify)}, built_{built} {
+    read();
+}
+
+// Zeros where a file is not there at the moment.
+CertificateKeeper::Stamp CertificateKeeper::look() const {
+    Stamp stamp{};
+    std::size_t at = 0;
+    for (const auto& path : {files_.certificate, files_.key}) {
+        struct stat found {};
+        if (stat(path.c_str(), &found) == 0) {
+            constexpr std::int64_t kNanoseconds = 1'000'000'000;
+            stamp.at(at) = found.st_ctim.tv_sec * kNanoseconds + found.st_ctim.tv_nsec;
+            stamp.at(at + 1) = static_cast<std::int64_t>(found.st_ino);
+        }
+        at += 2;
+    }
+    return stamp;
+}
+
+// Throws Error where the certificate or the authority cannot be read.
+void CertificateKeeper::read() {
+    validity_ = validityOf(files_.certificate);
+    std::error_code none;
+    authority_.reset();
+    if (std::filesystem::exists(files_.authority, none)) authority_ = validityOf(files_.authority);
+    isOurs_ = isSignedByAuthority(files_);
+}
+
+// Only where another would last longer: near its own end the authority can give no more. By a clock
+// that is wrong nothing is made.
+bool CertificateKeeper::isDue(UnixSeconds now) const {
+    if (!isOurs_ || !clockDoubt(now, built_).empty()) return false;
+    if (now > authority_->until || now < authority_->from) return false;
+    if (now < validity_.from) return true;
+    const UnixSeconds next = leafValidity(now, authority_->until).until;
+    return validity_.until - now < kRenewSeconds && next > validity_.until + kSecondsOfDay;
+}
+
+// What fails is tried again an hour later.
+bool CertificateKeeper::tend(UnixSeconds now) {
+    constexpr int kCallsBetweenTries = 360;
+    try {
+        if (look() != stamp_) read();
+        if (callsToNextTry_ > 0) --callsToNextTry_;
+        if (isDue(now) && callsToNextTry_ == 0) {
+            callsToNextTry_ = kCallsBetweenTries;
+            renewCertificate(files_, now);
+            read();
+            whyNotRenewed_.clear();
+            callsToNextTry_ = 0;
+            logInfo("the console's certificate is renewed until {}", dayOf(validity_.until));
+        }
+    } catch (const std::exception& problem) {
+        whyNotRenewed_ = problem.what();
+    }
+    return look() != stamp_;
+}
+
+void CertificateKeeper::taken() {
+    stamp_ = look();
+    whyNotTaken_.clear();
+}
+
+// Between two files that are put there one after the other they may not fit.
+void CertificateKeeper::refused(const std::string& why) {
+    whyNotTaken_ = why;
+}
+
+// The key of a fault changes with its urgency, so that one that was acknowledged fires anew.
+std::vector<Fault> CertificateKeeper::faults(UnixSeconds now) {
+    constexpr double kBetweenTwoFiles = 60;
+    std::vector<Fault> faults;
+    if (!whyNotTaken_.empty())
+        faults.push_back({"certificate files", whyNotTaken_, kBetweenTwoFiles});
+    if (!clockDoubt(now, built_).empty()) return faults;  // tells nothing of their ends
+    const auto add = [&](const std::string& what,
+                         const Validity& validity,
+                         double noticeDays,
+                         const std::string& todo) {
+        const auto concern = concernAbout(validity, now, noticeDays);
+        if (!concern) return;
+        const std::string degree = now > validity.until ? " over"
+                                   : concern->isUrgent  ? " urgent"
+                                                        : " soon";
+        faults.push_back({what + degree, "the console's " + what + " " + concern->what + todo, 0});
+    };
+    const std::string by =
+        !isOurs_ ? "; it is not of this rig's authority: put a newer one in its place (" +
+                       files_.certificate.string() + "), or make one: " + certify_
+        : whyNotRenewed_.empty() ? "; make another: " + certify_
+                                 : "; it cannot be renewed: " + whyNotRenewed_;
+    add("certificate", validity_, kCertificateNoticeDays, by);
+    if (isOurs_)
+        add("authority",
+            *authority_,
+            kAuthorityNoticeDays,
+            "; make another and install it on each tablet: " + certify_ + " --new-authority");
+    std::string line;
+    for (const Fault& fault : faults) line += (line.empty() ? "" : "; ") + fault.text;
+    if (std::exchange(logged_, line) != line && !line.empty()) logWarning("{}", line);
+    return faults;
 }
 
 }  // namespace aquarama::console

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <ctime>
 #include <utility>
 
+#include <spdlog/fmt/chrono.h>
 #include <spdlog/fmt/fmt.h>
 
+#include "common/base/dates.h"
 #include "common/base/log.h"
 
 namespace aquarama::console {
@@ -37,6 +41,11 @@ bool isInStep(const browser::Wall& wall) {
     return wall.heard() && std::ranges::all_of(wall.nodes(), [](const browser::Node& node) {
                return node.condition() == "in step";
            });
+}
+
+// "2026-11-25 09:30"
+std::string minuteOf(UnixSeconds seconds) {
+    return fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(static_cast<std::time_t>(seconds)));
 }
 
 // Little-endian: channel, 0, width, height of 16 bits each, frame of 64; then the JPEG.
@@ -87,7 +96,9 @@ void Console::begin(web::WebServer& server, Doors doors) {
             [=, this](const v1::StatusReply& status, std::uint64_t run) {
                 here([this, wall = wallOf(status, run, options_.build)] { heardWall(wall); });
             },
-            [=, this] { here([this] { wallIsSilent(); }); },
+            [=, this](const std::string& preparing) {
+                here([=, this] { wallIsSilent(preparing); });
+            },
             [=, this](std::uint64_t id, const std::string& outcome, const std::string& why) {
                 here([=, this] { saidOfSet(id, outcome, why); });
             },
@@ -127,10 +138,13 @@ void Console::heardWall(const browser::Wall& wall) {
     wall_.set_heard_s(unixNow());
 }
 
-// What was last heard stays, and is marked as old.
-void Console::wallIsSilent() {
-    if (wall_.heard()) note("wall", "the master does not answer");
+// What was last heard stays, and is marked as old. How far a preparation is, pages show; only its
+// beginning is an event.
+void Console::wallIsSilent(const std::string& preparing) {
+    if (!preparing.empty() && wall_.preparing().empty()) note("wall", preparing);
+    if (wall_.heard() && preparing.empty()) note("wall", "the master does not answer");
     wall_.set_heard(false);
+    wall_.set_preparing(preparing);
 }
 
 // What is refused now is refused in a second as well: it is said, and not repeated. What nobody has
@@ -255,8 +269,56 @@ void Console::tick() {
     if (ticks_ % kTicksOfAWall == 0) sendWall();
 }
 
-// One change at a time: its end is waited for.
+// That somebody set it explains the times of events before and after. A code of the first start
+// ends with the time that it was made for.
+void Console::watchClock(UnixSeconds now) {
+    constexpr double kOfBusyMachine = 60;
+    const auto look = std::chrono::steady_clock::now();
+    const double passed = std::chrono::duration<double>(look - lastLook_).count();
+    const bool isSet = lastSecond_ > 0 && std::abs(now - lastSecond_ - passed) > kOfBusyMachine;
+    if (isSet) {
+        note("console",
+             fmt::format("the clock was set, or the machine slept: after {} came {} (UTC)",
+                         minuteOf(lastSecond_),
+                         minuteOf(now)));
+        if (!access_.hasPeople()) showCode(ConsoleRole::Crew);
+    }
+    lastSecond_ = now;
+    lastLook_ = look;
+    std::string doubt = clockDoubt(now, options_.built);
+    if (doubtOfClock_.empty() && !doubt.empty())
+        logWarning("{}; hours and certificates rest; {}", doubt, kSetTheClock);
+    doubtOfClock_ = std::move(doubt);
+}
+
+// The server takes what was renewed, or what somebody has put there.
+void Console::tendCertificate(UnixSeconds now) {
+    constexpr int kTicksBetween = 10 * kTicksASecond;
+    if (options_.certificate == nullptr || ticks_ % kTicksBetween != 0) return;
+    CertificateKeeper& keeper = *options_.certificate;
+    if (!keeper.tend(now)) return;
+    try {
+        server_->useCertificate(keeper.files().certificate.string(), keeper.files().key.string());
+        keeper.taken();
+        note("console", "another certificate, valid until " + dayOf(keeper.validity().until));
+    } catch (const Error& problem) {
+        keeper.refused(problem.what());
+    }
+}
+
+std::vector<Fault> Console::faultsNow(UnixSeconds now) const {
+    std::vector<Fault> faults = faultsOf(wall_, now);
+    if (!doubtOfClock_.empty())
+        faults.push_back(
+            {"clock", doubtOfClock_ + "; hours and certificates rest; " + kSetTheClock, 0});
+    if (options_.certificate != nullptr)
+        for (Fault& fault : options_.certificate->faults(now)) faults.push_back(std::move(fault));
+    return faults;
+}
+
+// One change at a time: its end is waited for. By a clock that is wrong the wall stays as it is.
 void Console::keepHours() {
+    if (!doubtOfClock_.empty()) return;
     opening_.switchProjectors(unixNow(), isInStep(wall_));
     const auto due = opening_.due(unixNow());
     if (!due || beingOpened_ || !wall_.heard()) return;
@@ -268,10 +330,13 @@ void Console::keepHours() {
 
 // Also what people should notice although they look at nothing.
 void Console::everySecond() {
+    const UnixSeconds now = unixNow();
+    watchClock(now);
+    tendCertificate(now);
     keepHours();
     keepScan();
-    const auto lines =
-        alerts_.update(faultsOf(wall_, unixNow()), unixNow(), opening_.isClosed(unixNow()));
+    const bool isQuiet = doubtOfClock_.empty() && opening_.isClosed(now);
+    const auto lines = alerts_.update(faultsNow(now), now, isQuiet);
     for (const std::string& line : lines) note("alert", line);
     browser::ToBrowser alerts;
     *alerts.mutable_alerts() = alertList();

@@ -2,6 +2,7 @@
 // The operator's console: what browsers see of a show, and what they may ask of it.
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <future>
 #include <map>
@@ -16,6 +17,7 @@
 #include "common/config/rig.h"
 #include "console/access.h"
 #include "console/alerts.h"
+#include "console/certificate.h"
 #include "console/console.pb.h"
 #include "console/files_of_show.h"
 #include "console/gate.h"
@@ -34,6 +36,8 @@ struct ConsoleOptions {
     std::string keyFolder = {};          // of the master's keys; empty: the rig's own
     std::string build;                   // version and commit
     ServiceNotifier* service = nullptr;  // hears of every second; null: nobody
+    CertificateKeeper* certificate = nullptr;  // of the server; null: it is without TLS
+    UnixSeconds built = 0;                     // no clock before that is right
 };
 
 // Of a WebSocket whose session has ended; from RFC 6455's private range, 4000 to 4999.
@@ -108,6 +112,7 @@ class Console final : public web::Service {
     web::HttpReply pair(const web::HttpRequest& request);
     web::HttpReply leave(const web::HttpRequest& request);
     web::HttpReply look(const web::HttpRequest& request);
+    [[nodiscard]] std::string ownMetrics(UnixSeconds now) const;
     web::HttpReply obey(const web::HttpRequest& request, const Holder& holder);
     web::HttpReply refused(int status, const std::string& why);
     // In the log: a code for the first browser.
@@ -149,7 +154,7 @@ class Console final : public web::Service {
 
     // From the other threads, on the server's.
     void heardWall(const browser::Wall& wall);
-    void wallIsSilent();
+    void wallIsSilent(const std::string& preparing);
     void saidOfSet(std::uint64_t id, const std::string& outcome, const std::string& why);
     void saidOfHours(const std::string& outcome, const std::string& why);
     void heardPicture(const std::string& channel, const v1::FramePicture& picture);
@@ -167,6 +172,10 @@ class Console final : public web::Service {
     void hearDoctor();
     void hearCalibrations();
     void keepScan();
+    void watchClock(UnixSeconds now);
+    void tendCertificate(UnixSeconds now);
+    // Of the wall, and of this machine's clock and certificate.
+    [[nodiscard]] std::vector<Fault> faultsNow(UnixSeconds now) const;
     void sendWall();
     // What its page shows now, beside the wall.
     void sendTopics(Visitor& visitor);
@@ -222,6 +231,10 @@ class Console final : public web::Service {
     const std::uint64_t holder_ = ask::freshRequest() | 1U;  // of scans; never 0
     std::uint64_t refused_ = 0;
     int ticks_ = 0;
+    // When the clocks were last looked at: the system's, and one that nobody sets.
+    UnixSeconds lastSecond_ = 0;
+    std::chrono::steady_clock::time_point lastLook_;
+    std::string doubtOfClock_;  // empty: it may be right
     std::unique_ptr<PictureHub> hub_;
     std::unique_ptr<ShowLink> link_;  // last: their threads use all of the above
 };

@@ -3,7 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <utility>
+
+#include <arpa/inet.h>
+
+#include "common/base/log.h"
 
 namespace aquarama::console {
 
@@ -24,6 +29,12 @@ bool isOwnHost(const std::string& host, const Doors& doors) {
 bool isOwnOrigin(const std::string& origin, const Doors& doors) {
     const std::string scheme = doors.isTls ? "https://" : "http://";
     return origin.starts_with(scheme) && isOwnHost(origin.substr(scheme.size()), doors);
+}
+
+// Nothing that the proxy passes on lacks both headers; docs/console.md has its settings.
+bool hasPassedProxy(const HttpRequest& request, const Doors& doors) {
+    return doors.proxy && request.peer == doors.proxy->address &&
+           !(request.forwardedFor.empty() && request.forwardedProto.empty());
 }
 
 // By its ending; browsers are told not to guess.
@@ -47,7 +58,7 @@ Doors doorsOf(const std::string& address,
               bool isTls,
               const std::vector<std::string>& names) {
     const std::string end = ":" + std::to_string(port);
-    Doors doors{{}, isTls, {}};
+    Doors doors{{}, isTls, {}, {}};
     for (const char* const own : {"127.0.0.1", "localhost", "[::1]"})
         doors.hosts.push_back(own + end);
     const bool isVersion6 = address.find(':') != std::string::npos;
@@ -58,10 +69,53 @@ Doors doorsOf(const std::string& address,
     return doors;
 }
 
+// Lower case, as browsers send hosts; without a path.
+TlsProxy proxyAt(const std::string& publicUrl, const std::string& address) {
+    constexpr std::string_view kScheme = "https://";
+    constexpr std::string_view kOfHosts = "abcdefghijklmnopqrstuvwxyz0123456789.-:[]";
+    std::string host = publicUrl.starts_with(kScheme) ? publicUrl.substr(kScheme.size()) : "";
+    if (host.ends_with('/')) host.pop_back();
+    std::ranges::transform(host, host.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (host.empty() || host.find_first_not_of(kOfHosts) != std::string::npos)
+        throw Error("--public " + publicUrl +
+                    ": is no address of a proxy that ends TLS; write https://NAME, without a path");
+    if (host.ends_with(":443")) host.resize(host.size() - std::string_view(":443").size());
+    in6_addr parsed{};
+    if (inet_pton(AF_INET, address.c_str(), &parsed) != 1 &&
+        inet_pton(AF_INET6, address.c_str(), &parsed) != 1)
+        throw Error("--proxy " + address +
+                    ": is no address that the proxy connects from; write its number, as 127.0.0.1");
+    return {address, host};
+}
+
+// As a console of that name and TLS would be reached.
+Doors doorsFor(const HttpRequest& request, const Doors& doors) {
+    if (!hasPassedProxy(request, doors)) return doors;
+    return {{doors.proxy->host}, true, "__Host-aquarama", doors.proxy};
+}
+
+// The proxy writes the last; what stands before it came from outside. Bounded, since it is kept.
+std::string clientOf(const HttpRequest& request, const Doors& doors) {
+    if (!hasPassedProxy(request, doors)) return request.peer;
+    constexpr std::size_t kMostBytes = 45;  // of an address of version 6
+    std::string last = request.forwardedFor.substr(request.forwardedFor.rfind(',') + 1);
+    std::erase_if(last, [](unsigned char c) { return c <= ' ' || c >= 0x7F; });
+    last.resize(std::min(last.size(), kMostBytes));
+    return last;
+}
+
 // A browser names the origin with everything that acts; programs do not, and show a token instead.
 std::optional<HttpReply> objectionTo(const HttpRequest& request, const Doors& doors, bool acts) {
     if (!isOwnHost(request.host, doors))
-        return HttpReply{.status = 421, .body = "this console is not reached by that name\n"};
+        return HttpReply{.status = 421,
+                         .body =
+                             "this console is not reached by that name; start it with --name, "
+                             "behind a proxy with --public and --proxy\n"};
+    if (hasPassedProxy(request, doors) && request.forwardedProto != "https")
+        return HttpReply{.status = 403,
+                         .body =
+                             "the proxy passes on what came without TLS, or does not say "
+                             "X-Forwarded-Proto: https\n"};
     if (!acts) return std::nullopt;
     const bool isProgram = request.origin.empty() && request.authorization.starts_with(kBearer);
     const bool isOurPage = isOwnOrigin(request.origin, doors) &&

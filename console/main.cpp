@@ -2,7 +2,9 @@
 // aquarama-console: the operator's console of a rig, for browsers.
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +12,7 @@
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
+#include "common/base/dates.h"
 #include "common/base/log.h"
 #include "common/base/service_notifier.h"
 #include "common/cli/command_line.h"
@@ -34,9 +37,22 @@ constexpr const char* kLoopback = "127.0.0.1";
 struct Options {
     std::string rig, keys, key, listen = kLoopback, pair, token;
     std::string role = "watcher";
+    std::string publicUrl, proxy;
     std::vector<std::string> certify, names;
+    bool takesNewAuthority = false;
     int port = -1;  // the rig's
 };
+
+// Both or neither: whose headers count, and by which name browsers come.
+void describeProxy(CLI::App& app, Options& options) {
+    CLI::Option* url = app.add_option("--public",
+                                      options.publicUrl,
+                                      "https://NAME by which browsers reach a proxy that ends TLS");
+    CLI::Option* proxy =
+        app.add_option("--proxy", options.proxy, "address that this proxy connects from");
+    url->needs(proxy);
+    proxy->needs(url);
+}
 
 // Its options; what is printed and ends goes before what serves.
 void describe(CLI::App& app, Options& options) {
@@ -57,6 +73,11 @@ void describe(CLI::App& app, Options& options) {
     app.add_option("--certify",
                    options.certify,
                    "make the certificate for these addresses and names, and end");
+    app.add_flag("--new-authority",
+                 options.takesNewAuthority,
+                 "with --certify: another authority too, to be installed on every tablet")
+        ->needs("--certify");
+    describeProxy(app, options);
     app.footer(
         "Prints the address and, as long as nobody is let in, a code. The console never costs the "
         "wall a frame;\nit may be ended and started again at any time.");
@@ -89,10 +110,40 @@ void certify(const Options& options) {
     std::filesystem::create_directories(certificateFolder(options));
     std::filesystem::permissions(certificateFolder(options), std::filesystem::perms::owner_all);
     const auto files = console::certificateFilesIn(certificateFolder(options));
-    const std::string print = console::makeCertificate(files, options.certify);
-    std::cout << "certificate for 397 days: " << files.certificate.string()
+    const console::MadeCertificate made =
+        console::makeCertificate(files,
+                                 options.certify,
+                                 {console::unixNow(), static_cast<double>(builtAt())},
+                                 options.takesNewAuthority);
+    std::cout << "certificate until " << dayOf(made.until) << ": " << files.certificate.string()
               << "\ninstall on each tablet, once: " << files.authority.string()
-              << "\nits SHA-256 fingerprint: " << print << '\n';
+              << (made.isNewAuthority ? " (new)" : "")
+              << "\nits SHA-256 fingerprint: " << made.fingerprint
+              << "\na console that runs with --listen takes it within ten seconds, and renews it a "
+                 "month before its end\n";
+}
+
+// Of a console over TLS. One that has run out is renewed before a browser sees it.
+std::unique_ptr<console::CertificateKeeper> keeperOf(const Options& options, bool isTls) {
+    if (!isTls) return nullptr;
+    auto keeper = std::make_unique<console::CertificateKeeper>(
+        console::certificateFilesIn(certificateFolder(options)),
+        "aquarama console " + options.rig + " --certify " + options.listen,
+        static_cast<double>(builtAt()));
+    static_cast<void>(keeper->tend(console::unixNow()));
+    keeper->taken();
+    return keeper;
+}
+
+// The doors of the server, and of the proxy before it where there is one.
+console::Doors doorsOf(const Options& options, const web::ServerOptions& where, int port) {
+    console::Doors doors = console::doorsOf(where.address,
+                                            static_cast<std::uint16_t>(port),
+                                            !where.certificateFile.empty(),
+                                            options.names);
+    if (!options.publicUrl.empty())
+        doors.proxy = console::proxyAt(options.publicUrl, options.proxy);
+    return doors;
 }
 
 // The operator's, of the folder that was given; empty: of the rig's own folder, where one is
@@ -108,17 +159,22 @@ void serve(const Options& options, const config::Rig& rig, console::Access& acce
     constexpr int kNice = 5;  // the wall goes before
     setpriority(PRIO_PROCESS, 0, kNice);
     ServiceNotifier service;
+    const web::ServerOptions where = serverOptions(options, rig);
+    const bool isTls = !where.certificateFile.empty();
+    const auto keeper = keeperOf(options, isTls);
     console::Console desk({.rig = rig,
                            .master = {.rig = options.rig, .address = {}, .key = keyOf(options)},
                            .keyFolder = options.keys,
                            .build = cli::buildText(),
-                           .service = &service},
+                           .service = &service,
+                           .certificate = keeper.get(),
+                           .built = static_cast<double>(builtAt())},
                           access);
-    const web::ServerOptions where = serverOptions(options, rig);
     web::WebServer server(where, desk);
-    const bool isTls = !where.certificateFile.empty();
+    console::Doors doors = doorsOf(options, where, server.port());
     logInfo("console at {}://{}:{}", isTls ? "https" : "http", where.address, server.port());
-    desk.begin(server, console::doorsOf(where.address, server.port(), isTls, options.names));
+    if (doors.proxy) logInfo("behind the proxy at https://{}", doors.proxy->host);
+    desk.begin(server, std::move(doors));
     const cli::SignalWatch watch([&] { server.stop(); });
     service.ready();
     server.run();
@@ -130,7 +186,7 @@ void serve(const Options& options, const config::Rig& rig, console::Access& acce
 void run(const Options& options) {
     const config::Rig rig = config::readRig(options.rig);
     if (!options.certify.empty()) return certify(options);
-    console::Access access(console::stateFolderOf(options.rig));
+    console::Access access(console::stateFolderOf(options.rig), static_cast<double>(builtAt()));
     if (!options.pair.empty()) {
         std::cout << access.makeCode(*console::roleNamed(options.pair), console::unixNow())
                   << "  lets one browser in as " << options.pair << ", within ten minutes\n";

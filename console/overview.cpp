@@ -107,6 +107,7 @@ browser::Wall wallOf(const v1::StatusReply& status, std::uint64_t run, const std
 std::vector<Fault> faultsOf(const browser::Wall& wall, UnixSeconds now) {
     constexpr double kSilence = 3, kStart = 60, kOutOfStep = 10, kHot = 30;
     constexpr float kHotCelsius = 85;
+    if (!wall.heard() && !wall.preparing().empty()) return {};
     if (!wall.heard() || now - wall.heard_s() > kSilence)
         return {{"master",
                  "the master does not answer: no show runs, or it hangs",

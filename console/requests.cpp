@@ -80,14 +80,15 @@ HttpReply Console::refused(int status, const std::string& why) {
 // Nothing that is got acts; whoever sends it, host and origin come first.
 HttpReply Console::answer(const HttpRequest& request) {
     const bool reads = request.method == "GET" || request.method == "HEAD";
-    if (auto objection = objectionTo(request, doors_, !reads)) {
+    const Doors doors = doorsFor(request, doors_);
+    if (auto objection = objectionTo(request, doors, !reads)) {
         ++refused_;
         return *std::move(objection);
     }
     if (request.method == "POST") return act(request);
     if (!reads) return refused(405, "only GET, HEAD and POST");
     if (auto page = pageAt(request)) return *std::move(page);
-    const auto holder = holderOf(request, doors_, access_);
+    const auto holder = holderOf(request, doors, access_);
     if (request.target == "/me")
         return {.type = "application/json",
                 .body = jsonOfObject({{"name", holder ? holder->name : ""},
@@ -95,10 +96,21 @@ HttpReply Console::answer(const HttpRequest& request) {
     return holder ? look(request) : refused(401, "not paired");
 }
 
+// Of this machine's clock, and of the certificate where the server has one.
+std::string Console::ownMetrics(UnixSeconds now) const {
+    std::string text =
+        fmt::format("aquarama_console_clock_wrong {}\n", doubtOfClock_.empty() ? 0 : 1);
+    if (options_.certificate != nullptr)
+        text += fmt::format("aquarama_console_certificate_days {:.1f}\n",
+                            (options_.certificate->validity().until - now) / kSecondsOfDay);
+    return text;
+}
+
 // For whoever is let in; the pages themselves are for everybody.
 HttpReply Console::look(const HttpRequest& request) {
     if (request.target == "/metrics")
-        return {.type = "text/plain; version=0.0.4", .body = metricsOf(wall_, server_->cutOff())};
+        return {.type = "text/plain; version=0.0.4",
+                .body = metricsOf(wall_, server_->cutOff()) + ownMetrics(unixNow())};
     if (request.target == "/bundle.tar") {
         std::string events;
         const browser::EventList list = events_.list();
@@ -121,7 +133,7 @@ HttpReply Console::act(const HttpRequest& request) {
     if (request.target == "/pair") return pair(request);
     if (request.target == "/leave") return leave(request);
     if (request.target != "/command") return refused(404, "there is nothing to act on here");
-    const auto holder = holderOf(request, doors_, access_);
+    const auto holder = holderOf(request, doorsFor(request, doors_), access_);
     return holder ? obey(request, *holder) : refused(401, "not paired");
 }
 
@@ -130,22 +142,27 @@ HttpReply Console::pair(const HttpRequest& request) {
     const PairingRequest asked = pairingIn(request.body);
     if (asked.code.empty()) return refused(400, "give the code that the console has shown");
     bool isSpent = false;
-    const auto secret = access_.pair(asked.code, asked.name, unixNow(), isSpent);
+    const std::string client = clientOf(request, doors_);
+    const auto secret =
+        access_.pair(asked.code, {.name = asked.name, .client = client}, unixNow(), isSpent);
     if (secret) {
         code_.clear();
         note("console", "a browser was let in");
-        return {.body = "welcome\n", .headers = {{"Set-Cookie", cookieOf(doors_, *secret)}}};
+        return {.body = "welcome\n",
+                .headers = {{"Set-Cookie", cookieOf(doorsFor(request, doors_), *secret)}}};
     }
-    if (isSpent) note("console", "five wrong pairing codes: the code has ended");
+    if (isSpent)
+        note("console", "five wrong pairing codes, from " + client + ": the code has ended");
     if (isSpent && !access_.hasPeople()) showCode(ConsoleRole::Crew);
     return refused(403, "this is not the code, or it has ended");
 }
 
 // The session ends on this side, whatever the browser does with its cookie.
 HttpReply Console::leave(const HttpRequest& request) {
-    const auto holder = access_.session(sessionIn(request, doors_), unixNow());
+    const Doors doors = doorsFor(request, doors_);
+    const auto holder = access_.session(sessionIn(request, doors), unixNow());
     if (holder) access_.revoke(holder->id);
-    return {.body = "goodbye\n", .headers = {{"Set-Cookie", cookieOf(doors_, "")}}};
+    return {.body = "goodbye\n", .headers = {{"Set-Cookie", cookieOf(doors, "")}}};
 }
 
 // For programs, as Companion: one command in one request.
@@ -162,8 +179,9 @@ HttpReply Console::obey(const HttpRequest& request, const Holder& holder) {
 std::unique_ptr<web::Service::Connection> Console::open(const HttpRequest& request,
                                                         web::Outbox& outbox,
                                                         HttpReply& refusal) {
-    const auto holder = holderOf(request, doors_, access_);
-    if (auto objection = objectionTo(request, doors_, true)) {
+    const Doors doors = doorsFor(request, doors_);
+    const auto holder = holderOf(request, doors, access_);
+    if (auto objection = objectionTo(request, doors, true)) {
         ++refused_;
         refusal = *std::move(objection);
     } else if (request.target != "/ws") {

@@ -65,7 +65,7 @@ void ShowLink::run() {
         try {
             work();
         } catch (const Error&) {  // nobody answers
-            listener_.silent();
+            listener_.silent(client_.preparing());
         }
         lock.lock();
         changed_.wait_for(lock, kBetweenLooks, [this] { return ended_ || steering_ || fish_; });

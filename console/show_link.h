@@ -22,7 +22,8 @@ namespace aquarama::console {
 // Called from the link's thread.
 struct ShowListener {
     std::function<void(const v1::StatusReply&, std::uint64_t run)> heard;
-    std::function<void()> silent;
+    // Nobody answers, or the master prepares its show: what it says then, else empty.
+    std::function<void(const std::string& preparing)> silent;
     // What has become of a Set: "done", "waiting", "refused", "lost" where
     // nobody answered; and why.
     std::function<void(std::uint64_t id, const std::string& outcome, const std::string& why)> said;

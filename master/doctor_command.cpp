@@ -18,6 +18,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "common/ask/request_client.h"
+#include "common/base/counted.h"
 #include "common/base/dates.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
@@ -118,7 +119,7 @@ void judgeAge(Findings& findings, const config::KeyFile& key) {
     findings.judge(days <= kOldKeyDays,
                    Verdict::Warn,
                    subject,
-                   fmt::format("{:.0f} days old", days),
+                   counted(static_cast<std::uint64_t>(days), "day") + " old",
                    "older than a year: aquarama keys rotate makes another");
 }
 
@@ -225,8 +226,10 @@ void lookAtCertificate(Findings& findings,
     }
 }
 
-// Of this rig's console; its folder is that of console/files_of_show.h.
+// Of this rig's console; its folder is that of console/files_of_show.h. A clock that is wrong for
+// certain tells nothing of their ends.
 void lookAtCertificates(Findings& findings, const std::string& rig) {
+    if (!clockDoubt(systemSeconds(), static_cast<double>(builtAt())).empty()) return;
     const fs::path folder =
         userFolder("XDG_STATE_HOME", ".local/state") / "console" / fs::path(rig).stem() / "tls";
     lookAtCertificate(findings,
@@ -452,7 +455,7 @@ Findings lookOver(const DoctorOptions& options) {
     const bool isRig = findings.attempt("rig", [&] {
         rig = config::readRig(options.rig);
         wall::checkGeometry(rig, options.rig);
-        return options.rig + ", " + std::to_string(rig.channels.size()) + " channels";
+        return options.rig + ", " + counted(rig.channels.size(), "channel");
     });
     if (!isRig) return findings;
     lookAtMachine(findings, options, rig);

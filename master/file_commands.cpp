@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "common/base/counted.h"
 #include "common/base/digest.h"
 #include "common/base/log.h"
 #include "common/cli/outputs.h"
@@ -128,11 +129,12 @@ int checkReplay(const std::string& path) {
     simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
     simulation::Playback playback(recording, world);
     while (!playback.over()) playback.advance();
-    std::cout << fmt::format("{}: {} ticks, {} inputs, {} hashes compared\n",
-                             path,
-                             world.tick().value,
-                             playback.inputs(),
-                             playback.compared());
+    std::cout << fmt::format(
+        "{}: {}, {}, {} compared\n",
+        path,
+        counted(world.tick().value, "tick"),
+        counted(playback.inputs(), "input"),
+        playback.compared() == 1 ? "1 hash" : std::to_string(playback.compared()) + " hashes");
     if (playback.compared() == 0)
         throw Error(path + ": was cut short before its first hash; there is nothing to compare");
     if (!playback.difference()) {

@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "common/base/counted.h"
 #include "common/base/dates.h"
 #include "common/base/log.h"
 #include "common/config/keys.h"
@@ -130,7 +131,7 @@ void makeKeys(const KeyOptions& options) {
     fs::create_directories(folder);
     fs::permissions(folder, fs::perms::owner_all);
     std::string masterKey;
-    int made = 0;
+    std::uint64_t made = 0;
     for (const auto& [name, role] : holdersOf(rig)) {
         const fs::path path = config::keyFileIn(folder, name);
         if (fs::exists(path)) {
@@ -143,7 +144,7 @@ void makeKeys(const KeyOptions& options) {
         config::writeKeyFile(path, key);
         ++made;
     }
-    std::cout << made << " keys made in " << folder.string() << "\n"
+    std::cout << counted(made, "key") << " made in " << folder.string() << "\n"
               << "aquarama keys bundle " << options.rig
               << " NAME writes the file that another machine needs\n";
 }

@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "common/base/counted.h"
 #include "common/base/log.h"
 #include "common/base/units.h"
 
@@ -64,10 +65,10 @@ void chooseConnectors(NewRigWishes& wishes, const std::vector<Connector>& connec
     const auto count = static_cast<std::size_t>(*wishes.count);
     if (wishes.connectors.size() < count)
         throw Error(
-            fmt::format("{} monitors are needed, this machine has {}: connect them and "
+            fmt::format("{} needed, this machine has {}: connect them and "
                         "switch them on, name them (--monitors), or take windows on this "
                         "desktop (--windows)",
-                        count,
+                        counted(count, "monitor") + (count == 1 ? " is" : " are"),
                         namesOf(connected)));
     wishes.connectors.resize(count);
 }

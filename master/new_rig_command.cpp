@@ -21,6 +21,7 @@
 #include <unistd.h>
 
 #include "common/base/connectors.h"
+#include "common/base/counted.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/cli/outputs.h"
@@ -243,7 +244,8 @@ void newRig(const NewRigOptions& options) {
                     problem.what());
     }
     writeDurably(options.file, std::as_bytes(std::span(text)));
-    std::cout << fmt::format("wrote {}: {} channels\n", options.file, plan.channels.size());
+    std::cout << fmt::format(
+        "wrote {}: {}\n", options.file, counted(plan.channels.size(), "channel"));
     for (const PlannedChannel& channel : plan.channels)
         std::cout << fmt::format("  {:<12} {:<8} {} x {}\n",
                                  channel.name,

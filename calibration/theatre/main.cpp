@@ -12,6 +12,7 @@
 #include "calibration/theatre/compose.h"
 #include "calibration/theatre/film.h"
 #include "calibration/theatre/simulated_view.h"
+#include "common/base/counted.h"
 #include "common/base/log.h"
 #include "common/base/units.h"
 #include "common/cli/command_line.h"
@@ -142,7 +143,8 @@ std::string placeOf(const config::Display& display) {
 // Says what the file holds, without any geometry of the wall. show() wants the path, which is not
 // used.
 void inspectRig(const config::Rig& rig, const std::string& /*path*/) {
-    std::printf("rig \"%s\": %zu channels\n", rig.name.c_str(), rig.channels.size());
+    std::printf(
+        "rig \"%s\": %s\n", rig.name.c_str(), counted(rig.channels.size(), "channel").c_str());
     std::printf("scene: %s\n", rig.scene.c_str());
     std::printf("screen: %s\n", textOf(rig.screen).c_str());
     std::printf("panorama: %d x %d pixels\n", rig.panoramaPixels.x, rig.panoramaPixels.y);

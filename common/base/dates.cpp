@@ -10,6 +10,7 @@
 #include <openssl/x509.h>
 #include <spdlog/fmt/chrono.h>
 
+#include "common/base/counted.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 
@@ -71,14 +72,16 @@ std::optional<ValidityConcern> concernAbout(const Validity& validity,
     const double days = (validity.until - now) / kSecondsOfDay;
     const std::string end = dayOf(validity.until);
     if (now < validity.from)
-        return ValidityConcern{true, "is not valid before " + dayOf(validity.from)};
+        return ValidityConcern{true,
+                               "is not valid before " + dayOf(validity.from) +
+                                   ", and the clock of this machine says " + dayOf(now)};
     if (days <= 0) return ValidityConcern{true, "ran out on " + end};
     if (days > noticeDays) return std::nullopt;
     const int whole = static_cast<int>(days);
-    return ValidityConcern{
-        days <= kUrgentDays,
-        whole == 0 ? "runs out on " + end + ", within a day"
-                   : fmt::format("runs out on {}, in {} day{}", end, whole, whole == 1 ? "" : "s")};
+    return ValidityConcern{days <= kUrgentDays,
+                           whole == 0 ? "runs out on " + end + ", within a day"
+                                      : "runs out on " + end + ", in " +
+                                            counted(static_cast<std::uint64_t>(whole), "day")};
 }
 
 }  // namespace aquarama

@@ -13,6 +13,7 @@ const pageName = () => location.hash.slice(1) in pages ? location.hash.slice(1) 
 function headline() {
   const wall = link.wall;
   if (link.isStale) return ['◌', t('head.stale'), 'bad'];
+  if (!wall.heard && wall.preparing) return ['◔', t('head.preparing'), 'warn'];
   if (!wall.heard) return ['✖', t('head.noMaster'), 'bad'];
   if (wall.heldUntilS > 0) return ['▲', t('head.held'), 'warn'];
   if (wall.black && link.known.hours?.present && !link.known.hours.open) return ['○', t('head.closed'), 'quiet'];
@@ -31,7 +32,7 @@ function strip() {
   const last = [...link.commands.values()].at(-1);
   const shown = last && (last.outcome !== 'done' || performance.now() - last.at < 6000);
   const text = !shown ? '' : `${last.text}: ${t(`done.${last.outcome}`)}${last.reason ? ` – ${last.reason}` : ''}`;
-  const change = link.wall.change ? t('strip.change', {change: link.wall.change}) : '';
+  const change = link.wall.change ? t('strip.change', {change: link.wall.change}) : link.wall.preparing ?? '';
   const kind = shown && last.outcome === 'refused' ? 'lost' : text || change ? 'wait' : '';
   return html`<p class="strip ${kind}" role="status">${text || change || t('strip.calm')}</p>`;
 }

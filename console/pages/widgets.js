@@ -15,9 +15,9 @@ export async function loadTexts() {
   texts = await (await fetch(`/texts/${language()}.json`)).json();
   document.documentElement.lang = language();
 }
-// t('nodes.late', {n: 3}); a text that is missing shows its name.
+// t('nodes.late', {n: 3}); a text that is missing shows its name. Where n is one, the text NAME.one goes before.
 export const t = (name, values = {}) =>
-  (texts[name] ?? name).replace(/\{(\w+)\}/g, (_, key) => values[key] ?? '');
+  ((Number(values.n) === 1 && texts[`${name}.one`]) || (texts[name] ?? name)).replace(/\{(\w+)\}/g, (_, key) => values[key] ?? '');
 // Words that the console says in English, such as "in step".
 export const word = text => texts[`word.${text}`] ?? text;
 

@@ -102,8 +102,9 @@ class TopicOutbox final : public Outbox {
 };
 
 using BeastRequest = http::request<http::string_body>;
-// Between the types of Beast and the plain ones of the service; defined in server.cpp.
-[[nodiscard]] HttpRequest requestOf(const BeastRequest& in);
+// Between the types of Beast and the plain ones of the service; defined in server.cpp. `peer`: the
+// address that the connection comes from.
+[[nodiscard]] HttpRequest requestOf(const BeastRequest& in, const std::string& peer);
 [[nodiscard]] http::response<http::string_body> responseOf(const BeastRequest& in, HttpReply reply);
 
 // Defined in plain.cpp and tls.cpp.
@@ -177,6 +178,14 @@ asio::awaitable<bool> sayTo(Stream& stream, const BeastRequest& request, HttpRep
     co_return !error && response.keep_alive();
 }
 
+// The address at its other end; empty where it has gone already.
+template <class Stream>
+std::string peerOf(Stream& stream) {
+    beast::error_code gone;
+    const auto end = beast::get_lowest_layer(stream).socket().remote_endpoint(gone);
+    return gone ? std::string() : end.address().to_string();
+}
+
 // The stream has no deadline from here on: the WebSocket's pings find out a dead client. A refusal
 // is said as plain HTTP.
 template <class Stream>
@@ -185,9 +194,10 @@ asio::awaitable<void> upgrade(Shared& shared,
                               BeastRequest request,
                               Executor executor) {
     beast::get_lowest_layer(stream).expires_never();
+    const std::string peer = peerOf(stream);
     auto live = std::make_shared<LiveSocket<Stream>>(std::move(stream), executor);
     HttpReply refusal;
-    live->connection = shared.service.open(requestOf(request), live->outbox, refusal);
+    live->connection = shared.service.open(requestOf(request, peer), live->outbox, refusal);
     if (!live->connection) {
         auto& lower = live->socket.next_layer();
         beast::get_lowest_layer(lower).expires_after(kRequestTime);
@@ -211,6 +221,7 @@ asio::awaitable<void> serve(Shared& shared, Stream stream, Executor executor, Gr
     Seat seat{shared, [&stream] { beast::get_lowest_layer(stream).cancel(); }};
     beast::get_lowest_layer(stream).expires_after(kRequestTime);
     beast::flat_buffer buffer;
+    const std::string peer = peerOf(stream);
     bool goesOn = co_await greet(stream);
     if (!goesOn) ++shared.cutOff;
     bool hasServed = false;
@@ -234,7 +245,7 @@ asio::awaitable<void> serve(Shared& shared, Stream stream, Executor executor, Gr
             co_await upgrade(shared, std::move(stream), std::move(request), executor);
             co_return;
         }
-        goesOn = co_await sayTo(stream, request, shared.service.answer(requestOf(request)));
+        goesOn = co_await sayTo(stream, request, shared.service.answer(requestOf(request, peer)));
     }
 }
 

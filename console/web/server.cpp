@@ -27,7 +27,7 @@ constexpr const char* kPolicy =
 }  // namespace
 
 // What the service needs of it, in plain types.
-HttpRequest requestOf(const BeastRequest& in) {
+HttpRequest requestOf(const BeastRequest& in, const std::string& peer) {
     const auto method = in.method_string();
     const auto target = in.target();
     return {.method = {method.data(), method.size()},
@@ -39,6 +39,9 @@ HttpRequest requestOf(const BeastRequest& in) {
             .contentType = header(in, http::field::content_type),
             .fetchSite = header(in, "Sec-Fetch-Site"),
             .etag = header(in, http::field::if_none_match),
+            .forwardedFor = header(in, "X-Forwarded-For"),
+            .forwardedProto = header(in, "X-Forwarded-Proto"),
+            .peer = peer,
             .body = in.body()};
 }
 
@@ -71,7 +74,8 @@ struct WebServer::Impl {
                         std::to_string(options.port) + " (" + problem.code().message() +
                         "); another console has it, or the address is none of this machine's");
         }
-        if (!options.certificateFile.empty()) readCertificate(options);
+        if (!options.certificateFile.empty())
+            readCertificate(options.certificateFile, options.keyFile);
         asio::co_spawn(io, accept(), asio::detached);
         asio::co_spawn(io, keepTime(), asio::detached);
     }
@@ -85,15 +89,17 @@ struct WebServer::Impl {
         acceptor.listen();
     }
 
-    // TLS 1.2 and later. Throws Error where the certificate or its key cannot be read.
-    void readCertificate(const ServerOptions& options) {
+    // TLS 1.2 and later. Connections that there are hold OpenSSL's part of the former context.
+    // Throws Error where the certificate or its key cannot be read.
+    void readCertificate(const std::string& certificateFile, const std::string& keyFile) {
         try {
-            tls.emplace(asio::ssl::context::tls_server);
-            tls->set_options(asio::ssl::context::no_tlsv1 | asio::ssl::context::no_tlsv1_1);
-            tls->use_certificate_chain_file(options.certificateFile);
-            tls->use_private_key_file(options.keyFile, asio::ssl::context::pem);
+            asio::ssl::context fresh(asio::ssl::context::tls_server);
+            fresh.set_options(asio::ssl::context::no_tlsv1 | asio::ssl::context::no_tlsv1_1);
+            fresh.use_certificate_chain_file(certificateFile);
+            fresh.use_private_key_file(keyFile, asio::ssl::context::pem);
+            tls.emplace(std::move(fresh));
         } catch (const boost::system::system_error& problem) {
-            throw Error(options.certificateFile + ": is no certificate with its key beside it (" +
+            throw Error(certificateFile + ": is no certificate with its key beside it (" +
                         problem.code().message() + "); make another with --certify");
         }
     }
@@ -151,6 +157,10 @@ WebServer::WebServer(const ServerOptions& options, Service& service)
     : impl_{std::make_unique<Impl>(options, service)} {}
 
 WebServer::~WebServer() = default;
+
+void WebServer::useCertificate(const std::string& certificateFile, const std::string& keyFile) {
+    impl_->readCertificate(certificateFile, keyFile);
+}
 
 // One thread: nothing in the service needs a lock.
 void WebServer::run() {

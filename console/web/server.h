@@ -20,6 +20,8 @@ struct HttpRequest {
     std::string method = {}, target = {};
     std::string host = {}, origin = {}, cookie = {}, authorization = {};
     std::string contentType = {}, fetchSite = {}, etag = {};
+    std::string forwardedFor = {}, forwardedProto = {};  // X-Forwarded-...: anybody may write them
+    std::string peer = {};                               // address that the connection comes from
     std::string body = {};
 };
 
@@ -89,6 +91,10 @@ class WebServer {
     ~WebServer();
     WebServer(const WebServer&) = delete;
     WebServer& operator=(const WebServer&) = delete;
+
+    // Certificate and key of connections from now on; those that there are go on. Of the server's
+    // thread. Throws Error where they do not fit, and keeps the last ones.
+    void useCertificate(const std::string& certificateFile, const std::string& keyFile);
 
     void run();   // until stop()
     void stop();  // from any thread

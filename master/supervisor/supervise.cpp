@@ -13,6 +13,7 @@
 
 #include <signal.h>
 
+#include "common/base/counted.h"
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
@@ -150,8 +151,9 @@ void requireLocalChannels(const RunOptions& options, const config::Rig& rig) {
 }
 
 void sayWhatStarts(const RunOptions& options, const config::Rig& rig) {
-    std::cout << "starting the master and " << std::ranges::count_if(rig.channels, isLocal)
-              << " nodes of " << options.show.rigPath << std::endl;
+    const auto local = static_cast<std::uint64_t>(std::ranges::count_if(rig.channels, isLocal));
+    std::cout << "starting the master and " << counted(local, "node") << " of "
+              << options.show.rigPath << std::endl;
     for (const config::Channel& channel : rig.channels)
         if (!isLocal(channel))
             std::cout << "expecting node " << channel.name << " of machine " << channel.machine

@@ -22,8 +22,11 @@ class AccessTest : public testing::Test {
     }
     ~AccessTest() override { fs::remove_all(folder_); }
 
-    std::optional<std::string> pair(Access& access, const std::string& code, UnixSeconds now) {
-        return access.pair(code, "Anna", now, spent_);
+    std::optional<std::string> pair(Access& access,
+                                    const std::string& code,
+                                    UnixSeconds now,
+                                    const std::string& client = "192.0.2.1") {
+        return access.pair(code, {.name = "Anna", .client = client}, now, spent_);
     }
     std::string everythingKept() const {
         std::string all;
@@ -91,6 +94,46 @@ TEST_F(AccessTest, whoIsRevokedIsOutAndATokenKnowsItsRole) {
     EXPECT_EQ(everythingKept().find(token), std::string::npos);
     EXPECT_NE(access.makeToken("companion", ConsoleRole::Watcher, 4), token);
     EXPECT_FALSE(access.token(token)) << "a new token of the same name ends the old one";
+}
+
+TEST_F(AccessTest, whoGuessedIsRefusedForAWhileAndNobodyElse) {
+    Access access(folder_);
+    access.makeCode(ConsoleRole::Crew, 0);
+    for (int i = 0; i < 5; ++i) EXPECT_FALSE(pair(access, "00000000", 1, "198.51.100.7"));
+    EXPECT_TRUE(spent_);
+    const std::string next = access.makeCode(ConsoleRole::Crew, 2);
+    EXPECT_FALSE(pair(access, next, 3, "198.51.100.7"));
+    EXPECT_TRUE(pair(access, next, 3, "192.0.2.1"));
+    // The pause doubles for that address, and a clock that is set back makes no years of it.
+    for (int i = 0; i < 4; ++i) access.makeCode(ConsoleRole::Crew, 100), pair(access, "0", 100);
+    const std::string later = access.makeCode(ConsoleRole::Crew, 50);
+    for (int i = 0; i < 5; ++i) pair(access, "00000000", 2e9, "198.51.100.7");
+    EXPECT_TRUE(pair(access, later, 60, "198.51.100.7"));
+}
+
+TEST_F(AccessTest, aClockThatIsWrongMakesNothingValidThatIsNot) {
+    constexpr UnixSeconds kBuilt = 1.79e9, kDay = 86400, kIn1970 = 1000, kNow = kBuilt + 50 * kDay;
+    Access access(folder_, kBuilt);
+    // A session of years ago is over in 1970 as well; one of now goes on through a power cut.
+    const std::string old =
+        pair(access, access.makeCode(ConsoleRole::Crew, kBuilt - 90 * kDay), kBuilt - 90 * kDay)
+            .value();
+    EXPECT_TRUE(access.session(old, kNow - 200 * kDay)) << "in the last days of its clock";
+    const std::string own = pair(access, access.makeCode(ConsoleRole::Crew, kNow), kNow).value();
+    EXPECT_TRUE(access.session(own, kIn1970));
+    EXPECT_FALSE(access.session(own, kNow + 31 * kDay));
+    // A code of now does not become valid again when the clock is set back.
+    EXPECT_FALSE(pair(access, access.makeCode(ConsoleRole::Crew, kNow), kIn1970));
+    // What is made in 1970 lasts thirty days from the build, and no longer.
+    const std::string made =
+        pair(access, access.makeCode(ConsoleRole::Crew, kIn1970), kIn1970 + 1).value();
+    EXPECT_TRUE(access.session(made, kIn1970 + 2));
+    EXPECT_TRUE(access.session(made, kBuilt + 29 * kDay));
+    EXPECT_FALSE(access.session(made, kNow));
+    // What a clock far ahead has dated is none when it is set right.
+    const std::string ahead = pair(access, access.makeCode(ConsoleRole::Crew, 4e9), 4e9).value();
+    EXPECT_TRUE(access.session(ahead, 4e9));
+    EXPECT_FALSE(access.session(ahead, kNow));
 }
 
 TEST_F(AccessTest, othersCannotReadWhatIsKept) {
