@@ -48,6 +48,20 @@ TEST(Alerts, oneThatWasSeenEndsByItselfAndFiresAgainNextTime) {
     EXPECT_EQ(alerts.update(kLate, 110).size(), 1U);
 }
 
+TEST(Alerts, aClockThatIsSetNeitherFiresNorHoldsBackAnAlert) {
+    for (const double jump : {1.7e9, -1.7e9}) {
+        Alerts alerts;
+        const double begin = 1.8e9;
+        EXPECT_TRUE(alerts.update(kLate, begin).empty());
+        EXPECT_TRUE(alerts.update(kLate, begin + 1 + jump).empty()) << "one second has passed";
+        std::size_t lines = 0;
+        for (double now = begin + 2; now < begin + 20; ++now)
+            lines += alerts.update(kLate, now + jump).size();
+        EXPECT_EQ(lines, 1U) << jump;
+        EXPECT_NEAR(alerts.standing().at(0).since, begin + jump, 2) << "as people count now";
+    }
+}
+
 TEST(Alerts, nothingNewFiresWhileTheWallIsOffOnPurpose) {
     Alerts alerts;
     for (double now = 0; now < 3600; ++now) EXPECT_TRUE(alerts.update(kLate, now, true).empty());

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/log.h"
+
 namespace aquarama::console {
 namespace {
 
@@ -55,6 +57,76 @@ TEST(Gate, whatActsNamesOurOriginOrShowsAToken) {
     EXPECT_EQ(acting("http://evil.example", "", "Bearer 1234"), 403);
     EXPECT_EQ(acting("http://localhost:7480", "cross-site"), 403);
     EXPECT_EQ(acting("", "", "Basic 1234"), 403);
+}
+
+// A console on the loopback behind a proxy of this machine.
+Doors proxied() {
+    Doors doors = kPlain;
+    doors.proxy = proxyAt("https://Wall.example/", "127.0.0.1");
+    return doors;
+}
+
+// What the proxy passes on for a browser.
+HttpRequest passedOn(const std::string& proto = "https", const std::string& peer = "127.0.0.1") {
+    return {.host = "wall.example",
+            .origin = "https://wall.example",
+            .forwardedFor = "203.0.113.9",
+            .forwardedProto = proto,
+            .peer = peer};
+}
+
+TEST(Gate, whoComesThroughTheProxyIsHeldToItsNameAndTls) {
+    const Doors doors = proxied();
+    const auto status = [&](const HttpRequest& request) {
+        return statusOf(request, doorsFor(request, doors), true);
+    };
+    EXPECT_EQ(status(passedOn()), 200);
+    EXPECT_EQ(status(passedOn("http")), 403) << "a browser without TLS";
+    EXPECT_EQ(status(passedOn("")), 403) << "the proxy does not say";
+    EXPECT_EQ(status(passedOn("https", "127.0.0.2")), 421) << "not the proxy";
+    HttpRequest local = passedOn();
+    local.host = "127.0.0.1:7480";
+    EXPECT_EQ(status(local), 421) << "a proxy on this machine makes nobody local";
+    local.origin = "http://127.0.0.1:7480";
+    EXPECT_EQ(status(local), 421);
+    HttpRequest other = passedOn();
+    other.origin = "https://evil.example";
+    EXPECT_EQ(status(other), 403);
+    other.origin = "http://wall.example";
+    EXPECT_EQ(status(other), 403);
+    EXPECT_EQ(statusOf(passedOn(), doorsFor(passedOn(), kPlain), true), 421)
+        << "without the option";
+    // Beside it, the console is reached on its machine as ever.
+    const HttpRequest own{
+        .host = "127.0.0.1:7480", .origin = "http://127.0.0.1:7480", .peer = "127.0.0.1"};
+    EXPECT_EQ(status(own), 200);
+    EXPECT_EQ(doorsFor(own, doors).cookie, "aquarama_7480");
+    const std::string cookie = cookieOf(doorsFor(passedOn(), doors), "abc");
+    EXPECT_TRUE(cookie.starts_with("__Host-aquarama=abc;")) << cookie;
+    EXPECT_NE(cookie.find("; Secure"), std::string::npos);
+}
+
+TEST(Gate, theClientIsTheOneThatTheProxyHasWrittenLast) {
+    const auto client = [](const std::string& list, const std::string& peer) {
+        HttpRequest request = passedOn("https", peer);
+        request.forwardedFor = list;
+        return clientOf(request, proxied());
+    };
+    EXPECT_EQ(client("203.0.113.9", "127.0.0.1"), "203.0.113.9");
+    EXPECT_EQ(client("10.0.0.1, 203.0.113.9", "127.0.0.1"), "203.0.113.9");
+    EXPECT_EQ(client("10.0.0.1,2001:db8::9", "127.0.0.1"), "2001:db8::9");
+    EXPECT_EQ(client("203.0.113.9", "127.0.0.2"), "127.0.0.2") << "anybody may write the header";
+    EXPECT_EQ(client("x\ny" + std::string(500, 'a'), "127.0.0.1").size(), 45U);
+}
+
+TEST(Gate, theAddressOfAProxyIsCheckedWhenItIsRead) {
+    EXPECT_EQ(proxyAt("https://wall.example:443", "::1").host, "wall.example");
+    EXPECT_EQ(proxyAt("https://wall.example:8443", "10.1.2.3").host, "wall.example:8443");
+    for (const char* const url :
+         {"", "wall.example", "http://wall.example", "https://", "https://a/b"})
+        EXPECT_THROW(static_cast<void>(proxyAt(url, "127.0.0.1")), Error) << url;
+    for (const char* const address : {"", "localhost", "127.0.0.1:80", "10.0.0.0/8"})
+        EXPECT_THROW(static_cast<void>(proxyAt("https://wall.example", address)), Error) << address;
 }
 
 TEST(Gate, theSessionIsFoundAmongTheCookies) {
