@@ -308,6 +308,12 @@ void Console::tendCertificate(UnixSeconds now) {
 
 std::vector<Fault> Console::faultsNow(UnixSeconds now) const {
     std::vector<Fault> faults = faultsOf(wall_, now);
+    for (Fault& fault : faultsOf(opening_.projectors())) faults.push_back(std::move(fault));
+    if (!opening_.problem().empty())
+        faults.push_back({"hours",
+                          "the hours are not kept, as their text cannot be read: " +
+                              opening_.problem() + " (mend it on the page of the schedule)",
+                          0});
     if (!doubtOfClock_.empty())
         faults.push_back(
             {"clock", doubtOfClock_ + "; hours and certificates rest; " + kSetTheClock, 0});
@@ -338,6 +344,8 @@ void Console::everySecond() {
     const bool isQuiet = doubtOfClock_.empty() && opening_.isClosed(now);
     const auto lines = alerts_.update(faultsNow(now), now, isQuiet);
     for (const std::string& line : lines) note("alert", line);
+    for (const auto& [who, what] : projectorBook_.update(opening_.projectors(), now))
+        note(who, what);
     browser::ToBrowser alerts;
     *alerts.mutable_alerts() = alertList();
     sendToAll("alerts", alerts);

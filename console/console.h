@@ -207,6 +207,7 @@ class Console final : public web::Service {
     std::optional<config::WantedHours> beingOpened_;  // told to the wall, not done yet
     std::uint64_t openingId_ = 0;
     Alerts alerts_;
+    ProjectorBook projectorBook_;
     FigureRings figures_;
     PanoramaWatch panorama_;
     browser::Wall wall_;

@@ -64,32 +64,55 @@ void addForm(browser::Hours& message, const config::Hours& hours) {
     for (const config::ControlledProjector& from : hours.projectors) {
         browser::ControlledProjector& projector = *message.add_projectors();
         projector.set_name(from.name);
-        projector.set_address(fmt::format("{}:{}", from.host, from.port));
+        projector.set_address(config::addressOf(from));
         projector.set_password(from.password);
+        projector.set_input(from.input);
     }
 }
 
 }  // namespace
 
 // Whatever is wrong with what was kept, the console starts.
-Opening::Opening(std::filesystem::path folder) : folder_{std::move(folder)} {
-    try {
-        if (std::filesystem::exists(folder_ / kHoursFile)) {
-            text_ = config::readTextFile((folder_ / kHoursFile).string());
-            hours_ = config::parseHours(text_, (folder_ / kHoursFile).string());
-        }
-        if (std::filesystem::exists(folder_ / kDoneFile)) {
-            const json kept = json::parse(config::readTextFile((folder_ / kDoneFile).string()));
-            heldUntil_ = kept.at("held_until").get<double>();
-            if (kept.contains("open"))
-                done_ = {kept.at("open").get<bool>(),
-                         kept.at("scene").get<std::string>(),
-                         kept.at("quality").get<std::string>()};
-        }
-    } catch (const std::exception& problem) {
-        logWarning("{}; there are no hours until that is mended", problem.what());
-    }
+Opening::Opening(std::filesystem::path folder, MakeProjector make)
+    : folder_{std::move(folder)}, make_{std::move(make)} {
+    if (!make_)
+        make_ = [](const config::ControlledProjector& one) {
+            return std::make_unique<ProjectorWatch>(one);
+        };
+    readHours();
+    readDone();
     watchProjectors();
+}
+
+// The text is kept as it is, so that it can be mended on the page.
+void Opening::readHours() {
+    const std::filesystem::path path = folder_ / kHoursFile;
+    try {
+        if (!std::filesystem::exists(path)) return;
+        text_ = config::readTextFile(path.string());
+        hours_ = config::parseHours(text_, kHoursFile);
+    } catch (const std::exception& problem) {
+        problem_ = problem.what();
+        logWarning("{} (in {}); there are no hours, and nothing is switched, until that is mended",
+                   problem_,
+                   folder_.string());
+    }
+}
+
+// Without it the hours are brought about anew, which changes nothing where they were.
+void Opening::readDone() {
+    const std::filesystem::path path = folder_ / kDoneFile;
+    try {
+        if (!std::filesystem::exists(path)) return;
+        const json kept = json::parse(config::readTextFile(path.string()));
+        heldUntil_ = kept.at("held_until").get<double>();
+        if (kept.contains("open"))
+            done_ = {kept.at("open").get<bool>(),
+                     kept.at("scene").get<std::string>(),
+                     kept.at("quality").get<std::string>()};
+    } catch (const std::exception& problem) {
+        logWarning("{}: {}; the wall is brought to its hours anew", path.string(), problem.what());
+    }
 }
 
 // Anew, when the hours are: addresses may be others.
@@ -97,9 +120,10 @@ void Opening::watchProjectors() {
     projectors_.clear();
     power_.reset();
     shut_.reset();
+    watchedSince_ = 0;
     if (!hours_) return;
     for (const config::ControlledProjector& one : hours_->projectors)
-        projectors_.push_back(std::make_unique<ProjectorWatch>(one));
+        projectors_.push_back(make_(one));
 }
 
 // After each change, so that nothing is done twice after a start.
@@ -120,6 +144,7 @@ void Opening::setText(const std::string& text) {
     write(folder_ / kHoursFile, text);
     if (text.empty()) std::filesystem::remove(folder_ / kHoursFile);
     text_ = text;
+    problem_.clear();
     hours_ = std::move(hours);
     watchProjectors();
 }
@@ -138,7 +163,7 @@ UnixSeconds Opening::heldUntil(UnixSeconds now) const {
 
 // By the clock of the rig's zone.
 config::WantedHours Opening::wantedIn(UnixSeconds now) const {
-    return config::wantedAt(*hours_, config::civilTime(hours_->zone, static_cast<long long>(now)));
+    return config::wantedAt(*hours_, static_cast<long long>(now));
 }
 
 // What was brought about last is compared, not what the wall shows: an operator may have set that.
@@ -165,23 +190,53 @@ bool Opening::isLampWanted(UnixSeconds now) const {
     return !isBlack || wantedIn(now).isOpen || wantedIn(now + kWarmUpSeconds).isOpen;
 }
 
-// All together: when all lamps are on, or when those that are not have had their time.
-bool Opening::mayOpenShutters(UnixSeconds now) const {
-    if (openSince_ == 0) return false;
-    if (shut_ == false || now - openSince_ > kWarmUpSeconds) return true;
-    return std::ranges::all_of(projectors_,
-                               [](const auto& one) { return one->facts().power == "on"; });
+// When the console was started again, or its hours were changed, while the wall is open.
+bool Opening::isOpenAlready() const {
+    if (shut_ || !done_ || !done_->isOpen) return false;
+    return std::ranges::any_of(projectors_, [](const auto& one) {
+        const ProjectorFacts facts = one->facts();
+        return facts.power == LampPower::On && facts.isShut == false;
+    });
 }
 
-// Said when it changes: what somebody sets by hand between holds.
+// Before all have been asked for the first time nobody knows what shutters should do.
+bool Opening::isFirstLook(UnixSeconds now) const {
+    constexpr double kLongest = 30;
+    if (shut_ || now - watchedSince_ > kLongest) return false;
+    return std::ranges::any_of(projectors_, [](const auto& one) {
+        return one->facts().reach == ProjectorReach::NotAsked;
+    });
+}
+
+// All together: when all lamps are on, or when those that are not have had their time. One whose
+// power is unknown is waited for as one that is off.
+bool Opening::mayOpenShutters(UnixSeconds now) const {
+    if (openSince_ == 0) return false;
+    if (shut_ == false || now - openSince_ > kWarmUpSeconds || isOpenAlready()) return true;
+    return std::ranges::all_of(projectors_,
+                               [](const auto& one) { return one->facts().power == LampPower::On; });
+}
+
+// Whoever works on them does not have them switched on meanwhile; then all is said anew.
+void Opening::rest() {
+    if (!power_ && !shut_) return;
+    power_.reset();
+    shut_.reset();
+    for (const auto& one : projectors_) one->release();
+}
+
+// Said when it changes: what somebody sets on the page between holds.
 void Opening::switchProjectors(UnixSeconds now, bool isWallInStep) {
-    if (!hours_ || projectors_.empty() || heldUntil(now) > 0) return;
+    if (!hours_ || projectors_.empty()) return;
+    if (heldUntil(now) > 0) return rest();
     if (!wantedIn(now).isOpen)
         openSince_ = 0;
     else if (openSince_ == 0)
         openSince_ = now;
+    if (watchedSince_ == 0) watchedSince_ = now;
     const bool power = isLampWanted(now);
-    const bool shut = !isWallInStep || !mayOpenShutters(now);
+    const std::optional<bool> shut =
+        isFirstLook(now) ? shut_ : std::optional(!isWallInStep || !mayOpenShutters(now));
     if (power_ == power && shut_ == shut) return;
     power_ = power;
     shut_ = shut;
@@ -191,11 +246,11 @@ void Opening::switchProjectors(UnixSeconds now, bool isWallInStep) {
 // Until the hours want something else of it.
 bool Opening::setProjector(const browser::ProjectorCommand& command) {
     bool isThere = false;
-    for (const auto& one : projectors_) {
-        if (!command.name().empty() && one->name() != command.name()) continue;
+    for (std::size_t i = 0; i < projectors_.size(); ++i) {
+        if (!command.name().empty() && hours_->projectors[i].name != command.name()) continue;
         isThere = true;
-        one->want(command.has_power() ? std::optional(command.power()) : std::nullopt,
-                  command.has_shut() ? std::optional(command.shut()) : std::nullopt);
+        projectors_[i]->want(command.has_power() ? std::optional(command.power()) : std::nullopt,
+                             command.has_shut() ? std::optional(command.shut()) : std::nullopt);
     }
     return isThere;
 }
@@ -205,6 +260,7 @@ browser::Hours Opening::hours(UnixSeconds now) const {
     constexpr int kMinutes = 60, kMinuteSeconds = 60;
     browser::Hours message;
     message.set_text(text_);
+    message.set_problem(problem_);
     message.set_present(hours_.has_value());
     message.set_next("stays");
     if (!hours_) return message;
@@ -226,16 +282,21 @@ browser::Hours Opening::hours(UnixSeconds now) const {
     return message;
 }
 
-// As they last answered, twenty seconds ago at most.
+// As they last answered; what is not known is left out.
 browser::ProjectorList Opening::projectors() const {
     browser::ProjectorList list;
-    for (const auto& one : projectors_) {
-        const ProjectorFacts facts = one->facts();
+    for (std::size_t i = 0; i < projectors_.size(); ++i) {
+        const ProjectorFacts facts = projectors_[i]->facts();
         browser::ProjectorState& state = *list.add_projectors();
-        state.set_name(one->name());
-        state.set_power(facts.power);
-        state.set_shut(facts.isShut);
-        state.set_lamp_hours(facts.lampHours);
+        state.set_name(hours_->projectors[i].name);
+        state.set_wanted_input(hours_->projectors[i].input);
+        state.set_reach(nameOf(facts.reach));
+        state.set_power(nameOf(facts.power));
+        if (facts.isShut) state.set_shut(*facts.isShut);
+        if (facts.lampHours) state.set_lamp_hours(*facts.lampHours);
+        if (facts.wantedPower) state.set_wanted_power(*facts.wantedPower);
+        state.set_input(facts.input.value_or("unknown"));
+        state.set_tells_problems(facts.areProblemsKnown);
         for (const std::string& problem : facts.problems) state.add_problems(problem);
     }
     return list;

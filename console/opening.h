@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,15 +13,18 @@
 #include "common/config/hours.h"
 #include "console/access.h"
 #include "console/console.pb.h"
-#include "console/pjlink.h"
+#include "console/projector.h"
 
 namespace aquarama::console {
 
 // Keeps the hours of a rig in its state folder. One thread uses it.
 class Opening {
   public:
-    // A file that cannot be read is logged, and there are no hours.
-    explicit Opening(std::filesystem::path folder);
+    using MakeProjector =
+        std::function<std::unique_ptr<SwitchedProjector>(const config::ControlledProjector&)>;
+    // A file that cannot be read is logged, and there are no hours; hours() says why.
+    // `make`: what switches a projector; tests have pretended ones.
+    explicit Opening(std::filesystem::path folder, MakeProjector make = {});
 
     // Takes another text and keeps it; empty: no hours any more. Throws Error, as parseHours().
     void setText(const std::string& text);
@@ -41,6 +45,8 @@ class Opening {
     // Of one, or of all where the name is empty; false where there is none of that name.
     bool setProjector(const browser::ProjectorCommand& command);
 
+    // Why there are no hours although there is a text; empty: there is none, or it is read.
+    [[nodiscard]] const std::string& problem() const { return problem_; }
     [[nodiscard]] browser::Hours hours(UnixSeconds now) const;
     [[nodiscard]] browser::ProjectorList projectors() const;
 
@@ -49,15 +55,23 @@ class Opening {
     void watchProjectors();
     [[nodiscard]] bool isLampWanted(UnixSeconds now) const;
     [[nodiscard]] bool mayOpenShutters(UnixSeconds now) const;
+    [[nodiscard]] bool isOpenAlready() const;
+    [[nodiscard]] bool isFirstLook(UnixSeconds now) const;
     void keep() const;
+    void readHours();
+    void readDone();
+    void rest();
 
     std::filesystem::path folder_;
+    MakeProjector make_;
     std::string text_;
+    std::string problem_;  // why there are no hours although there is a text
     std::optional<config::Hours> hours_;
     std::optional<config::WantedHours> done_;  // what was last brought about
     UnixSeconds heldUntil_ = 0;
     UnixSeconds openSince_ = 0;
-    std::vector<std::unique_ptr<ProjectorWatch>> projectors_;
+    UnixSeconds watchedSince_ = 0;  // the projectors of these hours; 0: not yet
+    std::vector<std::unique_ptr<SwitchedProjector>> projectors_;  // in the order of the hours
     std::optional<bool> power_, shut_;  // that all projectors were last told
 };
 

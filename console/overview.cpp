@@ -130,6 +130,68 @@ std::vector<Fault> faultsOf(const browser::Wall& wall, UnixSeconds now) {
     return faults;
 }
 
+namespace {
+
+// Whether it answers, and what to do where it does not.
+void addReachFault(std::vector<Fault>& faults, const browser::ProjectorState& one) {
+    constexpr double kGone = 60, kRefused = 10;
+    const std::string name = "projector " + one.name();
+    const std::string write = ": write that of its menu into the hours";
+    if (one.reach() == "no answer")
+        faults.push_back({name,
+                          name + " does not answer: is it powered, its network on in standby, its "
+                                 "PJLink on, and its address right?",
+                          kGone});
+    if (one.reach() == "refuses the password")
+        faults.push_back({name, name + " refuses the password" + write, kRefused});
+    if (one.reach() == "wants a password")
+        faults.push_back({name, name + " wants a password" + write, kRefused});
+}
+
+}  // namespace
+
+// A lamp has five minutes to come to what is wanted; a warning of a minute is none.
+std::vector<Fault> faultsOf(const browser::ProjectorList& projectors) {
+    constexpr double kLampSeconds = 300, kProblemSeconds = 60;
+    std::vector<Fault> faults;
+    for (const browser::ProjectorState& one : projectors.projectors()) {
+        const std::string name = "projector " + one.name();
+        addReachFault(faults, one);
+        const std::string wanted = one.wanted_power() ? "on" : "off";
+        if (one.has_wanted_power() && one.power() != "unknown" && one.power() != wanted)
+            faults.push_back({name + " power",
+                              name + " is " + one.power() + ", and should be " + wanted +
+                                  ": look at its lamp and its menu",
+                              kLampSeconds});
+        for (const std::string& problem : one.problems())
+            faults.push_back({name + " " + problem, name + ": " + problem, kProblemSeconds});
+    }
+    return faults;
+}
+
+// A state of some seconds is passed over, as one that cannot be told for a moment is no news.
+std::vector<std::pair<std::string, std::string>> ProjectorBook::update(
+    const browser::ProjectorList& list, UnixSeconds now) {
+    constexpr double kLasts = 25;
+    std::erase_if(pages_, [&](const auto& page) {
+        return std::ranges::count(list.projectors(), page.first, &browser::ProjectorState::name) ==
+               0;
+    });
+    std::vector<std::pair<std::string, std::string>> lines;
+    for (const browser::ProjectorState& one : list.projectors()) {
+        std::string is = one.reach() == "answers" ? "power " + one.power() : one.reach();
+        if (one.power() == "on")
+            is += !one.has_shut() ? ", shutter unknown" : one.shut() ? ", shut" : ", open";
+        Page& page = pages_[one.name()];
+        if (is != page.seen) page = {page.told, is, now};
+        if (is == page.told || now - page.since < kLasts || one.reach() == "not asked yet")
+            continue;
+        page.told = is;
+        lines.emplace_back("projector " + one.name(), is);
+    }
+    return lines;
+}
+
 // Another run of the master is one line, not ten.
 std::vector<std::string> changesOf(const browser::Wall& before, const browser::Wall& after) {
     std::vector<std::string> lines;
@@ -199,12 +261,42 @@ browser::History FigureRings::lastSecond() const {
     return newest(kTenths, kMinutes);
 }
 
+namespace {
+
+// As Prometheus has it between quotation marks.
+std::string labelOf(const std::string& name, const std::string& value) {
+    std::string text = "{" + name + "=\"";
+    for (const char c : value) {
+        if (c == '"' || c == '\\') text += '\\';
+        text += c == '\n' ? ' ' : c;
+    }
+    return text + "\"}";
+}
+
+// One sample.
+void addFigure(std::string& text, const std::string& name, double value) {
+    text += fmt::format("aquarama_console_{} {}\n", name, value);
+}
+
+// Its lamp hours, power and shutter only while they are known.
+void addFigures(std::string& text, const browser::ProjectorState& one) {
+    const std::string label = labelOf("projector", one.name());
+    addFigure(text, "projector_answers" + label, one.reach() == "answers" ? 1 : 0);
+    if (one.power() != "unknown")
+        addFigure(text, "projector_on" + label, one.power() == "on" ? 1 : 0);
+    if (one.has_shut()) addFigure(text, "projector_shut" + label, one.shut() ? 1 : 0);
+    if (one.has_lamp_hours()) addFigure(text, "projector_lamp_hours" + label, one.lamp_hours());
+    if (one.tells_problems()) addFigure(text, "projector_problems" + label, one.problems_size());
+}
+
+}  // namespace
+
 // Of the wall as a whole, so that one address tells of all machines.
-std::string metricsOf(const browser::Wall& wall, std::uint64_t cutOff) {
+std::string metricsOf(const browser::Wall& wall,
+                      const browser::ProjectorList& projectors,
+                      std::uint64_t cutOff) {
     std::string text;
-    const auto one = [&](const std::string& name, double value) {
-        text += fmt::format("aquarama_console_{} {}\n", name, value);
-    };
+    const auto one = [&](const std::string& name, double value) { addFigure(text, name, value); };
     one("master_answers", wall.heard() ? 1 : 0);
     one("frame", static_cast<double>(wall.frame()));
     one("frame_median_ms", static_cast<double>(wall.frame_median_ms()));
@@ -214,7 +306,7 @@ std::string metricsOf(const browser::Wall& wall, std::uint64_t cutOff) {
     one("refused_requests_total", static_cast<double>(wall.refused_requests()));
     one("cut_off_connections_total", static_cast<double>(cutOff));
     for (const browser::Node& node : wall.nodes()) {
-        const std::string label = "{node=\"" + node.name() + "\"}";
+        const std::string label = labelOf("node", node.name());
         one("node_in_step" + label, node.condition() == "in step" ? 1 : 0);
         one("node_late_total" + label, static_cast<double>(node.late()));
         one("node_dropped_total" + label, static_cast<double>(node.dropped()));
@@ -222,6 +314,8 @@ std::string metricsOf(const browser::Wall& wall, std::uint64_t cutOff) {
         one("node_picture_median_ms" + label, static_cast<double>(node.picture_median_ms()));
         one("node_gpu_celsius" + label, static_cast<double>(node.celsius()));
     }
+    for (const browser::ProjectorState& projector : projectors.projectors())
+        addFigures(text, projector);
     return text;
 }
 

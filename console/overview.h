@@ -21,6 +21,8 @@ namespace aquarama::console {
 
 // What is wrong with a wall that was heard of at wall.heard_s; `now` as there.
 [[nodiscard]] std::vector<Fault> faultsOf(const browser::Wall& wall, UnixSeconds now);
+// What is wrong with projectors, as far as they tell: of what is unknown nothing is said.
+[[nodiscard]] std::vector<Fault> faultsOf(const browser::ProjectorList& projectors);
 
 // What has changed between two looks at a wall, as an operator would say it.
 [[nodiscard]] std::vector<std::string> changesOf(const browser::Wall& before,
@@ -48,8 +50,25 @@ class FigureRings {
     std::uint32_t tenths_ = 0;  // since the start
 };
 
-// For Prometheus, text format 0.0.4.
-[[nodiscard]] std::string metricsOf(const browser::Wall& wall, std::uint64_t cutOff);
+// What projectors have come to, as the list of events has it: what holds for a while.
+class ProjectorBook {
+  public:
+    // A line, name and what, for each that is otherwise than was last told.
+    std::vector<std::pair<std::string, std::string>> update(const browser::ProjectorList& list,
+                                                            UnixSeconds now);
+
+  private:
+    struct Page {
+        std::string told, seen;
+        UnixSeconds since = 0;  // it is as it was seen
+    };
+    std::map<std::string, Page> pages_;  // by name
+};
+
+// For Prometheus, text format 0.0.4. What is unknown has no sample.
+[[nodiscard]] std::string metricsOf(const browser::Wall& wall,
+                                    const browser::ProjectorList& projectors,
+                                    std::uint64_t cutOff);
 
 // protobuf's JSON, numbers that are zero included.
 [[nodiscard]] std::string jsonOf(const browser::ToBrowser& message);

@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstring>
 #include <utility>
 
 #include <arpa/inet.h>
-#include <fcntl.h>
 #include <netinet/in.h>
 #include <openssl/evp.h>
 #include <poll.h>
 #include <spdlog/fmt/fmt.h>
+#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -19,94 +20,54 @@ namespace aquarama::console {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
-
-constexpr auto kBetweenLooks = std::chrono::seconds(20);   // more often, and some of them hang
-constexpr auto kAfterACommand = std::chrono::seconds(10);  // which some need to themselves
-// For the connection, and for each answer.
-constexpr milliseconds kPatience{2000};
-
-// False when the time is over.
-bool waitFor(int socket, short what, Clock::time_point end) {
-    const auto left = std::chrono::duration_cast<milliseconds>(end - Clock::now()).count();
-    pollfd waiting{socket, what, 0};
-    return left > 0 && poll(&waiting, 1, static_cast<int>(left)) > 0;
-}
-
-// A connection that never waits longer than it is told.
-class Line {
-  public:
-    // Takes numeric IPv4 addresses only. isOpen() is false where nobody accepts in time.
-    Line(const config::ControlledProjector& projector, milliseconds patience)
-        : patience_{patience},
-          socket_{socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)} {
-        sockaddr_in to{};
-        to.sin_family = AF_INET;
-        to.sin_port = htons(static_cast<std::uint16_t>(projector.port));
-        if (inet_pton(AF_INET, projector.host.c_str(), &to.sin_addr) != 1) return;
-        const int begun = connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to);
-        if (begun != 0 && errno != EINPROGRESS) return;
-        int problem = 0;
-        socklen_t size = sizeof problem;
-        isOpen_ = waitFor(socket_, POLLOUT, Clock::now() + patience_) &&
-                  getsockopt(socket_, SOL_SOCKET, SO_ERROR, &problem, &size) == 0 && problem == 0;
-    }
-    ~Line() {
-        if (socket_ >= 0) close(socket_);
-    }
-    Line(const Line&) = delete;
-    Line& operator=(const Line&) = delete;
-
-    [[nodiscard]] bool isOpen() const { return isOpen_; }
-
-    // PJLink ends a command by a carriage return. False where the line was not taken whole.
-    bool say(const std::string& text) {
-        const std::string line = text + "\r";
-        return send(socket_, line.data(), line.size(), MSG_NOSIGNAL) ==
-               static_cast<ssize_t>(line.size());
-    }
-
-    // Up to the next carriage return; empty where none comes in time, or the line is too long.
-    std::optional<std::string> hear() {
-        const auto end = Clock::now() + patience_;
-        std::array<char, kMostPjlinkBytes> part{};
-        while (true) {
-            const std::size_t found = buffer_.find('\r');
-            if (found != std::string::npos) {
-                std::string line = buffer_.substr(0, found);
-                buffer_.erase(0, found + 1);
-                return line;
-            }
-            if (buffer_.size() >= kMostPjlinkBytes || !waitFor(socket_, POLLIN, end))
-                return std::nullopt;
-            const ssize_t count = recv(socket_, part.data(), part.size(), 0);
-            if (count <= 0) return std::nullopt;
-            buffer_.append(part.data(), static_cast<std::size_t>(count));
-        }
-    }
-
-  private:
-    milliseconds patience_;
-    int socket_;
-    bool isOpen_ = false;
-    std::string buffer_;
-};
 
 // ASCII: it is shown on pages and in logs.
 bool isPrintable(const std::string& text) {
     return std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; });
 }
 
-// ERR3 and the like: it is there, and not able to say so now.
-std::string powerWord(const PjlinkAnswers& answers) {
-    if (answers.refusesPassword) return "refuses the password";
-    if (!answers.isThere || answers.values[0].empty()) return "no answer";
-    constexpr std::array kWords{"off", "on", "cooling", "warming"};
-    const std::string& value = answers.values[0];
-    if (value.size() == 1 && value[0] >= '0' && value[0] <= '3')
-        return kWords[static_cast<std::size_t>(value[0] - '0')];
-    return "not now";
+// Of ASCII alone, whatever the locale.
+std::string inCapitals(std::string text) {
+    for (char& c : text)
+        if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    return text;
+}
+
+// Without blanks at both ends.
+std::string trimmed(const std::string& text) {
+    const std::size_t first = text.find_first_not_of(' ');
+    if (first == std::string::npos) return {};
+    return text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+// What ends a line: some send a line feed, both, or a zero after the carriage return.
+bool endsLine(char c) {
+    return c == '\r' || c == '\n' || c == '\0';
+}
+
+// "PJLINK ERRA", or a value ERRA: the password is wrong.
+bool isPasswordRefusal(const std::string& line) {
+    const std::string said = inCapitals(trimmed(line));
+    return said == "PJLINK ERRA" || (said.starts_with('%') && said.ends_with("=ERRA"));
+}
+
+// The address of a projector for connect(); 0 where the text is none.
+socklen_t addressOf(const config::ControlledProjector& projector, sockaddr_storage& address) {
+    const in_port_t port = htons(static_cast<std::uint16_t>(projector.port));
+    sockaddr_in four{};
+    sockaddr_in6 six{};
+    if (inet_pton(AF_INET, projector.host.c_str(), &four.sin_addr) == 1) {
+        four.sin_family = AF_INET;
+        four.sin_port = port;
+        std::memcpy(&address, &four, sizeof four);
+        return sizeof four;
+    }
+    if (inet_pton(AF_INET6, projector.host.c_str(), &six.sin6_addr) != 1) return 0;
+    six.sin6_family = AF_INET6;
+    six.sin6_port = port;
+    std::memcpy(&address, &six, sizeof six);
+    return sizeof six;
 }
 
 }  // namespace
@@ -114,11 +75,12 @@ std::string powerWord(const PjlinkAnswers& answers) {
 // Anything else is another protocol, or noise.
 std::optional<PjlinkGreeting> readGreeting(const std::string& line) {
     constexpr std::size_t kMostSalt = 32;
-    if (line == "PJLINK 0") return PjlinkGreeting{};
-    if (line == "PJLINK ERRA") return PjlinkGreeting{.refuses = true, .salt = {}};
+    const std::string said = inCapitals(trimmed(line));
+    if (said == "PJLINK 0") return PjlinkGreeting{};
+    if (said == "PJLINK ERRA") return PjlinkGreeting{.refuses = true, .salt = {}};
     const std::string start = "PJLINK 1 ";
-    if (!line.starts_with(start)) return std::nullopt;
-    const std::string salt = line.substr(start.size());
+    if (!said.starts_with(start)) return std::nullopt;
+    const std::string salt = trimmed(trimmed(line).substr(start.size()));
     if (salt.empty() || salt.size() > kMostSalt || !isPrintable(salt)) return std::nullopt;
     return PjlinkGreeting{.wantsPassword = true, .salt = salt};
 }
@@ -134,147 +96,178 @@ std::string pjlinkProof(const std::string& salt, const std::string& password) {
     return proof;
 }
 
-// To this command, and to no other.
+// Projectors of class 2 name either class.
 std::optional<std::string> readPjlinkAnswer(const std::string& line, const std::string& command) {
-    const std::string start = "%1" + command.substr(0, 4) + "=";
-    if (line.size() > kMostPjlinkBytes || !line.starts_with(start)) return std::nullopt;
-    std::string value = line.substr(start.size());
+    constexpr std::size_t kHeader = 2, kName = 4;
+    if (line.size() > kMostPjlinkBytes || command.size() < kHeader + kName) return std::nullopt;
+    const std::string said = inCapitals(trimmed(line));
+    const bool isOfAClass = said.starts_with("%1") || said.starts_with("%2");
+    const std::string start = command.substr(kHeader, kName) + "=";
+    if (!isOfAClass || said.compare(kHeader, start.size(), start) != 0) return std::nullopt;
+    std::string value = trimmed(said.substr(kHeader + start.size()));
     if (value.empty() || !isPrintable(value)) return std::nullopt;
     return value;
 }
 
 // In the order of the standard.
-std::vector<std::string> problemsIn(const std::string& digits) {
+std::optional<std::vector<std::string>> problemsIn(const std::string& digits) {
     constexpr std::array kParts{"fan", "lamp", "temperature", "cover", "filter", "other"};
+    if (digits.size() != kParts.size()) return std::nullopt;
     std::vector<std::string> problems;
-    for (std::size_t i = 0; i < std::min(kParts.size(), digits.size()); ++i) {
+    for (std::size_t i = 0; i < kParts.size(); ++i) {
+        if (digits[i] < '0' || digits[i] > '2') return std::nullopt;
         if (digits[i] == '1') problems.push_back(std::string(kParts.at(i)) + ": warning");
         if (digits[i] == '2') problems.push_back(std::string(kParts.at(i)) + ": error");
     }
     return problems;
 }
 
-// The proof goes before the first command only.
-PjlinkAnswers askProjector(const config::ControlledProjector& projector,
-                           const std::vector<std::string>& commands,
-                           milliseconds patience) {
-    PjlinkAnswers answers{.values = std::vector<std::string>(commands.size())};
-    Line line(projector, patience);
-    if (!line.isOpen()) return answers;
-    const auto first = line.hear();
-    const auto greeting = first ? readGreeting(*first) : std::nullopt;
-    if (!greeting || greeting->refuses) {
-        answers.refusesPassword = greeting.has_value();
-        return answers;
+// "ERR1" of a projector without a lamp is no number.
+std::optional<std::uint32_t> lampHoursIn(const std::string& value) {
+    constexpr std::size_t kMostDigits = 6;
+    const std::size_t end = std::min(value.find(' '), value.size());
+    if (end == 0 || end > kMostDigits) return std::nullopt;
+    std::uint32_t hours = 0;
+    for (const char c : value.substr(0, end)) {
+        if (c < '0' || c > '9') return std::nullopt;
+        hours = 10 * hours + static_cast<std::uint32_t>(c - '0');
     }
-    answers.isThere = true;
-    for (std::size_t i = 0; i < commands.size(); ++i) {
-        const bool isProved = i == 0 && greeting->wantsPassword;
-        const std::string proof = isProved ? pjlinkProof(greeting->salt, projector.password) : "";
-        if (!line.say(proof + "%1" + commands[i])) return answers;
-        const auto said = line.hear();
-        if (said == "PJLINK ERRA") {
-            answers.refusesPassword = true;
-            return answers;
+    return hours;
+}
+
+// 1 is the picture, 2 the sound, 3 both; then whether it is muted.
+std::optional<bool> shutIn(const std::string& value) {
+    if (value == "31" || value == "11") return true;
+    if (value == "30" || value == "10" || value == "20" || value == "21") return false;
+    return std::nullopt;
+}
+
+PjlinkConnection::PjlinkConnection(config::ControlledProjector projector, PjlinkPatience patience)
+    : projector_{std::move(projector)}, patience_{patience}, stopped_{eventfd(0, EFD_CLOEXEC)} {}
+
+PjlinkConnection::~PjlinkConnection() {
+    close();
+    if (stopped_ >= 0) ::close(stopped_);
+}
+
+// What was heard and not read belongs to this connection.
+void PjlinkConnection::close() {
+    if (socket_ >= 0) ::close(socket_);
+    socket_ = -1;
+    buffer_.clear();
+    proof_.clear();
+}
+
+// It stays readable: nobody reads it.
+void PjlinkConnection::stop() {
+    const std::uint64_t one = 1;
+    static_cast<void>(!write(stopped_, &one, sizeof one));
+}
+
+// False when the time is over, or stop() was called. Without events it only waits.
+bool PjlinkConnection::waitFor(short what, Clock::time_point end) const {
+    const auto left = std::chrono::ceil<milliseconds>(end - Clock::now()).count();
+    std::array<pollfd, 2> waiting{{{stopped_, POLLIN, 0}, {what == 0 ? -1 : socket_, what, 0}}};
+    return left > 0 && poll(waiting.data(), waiting.size(), static_cast<int>(left)) > 0 &&
+           waiting[0].revents == 0;
+}
+
+// False where nobody accepts in time.
+bool PjlinkConnection::connectTo(Clock::time_point end) {
+    close();
+    sockaddr_storage address{};
+    const socklen_t size = addressOf(projector_, address);
+    if (size == 0) return false;
+    socket_ = socket(address.ss_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    const int begun = connect(socket_, reinterpret_cast<const sockaddr*>(&address), size);
+    if (begun != 0 && errno != EINPROGRESS) return false;
+    int problem = 0;
+    socklen_t problemSize = sizeof problem;
+    return waitFor(POLLOUT, std::min(end, Clock::now() + patience_.connect)) &&
+           getsockopt(socket_, SOL_SOCKET, SO_ERROR, &problem, &problemSize) == 0 && problem == 0;
+}
+
+// The next line that is not empty. Nothing: none came in time, or it is too long.
+PjlinkConnection::Heard PjlinkConnection::hear(std::string& line, Clock::time_point end) {
+    std::array<char, kMostPjlinkBytes> part{};
+    while (true) {
+        const auto begin = std::ranges::find_if_not(buffer_, endsLine);
+        const auto ended = std::find_if(begin, buffer_.end(), endsLine);
+        if (ended != buffer_.end()) {
+            line.assign(begin, ended);
+            buffer_.erase(buffer_.begin(), ended);
+            return Heard::Line;
         }
-        if (!said) return answers;
-        answers.values[i] = readPjlinkAnswer(*said, commands[i]).value_or("");
-    }
-    return answers;
-}
-
-// What is not answered is as if nothing were wrong.
-ProjectorFacts lookAtProjector(const config::ControlledProjector& projector,
-                               milliseconds patience) {
-    const PjlinkAnswers answers =
-        askProjector(projector, {"POWR ?", "AVMT ?", "ERST ?", "LAMP ?"}, patience);
-    ProjectorFacts facts{.power = powerWord(answers), .problems = {}};
-    facts.isShut = answers.values[1] == "31" || answers.values[1] == "11";
-    if (!answers.values[2].starts_with("ERR")) facts.problems = problemsIn(answers.values[2]);
-    constexpr std::uint32_t kMostHours = 1'000'000;
-    for (const char c : answers.values[3]) {
-        if (c < '0' || c > '9' || facts.lampHours > kMostHours) break;
-        facts.lampHours = 10 * facts.lampHours + static_cast<std::uint32_t>(c - '0');
-    }
-    return facts;
-}
-
-ProjectorWatch::ProjectorWatch(config::ControlledProjector projector)
-    : projector_{std::move(projector)}, thread_{[this] { run(); }} {}
-
-// Returns when the exchange that is under way has ended.
-ProjectorWatch::~ProjectorWatch() {
-    {
-        const std::lock_guard lock(mutex_);
-        ended_ = true;
-    }
-    changed_.notify_all();
-    thread_.join();
-}
-
-// The same again wakes nobody.
-void ProjectorWatch::want(std::optional<bool> power, std::optional<bool> shut) {
-    {
-        const std::lock_guard lock(mutex_);
-        const auto before = std::pair{power_, shut_};
-        if (power) power_ = power;
-        if (shut) shut_ = shut;
-        isNew_ = isNew_ || before != std::pair{power_, shut_};
-    }
-    changed_.notify_all();
-}
-
-// A copy: the thread of the watch replaces what is kept.
-ProjectorFacts ProjectorWatch::facts() const {
-    const std::lock_guard lock(mutex_);
-    return facts_;
-}
-
-// Looks, brings it to what is wanted, and rests.
-void ProjectorWatch::run() {
-    std::unique_lock lock(mutex_);
-    while (!ended_) {
-        isNew_ = false;
-        lock.unlock();
-        const ProjectorFacts facts = lookAtProjector(projector_, kPatience);
-        press(facts);
-        lock.lock();
-        facts_ = facts;
-        changed_.wait_for(lock, kBetweenLooks, [this] { return ended_ || isNew_; });
+        if (buffer_.size() > kMostPjlinkBytes || !waitFor(POLLIN, end)) return Heard::Nothing;
+        const ssize_t count = recv(socket_, part.data(), part.size(), 0);
+        if (count <= 0) return Heard::Closed;
+        buffer_.append(part.data(), static_cast<std::size_t>(count));
     }
 }
 
-namespace {
-
-// What brings a projector from what it is to what is wanted. The shutter is set while the lamp is
-// on; a projector that warms or cools is left alone.
-std::vector<std::string> commandsFor(const ProjectorFacts& facts,
-                                     std::optional<bool> power,
-                                     std::optional<bool> shut) {
-    std::vector<std::string> commands;
-    const bool isOn = facts.power == "on";
-    if (isOn && shut.value_or(facts.isShut) != facts.isShut)
-        commands.emplace_back(*shut ? "AVMT 31" : "AVMT 30");
-    if ((isOn || facts.power == "off") && power.value_or(isOn) != isOn)
-        commands.emplace_back(*power ? "POWR 1" : "POWR 0");
-    return commands;
+// Its first line: the proof is of this connection alone.
+PjlinkEnd PjlinkConnection::greet(Clock::time_point end) {
+    std::string line;
+    if (hear(line, std::min(end, Clock::now() + patience_.line)) != Heard::Line)
+        return PjlinkEnd::Unreachable;
+    const auto greeting = readGreeting(line);
+    if (!greeting) return PjlinkEnd::Unreachable;
+    if (greeting->refuses) return PjlinkEnd::Refused;
+    if (greeting->wantsPassword) proof_ = pjlinkProof(greeting->salt, projector_.password);
+    return PjlinkEnd::Answered;
 }
 
-}  // namespace
-
-// Some need some seconds to themselves after that.
-void ProjectorWatch::press(const ProjectorFacts& facts) {
-    std::vector<std::string> commands;
-    {
-        const std::lock_guard lock(mutex_);
-        commands = commandsFor(facts, power_, shut_);
+// Twice, where nobody accepts at first: one that has just closed needs a moment.
+PjlinkEnd PjlinkConnection::open(Clock::time_point end) {
+    const bool hasJustClosed = socket_ >= 0;
+    if (!connectTo(end)) {
+        if (!hasJustClosed) return PjlinkEnd::Unreachable;
+        static_cast<void>(waitFor(0, std::min(end, Clock::now() + patience_.reconnect)));
+        if (!connectTo(end)) return PjlinkEnd::Unreachable;
     }
-    if (commands.empty()) return;
-    static_cast<void>(askProjector(projector_, commands, kPatience));
-    const bool isPower = commands.back().starts_with("POWR");
-    std::unique_lock lock(mutex_);
-    changed_.wait_for(
-        lock, isPower ? kAfterACommand : std::chrono::seconds(1), [this] { return ended_; });
+    return greet(end);
+}
+
+// Answers to other commands, which came too late, are passed over: some, not many.
+PjlinkConnection::Heard PjlinkConnection::exchange(const std::string& command,
+                                                   PjlinkReply& reply,
+                                                   Clock::time_point end) {
+    constexpr int kMostLines = 16;
+    const std::string line = std::exchange(proof_, {}) + command + "\r";
+    const ssize_t sent = send(socket_, line.data(), line.size(), MSG_NOSIGNAL);
+    if (sent != static_cast<ssize_t>(line.size())) return Heard::Closed;
+    const auto lineEnd = std::min(end, Clock::now() + patience_.line);
+    for (int i = 0; i < kMostLines; ++i) {
+        std::string said;
+        const Heard heard = hear(said, lineEnd);
+        if (heard != Heard::Line) return heard;
+        const auto value = readPjlinkAnswer(said, command);
+        const bool isRefusal = isPasswordRefusal(said);
+        if (!value && !isRefusal) continue;
+        reply = {isRefusal ? PjlinkEnd::Refused : PjlinkEnd::Answered, value.value_or("")};
+        return Heard::Line;
+    }
+    return Heard::Nothing;
+}
+
+// A connection of an earlier command may have been closed since, or its password may hold for one
+// command only: then once more from the start.
+PjlinkReply PjlinkConnection::ask(const std::string& command) {
+    const auto end = Clock::now() + patience_.exchange;
+    PjlinkReply reply{PjlinkEnd::Unanswered};
+    if (socket_ >= 0) {
+        const Heard heard = exchange(command, reply, end);
+        if (reply.end == PjlinkEnd::Answered) return reply;
+        if (heard == Heard::Nothing) {
+            close();  // a late answer would be taken for that to the next command
+            return reply;
+        }
+    }
+    const PjlinkEnd opened = open(end);
+    reply = {opened == PjlinkEnd::Answered ? PjlinkEnd::Unanswered : opened};
+    if (opened == PjlinkEnd::Answered) static_cast<void>(exchange(command, reply, end));
+    if (reply.end != PjlinkEnd::Answered) close();
+    return reply;
 }
 
 }  // namespace aquarama::console

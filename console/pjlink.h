@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Projectors by PJLink, class 1 (JBMIA): what they say is read within bounds, and one that is
-// silent or odd is a state, never an error.
+// PJLink (JBMIA), classes 1 and 2: what projectors say is read within bounds, in letters of any
+// case; and one exchange at a time over TCP. One that is silent or odd is a state, never an error.
 #pragma once
 
-#include <atomic>
 #include <chrono>
-#include <condition_variable>
+#include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "common/config/hours.h"
@@ -25,70 +21,81 @@ inline constexpr std::size_t kMostPjlinkBytes = 136;
 struct PjlinkGreeting {
     bool wantsPassword = false;
     bool refuses = false;  // the password was wrong
-    std::string salt;
+    std::string salt;      // its letters as they were sent: the proof is made of them
 };
 [[nodiscard]] std::optional<PjlinkGreeting> readGreeting(const std::string& line);
 // What goes before the first command: MD5 of salt and password.
 [[nodiscard]] std::string pjlinkProof(const std::string& salt, const std::string& password);
 
-// The answer to a command, as "POWR": its value ("1", "OK", "ERR3"). Empty where it is none.
+// The answer to a command, as "%1POWR ?": its value in capitals ("1", "OK", "ERR3"). Empty where it
+// is none, or one to another command.
 [[nodiscard]] std::optional<std::string> readPjlinkAnswer(const std::string& line,
                                                           const std::string& command);
 
-// What is known of a projector.
-struct ProjectorFacts {
-    std::string power = "no answer";  // on, off, warming, cooling, refuses the password, not now
-    bool isShut = false;
-    std::vector<std::string> problems;  // "lamp: warning"
-    std::uint32_t lampHours = 0;
-    friend bool operator==(const ProjectorFacts&, const ProjectorFacts&) = default;
-};
-// "100002": fan, lamp, temperature, cover, filter, other; 1 warns, 2 fails.
-[[nodiscard]] std::vector<std::string> problemsIn(const std::string& digits);
+// "100002": fan, lamp, temperature, cover, filter, other; 1 warns, 2 fails. Empty where the text is
+// anything else.
+[[nodiscard]] std::optional<std::vector<std::string>> problemsIn(const std::string& digits);
+// "1234 1 5678 0": the hours of the first lamp.
+[[nodiscard]] std::optional<std::uint32_t> lampHoursIn(const std::string& value);
+// "31": whether there is no picture. Sound alone ("21") leaves the picture.
+[[nodiscard]] std::optional<bool> shutIn(const std::string& value);
 
-// One connection: the commands one after another ("POWR ?"), and the value of each; those that were
-// not answered are empty. Closed afterwards, as some projectors take one connection only. Takes at
-// most `patience` for each line.
-struct PjlinkAnswers {
-    bool isThere = false;
-    bool refusesPassword = false;
-    std::vector<std::string> values;
+// How an exchange ended.
+enum class PjlinkEnd : std::uint8_t {
+    Answered,
+    Unanswered,   // it greets, and does not answer this
+    Unreachable,  // nobody accepts, or what does is no projector
+    Refused       // the password is wrong, or there is none
 };
-[[nodiscard]] PjlinkAnswers askProjector(const config::ControlledProjector& projector,
-                                         const std::vector<std::string>& commands,
-                                         std::chrono::milliseconds patience);
-// All that is asked of one at a look.
-[[nodiscard]] ProjectorFacts lookAtProjector(const config::ControlledProjector& projector,
-                                             std::chrono::milliseconds patience);
+struct PjlinkReply {
+    PjlinkEnd end = PjlinkEnd::Unreachable;
+    std::string value = {};  // in capitals; of Answered only
+};
 
-// Looks at a projector every twenty seconds, and switches it to what is wanted, on a thread of its
-// own.
-class ProjectorWatch {
+// How long is waited, at most. PJLink asks for an answer within two seconds; real projectors take
+// up to eight.
+struct PjlinkPatience {
+    std::chrono::milliseconds connect{3000};
+    std::chrono::milliseconds line{10'000};      // for a greeting, and for an answer
+    std::chrono::milliseconds exchange{25'000};  // all of it, connecting once more included
+    std::chrono::milliseconds reconnect{1000};   // for a projector that has just closed
+};
+
+// Exchanges with one projector, by one thread. The connection is kept between them; where the
+// projector closes it, or wants the password again, it is made anew.
+class PjlinkConnection {
   public:
-    explicit ProjectorWatch(config::ControlledProjector projector);
-    ~ProjectorWatch();
-    ProjectorWatch(const ProjectorWatch&) = delete;
-    ProjectorWatch& operator=(const ProjectorWatch&) = delete;
+    explicit PjlinkConnection(config::ControlledProjector projector, PjlinkPatience patience = {});
+    ~PjlinkConnection();
+    PjlinkConnection(const PjlinkConnection&) = delete;
+    PjlinkConnection& operator=(const PjlinkConnection&) = delete;
 
-    // Wanted values: said again until the projector has them.
-    void want(std::optional<bool> power, std::optional<bool> shut);
-    [[nodiscard]] ProjectorFacts facts() const;
-    [[nodiscard]] const std::string& name() const { return projector_.name; }
+    // Takes patience.exchange at most, and never throws.
+    [[nodiscard]] PjlinkReply ask(const std::string& command);
+    // Some projectors take one connection only: it is given back between looks.
+    void close();
+    // From any thread: an exchange that is under way ends at once, and so do all later ones.
+    void stop();
 
   private:
-    // The thread: it ends soon after ended_ is set.
-    void run();
-    // Sends what brings the projector to what is wanted.
-    void press(const ProjectorFacts& facts);
+    using Clock = std::chrono::steady_clock;
+    enum class Heard : std::uint8_t { Line, Nothing, Closed };
+
+    [[nodiscard]] bool waitFor(short what, Clock::time_point end) const;
+    [[nodiscard]] bool connectTo(Clock::time_point end);
+    [[nodiscard]] PjlinkEnd greet(Clock::time_point end);
+    [[nodiscard]] PjlinkEnd open(Clock::time_point end);
+    [[nodiscard]] Heard hear(std::string& line, Clock::time_point end);
+    [[nodiscard]] Heard exchange(const std::string& command,
+                                 PjlinkReply& reply,
+                                 Clock::time_point end);
 
     config::ControlledProjector projector_;
-    mutable std::mutex mutex_;
-    std::condition_variable changed_;
-    bool ended_ = false;
-    bool isNew_ = false;
-    ProjectorFacts facts_;
-    std::optional<bool> power_, shut_;  // wanted
-    std::thread thread_;
+    PjlinkPatience patience_;
+    int socket_ = -1;
+    int stopped_;         // an eventfd: readable when stop() was called
+    std::string buffer_;  // heard, and not read yet
+    std::string proof_;   // goes before the next command; empty after the first
 };
 
 }  // namespace aquarama::console

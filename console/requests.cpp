@@ -110,7 +110,8 @@ std::string Console::ownMetrics(UnixSeconds now) const {
 HttpReply Console::look(const HttpRequest& request) {
     if (request.target == "/metrics")
         return {.type = "text/plain; version=0.0.4",
-                .body = metricsOf(wall_, server_->cutOff()) + ownMetrics(unixNow())};
+                .body = metricsOf(wall_, opening_.projectors(), server_->cutOff()) +
+                        ownMetrics(unixNow())};
     if (request.target == "/bundle.tar") {
         std::string events;
         const browser::EventList list = events_.list();

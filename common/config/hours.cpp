@@ -7,6 +7,10 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <utility>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
 
 #include "common/config/hours.pb.h"
 #include "common/config/rig.h"
@@ -101,27 +105,84 @@ ExceptionDay exceptionOf(const TextReader& file, const v1::ExceptionDay& in) {
     return day;
 }
 
-// Of "192.168.7.21:4352"; PJLink's own where none is named, 0 where it is no port.
-int portIn(const std::string& address) {
-    const std::size_t colon = address.find(':');
-    if (colon == std::string::npos) return kPjLinkPort;
+// "192.168.7.21:4352", "[fd00::21]:4352" or "fd00::21": what stands before the port, and the port;
+// PJLink's own where none is named, 0 where it is none.
+std::pair<std::string, int> hostAndPortIn(const std::string& address) {
     constexpr int kMostPort = 65535;
-    const auto port = numbersIn<1>(address.substr(colon + 1), ':');
-    return port && (*port)[0] <= kMostPort ? (*port)[0] : 0;
+    const bool isBracketed = address.starts_with('[') && address.find(']') != std::string::npos;
+    const std::size_t end = isBracketed ? address.find(']') + 1 : address.find(':');
+    const bool isBare = !isBracketed && std::ranges::count(address, ':') > 1;
+    if (isBare || end >= address.size())
+        return {isBracketed ? address.substr(1, end - 2) : address, kPjLinkPort};
+    const std::string host = isBracketed ? address.substr(1, end - 2) : address.substr(0, end);
+    const auto port = numbersIn<1>(address.substr(end + 1), ':');
+    const bool isPort = address[end] == ':' && port && (*port)[0] <= kMostPort;
+    return {host, isPort ? (*port)[0] : 0};
 }
 
-// A projector is named by number: names mean anything to a resolver.
-ControlledProjector projectorOf(const TextReader& file, const v1::ControlledProjector& in) {
-    ControlledProjector projector{in.name(),
-                                  in.address().substr(0, in.address().find(':')),
-                                  in.password(),
-                                  portIn(in.address())};
-    if (!numbersIn<4>(projector.host, '.') || projector.port == 0)
-        file.refuse(in, "address", "address is a number, as 192.168.7.21 or 192.168.7.21:4352");
-    constexpr std::size_t kLongestPassword = 32;  // of PJLink
-    if (in.password().size() > kLongestPassword)
+// Whether one machine can have it: no network, no group, none of one cable alone.
+bool isOfAMachine(const in_addr& address) {
+    const unsigned first = ntohl(address.s_addr) >> 24U;
+    constexpr unsigned kFirstGroup = 224;
+    return first > 0 && first < kFirstGroup;
+}
+bool isOfAMachine(const in6_addr& address) {
+    return !IN6_IS_ADDR_UNSPECIFIED(&address) && !IN6_IS_ADDR_MULTICAST(&address) &&
+           !IN6_IS_ADDR_LINKLOCAL(&address);
+}
+
+// An address in its shortest form, so that equal ones are equal texts; empty where it is none.
+std::string shortestHost(const std::string& host) {
+    std::array<char, INET6_ADDRSTRLEN> text{};
+    in_addr four{};
+    in6_addr six{};
+    if (inet_pton(AF_INET, host.c_str(), &four) == 1 && isOfAMachine(four))
+        return inet_ntop(AF_INET, &four, text.data(), text.size());
+    if (inet_pton(AF_INET6, host.c_str(), &six) == 1 && isOfAMachine(six))
+        return inet_ntop(AF_INET6, &six, text.data(), text.size());
+    return {};
+}
+
+// The code of an input in capitals; empty where it is none. Class 1 has digits, class 2 letters
+// too.
+std::string inputCodeIn(std::string text) {
+    if (text.size() != 2 || text[0] < '1' || text[0] > '6') return {};
+    if (text[1] >= 'a' && text[1] <= 'z') text[1] = static_cast<char>(text[1] - 'a' + 'A');
+    const bool isCode = (text[1] >= '1' && text[1] <= '9') || (text[1] >= 'A' && text[1] <= 'Z');
+    return isCode ? text : std::string{};
+}
+
+// Of PJLink: 32 bytes at most, of ASCII.
+void checkPassword(const TextReader& file, const v1::ControlledProjector& in) {
+    constexpr std::size_t kLongest = 32;
+    if (in.password().size() > kLongest)
         file.refuse(in, "password", "a password of PJLink has at most 32 letters");
-    return projector;
+    if (!std::ranges::all_of(in.password(), [](char c) { return c > ' ' && c <= '~'; }))
+        file.refuse(in,
+                    "password",
+                    "a password of PJLink has letters without accents, digits and signs: give the "
+                    "projector another");
+}
+
+// A projector is named by number: to look a name up may take a minute.
+ControlledProjector projectorOf(const TextReader& file, const v1::ControlledProjector& in) {
+    const auto [host, port] = hostAndPortIn(in.address());
+    if (shortestHost(host).empty())
+        file.refuse(in,
+                    "address",
+                    "address is a number of one machine, as 192.168.7.21, 192.168.7.21:4352 or "
+                    "[fd00::21]:4352; \"" +
+                        in.address() + "\" is none, and names are not looked up");
+    if (port == 0) file.refuse(in, "address", "address is a number, and its port is 1 to 65535");
+    checkPassword(file, in);
+    const std::string input = inputCodeIn(in.input());
+    if (in.has_input() && input.empty())
+        file.refuse(in,
+                    "input",
+                    "input \"" + in.input() +
+                        "\" is no code of PJLink: write 31 to 39 for HDMI, DVI and SDI, 11 to 19 "
+                        "for RGB, 51 to 59 for network, as the projector's manual has them");
+    return {in.name(), shortestHost(host), in.password(), port, input};
 }
 
 // Whether a day's span holds at a minute that may be of the day after it, from 1440 on.
@@ -155,6 +216,57 @@ CivilDate dayBefore(const CivilTime& now) {
     return {now.year, now.month - 1, days};
 }
 
+// A span of today goes before one of yesterday that has not ended.
+const OpenSpan* spanAt(const Hours& hours, const CivilTime& now) {
+    const OpenSpan* const span =
+        spanAt(hours, {now.year, now.month, now.day}, now.weekday, now.minute);
+    if (span != nullptr) return span;
+    const int weekdayBefore = now.weekday == 1 ? 7 : now.weekday - 1;
+    return spanAt(hours, dayBefore(now), weekdayBefore, now.minute + kMinutesOfDay);
+}
+
+// A zone's clock was put forward (or back, below 0) by so many seconds at a moment of Unix time.
+struct ClockChange {
+    long long at = 0;
+    long long seconds = 0;  // 0: it was not
+};
+
+// Seconds by which the clock of the process's zone is ahead of UTC.
+long long aheadOfUtc(long long unixSeconds) {
+    const auto moment = static_cast<std::time_t>(unixSeconds);
+    std::tm local{};
+    localtime_r(&moment, &local);
+    return local.tm_gmtoff;
+}
+
+// The last change of the three hours until `now`: no zone puts its clock on by more than two.
+ClockChange changeBefore(const std::string& zone, long long now) {
+    constexpr long long kBack = 3 * 3600;
+    static_cast<void>(civilTime(zone, now));  // the process's zone from here on
+    long long before = now - kBack, after = now;
+    const long long seconds = aheadOfUtc(after) - aheadOfUtc(before);
+    if (seconds == 0) return {};
+    while (after - before > 1) {
+        const long long middle = before + (after - before) / 2;
+        (aheadOfUtc(middle) == aheadOfUtc(now) ? after : before) = middle;
+    }
+    return {after, seconds};
+}
+
+// A span that lies wholly in what the clock has left out just now, seen as if it had not.
+const OpenSpan* leftOutSpanAt(const Hours& hours, long long now, const ClockChange& change) {
+    constexpr int kSecondsOfMinute = 60;
+    const int leftOut = static_cast<int>(change.seconds / kSecondsOfMinute);
+    CivilTime then = civilTime(hours.zone, now);
+    if (now - change.at >= change.seconds || then.minute < leftOut) return nullptr;
+    const int end = civilTime(hours.zone, change.at).minute;
+    then.minute -= leftOut;
+    const OpenSpan* const span =
+        spanAt(hours, {then.year, then.month, then.day}, then.weekday, then.minute);
+    const bool isLeftOut = span != nullptr && span->from >= end - leftOut && span->to <= end;
+    return isLeftOut ? span : nullptr;
+}
+
 }  // namespace
 
 namespace {
@@ -166,6 +278,22 @@ void takeExceptions(const TextReader& file, const v1::Hours& in, Hours& hours) {
         if (std::ranges::count(hours.exceptions, exception.date, &ExceptionDay::date) > 0)
             file.refuse(day, "date", "the day is there already: put its spans together");
         hours.exceptions.push_back(std::move(exception));
+    }
+}
+
+// Two of one name or address would be switched as one, or each against the other.
+void takeProjectors(const TextReader& file, const v1::Hours& in, Hours& hours) {
+    for (const v1::ControlledProjector& one : in.projectors()) {
+        const ControlledProjector projector = projectorOf(file, one);
+        for (const ControlledProjector& other : hours.projectors) {
+            if (other.name == projector.name)
+                file.refuse(one, "name", "there is a projector of that name already: give another");
+            if (addressOf(other) == addressOf(projector))
+                file.refuse(one,
+                            "address",
+                            "projector " + other.name + " has that address already: remove one");
+        }
+        hours.projectors.push_back(projector);
     }
 }
 
@@ -186,9 +314,15 @@ Hours parseHours(const std::string& text, const std::string& source) {
         hours.open.push_back(spanOf(file, span));
     }
     takeExceptions(file, in, hours);
-    for (const v1::ControlledProjector& projector : in.projectors())
-        hours.projectors.push_back(projectorOf(file, projector));
+    takeProjectors(file, in, hours);
     return hours;
+}
+
+// An IPv6 address stands in brackets before its port.
+std::string addressOf(const ControlledProjector& projector) {
+    const bool isSix = projector.host.find(':') != std::string::npos;
+    return (isSix ? "[" + projector.host + "]" : projector.host) + ":" +
+           std::to_string(projector.port);
 }
 
 // A name of the system's list; no path that leads out of it.
@@ -218,14 +352,14 @@ CivilTime civilTime(const std::string& zone, long long unixSeconds) {
             60 * local.tm_hour + local.tm_min};
 }
 
-// A span of today goes before one of yesterday that has not ended.
-WantedHours wantedAt(const Hours& hours, const CivilTime& now) {
-    const OpenSpan* span = spanAt(hours, {now.year, now.month, now.day}, now.weekday, now.minute);
-    if (span == nullptr)
-        span = spanAt(hours,
-                      dayBefore(now),
-                      now.weekday == 1 ? 7 : now.weekday - 1,
-                      now.minute + kMinutesOfDay);
+// Asked at any moment of a minute: changes of clocks are at whole minutes. While a time comes the
+// second time, the clock of the hours stands at its last minute before.
+WantedHours wantedAt(const Hours& hours, long long unixSeconds) {
+    const ClockChange change = changeBefore(hours.zone, unixSeconds);
+    const bool comesAgain = unixSeconds - change.at < -change.seconds;
+    const CivilTime now = civilTime(hours.zone, comesAgain ? change.at - 1 : unixSeconds);
+    const OpenSpan* span = spanAt(hours, now);
+    if (span == nullptr && change.seconds > 0) span = leftOutSpanAt(hours, unixSeconds, change);
     if (span == nullptr) return {};
     return {true, span->scene, span->quality};
 }

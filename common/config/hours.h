@@ -35,9 +35,12 @@ struct ExceptionDay {
 
 // A projector that PJLink switches.
 struct ControlledProjector {
-    std::string name, host, password;
+    std::string name, host, password;  // the host as a number, in its shortest form
     int port = 0;
+    std::string input = {};  // "31", "3A"; empty: as it was
 };
+// "192.168.7.21:4352", "[fd00::21]:4352"
+[[nodiscard]] std::string addressOf(const ControlledProjector& projector);
 
 struct Hours {
     std::string zone;
@@ -58,11 +61,14 @@ struct WantedHours {
 [[nodiscard]] Hours parseHours(const std::string& text, const std::string& source);
 
 // The clock of a zone at a moment of Unix time. Changes the process's idea of local time: one
-// thread calls it. A zone that the system does not know is UTC.
+// thread calls it, and what follows. A zone that the system does not know is UTC.
 [[nodiscard]] CivilTime civilTime(const std::string& zone, long long unixSeconds);
 [[nodiscard]] bool isZone(const std::string& zone);
 
 // A function of the calendar and the clock alone: whoever asks at whatever moment gets the same.
-[[nodiscard]] WantedHours wantedAt(const Hours& hours, const CivilTime& now);
+// Where the clock is put back, a time that comes twice counts when it first comes; where it is put
+// forward, a time that does not come counts at that moment, and a span that lies wholly in what
+// is left out is as much later as the clock was put forward.
+[[nodiscard]] WantedHours wantedAt(const Hours& hours, long long unixSeconds);
 
 }  // namespace aquarama::config

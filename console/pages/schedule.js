@@ -47,7 +47,7 @@ export function textOf(form) {
   form.projectors.forEach((one, i) => {
     at(`projectors.${i}.name`, 'projectors {');
     for (const name of ['name', 'address']) at(`projectors.${i}.${name}`, ` ${name}: ${quoted(one[name])}`);
-    put(`projectors.${i}`, one, ['password']);
+    put(`projectors.${i}`, one, ['password', 'input']);
     line += ' }';
     end();
   });
@@ -162,8 +162,9 @@ function hoursForm(link) {
     <h2>${t('projector.title')}</h2><p class="note">${t('hours.projectorNote')}</p>
     <ol class="spans">${now.projectors.map((one, i) => html`<li>${write(link, wrong, one, 'name', `projectors.${i}.name`, t('projector.name'))}
       ${write(link, wrong, one, 'address', `projectors.${i}.address`, t('projector.address'))}
+      ${write(link, wrong, one, 'input', `projectors.${i}.input`, t('projector.inputCode'))}
       ${isCrew ? write(link, wrong, one, 'password', `projectors.${i}.password`, t('projector.password')) : nothing}${remove(link, `projectors.${i}`, 'projector')}</li>`)}</ol>
-    <div class="row">${add(link, t('hours.addProjector'), form => form.projectors.push({name: '', address: '', password: ''}))}</div>
+    <div class="row">${add(link, t('hours.addProjector'), form => form.projectors.push({name: '', address: '', password: '', input: ''}))}</div>
     <h2>${t('hours.clock')}</h2>${write(link, wrong, now, 'zone', 'zone', t('hours.zone'))}
     ${wrong && !wrong.field ? html`<p class="bad" role="alert">✖ ${wrong.what}</p>` : nothing}
     <div class="row save"><button class="primary" ?disabled=${!isCrew || (form === null && link.known.hours?.present)} @click=${() => save(link)}>${t('hours.save')}</button>
@@ -177,7 +178,7 @@ function asText(link) {
   const kept = link.known.hours?.text ?? '';
   if (textDraft === kept) textDraft = null;  // saved
   const write = event => { textDraft = event.target.value; redraw(link); };
-  return html`<section class="panel"><details><summary>${t('hours.text')}</summary>
+  return html`<section class="panel"><details ?open=${Boolean(link.known.hours?.problem)}><summary>${t('hours.text')}</summary>
     <textarea id="hours" rows="10" spellcheck="false" aria-label=${t('hours.text')} ?readonly=${!link.may('CREW')} .value=${textDraft ?? kept} @input=${write}></textarea>
     <div class="row">${button(t('hours.saveText'), () => link.command({hoursText: textDraft}, t('hours.saveText')), {disabled: !link.may('CREW') || textDraft === null})}</div>
     <p class="note">${t('hours.textNote')}</p></details></section>`;
@@ -191,30 +192,42 @@ function standing(link) {
   const next = t(`hours.${hours.next ?? 'stays'}`, {at: hours.nextAt, scene: hours.nextScene ? word(hours.nextScene) : t('hours.sceneAsItWas')});
   return html`<section class="panel"><h2>${t('page.schedule')}</h2>
     <p role="status">${held ? html`<strong class="warn">▲ ${t('hours.held', {time: time(link.wall.heldUntilS)})}</strong>`
+      : hours.problem ? html`<strong class="bad">✖ ${t('hours.unreadable')}</strong> ${hours.problem}`
       : hours.present ? html`<strong class=${hours.open ? 'good' : 'quiet'}>${hours.open ? '●' : '○'} ${t(hours.open ? 'hours.isOpen' : link.wall.black ? 'hours.isClosed' : 'hours.isLitByHand')}</strong> ${next}` : t('hours.none')}</p>
     <div class="row">${held ? button(t('hours.goOn'), () => link.command({holdHours: 0}, t('hours.goOn')), {disabled: !link.may('OPERATOR')})
       : button(t('hours.hold'), () => link.command({holdHours: 2}, t('hours.hold')), {disabled: !link.may('OPERATOR')})}<span class="note">${t('hours.holdNote')}</span></div></section>`;
 }
 const SHAPES = {on: ['●', 'good'], off: ['○', 'quiet']};
+// What is unknown stands there as such, and both ways are offered.
+const unknown = () => html`<span class="warn">▲ ${word('unknown')}</span>`;
+const inputOf = one => {
+  if (!one.wantedInput) return '–';
+  return one.input === 'unknown' ? unknown() : one.input === one.wantedInput ? one.input : html`<span class="warn">▲ ${t('projector.otherInput', {is: one.input, wanted: one.wantedInput})}</span>`;
+};
 const projectorRow = link => one => {
-  const [shape, kind] = SHAPES[one.power] ?? ['▲', 'warn'];
-  return html`<tr><th scope="row">${one.name}</th><td data-head=${t('projector.power')}><span class=${kind}>${shape} ${word(one.power)}</span></td>
-  <td data-head=${t('projector.shutter')}>${t(one.shut ? 'projector.isShut' : 'projector.isOpen')}</td><td class="n" data-head=${t('projector.lamp')}>${t('projector.hours', {n: one.lampHours})}</td>
-  <td data-head=${t('projector.problems')} class=${one.problems?.length ? 'bad' : ''}>${(one.problems ?? []).join(', ') || '–'}</td>
-  <td data-head=""><div class="row">${holdButton(t(one.shut ? 'projector.open' : 'projector.shut'), () => link.command({projector: {name: one.name, shut: !one.shut}}, one.name), {disabled: !link.may('CREW')})}
-    ${holdButton(t(one.power === 'on' ? 'projector.off' : 'projector.on'), () => link.command({projector: {name: one.name, power: one.power !== 'on'}}, one.name), {disabled: !link.may('CREW')})}</div></td></tr>`;
+  const state = one.reach === 'answers' ? one.power : one.reach;
+  const [shape, kind] = SHAPES[state] ?? ['▲', 'warn'];
+  const shutter = one.shut === undefined ? unknown() : t(one.shut ? 'projector.isShut' : 'projector.isOpen');
+  const lamp = one.lampHours === undefined ? unknown() : t('projector.hours', {n: one.lampHours});
+  const problems = one.problems?.length ? one.problems.join(', ') : one.tellsProblems ? '–' : unknown();
+  const command = (label, wanted) => holdButton(t(label), () => link.command({projector: {name: one.name, ...wanted}}, one.name), {disabled: !link.may('CREW')});
+  return html`<tr><th scope="row">${one.name}</th><td data-head=${t('projector.power')}><span class=${kind}>${shape} ${word(state)}</span></td>
+  <td data-head=${t('projector.shutter')}>${shutter}</td><td data-head=${t('projector.input')}>${inputOf(one)}</td><td class="n" data-head=${t('projector.lamp')}>${lamp}</td>
+  <td data-head=${t('projector.problems')} class=${one.problems?.length ? 'bad' : ''}>${problems}</td>
+  <td data-head=""><div class="row">${one.shut !== false ? command('projector.open', {shut: false}) : nothing}${one.shut !== true ? command('projector.shut', {shut: true}) : nothing}
+    ${one.power !== 'on' ? command('projector.on', {power: true}) : nothing}${!['off', 'cooling'].includes(one.power) ? command('projector.off', {power: false}) : nothing}</div></td></tr>`;
 };
 function projectors(link) {
   const list = link.known.projectors?.projectors ?? [];
   if (!list.length) return nothing;
   const all = (label, wanted) => holdButton(label, () => link.command({projector: wanted}, label), {disabled: !link.may('CREW'), of: 'all'});
   return html`<section class="panel"><div class="scroll" tabindex="0" role="region" aria-label=${t('projector.title')}><table class="cards"><caption>${t('projector.title')}</caption>
-    <thead><tr><th scope="col">${t('projector.name')}</th>${['power', 'shutter', 'lamp', 'problems'].map(name => html`<th scope="col" class=${name === 'lamp' ? 'n' : ''}>${t(`projector.${name}`)}</th>`)}<td></td></tr></thead>
+    <thead><tr><th scope="col">${t('projector.name')}</th>${['power', 'shutter', 'input', 'lamp', 'problems'].map(name => html`<th scope="col" class=${name === 'lamp' ? 'n' : ''}>${t(`projector.${name}`)}</th>`)}<td></td></tr></thead>
     <tbody>${list.map(projectorRow(link))}</tbody></table></div>
     <div class="row">${all(t('projector.allOn'), {power: true})}${all(t('projector.allOff'), {power: false})}${all(t('projector.allShut'), {shut: true})}${all(t('projector.allOpen'), {shut: false})}</div></section>`;
 }
 
 export const schedulePage = {
   look: () => ({topics: ['hours']}),
-  view: link => html`${standing(link)}${projectors(link)}${hoursForm(link)}${link.role === 'CREW' ? asText(link) : nothing}`,
+  view: link => html`${standing(link)}${projectors(link)}${link.known.hours?.problem ? nothing : hoursForm(link)}${link.role === 'CREW' ? asText(link) : nothing}`,
 };

@@ -2,12 +2,14 @@
 #include "console/opening.h"
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "common/base/log.h"
+#include "console/overview.h"
 
 namespace aquarama::console {
 namespace {
@@ -125,6 +127,111 @@ TEST_F(OpeningTest, aTextWithAMistakeChangesNothing) {
     EXPECT_EQ(Opening(folder_).hours(kTen).text(), kText);
     opening.setText("");
     EXPECT_FALSE(Opening(folder_).hours(kTen).present());
+}
+
+// A projector that only notes what is wanted of it.
+struct Noted final : SwitchedProjector {
+    void want(std::optional<bool> power, std::optional<bool> shut) override {
+        if (power) wanted += *power ? "on " : "off ";
+        if (shut) wanted += *shut ? "shut " : "open ";
+    }
+    void release() override { wanted += "rest "; }
+    [[nodiscard]] ProjectorFacts facts() const override { return known; }
+    ProjectorFacts known = {};
+    std::string wanted;
+};
+
+class OpeningOfProjectors : public OpeningTest {
+  protected:
+    Opening openingWith(const std::string& text) {
+        noted_.clear();
+        Opening opening(folder_, [this](const config::ControlledProjector&) {
+            auto made = std::make_unique<Noted>();
+            noted_.push_back(made.get());
+            return made;
+        });
+        opening.setText(text);
+        return opening;
+    }
+    std::vector<Noted*> noted_;
+    const std::string text_ = kText +
+                              "projectors { name: \"left\" address: \"10.0.0.1\" }\n"
+                              "projectors { name: \"right\" address: \"10.0.0.2\" }\n";
+};
+
+// Unknown is not on: their shutters wait for it, but not for ever.
+TEST_F(OpeningOfProjectors, aLampThatDoesNotTellIsWaitedForThreeMinutes) {
+    Opening opening = openingWith(text_);
+    noted_[0]->known = {.reach = ProjectorReach::Answers, .power = LampPower::On};
+    noted_[1]->known = {.reach = ProjectorReach::Answers, .power = LampPower::Unknown};
+    opening.done({});
+    for (double t = -200; t <= 200; ++t) opening.switchProjectors(kTen + t, true);
+    EXPECT_EQ(noted_[0]->wanted, "off shut on shut on open ");
+    EXPECT_EQ(noted_[1]->wanted, noted_[0]->wanted);
+}
+
+// A console that is started again in the evening leaves shutters as they are.
+TEST_F(OpeningOfProjectors, aStartWhileTheWallIsOpenShutsNothing) {
+    Opening opening = openingWith(text_);
+    opening.done(*opening.due(kTen + kHour));
+    opening.switchProjectors(kTen + kHour, true);
+    EXPECT_EQ(noted_[0]->wanted, "on ") << "before it was asked, its shutter is left alone";
+    noted_[0]->known = {.reach = ProjectorReach::Answers, .power = LampPower::On, .isShut = false};
+    noted_[1]->known = {.reach = ProjectorReach::NoAnswer};
+    opening.switchProjectors(kTen + kHour + 1, true);
+    EXPECT_EQ(noted_[0]->wanted, "on on open ");
+}
+
+TEST_F(OpeningOfProjectors, whileTheScheduleIsHeldNothingIsWantedOfThem) {
+    Opening opening = openingWith(text_);
+    noted_[0]->known =
+        noted_[1]->known = {.reach = ProjectorReach::Answers, .power = LampPower::On};
+    opening.done(*opening.due(kTen));
+    opening.switchProjectors(kTen, true);
+    opening.hold(1, kTen);
+    for (double t = 1; t < 10; ++t) opening.switchProjectors(kTen + t, true);
+    opening.hold(0, kTen + 10);
+    opening.switchProjectors(kTen + 10, true);
+    EXPECT_EQ(noted_[0]->wanted, "on open rest on open ");
+}
+
+TEST_F(OpeningOfProjectors, whatIsUnknownIsLeftOutOfTheList) {
+    const Opening opening = openingWith(text_);
+    noted_[1]->known = {
+        .reach = ProjectorReach::Answers, .power = LampPower::On, .isShut = false, .lampHours = 0};
+    browser::ToBrowser message;
+    *message.mutable_projectors() = opening.projectors();
+    const std::string json = jsonOf(message);
+    const std::string left = json.substr(0, json.find("right"));
+    EXPECT_EQ(left.find("shut"), std::string::npos) << left;
+    EXPECT_EQ(left.find("lampHours"), std::string::npos) << left;
+    EXPECT_NE(left.find(R"("power":"unknown")"), std::string::npos) << left;
+    EXPECT_NE(left.find(R"("reach":"not asked yet")"), std::string::npos) << left;
+    const std::string right = json.substr(json.find("right"));
+    EXPECT_NE(right.find(R"("shut":false)"), std::string::npos) << right;
+    EXPECT_NE(right.find(R"("lampHours":0)"), std::string::npos) << right;
+}
+
+// What was kept and cannot be read is said with its place, and can be mended.
+TEST_F(OpeningTest, hoursThatCannotBeReadAreKeptAndSayWhy) {
+    std::ofstream(folder_ / "hours.txtpb") << "zone: \"Europe/Berlin\"\nopne {}\n";
+    Opening opening(folder_);
+    const browser::Hours hours = opening.hours(kTen);
+    EXPECT_FALSE(hours.present());
+    EXPECT_TRUE(hours.problem().starts_with("hours.txtpb:2:")) << hours.problem();
+    EXPECT_NE(hours.text().find("opne"), std::string::npos);
+    opening.setText(kText);
+    EXPECT_EQ(opening.hours(kTen).problem(), "");
+    EXPECT_TRUE(opening.hours(kTen).present());
+}
+
+// Hours do not depend on what was noted beside them.
+TEST_F(OpeningTest, aDamagedNoteOfWhatWasDoneLosesNoHours) {
+    Opening(folder_).setText(kText);
+    std::ofstream(folder_ / "opening.json") << "{\"held_until\": ";
+    const Opening opening(folder_);
+    EXPECT_TRUE(opening.hours(kTen).present());
+    EXPECT_TRUE(opening.due(kTen));
 }
 
 }  // namespace

@@ -133,5 +133,79 @@ TEST(Overview, whatChangesIsSaidInWords) {
     EXPECT_TRUE(changesOf(before, before).empty());
 }
 
+browser::ProjectorList listOf(const std::string& reach, const std::string& power) {
+    browser::ProjectorList list;
+    browser::ProjectorState& one = *list.add_projectors();
+    one.set_name("left");
+    one.set_reach(reach);
+    one.set_power(power);
+    return list;
+}
+
+TEST(Overview, ofAProjectorWhatIsKnownToBeWrongIsAFault) {
+    const auto faultOf = [](const std::string& reach, const std::string& power, bool wanted) {
+        browser::ProjectorList list = listOf(reach, power);
+        list.mutable_projectors(0)->set_wanted_power(wanted);
+        const auto faults = faultsOf(list);
+        return faults.empty() ? "" : faults[0].text.substr(0, faults[0].text.find(':'));
+    };
+    EXPECT_EQ(faultOf("answers", "on", true), "");
+    EXPECT_EQ(faultOf("answers", "off", true), "projector left is off, and should be on");
+    EXPECT_EQ(faultOf("answers", "on", false), "projector left is on, and should be off");
+    EXPECT_EQ(faultOf("answers", "unknown", true), "");
+    EXPECT_EQ(faultOf("answers", "unknown", false), "") << "unknown is neither";
+    EXPECT_EQ(faultOf("not asked yet", "unknown", true), "");
+    EXPECT_EQ(faultOf("no answer", "unknown", true), "projector left does not answer");
+    EXPECT_EQ(faultOf("refuses the password", "unknown", true),
+              "projector left refuses the password");
+    EXPECT_EQ(faultOf("wants a password", "unknown", true), "projector left wants a password");
+    browser::ProjectorList broken = listOf("answers", "on");
+    broken.mutable_projectors(0)->add_problems("lamp: error");
+    EXPECT_EQ(faultsOf(broken).at(0).text, "projector left: lamp: error");
+}
+
+TEST(Overview, figuresOfProjectorsHaveNoSampleForWhatIsUnknown) {
+    const auto figuresOf = [](const browser::ProjectorList& list) {
+        const std::string text = metricsOf({}, list, 0);
+        const std::size_t at = text.find("aquarama_console_projector");
+        return at == std::string::npos ? "" : text.substr(at);
+    };
+    EXPECT_EQ(figuresOf({}), "");
+    EXPECT_EQ(figuresOf(listOf("no answer", "unknown")),
+              "aquarama_console_projector_answers{projector=\"left\"} 0\n");
+    browser::ProjectorList list = listOf("answers", "off");
+    list.mutable_projectors(0)->set_name("a \"b\"\\");
+    list.mutable_projectors(0)->set_shut(false);
+    list.mutable_projectors(0)->set_lamp_hours(7);
+    list.mutable_projectors(0)->set_tells_problems(true);
+    const std::string label = R"({projector="a \"b\"\\"} )";
+    EXPECT_EQ(figuresOf(list),
+              "aquarama_console_projector_answers" + label + "1\naquarama_console_projector_on" +
+                  label + "0\naquarama_console_projector_shut" + label +
+                  "0\naquarama_console_projector_lamp_hours" + label +
+                  "7\naquarama_console_projector_problems" + label + "0\n");
+}
+
+TEST(Overview, whatProjectorsComeToIsToldOnceItHolds) {
+    ProjectorBook book;
+    const auto told = [&](const browser::ProjectorList& list, double from, double to) {
+        std::string lines;
+        for (double now = from; now < to; ++now)
+            for (const auto& [who, what] : book.update(list, now))
+                lines += who + ": " + what + "; ";
+        return lines;
+    };
+    EXPECT_EQ(told(listOf("not asked yet", "unknown"), 0, 100), "");
+    EXPECT_EQ(told(listOf("answers", "off"), 100, 200), "projector left: power off; ");
+    EXPECT_EQ(told(listOf("answers", "unknown"), 200, 210), "") << "for a moment";
+    EXPECT_EQ(told(listOf("answers", "off"), 210, 300), "");
+    EXPECT_EQ(told(listOf("answers", "unknown"), 300, 400), "projector left: power unknown; ");
+    browser::ProjectorList lit = listOf("answers", "on");
+    EXPECT_EQ(told(lit, 400, 500), "projector left: power on, shutter unknown; ");
+    lit.mutable_projectors(0)->set_shut(true);
+    EXPECT_EQ(told(lit, 500, 600), "projector left: power on, shut; ");
+    EXPECT_EQ(told(listOf("no answer", "unknown"), 600, 700), "projector left: no answer; ");
+}
+
 }  // namespace
 }  // namespace aquarama::console

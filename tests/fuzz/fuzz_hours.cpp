@@ -17,7 +17,7 @@ int fuzzHours(const std::uint8_t* bytes, std::size_t size) {
                     "a span ends after it begins, on the next day at the latest");
             promise(!span.weekdays.empty(), "a span has days");
         }
-        static_cast<void>(config::wantedAt(hours, {}));
+        static_cast<void>(config::wantedAt(hours, 0LL));
     } catch (const Error& error) {
         promise(std::string(error.what()).starts_with("fuzzed"), "an error names its source");
     }

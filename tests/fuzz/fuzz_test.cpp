@@ -124,8 +124,15 @@ TEST(Fuzz, whatBrowsersSayIsRefusedOrReadWithinBounds) {
 
 TEST(Fuzz, whatProjectorsSayIsRefusedOrReadWithinBounds) {
     std::vector<FuzzInput> seeds;
-    for (const std::string text :
-         {"PJLINK 1 498e4a67", "PJLINK 0", "%1POWR=1", "%1LAMP=1234 1 5678 0", "%1ERST=012000"})
+    for (const std::string text : {"PJLINK 1 498e4a67",
+                                   "pjlink 0",
+                                   "%1POWR=1",
+                                   "%1lamp=1234 1 5678 0",
+                                   "%2ERST=012000",
+                                   "012000",
+                                   "1",
+                                   "30",
+                                   "ERR3"})
         seeds.push_back(inputOf(std::as_bytes(std::span{text})));
     feed(fuzzPjlink, seeds, 20000);
 }

@@ -2,6 +2,7 @@
 #include "common/config/hours.h"
 
 #include <array>
+#include <cstdio>
 #include <map>
 #include <random>
 #include <string>
@@ -25,7 +26,7 @@ const std::string kDaily =
     "to: \"18:00\" scene: \"reef\" quality: \"high\" }\n";
 
 WantedHours at(const Hours& hours, long long unixSeconds) {
-    return wantedAt(hours, civilTime(hours.zone, unixSeconds));
+    return wantedAt(hours, unixSeconds);
 }
 
 // How many minutes of each local day of the year it is open, by "month-day".
@@ -34,7 +35,7 @@ std::map<std::string, int> openMinutes(const Hours& hours) {
     for (long long t = kNewYear2026; t < kNewYear2026 + 365 * kDay; t += kMinute) {
         const CivilTime civil = civilTime(hours.zone, t);
         int& minutes = open[std::to_string(civil.month) + "-" + std::to_string(civil.day)];
-        if (wantedAt(hours, civil).isOpen) ++minutes;
+        if (at(hours, t).isOpen) ++minutes;
     }
     return open;
 }
@@ -61,11 +62,169 @@ TEST(Hours, aSpanMayEndOnTheNextDayAlsoAcrossAChangeAndAMonth) {
     EXPECT_EQ(open.at("2-28"), 120);
     EXPECT_EQ(open.at("3-1"), 150);
     EXPECT_EQ(open.at("3-29"), 120) << "half past two does not come";
-    EXPECT_EQ(open.at("10-25"), 180) << "it comes twice";
+    EXPECT_EQ(open.at("10-25"), 150) << "it comes twice, and counts when it first comes";
     EXPECT_EQ(open.at("3-2"), 0);
     const auto newYear =
         openMinutes(hoursOf("open { days: [WEDNESDAY] from: \"22:00\" to: \"02:30\" }"));
     EXPECT_EQ(newYear.at("1-1"), 150) << "since the last day of the year before";
+}
+
+// When the wall opens and closes by the clocks of the hall, "03:00 opens", over a night of Unix
+// time. A time that comes twice is followed by a second letter.
+std::string nightOf(const std::string& zone, const std::string& span, long long from) {
+    const std::string days =
+        "days: [MONDAY, TUESDAY, WEDNESDAY, THURSDAY, FRIDAY, SATURDAY, SUNDAY]";
+    const Hours hours =
+        parseHours("zone: \"" + zone + "\" open { " + days + " " + span + " }", "hours.txtpb");
+    std::string said;
+    std::map<int, int> times;
+    for (long long t = from; t < from + 8 * kHour; t += kMinute) {
+        const int minute = civilTime(zone, t).minute;
+        const bool isSecond = times[minute]++ > 0;
+        if (at(hours, t).isOpen == at(hours, t - kMinute).isOpen) continue;
+        char clock[16];
+        snprintf(clock, sizeof clock, "%02d:%02d", minute / 60, minute % 60);
+        said += std::string(said.empty() ? "" : " ") + clock + (isSecond ? "b" : "") +
+                (at(hours, t).isOpen ? " opens" : " closes");
+    }
+    return said;
+}
+
+// The nights in which clocks are changed, from 22:00 of the day before (UTC).
+struct Change {
+    const char* zone;
+    long long forward, back;  // Unix time of the night's beginning
+};
+
+// From, to; and what comes of it in an ordinary night, when clocks go forward, and when they go
+// back.
+struct Outcome {
+    const char *span, *ordinary, *forward, *back;
+};
+
+void expectOutcomes(const Change& change, const std::vector<Outcome>& outcomes) {
+    for (const auto& [span, ordinary, forward, back] : outcomes) {
+        EXPECT_EQ(nightOf(change.zone, span, change.forward - 3 * kDay), ordinary)
+            << change.zone << ", an ordinary night: " << span;
+        EXPECT_EQ(nightOf(change.zone, span, change.forward), forward)
+            << change.zone << ", clocks go forward: " << span;
+        EXPECT_EQ(nightOf(change.zone, span, change.back), back)
+            << change.zone << ", clocks go back: " << span;
+    }
+}
+
+// What each span of a table comes to where 02:00 to 03:00 is left out, or comes twice.
+const std::vector<Outcome> kWholeHour{
+    {"from: \"00:30\" to: \"05:00\"",
+     "00:30 opens 05:00 closes",
+     "00:30 opens 05:00 closes",
+     "00:30 opens 05:00 closes"},
+    // Ends in it.
+    {"from: \"01:00\" to: \"02:30\"",
+     "01:00 opens 02:30 closes",
+     "01:00 opens 03:00 closes",
+     "01:00 opens 02:30 closes"},
+    {"from: \"01:00\" to: \"02:00\"",
+     "01:00 opens 02:00 closes",
+     "01:00 opens 03:00 closes",
+     "01:00 opens 02:00 closes"},
+    {"from: \"01:00\" to: \"03:00\"",
+     "01:00 opens 03:00 closes",
+     "01:00 opens 03:00 closes",
+     "01:00 opens 03:00 closes"},
+    // Begins in it.
+    {"from: \"02:30\" to: \"04:00\"",
+     "02:30 opens 04:00 closes",
+     "03:00 opens 04:00 closes",
+     "02:30 opens 04:00 closes"},
+    {"from: \"02:00\" to: \"04:00\"",
+     "02:00 opens 04:00 closes",
+     "03:00 opens 04:00 closes",
+     "02:00 opens 04:00 closes"},
+    {"from: \"03:00\" to: \"04:00\"",
+     "03:00 opens 04:00 closes",
+     "03:00 opens 04:00 closes",
+     "03:00 opens 04:00 closes"},
+    // Lies wholly in it: an hour later.
+    {"from: \"02:10\" to: \"02:40\"",
+     "02:10 opens 02:40 closes",
+     "03:10 opens 03:40 closes",
+     "02:10 opens 02:40 closes"},
+    {"from: \"02:00\" to: \"03:00\"",
+     "02:00 opens 03:00 closes",
+     "03:00 opens 04:00 closes",
+     "02:00 opens 03:00 closes"},
+};
+
+// Moments of the tz database: Berlin 2026-03-29 and 10-25 at 01:00 UTC; New York 2026-03-08 at
+// 07:00 and 11-01 at 06:00 UTC; Sydney 2026-10-04 and 04-05 (2026-10-03, 04-04 16:00 UTC).
+TEST(Hours, overBothChangesOfSummerTimeNoOpeningOrClosingIsLostOrDoubled) {
+    expectOutcomes({"Europe/Berlin", 1774735200, 1792879200}, kWholeHour);
+    expectOutcomes({"Australia/Sydney", 1791028800, 1775304000}, kWholeHour);
+    // Its clock goes back at 02:00 to 01:00, so another hour comes twice.
+    std::vector<Outcome> newYork = kWholeHour;
+    newYork.push_back({"from: \"01:30\" to: \"01:45\"",
+                       "01:30 opens 01:45 closes",
+                       "01:30 opens 01:45 closes",
+                       "01:30 opens 01:45 closes"});
+    newYork.push_back({"from: \"01:30\" to: \"04:00\"",
+                       "01:30 opens 04:00 closes",
+                       "01:30 opens 04:00 closes",
+                       "01:30 opens 04:00 closes"});
+    newYork.push_back({"from: \"00:30\" to: \"01:15\"",
+                       "00:30 opens 01:15 closes",
+                       "00:30 opens 01:15 closes",
+                       "00:30 opens 01:15 closes"});
+    expectOutcomes({"America/New_York", 1772942400, 1793505600}, newYork);
+}
+
+// By half an hour: 02:00 becomes 02:30, and 02:00 becomes 01:30.
+TEST(Hours, aChangeOfHalfAnHourIsFollowedToo) {
+    expectOutcomes({"Australia/Lord_Howe", 1791027000, 1775302200},
+                   {{"from: \"02:05\" to: \"02:20\"",
+                     "02:05 opens 02:20 closes",
+                     "02:35 opens 02:50 closes",
+                     "02:05 opens 02:20 closes"},
+                    {"from: \"01:40\" to: \"01:50\"",
+                     "01:40 opens 01:50 closes",
+                     "01:40 opens 01:50 closes",
+                     "01:40 opens 01:50 closes"},
+                    {"from: \"01:45\" to: \"03:00\"",
+                     "01:45 opens 03:00 closes",
+                     "01:45 opens 03:00 closes",
+                     "01:45 opens 03:00 closes"},
+                    {"from: \"01:00\" to: \"02:10\"",
+                     "01:00 opens 02:10 closes",
+                     "01:00 opens 02:30 closes",
+                     "01:00 opens 02:10 closes"}});
+}
+
+// In Santiago the clock goes forward at midnight: the day begins at 01:00.
+TEST(Hours, aDayWithoutMidnightHasItsHours) {
+    constexpr long long kNight = 1788658200;  // 2026-09-06 01:30 UTC
+    const auto night = [&](const char* span) { return nightOf("America/Santiago", span, kNight); };
+    EXPECT_EQ(night("from: \"22:00\" to: \"24:00\""), "22:00 opens 01:00 closes");
+    EXPECT_EQ(night("from: \"00:10\" to: \"00:40\""), "01:10 opens 01:40 closes");
+    EXPECT_EQ(night("from: \"00:30\" to: \"02:00\""), "01:00 opens 02:00 closes");
+}
+
+// Each minute of a year: as often as there are days.
+TEST(Hours, inAYearEachSpanOpensAndClosesOnceADay) {
+    for (const char* const zone : {"Europe/Berlin", "America/New_York", "Australia/Lord_Howe"}) {
+        const std::string days =
+            "days: [MONDAY, TUESDAY, WEDNESDAY, THURSDAY, FRIDAY, SATURDAY, SUNDAY]";
+        const Hours hours = parseHours("zone: \"" + std::string(zone) + "\" open { " + days +
+                                           " from: \"01:40\" to: \"02:20\" }",
+                                       "hours.txtpb");
+        int openings = 0;
+        bool wasOpen = at(hours, kNewYear2026).isOpen;
+        for (long long t = kNewYear2026; t < kNewYear2026 + 365 * kDay; t += 5 * kMinute) {
+            const bool isOpen = at(hours, t).isOpen;
+            if (isOpen && !wasOpen) ++openings;
+            wasOpen = isOpen;
+        }
+        EXPECT_EQ(openings, 365) << zone;
+    }
 }
 
 // Whoever starts at whatever second, and however often, wants the same.
@@ -110,7 +269,7 @@ TEST(Hours, theClockIsThatOfTheZone) {
 }
 
 TEST(Hours, aMistakeIsNamedWithItsPlaceAndWhatToDo) {
-    const std::array<std::pair<const char*, const char*>, 11> kMistakes{{
+    const std::array<std::pair<const char*, const char*>, 33> kMistakes{{
         {"open { days: [MONDAY] from: \"25:00\" to: \"18:00\" }",
          "2:23: from \"25:00\" is no time"},
         {"open { days: [MONDAY] from: \"10:00\" to: \"1800\" }", "is no time"},
@@ -121,8 +280,42 @@ TEST(Hours, aMistakeIsNamedWithItsPlaceAndWhatToDo) {
         {"exceptions { date: \"2026-02-30\" }", "is no day"},
         {"exceptions { date: \"2026-01-01\" }\nexceptions { date: \"2026-01-01\" }",
          "there already"},
-        {"projectors { name: \"left\" address: \"left.local\" }", "address is a number"},
-        {"projectors { name: \"left\" address: \"192.168.7.21:99999\" }", "address is a number"},
+        {"projectors { name: \"left\" address: \"left.local\" }",
+         "2:27: address is a number of one machine"},
+        {"projectors { name: \"left\" address: \"192.168.7.300\" }", "address is a number"},
+        {"projectors { name: \"left\" address: \"192.168.7\" }", "address is a number"},
+        {"projectors { name: \"left\" address: \"192.168.007.021\" }", "address is a number"},
+        {"projectors { name: \"left\" address: \"0.0.0.0\" }", "address is a number"},
+        {"projectors { name: \"left\" address: \"255.255.255.255\" }", "address is a number"},
+        {"projectors { name: \"left\" address: \"224.0.0.1\" }", "address is a number"},
+        {"projectors { name: \"left\" address: \"fe80::1\" }", "address is a number"},
+        {"projectors { name: \"left\" address: \"[fd00::21\" }", "address is a number"},
+        {"projectors { name: \"left\" address: \"::\" }", "address is a number"},
+        {"projectors { name: \"left\" address: \" 192.168.7.21\" }", "address is a number"},
+        {"projectors { name: \"left\" address: \"192.168.7.21:99999\" }", "its port is 1 to 65535"},
+        {"projectors { name: \"left\" address: \"192.168.7.21:0\" }", "its port is 1 to 65535"},
+        {"projectors { name: \"left\" address: \"192.168.7.21:\" }", "its port is 1 to 65535"},
+        {"projectors { name: \"left\" address: \"[fd00::21]4352\" }", "its port is 1 to 65535"},
+        {"projectors { name: \"left\" address: \"[fd00::21]:x\" }", "its port is 1 to 65535"},
+        {"projectors { name: \"left\" address: \"10.0.0.1\" password: "
+         "\"123456789012345678901234567890123\" }",
+         "2:47: a password of PJLink has at most 32 letters"},
+        {"projectors { name: \"left\" address: \"10.0.0.1\" password: \"schl\303\274ssel\" }",
+         "letters without accents"},
+        {"projectors { name: \"left\" address: \"10.0.0.1\" password: \"a\\nb\" }",
+         "letters without accents"},
+        {"projectors { name: \"left\" address: \"10.0.0.1\" input: \"HDMI1\" }",
+         "2:47: input \"HDMI1\" is no code of PJLink"},
+        {"projectors { name: \"left\" address: \"10.0.0.1\" input: \"30\" }", "no code of PJLink"},
+        {"projectors { name: \"left\" address: \"10.0.0.1\" }\n"
+         "projectors { name: \"right\" address: \"10.0.0.1:4352\" }",
+         "3:28: projector left has that address already"},
+        {"projectors { name: \"left\" address: \"fd00::1\" }\n"
+         "projectors { name: \"right\" address: \"[FD00:0::1]:4352\" }",
+         "projector left has that address already"},
+        {"projectors { name: \"left\" address: \"10.0.0.1\" }\n"
+         "projectors { name: \"left\" address: \"10.0.0.2\" }",
+         "3:14: there is a projector of that name already"},
         {"opne { }", "no field named"},
     }};
     for (const auto& [text, why] : kMistakes) {
@@ -137,8 +330,19 @@ TEST(Hours, aMistakeIsNamedWithItsPlaceAndWhatToDo) {
     }
     EXPECT_THROW(static_cast<void>(parseHours("zone: \"Nowhere\"", "x")), Error);
     EXPECT_THROW(static_cast<void>(parseHours("zone: \"../etc/passwd\"", "x")), Error);
-    EXPECT_EQ(hoursOf("projectors { name: \"left\" address: \"192.168.7.21\" }").projectors[0].port,
-              4352);
+}
+
+TEST(Hours, addressesAndInputsOfProjectorsAreRead) {
+    const auto read = [](const std::string& address, const std::string& more = "") {
+        const Hours hours =
+            hoursOf("projectors { name: \"left\" address: \"" + address + "\" " + more + " }");
+        return addressOf(hours.projectors[0]) + " " + hours.projectors[0].input;
+    };
+    EXPECT_EQ(read("192.168.7.21"), "192.168.7.21:4352 ");
+    EXPECT_EQ(read("192.168.7.21:80", "input: \"31\""), "192.168.7.21:80 31");
+    EXPECT_EQ(read("FD00:0::21"), "[fd00::21]:4352 ");
+    EXPECT_EQ(read("[fd00::21]"), "[fd00::21]:4352 ");
+    EXPECT_EQ(read("[fd00::21]:65535", "input: \"3a\""), "[fd00::21]:65535 3A");
 }
 
 }  // namespace
