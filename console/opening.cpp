@@ -225,22 +225,30 @@ void Opening::rest() {
     for (const auto& one : projectors_) one->release();
 }
 
-// Said when it changes: what somebody sets on the page between holds.
-void Opening::switchProjectors(UnixSeconds now, bool isWallInStep) {
-    if (!hours_ || projectors_.empty()) return;
-    if (heldUntil(now) > 0) return rest();
-    if (!wantedIn(now).isOpen)
-        openSince_ = 0;
-    else if (openSince_ == 0)
-        openSince_ = now;
+// Since when the wall should be open, and its projectors are looked at.
+void Opening::noteOpening(UnixSeconds now) {
     if (watchedSince_ == 0) watchedSince_ = now;
-    const bool power = isLampWanted(now);
-    const std::optional<bool> shut =
-        isFirstLook(now) ? shut_ : std::optional(!isWallInStep || !mayOpenShutters(now));
+    const bool isOpen = wantedIn(now).isOpen;
+    if (!isOpen) openSince_ = 0;
+    if (isOpen && openSince_ == 0) openSince_ = now;
+}
+
+// Said when it changes: what somebody sets on the page between holds.
+void Opening::tellProjectors(bool power, std::optional<bool> shut) {
     if (power_ == power && shut_ == shut) return;
     power_ = power;
     shut_ = shut;
     for (const auto& one : projectors_) one->want(power, shut);
+}
+
+// Each second. Before the first look at all of them their shutters are left as they are.
+void Opening::switchProjectors(UnixSeconds now, bool isWallInStep) {
+    if (!hours_ || projectors_.empty()) return;
+    if (heldUntil(now) > 0) return rest();
+    noteOpening(now);
+    std::optional<bool> shut = shut_;
+    if (!isFirstLook(now)) shut = !isWallInStep || !mayOpenShutters(now);
+    tellProjectors(isLampWanted(now), shut);
 }
 
 // Until the hours want something else of it.

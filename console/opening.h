@@ -61,6 +61,8 @@ class Opening {
     void readHours();
     void readDone();
     void rest();
+    void noteOpening(UnixSeconds now);
+    void tellProjectors(bool power, std::optional<bool> shut);
 
     std::filesystem::path folder_;
     MakeProjector make_;

@@ -150,45 +150,65 @@ void addReachFault(std::vector<Fault>& faults, const browser::ProjectorState& on
 
 }  // namespace
 
-// A lamp has five minutes to come to what is wanted; a warning of a minute is none.
+namespace {
+
+// A lamp that is known to be otherwise than wanted; it has five minutes to come to it.
+void addPowerFault(std::vector<Fault>& faults, const browser::ProjectorState& one) {
+    constexpr double kLampSeconds = 300;
+    const std::string name = "projector " + one.name();
+    const std::string wanted = one.wanted_power() ? "on" : "off";
+    if (!one.has_wanted_power() || one.power() == "unknown" || one.power() == wanted) return;
+    faults.push_back({name + " power",
+                      name + " is " + one.power() + ", and should be " + wanted +
+                          ": look at its lamp and its menu",
+                      kLampSeconds});
+}
+
+// "power on, open"; whether it answers, where it does not.
+std::string stateOf(const browser::ProjectorState& one) {
+    if (one.reach() != "answers") return one.reach();
+    if (one.power() != "on") return "power " + one.power();
+    if (!one.has_shut()) return "power on, shutter unknown";
+    return one.shut() ? "power on, shut" : "power on, open";
+}
+
+}  // namespace
+
+// A warning of some seconds is none.
 std::vector<Fault> faultsOf(const browser::ProjectorList& projectors) {
-    constexpr double kLampSeconds = 300, kProblemSeconds = 60;
+    constexpr double kProblemSeconds = 60;
     std::vector<Fault> faults;
     for (const browser::ProjectorState& one : projectors.projectors()) {
         const std::string name = "projector " + one.name();
         addReachFault(faults, one);
-        const std::string wanted = one.wanted_power() ? "on" : "off";
-        if (one.has_wanted_power() && one.power() != "unknown" && one.power() != wanted)
-            faults.push_back({name + " power",
-                              name + " is " + one.power() + ", and should be " + wanted +
-                                  ": look at its lamp and its menu",
-                              kLampSeconds});
+        addPowerFault(faults, one);
         for (const std::string& problem : one.problems())
             faults.push_back({name + " " + problem, name + ": " + problem, kProblemSeconds});
     }
     return faults;
 }
 
+// Whether a state of it is to be told now.
+bool ProjectorBook::isNews(const browser::ProjectorState& one, UnixSeconds now) {
+    constexpr double kLasts = 25;
+    const std::string state = stateOf(one);
+    Page& page = pages_[one.name()];
+    if (state != page.seen) page = {page.told, state, now};
+    if (state == page.told || state == "not asked yet" || now - page.since < kLasts) return false;
+    page.told = state;
+    return true;
+}
+
 // A state of some seconds is passed over, as one that cannot be told for a moment is no news.
 std::vector<std::pair<std::string, std::string>> ProjectorBook::update(
     const browser::ProjectorList& list, UnixSeconds now) {
-    constexpr double kLasts = 25;
     std::erase_if(pages_, [&](const auto& page) {
         return std::ranges::count(list.projectors(), page.first, &browser::ProjectorState::name) ==
                0;
     });
     std::vector<std::pair<std::string, std::string>> lines;
-    for (const browser::ProjectorState& one : list.projectors()) {
-        std::string is = one.reach() == "answers" ? "power " + one.power() : one.reach();
-        if (one.power() == "on")
-            is += !one.has_shut() ? ", shutter unknown" : one.shut() ? ", shut" : ", open";
-        Page& page = pages_[one.name()];
-        if (is != page.seen) page = {page.told, is, now};
-        if (is == page.told || now - page.since < kLasts || one.reach() == "not asked yet")
-            continue;
-        page.told = is;
-        lines.emplace_back("projector " + one.name(), is);
-    }
+    for (const browser::ProjectorState& one : list.projectors())
+        if (isNews(one, now)) lines.emplace_back("projector " + one.name(), stateOf(one));
     return lines;
 }
 
@@ -278,15 +298,19 @@ void addFigure(std::string& text, const std::string& name, double value) {
     text += fmt::format("aquarama_console_{} {}\n", name, value);
 }
 
-// Its lamp hours, power and shutter only while they are known.
+// One that there is only while it is known.
+void addKnown(std::string& text, bool isKnown, const std::string& name, double value) {
+    if (isKnown) addFigure(text, name, value);
+}
+
+// Of a projector.
 void addFigures(std::string& text, const browser::ProjectorState& one) {
     const std::string label = labelOf("projector", one.name());
-    addFigure(text, "projector_answers" + label, one.reach() == "answers" ? 1 : 0);
-    if (one.power() != "unknown")
-        addFigure(text, "projector_on" + label, one.power() == "on" ? 1 : 0);
-    if (one.has_shut()) addFigure(text, "projector_shut" + label, one.shut() ? 1 : 0);
-    if (one.has_lamp_hours()) addFigure(text, "projector_lamp_hours" + label, one.lamp_hours());
-    if (one.tells_problems()) addFigure(text, "projector_problems" + label, one.problems_size());
+    addFigure(text, "projector_answers" + label, one.reach() == "answers");
+    addKnown(text, one.power() != "unknown", "projector_on" + label, one.power() == "on");
+    addKnown(text, one.has_shut(), "projector_shut" + label, one.shut());
+    addKnown(text, one.has_lamp_hours(), "projector_lamp_hours" + label, one.lamp_hours());
+    addKnown(text, one.tells_problems(), "projector_problems" + label, one.problems_size());
 }
 
 }  // namespace

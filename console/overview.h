@@ -62,6 +62,8 @@ class ProjectorBook {
         std::string told, seen;
         UnixSeconds since = 0;  // it is as it was seen
     };
+    [[nodiscard]] bool isNews(const browser::ProjectorState& one, UnixSeconds now);
+
     std::map<std::string, Page> pages_;  // by name
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <map>
 #include <utility>
 
 #include <arpa/inet.h>
@@ -96,15 +97,26 @@ std::string pjlinkProof(const std::string& salt, const std::string& password) {
     return proof;
 }
 
-// Projectors of class 2 name either class.
-std::optional<std::string> readPjlinkAnswer(const std::string& line, const std::string& command) {
+namespace {
+
+// Whether a line in capitals begins as an answer to a command does. Projectors of class 2 name
+// either class.
+bool isAnswerTo(const std::string& said, const std::string& command) {
     constexpr std::size_t kHeader = 2, kName = 4;
-    if (line.size() > kMostPjlinkBytes || command.size() < kHeader + kName) return std::nullopt;
+    if (command.size() < kHeader + kName) return false;
+    const std::string name = command.substr(kHeader, kName) + "=";
+    return said.starts_with("%1" + name) || said.starts_with("%2" + name);
+}
+
+}  // namespace
+
+// A value may stand after a blank.
+std::optional<std::string> readPjlinkAnswer(const std::string& line, const std::string& command) {
+    constexpr std::size_t kStart = 7;  // "%1POWR="
+    if (line.size() > kMostPjlinkBytes) return std::nullopt;
     const std::string said = inCapitals(trimmed(line));
-    const bool isOfAClass = said.starts_with("%1") || said.starts_with("%2");
-    const std::string start = command.substr(kHeader, kName) + "=";
-    if (!isOfAClass || said.compare(kHeader, start.size(), start) != 0) return std::nullopt;
-    std::string value = trimmed(said.substr(kHeader + start.size()));
+    if (!isAnswerTo(said, command)) return std::nullopt;
+    std::string value = trimmed(said.substr(kStart));
     if (value.empty() || !isPrintable(value)) return std::nullopt;
     return value;
 }
@@ -113,12 +125,12 @@ std::optional<std::string> readPjlinkAnswer(const std::string& line, const std::
 std::optional<std::vector<std::string>> problemsIn(const std::string& digits) {
     constexpr std::array kParts{"fan", "lamp", "temperature", "cover", "filter", "other"};
     if (digits.size() != kParts.size()) return std::nullopt;
+    if (digits.find_first_not_of("012") != std::string::npos) return std::nullopt;
     std::vector<std::string> problems;
-    for (std::size_t i = 0; i < kParts.size(); ++i) {
-        if (digits[i] < '0' || digits[i] > '2') return std::nullopt;
-        if (digits[i] == '1') problems.push_back(std::string(kParts.at(i)) + ": warning");
-        if (digits[i] == '2') problems.push_back(std::string(kParts.at(i)) + ": error");
-    }
+    for (std::size_t i = 0; i < kParts.size(); ++i)
+        if (digits[i] != '0')
+            problems.push_back(std::string(kParts.at(i)) +
+                               (digits[i] == '1' ? ": warning" : ": error"));
     return problems;
 }
 
@@ -137,9 +149,10 @@ std::optional<std::uint32_t> lampHoursIn(const std::string& value) {
 
 // 1 is the picture, 2 the sound, 3 both; then whether it is muted.
 std::optional<bool> shutIn(const std::string& value) {
-    if (value == "31" || value == "11") return true;
-    if (value == "30" || value == "10" || value == "20" || value == "21") return false;
-    return std::nullopt;
+    static const std::map<std::string, bool> kValues{
+        {"31", true}, {"11", true}, {"30", false}, {"10", false}, {"20", false}, {"21", false}};
+    const auto found = kValues.find(value);
+    return found == kValues.end() ? std::nullopt : std::optional(found->second);
 }
 
 PjlinkConnection::PjlinkConnection(config::ControlledProjector projector, PjlinkPatience patience)
@@ -228,46 +241,62 @@ PjlinkEnd PjlinkConnection::open(Clock::time_point end) {
     return greet(end);
 }
 
+// The proof goes before the first command only. False where the line was not taken whole.
+bool PjlinkConnection::say(const std::string& command) {
+    const std::string line = std::exchange(proof_, {}) + command + "\r";
+    return send(socket_, line.data(), line.size(), MSG_NOSIGNAL) ==
+           static_cast<ssize_t>(line.size());
+}
+
 // Answers to other commands, which came too late, are passed over: some, not many.
 PjlinkConnection::Heard PjlinkConnection::exchange(const std::string& command,
                                                    PjlinkReply& reply,
                                                    Clock::time_point end) {
     constexpr int kMostLines = 16;
-    const std::string line = std::exchange(proof_, {}) + command + "\r";
-    const ssize_t sent = send(socket_, line.data(), line.size(), MSG_NOSIGNAL);
-    if (sent != static_cast<ssize_t>(line.size())) return Heard::Closed;
+    if (!say(command)) return Heard::Closed;
     const auto lineEnd = std::min(end, Clock::now() + patience_.line);
+    std::string said;
     for (int i = 0; i < kMostLines; ++i) {
-        std::string said;
         const Heard heard = hear(said, lineEnd);
         if (heard != Heard::Line) return heard;
         const auto value = readPjlinkAnswer(said, command);
-        const bool isRefusal = isPasswordRefusal(said);
-        if (!value && !isRefusal) continue;
-        reply = {isRefusal ? PjlinkEnd::Refused : PjlinkEnd::Answered, value.value_or("")};
-        return Heard::Line;
+        if (isPasswordRefusal(said))
+            reply = {PjlinkEnd::Refused};
+        else if (value)
+            reply = {PjlinkEnd::Answered, *value};
+        if (reply.end != PjlinkEnd::Unanswered) return Heard::Line;
     }
     return Heard::Nothing;
 }
 
-// A connection of an earlier command may have been closed since, or its password may hold for one
-// command only: then once more from the start.
-PjlinkReply PjlinkConnection::ask(const std::string& command) {
-    const auto end = Clock::now() + patience_.exchange;
+// On the connection of an earlier command. Empty where it was closed since, or its password held
+// for one command only.
+std::optional<PjlinkReply> PjlinkConnection::askAgain(const std::string& command,
+                                                      Clock::time_point end) {
     PjlinkReply reply{PjlinkEnd::Unanswered};
-    if (socket_ >= 0) {
-        const Heard heard = exchange(command, reply, end);
-        if (reply.end == PjlinkEnd::Answered) return reply;
-        if (heard == Heard::Nothing) {
-            close();  // a late answer would be taken for that to the next command
-            return reply;
-        }
+    const Heard heard = exchange(command, reply, end);
+    if (reply.end == PjlinkEnd::Answered) return reply;
+    if (heard != Heard::Nothing) return std::nullopt;
+    close();  // a late answer would be taken for that to the next command
+    return reply;
+}
+
+// On a connection that is made for it.
+PjlinkReply PjlinkConnection::askAnew(const std::string& command, Clock::time_point end) {
+    PjlinkReply reply{open(end)};
+    if (reply.end == PjlinkEnd::Answered) {
+        reply.end = PjlinkEnd::Unanswered;
+        static_cast<void>(exchange(command, reply, end));
     }
-    const PjlinkEnd opened = open(end);
-    reply = {opened == PjlinkEnd::Answered ? PjlinkEnd::Unanswered : opened};
-    if (opened == PjlinkEnd::Answered) static_cast<void>(exchange(command, reply, end));
     if (reply.end != PjlinkEnd::Answered) close();
     return reply;
+}
+
+PjlinkReply PjlinkConnection::ask(const std::string& command) {
+    const auto end = Clock::now() + patience_.exchange;
+    if (socket_ < 0) return askAnew(command, end);
+    const auto reply = askAgain(command, end);
+    return reply ? *reply : askAnew(command, end);
 }
 
 }  // namespace aquarama::console

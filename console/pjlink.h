@@ -86,9 +86,14 @@ class PjlinkConnection {
     [[nodiscard]] PjlinkEnd greet(Clock::time_point end);
     [[nodiscard]] PjlinkEnd open(Clock::time_point end);
     [[nodiscard]] Heard hear(std::string& line, Clock::time_point end);
+    [[nodiscard]] bool say(const std::string& command);
+    // Into `reply`, which stays Unanswered where nothing comes.
     [[nodiscard]] Heard exchange(const std::string& command,
                                  PjlinkReply& reply,
                                  Clock::time_point end);
+    [[nodiscard]] std::optional<PjlinkReply> askAgain(const std::string& command,
+                                                      Clock::time_point end);
+    [[nodiscard]] PjlinkReply askAnew(const std::string& command, Clock::time_point end);
 
     config::ControlledProjector projector_;
     PjlinkPatience patience_;

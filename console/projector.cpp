@@ -25,6 +25,24 @@ constexpr int kEnoughOk = 6;
 // A command that was said so often is said more slowly.
 constexpr int kSome = 12;
 
+// Commands of PJLink, in the order of ProjectorControl::Item.
+constexpr std::array kCommands{"POWR", "AVMT", "INPT", "ERST", "LAMP"};
+
+// Of its state; Unknown for ERR1 to ERR4, and whatever else is said.
+LampPower powerIn(const std::string& value) {
+    static const std::map<std::string, LampPower> kValues{{"0", LampPower::Off},
+                                                          {"1", LampPower::On},
+                                                          {"2", LampPower::Cooling},
+                                                          {"3", LampPower::Warming}};
+    const auto found = kValues.find(value);
+    return found == kValues.end() ? LampPower::Unknown : found->second;
+}
+
+// It cannot tell, or does not: it is asked seldom, as silence costs the whole patience each time.
+bool isLacking(const std::string& value) {
+    return value.empty() || value == "ERR1" || value == "ERR2";
+}
+
 // "INPT 3A" is of class 2, "INPT 31" of both.
 const char* classOf(const std::string& input) {
     const bool isOfClass1 = input.size() == 2 && input[0] >= '1' && input[0] <= '5' &&
@@ -133,6 +151,15 @@ bool ProjectorControl::isNeeded(Item item) const {
     return item == Shutter ? isShutterNeeded() : isInputNeeded();
 }
 
+// What is wanted otherwise than it is known to be, in the order in which it is set.
+std::vector<ProjectorControl::Item> ProjectorControl::needed() const {
+    std::vector<Item> items;
+    if (!isThere_) return items;
+    for (const Item item : {Power, Shutter, Input})
+        if (isNeeded(item)) items.push_back(item);
+    return items;
+}
+
 std::string ProjectorControl::commandOf(Item item) const {
     if (item == Power) return *power_ ? "%1POWR 1" : "%1POWR 0";
     if (item == Input) return classOf(input_) + ("INPT " + input_);
@@ -140,17 +167,21 @@ std::string ProjectorControl::commandOf(Item item) const {
 }
 
 std::string ProjectorControl::queryOf(Item item) const {
-    constexpr std::array kNames{"%1POWR ?", "%1AVMT ?", "", "%1ERST ?", "%1LAMP ?"};
-    return item == Input ? classOf(input_) + std::string("INPT ?") : kNames.at(item);
+    const char* const header = item == Input ? classOf(input_) : "%1";
+    return std::string(header) + kCommands.at(item) + " ?";
+}
+
+// Of the lamp, or what may be asked while there may be a picture.
+bool ProjectorControl::hasPictureToAsk(Item item) const {
+    if (item == Input && input_.empty()) return false;
+    return facts_.power == LampPower::On || mayHavePicture();
 }
 
 // In the dark there is no picture to ask about, and while it warms or cools many are overtaxed.
 bool ProjectorControl::isAsked(Item item) const {
     if (item == Power) return true;
     if (!isThere_ || isChanging()) return false;
-    if (item == Errors || item == Lamp) return true;
-    if (item == Input && input_.empty()) return false;
-    return facts_.power == LampPower::On || mayHavePicture();
+    return item == Errors || item == Lamp || hasPictureToAsk(item);
 }
 
 // The one that has been due for longest: a slow projector starves none of them.
@@ -161,16 +192,19 @@ ProjectorControl::Query ProjectorControl::nextQuery() const {
     return query;
 }
 
+bool ProjectorControl::isQueryDue(Item item, double now) const {
+    return isAsked(item) && due_.at(item) <= now;
+}
+
 // Nothing is commanded before it was asked once, nor without asking anew what can be asked.
 ProjectorStep ProjectorControl::next(double now) const {
     if (now < restUntil_) return {"", restUntil_};
     const Query query = nextQuery();
     double until = query.second;
-    for (const Item item : {Power, Shutter, Input}) {
-        if (!isThere_ || !isNeeded(item)) continue;
-        if (isAsked(item) && due_[item] <= now) return {queryOf(item)};
-        if (wishes_[item].notBefore <= now) return {commandOf(item)};
-        until = std::min(until, wishes_[item].notBefore);
+    for (const Item item : needed()) {
+        if (isQueryDue(item, now)) return {queryOf(item)};
+        if (wishes_.at(item).notBefore <= now) return {commandOf(item)};
+        until = std::min(until, wishes_.at(item).notBefore);
     }
     return query.second <= now ? ProjectorStep{queryOf(query.first)} : ProjectorStep{"", until};
 }
@@ -189,62 +223,72 @@ void ProjectorControl::isOutOfReach(ProjectorReach reach, double now) {
     if (++failures_ >= kGone) lastPower_ = LampPower::Unknown;  // it may have been without current
 }
 
-void ProjectorControl::heard(const std::string& command, const PjlinkReply& reply, double now) {
-    if (reply.end == PjlinkEnd::Unreachable) return isOutOfReach(ProjectorReach::NoAnswer, now);
-    if (reply.end == PjlinkEnd::Refused)
-        return isOutOfReach(
-            hasPassword_ ? ProjectorReach::RefusesPassword : ProjectorReach::WantsPassword, now);
+// Of an exchange that ended without a projector.
+ProjectorReach ProjectorControl::reachOf(PjlinkEnd end) const {
+    if (end != PjlinkEnd::Refused) return ProjectorReach::NoAnswer;
+    return hasPassword_ ? ProjectorReach::RefusesPassword : ProjectorReach::WantsPassword;
+}
+
+// One that greets and does not answer a question may still answer others.
+void ProjectorControl::noteAnswer(bool isAnswered, double now) {
     isThere_ = true;
     failures_ = 0;
-    const bool isAnswered = reply.end == PjlinkEnd::Answered;
-    if (isAnswered) answeredAt_ = now;
-    if (isAnswered)
+    if (isAnswered) {
+        answeredAt_ = now;
         facts_.reach = ProjectorReach::Answers;
-    else if (facts_.reach != ProjectorReach::Answers || now - answeredAt_ > kSilence)
+    } else if (facts_.reach != ProjectorReach::Answers || now - answeredAt_ > kSilence) {
         facts_.reach = ProjectorReach::NoAnswer;
-    for (const Item item : {Power, Shutter, Input, Errors, Lamp})
-        if (queryOf(item).compare(2, 4, command, 2, 4) == 0)
-            command.ends_with("?") ? heardState(item, reply.value, now)
-                                   : heardOutcome(item, command, reply.value, now);
+    }
+}
+
+// As next() has named it.
+void ProjectorControl::heard(const std::string& command, const PjlinkReply& reply, double now) {
+    if (reply.end == PjlinkEnd::Unreachable || reply.end == PjlinkEnd::Refused)
+        return isOutOfReach(reachOf(reply.end), now);
+    noteAnswer(reply.end == PjlinkEnd::Answered, now);
+    const auto* const name = std::ranges::find(kCommands, command.substr(2, 4));
+    const Item item = static_cast<Item>(name - kCommands.begin());
+    if (command.ends_with("?"))
+        heardState(item, reply.value, now);
+    else
+        heardOutcome(item, command, reply.value, now);
     showProblems();
 }
 
 // Sooner while something is under way, for some minutes.
 double ProjectorControl::lookInterval() const {
     bool isUnderWay = isChanging();
-    for (const Item item : {Power, Shutter, Input}) {
+    for (const Item item : needed()) {
         const Wish& wish = wishes_.at(item);
-        isUnderWay = isUnderWay || (isNeeded(item) && wish.sent < kSome && wish.taken < kEnoughOk);
+        isUnderWay = isUnderWay || (wish.sent < kSome && wish.taken < kEnoughOk);
     }
     return isUnderWay ? kWhileItChanges : kBetweenLooks;
 }
 
-// ERR1 and ERR2: it cannot tell; ERR3: not now; ERR4: it is broken. What is not answered at all is
-// asked seldom, as it costs the whole patience each time; the power is asked at each look.
+// Until the same is asked again. Its power is asked at each look, whatever it says.
+double ProjectorControl::intervalOf(Item item, const std::string& value) const {
+    if (item == Power) return lookInterval();
+    if (isLacking(value)) return kWhatItLacks;
+    return item == Lamp && facts_.lampHours ? kLampHours : lookInterval();
+}
+
+// ERR1 and ERR2: it cannot tell; ERR3: not now; ERR4: it is broken.
 void ProjectorControl::heardState(Item item, const std::string& value, double now) {
     takeState(item, value, now);
-    const bool isLacking = value.empty() || value == "ERR1" || value == "ERR2";
-    if (value == "ERR4" || !isLacking) isBroken_.at(item) = value == "ERR4";
-    double interval = lookInterval();
-    if (item == Lamp && facts_.lampHours) interval = kLampHours;
-    if (item != Power && isLacking) interval = kWhatItLacks;
-    due_[item] = now + interval;
+    if (!isLacking(value)) isBroken_.at(item) = value == "ERR4";
+    due_.at(item) = now + intervalOf(item, value);
 }
 
 // Whatever is no value of the item leaves it unknown.
 void ProjectorControl::takeState(Item item, const std::string& value, double now) {
     switch (item) {
         case Power:
-            return takePower(value, now);
+            takePower(value, now);
+            return settlePower(now);
         case Shutter:
-            facts_.isShut = shutIn(value);
-            if (facts_.isShut && facts_.isShut == shut_) wishes_[Shutter] = {};
-            return;
+            return takeShutter(shutIn(value));
         case Input:
-            facts_.input.reset();
-            if (value.size() == input_.size()) facts_.input = value;
-            isInputSet_ = isInputSet_ || facts_.input == input_;
-            return;
+            return takeInput(value);
         case Errors:
             told_ = problemsIn(value);
             return;
@@ -253,26 +297,40 @@ void ProjectorControl::takeState(Item item, const std::string& value, double now
     }
 }
 
-// Warming for ever is not believed, and a projector that was told to come on begins anew.
+// What is confirmed is said at once where it changes by itself.
+void ProjectorControl::takeShutter(std::optional<bool> isShut) {
+    facts_.isShut = isShut;
+    if (isShut && isShut == shut_) wishes_[Shutter] = {};
+}
+
+// A code has two characters; ERR1 to ERR4 have not.
+void ProjectorControl::takeInput(const std::string& value) {
+    constexpr std::size_t kCode = 2;
+    facts_.input.reset();
+    if (value.size() == kCode) facts_.input = value;
+    if (facts_.input == input_) isInputSet_ = true;
+}
+
+// Warming for ever is not believed.
 void ProjectorControl::takePower(const std::string& value, double now) {
-    constexpr std::array kStates{
-        LampPower::Off, LampPower::On, LampPower::Cooling, LampPower::Warming};
-    const bool isState = value.size() == 1 && value[0] >= '0' && value[0] <= '3';
-    facts_.power =
-        isState ? kStates.at(static_cast<std::size_t>(value[0] - '0')) : LampPower::Unknown;
     if (value != saidPower_) powerSince_ = now;
     saidPower_ = value;
+    facts_.power = powerIn(value);
     if (isChanging() && now - powerSince_ > kLongestChange) facts_.power = LampPower::Unknown;
-    if (!isState && now - powerSince_ > kSilence) lastPower_ = LampPower::Unknown;
-    if (facts_.power == LampPower::On && lastPower_ != LampPower::On) beginPicture(now);
-    if (isState) lastPower_ = facts_.power;
-    if (facts_.power == LampPower::On || facts_.power == LampPower::Unknown) {
-        if (facts_.power == LampPower::On && !isPowerNeeded()) wishes_[Power] = {};
-        return;
+}
+
+// One that comes on, from what it was last known to be, begins a picture; one that does not say for
+// a minute what it is may have been off meanwhile.
+void ProjectorControl::settlePower(double now) {
+    const LampPower power = facts_.power;
+    if (power == LampPower::On && lastPower_ != LampPower::On) beginPicture(now);
+    if (power != LampPower::Unknown || now - powerSince_ > kSilence) lastPower_ = power;
+    if (power == LampPower::Off || isChanging()) {
+        facts_.isShut.reset();
+        facts_.input.reset();
     }
-    facts_.isShut.reset();
-    facts_.input.reset();
-    if (!isChanging() && !isPowerNeeded()) wishes_[Power] = {};
+    const bool isAtRest = power == LampPower::On || power == LampPower::Off;
+    if (isAtRest && !isPowerNeeded()) wishes_[Power] = {};
 }
 
 // It has come on: shutter and input are as its maker likes, and are set anew.
@@ -285,23 +343,38 @@ void ProjectorControl::beginPicture(double now) {
     refusals_.erase(Input);
 }
 
+// While a lamp comes on or goes off it is not asked for some seconds.
+void ProjectorControl::toldPower(bool isOk, double now) {
+    restUntil_ = now + kAfterAPowerCommand;
+    due_[Power] = restUntil_;
+    if (isOk && facts_.power == LampPower::Unknown) lastPower_ = LampPower::Unknown;
+}
+
 // Said again after a while, until it has what is wanted. What it can tell is asked before that.
 void ProjectorControl::heardOutcome(Item item,
                                     const std::string& command,
                                     const std::string& value,
                                     double now) {
-    if (item == Power) restUntil_ = now + kAfterAPowerCommand;
-    if (item == Power && value == "OK" && facts_.power == LampPower::Unknown)
-        lastPower_ = LampPower::Unknown;
-    if (item == Power || due_[item] - now <= kBetweenLooks)
-        due_[item] = now + (item == Power ? kAfterAPowerCommand : kAfterACommand);
+    if (item == Power)
+        toldPower(value == "OK", now);
+    else if (due_.at(item) - now <= kBetweenLooks)
+        due_.at(item) = now + kAfterACommand;
     if (!isWished(item) || command != commandOf(item)) return;  // something else is wanted since
     Wish& wish = wishes_.at(item);
     ++wish.sent;
     if (value == "OK") ++wish.taken;
-    const bool isUnknown = (item == Power && facts_.power == LampPower::Unknown) ||
-                           (item == Shutter && !facts_.isShut) || (item == Input && !facts_.input);
-    wish.notBefore = now + pauseAfter(wish.sent, isUnknown, wish.taken);
+    wish.notBefore = now + pauseAfter(wish.sent, isUnknown(item), wish.taken);
+    keepOutcome(item, value, now);
+}
+
+// Power, shutter and input alone have a state that is wanted.
+bool ProjectorControl::isUnknown(Item item) const {
+    if (item == Power) return facts_.power == LampPower::Unknown;
+    return item == Shutter ? !facts_.isShut : !facts_.input;
+}
+
+// What it cannot do is shown until it does it.
+void ProjectorControl::keepOutcome(Item item, const std::string& value, double now) {
     if (value == "OK") refusals_.erase(item);
     if (value == "ERR4") refusals_[item] = "failure";
     if (value == "ERR1" || value == "ERR2") refused(item, now);

@@ -82,6 +82,10 @@ class ProjectorControl {
     [[nodiscard]] bool isInputNeeded() const;
     [[nodiscard]] bool mayHavePicture() const;
     [[nodiscard]] bool isNeeded(Item item) const;
+    [[nodiscard]] std::vector<Item> needed() const;
+    [[nodiscard]] bool isUnknown(Item item) const;
+    [[nodiscard]] bool hasPictureToAsk(Item item) const;
+    [[nodiscard]] bool isQueryDue(Item item, double now) const;
     [[nodiscard]] bool isWished(Item item) const;
     [[nodiscard]] bool isChanging() const;
     [[nodiscard]] std::string commandOf(Item item) const;
@@ -93,6 +97,14 @@ class ProjectorControl {
     void heardState(Item item, const std::string& value, double now);
     void takeState(Item item, const std::string& value, double now);
     void takePower(const std::string& value, double now);
+    void settlePower(double now);
+    void takeShutter(std::optional<bool> isShut);
+    void takeInput(const std::string& value);
+    void toldPower(bool isOk, double now);
+    void noteAnswer(bool isAnswered, double now);
+    void keepOutcome(Item item, const std::string& value, double now);
+    [[nodiscard]] ProjectorReach reachOf(PjlinkEnd end) const;
+    [[nodiscard]] double intervalOf(Item item, const std::string& value) const;
     void heardOutcome(Item item, const std::string& command, const std::string& value, double now);
     void refused(Item item, double now);
     void beginWishes();

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include <arpa/inet.h>
@@ -105,19 +107,23 @@ ExceptionDay exceptionOf(const TextReader& file, const v1::ExceptionDay& in) {
     return day;
 }
 
-// "192.168.7.21:4352", "[fd00::21]:4352" or "fd00::21": what stands before the port, and the port;
-// PJLink's own where none is named, 0 where it is none.
-std::pair<std::string, int> hostAndPortIn(const std::string& address) {
+// "192.168.7.21:4352", "[fd00::21]:4352" or "fd00::21": the host, and what stands after it.
+std::pair<std::string, std::string> hostAndRestOf(const std::string& address) {
+    const std::size_t bracket = address.find(']');
+    if (address.starts_with('[') && bracket != std::string::npos)
+        return {address.substr(1, bracket - 1), address.substr(bracket + 1)};
+    const std::size_t colon = address.find(':');
+    if (colon == std::string::npos || colon != address.rfind(':')) return {address, ""};
+    return {address.substr(0, colon), address.substr(colon)};
+}
+
+// Of ":4352". PJLink's own where none is named, 0 where it is no port.
+int portIn(const std::string& text) {
     constexpr int kMostPort = 65535;
-    const bool isBracketed = address.starts_with('[') && address.find(']') != std::string::npos;
-    const std::size_t end = isBracketed ? address.find(']') + 1 : address.find(':');
-    const bool isBare = !isBracketed && std::ranges::count(address, ':') > 1;
-    if (isBare || end >= address.size())
-        return {isBracketed ? address.substr(1, end - 2) : address, kPjLinkPort};
-    const std::string host = isBracketed ? address.substr(1, end - 2) : address.substr(0, end);
-    const auto port = numbersIn<1>(address.substr(end + 1), ':');
-    const bool isPort = address[end] == ':' && port && (*port)[0] <= kMostPort;
-    return {host, isPort ? (*port)[0] : 0};
+    if (text.empty()) return kPjLinkPort;
+    if (!text.starts_with(':')) return 0;
+    const auto port = numbersIn<1>(text.substr(1), ':');
+    return port && (*port)[0] <= kMostPort ? (*port)[0] : 0;
 }
 
 // Whether one machine can have it: no network, no group, none of one cable alone.
@@ -146,9 +152,12 @@ std::string shortestHost(const std::string& host) {
 // The code of an input in capitals; empty where it is none. Class 1 has digits, class 2 letters
 // too.
 std::string inputCodeIn(std::string text) {
-    if (text.size() != 2 || text[0] < '1' || text[0] > '6') return {};
-    if (text[1] >= 'a' && text[1] <= 'z') text[1] = static_cast<char>(text[1] - 'a' + 'A');
-    const bool isCode = (text[1] >= '1' && text[1] <= '9') || (text[1] >= 'A' && text[1] <= 'Z');
+    constexpr std::string_view kKinds = "123456";
+    constexpr std::string_view kNumbers = "123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    if (text.size() != 2) return {};
+    text[1] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[1])));
+    const bool isCode = kKinds.find(text[0]) != std::string_view::npos &&
+                        kNumbers.find(text[1]) != std::string_view::npos;
     return isCode ? text : std::string{};
 }
 
@@ -166,7 +175,8 @@ void checkPassword(const TextReader& file, const v1::ControlledProjector& in) {
 
 // A projector is named by number: to look a name up may take a minute.
 ControlledProjector projectorOf(const TextReader& file, const v1::ControlledProjector& in) {
-    const auto [host, port] = hostAndPortIn(in.address());
+    const auto [host, rest] = hostAndRestOf(in.address());
+    const int port = portIn(rest);
     if (shortestHost(host).empty())
         file.refuse(in,
                     "address",
