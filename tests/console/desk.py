@@ -130,9 +130,10 @@ class Desk:
 class Socket:
     """A WebSocket by hand. `status` is that of the upgrade: 101, or why not."""
 
-    def __init__(self, desk, target="/ws", **headers):
+    # `raw`: a connection that stands already, over TLS or through a proxy.
+    def __init__(self, desk, target="/ws", raw=None, **headers):
         host, port = desk.address.split(":")
-        self.socket = socket.create_connection((host, int(port)), timeout=10)
+        self.socket = raw or socket.create_connection((host, int(port)), timeout=10)
         key = base64.b64encode(secrets.token_bytes(16)).decode()
         given = {"Host": desk.address, "Origin": f"http://{desk.address}", "Upgrade": "websocket", "Connection": "Upgrade",
                  "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": key} | {n.replace("_", "-"): v for n, v in headers.items()}

@@ -118,6 +118,20 @@ def wait_until(condition, seconds, what):
     raise AssertionError(f"waited {seconds} s in vain for: {what}")
 
 
+# Debian's libfaketime, for programs whose clock is wrong; empty where it is not there.
+FAKE_TIME = next(iter(sorted(map(str, Path("/usr/lib").glob("*/faketime/libfaketime.so.1")))), "")
+
+
+def at_time(text):
+    """Variables of a process whose clock begins at this time, UTC; its monotonic clock is right."""
+    return {"LD_PRELOAD": FAKE_TIME, "FAKETIME": f"@{text}", "FAKETIME_DONT_FAKE_MONOTONIC": "1", "TZ": "UTC"}
+
+
+def lacks(found, package):
+    """For unittest.skipIf: whether to skip without this package, and why. In CI nothing is skipped."""
+    return not found and not os.environ.get("CI"), f"{package} is not installed (packaging/packages)"
+
+
 def temporary_folder():
     """A folder of its own for a test; what a show keeps for its next start lies in it as well."""
     folder = tempfile.TemporaryDirectory(prefix="aquarama-")

@@ -1,5 +1,6 @@
 """How a show begins and how a clip ends: the first picture comes at once, the cache changes no picture, Ctrl-C keeps a clip."""
 
+import json
 import os
 import shutil
 import signal
@@ -7,7 +8,7 @@ import subprocess
 import unittest
 from pathlib import Path
 
-from show import BIN, ROOT, aquarama, rig_on_free_ports, temporary_folder, wait_until
+from show import BIN, ROOT, aquarama, control_address, rig_on_free_ports, temporary_folder, wait_until
 
 PICTURES = ["channel-left.png", "channel-middle.png", "channel-right.png", "panorama.png", "hall.png"]
 
@@ -55,6 +56,31 @@ class Start(unittest.TestCase):
         self.assertEqual({path.name for path in (cache / "aquarama" / "derived").glob("*.data")}, kept)
         for name, one, other in zip(PICTURES, made, read):
             self.assertEqual(one, other, f"{name} is another when what it is drawn from comes from the cache")
+
+    def test_a_first_start_says_what_the_master_prepares(self):
+        log, cache = self.folder / "log", self.folder / "none"
+        prepares = r"the master prepares: (capturing 7 of 7 species, \d+ %|making the world)"
+        environment = os.environ | {"LP_NUM_THREADS": "1", "XDG_CACHE_HOME": str(cache)}
+        with log.open("w") as output:
+            master, node = (subprocess.Popen([BIN / program, *arguments], stdout=output, stderr=output, cwd=ROOT, env=environment)
+                            for program, arguments in (("aquarama", ["master", self.rig]),
+                                                       ("aquarama-node", ["left", "--master", control_address(self.rig), "--headless"])))
+        try:
+            wait_until(lambda: "capturing 7 of 7 species: once on this machine" in log.read_text(), 30, "a line of the master")
+            status = aquarama("status", self.rig)
+            self.assertEqual(status.returncode, 1)
+            self.assertRegex(status.stderr, rf"\Aaquarama status: {prepares}; ask again in a while\n\Z")
+            found = {one["subject"]: one for one in json.loads(aquarama("doctor", self.rig, "--json").stdout)}
+            self.assertEqual(found["show"]["verdict"], "warn")
+            self.assertRegex(found["show"]["what"], prepares)
+            self.assertNotIn("ports", found)
+            wait_until(lambda: "left: " in log.read_text(), 30, "a line of the node")
+            self.assertRegex(log.read_text(), rf"left: {prepares}; still trying")
+            self.assertNotIn("no master answers", log.read_text())
+        finally:
+            for process in (node, master):
+                process.kill()
+                process.wait()
 
     def test_the_first_picture_comes_at_once_and_an_interrupted_clip_is_kept(self):
         show, log = self.folder / "show", self.folder / "log"
