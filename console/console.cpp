@@ -311,8 +311,8 @@ std::vector<Fault> Console::faultsNow(UnixSeconds now) const {
     for (Fault& fault : faultsOf(opening_.projectors())) faults.push_back(std::move(fault));
     if (!opening_.problem().empty())
         faults.push_back({"hours",
-                          "the hours are not kept, as their text cannot be read: " +
-                              opening_.problem() + " (mend it on the page of the schedule)",
+                          "there are no hours, and nothing is switched: their text cannot be "
+                          "read; the crew mends it on the page of the schedule",
                           0});
     if (!doubtOfClock_.empty())
         faults.push_back(

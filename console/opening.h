@@ -54,6 +54,7 @@ class Opening {
     [[nodiscard]] config::WantedHours wantedIn(UnixSeconds now) const;
     void watchProjectors();
     [[nodiscard]] bool isLampWanted(UnixSeconds now) const;
+    // Of the lamps and shutters of all projectors together.
     [[nodiscard]] bool mayOpenShutters(UnixSeconds now) const;
     [[nodiscard]] bool isOpenAlready() const;
     [[nodiscard]] bool isFirstLook(UnixSeconds now) const;

@@ -81,6 +81,7 @@ class PjlinkConnection {
     using Clock = std::chrono::steady_clock;
     enum class Heard : std::uint8_t { Line, Nothing, Closed };
 
+    // All of them end at `end`, of a clock that never goes back.
     [[nodiscard]] bool waitFor(short what, Clock::time_point end) const;
     [[nodiscard]] bool connectTo(Clock::time_point end);
     [[nodiscard]] PjlinkEnd greet(Clock::time_point end);

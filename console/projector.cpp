@@ -390,7 +390,8 @@ bool ProjectorControl::isWished(Item item) const {
 void ProjectorControl::refused(Item item, double now) {
     if (item == Shutter) pictureOnly_ = !pictureOnly_;
     if (item == Shutter && pictureOnly_) return;
-    refusals_[item] = item == Input ? "there is none" : "it cannot be set by PJLink";
+    refusals_[item] =
+        item == Input ? "the projector has none of that code" : "it cannot be set by PJLink";
     if (item != Power) wishes_.at(item).notBefore = now + kWhatItLacks;
 }
 

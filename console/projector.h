@@ -41,7 +41,7 @@ struct ProjectorFacts {
     std::optional<std::uint32_t> lampHours = {};
     std::optional<bool> wantedPower = {};    // of hours or people; empty: it is left as it is
     bool areProblemsKnown = false;           // it tells whether it has any
-    std::vector<std::string> problems = {};  // "lamp: warning", "input 39: there is none"
+    std::vector<std::string> problems = {};  // "lamp: warning", "shutter: failure"
     friend bool operator==(const ProjectorFacts&, const ProjectorFacts&) = default;
 };
 
@@ -77,6 +77,7 @@ class ProjectorControl {
     };
     using Query = std::pair<Item, double>;  // which, and when it is due
 
+    // Whether something is wanted otherwise than it is known to be, and can be set now.
     [[nodiscard]] bool isPowerNeeded() const;
     [[nodiscard]] bool isShutterNeeded() const;
     [[nodiscard]] bool isInputNeeded() const;
@@ -88,11 +89,13 @@ class ProjectorControl {
     [[nodiscard]] bool isQueryDue(Item item, double now) const;
     [[nodiscard]] bool isWished(Item item) const;
     [[nodiscard]] bool isChanging() const;
+    // As PJLink has them: "%1AVMT 31", "%1AVMT ?".
     [[nodiscard]] std::string commandOf(Item item) const;
     [[nodiscard]] std::string queryOf(Item item) const;
     [[nodiscard]] Query nextQuery() const;
     [[nodiscard]] bool isAsked(Item item) const;
 
+    // What an exchange has brought; each keeps when it is asked or said again.
     void isOutOfReach(ProjectorReach reach, double now);
     void heardState(Item item, const std::string& value, double now);
     void takeState(Item item, const std::string& value, double now);

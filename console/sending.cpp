@@ -161,6 +161,8 @@ browser::Hours Console::hoursFor(const Visitor& visitor) const {
     browser::Hours hours = opening_.hours(unixNow());
     if (visitor.holder.role == ConsoleRole::Crew) return hours;
     hours.clear_text();
+    if (!hours.problem().empty())
+        hours.set_problem("only crew may see where");  // it quotes the text
     for (browser::ControlledProjector& one : *hours.mutable_projectors()) one.clear_password();
     return hours;
 }

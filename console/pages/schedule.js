@@ -199,7 +199,7 @@ function standing(link) {
 }
 const SHAPES = {on: ['●', 'good'], off: ['○', 'quiet']};
 // What is unknown stands there as such, and both ways are offered.
-const unknown = () => html`<span class="warn">▲ ${word('unknown')}</span>`;
+const unknown = () => html`<span class="quiet">${word('unknown')}</span>`;
 const inputOf = one => {
   if (!one.wantedInput) return '–';
   return one.input === 'unknown' ? unknown() : one.input === one.wantedInput ? one.input : html`<span class="warn">▲ ${t('projector.otherInput', {is: one.input, wanted: one.wantedInput})}</span>`;

@@ -1,5 +1,6 @@
 """What the console refuses, whoever asks; and that the wall is unharmed by it, and by the console's death."""
 
+import hashlib
 import os
 import resource
 import secrets
@@ -7,11 +8,62 @@ import signal
 import socket
 import ssl
 import subprocess
+import threading
 import time
 import unittest
 from pathlib import Path
 
 from desk import BIN, Desk, Socket, aquarama, frame, wait_until
+
+
+class PretendedProjector:
+    """Of PJLink, with manners: lower, closes, password, slow, err3 (in standby), deaf shutter (it cannot be asked)."""
+
+    def __init__(self, *manners):
+        self.manners, self.power, self.shut, self.input = manners, "0", True, "11"
+        self.listener = socket.create_server(("127.0.0.1", 0))
+        self.port = self.listener.getsockname()[1]
+        threading.Thread(target=self.serve, daemon=True).start()
+
+    def serve(self):
+        while True:
+            client, _ = self.listener.accept()
+            with client:
+                try:
+                    self.talk(client)
+                except OSError:
+                    pass
+
+    def say(self, client, text):
+        client.sendall(((text.lower() if "lower" in self.manners else text) + ("\r\n" if "slow" in self.manners else "\r")).encode())
+
+    def talk(self, client):
+        salt = secrets.token_hex(4)
+        self.say(client, f"PJLINK 1 {salt}" if "password" in self.manners else "PJLINK 0")
+        lines = client.makefile("r", newline="\r")
+        proof = hashlib.md5((salt + "secret").encode()).hexdigest() if "password" in self.manners else ""
+        while line := lines.readline():
+            if not line.startswith(proof):
+                return self.say(client, "PJLINK ERRA")
+            line, proof = line[len(proof):].strip(), ""
+            time.sleep(0.4 if "slow" in self.manners else 0)
+            self.say(client, f"{line[:6]}={self.answer(line[2:6], line[7:])}")
+            if "closes" in self.manners:
+                return
+
+    def answer(self, command, value):
+        if command == "POWR" and value != "?":
+            self.power = value
+        elif "err3" in self.manners and self.power == "0":
+            return "ERR3"
+        elif command == "AVMT" and value != "?":
+            self.shut = value == "31"
+        elif command == "INPT" and value != "?":
+            self.input = value
+        else:
+            mute = "ERR1" if "deaf shutter" in self.manners else "31" if self.shut else "30"
+            return {"POWR": self.power, "AVMT": mute, "INPT": self.input, "ERST": "000000", "LAMP": "7 1"}[command]
+        return "OK"
 
 
 class Doors(unittest.TestCase):
@@ -118,6 +170,33 @@ class Doors(unittest.TestCase):
             crew.command(run, hoursText="")
             crew.command(run, holdHours=0)
             crew.close()
+
+    def test_projectors_of_a_hall_are_switched_whatever_their_manners(self):
+        """One in lower case that closes after each answer and is asked for its password each time; one that is slow, with ERR3 in standby and a shutter
+        that cannot be asked."""
+        polite, odd = (PretendedProjector(*manners) for manners in (("lower", "closes", "password"), ("slow", "err3", "deaf shutter")))
+        crew = Socket(self.desk, Origin=None, Authorization=f"Bearer {self.crew}")
+        every_day = "MONDAY, TUESDAY, WEDNESDAY, THURSDAY, FRIDAY, SATURDAY, SUNDAY"
+        text = f'''zone: "UTC" open {{ days: [{every_day}] from: "00:00" to: "24:00" }}
+            projectors {{ name: "polite" address: "127.0.0.1:{polite.port}" password: "secret" input: "31" }}
+            projectors {{ name: "odd" address: "127.0.0.1:{odd.port}" input: "32" }}'''
+        self.assertEqual(crew.command(0, hoursText=text)["outcome"], "done")
+        crew.say({"look": {"topics": ["hours"]}})
+        state = lambda one: (one["reach"], one["power"], one.get("shut"), one["input"])
+        def projectors():
+            crew.say({"look": {"topics": ["hours"]}})
+            message = crew.hear_until(lambda m: isinstance(m, dict) and "projectors" in m)
+            return {one["name"]: state(one) for one in message["projectors"]["projectors"]}
+        wanted = {"polite": ("answers", "on", False, "31"), "odd": ("answers", "on", None, "32")}
+        wait_until(lambda: projectors() == wanted, 60, "both on and open, as far as they tell")
+        self.assertEqual([(one.power, one.shut, one.input) for one in (polite, odd)], [("1", False, "31"), ("1", False, "32")])
+        self.assertNotIn("shut{projector=\"odd\"}", metrics := self.desk.request("GET", "/metrics", **self.bearer(self.watcher))[2])
+        self.assertIn("aquarama_console_projector_shut{projector=\"polite\"} 0", metrics)
+        # Other hours, while one is in the middle of an answer: at once.
+        before = time.monotonic()
+        self.assertEqual(crew.command(0, hoursText="")["outcome"], "done")
+        self.assertLess(time.monotonic() - before, 1)
+        crew.close()
 
     def test_two_desks_on_one_machine_know_nothing_of_each_other(self):
         state = os.environ["XDG_STATE_HOME"]  # a desk brings one of its own

@@ -404,6 +404,7 @@ class Pages(unittest.TestCase):
             'exceptions { date: "2026-12-24" }', 'exceptions { date: "2026-12-31" }',
             'projectors { name: "left" address: "127.0.0.1:1" }'])
         wait_until(lambda: "no answer" in self.text("main"), 10, "a projector that does not answer")
+        self.assertRegex(self.text("table.cards tbody"), r"(?s)no answer.*unknown", "its shutter and its lamp")
         # The same as text, with its mistakes by line and column.
         text.clear()
         text.send_keys('zone: "UTC" nonsense')

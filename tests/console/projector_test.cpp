@@ -484,7 +484,8 @@ TEST(Projectors, anInputIsChosenOnceAfterItHasComeOn) {
     EXPECT_EQ(say("1"), "%1POWR ?");
     EXPECT_EQ(say("11"), "%2INPT ?") << "letters are of class 2";
     EXPECT_EQ(say("ERR2"), "%2INPT 3A");
-    EXPECT_EQ(control.facts().problems, std::vector<std::string>{"input 3A: there is none"});
+    EXPECT_EQ(control.facts().problems,
+              std::vector<std::string>{"input 3A: the projector has none of that code"});
     EXPECT_EQ(control.facts().input, "11");
     const auto hear = [&](const std::string& input) {
         std::string commands;
