@@ -166,7 +166,7 @@ void checkPassword(const TextReader& file, const v1::ControlledProjector& in) {
     constexpr std::size_t kLongest = 32;
     if (in.password().size() > kLongest)
         file.refuse(in, "password", "a password of PJLink has at most 32 letters");
-    if (!std::ranges::all_of(in.password(), [](char c) { return c > ' ' && c <= '~'; }))
+    if (!std::ranges::all_of(in.password(), [](char c) { return c >= ' ' && c <= '~'; }))
         file.refuse(in,
                     "password",
                     "a password of PJLink has letters without accents, digits and signs: give the "
