@@ -59,7 +59,7 @@ void describe(CLI::App& app, Options& options) {
     const auto role = CLI::IsMember({"watcher", "operator", "crew"});
     app.add_option("RIG", options.rig, "whose show is watched")->required();
     app.add_option("--port", options.port, "instead of the rig's console_port; 0: any free one")
-        ->check(CLI::Range(0, 65535));
+        ->check(cli::wholeNumber(0, 65535));
     app.add_option("--listen", options.listen, "address of a network card, for other machines")
         ->capture_default_str();
     app.add_option("--name", options.names, "another name of this machine that browsers may use");

@@ -2,6 +2,8 @@
 // `aquarama adjust`: edits the file of what is set by hand on top of projectors and wall files. A
 // running master sees that it has changed.
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <span>
@@ -11,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "common/base/characters.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/config/adjustments.h"
@@ -154,10 +157,16 @@ void movePoint(const AdjustOptions& options) {
 // Reads "X,Y". Throws Error where the text is none.
 glm::dvec2 cornerIn(const std::string& text) {
     glm::dvec2 corner{};
-    const std::size_t comma = text.find(',');
-    if (comma == std::string::npos || !CLI::detail::lexical_cast(text.substr(0, comma), corner.x) ||
-        !CLI::detail::lexical_cast(text.substr(comma + 1), corner.y))
-        throw Error("\"" + text + "\" is no corner: write X,Y without a space");
+    const char* const end = text.data() + text.size();
+    const auto x = std::from_chars(text.data(), end, corner.x);
+    const bool hasComma = x.ec == std::errc{} && x.ptr != end && *x.ptr == ',';
+    const auto y = hasComma ? std::from_chars(x.ptr + 1, end, corner.y) : x;
+    if (!hasComma || y.ec != std::errc{} || y.ptr != end || !std::isfinite(corner.x + corner.y)) {
+        const std::string foreign = foreignCharacterIn(text);
+        throw Error("CORNERS \"" + text +
+                    "\" is no corner: write X,Y as in 10,20.5, with a point " + "before decimals" +
+                    (foreign.empty() ? "" : "; " + foreign));
+    }
     return corner;
 }
 
@@ -220,10 +229,19 @@ void addMove(CommandLine& line, CLI::App& parent) {
     const auto move =
         addOne(line, parent, "move", "what a channel shows at a place, and round it", movePoint);
     move.app.add_option("CHANNEL", move.options.channel)->required();
-    move.app.add_option("X", move.options.place.x, "pixels from the left")->required();
-    move.app.add_option("Y", move.options.place.y, "pixels from the top")->required();
-    move.app.add_option("RIGHT", move.options.by.x, "pixels of the panorama")->required();
-    move.app.add_option("DOWN", move.options.by.y, "pixels of the panorama")->required();
+    const CLI::Validator ofPlace = cli::number(-65536, 65536), ofMove = cli::number(-2000, 2000);
+    move.app.add_option("X", move.options.place.x, "pixels from the left")
+        ->required()
+        ->check(ofPlace);
+    move.app.add_option("Y", move.options.place.y, "pixels from the top")
+        ->required()
+        ->check(ofPlace);
+    move.app.add_option("RIGHT", move.options.by.x, "pixels of the panorama")
+        ->required()
+        ->check(ofMove);
+    move.app.add_option("DOWN", move.options.by.y, "pixels of the panorama")
+        ->required()
+        ->check(ofMove);
     move.app.add_option("--radius", move.options.radius, "nothing beyond it moves")
         ->check(cli::number(2, 32768));
     describePicture(move);
@@ -252,11 +270,14 @@ void addAdjust(CommandLine& line) {
     const auto blend = addOne(line, adjust.app, "blend", "how wide channels blend", limitBlend);
     blend.app.add_option("CHANNEL", blend.options.channel)->required();
     blend.app.add_option("WIDTH", blend.options.width, "at most; pixels of the panorama")
-        ->required();
+        ->required()
+        ->check(cli::number(1, 16384));
     blend.app.add_option("--with", blend.options.with, "all its neighbours when left out");
     addOne(line, adjust.app, "list", "all of them, with their numbers", list);
     const auto removed = addOne(line, adjust.app, "remove", "one of them", removeOne);
-    removed.app.add_option("NUMBER", removed.options.number, "of the list")->required();
+    removed.app.add_option("NUMBER", removed.options.number, "of the list")
+        ->required()
+        ->check(cli::wholeNumber(0, 1'000'000));
     adjust.app.footer("The file keeps its comments; a running wall shows the change in a second.");
 }
 

@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "common/base/characters.h"
 #include "common/base/log.h"
 #include "common/config/rig.h"
 #include "common/config/text_file.h"
@@ -42,8 +43,11 @@ glm::ivec2 sizeIn(const std::string& text) {
     const std::string_view height = std::string_view(text).substr(std::min(cross + 1, text.size()));
     const auto size = formats::pictureSize(formats::numberIn(width).value_or(0),
                                            formats::numberIn(height).value_or(0));
-    if (!size)
-        throw Error("--size \"" + text + "\" is no size of a picture; write it as 1920x1080");
+    if (!size) {
+        const std::string foreign = foreignCharacterIn(text);
+        throw Error("--size \"" + text + "\" is no size of a picture; write it as 1920x1080" +
+                    (foreign.empty() ? "" : ": " + foreign));
+    }
     return *size;
 }
 

@@ -11,6 +11,8 @@
 #include <spdlog/sinks/rotating_file_sink.h>
 #include <spdlog/spdlog.h>
 
+#include "common/base/characters.h"
+
 namespace aquarama {
 namespace {
 
@@ -22,21 +24,26 @@ void tellListener(Severity severity, const std::string& line) {
     if (listener) listener(severity, line);
 }
 
+// Of names and files of others too: neither controls nor another encoding reach a terminal, the
+// log's file or a page.
+void write(spdlog::level::level_enum level, Severity severity, const std::string& line) {
+    const std::string shown = legible(line);
+    spdlog::log(level, shown);
+    tellListener(severity, shown);
+}
+
 }  // namespace
 
 void writeInfo(const std::string& line) {
-    spdlog::info(line);
-    tellListener(Severity::Info, line);
+    write(spdlog::level::info, Severity::Info, line);
 }
 
 void writeWarning(const std::string& line) {
-    spdlog::warn(line);
-    tellListener(Severity::Warning, line);
+    write(spdlog::level::warn, Severity::Warning, line);
 }
 
 void writeError(const std::string& line) {
-    spdlog::error(line);
-    tellListener(Severity::Error, line);
+    write(spdlog::level::err, Severity::Error, line);
 }
 
 void setLogListener(LogListener next) {

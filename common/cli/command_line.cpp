@@ -10,11 +10,15 @@
 #include <exception>
 #include <iostream>
 #include <optional>
+#include <span>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include <signal.h>
 #include <unistd.h>
+
+#include "common/base/characters.h"
 
 namespace aquarama::cli {
 
@@ -57,10 +61,34 @@ bool tellSupervisor(const std::string& line) {
     return write(std::atoi(pipe), whole.data(), whole.size()) == static_cast<ssize_t>(whole.size());
 }
 
-int sayUsage(const CLI::App& app, const CLI::ParseError& wrong) {
-    if (wrong.get_exit_code() == 0) return app.exit(wrong);  // --help or --version
+// An argument that an office program or a web page has given a long dash: what to type instead of
+// it; empty where there is none. A number is the concern of its option.
+std::string longDashIn(std::span<char* const> arguments) {
+    for (const std::string_view argument : arguments) {
+        const CodePoint first = argument.empty() ? CodePoint{} : codePointAt(argument, 0);
+        if (first.code < 0x80 || asciiFor(first.code) != "-") continue;
+        std::string_view name = argument;
+        while (!name.empty() && (name[0] == '-' || codePointAt(name, 0).code == first.code))
+            name.remove_prefix(codePointAt(name, 0).bytes);
+        if (name.empty() || !plainNumber(argument).empty()) continue;
+        return "\"" + std::string(argument) + "\" begins with " + nameOf(first) + ": type " +
+               (name.size() == 1 ? "-" : "--") + std::string(name);
+    }
+    return "";
+}
+
+// What is wrong with a command line, where a character that is no ASCII may be why.
+int sayUsage(const CLI::App& app, const std::string& what, std::span<char* const> arguments) {
+    std::string why = what;
+    for (const std::string_view argument : arguments) {
+        const std::string_view value = argument.substr(argument.find('=') + 1);  // or all of it
+        const std::string foreign = foreignCharacterIn(value);
+        if (foreign.empty() || what.find(value) == std::string::npos) continue;
+        if (what.find(": type ") == std::string::npos) why += ": " + foreign;
+        break;
+    }
     const std::string command = commandOf(app);
-    sayError(command, wrong.what() + ("; see " + command + " --help"));
+    sayError(command, why + "; see " + command + " --help");
     return kUsage;
 }
 
@@ -80,7 +108,10 @@ CLI::Validator between(Number least, Number most, const std::string& kind) {
     return {[=](std::string& given) -> std::string {
                 const auto value = parsed<Number>(given);
                 if (value && *value >= least && *value <= most) return {};
-                return "\"" + given + "\" is not " + kind + " from " + range;
+                const auto plain = parsed<Number>(plainNumber(given));
+                const bool isMeant = plain && *plain >= least && *plain <= most;
+                return "\"" + given + "\" is not " + kind + " from " + range +
+                       (isMeant ? ": type " + plainNumber(given) : "");
             },
             range};
 }
@@ -91,11 +122,14 @@ int runProgram(CLI::App& app, int count, char** arguments, const Job& job) {
     assert(!app.get_name().empty());
     if (count > 0) takeTypedName(app, arguments[0]);
     addVersionFlag(app, app.get_name());
+    const std::span<char* const> given(arguments, static_cast<std::size_t>(std::max(0, count)));
+    const std::string longDash = longDashIn(given);
     try {
         app.parse(count, arguments);
-        return job();
+        return longDash.empty() ? job() : sayUsage(app, longDash, {});
     } catch (const CLI::ParseError& wrong) {
-        return sayUsage(app, wrong);
+        if (wrong.get_exit_code() == 0) return app.exit(wrong);  // --help or --version
+        return longDash.empty() ? sayUsage(app, wrong.what(), given) : sayUsage(app, longDash, {});
     } catch (const std::exception& error) {
         sayError(commandOf(app), error.what());
         return kFailed;
@@ -114,6 +148,7 @@ std::string buildText() {
 void sayError(const std::string& program, const std::string& what) {
     std::string line = program + ": " + what;
     std::ranges::replace(line, '\n', ' ');
+    line = legible(line);
     if (!tellSupervisor(line)) std::cerr << line << '\n';
 }
 

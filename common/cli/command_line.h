@@ -24,7 +24,7 @@ using Job = std::function<int()>;
 inline constexpr int kStartAgain = 75;
 
 // One line, "PROGRAM: what is wrong": to the supervisor of a show where there is one, else to
-// stderr. Line breaks in `what` become spaces.
+// stderr. Line breaks in `what` become spaces; controls and what is no UTF-8 are shown as \xE9.
 void sayError(const std::string& program, const std::string& what);
 
 // The environment variable by which a supervisor names, to the processes that it starts, the pipe
@@ -38,8 +38,8 @@ inline constexpr const char* kErrorPipeVariable = "AQUARAMA_CAUSES";
 // Version and commit, on one line.
 [[nodiscard]] std::string buildText();
 
-// Validators of an option's value; they refuse it in words that name it and what is allowed. Both
-// ends of a range are allowed.
+// Validators of an option's value; they refuse it in words that name it, what is allowed, and what
+// to type where it is meant as a number: 2.5 for "2,5". Both ends of a range are allowed.
 [[nodiscard]] CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most);
 [[nodiscard]] CLI::Validator number(double least, double most);
 inline constexpr std::uint64_t kMostSeed = UINT32_MAX;

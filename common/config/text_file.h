@@ -18,7 +18,8 @@ struct SourcePlace {
                                  SourcePlace place,
                                  const std::string& why);
 
-// The whole file. Throws Error when it cannot be read or is larger than a master may send to its
+// The whole file as UTF-8, without a byte order mark and with '\n' at the ends of lines. Throws
+// Error when it is of another encoding, cannot be read or is larger than a master may send to its
 // nodes (1 MiB; a large rig or species takes some 10 KB).
 [[nodiscard]] std::string readTextFile(const std::string& path);
 

@@ -10,11 +10,13 @@
 #include <functional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
+#include "common/base/characters.h"
 #include "common/base/log.h"
 #include "common/config/rig.pb.h"
 #include "common/config/scene.pb.h"
@@ -28,11 +30,6 @@ namespace {
 
 constexpr std::streamoff kMostBytes = 1 << 20;
 
-// Protobuf counts lines and columns from 0, editors from 1.
-SourcePlace counted(int line, int column) {
-    return {line + 1, column + 1};
-}
-
 // "CastMember" as "cast member".
 std::string spelledOut(const std::string& type) {
     std::string words;
@@ -42,6 +39,27 @@ std::string spelledOut(const std::string& type) {
         words += begins ? static_cast<char>(letter - 'A' + 'a') : letter;
     }
     return words;
+}
+
+// What to do about an error of protobuf, by what it says; empty where that says it all.
+std::string todoFor(const std::string& why) {
+    constexpr std::array<std::pair<std::string_view, const char*>, 12> kTodo{{
+        {" has no field named ", "; correct its name or remove it"},
+        {"Expected string, got", ": put the text in quotes, \" \""},
+        {"Expected integer, got", ": write a whole number, without quotes"},
+        {"Expected double, got", ": write a number such as 2.5, without quotes"},
+        {"Integer out of range", ": write a smaller number"},
+        {"Unknown enumeration value", ": correct it; docs/reference.md has the choices"},
+        {"Invalid value for boolean", ": write true or false"},
+        {"Expected identifier, got", ": write the name of a field here, as in name: value"},
+        {"Expected \":\"", ": write a : between the field and its value"},
+        {"Expected \"}\"", ": close what a { before it opened"},
+        {"Expected \"{\"", ": write the fields of this part between { and }"},
+        {"is specified multiple times", ": leave one of them"},
+    }};
+    for (const auto& [said, todo] : kTodo)
+        if (why.find(said) != std::string::npos) return todo;
+    return "";
 }
 
 // What protobuf says, without the names of its types: who writes a file does not know them.
@@ -55,22 +73,22 @@ std::string inPlainWords(std::string why) {
     }
     if (why.starts_with(kMessage)) why.erase(0, kMessage.size());
     if (why.ends_with('.')) why.pop_back();
-    if (why.find(" has no field named ") != std::string::npos)
-        why += "; correct its name or remove it";
-    return why;
+    return why + todoFor(why);
 }
 
 class FirstError : public pb::io::ErrorCollector {
   public:
-    explicit FirstError(const std::string& source) : source_(source) {}
+    FirstError(const std::string& source, const Columns& columns)
+        : source_(source), columns_(columns) {}
     void AddError(int line, int column, const std::string& why) override {
         if (!text_.empty()) return;
-        text_ = placed(source_, counted(line, column), inPlainWords(why));
+        text_ = placed(source_, columns_.placeOf(line, column), legible(inPlainWords(why)));
     }
     [[nodiscard]] const std::string& text() const { return text_; }
 
   private:
     std::string source_;
+    const Columns& columns_;
     std::string text_;
 };
 
@@ -155,6 +173,7 @@ constexpr const char* kVersion = "version";
 // here, and the first unknown field would be a poor cause. Throws Error.
 void refuseLaterVersion(const std::string& text,
                         const std::string& source,
+                        const Columns& columns,
                         const pb::Descriptor& type) {
     const pb::FieldDescriptor* field = type.FindFieldByName(kVersion);
     if (field == nullptr) return;
@@ -166,7 +185,7 @@ void refuseLaterVersion(const std::string& text,
         before = token.text;
         if (isVersion && std::strtod(token.text.c_str(), nullptr) > newest)
             throw Error(placed(source,
-                               counted(token.line, token.column),
+                               columns.placeOf(token.line, token.column),
                                "version " + token.text + " of a " + spelledOut(type.name()) +
                                    " is of a later release; this one reads up to version " +
                                    shown(newest) + ": update the programs"));
@@ -189,7 +208,7 @@ std::string readTextFile(const std::string& path) {
     in.seekg(0);
     if (!in.read(text.data(), size))
         throw Error(path + ": reading failed; check that it is a file");
-    return text;
+    return plainText(std::move(text), path);
 }
 
 std::string besideFile(const std::string& file, const std::string& path) {
@@ -210,9 +229,13 @@ FileKind fileKindOf(const std::string& text) {
 }
 
 TextReader::TextReader(const std::string& text, std::string source, Message& message)
-    : source_(std::move(source)), message_(&message) {
-    refuseLaterVersion(text, source_, *message.GetDescriptor());
-    FirstError error(source_);
+    : TextReader(message, plainText(text, source), source) {}
+
+TextReader::TextReader(Message& message, const std::string& text, std::string source)
+    : source_(std::move(source)), message_(&message), columns_(text) {
+    refuseLaterVersion(text, source_, columns_, *message.GetDescriptor());
+    checkCharacters(text, source_);
+    FirstError error(source_, columns_);
     pb::TextFormat::Parser parser;
     parser.RecordErrorsTo(&error);
     parser.WriteLocationsTo(&tree_);
@@ -277,8 +300,8 @@ void TextReader::checkValue(const Message& message,
     if (field.cpp_type() == Field::CPPTYPE_STRING) {
         const std::string text = field.is_repeated() ? get.GetRepeatedString(message, &field, index)
                                                      : get.GetString(message, &field);
-        if (text.empty())
-            refuse(message, field.name(), field.name() + " is empty: fill it in", index);
+        const std::string fault = text.empty() ? "is empty: fill it in" : faultOfQuoted(text);
+        if (!fault.empty()) refuse(message, field.name(), field.name() + " " + fault, index);
     } else if (field.cpp_type() == Field::CPPTYPE_ENUM) {
         const pb::EnumValueDescriptor& value = field.is_repeated()
                                                    ? *get.GetRepeatedEnum(message, &field, index)
@@ -316,7 +339,7 @@ SourcePlace TextReader::placeOf(const Message& part, const std::string& name, in
     const Field& field = fieldNamed(part, name);
     if (known.tree == nullptr) return known.place;
     const auto at = known.tree->GetLocation(&field, field.is_repeated() ? index : -1);
-    return at.line < 0 ? known.place : counted(at.line, at.column);
+    return at.line < 0 ? known.place : columns_.placeOf(at.line, at.column);
 }
 
 void TextReader::require(const Message& part, const std::string& name) const {

@@ -10,6 +10,7 @@
 #include <google/protobuf/message.h>
 #include <google/protobuf/text_format.h>
 
+#include "common/config/plain_text.h"
 #include "common/config/rules.pb.h"
 #include "common/config/text_file.h"
 
@@ -23,8 +24,8 @@ class TextReader {
     using Message = google::protobuf::Message;
 
     // Parses `text` into `message`, which must outlive the reader. `source` is the file's name in
-    // errors. Throws Error at the first thing that the schema does not allow, an unknown field
-    // among them.
+    // errors. Throws Error at the first character that is of no text file of ours (plain_text.h),
+    // and at the first thing that the schema does not allow, an unknown field among them.
     TextReader(const std::string& text, std::string source, Message& message);
 
     // Fills in the defaults of what is left out and holds every field to its rule: required fields,
@@ -48,6 +49,9 @@ class TextReader {
                              int index = 0) const;
 
   private:
+    // Of a text that is plain.
+    TextReader(Message& message, const std::string& text, std::string source);
+
     using Tree = google::protobuf::TextFormat::ParseInfoTree;
     using Field = google::protobuf::FieldDescriptor;
     // Of a message: where it stands, and its fields.
@@ -68,6 +72,7 @@ class TextReader {
 
     std::string source_;
     Message* message_;
+    Columns columns_;
     Tree tree_;
     std::unordered_map<const Message*, Part> parts_;
 };

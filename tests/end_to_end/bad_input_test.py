@@ -86,6 +86,42 @@ class Usage(Case):
                     self.misused(f'{program}: {option}: "{value}" is not {allowed}', *command.split(), f"{option}={value}")
         self.misused(f'aquarama run: --frames: "-1" is not {whole} {count}', "run", "--frames", -1)
 
+    def test_numbers_as_people_write_them_are_refused_with_what_to_type(self):
+        """The option, the value, what is allowed and, where it is meant as a number that is, what to type."""
+        for command, option, value, said in [
+            ("fidelity --out DIR", "--seconds", "2,5", "a number from 1 to 3600: type 2.5"),
+            ("fidelity --out DIR", "--seconds", "1 000", "a number from 1 to 3600: type 1000"),
+            ("fidelity --out DIR", "--seconds", "1.000,5", "a number from 1 to 3600: type 1000.5"),
+            ("fidelity --out DIR", "--seconds", "inf", "a number from 1 to 3600"),
+            ("run", "--frames", "３", "a whole number from 1 to 1000000000: type 3"),
+            ("run", "--frames", "+5", "a whole number from 1 to 1000000000: type 5"),
+            ("run", "--frames", "12abc", "a whole number from 1 to 1000000000"),
+            ("run", "--frames", "−5", r"a whole number from 1 to 1000000000: it has U\+2212 \(minus sign\): type -"),
+            ("run", "--frames", "1e999", "a whole number from 1 to 1000000000"),
+            ("new-rig x.txtpb", "--mount", "−5", "a number from -20 to 20: type -5"),
+            ("new-rig x.txtpb", "--size", "1920×1080", r".*U\+00D7 \(multiplication sign\): type x"),
+        ]:
+            for arguments in ([option, value], [f"{option}={value}"]):
+                with self.subTest(command, value=value):
+                    what = said if said.startswith(".*") else rf'"{re.escape(value)}" is not {said}'
+                    self.misused(rf"aquarama {command.split()[0]}: {option}: {what}", *command.split(), *arguments)
+        for place, value, said in [(0, "10,5", "X.*type 10.5"), (1, "２０", "Y.*type 20"), (2, "nan", "RIGHT.*"), (3, "1e9", "DOWN.*")]:
+            numbers = ["1", "2", "3", "4"]
+            numbers[place] = value
+            self.misused(f"aquarama adjust move: {said}", "adjust", "move", self.edited(), "left", *numbers)
+        self.refuses(r'aquarama adjust mask: CORNERS "1,5,2,5" is no corner: write X,Y as in 10,20\.5, .*', "adjust", "mask",
+                     self.edited((r"scene:", 'adjustments: "a.txtpb" scene:')), "1,5,2,5", "3,4", "5,6")
+
+    def test_dashes_and_quotes_of_office_programs_are_named(self):
+        for argument, typed in [("–frames", "--frames"), ("—frames", "--frames"), ("−-headless", "--headless")]:
+            self.misused(rf'aquarama run: "{argument}" begins with U\+\w+ \([\w ]+\): type {typed}', "run", "--headless", argument, 1)
+        self.misused(r'aquarama run: --quality: .*U\+201C \(left double quotation mark\): type "', "run", "--quality", "“high”")
+
+    def test_bytes_that_are_no_text_are_shown_as_such(self):
+        run = subprocess.run([BIN / "aquarama", "run", b"b\xfchne\x1b[2J.txtpb"], capture_output=True, timeout=60, cwd=ROOT)
+        self.assertEqual((run.returncode, run.stdout), (1, b""))
+        self.assertRegex(run.stderr, rb"\Aaquarama run: b\\xFChne\\x1B\[2J\.txtpb: cannot be read.*\n\Z")
+
     def test_options_that_need_or_exclude_each_other(self):
         self.misused("aquarama run: --deep requires --snapshot", "run", "--headless", "--frames", 1, "--deep")
         self.misused("aquarama replay: --deep requires --snapshot", "replay", "FILE", "--deep")
@@ -143,6 +179,28 @@ class Files(Case):
         rig = self.edited((r"screen \{", "screen { curvature: 3"))
         self.refuses(r'aquarama check: \S+/desk\.txtpb:\d+:\d+: screen has no field named "curvature"; correct its name or remove it',
                      "check", rig)
+
+    def test_files_as_editors_save_them(self):
+        """With a byte order mark they are read; what is of another alphabet is named with what to type."""
+        text = Path(self.edited()).read_bytes()
+        marked = self.path / "marked.txtpb"
+        good = aquarama("check", self.edited())
+        marked.write_bytes(b"\xef\xbb\xbf" + text)
+        self.assertEqual(aquarama("check", marked).returncode, good.returncode)
+        self.assertEqual(aquarama("inspect", marked).returncode, 0)
+        for old, new, said in [
+            (rb'name: *"([\w ]+)"', "name: “desk”".encode(), r"U\+201C \(left double quotation mark\): type \""),
+            (rb"refresh_hz: *(\d+)", b"refresh_hz: 60,0", r'"60,0" is no number here: type 60\.0'),
+            (rb"screen \{", "screen\u00a0{".encode(), r"U\+00A0 \(no-break space\): type a space"),
+            (rb"screen \{", b"# k\xfcste\nscreen {", r"byte 0xFC \(ü in Latin-1\) is no UTF-8: save the file as UTF-8"),
+        ]:
+            edited = re.sub(old, new, text, count=1)
+            if edited == text:
+                continue
+            marked.write_bytes(edited)
+            self.refuses(rf"aquarama(?:-calibrate)? check: \S+/marked\.txtpb:\d+:\d+: {said}", "check", marked)
+        marked.write_bytes(b"\xff\xfe" + text.decode().encode("utf-16-le"))
+        self.refuses(r"aquarama(?:-calibrate)? check: \S+/marked\.txtpb:1:1: the file is saved as UTF-16: save it as UTF-8", "check", marked)
 
     def test_overlapping_ids(self):
         rig = self.edited((r"\bid: 2\b", "id: 1"))

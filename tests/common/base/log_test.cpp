@@ -67,6 +67,14 @@ TEST_F(ShowLog, aFolderThatCannotBeMadeIsNamed) {
     }
 }
 
+TEST(LogListener, hearsNeitherControlsNorOtherEncodings) {
+    std::vector<std::string> heard;
+    setLogListener([&](Severity, const std::string& line) { heard.push_back(line); });
+    logWarning("node {} says {}", "b\xFChne", "\x1B[2Jgr\xC3\xBC\xC3\x9F");
+    setLogListener({});
+    EXPECT_THAT(heard, testing::ElementsAre("node b\\xFChne says \\x1B[2Jgr\xC3\xBC\xC3\x9F"));
+}
+
 TEST(LogListener, hearsEveryLineWithItsSeverity) {
     std::vector<std::pair<Severity, std::string>> heard;
     setLogListener(

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/base/characters.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <spdlog/fmt/fmt.h>
+
+namespace aquarama {
+
+namespace {
+
+// What people meet, sorted: code~what to type for it, where there is anything~its name in Unicode.
+// Full-width forms and digits of other scripts are told by their ranges.
+constexpr std::string_view kTable =
+    R"(
+00A0~ ~no-break space|00AB~"~left-pointing double angle quotation mark|00AD~~soft hyphen|
+00B0~~degree sign|00B2~~superscript two|00B3~~superscript three|00B4~'~acute accent|
+00B5~~micro sign|00B7~.~middle dot|00BB~"~right-pointing double angle quotation mark|
+00D7~x~multiplication sign|02BC~'~modifier letter apostrophe|037E~;~Greek question mark|
+0391~A~Greek capital letter alpha|0392~B~Greek capital letter beta|
+0395~E~Greek capital letter epsilon|0396~Z~Greek capital letter zeta|
+0397~H~Greek capital letter eta|0399~I~Greek capital letter iota|
+039A~K~Greek capital letter kappa|039C~M~Greek capital letter mu|039D~N~Greek capital letter nu|
+039F~O~Greek capital letter omicron|03A1~P~Greek capital letter rho|
+03A4~T~Greek capital letter tau|03A5~Y~Greek capital letter upsilon|
+03A7~X~Greek capital letter chi|03BD~v~Greek small letter nu|03BF~o~Greek small letter omicron|
+0405~S~Cyrillic capital letter dze|0406~I~Cyrillic capital letter byelorussian-ukrainian i|
+0408~J~Cyrillic capital letter je|0410~A~Cyrillic capital letter a|
+0412~B~Cyrillic capital letter ve|0415~E~Cyrillic capital letter ie|
+041A~K~Cyrillic capital letter ka|041C~M~Cyrillic capital letter em|
+041D~H~Cyrillic capital letter en|041E~O~Cyrillic capital letter o|
+0420~P~Cyrillic capital letter er|0421~C~Cyrillic capital letter es|
+0422~T~Cyrillic capital letter te|0423~Y~Cyrillic capital letter u|
+0425~X~Cyrillic capital letter ha|0430~a~Cyrillic small letter a|0435~e~Cyrillic small letter ie|
+043E~o~Cyrillic small letter o|0440~p~Cyrillic small letter er|0441~c~Cyrillic small letter es|
+0443~y~Cyrillic small letter u|0445~x~Cyrillic small letter ha|0455~s~Cyrillic small letter dze|
+0456~i~Cyrillic small letter byelorussian-ukrainian i|0458~j~Cyrillic small letter je|
+04BB~h~Cyrillic small letter shha|0501~d~Cyrillic small letter komi de|
+066B~,~Arabic decimal separator|2000~ ~en quad|2001~ ~em quad|2002~ ~en space|2003~ ~em space|
+2004~ ~three-per-em space|2005~ ~four-per-em space|2006~ ~six-per-em space|2007~ ~figure space|
+2008~ ~punctuation space|2009~ ~thin space|200A~ ~hair space|200B~~zero width space|
+200C~~zero width non-joiner|200D~~zero width joiner|200E~~left-to-right mark|
+200F~~right-to-left mark|2010~-~hyphen|2011~-~non-breaking hyphen|2012~-~figure dash|
+2013~-~en dash|2014~-~em dash|2015~-~horizontal bar|2018~'~left single quotation mark|
+2019~'~right single quotation mark|201A~'~single low-9 quotation mark|
+201B~'~single high-reversed-9 quotation mark|201C~"~left double quotation mark|
+201D~"~right double quotation mark|201E~"~double low-9 quotation mark|
+201F~"~double high-reversed-9 quotation mark|2026~...~horizontal ellipsis|2028~~line separator|
+2029~~paragraph separator|202A~~left-to-right embedding|202B~~right-to-left embedding|
+202C~~pop directional formatting|202D~~left-to-right override|202E~~right-to-left override|
+202F~ ~narrow no-break space|2032~'~prime|2033~"~double prime|
+2039~'~single left-pointing angle quotation mark|
+203A~'~single right-pointing angle quotation mark|2043~-~hyphen bullet|2044~/~fraction slash|
+205F~ ~medium mathematical space|2060~~word joiner|2061~~function application|
+2062~~invisible times|2063~~invisible separator|2064~~invisible plus|2066~~left-to-right isolate|
+2067~~right-to-left isolate|2068~~first strong isolate|2069~~pop directional isolate|
+20AC~~euro sign|2212~-~minus sign|2215~/~division slash|2236~:~ratio|3000~ ~ideographic space|
+3001~,~ideographic comma|3002~.~ideographic full stop|3010~[~left black lenticular bracket|
+3011~]~right black lenticular bracket|A789~:~modifier letter colon|FE63~-~small hyphen-minus|
+FEFF~~byte order mark|FFFD~~replacement character|
+)";
+
+struct NamedCharacter {
+    char32_t code = 0;
+    std::string_view ascii, name;
+};
+
+// The parts of the table, without the ends of its lines.
+std::vector<NamedCharacter> parsedTable() {
+    std::vector<NamedCharacter> all;
+    for (std::string_view rest = kTable; rest.find('|') != std::string_view::npos;) {
+        if (rest.front() == '\n') rest.remove_prefix(1);
+        const std::string_view entry = rest.substr(0, rest.find('|'));
+        const std::size_t first = entry.find('~'), second = entry.find('~', first + 1);
+        std::uint32_t code = 0;
+        std::from_chars(entry.data(), entry.data() + first, code, 16);
+        all.push_back(
+            {code, entry.substr(first + 1, second - first - 1), entry.substr(second + 1)});
+        rest.remove_prefix(entry.size() + 1);
+    }
+    return all;
+}
+
+// Null where the table has no such character.
+const NamedCharacter* inTable(char32_t code) {
+    static const std::vector<NamedCharacter> all = parsedTable();
+    const auto found = std::ranges::lower_bound(all, code, {}, &NamedCharacter::code);
+    return found != all.end() && found->code == code ? &*found : nullptr;
+}
+
+// Each of ASCII has a form that is as wide as a Chinese character.
+constexpr char32_t kFirstFullWidth = 0xFF01, kLastFullWidth = 0xFF5E, kFullWidthOffset = 0xFEE0;
+
+bool isFullWidth(char32_t code) {
+    return code >= kFirstFullWidth && code <= kLastFullWidth;
+}
+
+// The first of ten digits of a script.
+struct DigitRange {
+    char32_t zero;
+    const char* script;
+};
+constexpr DigitRange kDigits[] = {{0x0660, "Arabic-Indic"},
+                                  {0x06F0, "extended Arabic-Indic"},
+                                  {0x0966, "Devanagari"},
+                                  {0x09E6, "Bengali"},
+                                  {0x0E50, "Thai"},
+                                  {0xFF10, "full-width"}};
+
+const DigitRange* digitsWith(char32_t code) {
+    const auto* found = std::ranges::find_if(
+        kDigits, [&](const DigitRange& range) { return code - range.zero < 10; });
+    return found == std::end(kDigits) ? nullptr : found;
+}
+
+// Bytes that follow the first of a sequence; -1 where it is none.
+int continuationBytes(unsigned char first) {
+    if (first < 0x80) return 0;
+    if (first >= 0xC2 && first < 0xE0) return 1;
+    if (first >= 0xE0 && first < 0xF0) return 2;
+    return first >= 0xF0 && first < 0xF5 ? 3 : -1;
+}
+
+// Neither longer than needed, nor half of a pair of UTF-16, nor beyond Unicode.
+bool isScalar(char32_t code, int following) {
+    constexpr char32_t kLeast[] = {0, 0x80, 0x800, 0x10000};
+    return code >= kLeast[following] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
+}
+
+void appendUtf8(std::string& text, char32_t code) {
+    const auto part = [&](unsigned shift) {
+        text += static_cast<char>(0x80U | ((code >> shift) & 0x3FU));
+    };
+    if (code < 0x80) {
+        text += static_cast<char>(code);
+    } else if (code < 0x800) {
+        text += static_cast<char>(0xC0U | (code >> 6U));
+        part(0);
+    } else {
+        text += static_cast<char>(code < 0x10000 ? 0xE0U | (code >> 12U) : 0xF0U | (code >> 18U));
+        if (code >= 0x10000) part(12);
+        part(6);
+        part(0);
+    }
+}
+
+std::string wordsFor(char32_t code) {
+    if (const NamedCharacter* known = inTable(code)) return std::string(known->name);
+    if (const DigitRange* range = digitsWith(code))
+        return fmt::format("{} digit {}", range->script, static_cast<int>(code - range->zero));
+    if (isFullWidth(code))
+        return fmt::format("full-width {}", static_cast<char>(code - kFullWidthOffset));
+    if (isControl(code) || code < ' ') return "a control character";
+    std::string itself;
+    appendUtf8(itself, code);
+    return isInvisible(code) ? "an invisible character" : itself;
+}
+
+}  // namespace
+
+CodePoint codePointAt(std::string_view text, std::size_t at) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
+    const int following = continuationBytes(byte(0));
+    const CodePoint wrong{byte(0), 1, false};
+    if (following < 0 || at + static_cast<std::size_t>(following) >= text.size()) return wrong;
+    if (following == 0) return {byte(0), 1, true};
+    char32_t code = byte(0) & (0x3FU >> static_cast<unsigned>(following));
+    for (std::size_t i = 1; i <= static_cast<std::size_t>(following); ++i) {
+        if ((byte(i) & 0xC0U) != 0x80) return wrong;
+        code = (code << 6U) | (byte(i) & 0x3FU);
+    }
+    return isScalar(code, following) ? CodePoint{code, static_cast<std::size_t>(following) + 1}
+                                     : wrong;
+}
+
+std::string nameOf(const CodePoint& point) {
+    const auto code = static_cast<std::uint32_t>(point.code);
+    if (point.isUtf8) return fmt::format("U+{:04X} ({})", code, wordsFor(point.code));
+    std::string latin1;
+    appendUtf8(latin1, point.code);
+    return fmt::format("byte 0x{:02X}{}", code, code < 0xA0 ? "" : " (" + latin1 + " in Latin-1)");
+}
+
+std::string asciiFor(char32_t code) {
+    if (const NamedCharacter* known = inTable(code)) return std::string(known->ascii);
+    if (const DigitRange* range = digitsWith(code)) return std::to_string(code - range->zero);
+    return isFullWidth(code) ? std::string(1, static_cast<char>(code - kFullWidthOffset)) : "";
+}
+
+bool isControl(char32_t code) {
+    const bool isLayout = code == '\t' || code == '\n' || code == '\r';
+    return (code < 0x20 && !isLayout) || (code >= 0x7F && code < 0xA0);
+}
+
+bool isInvisible(char32_t code) {
+    constexpr std::pair<char32_t, char32_t> kRanges[] = {{0x00A0, 0x00A0},
+                                                         {0x00AD, 0x00AD},
+                                                         {0x034F, 0x034F},
+                                                         {0x061C, 0x061C},
+                                                         {0x115F, 0x1160},
+                                                         {0x17B4, 0x17B5},
+                                                         {0x180B, 0x180F},
+                                                         {0x2000, 0x200F},
+                                                         {0x2028, 0x202F},
+                                                         {0x205F, 0x206F},
+                                                         {0x3000, 0x3000},
+                                                         {0x3164, 0x3164},
+                                                         {0xFE00, 0xFE0E},
+                                                         {0xFEFF, 0xFEFF},
+                                                         {0xFFA0, 0xFFA0},
+                                                         {0xFFF0, 0xFFFB},
+                                                         {0xE0000, 0xE0FFF}};
+    return std::ranges::any_of(
+        kRanges, [&](const auto& range) { return code >= range.first && code <= range.second; });
+}
+
+bool isTypographicQuote(char32_t code) {
+    const std::string ascii = code < 0x80 ? "" : asciiFor(code);
+    return ascii == "\"" || ascii == "'";
+}
+
+namespace {
+
+// With ASCII for each character, without spaces about it; empty where one has none.
+std::string inAscii(std::string_view text) {
+    std::string ascii;
+    for (std::size_t at = 0; at < text.size();) {
+        const CodePoint point = codePointAt(text, at);
+        const bool isAscii = point.isUtf8 && point.code < 0x80;
+        const std::string typed = isAscii ? std::string(text.substr(at, 1)) : asciiFor(point.code);
+        if (!point.isUtf8 || (typed.empty() && !isInvisible(point.code))) return "";
+        ascii += typed;
+        at += point.bytes;
+    }
+    const std::size_t first = ascii.find_first_not_of(' ');
+    if (first == std::string::npos) return "";
+    return ascii.substr(first, ascii.find_last_not_of(' ') + 1 - first);
+}
+
+// Thousands may be parted by blanks, apostrophes and low lines; only between digits.
+std::string withoutGroups(const std::string& text) {
+    const auto isDigit = [&](std::size_t i) {
+        return i < text.size() && text[i] >= '0' && text[i] <= '9';
+    };
+    std::string joined;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool isGap = std::string_view(" '_").find(text[i]) != std::string_view::npos;
+        if (!isGap || i == 0 || !isDigit(i - 1) || !isDigit(i + 1)) joined += text[i];
+    }
+    return joined;
+}
+
+// The last of commas and points is the decimal one, unless it stands there more than once.
+std::string withDecimalPoint(std::string text) {
+    const std::size_t last = text.find_last_of(",.");
+    if (last == std::string::npos) return text;
+    const char decimal = text[last];
+    const bool isOnce = std::ranges::count(text, decimal) == 1;
+    if (isOnce) text[last] = '\n';
+    std::erase_if(text, [](char c) { return c == ',' || c == '.'; });
+    std::ranges::replace(text, '\n', '.');
+    return text;
+}
+
+bool isDecimal(const std::string& text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size() &&
+           text.find_first_of("0123456789") != std::string::npos;
+}
+
+}  // namespace
+
+std::string plainNumber(std::string_view text) {
+    constexpr std::size_t kMostBytes = 64;
+    if (text.empty() || text.size() > kMostBytes) return "";
+    std::string plain = withDecimalPoint(withoutGroups(inAscii(text)));
+    if (plain.starts_with('+')) plain.erase(0, 1);
+    return plain != text && isDecimal(plain) ? plain : "";
+}
+
+std::string foreignCharacterIn(std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const CodePoint point = codePointAt(text, at);
+        at += point.bytes;
+        if (point.isUtf8 && point.code < 0x80) continue;
+        if (!point.isUtf8) return "it has " + nameOf(point) + ", which is not UTF-8";
+        const std::string ascii = asciiFor(point.code);
+        return "it has " + nameOf(point) + (ascii.empty() || ascii == " " ? "" : ": type " + ascii);
+    }
+    return "";
+}
+
+std::string legible(std::string_view text) {
+    std::string line;
+    for (std::size_t at = 0; at < text.size();) {
+        const CodePoint point = codePointAt(text, at);
+        const bool isShown = point.isUtf8 && !isControl(point.code);
+        line += isShown ? std::string(text.substr(at, point.bytes))
+                        : fmt::format("\\x{:02X}", static_cast<std::uint32_t>(point.code));
+        at += point.bytes;
+    }
+    return line;
+}
+
+}  // namespace aquarama
