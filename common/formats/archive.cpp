@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstring>
 #include <ctime>
 #include <set>
 
 #include <zip.h>
 
+#include "common/base/characters.h"
 #include "common/base/log.h"
 
 namespace aquarama::formats {
@@ -45,8 +47,14 @@ const char* wrongWith(std::string_view name) {
     if (name.size() > kMostNameBytes) return "is too long";
     if (std::ranges::any_of(name, isControl)) return "has control characters";
     if (isAbsolute(name)) return "is absolute";
-    if (name.find('\\') != std::string_view::npos) return "has a backslash";
     return leadsOut(name) ? "leads out of the archive" : nullptr;
+}
+
+// Some programs of Windows pack names with backslashes.
+std::string withSlashes(std::string name) {
+    std::ranges::replace(name, '\\', '/');
+    while (name.starts_with("./") && name.size() > 2) name.erase(0, 2);
+    return name;
 }
 
 struct CloseEntry {
@@ -150,7 +158,7 @@ void Archive::listNames() {
     std::set<std::string> seen;
     for (zip_int64_t i = 0; i < count; ++i) {
         const char* raw = zip_get_name(zip_->zip, static_cast<zip_uint64_t>(i), 0);
-        const std::string name = raw != nullptr ? raw : "";
+        const std::string name = withSlashes(raw != nullptr ? raw : "");
         const char* wrong = wrongWith(name);
         if (wrong == nullptr && !seen.insert(lowered(name)).second) wrong = "is there twice";
         if (wrong != nullptr)
@@ -158,7 +166,9 @@ void Archive::listNames() {
                                     source_,
                                     printable(name),
                                     wrong));
-        if (name.back() != '/') names_.push_back(name);
+        if (name.back() == '/') continue;
+        names_.push_back(name);
+        indices_.push_back(static_cast<std::uint64_t>(i));
     }
 }
 
@@ -183,9 +193,12 @@ std::uint64_t Archive::sizeToRead(std::uint64_t size, std::uint64_t packed) cons
 
 std::vector<std::byte> Archive::read(const std::string& name) try {
     zip_stat_t stat{};
-    if (zip_stat(zip_->zip, name.c_str(), 0, &stat) != 0) throw Error("is damaged; export it anew");
+    const auto known = std::ranges::find(names_, name);
+    assert(known != names_.end() && "no name of this archive");
+    const std::uint64_t index = indices_[static_cast<std::size_t>(known - names_.begin())];
+    if (zip_stat_index(zip_->zip, index, 0, &stat) != 0) throw Error("is damaged; export it anew");
     std::vector<std::byte> bytes(sizeToRead(stat.size, stat.comp_size));
-    const std::unique_ptr<zip_file_t, CloseEntry> file(zip_fopen_index(zip_->zip, stat.index, 0));
+    const std::unique_ptr<zip_file_t, CloseEntry> file(zip_fopen_index(zip_->zip, index, 0));
     if (!file)
         throw Error(fmt::format("cannot be read ({}); pack it anew", zip_strerror(zip_->zip)));
     std::byte beyond{};
@@ -210,7 +223,8 @@ bool isArchive(std::span<const std::byte> bytes) {
 std::vector<std::byte> encodeArchive(const std::vector<ArchiveFile>& files) {
     NewArchive archive;
     for (const ArchiveFile& file : files) {
-        if (const char* wrong = wrongWith(file.first))
+        const bool hasBackslash = file.first.find('\\') != std::string::npos;
+        if (const char* wrong = hasBackslash ? "has a backslash" : wrongWith(file.first))
             throw Error(fmt::format("the name \"{}\" for an archive {}; give it another",
                                     printable(file.first),
                                     wrong));
@@ -233,6 +247,7 @@ std::string printable(std::string_view text) {
     constexpr std::size_t kMost = 120;
     std::string line(text.substr(0, kMost));
     std::ranges::replace_if(line, isControl, ' ');
+    line = legible(line);
     return text.size() > kMost ? line + "..." : line;
 }
 

@@ -33,7 +33,8 @@ class Archive {
     Archive(const Archive&) = delete;
     Archive& operator=(const Archive&) = delete;
 
-    // Of the files in it, not of folders.
+    // Of the files in it, not of folders: with '/' between them also where the archive has '\\',
+    // and without "./" before them.
     [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
     // As the entry is named that has this name but for upper and lower case and a "./" before it.
     [[nodiscard]] std::optional<std::string> find(std::string_view name) const;
@@ -49,6 +50,7 @@ class Archive {
     std::unique_ptr<Zip> zip_;
     std::string source_;
     std::vector<std::string> names_;
+    std::vector<std::uint64_t> indices_;  // of the names, in the archive
     std::uint64_t readBytes_ = 0;
 };
 
@@ -61,7 +63,8 @@ class Archive {
 // For names that ignore the case of ASCII letters.
 [[nodiscard]] std::string lowered(std::string_view text);
 [[nodiscard]] bool sameName(std::string_view a, std::string_view b);
-// A text of a file on one line of an error: without control characters, and not too long.
+// A text of a file on one line of an error: without control characters, what is no UTF-8 as \xE9,
+// and not too long.
 [[nodiscard]] std::string printable(std::string_view text);
 
 }  // namespace aquarama::formats

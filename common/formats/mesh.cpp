@@ -12,7 +12,9 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "common/base/characters.h"
 #include "common/base/log.h"
+#include "common/formats/archive.h"
 #include "common/formats/vendors.h"
 
 namespace aquarama::formats {
@@ -348,18 +350,46 @@ std::optional<double> numberIn(std::string_view text) {
     return value;
 }
 
-VendorLines::VendorLines(std::span<const std::byte> bytes, const std::string& source)
-    : source_(source), rest_(beginning(bytes, bytes.size())) {
+std::string quotedNumber(std::string_view text) {
+    const std::string plain = plainNumber(text);
+    return "\"" + printable(text) + "\"" + (plain.empty() ? "" : " (" + plain + " would be one)");
+}
+
+VendorLines::VendorLines(std::span<const std::byte> bytes,
+                         const std::string& source,
+                         bool (*joined)(std::string_view word))
+    : source_(source), rest_(beginning(bytes, bytes.size())), joined_(joined) {
     if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
+}
+
+std::string_view VendorLines::takeLine() {
+    ++linesTaken_;
+    const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+    const std::string_view line = trimmed(rest_.substr(0, end));
+    const bool isPair = rest_.substr(end).starts_with("\r\n");
+    rest_.remove_prefix(std::min(end + (isPair ? 2 : 1), rest_.size()));
+    return line;
+}
+
+// A path of Windows in a comment may end with a backslash too, which joins nothing.
+void VendorLines::joinLines() {
+    if (joined_ == nullptr || !line_.ends_with('\\')) return;
+    if (!joined_(line_.substr(0, line_.find_first_of(" \t")))) return;
+    joinedLine_.clear();
+    while (line_.ends_with('\\')) {
+        joinedLine_.append(line_.substr(0, line_.size() - 1)) += ' ';
+        line_ = rest_.empty() ? std::string_view() : takeLine();
+    }
+    joinedLine_.append(line_);
+    line_ = trimmed(joinedLine_);
 }
 
 bool VendorLines::next() {
     line_ = {};
     while (line_.empty() && !rest_.empty()) {
-        ++lineNumber_;
-        const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-        line_ = trimmed(rest_.substr(0, end));
-        rest_.remove_prefix(std::min(end + 1, rest_.size()));
+        line_ = takeLine();
+        lineNumber_ = linesTaken_;
+        joinLines();
     }
     return !line_.empty();
 }
@@ -377,7 +407,9 @@ std::vector<std::string_view> VendorLines::fields(char separator) const {
 
 double VendorLines::number(std::string_view field) const {
     const std::optional<double> value = numberIn(field);
-    if (!value) fail("holds what is no number from -1e9 to 1e9; write the file anew");
+    if (!value)
+        fail("holds what is no number from -1e9 to 1e9, " + quotedNumber(field) +
+             "; export the file anew");
     return *value;
 }
 
@@ -390,7 +422,11 @@ std::uint32_t VendorLines::integer(std::string_view field, std::uint32_t most) c
 }
 
 void VendorLines::fail(const std::string& why) const {
-    throw Error(source_ + ":" + std::to_string(lineNumber_) + ": " + why);
+    throw Error(placed(why));
+}
+
+std::string VendorLines::placed(const std::string& what) const {
+    return source_ + ":" + std::to_string(lineNumber_) + ": " + what;
 }
 
 void VendorBytes::go(std::size_t byte) {

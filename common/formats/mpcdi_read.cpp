@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <set>
@@ -13,6 +14,7 @@
 #include <glm/matrix.hpp>
 #include <pugixml.hpp>
 
+#include "common/base/characters.h"
 #include "common/base/log.h"
 #include "common/base/picture.h"
 #include "common/formats/archive.h"
@@ -171,6 +173,18 @@ struct Manifest {
     std::string name;
     Archive* archive = nullptr;
 
+    // Of the archive, with a slash behind it; empty at its root.
+    [[nodiscard]] std::string folder() const { return name.substr(0, name.rfind('/') + 1); }
+    // The entry that a path of the manifest means: from its folder, else from the root.
+    [[nodiscard]] std::optional<std::string> entryOf(std::string path) const {
+        std::ranges::replace(path, '\\', '/');
+        for (const std::string& from : {folder(), std::string()}) {
+            const std::filesystem::path whole(from + path);
+            if (auto found = archive->find(whole.lexically_normal().string())) return found;
+        }
+        return std::nullopt;
+    }
+
     // For errors in the manifest, and in a file beside it.
     [[nodiscard]] std::string where() const { return name.empty() ? source : whereOf(name); }
     [[nodiscard]] std::string whereOf(const std::string& file) const {
@@ -203,6 +217,9 @@ class Reader {
     void readFileset(xml_node node);
     void readGeometry(xml_node fileset, FileChannel& channel);
     void readOrigin(xml_node geometry);
+    void readInterpolation(xml_node geometry, FileChannel& channel);
+    void say(const std::string& what);
+    void sayKept(xml_node node, const std::string& place);
     void requirePoses() const;
     void keepFiles();
 
@@ -233,7 +250,13 @@ class Reader {
 
 long double Reader::number(std::string_view text, const std::string& name) const {
     const auto number = decimalIn(trimmed(text));
-    if (!number) refuse(where_, fmt::format("has a {} of \"{}\", which is no number", name, text));
+    const std::string plain = plainNumber(text);
+    if (!number)
+        refuse(where_,
+               fmt::format("has a {} of \"{}\", which is no number{}",
+                           name,
+                           text,
+                           plain.empty() ? "" : fmt::format(" ({} would be one)", plain)));
     return *number;
 }
 
@@ -259,10 +282,25 @@ std::vector<Extension> Reader::unknownIn(xml_node parent, const std::string& pla
             known, [&](const std::string& name) { return sameName(name, node.name()); });
         if (node.type() != pugi::node_element || isKnown || isOwn) continue;
         found.push_back({.xml = xmlOf(node), .files = {}, .place = place});
+        sayKept(node, place);
         extensionBytes_ += sizeof(Extension) + found.back().xml.size();
         if (extensionBytes_ > kMostExtensionBytes) refuse(where_, "has too many extensions");
     }
     return found;
+}
+
+// Of an extension, which is for the program of its name; or of an element that the format lacks.
+void Reader::sayKept(xml_node node, const std::string& place) {
+    const std::string name = attribute(node, "Name");
+    say(fmt::format(
+        "<{}{}> in <{}> is kept but not obeyed: compare the picture with the producer's",
+        node.name(),
+        name.empty() ? "" : fmt::format(" Name=\"{}\"", name),
+        place));
+}
+
+void Reader::say(const std::string& what) {
+    remark(wall_.remarks, manifest_.where() + ": " + printable(where_) + ": " + printable(what));
 }
 
 // 0 by 0 where it is not said.
@@ -407,7 +445,7 @@ std::vector<std::byte> Reader::contentOf(xml_node element) {
     if (manifest_.archive == nullptr)
         refuse(where_,
                fmt::format("names \"{}\", but this is a manifest without its archive", path));
-    const std::optional<std::string> entry = manifest_.archive->find(path);
+    const std::optional<std::string> entry = manifest_.entryOf(path);
     if (!entry)
         refuse(where_,
                fmt::format(
@@ -426,6 +464,8 @@ std::optional<Warp> Reader::warpOf(xml_node element, const FileChannel& channel)
         .extent = channel.extent,
         .unitMetres = metresOf(textOf(formats::element(element, "geometricUnit")))};
     if (meaning.unitMetres == 0) refuse(where_, "has an unknown geometricUnit");
+    if (const std::string scale = scaleRemark(pfm); !scale.empty())
+        say(fmt::format("{}: {}", pathOf(element), scale));
     guessMeaning(meaning, pfm);
     if (const auto own = own_.find({channel.name, element.name()}); own != own_.end())
         std::tie(meaning.sampling, meaning.stored) = own->second;
@@ -452,7 +492,13 @@ std::optional<Mask> Reader::maskOf(xml_node element, double gamma) {
 }
 
 void Reader::readOrigin(xml_node geometry) {
-    const auto index = indexOf(kOriginNames, textOf(element(geometry, "originOf3DData")));
+    const std::string said = textOf(element(geometry, "originOf3DData"));
+    const auto index = indexOf(kOriginNames, said);
+    if (!said.empty() && !index)
+        say(
+            fmt::format("originOf3DData \"{}\" is not known: where the points are measured from is "
+                        "taken as the rig says",
+                        said));
     const auto origin = static_cast<DataOrigin>(index.value_or(0));
     if (origin == DataOrigin::Unknown) return;
     if (wall_.origin != DataOrigin::Unknown && wall_.origin != origin)
@@ -460,12 +506,19 @@ void Reader::readOrigin(xml_node geometry) {
     wall_.origin = origin;
 }
 
+// Kept for a round trip. Samples as dense as the picture's pixels leave nothing between them.
+void Reader::readInterpolation(xml_node geometry, FileChannel& channel) {
+    const std::string said = textOf(element(geometry, "interpolation"));
+    for (const char* known : {"keystone", "smooth"})
+        if (sameName(said, known)) channel.interpolation = known;
+    if (channel.interpolation != "linear")
+        say(fmt::format("interpolation \"{}\" is taken as linear: export a denser map", said));
+}
+
 void Reader::readGeometry(xml_node fileset, FileChannel& channel) {
     const xml_node geometry = element(fileset, "geometryWarpFile");
     readOrigin(geometry);
-    const std::string interpolation = textOf(element(geometry, "interpolation"));
-    for (const char* known : {"keystone", "smooth"})
-        if (sameName(interpolation, known)) channel.interpolation = known;
+    readInterpolation(geometry, channel);
     channel.warp = warpOf(geometry, channel);
     channel.distortion = warpOf(element(fileset, "distortionMap"), channel);
     if (channel.sizePixels.x == 0 && channel.warp) channel.sizePixels = channel.warp->size;
@@ -498,9 +551,13 @@ void Reader::keepFiles() {
     for (FileChannel& channel : wall_.channels)
         for (Extension& extension : channel.extensions) owners.add(extension);
     if (manifest_.archive == nullptr) return;
-    for (const std::string& name : manifest_.archive->names())
-        if (Extension* owner = owners.of(name, used_.contains(name)))
-            owner->files.emplace_back(name, manifest_.archive->read(name));
+    const std::string folder = manifest_.folder();
+    for (const std::string& name : manifest_.archive->names()) {
+        // As the manifest names it, and as it is named beside one at the root.
+        const std::string beside = name.starts_with(folder) ? name.substr(folder.size()) : name;
+        if (Extension* owner = owners.of(beside, used_.contains(name)))
+            owner->files.emplace_back(beside, manifest_.archive->read(name));
+    }
 }
 
 void Reader::readDisplay(xml_node display) {
@@ -540,23 +597,47 @@ WallFile Reader::read(xml_node root) {
     return std::move(wall_);
 }
 
-bool isXmlAtTheRoot(const std::string& name) {
-    return name.find('/') == std::string::npos && lowered(name).ends_with(".xml");
+// Of the system that packed the archive, beside each of its files.
+bool isOfMacOs(std::string_view name) {
+    return name.starts_with("__MACOSX/") || name.substr(name.rfind('/') + 1).starts_with("._");
 }
 
-// The manifest's name: the standard's, an older one, or any that stands alone.
+// Names of the archive that end so, in the order of the archive; at its root, or in folders of it.
+std::vector<std::string> entriesAt(const Archive& archive, bool atRoot, std::string_view ending) {
+    std::vector<std::string> found;
+    for (const std::string& name : archive.names()) {
+        const bool isAtRoot = name.find('/') == std::string::npos;
+        if (isAtRoot == atRoot && !isOfMacOs(name) && lowered(name).ends_with(ending))
+            found.push_back(name);
+    }
+    return found;
+}
+
+[[noreturn]] void refuseSeveral(const std::string& source, const std::vector<std::string>& names) {
+    throw Error(fmt::format("{}: has {} manifests, \"{}\" and \"{}\"; pack each wall by itself",
+                            source,
+                            names.size(),
+                            printable(names[0]),
+                            printable(names[1])));
+}
+
+// The manifest's name: the standard's, an older one, or any that stands alone; in a folder where
+// the root has none, as of an archive that was packed with its folder.
 std::string manifestOf(const Archive& archive, const std::string& source) {
     for (const char* name : {"mpcdi.xml", "mpacs.xml"})
         if (const auto found = archive.find(name)) return *found;
-    std::vector<std::string> others;
-    std::ranges::copy_if(archive.names(), std::back_inserter(others), isXmlAtTheRoot);
-    if (others.size() != 1)
-        throw Error(
-            fmt::format("{}: has no mpcdi.xml, and {} other xml files where one could be "
-                        "meant; export it anew",
-                        source,
-                        others.size()));
-    return others.front();
+    const std::vector<std::string> others = entriesAt(archive, true, ".xml");
+    if (others.size() == 1) return others.front();
+    for (const char* ending : {"/mpcdi.xml", "/mpacs.xml", ".xml"}) {
+        const std::vector<std::string> inFolders = entriesAt(archive, false, ending);
+        if (inFolders.size() > 1) refuseSeveral(source, inFolders);
+        if (!inFolders.empty()) return inFolders.front();
+    }
+    throw Error(
+        fmt::format("{}: has no mpcdi.xml, and {} other xml files where one could be "
+                    "meant; export it anew",
+                    source,
+                    others.size()));
 }
 
 WallFile readManifest(Bytes bytes, const Manifest& manifest, const ReadOptions& options) {

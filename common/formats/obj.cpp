@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront obj: v, vt and f; all else is skipped.
+// Wavefront obj: v, vt and f. Names, normals and materials are skipped; free-form surfaces too, and
+// said.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <unordered_map>
 
 #include <glm/geometric.hpp>
 
 #include "common/base/log.h"
+#include "common/formats/archive.h"
 #include "common/formats/vendors.h"
 
 namespace aquarama::formats {
@@ -16,8 +19,14 @@ namespace {
 
 constexpr std::size_t kTelling = 4096;
 constexpr std::size_t kMostTriangles = 2 * kMostVertices;
-constexpr std::array kKeywords{
+constexpr std::size_t kMostWord = 32;  // characters of a word that is told
+constexpr std::array<std::string_view, 13> kKeywords{
     "v", "vt", "vn", "vp", "f", "o", "g", "s", "l", "p", "mtllib", "usemtl", "mg"};
+
+// Of those, the ones whose lines may go on in the next.
+bool isElement(std::string_view word) {
+    return word == "f" || word == "l" || word == "p" || (word.starts_with('v') && word.size() < 3);
+}
 
 // A corner of a face: a point and, unless it is kNone, a texture coordinate.
 struct ObjCorner {
@@ -27,12 +36,14 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 
 struct ObjReader {
     VendorLines lines;
+    std::vector<std::string> remarks;
     std::vector<glm::dvec3> points;
     std::vector<glm::dvec2> textures;
     // Which point of the mesh a corner is.
     std::unordered_map<std::uint64_t, std::uint32_t> known;
     std::vector<ObjCorner> corners;  // of the mesh's points
     TriangleMesh mesh;
+    std::set<std::string> said;  // words that are not known, each once
 
     void readPoint(const std::vector<std::string_view>& fields) {
         if (fields.size() < 4 || points.size() == kMostVertices)
@@ -105,11 +116,32 @@ struct ObjReader {
         }
     }
 
+    // Up to a comment behind them.
+    [[nodiscard]] std::vector<std::string_view> fields() const {
+        auto fields = lines.fields(' ');
+        const auto comment = std::ranges::find_if(
+            fields, [](std::string_view field) { return field.starts_with('#'); });
+        fields.erase(comment, fields.end());
+        return fields;
+    }
+
     void readLine() {
-        const auto fields = lines.fields(' ');
-        if (fields[0] == "v") readPoint(fields);
-        if (fields[0] == "vt") readTexture(fields);
-        if (fields[0] == "f") readFace(fields);
+        const auto parts = fields();
+        if (parts.empty()) return;
+        if (parts[0] == "v") readPoint(parts);
+        if (parts[0] == "vt") readTexture(parts);
+        if (parts[0] == "f") readFace(parts);
+        if (std::ranges::find(kKeywords, parts[0]) == kKeywords.end()) sayPassedOver(parts[0]);
+    }
+
+    // Free-form curves and surfaces, as a rule.
+    void sayPassedOver(std::string_view word) {
+        if (said.size() == kMostRemarks ||
+            !said.insert(std::string(word.substr(0, kMostWord))).second)
+            return;
+        remark(remarks,
+               lines.placed("\"" + printable(word) +
+                            "\" is passed over: export the surface as triangles"));
     }
 };
 
@@ -127,9 +159,10 @@ bool isObj(std::span<const std::byte> bytes) {
 }
 
 TriangleMesh readObj(std::span<const std::byte> bytes, const std::string& source) {
-    ObjReader reader{VendorLines(bytes, source), {}, {}, {}, {}, {}};
+    ObjReader reader{VendorLines(bytes, source, isElement), {}, {}, {}, {}, {}, {}, {}};
     while (reader.lines.next()) reader.readLine();
     if (reader.mesh.triangles.empty()) reader.lines.fail("the mesh has no face; export it anew");
+    reader.mesh.remarks = std::move(reader.remarks);
     return std::move(reader.mesh);
 }
 
@@ -149,7 +182,9 @@ WallFile readObjWarp(std::span<const std::byte> bytes,
     FileChannel channel;
     channel.name = stemOf(source);
     addMesh(channel, std::move(mesh), source, options);
-    return oneChannel(Profile::Screen, std::move(channel));
+    WallFile wall = oneChannel(Profile::Screen, std::move(channel));
+    wall.remarks = std::move(surface.remarks);
+    return wall;
 }
 
 }  // namespace aquarama::formats

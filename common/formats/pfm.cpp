@@ -57,6 +57,7 @@ struct Layout {
     glm::ivec2 size{};
     bool isBigEndian = false;
     std::string_view texels;
+    double scale = 1;
 };
 
 [[noreturn]] void refuse(const std::string& source, const std::string& why) {
@@ -101,7 +102,7 @@ Layout layoutOf(std::string_view file, const std::string& source) {
                            width,
                            height,
                            bytes));
-    return {{width, height}, scale > 0, header.rest};
+    return {{width, height}, scale > 0, header.rest, std::abs(scale)};
 }
 
 void swapBytes(std::span<glm::vec3> texels) {
@@ -251,6 +252,7 @@ Pfm decodePfm(std::span<const std::byte> bytes, const std::string& source) {
         layoutOf({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, source);
     Pfm pfm;
     pfm.size = layout.size;
+    pfm.scale = layout.scale;
     pfm.texels.resize(layout.texels.size() / kTexelBytes);
     std::memcpy(pfm.texels.data(), layout.texels.data(), layout.texels.size());
     if (layout.isBigEndian == (std::endian::native == std::endian::little)) swapBytes(pfm.texels);
@@ -284,6 +286,12 @@ void guessMeaning(TexelMeaning& meaning, const Pfm& pfm) {
         meaning.stored = Stored::Offsets;
         meaning.sampling = Sampling::Nodes;
     }
+}
+
+std::string scaleRemark(const Pfm& pfm) {
+    if (pfm.scale == 1) return "";
+    return fmt::format("its scale of {} is not applied: export it with a scale of 1 or -1",
+                       pfm.scale);
 }
 
 Warp warpOf(Pfm pfm, const TexelMeaning& meaning) {
@@ -353,8 +361,11 @@ WallFile readPfm(std::span<const std::byte> bytes,
     meaning.profile = areInSpace(pfm) ? Profile::Screen : isView ? Profile::View : Profile::Content;
     guessMeaning(meaning, pfm);
     meaning.sampling = options.sampling.value_or(meaning.sampling);
+    const std::string said = scaleRemark(pfm);
     channel.warp = warpOf(std::move(pfm), meaning);
-    return oneChannel(meaning.profile, std::move(channel));
+    WallFile wall = oneChannel(meaning.profile, std::move(channel));
+    if (!said.empty()) remark(wall.remarks, source + ": " + said);
+    return wall;
 }
 
 }  // namespace aquarama::formats

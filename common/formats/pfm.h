@@ -19,6 +19,7 @@ namespace aquarama::formats {
 struct Pfm {
     glm::ivec2 size{};
     std::vector<glm::vec3> texels;  // bottom row first
+    double scale = 1;               // as the header has it, without its sign; not applied
 };
 
 // Takes both byte orders, and any white space between the parts of the header. Throws Error, which
@@ -27,6 +28,9 @@ struct Pfm {
 [[nodiscard]] Pfm decodePfm(std::span<const std::byte> bytes, const std::string& source);
 // "PF\nW H\n-1.000000\n" and the texels, little-endian, every bit of them.
 [[nodiscard]] std::vector<std::byte> encodePfm(const Pfm& pfm);
+
+// What is to be said of a scale that is not 1, which other tools may apply; empty: nothing.
+[[nodiscard]] std::string scaleRemark(const Pfm& pfm);
 
 // The other way round: the first row becomes the last.
 void turnOver(Pfm& pfm);

@@ -151,7 +151,13 @@ WallFile readSciss(std::span<const std::byte> bytes,
     channel.frustum = header.frustum;
     channel.coordinateFrame = {header.position};
     addMesh(channel, readMesh(in, header), source, options);
-    return oneChannel(Profile::View, std::move(channel));
+    WallFile wall = oneChannel(Profile::View, std::move(channel));
+    if (in.left() > 0)
+        remark(wall.remarks,
+               source + ": byte " + std::to_string(in.at()) + ": " + std::to_string(in.left()) +
+                   " bytes behind the mesh are passed over: compare the picture with the "
+                   "producer's");
+    return wall;
 }
 
 }  // namespace aquarama::formats

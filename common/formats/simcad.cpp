@@ -7,6 +7,7 @@
 #include <pugixml.hpp>
 
 #include "common/base/log.h"
+#include "common/formats/archive.h"
 #include "common/formats/vendors.h"
 
 namespace aquarama::formats {
@@ -24,6 +25,7 @@ struct Offsets {
 struct SimcadFile {
     Offsets x, y;
     std::size_t side = 0;
+    std::vector<std::string> remarks = {};
 };
 
 [[noreturn]] void fail(const std::string& source, const char* element, const std::string& why) {
@@ -42,7 +44,8 @@ std::vector<double> numbersOf(std::string_view text,
             fail(source,
                  element,
                  "value " + std::to_string(numbers.size() + 1) +
-                     " is no number from -1e9 to 1e9, or one too many; export it anew");
+                     " is no number from -1e9 to 1e9, or one too many: " +
+                     quotedNumber(text.substr(at, end - at)) + "; export it anew");
         numbers.push_back(*value);
         at = end;
     }
@@ -62,6 +65,21 @@ Offsets readOffsets(const pugi::xml_node& definition,
     return offsets;
 }
 
+// Elements of geometry or light that are not read.
+void sayOthers(const pugi::xml_node& definition,
+               const std::string& source,
+               std::vector<std::string>& remarks) {
+    for (const pugi::xml_node parent : {definition, definition.parent()})
+        for (const pugi::xml_node node : parent.children()) {
+            const std::string_view name = node.name();
+            if (node.type() == pugi::node_element && name != "GeometryDefinition" &&
+                name != "X-FlatParameters" && name != "Y-FlatParameters")
+                remark(remarks,
+                       source + ": <" + printable(name) +
+                           "> is passed over: compare the picture with the producer's");
+        }
+}
+
 SimcadFile simcadFile(std::span<const std::byte> bytes, const std::string& source) {
     pugi::xml_document document;
     const pugi::xml_parse_result parsed = document.load_buffer(bytes.data(), bytes.size());
@@ -72,6 +90,7 @@ SimcadFile simcadFile(std::span<const std::byte> bytes, const std::string& sourc
     if (!definition) fail(source, "GeometryDefinition", "is missing; export the file anew");
     SimcadFile file{readOffsets(definition, "X-FlatParameters", source),
                     readOffsets(definition, "Y-FlatParameters", source)};
+    sayOthers(definition, source, file.remarks);
     const std::size_t count = file.x.values.size();
     file.side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(count))));
     if (file.side < 2 || file.side * file.side != count || file.y.values.size() != count)
@@ -113,7 +132,9 @@ WallFile readSimcad(std::span<const std::byte> bytes,
     channel.sizePixels = pictureSize(file.x.range, file.y.range).value_or(glm::ivec2(0));
     const Profile profile = addFrustum(channel, frustum) ? Profile::View : Profile::Content;
     addMesh(channel, meshOf(file), source, options);
-    return oneChannel(profile, std::move(channel));
+    WallFile wall = oneChannel(profile, std::move(channel));
+    wall.remarks = file.remarks;
+    return wall;
 }
 
 }  // namespace aquarama::formats

@@ -5,12 +5,14 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <glm/common.hpp>
 #include <glm/gtc/type_precision.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "common/base/log.h"
+#include "common/formats/archive.h"
 #include "common/formats/vendors.h"
 
 namespace aquarama::formats {
@@ -61,6 +63,16 @@ class CsvTable {
         return lines_.integer(field(name), kMostVertices);
     }
     [[noreturn]] void fail(const std::string& why) const { lines_.fail(why); }
+    // Columns of other names than these; all are in the first line.
+    void remarkOthers(std::span<const std::string_view> known,
+                      const std::string& source,
+                      std::vector<std::string>& remarks) const {
+        for (const std::string& name : names_)
+            if (!name.empty() && std::ranges::find(known, name) == known.end())
+                remark(remarks,
+                       source + ":1: column \"" + printable(name) +
+                           "\" is passed over: export what it says of the picture as MPCDI");
+    }
 
   private:
     [[nodiscard]] std::string_view field(const char* name) const {
@@ -185,7 +197,10 @@ WallFile readDomeprojection(std::span<const std::byte> bytes,
     }
     const Profile profile = addFrustum(channel, frustum) ? Profile::View : Profile::Content;
     addMesh(channel, domeprojectionMesh(bytes, source), source, options);
-    return oneChannel(profile, std::move(channel));
+    WallFile wall = oneChannel(profile, std::move(channel));
+    constexpr std::array<std::string_view, 6> kColumns{"x", "y", "u", "v", "column", "row"};
+    CsvTable(bytes, source).remarkOthers(kColumns, source, wall.remarks);
+    return wall;
 }
 
 // Paul Bourke: x over the picture's aspect and y upward, -1 to 1; u and v from the bottom left.
@@ -193,7 +208,7 @@ WallFile readDomeprojection(std::span<const std::byte> bytes,
 namespace {
 
 // Two columns of a polar mesh are neighbours: the first and the last.
-constexpr std::uint32_t kPolar = 1;
+constexpr std::uint32_t kPolar = 1, kRectangular = 2;
 // Of a vertex that is not shown.
 constexpr double kHidden = std::numeric_limits<double>::quiet_NaN();
 
@@ -292,7 +307,13 @@ WallFile readPaulBourke(std::span<const std::byte> bytes,
     FileChannel channel;
     channel.name = stemOf(source);
     addMesh(channel, std::move(read.mesh), source, options, kCommonGamma);
-    return oneChannel(Profile::Content, std::move(channel));
+    WallFile wall = oneChannel(Profile::Content, std::move(channel));
+    if (read.type != kPolar && read.type != kRectangular)
+        remark(wall.remarks,
+               source + ":1: mesh type " + std::to_string(read.type) +
+                   " is taken as rectangular, for flat content: compare the picture with the "
+                   "producer's");
+    return wall;
 }
 
 // Scalable: x and y in pixels, y upward; s and t from the bottom left.
@@ -303,7 +324,9 @@ namespace {
 struct ScalableFile {
     std::vector<std::pair<std::string, double>> keys;
     std::uint32_t vertices = 0, faces = 0;
+    bool isEven = false;  // DO_NO_WARP
     WarpMesh mesh;
+    std::vector<std::string> remarks;
 
     // The last value of a key, as other readers take it.
     [[nodiscard]] std::optional<double> find(std::string_view key) const {
@@ -352,6 +375,70 @@ std::uint32_t scalableCount(const VendorLines& lines,
     return lines.integer(value, 2 * kMostVertices);
 }
 
+// Keys that are obeyed, that change no picture, or whose switch is said.
+constexpr std::array<std::string_view, 26> kQuietKeys{"OPENMESH",
+                                                      "VERTICES",
+                                                      "FACES",
+                                                      "MAPPING",
+                                                      "NATIVEXRES",
+                                                      "NATIVEYRES",
+                                                      "ORTHO_LEFT",
+                                                      "ORTHO_RIGHT",
+                                                      "ORTHO_TOP",
+                                                      "ORTHO_BOTTOM",
+                                                      "GAMMA",
+                                                      "LABEL",
+                                                      "SUBVERSION",
+                                                      "PERSPECTIVE_LEFT",
+                                                      "PERSPECTIVE_RIGHT",
+                                                      "PERSPECTIVE_TOP",
+                                                      "PERSPECTIVE_BOTTOM",
+                                                      "PERSPECTIVE_ROLL",
+                                                      "PERSPECTIVE_PITCH",
+                                                      "PERSPECTIVE_YAW",
+                                                      "FRUSTUM_EULER_YAW",
+                                                      "FRUSTUM_EULER_PITCH",
+                                                      "FRUSTUM_EULER_ROLL",
+                                                      "PERSPECTIVE_XOFFSET",
+                                                      "PERSPECTIVE_YOFFSET",
+                                                      "PERSPECTIVE_ZOFFSET"};
+
+// What is not done here although a key says it, and what to do. Only DO_NO_WARP is obeyed.
+constexpr std::array<std::pair<std::string_view, const char*>, 6> kSaidKeys{{
+    {"APPLY_MASK",
+     "its mask is a file of its own, which is not read: export MPCDI with an alphaMap, or draw it "
+     "by "
+     "aquarama adjust mask"},
+    {"APPLY_BLACK_LEVEL",
+     "its black level is a file of its own, which is not read: export MPCDI with a betaMap"},
+    {"APPLY_COLOR",
+     "its colours are a file of their own, which is not read: set the projectors alike, or measure "
+     "them by aquarama calibrate"},
+    {"USE_SPHERE_SAMPLE_COORDINATE_SYSTEM",
+     "its samples are taken as those of a plane, so the picture may be turned: export it without"},
+    {"FRUSTUM_EULER_ANGLES",
+     "FRUSTUM_EULER_* do not turn the picture here: give the angles as PERSPECTIVE_YAW, _PITCH and "
+     "_ROLL"},
+    {"DO_NO_WARP", "nothing is warped, only its blend is taken: set it to 0 for the mesh's warp"},
+}};
+
+bool isOn(std::string_view value) {
+    const std::string_view off[] = {"", "0", "OFF", "FALSE", "NO", "off", "false", "no"};
+    return std::ranges::find(off, value) == std::end(off) && numberIn(value) != 0.0;
+}
+
+// What is to be said of a key that is switched on; empty: nothing.
+std::string scalableRemark(std::string_view key, std::string_view value) {
+    const bool isUsual =
+        (key == "SAMPLING" && value == "LINEAR") || (key == "PROJECTION" && value == "PERSPECTIVE");
+    if (isUsual || !isOn(value) || std::ranges::find(kQuietKeys, key) != kQuietKeys.end())
+        return "";
+    const auto* said = std::ranges::find(kSaidKeys, key, [](const auto& one) { return one.first; });
+    const std::string what = printable(std::string(key) + " " + std::string(value)) + ": ";
+    if (said != kSaidKeys.end()) return what + said->second;
+    return what + "is not known here and passed over: compare the picture with the producer's";
+}
+
 void readScalableKey(const VendorLines& lines,
                      const std::vector<std::string_view>& fields,
                      ScalableFile& file) {
@@ -360,6 +447,9 @@ void readScalableKey(const VendorLines& lines,
     if (key == "FACES") file.faces = scalableCount(lines, value, file.faces);
     if (key == "MAPPING" && value != "NORMALIZED")
         lines.fail("its mapping is not NORMALIZED; export it so");
+    if (const std::string said = scalableRemark(key, value); !said.empty())
+        remark(file.remarks, lines.placed(said));
+    if (key == "DO_NO_WARP") file.isEven = isOn(value);
     const std::optional<double> number = numberIn(value);
     if (number && file.keys.size() < kMostKeys) file.keys.emplace_back(key, *number);
 }
@@ -395,6 +485,7 @@ void placeInPicture(ScalableFile& file, glm::ivec2 size, const VendorLines& line
     for (WarpMesh::Vertex& vertex : file.mesh.vertices) {
         const glm::dvec2 place = (vertex.place / glm::dvec2(size) - first) / span;
         vertex.place = {place.x, 1 - place.y};
+        if (file.isEven) vertex.target = {vertex.place, 0};
     }
 }
 
@@ -458,7 +549,9 @@ WallFile readScalable(std::span<const std::byte> bytes,
     if (gamma < 0.1 || gamma > 10) lines.fail("GAMMA is not from 0.1 to 10; correct it");
     const Profile profile = channel.frustum ? Profile::View : Profile::Content;
     addMesh(channel, std::move(file.mesh), source, options, gamma);
-    return oneChannel(profile, std::move(channel));
+    WallFile wall = oneChannel(profile, std::move(channel));
+    wall.remarks = std::move(file.remarks);
+    return wall;
 }
 
 }  // namespace aquarama::formats

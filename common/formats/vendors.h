@@ -80,6 +80,7 @@ struct TriangleMesh {
     std::vector<glm::dvec3> points;    // metres
     std::vector<glm::dvec2> textures;  // one for each point, from the bottom left; or none at all
     std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<std::string> remarks = {};  // as WallFile has them
 };
 // Polygons become fans. A point is there once for each texture coordinate that faces give it.
 [[nodiscard]] TriangleMesh readObj(std::span<const std::byte> bytes, const std::string& source);
@@ -124,8 +125,11 @@ void addMesh(FileChannel& channel,
 // The lines of a text file that are not blank, one after another.
 class VendorLines {
   public:
-    // Any ends of lines; a byte order mark is skipped. Both must outlive this.
-    VendorLines(std::span<const std::byte> bytes, const std::string& source);
+    // Any ends of lines; a byte order mark is skipped. Both must outlive this. `joined`: whether a
+    // line that begins with such a word and ends with a backslash goes on in the next.
+    VendorLines(std::span<const std::byte> bytes,
+                const std::string& source,
+                bool (*joined)(std::string_view word) = nullptr);
     // False at the end of the file.
     bool next();
     [[nodiscard]] std::string_view line() const { return line_; }
@@ -135,12 +139,23 @@ class VendorLines {
     [[nodiscard]] double number(std::string_view field) const;
     [[nodiscard]] std::uint32_t integer(std::string_view field, std::uint32_t most) const;
     [[noreturn]] void fail(const std::string& why) const;
+    // "source:line: what", for a remark.
+    [[nodiscard]] std::string placed(const std::string& what) const;
 
   private:
+    // Up to the next end of a line, which is passed.
+    std::string_view takeLine();
+    void joinLines();
+
     const std::string& source_;
     std::string_view rest_, line_;
-    int lineNumber_ = 0;
+    bool (*joined_)(std::string_view word);
+    std::string joinedLine_;  // what line_ is a part of, where lines were joined
+    int lineNumber_ = 0;      // of the line, or the first of those that were joined
+    int linesTaken_ = 0;
 };
+// A text that is no number, quoted, with the number that it is meant as where that can be told.
+[[nodiscard]] std::string quotedNumber(std::string_view text);
 // The number in a text, as above.
 [[nodiscard]] std::optional<double> numberIn(std::string_view text);
 // At most this many of the first bytes, as text.

@@ -36,6 +36,7 @@ struct ViosoChannel {
     FileChannel channel;
     ViosoHeader header;
     int bitmaps = 0;
+    std::vector<std::string> remarks = {};
 };
 
 bool isWarpMagic(std::string_view magic) {
@@ -144,13 +145,16 @@ Warp readRecords(VendorBytes& in, const ViosoHeader& header, bool upsideDown) {
     return warp;
 }
 
-// The part of the content that the channel shows, if the header has it.
-void placeInContent(FileChannel& channel, const std::array<double, 4>& content) {
+// The part of the content that the channel shows, if the header has it. True where what it has can
+// be none.
+bool placeInContent(FileChannel& channel, const std::array<double, 4>& content) {
     const auto [left, top, right, bottom] = content;
     const auto isPart = [](double low, double high) { return low >= 0 && low < high && high <= 1; };
-    if (!isPart(left, right) || !isPart(top, bottom)) return;
+    const bool isSaid = left != 0 || top != 0 || right != 0 || bottom != 0;
+    if (!isPart(left, right) || !isPart(top, bottom)) return isSaid;
     channel.corner = {left, top};
     channel.extent = {right - left, bottom - top};
+    return false;
 }
 
 ViosoChannel readWarp(VendorBytes& in, std::size_t number, bool upsideDown) {
@@ -160,7 +164,10 @@ ViosoChannel readWarp(VendorBytes& in, std::size_t number, bool upsideDown) {
     channel.name =
         read.header.name.empty() ? "channel " + std::to_string(number) : read.header.name;
     channel.sizePixels = {read.header.width, read.header.height};
-    placeInContent(channel, read.header.content);
+    if (placeInContent(channel, read.header.content))
+        remark(read.remarks,
+               "its part of the content is none, so it shows the whole: compare the picture with "
+               "the producer's");
     if (read.header.dataBytes != 0) channel.warp = readRecords(in, read.header, upsideDown);
     return read;
 }
@@ -280,6 +287,11 @@ void addBitmap(VendorBytes& in, ViosoChannel& to) {
         if (which == 0) to.channel.blend = readBitmap(in, bitmap, 1);
         if (which == 1 && scale > 0)
             to.channel.black = readBitmap(in, bitmap, std::min(scale, kMostScale));
+        if (which > 1)
+            remark(to.remarks,
+                   "bitmap " + std::to_string(which + 1) +
+                       " (white, or of later versions) is not used: measure the projectors by "
+                       "aquarama calibrate where their whites differ");
     }
     const std::size_t rows = static_cast<std::size_t>(bitmap.height) * bitmap.rowBytes();
     in.go(std::max(bitmap.end, bitmap.pixels + rows));
@@ -326,6 +338,8 @@ WallFile readVioso(std::span<const std::byte> bytes,
     WallFile file;
     file.profile = points(read.front()) ? Profile::Screen : Profile::Content;
     for (const ViosoChannel& one : read) {
+        for (const std::string& said : one.remarks)
+            remark(file.remarks, source + ": channel \"" + one.channel.name + "\": " + said);
         if (points(one) != points(read.front()))
             throw Error(source + ": channel \"" + one.channel.name +
                         "\": has points where others have content, or the other way; export it "

@@ -73,6 +73,10 @@ Between between(double place, int count, Sampling sampling) {
 
 }  // namespace
 
+void remark(std::vector<std::string>& remarks, const std::string& line) {
+    if (remarks.size() < kMostRemarks) remarks.push_back(line);
+}
+
 glm::dvec3 CoordinateFrame::canonicalPosition() const {
     return {glm::dot(position, pitch), -glm::dot(position, yaw), -glm::dot(position, roll)};
 }

@@ -135,7 +135,13 @@ struct WallFile {
     std::vector<Extension> extensions;
     DataOrigin origin = DataOrigin::Unknown;
     std::string date;  // as the file says it; where empty, that of writing
+    // What the file asks for and nobody here does, so that the picture may not be what its producer
+    // meant: a line each for the user, with the place in the file and what to do.
+    std::vector<std::string> remarks = {};
 };
+inline constexpr std::size_t kMostRemarks = 16;
+// Adds one more, as long as they are few.
+void remark(std::vector<std::string>& remarks, const std::string& line);
 
 // What a file does not tell itself, and the user may.
 struct ReadOptions {

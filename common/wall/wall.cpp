@@ -37,6 +37,8 @@ Wall::Wall(const config::Rig& rig)
       adjustments_(config::adjustmentsOf(rig_)),
       blend_(adjustments_) {
     const WallFiles files = readWallFiles(rig_);
+    for (const auto& [name, file] : files)
+        for (const std::string& said : file.remarks) logWarning("{}", said);
     for (std::size_t i = 0; i < rig_.channels.size(); ++i)
         channels_.push_back(
             adjusted(makeOptics(rig_, i, *screen_, files), rig_, i, *screen_, adjustments_));

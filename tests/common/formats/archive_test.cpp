@@ -73,6 +73,17 @@ TEST(Archive, namesThatLeadElsewhereAreRefused) {
     EXPECT_THROW((void)encodeArchive({{"", {}}}), Error);
 }
 
+TEST(Archive, backslashesAndAFolderOfItsOwnAreReadAsSlashes) {
+    for (const char* name : {"a\\b\\c.pfm", "./b/c.pfm"}) {
+        const Content bytes = renamed("abcdefghi", name);
+        Archive archive(bytes, "some.zip");
+        const std::string plain = std::string(name).starts_with('.') ? "b/c.pfm" : "a/b/c.pfm";
+        ASSERT_EQ(archive.names(), std::vector{plain});
+        EXPECT_EQ(archive.read(plain), bytesOf("content"));
+    }
+    EXPECT_THROW((void)encodeArchive({{"a\\b", {}}}), Error);
+}
+
 TEST(Archive, twoEntriesOfOneNameAreRefused) {
     Content bytes = encodeArchive({{"aaaa", bytesOf("1")}, {"AAAB", bytesOf("2")}});
     const Content old = bytesOf("AAAB"), now = bytesOf("AAAA");

@@ -365,6 +365,59 @@ TEST(Mpcdi, theManifestMayHaveAnyNameThatStandsAlone) {
     EXPECT_THAT(test::complaintOf(two), testing::HasSubstr("wall.mpcdi: has no mpcdi.xml, and 2"));
 }
 
+// An archive with a map, and a manifest that names it by a path.
+std::vector<std::byte> packed(const std::string& manifest,
+                              const std::string& map,
+                              const std::string& path) {
+    std::string text = kManifest;
+    text.replace(text.find("a.pfm"), 5, path);
+    return encodeArchive({{manifest, bytesOf(text)},
+                          {map, encodePfm(test::smallPfm())},
+                          {"__MACOSX/hall/._mpcdi.xml", bytesOf("of a Mac")}});
+}
+
+// As an archive that was packed with its folder: names of the manifest are those beside it.
+TEST(Mpcdi, theManifestMayLieInAFolderOfTheArchive) {
+    const WallFile plain = readMpcdi(archiveOf(kManifest, test::smallPfm()), "wall.mpcdi");
+    const auto expectRead = [&](const char* manifest, const char* map, const char* path) {
+        SCOPED_TRACE(std::string(manifest) + " " + map + " " + path);
+        expectSame(readMpcdi(packed(manifest, map, path), "wall.mpcdi"), plain);
+    };
+    for (const char* manifest :
+         {"hall/mpcdi.xml", "hall/MPCDI.XML", "hall/mpacs.xml", "hall/x.xml"})
+        for (const char* path : {"a.pfm", "./A.pfm", "maps\\..\\a.pfm", "hall/a.pfm"})
+            expectRead(manifest, "hall/a.pfm", path);
+    expectRead("hall/mpcdi.xml", "a.pfm", "a.pfm");
+    expectRead("hall/mpcdi.xml", "maps/a.pfm", "../maps/a.pfm");
+    expectRead("a/b/mpcdi.xml", "a/b/c/a.pfm", "c\\a.pfm");
+    const auto two =
+        encodeArchive({{"a/mpcdi.xml", bytesOf(kManifest)}, {"b/MPCDI.xml", bytesOf(kManifest)}});
+    EXPECT_EQ(test::complaintOf(two),
+              "wall.mpcdi: has 2 manifests, \"a/mpcdi.xml\" and \"b/MPCDI.xml\"; pack each wall by "
+              "itself");
+    EXPECT_THAT(test::complaintOf(encodeArchive({{"a/b.pfm", {}}})),
+                testing::HasSubstr("has no mpcdi.xml, and 0 other xml files"));
+}
+
+TEST(Mpcdi, whatIsKeptAndNotObeyedIsSaid) {
+    const auto saidOf = [](const std::string& part, const std::string& other) {
+        std::string text = kManifest;
+        text.replace(text.find(part), part.size(), other);
+        return readMpcdi(archiveOf(text, test::smallPfm()), "wall.mpcdi").remarks;
+    };
+    EXPECT_THAT(saidOf(">linear<", ">linear<"), testing::IsEmpty());
+    EXPECT_THAT(
+        saidOf(">linear<", ">smooth<"),
+        testing::ElementsAre("wall.mpcdi: mpcdi.xml: fileset \"a\": interpolation \"smooth\" is "
+                             "taken as linear: export a denser map"));
+    EXPECT_THAT(saidOf("<alphaMap/>", "<alphaMap/><shaderMap/>"),
+                testing::ElementsAre(
+                    testing::HasSubstr("<shaderMap> in <fileset> is kept but not obeyed")));
+    EXPECT_THAT(
+        saidOf("</MPCDI>", "<extensionSet><extension Name=\"colours\"/></extensionSet></MPCDI>"),
+        testing::ElementsAre(testing::HasSubstr("<extension Name=\"colours\"> in <extensionSet>")));
+}
+
 TEST(Mpcdi, a3dIsA3AndUnitsBecomeMetres) {
     const std::pair<const char*, float> kUnits[]{{"mm", 0.001F},
                                                  {"cm", 0.01F},

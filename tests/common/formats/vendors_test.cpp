@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/formats/vendors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -473,6 +474,79 @@ TEST(Scalable, whatCannotBeMeantIsNamedWithItsLine) {
     EXPECT_THAT(refusal("GAMMA 2.0", "VERTICES 3"), HasSubstr("second count"));
 }
 
+// With lines before its vertices.
+WallFile scalableWith(const std::string& lines) {
+    return readScalable(edited(kScalable, "NATIVEXRES", lines + "NATIVEXRES"), "a.ol", {});
+}
+
+TEST(Scalable, keysThatAreOnAndNotObeyedAreSaidWithTheirLine) {
+    for (const char* key : {"APPLY_MASK 1",
+                            "APPLY_BLACK_LEVEL 1",
+                            "APPLY_COLOR 1",
+                            "USE_SPHERE_SAMPLE_COORDINATE_SYSTEM 1",
+                            "FRUSTUM_EULER_ANGLES 1",
+                            "DO_NO_WARP 1",
+                            "APPLY_MASK TRUE",
+                            "SAMPLING NEAREST",
+                            "PROJECTION ORTHOGRAPHIC",
+                            "SOME_LATER_KEY 0.5"}) {
+        const WallFile file = scalableWith(std::string(key) + "\n");
+        ASSERT_EQ(file.remarks.size(), 1U) << key;
+        EXPECT_THAT(file.remarks[0], testing::StartsWith("a.ol:21: " + std::string(key) + ": "));
+        EXPECT_THAT(file.remarks[0], testing::ContainsRegex(": .*(:|,) [a-z]")) << "what to do";
+    }
+    const WallFile off = scalableWith(
+        "APPLY_MASK 0\nAPPLY_COLOR 0.0\nDO_NO_WARP FALSE\nFRUSTUM_EULER_YAW 15\nLABEL "
+        "3\nSUBVERSION "
+        "5\n");
+    EXPECT_THAT(off.remarks, testing::IsEmpty());
+    EXPECT_THAT(readScalable(bytesOf(kScalable), "a.ol", {}).remarks, testing::IsEmpty());
+}
+
+TEST(Scalable, noWarpLeavesTheBlendAlone) {
+    const FileChannel plain = readScalable(bytesOf(kScalable), "a.ol", {}).channels.at(0);
+    const FileChannel even = scalableWith("DO_NO_WARP 1\n").channels.at(0);
+    expectSample(*even.warp, 0, 0, {0, 0, 0});
+    expectSample(*even.warp, 1, 1, {1, 1, 0});
+    EXPECT_EQ(even.blend->codes, plain.blend->codes);
+}
+
+TEST(Vendors, whatIsPassedOverIsSaid) {
+    const auto said = [](const WallFile& file) {
+        return file.remarks.empty() ? "" : file.remarks[0];
+    };
+    EXPECT_THAT(
+        said(readDomeprojection(
+            bytesOf("x;y;u;v;column;row;alpha\n0;0;0;0;0;0;1\n1;0;1;0;1;0;1\n0;1;0;1;0;1;1\n"
+                    "1;1;1;1;1;1;0\n"),
+            "a.csv",
+            {})),
+        testing::StartsWith("a.csv:1: column \"alpha\" is passed over: "));
+    EXPECT_THAT(said(readPaulBourke(edited(kPaulBourke, "2\n", "4\n"), "a.data", {})),
+                testing::StartsWith("a.data:1: mesh type 4 is taken as rectangular"));
+    EXPECT_THAT(
+        said(readSimcad(edited(kSimcad, "</GeometryFile>", "<Blend/></GeometryFile>"), "a", {})),
+        testing::StartsWith("a: <Blend> is passed over: "));
+    SampleBytes longer = sciss();
+    longer.resize(longer.size() + 7);
+    EXPECT_THAT(said(readSciss(longer, "a.sgc", kSmall)),
+                testing::HasSubstr(": 7 bytes behind the mesh are passed over: "));
+    EXPECT_THAT(said(readObjWarp(bytesOf(std::string(kObj) + "curv 0 1 1 2\n"), "a.obj", {})),
+                "a.obj:13: \"curv\" is passed over: export the surface as triangles");
+    for (const Reader& reader : readers())
+        EXPECT_EQ(said(reader.read(reader.sample, "hall/left", kSmall)), "") << reader.name;
+}
+
+TEST(Vendors, decimalCommasAreNamed) {
+    EXPECT_THAT(
+        refusalOf([] {
+            return readDomeprojection(
+                edited(kDomeprojection, "0.5;0;0.5", "0,5;0;0.5"), "a.csv", {});
+        }),
+        HasSubstr("a.csv:3: holds what is no number from -1e9 to 1e9, \"0,5\" (0.5 would be "
+                  "one)"));
+}
+
 TEST(Domeprojection, isFromTheTopLeft) {
     const WallFile file = readDomeprojection(bytesOf(kDomeprojection), "a_mesh.csv", {});
     EXPECT_EQ(file.profile, Profile::Content);
@@ -615,6 +689,32 @@ TEST(Obj, facesBecomeTrianglesOfPointsWithTheirTextures) {
     EXPECT_EQ(last.points[2], glm::dvec3(0, 1, 0));
 }
 
+// By a backslash, whatever ends the lines; also twice, at any blank, and before the end of the
+// file.
+TEST(Obj, linesGoOnInTheNext) {
+    const TriangleMesh whole = readObj(bytesOf(kObj), "a.obj");
+    for (const char* face : {"f 1/1/1 2/2/1 \\\n  3/3/1 4/4/1\n",
+                             "f 1/1/1 2/2/1 \\\r\n3/3/1 4/4/1\r\n",
+                             "f 1/1/1\\\n2/2/1 \\\n\\\n3/3/1 \\ \n 4/4/1",
+                             "f \\\r1/1/1 2/2/1 3/3/1 4/4/1\r",
+                             "f 1/1/1 2/2/1 3/3/1 4/4/1 \\",
+                             "f 1/1 2/2 3/3 4/4 # the screen",
+                             "f -4/-4 -3/-3 \\\n -2/-2 -1/-1\n"}) {
+        const std::string text = std::string(kObj.substr(0, kObj.find("f 1/1"))) + face;
+        const TriangleMesh mesh = readObj(bytesOf(text), "a.obj");
+        EXPECT_EQ(mesh.points, whole.points) << face;
+        EXPECT_EQ(mesh.triangles, whole.triangles) << face;
+        EXPECT_THAT(mesh.remarks, testing::IsEmpty()) << face;
+    }
+    const TriangleMesh cut =
+        readObj(bytesOf("# from C:\\models\\\nv 0 0 0\nv 1 0 \\\n0\nv 0 1 0\nf 1 2 3\n"), "b");
+    EXPECT_EQ(cut.points.size(), 3U) << "a comment joins nothing";
+    EXPECT_THAT(
+        refusalOf([] { return readObj(bytesOf("v 0 0 0\nv 1 0 \\\n\\\n0\nf 1 \\\n2 5\n"), "b"); }),
+        HasSubstr("b:5: a face names"))
+        << "where it begins";
+}
+
 TEST(Obj, asAWarpItsTexturesArePlacesOfThePicture) {
     const WallFile file = readObjWarp(bytesOf(kObj), "a.obj", {});
     EXPECT_EQ(file.profile, Profile::Screen);
@@ -649,6 +749,16 @@ TEST(Vendors, aFileIsRecognisedByOneReader) {
             const bool same = reader.is == mine.is;
             EXPECT_EQ(reader.is(mine.sample), same) << reader.name << " of " << mine.name;
         }
+}
+
+TEST(Vendors, lineEndsOfOldMacsChangeNothing) {
+    for (const Reader& reader : readers()) {
+        if (reader.binary) continue;
+        SampleBytes changed = reader.sample;
+        std::ranges::replace(changed, std::byte{'\n'}, std::byte{'\r'});
+        EXPECT_TRUE(reader.is(changed)) << reader.name;
+        EXPECT_EQ(refusalOf(reader, changed), "") << reader.name;
+    }
 }
 
 TEST(Vendors, windowsLineEndsAndAByteOrderMarkChangeNothing) {
