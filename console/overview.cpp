@@ -183,7 +183,9 @@ std::vector<Fault> faultsOf(const browser::ProjectorList& projectors) {
         addReachFault(faults, one);
         addPowerFault(faults, one);
         for (const std::string& problem : one.problems())
-            faults.push_back({name + " " + problem, name + ": " + problem, kProblemSeconds});
+            faults.push_back({fmt::format("{} {}", name, problem),
+                              fmt::format("{}: {}", name, problem),
+                              kProblemSeconds});
     }
     return faults;
 }

@@ -251,7 +251,7 @@ long long aheadOfUtc(long long unixSeconds) {
 
 // The last change of the three hours until `now`: no zone puts its clock on by more than two.
 ClockChange changeBefore(const std::string& zone, long long now) {
-    constexpr long long kBack = 3 * 3600;
+    constexpr long long kBack = 3 * 3600LL;
     static_cast<void>(civilTime(zone, now));  // the process's zone from here on
     long long before = now - kBack, after = now;
     const long long seconds = aheadOfUtc(after) - aheadOfUtc(before);
