@@ -70,6 +70,13 @@ void addForm(browser::Hours& message, const config::Hours& hours) {
     }
 }
 
+// Whether its lamp is known to be on its way. One that is gone, or does not say so, is not waited
+// for.
+bool comesOn(const ProjectorFacts& facts) {
+    return facts.reach == ProjectorReach::Answers && facts.power != LampPower::On &&
+           facts.power != LampPower::Unknown;
+}
+
 }  // namespace
 
 // Whatever is wrong with what was kept, the console starts.
@@ -208,13 +215,14 @@ bool Opening::isFirstLook(UnixSeconds now) const {
     });
 }
 
-// All together: when all lamps are on, or when those that are not have had their time. One whose
-// power is unknown is waited for as one that is off.
-bool Opening::mayOpenShutters(UnixSeconds now) const {
+// All together, when the wall is in step and no lamp still comes on: lamps have three minutes since
+// they were told to, which is before the opening; nodes have three after it. Once open, they stay.
+bool Opening::mayOpenShutters(UnixSeconds now, bool isWallInStep) const {
     if (openSince_ == 0) return false;
-    if (shut_ == false || now - openSince_ > kWarmUpSeconds || isOpenAlready()) return true;
-    return std::ranges::all_of(projectors_,
-                               [](const auto& one) { return one->facts().power == LampPower::On; });
+    if (shut_ == false || isOpenAlready()) return true;
+    if (!isWallInStep && now - openSince_ <= kWarmUpSeconds) return false;
+    return now - litSince_ >= kWarmUpSeconds ||
+           std::ranges::none_of(projectors_, [](const auto& one) { return comesOn(one->facts()); });
 }
 
 // Whoever works on them does not have them switched on meanwhile; then all is said anew.
@@ -234,8 +242,9 @@ void Opening::noteOpening(UnixSeconds now) {
 }
 
 // Said when it changes: what somebody sets on the page between holds.
-void Opening::tellProjectors(bool power, std::optional<bool> shut) {
+void Opening::tellProjectors(UnixSeconds now, bool power, std::optional<bool> shut) {
     if (power_ == power && shut_ == shut) return;
+    if (power && power_ != true) litSince_ = now;
     power_ = power;
     shut_ = shut;
     for (const auto& one : projectors_) one->want(power, shut);
@@ -247,8 +256,8 @@ void Opening::switchProjectors(UnixSeconds now, bool isWallInStep) {
     if (heldUntil(now) > 0) return rest();
     noteOpening(now);
     std::optional<bool> shut = shut_;
-    if (!isFirstLook(now)) shut = !isWallInStep || !mayOpenShutters(now);
-    tellProjectors(isLampWanted(now), shut);
+    if (!isFirstLook(now)) shut = !mayOpenShutters(now, isWallInStep);
+    tellProjectors(now, isLampWanted(now), shut);
 }
 
 // Until the hours want something else of it.

@@ -40,7 +40,7 @@ class Opening {
     [[nodiscard]] bool isClosed(UnixSeconds now) const;
 
     // Every second: projectors on three minutes before, their shutters open together when the wall
-    // is in step, and off when it has been made black.
+    // is in step, for as long as it is open, and off when it has been made black.
     void switchProjectors(UnixSeconds now, bool isWallInStep);
     // Of one, or of all where the name is empty; false where there is none of that name.
     bool setProjector(const browser::ProjectorCommand& command);
@@ -55,7 +55,7 @@ class Opening {
     void watchProjectors();
     [[nodiscard]] bool isLampWanted(UnixSeconds now) const;
     // Of the lamps and shutters of all projectors together.
-    [[nodiscard]] bool mayOpenShutters(UnixSeconds now) const;
+    [[nodiscard]] bool mayOpenShutters(UnixSeconds now, bool isWallInStep) const;
     [[nodiscard]] bool isOpenAlready() const;
     [[nodiscard]] bool isFirstLook(UnixSeconds now) const;
     void keep() const;
@@ -63,7 +63,7 @@ class Opening {
     void readDone();
     void rest();
     void noteOpening(UnixSeconds now);
-    void tellProjectors(bool power, std::optional<bool> shut);
+    void tellProjectors(UnixSeconds now, bool power, std::optional<bool> shut);
 
     std::filesystem::path folder_;
     MakeProjector make_;
@@ -73,6 +73,7 @@ class Opening {
     std::optional<config::WantedHours> done_;  // what was last brought about
     UnixSeconds heldUntil_ = 0;
     UnixSeconds openSince_ = 0;
+    UnixSeconds litSince_ = 0;      // since when lamps are to be on
     UnixSeconds watchedSince_ = 0;  // the projectors of these hours; 0: not yet
     std::vector<std::unique_ptr<SwitchedProjector>> projectors_;  // in the order of the hours
     std::optional<bool> power_, shut_;  // that all projectors were last told

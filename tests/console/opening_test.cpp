@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -159,15 +160,66 @@ class OpeningOfProjectors : public OpeningTest {
                               "projectors { name: \"right\" address: \"10.0.0.2\" }\n";
 };
 
-// Unknown is not on: their shutters wait for it, but not for ever.
-TEST_F(OpeningOfProjectors, aLampThatDoesNotTellIsWaitedForThreeMinutes) {
-    Opening opening = openingWith(text_);
-    noted_[0]->known = {.reach = ProjectorReach::Answers, .power = LampPower::On};
-    noted_[1]->known = {.reach = ProjectorReach::Answers, .power = LampPower::Unknown};
-    opening.done({});
-    for (double t = -200; t <= 200; ++t) opening.switchProjectors(kTen + t, true);
-    EXPECT_EQ(noted_[0]->wanted, "off shut on shut on open ");
-    EXPECT_EQ(noted_[1]->wanted, noted_[0]->wanted);
+// Seconds after ten o'clock when shutters were told to open, from `begin` on; 1000: never.
+double openedAfter(Opening& opening,
+                   const Noted& one,
+                   double begin,
+                   const std::function<bool(double)>& isInStep) {
+    constexpr double kNever = 1000;
+    for (double t = begin; t < kNever; ++t) {
+        opening.switchProjectors(kTen + t, isInStep(t));
+        if (one.wanted.ends_with("open ")) return t;
+    }
+    return kNever;
+}
+
+bool always(double /*seconds*/) {
+    return true;
+}
+
+TEST_F(OpeningOfProjectors, oneThatIsGoneSilentWrongOrLateDelaysNoOther) {
+    for (const ProjectorReach reach :
+         {ProjectorReach::Answers, ProjectorReach::NoAnswer, ProjectorReach::RefusesPassword})
+        for (const LampPower power : {LampPower::Unknown, LampPower::Off, LampPower::Warming}) {
+            Opening opening = openingWith(text_);
+            noted_[0]->known = {.reach = ProjectorReach::Answers, .power = LampPower::On};
+            noted_[1]->known = {.reach = reach, .power = power};
+            opening.done({});
+            EXPECT_EQ(openedAfter(opening, *noted_[0], -200, always), 0)
+                << nameOf(reach) << ", " << nameOf(power);
+            EXPECT_EQ(noted_[0]->wanted, "off shut on shut on open ");
+            EXPECT_EQ(noted_[1]->wanted, noted_[0]->wanted);
+        }
+}
+
+// After a power cut in the afternoon, say.
+TEST_F(OpeningOfProjectors, lampsThatComeOnWhileTheWallIsOpenAreWaitedForThreeMinutesAtMost) {
+    for (const auto& [power, expected] : {std::pair{LampPower::Warming, kHour + 180},
+                                          std::pair{LampPower::On, kHour},
+                                          std::pair{LampPower::Unknown, kHour}}) {
+        Opening opening = openingWith(text_);
+        noted_[0]->known = {.reach = ProjectorReach::Answers, .power = LampPower::On};
+        noted_[1]->known = {.reach = ProjectorReach::Answers, .power = power};
+        double opened = kHour;
+        while (opened < 2 * kHour && !noted_[0]->wanted.ends_with("open "))
+            opening.switchProjectors(kTen + opened++, true);
+        EXPECT_EQ(opened - 1, expected) << nameOf(power);
+    }
+}
+
+TEST_F(OpeningOfProjectors, nodesThatAreNotInStepAreWaitedForAtTheOpeningAndNotLater) {
+    const std::vector<std::pair<std::function<bool(double)>, double>> cases{
+        {[](double t) { return t > 40; }, 41}, {[](double) { return false; }, 181}};
+    for (const auto& [isInStep, expected] : cases) {
+        Opening opening = openingWith(text_);
+        for (Noted* one : noted_)
+            one->known = {.reach = ProjectorReach::Answers, .power = LampPower::On};
+        opening.done({});
+        EXPECT_EQ(openedAfter(opening, *noted_[0], -200, isInStep), expected);
+        opening.done(*opening.due(kTen));
+        for (double t = 200; t < 300; ++t) opening.switchProjectors(kTen + t, t > 250);
+        EXPECT_TRUE(noted_[0]->wanted.ends_with("shut on open ")) << noted_[0]->wanted;
+    }
 }
 
 // A console that is started again in the evening leaves shutters as they are.
