@@ -10,6 +10,7 @@
 
 #include "calibration/theatre/clip.h"
 #include "calibration/theatre/compose.h"
+#include "common/base/counted.h"
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
@@ -146,8 +147,8 @@ void film(const config::Rig& rig, const Filming& filming) {
     filmed.reset();  // the nodes need not wait for the encoder's last pictures
     clip->finish();
     progress.end();
-    std::cout << "clip of the " << filming.of << " in " << filming.clipPath << ": " << pictures
-              << " pictures" << std::endl;
+    std::cout << "clip of the " << filming.of << " in " << filming.clipPath << ": "
+              << counted(pictures, "picture") << std::endl;
 }
 
 }  // namespace aquarama::theatre

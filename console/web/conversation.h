@@ -178,12 +178,17 @@ asio::awaitable<bool> sayTo(Stream& stream, const BeastRequest& request, HttpRep
     co_return !error && response.keep_alive();
 }
 
-// The address at its other end; empty where it has gone already.
+// The address at its other end, of version 4 also where a socket of version 6 has taken it; empty
+// where it has gone already.
 template <class Stream>
 std::string peerOf(Stream& stream) {
     beast::error_code gone;
     const auto end = beast::get_lowest_layer(stream).socket().remote_endpoint(gone);
-    return gone ? std::string() : end.address().to_string();
+    if (gone) return {};
+    const asio::ip::address address = end.address();
+    const bool isMapped = address.is_v6() && address.to_v6().is_v4_mapped();
+    return isMapped ? asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()).to_string()
+                    : address.to_string();
 }
 
 // The stream has no deadline from here on: the WebSocket's pings find out a dead client. A refusal

@@ -62,6 +62,22 @@ class Alone(unittest.TestCase):
         return context.wrap_socket(socket.create_connection((host, int(port)), timeout=10), server_hostname=host)
 
 
+class FirstStart(Alone):
+    def test_pages_say_what_the_master_prepares(self):
+        master = subprocess.Popen([BIN / "aquarama", "master", self.rig], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=ROOT,
+                                  env=os.environ | {"XDG_CACHE_HOME": self.folder.name + "/none"})
+        try:
+            self.start()
+            client = Socket(self, Origin=None, Authorization=f"Bearer {self.token()}")
+            wall = client.hear_until(lambda message: message.get("wall", {}).get("preparing"))["wall"]
+            self.assertRegex(wall["preparing"], r"^the master prepares: capturing 7 of 7 species, \d+ %$")
+            self.assertFalse(wall["heard"])
+            client.close()
+        finally:
+            master.kill()
+            master.wait()
+
+
 class Certificates(Alone):
     @unittest.skipIf(*lacks(FAKE_TIME, "libfaketime"))
     def test_one_that_ran_out_while_the_console_was_off_is_renewed_at_its_start(self):

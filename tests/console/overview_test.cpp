@@ -64,6 +64,17 @@ TEST(Overview, numbersThatAreZeroAndLargeOnesReachTheBrowser) {
     EXPECT_NE(json.find(R"("late":"0")"), std::string::npos);
 }
 
+TEST(Overview, aMasterThatPreparesIsNoFault) {
+    browser::Wall wall;
+    wall.set_heard(false);
+    EXPECT_EQ(faultsOf(wall, 100).size(), 1U) << "no show runs";
+    wall.set_preparing("the master prepares: capturing 3 of 7 species, 20 %");
+    EXPECT_TRUE(faultsOf(wall, 100).empty());
+    wall.set_preparing("");
+    wall.set_heard_s(90);
+    EXPECT_EQ(faultsOf(wall, 100).size(), 1U) << "it has died";
+}
+
 TEST(Overview, whatABrowserMayNotSayIsRefused) {
     EXPECT_TRUE(readBrowser(R"({"command":{"id":"7","run":"1","black":true}})"));
     EXPECT_TRUE(readBrowser(R"({"alive":{}})"));

@@ -159,6 +159,7 @@ class Pages(unittest.TestCase):
         time.sleep(0.5)
         self.assertGreaterEqual(frame(), before)
         self.assertLessEqual(frame(), self.desk.status()["frame"])
+        wait_until(lambda: re.search(r"\b1 browser\b", self.text("footer")), 10, "the only browser, in the singular")
 
     def test_black_is_held_shown_in_the_preview_and_undone_by_one_tap(self):
         wait_until(lambda: self.is_drawn_black(0) is False, 15, "a picture with light in it")
