@@ -159,6 +159,7 @@ browser::ToBrowser Console::snapshotFor(const Visitor& visitor) const {
 
 browser::Hours Console::hoursFor(const Visitor& visitor) const {
     browser::Hours hours = opening_.hours(unixNow());
+    if (!doubtOfClock_.empty()) hours.set_next("stays");  // they rest
     if (visitor.holder.role == ConsoleRole::Crew) return hours;
     hours.clear_text();
     if (!hours.problem().empty())

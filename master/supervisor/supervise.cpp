@@ -92,6 +92,11 @@ Process masterProcess(const RunOptions& options) {
     return master;
 }
 
+// What the user typed: errors of programs that help with it begin so ("aquarama run clip: ...").
+std::string typedCommand(const RunOptions& options) {
+    return options.show.replayPath.empty() ? "aquarama run" : "aquarama replay";
+}
+
 // Composes and encodes the clip while the nodes draw.
 Process clipProcess(const RunOptions& options, const std::string& pipes) {
     std::vector<std::string> arguments{"clip", options.show.rigPath, options.clipPath};
@@ -100,7 +105,9 @@ Process clipProcess(const RunOptions& options, const std::string& pipes) {
     append(arguments, "--every", std::to_string(options.filmEvery));
     if (options.show.frames) append(arguments, "--frames", std::to_string(*options.show.frames));
     if (showsAllChannels(options.clipOf)) append(arguments, "--first", options.snapshotFolder);
-    return {.name = kClip, .command = {siblingProgram("calibrate"), arguments}, .started = {}};
+    return {.name = kClip,
+            .command = {siblingProgram("calibrate"), arguments, typedCommand(options)},
+            .started = {}};
 }
 
 // Where the rig needs keys, the node gets its key file instead of a name and an address.
@@ -315,8 +322,9 @@ Outcome watch(const RunOptions& options, const ErrorPipe& errors, std::vector<Pr
 bool compose(const RunOptions& options, const ErrorPipe& errors) {
     std::vector<std::string> arguments{"compose", options.show.rigPath, options.snapshotFolder};
     if (options.deep) arguments.emplace_back("--deep");
-    Process composer{
-        .name = "compose", .command = {siblingProgram("calibrate"), arguments}, .started = {}};
+    Process composer{.name = "compose",
+                     .command = {siblingProgram("calibrate"), arguments, typedCommand(options)},
+                     .started = {}};
     composer.launch();
     while (true) {
         for (const Ending& ending : waitForChildren(1s).endings) {
