@@ -35,12 +35,17 @@ std::string figuresIn(const std::string& note) {
         return found != figures.end() && found->is_number() ? found->get<double>() : std::nan("");
     };
     const auto verdict = figures.find("verdict");
-    return fmt::format("{}, neighbours part by {:.2f} px, at most {:.2f}; place {:.2f} px",
+    const double apart = number("overlap_rms_px");  // none on a wall without neighbours
+    const std::string neighbours =
+        std::isnan(apart) ? ""
+                          : fmt::format("neighbours part by {:.2f} px, at most {:.2f}; ",
+                                        apart,
+                                        number("overlap_max_px"));
+    return fmt::format("{}, {}place {:.2f} px",
                        verdict != figures.end() && verdict->is_string()
                            ? verdict->get<std::string>()
                            : "no verdict",
-                       number("overlap_rms_px"),
-                       number("overlap_max_px"),
+                       neighbours,
                        number("absolute_rms_px"));
 }
 

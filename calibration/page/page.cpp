@@ -131,6 +131,19 @@ std::string lightRows(const solve::Figures& figures) {
     return rows;
 }
 
+// How channels agree where two of them show one point.
+std::string neighbourRows(const solve::Figures& figures, const std::string& source) {
+    std::string rows =
+        row("Neighbours, RMS",
+            pixels(figures.overlapRms),
+            source + "How far two projectors part where both show one point; good is 0.20.");
+    rows += row("Neighbours, 95 %",
+                pixels(figures.overlapP95),
+                "Nineteen points of twenty are better; good is 0.45.");
+    rows += row("Neighbours, most", pixels(figures.overlapMax), "The worst point; good is 1.0.");
+    return rows + row("Points", fmt::format("{}", figures.overlapPoints), "of these errors.");
+}
+
 // A simulation is told apart in words: its errors come from the truth, others from places that were
 // kept from the solve.
 std::string figureTable(const solve::Figures& figures) {
@@ -139,13 +152,7 @@ std::string figureTable(const solve::Figures& figures) {
                          "seen. "
                        : "At places that were kept from the solve. ";
     std::string rows = "<div class=\"wide\"><table class=\"figures\">\n";
-    rows += row("Neighbours, RMS",
-                pixels(figures.overlapRms),
-                source + "How far two projectors part where both show one point; good is 0.20.");
-    rows += row("Neighbours, 95 %",
-                pixels(figures.overlapP95),
-                "Nineteen points of twenty are better; good is 0.45.");
-    rows += row("Neighbours, most", pixels(figures.overlapMax), "The worst point; good is 1.0.");
+    if (figures.overlapPoints > 0) rows += neighbourRows(figures, source);
     rows += row("Place, RMS",
                 pixels(figures.absoluteRms),
                 figures.isTrue
@@ -160,7 +167,6 @@ std::string figureTable(const solve::Figures& figures) {
                 "What models of lenses and screen leave over at the places that they were fitted "
                 "to; it is corrected afterwards and is no measure of accuracy.");
     rows += lightRows(figures);
-    rows += row("Points", fmt::format("{}", figures.overlapPoints), "of the neighbours' errors.");
     rows += row("Cost",
                 fmt::format("{} pictures, {:.0f} s, {:.0f} MB",
                             figures.pictures,
@@ -183,7 +189,7 @@ class Writer {
         text += "<p class=\"dim\">Errors are in pixels of the panorama (px), which is " +
                 fmt::format("{} x {}", rig_.panoramaPixels.x, rig_.panoramaPixels.y) +
                 ". The wall is drawn unrolled, as the sweet spot sees it.</p>\n";
-        if (page_.figures.overlapPoints > 0)
+        if (page_.figures.overlapPoints > 0 || page_.figures.verdict != solve::Judgement::Refuse)
             text += section(
                 "Figures", "What was measured, and what is good.", figureTable(page_.figures));
         text += camera();
@@ -292,6 +298,8 @@ class Writer {
     [[nodiscard]] std::string errors(const Fall& fall, const hall::DrawnWall& after) const {
         constexpr int kWidth = 500;
         std::string text;
+        const bool hasNeighbours = page_.figures.overlapPoints > 0;
+        if (page_.truth == nullptr && !hasNeighbours) return text;
         if (page_.truth == nullptr) {
             double most = 0.2;
             for (const solve::Parting& parting : page_.solved.partings)
@@ -304,10 +312,12 @@ class Writer {
         }
         const ErrorMaps maps = errorMaps(fall, after, rig_.panoramaPixels, sized(kWidth));
         const double apart = std::max(0.2, largestOf(maps.neighbours));
-        text = section("Where neighbours part",
-                       "Grey is lit by one projector. Dots are the places that were kept from the "
-                       "solve, the field is the truth.",
-                       mapped(maps.neighbours, apart, heldOutDots(apart), "neighbours"));
+        if (hasNeighbours)
+            text =
+                section("Where neighbours part",
+                        "Grey is lit by one projector. Dots are the places that were kept from the "
+                        "solve, the field is the truth.",
+                        mapped(maps.neighbours, apart, heldOutDots(apart), "neighbours"));
         return text + section("Where the picture lies beside its place",
                               "By the truth of the simulated hall.",
                               mapped(maps.absolute,

@@ -77,11 +77,14 @@ Owner<AVFormatContext> openInput(const Source& source, const std::atomic<bool>& 
     const std::string left = unknown == nullptr ? "" : unknown->key;
     av_dict_free(&options);
     Owner<AVFormatContext> input(opened < 0 ? nullptr : made);
-    if (input && !left.empty()) throw Error(source.name + ": has no option \"" + left + "\"");
-    if (!input || avformat_find_stream_info(input.get(), nullptr) < 0)
-        throw Error(source.name +
-                    ": is no camera or film that can be read; check its name, and end "
-                    "other programs that use it");
+    if (input && !left.empty())
+        throw Error(source.name + ": has no option \"" + left +
+                    "\"; write options as in /dev/video0?video_size=1920x1080&framerate=30");
+    const int found = input ? avformat_find_stream_info(input.get(), nullptr) : opened;
+    // FFmpeg's own errors are of four letters, and larger than any of the system.
+    constexpr int kMostOfSystem = 4096;
+    if (found < 0)
+        throw Error(deviceProblem(source.name, -found < kMostOfSystem ? AVUNERROR(found) : 0));
     return input;
 }
 
@@ -103,7 +106,10 @@ class FrameReader {
           packet_{av_packet_alloc()} {
         index_ = av_find_best_stream(input_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
         if (index_ >= 0) decoder_ = openDecoder(stream());
-        if (!decoder_) throw Error(name_ + ": has no pictures that can be decoded");
+        if (!decoder_)
+            throw Error(name_ +
+                        ": has no pictures that can be decoded; choose another format, as by "
+                        "?input_format=mjpeg of a camera");
     }
 
     // Null at the end. What is not live is read at the speed at which it was filmed.
@@ -221,8 +227,15 @@ class StreamCamera final : public Camera {
         const std::uint64_t after = newest_.number + held;
         const auto isIt = [&] { return newest_.number > after && newest_.at >= from; };
         came_.wait_until(lock, from + kPatience, [&] { return hasEnded_ || isIt(); });
-        if (hasEnded_) throw Error(device_ + ": has ended, or the camera was unplugged");
-        if (!isIt()) throw Error(device_ + ": gives no new picture for ten seconds");
+        if (hasEnded_)
+            throw Error(device_ +
+                        ": has ended, or the camera was unplugged; plug it in again or film for "
+                        "longer, and scan again");
+        if (!isIt())
+            throw Error(device_ +
+                        ": gives no new picture for ten seconds; plug it in again, by a shorter "
+                        "cable or at another port, or ask it for smaller pictures "
+                        "(?video_size=1280x720)");
         return std::exchange(newest_, {nullptr, newest_.at, newest_.number});
     }
 

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <system_error>
 
 #include <fcntl.h>
 #include <linux/videodev2.h>
@@ -53,18 +56,72 @@ std::optional<ExposureRange> exposuresOf(int descriptor) {
     return ExposureRange{std::max(asked.minimum, 1) * kExposureUnit, asked.maximum * kExposureUnit};
 }
 
+// Beginnings of a sentence about a device, and what to do.
+std::string problemOfVideo(int error) {
+    switch (error) {
+        case ENOENT:
+            return "is not there; plug the camera in, and look for its name by ls /dev/video*";
+        case EACCES:
+        case EPERM:
+            return "may not be opened by this user; add the user to the group \"video\" and log in "
+                   "again";
+        case EBUSY:
+            return "is in use; end the program that fuser -v names for it";
+        case ENODEV:
+        case ENXIO:
+        case EIO:
+            return "has no camera any more; plug it in again, and scan again";
+        case ENOTTY:
+        case EINVAL:
+        case ENOSYS:
+            return "gives no pictures, as the second device of a camera, or is none; choose "
+                   "another "
+                   "of v4l2-ctl --list-devices, and options that the camera has";
+        default:
+            return "";
+    }
+}
+
+// Of a film or an address.
+std::string problemOfStream(int error) {
+    switch (error) {
+        case ENOENT:
+            return "is not there; check its name";
+        case EACCES:
+            return "may not be read by this user; check its permissions";
+        case ECONNREFUSED:
+        case EHOSTUNREACH:
+        case ENETUNREACH:
+        case ETIMEDOUT:
+            return "does not answer; check its address and port, and that the camera is on this "
+                   "network";
+        default:
+            return "";
+    }
+}
+
 }  // namespace
+
+std::string deviceProblem(const std::string& device, int error) {
+    const bool isVideo = device.starts_with("/dev/");
+    const std::string problem = isVideo ? problemOfVideo(error) : problemOfStream(error);
+    if (!problem.empty()) return device + ": " + problem;
+    return device + ": is no camera or film that can be read" +
+           (error > 0 ? " (" + std::generic_category().message(error) + ")" : "") +
+           "; check its name, and end other programs that use it";
+}
 
 CameraControls::CameraControls(const std::string& device)
     : device_{device}, descriptor_{open(device.c_str(), O_RDWR | O_CLOEXEC)} {
-    if (descriptor_ < 0)
-        throw Error(device +
-                    ": cannot be opened; is the camera plugged in, and are you in the "
-                    "group \"video\"?");
+    if (descriptor_ < 0) throw Error(deviceProblem(device, errno));
     const auto range = exposuresOf(descriptor_);
     if (!range || !set(V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL)) {
         close(descriptor_);
-        throw Error(device + ": has no manual exposure; a scan needs a camera that keeps one");
+        throw Error(device +
+                    (range ? ": does not let its automatic exposure be switched off"
+                           : ": has no control of its exposure (exposure_absolute)") +
+                    "; a scan needs a camera that keeps one: end other programs that use it, or "
+                    "take another, as by gphoto2:");
     }
     range_ = *range;
     for (const Manual& manual : kManual) set(manual.control, manual.value);
@@ -93,8 +150,10 @@ void CameraControls::expose(double seconds) {
     v4l2_control wanted{.id = V4L2_CID_EXPOSURE_ABSOLUTE, .value = units};
     const auto before = valueOf(descriptor_, V4L2_CID_EXPOSURE_ABSOLUTE);
     if (!before || !request(descriptor_, VIDIOC_S_CTRL, &wanted))
-        throw Error(device_ + ": refuses an exposure of " + std::to_string(within) +
-                    " s; end other programs that use the camera");
+        throw Error(errno == ENODEV
+                        ? deviceProblem(device_, ENODEV)
+                        : device_ + ": refuses an exposure of " + std::to_string(within) +
+                              " s; end other programs that use the camera, and scan again");
     before_.try_emplace(V4L2_CID_EXPOSURE_ABSOLUTE, *before);
 }
 

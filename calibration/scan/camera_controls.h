@@ -35,6 +35,15 @@ class CameraControls {
     std::map<std::uint32_t, std::int32_t> before_;
 };
 
+// Why a device, a film or an address cannot be read, and what to do, by the error of the system
+// that came of it (EBUSY, ...; 0 where there is none).
+[[nodiscard]] std::string deviceProblem(const std::string& device, int error);
+
+// The cause in what gphoto2 has said, on one line: its last line "*** Error (-53: ...) ***";
+// without one what follows "*** Error ***"; without both the last line that is no advice for
+// debugging.
+[[nodiscard]] std::string gphotoCause(const std::string& text);
+
 // The camera of the program gphoto2, at a port ("usb:001,004") or the only one (empty). Throws
 // Error where the program is not installed, or no camera answers.
 [[nodiscard]] std::unique_ptr<Camera> openGphoto(const std::string& port);

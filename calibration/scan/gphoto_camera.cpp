@@ -18,6 +18,7 @@
 
 #include "calibration/scan/camera_controls.h"
 #include "calibration/scan/read_picture.h"
+#include "common/base/characters.h"
 #include "common/base/log.h"
 
 namespace aquarama::scan {
@@ -42,11 +43,31 @@ std::string readAll(int descriptor) {
     return text;
 }
 
-// Without the signals that this program holds, so that Ctrl-C ends it as well.
-pid_t startProgram(std::vector<std::string>& words, int output) {
+// With messages in English, which are read here.
+std::vector<std::string> environmentInEnglish() {
+    std::vector<std::string> all;
+    for (char** entry = environ; *entry != nullptr; ++entry) {
+        const std::string_view variable(*entry);
+        if (!variable.starts_with("LC_") && !variable.starts_with("LANG"))
+            all.emplace_back(variable);
+    }
+    all.emplace_back("LC_ALL=C");
+    return all;
+}
+
+// As exec takes them. They must outlive the result.
+std::vector<char*> pointersTo(std::vector<std::string>& words) {
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
+    return pointers;
+}
+
+// Without the signals that this program holds, so that Ctrl-C ends it as well.
+pid_t startProgram(std::vector<std::string>& words, int output) {
+    const std::vector<char*> pointers = pointersTo(words);
+    std::vector<std::string> variables = environmentInEnglish();
+    const std::vector<char*> environment = pointersTo(variables);
     posix_spawn_file_actions_t actions{};
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
@@ -58,7 +79,8 @@ pid_t startProgram(std::vector<std::string>& words, int output) {
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
     pid_t process = -1;
-    if (posix_spawnp(&process, pointers[0], &actions, &attributes, pointers.data(), environ) != 0)
+    if (posix_spawnp(
+            &process, pointers[0], &actions, &attributes, pointers.data(), environment.data()) != 0)
         process = -1;
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
@@ -138,11 +160,13 @@ class GphotoCamera final : public Camera {
     explicit GphotoCamera(const std::string& port) : port_{port} {
         const Said said = ask({"--get-config", "shutterspeed"});
         choices_ = choicesIn(said.text);
+        const std::string cause = gphotoCause(said.text);
         if (said.status != 0)
-            throw Error("gphoto2 finds no camera (" + lastLineOf(said.text) +
-                        "); plug it in, switch it on, and end other programs that use it");
+            throw Error("gphoto2 cannot use the camera (" + cause + "); " + todoFor(cause));
         if (choices_.empty())
-            throw Error("the camera lets no exposure be chosen; set its dial to M");
+            throw Error("the camera lets no exposure be chosen (" +
+                        (cause.empty() ? "it has no list of shutterspeed" : cause) +
+                        "); set its dial to M, and see gphoto2 --get-config shutterspeed");
     }
 
     [[nodiscard]] ExposureRange exposures() const override {
@@ -159,15 +183,23 @@ class GphotoCamera final : public Camera {
                                (folder_.path() / "picture.%C").string()});
         const std::string file = folder_.file();
         if (said.status != 0 || file.empty())
-            throw Error("the camera has taken no picture (" + lastLineOf(said.text) +
-                        "); see its display");
+            throw Error("the camera has taken no picture (" + gphotoCause(said.text) +
+                        "); see its display: focus it by hand, put in a card, charge it");
         return readPicture(file);
     }
 
   private:
-    [[nodiscard]] static std::string lastLineOf(std::string text) {
-        while (text.ends_with('\n')) text.pop_back();
-        return text.substr(text.rfind('\n') + 1);
+    // What helps against what gphoto2 says, in its English.
+    [[nodiscard]] static std::string todoFor(const std::string& cause) {
+        const auto says = [&](const char* words) { return cause.find(words) != std::string::npos; };
+        if (says("claim") || says("busy"))
+            return "end other programs that use it, such as a desktop's own (gio mount -s gphoto2)";
+        if (says("ermission") || says("ccess"))
+            return "let this user at it: the groups plugdev or camera, or a rule of udev";
+        if (says("detect") || says("No camera found") || says("find the requested device"))
+            return "plug it in, switch it on, and set its USB mode to PTP; gphoto2 --auto-detect "
+                   "lists cameras and ports";
+        return "plug it in, switch it on, and end other programs that use it";
     }
     [[nodiscard]] Said ask(const std::vector<std::string>& arguments) const {
         std::vector<std::string> words{"gphoto2"};
@@ -188,6 +220,53 @@ class GphotoCamera final : public Camera {
 };
 
 }  // namespace
+
+namespace {
+
+// The lines of a text without blanks about them; empty ones are left out.
+std::vector<std::string> linesOf(const std::string& text) {
+    std::vector<std::string> lines;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+        const std::size_t first = text.find_first_not_of(" \t", at);
+        const std::size_t last = text.find_last_not_of(" \t", end - (end > at ? 1 : 0));
+        if (first < end && last != std::string::npos)
+            lines.push_back(text.substr(first, last + 1 - first));
+        at = end + 1;
+    }
+    return lines;
+}
+
+// What it adds to every error.
+bool isBoilerplate(const std::string& line) {
+    constexpr std::array<const char*, 7> kBeginnings{"For debugging messages",
+                                                     "Debugging messages may help",
+                                                     "Please make sure",
+                                                     "If you intend to use",
+                                                     "When submitting",
+                                                     "env LANG=C",
+                                                     "gphoto2 --debug"};
+    return std::ranges::any_of(kBeginnings,
+                               [&](const char* beginning) { return line.starts_with(beginning); });
+}
+
+}  // namespace
+
+std::string gphotoCause(const std::string& text) {
+    constexpr std::size_t kMost = 200;
+    constexpr std::string_view kError = "*** Error";
+    const std::vector<std::string> lines = linesOf(legible(text));
+    std::string cause, last, block;
+    bool isBlock = false;
+    for (const std::string& line : lines) {
+        if (isBlock && block.empty()) block = line;
+        isBlock = line == "*** Error ***";
+        if (line.starts_with(kError) && !isBlock) cause = line;
+        if (!isBlock && !isBoilerplate(line)) last = line;
+    }
+    if (cause.empty()) cause = block.empty() ? last : block;
+    return cause.size() > kMost ? cause.substr(0, kMost) + "..." : cause;
+}
 
 std::unique_ptr<Camera> openGphoto(const std::string& port) {
     return std::make_unique<GphotoCamera>(port);

@@ -78,14 +78,38 @@ void take(Figures& figures, Judgement verdict, const scan::ScanFault& fault) {
     figures.advice = fault.advice;
 }
 
-void judgeOverlaps(Figures& figures, const SolveFigures& solved) {
+// How many channels light a point of the rig's screen, by where the rig says that they hang.
+std::size_t lightAt(const SolvedHall& hall, glm::dvec3 point) {
+    std::size_t lit = 0;
+    for (std::size_t c = 0; c < hall.rig.channels.size(); ++c)
+        if (hall.nominal.channel(c).pixelOf(point)) ++lit;
+    return lit;
+}
+
+// Whether the rig has two channels that show one place. One channel has no neighbour, and channels
+// may hang apart: then nothing of overlap is asked.
+bool hasOverlaps(const SolvedHall& hall) {
+    constexpr int kColumns = 192, kRows = 64;
+    if (hall.rig.channels.size() < 2) return false;
+    for (int i = 0; i < kColumns * kRows; ++i) {
+        const glm::dvec2 cell(i % kColumns, i / kColumns);
+        const auto point = hall.nominal.screen().at((cell + 0.5) / glm::dvec2(kColumns, kRows));
+        if (point && lightAt(hall, *point) > 1) return true;
+    }
+    return false;
+}
+
+void judgeOverlaps(Figures& figures, const SolvedHall& hall, const SolveFigures& solved) {
     constexpr std::size_t kLeastPoints = 8;
-    if (solved.overlapPoints < kLeastPoints)
+    if (solved.overlapPoints < kLeastPoints) {
+        if (!hasOverlaps(hall)) return;
         return take(figures,
                     Judgement::Refuse,
                     {"no_overlap",
-                     "the camera sees no place that two channels light: let neighbours overlap by "
-                     "a tenth of their pictures"});
+                     "the camera sees no place that two channels light, where the rig has them: "
+                     "let neighbours overlap by a tenth of their pictures, or correct where the "
+                     "rig says that they hang, and scan again"});
+    }
     if (isWithin(solved, kGood)) return;
     take(figures,
          isWithin(solved, kUsable) ? Judgement::Warn : Judgement::Refuse,
@@ -100,14 +124,15 @@ void judgeOverlaps(Figures& figures, const SolveFigures& solved) {
 void judgePlace(Figures& figures, const SolveFigures& solved) {
     constexpr double kMostPixels = 1;
     if (solved.absoluteSigma <= kMostPixels) return;
-    take(
-        figures,
-        Judgement::Warn,
-        {"place_not_sure",
-         fmt::format("neighbours agree, but the whole picture may be off by {:.1f} panorama pixels "
-                     "(RMS): mark the middle of the screen's upper and lower edge with strips of "
-                     "dark tape, 50 mm by 150 mm, and let the screen fill the camera's picture",
-                     solved.absoluteSigma)});
+    take(figures,
+         Judgement::Warn,
+         {"place_not_sure",
+          fmt::format("{}the whole picture may be off by {:.1f} panorama pixels "
+                      "(RMS): mark the middle of the screen's upper and lower edge with strips of "
+                      "dark tape, 50 mm by 150 mm, let the screen fill the camera's picture, and "
+                      "scan again",
+                      solved.overlapPoints > 0 ? "neighbours agree, but " : "",
+                      solved.absoluteSigma)});
 }
 
 // How far a projector's lens was found from what the rig says, as shares of what is let pass.
@@ -171,6 +196,20 @@ void judgeDome(Figures& figures, const Solved& solved) {
           "scan again"});
 }
 
+// Of a dome that each place of is lit by one projector alone nothing but its round edge tells where
+// the middle of its picture lies: simulated ones were up to eight pixels off.
+void judgeLoneDome(Figures& figures, const Solved& solved) {
+    if (solved.hall->rig.screen.shape != config::ScreenShape::Dome ||
+        solved.figures.overlapPoints > 0)
+        return;
+    take(
+        figures,
+        Judgement::Warn,
+        {"place_not_checked",
+         "no place of the dome is lit by two projectors, so nothing checks where its picture lies: "
+         "show aquarama run --pattern grid, and move what is off by aquarama adjust move"});
+}
+
 void judgeOutline(Figures& figures, const SolveFigures& solved) {
     constexpr std::size_t kLeastPoints = 150;
     constexpr double kMostPixels = 1.5;
@@ -212,10 +251,11 @@ Figures judged(const std::vector<scan::CameraView>& views, const Solved& solved)
     figures.verdict = Judgement::Pass;
     takeFaults(figures, views, solved);
     if (solved.faults.empty()) {
-        judgeOverlaps(figures, solved.figures);
+        judgeOverlaps(figures, *solved.hall, solved.figures);
         judgeOutline(figures, solved.figures);
         judgePlace(figures, solved.figures);
         judgeDome(figures, solved);
+        judgeLoneDome(figures, solved);
         judgeLenses(figures, *solved.hall);
     }
     figures.overlapRms = solved.figures.overlapRms;
@@ -270,6 +310,10 @@ std::string jsonOf(const Figures& figures) {
         return from ? nlohmann::ordered_json(unit * (*from).*value)
                     : nlohmann::ordered_json(nullptr);
     };
+    const auto parting = [&](double pixels) {
+        return figures.overlapPoints > 0 ? nlohmann::ordered_json(pixels)
+                                         : nlohmann::ordered_json(nullptr);
+    };
     const auto seam = [&](double Seams::*known, double ForeseenSeams::*foreseen) {
         return figures.seams ? told(figures.seams, known, 100)
                              : told(figures.foreseen, foreseen, 100);
@@ -279,9 +323,9 @@ std::string jsonOf(const Figures& figures) {
                {"cause", figures.cause},
                {"advice", figures.advice},
                {"from_ground_truth", figures.isTrue},
-               {"overlap_rms_px", figures.overlapRms},
-               {"overlap_p95_px", figures.overlapP95},
-               {"overlap_max_px", figures.overlapMax},
+               {"overlap_rms_px", parting(figures.overlapRms)},
+               {"overlap_p95_px", parting(figures.overlapP95)},
+               {"overlap_max_px", parting(figures.overlapMax)},
                {"overlap_points", figures.overlapPoints},
                {"absolute_rms_px", figures.absoluteRms},
                {"seam_percent_grey2", seam(&Seams::grey2, &ForeseenSeams::grey2)},

@@ -58,7 +58,8 @@ void setForeseen(Figures& figures, const std::optional<ForeseenSeams>& seams);
 // Sets the errors from the truth; the verdict stays.
 void setTrue(Figures& figures, WallErrors errors);
 
-// {"verdict": "pass", "cause": "", ...}
+// {"verdict": "pass", "cause": "", ...}; what was not measured, as how neighbours part on a wall
+// where none overlap, is null.
 [[nodiscard]] std::string jsonOf(const Figures& figures);
 
 }  // namespace aquarama::solve

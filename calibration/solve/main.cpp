@@ -149,10 +149,13 @@ class Calibration {
                         figures.cause.empty() ? "" : ": " + figures.cause + ": ",
                         figures.advice));
         if (figures.verdict == solve::Judgement::Refuse) return;
-        say(fmt::format("neighbours part by {:.2f} panorama pixels (RMS; 95 % {:.2f}, most {:.2f})",
-                        figures.overlapRms,
-                        figures.overlapP95,
-                        figures.overlapMax));
+        say(figures.overlapPoints == 0
+                ? "no two channels show one place, so none part"
+                : fmt::format(
+                      "neighbours part by {:.2f} panorama pixels (RMS; 95 % {:.2f}, most {:.2f})",
+                      figures.overlapRms,
+                      figures.overlapP95,
+                      figures.overlapMax));
         if (figures.isTrue)
             say(fmt::format("the picture is {:.2f} panorama pixels off (RMS)",
                             figures.absoluteRms));

@@ -14,7 +14,7 @@ const px = value => `${(value ?? 0).toFixed(2)} px`;
 
 const keptRow = link => one => html`<tr><th scope="row">${dateOf(one.name)}</th>
   <td data-head=${t('calibration.verdict')}>${one.verdict ? state(one.verdict) : html`<span class="quiet">${t('calibration.noFigures')}</span>`}${one.cause ? html`<div class="note">${one.cause}</div>` : nothing}</td>
-  <td class="n" data-head=${t('calibration.part')}>${one.verdict ? html`${px(one.overlapRmsPx)}<div class="note">${t('calibration.most', {px: px(one.overlapMaxPx)})}</div>` : '–'}</td>
+  <td class="n" data-head=${t('calibration.part')}>${one.verdict && one.overlapMaxPx > 0 ? html`${px(one.overlapRmsPx)}<div class="note">${t('calibration.most', {px: px(one.overlapMaxPx)})}</div>` : '–'}</td>
   <td class="n" data-head=${t('calibration.place')}>${one.verdict ? px(one.absoluteRmsPx) : '–'}</td>
   <td data-head="">${one.inUse ? html`<strong class="good">✓ ${t('calibration.inUse')}</strong>`
     : holdButton(t('calibration.use'), () => link.command({useCalibration: one.name}, t('calibration.using', {date: dateOf(one.name)})), {disabled: !link.may('CREW')})}</td></tr>`;

@@ -4,6 +4,7 @@
 #include "calibration/scan/capture.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -19,6 +20,7 @@
 #include <unistd.h>
 
 #include "calibration/scan/camera.h"
+#include "calibration/scan/camera_controls.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/wall/scan_pattern.h"
@@ -186,6 +188,68 @@ TEST(Camera, thatIsNoneIsNamedAndOneThatEndsToo) {
                     for (int i = 0; i < 20; ++i) (void)camera->take(1);
                 }),
                 HasSubstr("has ended"));
+}
+
+TEST(Camera, aDeviceThatFailsIsToldWithWhatToDo) {
+    for (const auto& [error, todo] : std::vector<std::pair<int, const char*>>{
+             {ENOENT, "is not there; plug the camera in"},
+             {EACCES, "group \"video\""},
+             {EBUSY, "is in use; end the program"},
+             {ENODEV, "plug it in again"},
+             {ENOTTY, "gives no pictures"},
+             {EINVAL, "gives no pictures"},
+             {ENOMEM, "(Cannot allocate memory); check its name"}})
+        EXPECT_THAT(deviceProblem("/dev/video0", error),
+                    testing::AllOf(testing::StartsWith("/dev/video0: "), HasSubstr(todo)));
+    EXPECT_THAT(deviceProblem("rtsp://10.0.0.9/", ECONNREFUSED),
+                HasSubstr("does not answer; check"));
+    EXPECT_THAT(problemOf([] { (void)openCamera("/dev/video99"); }),
+                HasSubstr("is not there; plug"));
+    EXPECT_THAT(problemOf([] { (void)openCamera("/dev/null"); }), HasSubstr("gives no pictures"));
+    EXPECT_THAT(problemOf([] { (void)openCamera("none.mp4"); }), HasSubstr("is not there; check"));
+}
+
+// As gphoto2 2.5 says them: the cause first, then advice for debugging.
+TEST(Camera, theCauseThatGphotoGivesIsQuotedAndNotItsAdvice) {
+    const std::string advice =
+        "\nFor debugging messages, please use the --debug option.\nDebugging messages may help "
+        "finding a solution to your problem.\nIf you intend to send any error or debug messages to "
+        "the gphoto\ndeveloper mailing list <...>, please run\ngphoto2 as follows:\n\n    env "
+        "LANG=C gphoto2 --debug --debug-logfile=my-logfile.txt --get-config\n\nPlease make sure "
+        "there is sufficient quoting around the arguments.\n\n";
+    const std::string block =
+        "\n*** Error ***              \nCould not claim interface 0 (Device or resource busy).\n";
+    const std::string line = "*** Error (-53: 'Could not claim the USB device') ***";
+    EXPECT_EQ(gphotoCause(block + line + advice), line);
+    EXPECT_EQ(gphotoCause(line + " \r\n" + advice), line);
+    EXPECT_EQ(gphotoCause("*** Error: No camera found. ***\n" + advice),
+              "*** Error: No camera found. ***");
+    EXPECT_EQ(gphotoCause(block + advice),
+              "Could not claim interface 0 (Device or resource busy).");
+    EXPECT_EQ(gphotoCause("ERROR: Could not capture.\n"), "ERROR: Could not capture.");
+    EXPECT_EQ(gphotoCause("a\xE9\x1B[2J\n"), "a\\xE9\\x1B[2J");
+    EXPECT_LT(gphotoCause(std::string(10000, 'x')).size(), 300U);
+    EXPECT_EQ(gphotoCause(""), "");
+}
+
+TEST(Camera, gphotoIsAskedInEnglishAndItsCauseGoesIntoTheError) {
+    const Folder folder;
+    const std::string path = getenv("PATH");
+    setenv("PATH", (folder.path() + ":" + path).c_str(), 1);
+    setenv("LC_MESSAGES", "de_DE.UTF-8", 1);
+    setenv("LANGUAGE", "de", 1);
+    const std::string program = folder.path("gphoto2");
+    std::ofstream(program) << "#!/bin/sh\nprintf '*** Error ***\\nCause.\\n*** Error (-53: %s) "
+                              "***\\n\\nPlease make sure there is sufficient quoting.\\n' "
+                              "\"claim$LC_ALL$LC_MESSAGES$LANGUAGE\" >&2\nexit 1\n";
+    fs::permissions(program, fs::perms::owner_all);
+    EXPECT_THAT(
+        problemOf([] { (void)openCamera("gphoto2:"); }),
+        testing::StartsWith("gphoto2 cannot use the camera (*** Error (-53: claimC) ***); end "
+                            "other programs that use it"));
+    unsetenv("LC_MESSAGES");
+    unsetenv("LANGUAGE");
+    setenv("PATH", path.c_str(), 1);
 }
 
 // Answers as gphoto2 does, and copies a picture to where it is told.
