@@ -282,7 +282,7 @@ config::Hall hallFrom(const std::string& option, const std::string& text, const 
     const auto read = std::from_chars(text.data() + kRandom.size(), end, seed);
     if (read.ec != std::errc{} || read.ptr != end)
         throw Error(option + ": \"" + text.substr(kRandom.size()) +
-                    "\" is no seed; give a whole number, as in random:7");
+                    "\" is no seed; give a whole number from 0 to 4294967295, as in random:7");
     return randomHall(rig, seed, cameraScaleFor(rig));
 }
 

@@ -83,7 +83,9 @@ class Photographer {
             }
             if (isNew(picture)) return {std::move(picture), frame};
             if (attempt == kAttempts)
-                throw Error("the camera gives the same picture again; start it anew");
+                throw Error(
+                    "the camera gives the same picture again and again; switch it off and on, "
+                    "plug it in anew, and scan again");
         }
     }
 
@@ -137,21 +139,22 @@ class ExposureChoice {
         }
         throw Error(
             fmt::format("white is clipped at {:.4f} s, or changes from picture to picture; "
-                        "close the aperture, and switch off what the camera does by itself",
+                        "close the aperture, switch off what the camera does by itself (exposure, "
+                        "gain, white balance), and scan again",
                         exposure));
     }
     double fixed(const Pattern& white) {
         if (brightest(white, range_.shortest) >= kNearFull)
             throw Error(
                 "white is clipped and the camera lets no exposure be chosen; choose a "
-                "shorter one there");
+                "shorter one on it, or close its aperture, and scan again");
         return range_.shortest;
     }
     static double unlessTooDark(double exposure, double light) {
         if (light < kDarkest)
             throw Error(
-                fmt::format("white is too dark even at {:.3f} s; open the aperture, or take "
-                            "the cap off the lens",
+                fmt::format("white is too dark even at {:.3f} s; open the aperture, take "
+                            "the cap off the lens, aim the camera at the wall, and scan again",
                             exposure));
         return exposure;
     }

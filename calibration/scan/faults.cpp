@@ -173,8 +173,9 @@ class FaultFinder {
         if (most < kLeastLight)
             return report(
                 "under_exposed",
-                fmt::format("white is only {:.1f} % of the camera's range: expose longer, or "
-                            "open the lens",
+                fmt::format("white is only {:.1f} % of the camera's range: open the aperture, "
+                            "or choose a longer exposure where the camera has its own, and scan "
+                            "again",
                             100 * static_cast<double>(most)));
         for (std::size_t c = 0; c < channels_.size(); ++c)
             if (isScanned(c)) findClipped(c);
@@ -186,8 +187,9 @@ class FaultFinder {
         if (notes.clipped > kMostClipped)
             report("over_exposed",
                    fmt::format(
-                       "white of channel \"{}\" is too bright in {:.0f} % of its pixels: expose "
-                       "shorter, or close the lens",
+                       "white of channel \"{}\" is too bright in {:.0f} % of its pixels: close "
+                       "the aperture, or choose a shorter exposure where the camera has its own, "
+                       "and scan again",
                        nameOf(c),
                        100 * notes.clipped),
                    notes.hasPhase);
@@ -206,16 +208,15 @@ class FaultFinder {
             return reportFaint(c);
         report("channel_not_seen",
                fmt::format(
-                   "the camera does not see channel \"{}\": is its projector on, its cable right "
-                   "and the camera's view free?",
+                   "the camera does not see channel \"{}\": switch its projector on, check its "
+                   "cable, clear the camera's view, and scan again",
                    nameOf(c)));
     }
     void reportFaint(std::size_t c) {
         report("under_exposed",
-               fmt::format(
-                   "patterns of channel \"{}\" are faint in the camera's noise: expose longer, "
-                   "focus, or darken the room",
-                   nameOf(c)));
+               fmt::format("patterns of channel \"{}\" are faint in the camera's noise: darken the "
+                           "room, focus the camera, open its aperture, and scan again",
+                           nameOf(c)));
     }
 
     void findNoise(std::size_t c) {
@@ -248,7 +249,7 @@ class FaultFinder {
         report("blocked",
                fmt::format(
                    "{:.0f} % of channel \"{}\" is not seen: clear the view of the camera and of "
-                   "the projector, or move the camera back",
+                   "the projector, or move the camera back, and scan again",
                    100 * share,
                    nameOf(c)),
                share > kRefused && evidence_.scan.cameras.size() == 1);
@@ -271,8 +272,8 @@ class FaultFinder {
     void reportMoved(std::size_t c, double pixels, const char* when, std::size_t picture) {
         report("moved",
                fmt::format(
-                   "channel \"{}\" or the camera has moved by {:.1f} px {} {}: fix both and scan "
-                   "again",
+                   "channel \"{}\" or the camera has moved by {:.1f} px {} {}: fasten both and "
+                   "scan again",
                    nameOf(c),
                    std::abs(pixels),
                    when,
@@ -333,8 +334,9 @@ class FaultFinder {
             if (isRepeated(own[i - 1], own[i]))
                 report(
                     "dropped_frame",
-                    fmt::format("{} shows what the picture before it shows: wait longer after each "
-                                "pattern, and scan again",
+                    fmt::format("{} shows what the picture before it shows: end other programs on "
+                                "the nodes and here, and scan again; a program of your own must "
+                                "wait longer after each pattern",
                                 pictureName(own[i])));
     }
     [[nodiscard]] bool isRepeated(std::size_t before, std::size_t now) const {
@@ -392,8 +394,9 @@ class FaultFinder {
         if (!number || *number == expected || !isNear(*number, picture.index)) return;
         report("dropped_frame",
                fmt::format(
-                   "channel \"{}\" shows pattern {} instead of {} in {}: wait longer after each "
-                   "pattern, and scan again",
+                   "channel \"{}\" shows pattern {} instead of {} in {}: end other programs "
+                   "on its node and here, and scan again; a program of your own must wait longer "
+                   "after each pattern",
                    nameOf(c),
                    *number,
                    expected,

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "calibration/scan/pictures.h"
 #include "calibration/scan/read_picture.h"
@@ -28,13 +31,52 @@ std::vector<std::string> namesOf(const config::Rig& rig) {
     return names;
 }
 
+char lower(char letter) {
+    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+}
+
+std::string lowered(std::string text) {
+    std::ranges::transform(text, text.begin(), lower);
+    return text;
+}
+
+bool isDigit(char letter) {
+    return letter >= '0' && letter <= '9';
+}
+
+// Hidden files too are of the system that the folder was on ("._0001.png" of macOS).
 bool isPicture(const fs::directory_entry& entry) {
-    std::string ending = entry.path().extension().string();
-    std::ranges::transform(ending, ending.begin(), [](unsigned char letter) {
-        return static_cast<char>(std::tolower(letter));
-    });
+    const std::string ending = lowered(entry.path().extension().string());
     constexpr std::array<const char*, 5> kEndings{".png", ".jpg", ".jpeg", ".tif", ".tiff"};
-    return entry.is_regular_file() && std::ranges::find(kEndings, ending) != kEndings.end();
+    return entry.is_regular_file() && !entry.path().filename().string().starts_with('.') &&
+           std::ranges::find(kEndings, ending) != kEndings.end();
+}
+
+// The number that begins at a place, without zeros before it.
+std::string_view numberAt(std::string_view name, std::size_t at) {
+    std::size_t end = at;
+    while (end < name.size() && isDigit(name[end])) ++end;
+    while (at + 1 < end && name[at] == '0') ++at;
+    return name.substr(at, end - at);
+}
+
+// As people count: "2.png" before "10.PNG". Numbers may have any length.
+bool comesBefore(const std::string& a, const std::string& b) {
+    std::size_t i = 0, j = 0;
+    while (i < a.size() && j < b.size()) {
+        if (isDigit(a[i]) && isDigit(b[j])) {
+            const std::string_view m = numberAt(a, i), n = numberAt(b, j);
+            if (m.size() != n.size()) return m.size() < n.size();
+            if (m != n) return m < n;
+            while (i < a.size() && isDigit(a[i])) ++i;
+            while (j < b.size() && isDigit(b[j])) ++j;
+            continue;
+        }
+        if (lower(a[i]) != lower(b[j])) return lower(a[i]) < lower(b[j]);
+        ++i;
+        ++j;
+    }
+    return a.size() - i != b.size() - j ? a.size() - i < b.size() - j : a < b;
 }
 
 std::vector<std::string> picturesIn(const std::string& folder) {
@@ -42,9 +84,41 @@ std::vector<std::string> picturesIn(const std::string& folder) {
     std::vector<std::string> files;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, problem))
         if (isPicture(entry)) files.push_back(entry.path().filename().string());
-    if (problem) throw Error(folder + " cannot be read as a folder: " + problem.message());
-    std::ranges::sort(files);
+    if (problem)
+        throw Error(folder + " cannot be read as a folder (" + problem.message() +
+                    "); check its path and permissions");
+    std::ranges::sort(files, comesBefore);
     return files;
+}
+
+// The last number of a name; nothing where it has none, or one of too many digits.
+std::optional<unsigned long> numberOf(const std::string& name) {
+    constexpr std::size_t kMostDigits = 9;
+    const std::string stem = fs::path(name).stem().string();
+    std::size_t begin = stem.size();
+    while (begin > 0 && !isDigit(stem[begin - 1])) --begin;
+    while (begin > 0 && isDigit(stem[begin - 1])) --begin;
+    const std::string_view digits = numberAt(stem, begin);
+    if (digits.empty() || digits.size() > kMostDigits) return std::nullopt;
+    return std::stoul(std::string(digits));
+}
+
+// Where the numbers of the names leave some out; empty where they do not.
+std::string gapIn(const std::vector<std::string>& files) {
+    for (std::size_t i = 1; i < files.size(); ++i) {
+        const auto before = numberOf(files[i - 1]), here = numberOf(files[i]);
+        if (before && here && *here > *before + 1)
+            return "; none lies between " + files[i - 1] + " and " + files[i];
+    }
+    return "";
+}
+
+// A folder of the folder that has the pictures, where it has none itself.
+std::string hintAt(const std::string& folder) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        if (entry.is_directory() && !picturesIn(entry.path().string()).empty())
+            return "; its folder " + entry.path().filename().string() + " has some: give that";
+    return "";
 }
 
 void addGray(std::vector<ScanPattern>& patterns, Kind kind, int pixels) {
@@ -68,11 +142,26 @@ std::vector<ScanPattern> openCvSequence(glm::ivec2 size) {
     return patterns;
 }
 
+// The mean light of a picture's codes, at any scale.
 double brightnessOf(const std::string& path) {
     const Picture picture = readPicture(path);
     double sum = 0;
     for (const std::uint16_t code : picture.rgb) sum += code;
     return sum;
+}
+
+// White and black come last or first, in any order: of the two pairs they are the one that differs
+// more, as half of a projector's picture is lit by any stripes.
+void placeWhite(std::vector<ScanPattern>& patterns,
+                const std::string& folder,
+                const std::vector<std::string>& files) {
+    const auto light = [&](std::size_t i) { return brightnessOf(folder + "/" + files[i]); };
+    const std::size_t end = files.size();
+    const std::array<double, 2> first{light(0), light(1)}, last{light(end - 2), light(end - 1)};
+    const bool isFirst = std::abs(first[0] - first[1]) > std::abs(last[0] - last[1]);
+    const auto& pair = isFirst ? first : last;
+    if (pair[1] > pair[0]) std::swap(patterns.end()[-1], patterns.end()[-2]);
+    if (isFirst) std::ranges::rotate(patterns, patterns.end() - 2);
 }
 
 std::vector<ScanPattern> patternsOf(const std::string& folder,
@@ -87,10 +176,9 @@ std::vector<ScanPattern> patternsOf(const std::string& folder,
     }
     if (files.size() != patterns.size() || rig.channels.size() != 1)
         throw Error(folder + " has " + std::to_string(files.size()) + " pictures and no " +
-                    kManifest + "; there must be " + orders + ", or a " + kManifest);
-    const auto last = [&](std::size_t back) { return folder + "/" + files[files.size() - back]; };
-    if (brightnessOf(last(1)) > brightnessOf(last(2)))
-        std::swap(patterns.end()[-1], patterns.end()[-2]);
+                    kManifest + "; there must be " + orders + ", or a " + kManifest +
+                    (files.empty() ? hintAt(folder) : gapIn(files)));
+    placeWhite(patterns, folder, files);
     return patterns;
 }
 
@@ -111,11 +199,27 @@ config::Scan scanOf(const std::string& folder, const config::Rig& rig) {
     return scan;
 }
 
-void checkFiles(const std::string& folder, const config::Scan& scan) {
-    for (const config::ScanPicture& picture : scan.pictures)
-        if (!fs::is_regular_file(fs::path(folder) / picture.file))
-            throw Error(folder + " has no " + picture.file +
-                        ", which its scan names; copy all of the scan's pictures");
+// Disks of other systems change the case of names. Throws Error where a picture is missing.
+void findFiles(const std::string& folder, config::Scan& scan) {
+    std::vector<std::string> there;
+    std::string missing;
+    std::size_t more = 0;
+    for (config::ScanPicture& picture : scan.pictures) {
+        if (fs::is_regular_file(fs::path(folder) / picture.file)) continue;
+        if (there.empty()) there = picturesIn(folder);
+        const auto same = std::ranges::find_if(
+            there, [&](const std::string& name) { return lowered(name) == lowered(picture.file); });
+        if (same != there.end())
+            picture.file = *same;
+        else if (missing.empty())
+            missing = picture.file;
+        else
+            ++more;
+    }
+    if (!missing.empty())
+        throw Error(folder + " has no " + missing +
+                    (more > 0 ? " and " + std::to_string(more) + " more" : "") +
+                    ", which its scan names; copy all of the scan's pictures");
 }
 
 std::string sizeText(glm::ivec2 size) {
@@ -134,7 +238,9 @@ class FolderSource final : public PictureSource {
         std::optional<glm::ivec2>& size = sizes_.at(wanted.camera);
         if (size && *size != picture.sizePixels)
             throw Error(path + " has " + sizeText(picture.sizePixels) + " pixels, others have " +
-                        sizeText(*size) + "; all pictures of a camera must have one size");
+                        sizeText(*size) +
+                        "; all pictures of a camera must have one size: take them with one "
+                        "setting, and move what is none of them out of the folder");
         size = picture.sizePixels;
         return picture;
     }
@@ -154,14 +260,16 @@ std::string lossless(std::size_t index) {
 
 std::unique_ptr<PictureSource> openFolder(const std::string& folder, const config::Rig& rig) {
     config::Scan scan = scanOf(folder, rig);
-    checkFiles(folder, scan);
+    findFiles(folder, scan);
     return std::make_unique<FolderSource>(folder, std::move(scan));
 }
 
 void writeFolder(PictureSource& source, const std::string& folder, const config::Rig& rig) {
     std::error_code problem;
     fs::create_directories(folder, problem);
-    if (problem) throw Error(folder + " cannot be made: " + problem.message());
+    if (problem)
+        throw Error(folder + " cannot be made (" + problem.message() +
+                    "); choose a folder that can, with space left");
     config::Scan scan = source.scan();
     for (std::size_t i = 0; i < scan.pictures.size(); ++i) {
         scan.pictures[i].file = lossless(i);

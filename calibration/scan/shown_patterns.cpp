@@ -52,7 +52,7 @@ class ShownPatterns::Link {
 
     void confirm() {
         const std::optional<v1::SetReply> reply = sayHeld();
-        if (!reply) throw Error("no pattern of the scan is shown");
+        if (!reply) throw Error("no pattern of the scan is shown; scan again");
         if (reply->outcome() != v1::OUTCOME_DONE)
             throw Error("the pattern of the scan is " + reply->reason() +
                         " any more; look after these nodes (aquarama status)");
@@ -71,7 +71,7 @@ class ShownPatterns::Link {
   private:
     v1::SetReply say(const config::ScanPattern& pattern) {
         const std::lock_guard lock(mutex_);
-        if (isOver_) throw Error("the scan was ended");
+        if (isOver_) throw Error("the scan was ended; the wall shows its scene again");
         v1::SetReply reply = ask(pattern);
         held_ = pattern;
         return reply;
@@ -91,7 +91,8 @@ class ShownPatterns::Link {
         wire::writeScanPattern(pattern, *set.mutable_scan()->mutable_pattern());
         v1::SetReply reply = client_.ask(set);
         if (reply.outcome() == v1::OUTCOME_REFUSED)
-            throw Error("the master refuses to show a scan: " + reply.reason());
+            throw Error("the master refuses to show a scan: " + reply.reason() +
+                        "; see aquarama status");
         return reply;
     }
 

@@ -91,7 +91,7 @@ class DriftWatch {
             if (self.channels[i].verdict == drift::DriftVerdict::NotSeen)
                 throw Error(
                     fmt::format("channel \"{}\" has too few dots that the camera sees; show "
-                                "all of its picture to the camera",
+                                "all of its picture to the camera, and learn again",
                                 rig_.channels[i].name));
         const std::string text = drift::textOf(reference, rig_);
         writeDurably(beside(".drift.json"), std::as_bytes(std::span(text)));

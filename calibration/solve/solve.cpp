@@ -225,7 +225,7 @@ scan::ScanFault tooLittleSeen(const std::vector<scan::CameraView>& views, std::u
         if (fault.refuses) return fault;
     return {"wall_not_seen",
             fmt::format("camera {} sees too little of the wall: place it where it sees the whole "
-                        "screen",
+                        "screen, and scan again",
                         camera)};
 }
 
@@ -248,7 +248,8 @@ bool begin(Solved& solved, const std::vector<scan::CameraView>& views) {
         if (!swapped) continue;
         solved.faults.push_back(
             {"swapped_outputs",
-             fmt::format("channel \"{}\" is seen where \"{}\" hangs: exchange their cables",
+             fmt::format("channel \"{}\" is seen where \"{}\" hangs: exchange their cables, or "
+                         "their outputs in the rig, and scan again",
                          hall.rig.channels[swapped->first].name,
                          hall.rig.channels[swapped->second].name)});
         return false;

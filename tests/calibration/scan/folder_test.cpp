@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include <gmock/gmock.h>
 
@@ -84,6 +87,72 @@ TEST_F(FolderTest, GrayCodesOfOpenCvAreKnownByTheirNumberAndTheirLastPictureByIt
         EXPECT_TRUE(pictures[1].pattern.inverse);
         EXPECT_EQ(pictures[20].pattern.kind, config::ScanPattern::Kind::GrayRows);
     }
+}
+
+// As cameras and people name them: counted without zeros before, in capitals, with spaces, beside
+// what systems leave in folders.
+TEST_F(FolderTest, PicturesAreTakenAsPeopleCount) {
+    rig_.channels[0].sizePixels = {1024, 768};
+    for (const char* style :
+         {"%d.PNG", "Scan %d.png", "IMG_%05d (1).Png", "2026-11-25 gray%d.png"}) {
+        fs::remove_all(folder_);
+        writeAlone(42);
+        writeGrey(41, 200);
+        for (int i = 0; i < 42; ++i) {
+            std::array<char, 64> name{};
+            std::snprintf(name.data(), name.size(), style, i + 1);
+            fs::rename(folder_ + "/" + std::to_string(1000 + i) + ".png",
+                       folder_ + "/" + name.data());
+        }
+        for (const char* other : {"Thumbs.db", ".DS_Store", "._1.png", "notes.txt", "desktop.ini"})
+            std::ofstream(folder_ + "/" + other) << "of a system";
+        const auto pictures = openFolder(folder_, rig_)->scan().pictures;
+        ASSERT_EQ(pictures.size(), 42U) << style;
+        for (int i = 0; i < 42; ++i) {
+            std::array<char, 64> name{};
+            std::snprintf(name.data(), name.size(), style, i + 1);
+            EXPECT_EQ(pictures[static_cast<std::size_t>(i)].file, name.data());
+        }
+    }
+}
+
+TEST_F(FolderTest, WhiteAndBlackMayComeFirst) {
+    rig_.channels[0].sizePixels = {1024, 768};
+    for (const int white : {0, 1}) {
+        writeAlone(42);
+        writeGrey(white, 200);
+        const auto pictures = openFolder(folder_, rig_)->scan().pictures;
+        EXPECT_EQ(pictures[static_cast<std::size_t>(white)].pattern.lit, 1U);
+        EXPECT_EQ(pictures[static_cast<std::size_t>(1 - white)].pattern.light, glm::vec3(0));
+        EXPECT_EQ(pictures[2].pattern.kind, config::ScanPattern::Kind::GrayColumns);
+        EXPECT_EQ(pictures[41].pattern.kind, config::ScanPattern::Kind::GrayRows);
+    }
+}
+
+TEST_F(FolderTest, ADiskThatChangesTheCaseOfNamesChangesNothing) {
+    write();
+    fs::rename(fs::path(folder_) / "0005.png", fs::path(folder_) / "0005.PNG");
+    EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(FolderTest, WhichPictureIsMissingIsSaid) {
+    rig_.channels[0].sizePixels = {1024, 768};
+    writeAlone(42);
+    fs::remove(fs::path(folder_) / "1017.png");
+    EXPECT_THAT(
+        refusal(),
+        testing::HasSubstr("has 41 pictures and no scan.txtpb; there must be 34 (of a scan of "
+                           "this rig) or 42 (Gray codes with inverses), or a scan.txtpb; none "
+                           "lies between 1016.png and 1018.png"));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ + "/capture 0");
+    std::ofstream(folder_ + "/capture 0/1.JPG") << "";
+    EXPECT_THAT(refusal(), testing::HasSubstr("its folder capture 0 has some: give that"));
+    fs::remove_all(folder_);
+    write();
+    fs::remove(fs::path(folder_) / "0005.png");
+    fs::remove(fs::path(folder_) / "0009.png");
+    EXPECT_THAT(refusal(), testing::HasSubstr("has no 0005.png and 1 more, which its scan names"));
 }
 
 TEST_F(FolderTest, WhatCannotBeUsedIsSaidInOneLine) {

@@ -3,10 +3,13 @@
 // AQUARAMA_SOAK at full size and in numbers.
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <numeric>
 #include <random>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -108,6 +111,100 @@ TEST(Calibration, ofRandomHallsIsWithinItsBounds) {
         EXPECT_NEAR(outcome.figures.foreseen->grey18, outcome.seams.grey18, 0.004);
         EXPECT_NEAR(outcome.figures.foreseen->grey100, outcome.seams.grey100, 0.004);
     }
+}
+
+// Of channels that hang apart; each is a position along x, and the angle that it is turned by.
+config::Rig rigOf(const std::string& screen,
+                  glm::ivec2 panorama,
+                  glm::ivec2 pixels,
+                  const std::vector<std::string>& projectors) {
+    std::string text =
+        "name: \"alone\" screen { " + screen +
+        " } panorama { width_px: " + std::to_string(panorama.x) +
+        " height_px: " + std::to_string(panorama.y) +
+        " } network { control: \"tcp://127.0.0.1:1\" state: \"tcp://127.0.0.1:2\" } timing { "
+        "refresh_hz: 60 present_deadline_s: 2 membership_s: 5 } scene: \"reef.txtpb\"\n";
+    for (std::size_t i = 0; i < projectors.size(); ++i) {
+        const std::string id = std::to_string(i);
+        text += "channels { id: " + id + " name: \"channel" + id +
+                "\" width_px: " + std::to_string(pixels.x) +
+                " height_px: " + std::to_string(pixels.y) + " projector { " + projectors[i] +
+                " } display { mode: WINDOW window_x_px: 0 window_y_px: 0 } }\n";
+    }
+    return config::parseRig(text, "alone.txtpb");
+}
+
+const std::string kFlat = "flat { width_m: 4 height_m: 2.25 distance_m: 3 }";
+const std::string kBefore =
+    "position { x_m: 0 y_m: 1.4 z_m: 1.08 } focal_x_px: 480 focal_y_px: 480 principal_y_px: -32";
+const std::string kSmall =
+    "position { x_m: 0 y_m: 1.4 z_m: 1.08 } focal_x_px: 320 focal_y_px: 320 principal_y_px: -21";
+constexpr double kHallScale = 0.15;
+
+// Nothing of overlap is asked of a rig that has none: one channel, or two that hang apart.
+TEST(Calibration, ofChannelsWithoutNeighboursIsWithinItsBounds) {
+    const std::string lens = " y_m: 0 z_m: 0 } focal_x_px: 960 focal_y_px: 960 principal_y_px: 135";
+    for (const config::Rig& rig :
+         {rigOf(kFlat, {600, 338}, {480, 270}, {kBefore}),
+          rigOf(kFlat,
+                {600, 338},
+                {480, 270},
+                {"position { x_m: -1.2" + lens, "position { x_m: 1.2" + lens})}) {
+        const Outcome outcome = calibrated(rig, hall::randomHall(rig, 7, kHallScale));
+        print("alone", outcome);
+        EXPECT_EQ(outcome.figures.verdict, Judgement::Pass) << outcome.figures.cause;
+        EXPECT_EQ(outcome.figures.overlapPoints, 0U);
+        EXPECT_TRUE(outcome.errors.overlap.empty());
+        EXPECT_LE(rootMeanSquare(outcome.errors.absolute), 1);
+        EXPECT_TRUE(outcome.figures.brightness && outcome.figures.foreseen);
+        EXPECT_NE(jsonOf(outcome.figures).find("\"overlap_rms_px\": null"), std::string::npos);
+    }
+}
+
+// A dome's round edge does not tell all, and no neighbour checks it.
+TEST(Calibration, ofADomeOfOneChannelIsWarnedOf) {
+    const config::Rig rig =
+        rigOf("dome { radius_m: 3 opening_deg: 80 } tilt_deg: 90",
+              {300, 300},
+              {320, 180},
+              {"position { x_m: 0 y_m: 0 z_m: 0.3 } focal_x_px: 93 focal_y_px: 93"});
+    const Outcome outcome = calibrated(rig, hall::randomHall(rig, 7, kHallScale));
+    print("dome", outcome);
+    EXPECT_EQ(outcome.figures.verdict, Judgement::Warn);
+    EXPECT_EQ(outcome.figures.cause, "place_not_checked");
+}
+
+// As the guide says: Gray codes of OpenCV with their inverses, white and black, by their names.
+TEST(Calibration, ofOneChannelTakesGrayCodesOfOpenCv) {
+    const config::Rig rig = rigOf(kFlat, {600, 338}, {320, 180}, {kSmall});
+    std::vector<config::ScanPattern> sequence;
+    for (const auto kind :
+         {config::ScanPattern::Kind::GrayColumns, config::ScanPattern::Kind::GrayRows})
+        for (std::uint8_t step = 0; step < (kind == config::ScanPattern::Kind::GrayColumns ? 9 : 8);
+             ++step)
+            for (const bool inverse : {false, true})
+                sequence.push_back({.kind = kind,
+                                    .step = step,
+                                    .finestPixels = 1,
+                                    .inverse = inverse,
+                                    .lit = 1,
+                                    .tagged = false});
+    sequence.push_back({.lit = 1, .tagged = false});
+    sequence.push_back({.light = glm::vec3(0), .lit = 0, .tagged = false});
+    const hall::TrueHall truth(rig, hall::randomHall(rig, 7, kHallScale));
+    hall::SimulatedCamera camera(truth, sequence);
+    const std::string folder = testing::TempDir() + "aquarama-gray codes";
+    scan::writeFolder(camera, folder, rig);
+    std::filesystem::remove(folder + "/scan.txtpb");
+    const auto source = scan::openFolder(folder, rig);
+    const std::vector<scan::CameraView> views{scan::decode(*source, 0, rig)};
+    const wall::Wall wall(rig);
+    const Solved solved = solveHall(rig, wall, views, [](const std::string&) {});
+    const Figures figures = judged(views, solved);
+    EXPECT_EQ(figures.cause, "outline_not_seen") << "no picture of the room";
+    ASSERT_EQ(figures.verdict, Judgement::Warn) << figures.cause << ": " << figures.advice;
+    EXPECT_LT(figures.fitRms, 0.3) << "pixels of the projector";
+    std::filesystem::remove_all(folder);
 }
 
 // What the windows of a scan would tell, but for what goes wrong in decoding it: a scan at full
