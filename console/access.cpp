@@ -14,6 +14,7 @@
 #include "common/base/digest.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/base/output_file.h"
 
 namespace aquarama::console {
 
@@ -65,7 +66,8 @@ std::string shownName(std::string name) {
 
 // An empty list where there is no file. Throws Error where it is damaged.
 json read(const fs::path& path) {
-    if (!fs::exists(path)) return json::array();
+    std::error_code none;
+    if (!fs::exists(path, none)) return json::array();
     const std::vector<std::byte> bytes = readWhole(path, kMostFileBytes);
     const auto* const begin = reinterpret_cast<const char*>(bytes.data());
     json parsed = json::parse(begin, begin + bytes.size(), nullptr, false);
@@ -74,10 +76,12 @@ json read(const fs::path& path) {
     return parsed;
 }
 
-// Whole or not at all; the folder lets nobody else in.
-void write(const fs::path& path, const json& content) {
+constexpr const char* kLoss = "who is let in or out is forgotten with the end of the console";
+
+// Whole or not at all; the folder lets nobody else in. Whether it was written.
+bool write(const fs::path& path, const json& content) {
     const std::string text = content.dump(1);
-    writeWhole(path, std::as_bytes(std::span(text)));
+    return keepIfPossible(path, std::as_bytes(std::span(text)), kLoss);
 }
 
 // The people or machines of a file.
@@ -180,8 +184,7 @@ Access::Access(fs::path folder, UnixSeconds built) : folder_{std::move(folder)},
     fs::create_directories(folder_, failure);
     fs::permissions(folder_, fs::perms::owner_all, failure);
     if (failure)
-        throw Error(folder_.string() + ": cannot be used (" + failure.message() +
-                    "); set XDG_STATE_HOME to a folder that can");
+        warnOnceOf(folder_, folder_.string() + ": " + whyNotWritten(failure.value()), kLoss);
     sessions_ = holdersIn(folder_ / kSessionFile);
 }
 
@@ -190,11 +193,13 @@ std::string Access::makeCode(ConsoleRole role, UnixSeconds now) {
     const auto bytes = randomBytes<kCodeLetters>();
     std::string code;
     for (const unsigned char byte : bytes) code += kCrockford[byte & 31U];
-    write(folder_ / kCodeFile,
-          {{"hash", hashOfSecret(code)},
-           {"role", nameOf(role)},
-           {"since", now},
-           {"until", now + kCodeSeconds}});
+    const json content{{"hash", hashOfSecret(code)},
+                       {"role", nameOf(role)},
+                       {"since", now},
+                       {"until", now + kCodeSeconds}};
+    code_ = content.dump();
+    std::error_code none;
+    if (!write(folder_ / kCodeFile, content)) fs::remove(folder_ / kCodeFile, none);
     wrong_ = 0;
     return code.substr(0, 4) + "-" + code.substr(4);
 }
@@ -216,13 +221,14 @@ void Access::refuse(const std::string& client, UnixSeconds now) {
 }
 
 // The code is read again: another run of the program may have made it. One from the future was made
-// before the clock was set back.
+// before the clock was set back. Where it could not be written it is that of this run.
 std::optional<std::string> Access::pair(const std::string& code,
                                         const Applicant& who,
                                         UnixSeconds now,
                                         bool& spent) {
     spent = false;
-    const json valid = read(folder_ / kCodeFile);
+    json valid = read(folder_ / kCodeFile);
+    if (!valid.is_object()) valid = json::parse(code_, nullptr, false);
     if (isRefused(who.client, now) || !valid.is_object() || valid.value("until", 0.0) < now ||
         valid.value("since", now) > now)
         return std::nullopt;
@@ -230,10 +236,10 @@ std::optional<std::string> Access::pair(const std::string& code,
         if (++wrong_ < kMostWrong) return std::nullopt;
         spent = true;
         refuse(who.client, now);
-        fs::remove(folder_ / kCodeFile);
+        forgetCode();
         return std::nullopt;
     }
-    fs::remove(folder_ / kCodeFile);
+    forgetCode();
     std::string secret = freshSecret();
     const std::string hash = hashOfSecret(secret);
     const UnixSeconds since = std::max(now, built_);
@@ -247,6 +253,12 @@ std::optional<std::string> Access::pair(const std::string& code,
                          since + kSessionSeconds});
     writeHolders(folder_ / kSessionFile, sessions_);
     return secret;
+}
+
+void Access::forgetCode() {
+    std::error_code none;
+    fs::remove(folder_ / kCodeFile, none);
+    code_.clear();
 }
 
 // One that has run out is none, nor one that a clock far ahead has dated.

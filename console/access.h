@@ -48,8 +48,9 @@ struct Applicant {
 // see session().
 class Access {
   public:
-    // Makes the folder. `built`: when this program was; no clock before that is right. Throws Error
-    // where the folder cannot be used.
+    // Makes the folder. Where it cannot be written, a warning says so, and who is let in is kept in
+    // memory. `built`: when this program was; no clock before that is right. Throws Error where
+    // what the folder holds cannot be read.
     explicit Access(std::filesystem::path folder, UnixSeconds built = 0);
 
     // A code of eight letters and digits that lets one browser in within ten minutes, as `role`;
@@ -86,7 +87,10 @@ class Access {
     [[nodiscard]] bool isRefused(const std::string& client, UnixSeconds now) const;
     void refuse(const std::string& client, UnixSeconds now);
 
+    void forgetCode();
+
     std::filesystem::path folder_;
+    std::string code_;  // the last that this run has made, as its file has it
     UnixSeconds built_;
     std::vector<Holder> sessions_;
     int wrong_ = 0;

@@ -20,6 +20,7 @@
 
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/base/output_file.h"
 #include "common/base/versions.h"
 #include "common/cli/command_line.h"
 #include "common/config/rig.h"
@@ -372,10 +373,14 @@ void EventBook::add(const std::string& who, const std::string& what) {
     event.set_who(who);
     event.set_what(what);
     if (events_.size() > kMostEvents) events_.pop_back();
-    std::ofstream file(file_, std::ios::app);
-    file << json{{"at", event.at_s()}, {"who", who}, {"what", what}}.dump(
-                -1, ' ', false, json::error_handler_t::replace)
-         << '\n';
+    const json line{{"at", event.at_s()}, {"who", who}, {"what", what}};
+    try {
+        GrowingFile(file_, GrowingFile::kAll)
+            .append(line.dump(-1, ' ', false, json::error_handler_t::replace) + '\n');
+    } catch (const Error& problem) {
+        warnOnceOf(
+            file_.parent_path(), problem.what(), "what is done is only listed until the end");
+    }
 }
 
 // The newest event comes first.

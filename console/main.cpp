@@ -14,6 +14,7 @@
 
 #include "common/base/dates.h"
 #include "common/base/log.h"
+#include "common/base/output_file.h"
 #include "common/base/service_notifier.h"
 #include "common/cli/command_line.h"
 #include "common/config/keys.h"
@@ -186,7 +187,10 @@ void serve(const Options& options, const config::Rig& rig, console::Access& acce
 void run(const Options& options) {
     const config::Rig rig = config::readRig(options.rig);
     if (!options.certify.empty()) return certify(options);
-    console::Access access(console::stateFolderOf(options.rig), static_cast<double>(builtAt()));
+    const auto folder = console::stateFolderOf(options.rig);
+    // What these two print only counts where the running console reads it.
+    if (!options.pair.empty() || !options.token.empty()) requireWritableFolder(folder);
+    console::Access access(folder, static_cast<double>(builtAt()));
     if (!options.pair.empty()) {
         std::cout << access.makeCode(*console::roleNamed(options.pair), console::unixNow())
                   << "  lets one browser in as " << options.pair << ", within ten minutes\n";

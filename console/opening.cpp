@@ -141,7 +141,10 @@ void Opening::keep() const {
         kept["scene"] = done_->scene;
         kept["quality"] = done_->quality;
     }
-    write(folder_ / kDoneFile, kept.dump());
+    const std::string text = kept.dump();
+    keepIfPossible(folder_ / kDoneFile,
+                   std::as_bytes(std::span(text)),
+                   "after a start of the console the hours bring about again what they did");
 }
 
 // First read, then kept: a mistake changes nothing.

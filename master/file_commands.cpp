@@ -103,7 +103,7 @@ void inspectRepertoire(const InspectOptions& options) {
     const motion::Repertoire repertoire = motion::decodeRepertoire(bytes, options.file);
     const std::string data = report::writeReport(repertoire, options.report).string();
     std::cout << '\n';
-    cli::runPython({"matplotlib"}, "master/capture/report/draw_report.py", {data});
+    cli::runPython({"matplotlib"}, "master/capture/report/draw_report.py", {data}, options.report);
 }
 
 // By the ending of the name, or by the first bytes. Every other kind is a text, which

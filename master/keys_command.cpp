@@ -14,6 +14,7 @@
 #include "common/base/counted.h"
 #include "common/base/dates.h"
 #include "common/base/log.h"
+#include "common/base/output_file.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
 #include "common/net/channels.h"
@@ -128,7 +129,7 @@ void makeKeys(const KeyOptions& options) {
     requireOwnNames(options, rig);
     requireClock();
     const fs::path folder = options.keys();
-    fs::create_directories(folder);
+    requireWritableFolder(folder);
     fs::permissions(folder, fs::perms::owner_all);
     std::string masterKey;
     std::uint64_t made = 0;
@@ -222,7 +223,8 @@ void bundleKey(const KeyOptions& options) {
     key.masterAddress = rig.controlAddress;
     const fs::path out =
         options.out.empty() ? config::keyFileIn("", key.name) : fs::path(options.out);
-    if (fs::exists(out))
+    std::error_code none;
+    if (fs::is_regular_file(out, none))
         throw Error(
             out.string() +
             ": is there already; remove it if its key was rotated, or choose another --out");

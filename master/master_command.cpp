@@ -249,8 +249,11 @@ void showNew(const config::Rig& rig,
     }
     conducting.whyOneScene = "the show is recorded, and a recording has one scene";
     simulation::RecordingFile file(options.show.recordPath, assets.bytes);
-    simulation::RecordedWorld recorded(world, file);
-    show(rig, conducting, {assets.bytes, world, recorded}, std::move(channels));
+    {
+        simulation::RecordedWorld recorded(world, file);
+        show(rig, conducting, {assets.bytes, world, recorded}, std::move(channels));
+    }
+    file.close();
 }
 
 // A recording; the show ends with it.

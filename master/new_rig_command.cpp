@@ -216,7 +216,8 @@ NewRigWishes wishesIn(const NewRigOptions& options) {
 }
 
 void requireNew(const std::string& file) {
-    if (fs::exists(file))
+    std::error_code none;
+    if (fs::is_regular_file(file, none))
         throw Error(file + " is there already; choose another name, or remove it first");
 }
 
@@ -243,7 +244,7 @@ void newRig(const NewRigOptions& options) {
         throw Error(std::string("these measures make no wall, and nothing is written: ") +
                     problem.what());
     }
-    writeDurably(options.file, std::as_bytes(std::span(text)));
+    writeWhole(options.file, std::as_bytes(std::span(text)));
     std::cout << fmt::format(
         "wrote {}: {}\n", options.file, counted(plan.channels.size(), "channel"));
     for (const PlannedChannel& channel : plan.channels)

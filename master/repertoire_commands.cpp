@@ -84,7 +84,8 @@ int captureAll(const CaptureOptions& options) {
             fail(file.error);
     }
     if (!options.report.empty() && !reports.empty())
-        cli::runPython({"matplotlib"}, "master/capture/report/draw_report.py", reports);
+        cli::runPython(
+            {"matplotlib"}, "master/capture/report/draw_report.py", reports, options.report);
     return status;
 }
 

@@ -111,7 +111,8 @@ void drawControllers(const ControllersOptions& options) {
     const fs::path config = configFolder(options.config);
     const fs::path file = capture::speciesFiles({options.species}, config).front();
     const fs::path data = report::writeControllers(config::readSpecies(file.string()), options.out);
-    cli::runPython({"matplotlib"}, "master/capture/report/draw_controllers.py", {data.string()});
+    cli::runPython(
+        {"matplotlib"}, "master/capture/report/draw_controllers.py", {data.string()}, options.out);
 }
 
 struct FidelityOptions {
@@ -155,7 +156,8 @@ void compareAll(const FidelityOptions& options) {
     writeText(out / "fidelity_vocabularies.csv", report::vocabulariesCsv(vocabularies));
     cli::runPython({"matplotlib"},
                    "master/capture/report/draw_fidelity.py",
-                   {options.out, std::to_string(options.seed)});
+                   {options.out, std::to_string(options.seed)},
+                   options.out);
 }
 
 }  // namespace

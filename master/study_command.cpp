@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <thread>
@@ -45,15 +46,8 @@ class DataFolder {
     }
     explicit DataFolder(const std::string& asked) : path_(asked), isKept_(!asked.empty()) {
         if (isKept_) return;
-        std::string made = (fs::temp_directory_path() / "aquarama-study-XXXXXX").string();
-        if (mkdtemp(made.data()) == nullptr) throw Error(made + ": cannot be made");
-        path_ = made;
-    }
-    DataFolder(const DataFolder&) = delete;
-    DataFolder& operator=(const DataFolder&) = delete;
-    ~DataFolder() {
-        std::error_code ignored;
-        if (!isKept_) fs::remove_all(path_, ignored);
+        made_.emplace("study");
+        path_ = made_->path();
     }
 
     // Names the file on stderr where it is kept: stdout is for the tables.
@@ -65,13 +59,14 @@ class DataFolder {
     // Prints the tables: "adaptation", and with "figure" draws it beside the data; or "chronicle"
     // and its hours.
     void show(const std::string& what, const std::string& more) const {
-        cli::runPython(kModules, "master/study/draw_study.py", {what, path_.string(), more});
+        cli::runPython(kModules, "master/study/draw_study.py", {what, path_.string(), more}, path_);
     }
 
   private:
     inline static const std::vector<std::string> kModules{"matplotlib", "scipy"};
     fs::path path_;
     bool isKept_;
+    std::optional<TemporaryFolder> made_;
 };
 
 // Runs the study under a bar of progress.

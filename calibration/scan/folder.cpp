@@ -265,11 +265,6 @@ std::unique_ptr<PictureSource> openFolder(const std::string& folder, const confi
 }
 
 void writeFolder(PictureSource& source, const std::string& folder, const config::Rig& rig) {
-    std::error_code problem;
-    fs::create_directories(folder, problem);
-    if (problem)
-        throw Error(folder + " cannot be made (" + problem.message() +
-                    "); choose a folder that can, with space left");
     config::Scan scan = source.scan();
     for (std::size_t i = 0; i < scan.pictures.size(); ++i) {
         scan.pictures[i].file = lossless(i);

@@ -19,6 +19,7 @@
 #include "calibration/scan/camera_controls.h"
 #include "calibration/scan/read_picture.h"
 #include "common/base/characters.h"
+#include "common/base/files.h"
 #include "common/base/log.h"
 
 namespace aquarama::scan {
@@ -129,30 +130,18 @@ std::map<double, std::string> choicesIn(const std::string& text) {
 // A folder for one picture at a time, which goes with the camera.
 class PictureFolder {
   public:
-    PictureFolder() {
-        std::string name = (fs::temp_directory_path() / "aquarama-camera-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw Error(name + ": cannot be made");
-        path_ = name;
-    }
-    ~PictureFolder() {
-        std::error_code none;
-        fs::remove_all(path_, none);
-    }
-    PictureFolder(const PictureFolder&) = delete;
-    PictureFolder& operator=(const PictureFolder&) = delete;
-
     void clear() const {
-        for (const auto& entry : fs::directory_iterator(path_)) fs::remove(entry.path());
+        for (const auto& entry : fs::directory_iterator(path())) fs::remove(entry.path());
     }
     // The first; empty where there is none.
     [[nodiscard]] std::string file() const {
-        const fs::directory_iterator first(path_);
+        const fs::directory_iterator first(path());
         return first == fs::directory_iterator{} ? "" : first->path().string();
     }
-    [[nodiscard]] const fs::path& path() const { return path_; }
+    [[nodiscard]] const fs::path& path() const { return folder_.path(); }
 
   private:
-    fs::path path_;
+    TemporaryFolder folder_{"camera"};
 };
 
 class GphotoCamera final : public Camera {

@@ -94,7 +94,7 @@ class DriftWatch {
                                 "all of its picture to the camera, and learn again",
                                 rig_.channels[i].name));
         const std::string text = drift::textOf(reference, rig_);
-        writeDurably(beside(".drift.json"), std::as_bytes(std::span(text)));
+        writeWhole(beside(".drift.json"), std::as_bytes(std::span(text)));
         std::printf("%s: %zu dots of %zu channels; leave the camera where it is\n",
                     beside(".drift.json").c_str(),
                     reference.dots.size(),

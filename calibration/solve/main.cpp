@@ -130,7 +130,7 @@ class Calibration {
         solve::setForeseen(figures, wall.seams);
         say("writing the wall file");
         keepVersion(options_.out, "");  // what is there before
-        writeDurably(options_.out, formats::encodeMpcdi(wall.file, 2));
+        writeWhole(options_.out, formats::encodeMpcdi(wall.file, 2));
         constexpr std::size_t kPoints = 20000;
         if (!truth_) return;
         solve::setTrue(figures, solve::errorsOf(*truth_, rig_, wall.file, kPoints));

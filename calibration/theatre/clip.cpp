@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <filesystem>
-#include <fstream>
+#include <exception>
 #include <optional>
 #include <vector>
 
@@ -22,6 +21,7 @@ extern "C" {
 #include <webp/mux.h>
 
 #include "common/base/log.h"
+#include "common/base/output_file.h"
 #include "common/base/units.h"
 
 namespace aquarama::theatre {
@@ -34,9 +34,7 @@ constexpr int kEffort = 3;         // of 6
 // Frames go to the encoder one by one; the file is assembled at the end.
 class Animation final : public Clip {
   public:
-    explicit Animation(const ClipFormat& format)
-        : format_{format}, part_{format.path + ".part"}, file_{part_, std::ios::binary} {
-        if (!file_) throw Error(format.path + " cannot be written; choose a folder that can be");
+    explicit Animation(const ClipFormat& format) : format_{format}, file_{format.path} {
         WebPAnimEncoderOptions options;
         WebPAnimEncoderOptionsInit(&options);
         options.minimize_size = 0;
@@ -44,13 +42,6 @@ class Animation final : public Clip {
         if (!encoder_)
             throw Error("a clip cannot be made: no memory, or its pictures are too large");
     }
-    ~Animation() override {
-        std::error_code none;
-        std::filesystem::remove(part_, none);
-    }
-    Animation(const Animation&) = delete;
-    Animation& operator=(const Animation&) = delete;
-
     void add(const Picture& picture, std::uint64_t tick) override {
         assert(picture.sizePixels == format_.sizePixels);
         assert((!first_ || tick > last_));
@@ -81,13 +72,14 @@ class Animation final : public Clip {
         WebPData data;
         WebPDataInit(&data);
         const bool assembled = WebPAnimEncoderAssemble(encoder_.get(), &data) != 0;
-        file_.write(reinterpret_cast<const char*>(data.bytes),
-                    static_cast<std::streamsize>(data.size));
-        file_.close();
+        const std::vector<std::uint8_t> bytes(data.bytes, data.bytes + data.size);
         WebPDataClear(&data);
-        if (!assembled || !file_)
-            throw Error(format_.path + " cannot be written; is there room on the disk?");
-        std::filesystem::rename(part_, format_.path);
+        if (!assembled)
+            throw Error(std::string("a clip cannot be made: ") +
+                        WebPAnimEncoderGetError(encoder_.get()));
+        file_.reserve(bytes.size());
+        file_.write(std::as_bytes(std::span(bytes)));
+        file_.finish();
     }
 
   private:
@@ -99,8 +91,7 @@ class Animation final : public Clip {
     }
 
     ClipFormat format_;
-    std::string part_;
-    std::ofstream file_;
+    OutputFile file_;
     std::unique_ptr<WebPAnimEncoder, Delete> encoder_;
     std::optional<std::uint64_t> first_;
     std::uint64_t last_ = 0;
@@ -117,9 +108,10 @@ struct Free {
     void operator()(AVFrame* frame) const { av_frame_free(&frame); }
     void operator()(AVPacket* packet) const { av_packet_free(&packet); }
     void operator()(SwsContext* converter) const { sws_freeContext(converter); }
-    void operator()(AVFormatContext* file) const {
-        avio_closep(&file->pb);
-        avformat_free_context(file);
+    void operator()(AVFormatContext* file) const { avformat_free_context(file); }
+    void operator()(AVIOContext* stream) const {
+        av_freep(&stream->buffer);
+        avio_context_free(&stream);
     }
 };
 template <class Owned>
@@ -188,14 +180,70 @@ Owner<SwsContext> makeConverter(glm::ivec2 size) {
     return converter;
 }
 
+// What FFmpeg's libraries write goes through our file: they call these functions, which must not
+// throw, so an error waits until rethrow().
+class VideoStream {
+  public:
+    explicit VideoStream(const std::string& path) : file_{path} {
+        constexpr int kBufferBytes = 1 << 16;
+        auto* const buffer = static_cast<unsigned char*>(av_malloc(kBufferBytes));
+        stream_.reset(avio_alloc_context(
+            buffer, kBufferBytes, 1, this, nullptr, take, file_.canSeek() ? seek : nullptr));
+        if (!stream_) throw Error("a clip cannot be made: no memory");
+        stream_->seekable = file_.canSeek() ? AVIO_SEEKABLE_NORMAL : 0;
+    }
+    [[nodiscard]] AVIOContext* get() const { return stream_.get(); }
+    [[nodiscard]] const OutputFile& file() const { return file_; }
+    void rethrow() const {
+        if (failure_) std::rethrow_exception(failure_);
+    }
+    void finish() {
+        avio_flush(stream_.get());
+        rethrow();
+        file_.finish();
+    }
+
+  private:
+    // Later versions of the library give bytes that are const.
+    template <class Byte>
+    static int take(void* self, Byte* bytes, int count) {
+        return static_cast<VideoStream*>(self)->take(
+            std::as_bytes(std::span(bytes, static_cast<std::size_t>(count))));
+    }
+    int take(std::span<const std::byte> bytes) {
+        try {
+            if (file_.canSeek())
+                file_.writeAt(at_, bytes);
+            else
+                file_.write(bytes);
+        } catch (const Error&) {
+            failure_ = std::current_exception();
+            return AVERROR(EIO);
+        }
+        at_ += bytes.size();
+        return static_cast<int>(bytes.size());
+    }
+    // From the beginning only: no other is asked for, but for the size, which is not known.
+    static std::int64_t seek(void* self, std::int64_t offset, int whence) {
+        if (whence != SEEK_SET || offset < 0) return AVERROR(ENOSYS);
+        static_cast<VideoStream*>(self)->at_ = static_cast<std::uint64_t>(offset);
+        return offset;
+    }
+
+    OutputFile file_;
+    std::uint64_t at_ = 0;
+    std::exception_ptr failure_;
+    Owner<AVIOContext> stream_;
+};
+
 // Frames are converted, encoded and written one by one.
 class Video final : public Clip {
   public:
     Video(const ClipFormat& format, std::span<const char* const> encoders)
-        : format_{format}, part_{format.path + ".part"}, packet_{av_packet_alloc()} {
+        : format_{format}, packet_{av_packet_alloc()} {
         av_log_set_level(AV_LOG_FATAL);
         AVFormatContext* made = nullptr;
-        avformat_alloc_output_context2(&made, nullptr, "mp4", part_.c_str());
+        avformat_alloc_output_context2(&made, nullptr, "mp4", nullptr);
         if (made == nullptr)
             throw Error("this build of FFmpeg's libraries writes no MP4; install libavformat59");
         file_.reset(made);
@@ -203,14 +251,6 @@ class Video final : public Clip {
         start();
         makeFrame();
     }
-    ~Video() override {
-        file_.reset();
-        std::error_code none;
-        std::filesystem::remove(part_, none);
-    }
-    Video(const Video&) = delete;
-    Video& operator=(const Video&) = delete;
-
     void add(const Picture& picture, std::uint64_t tick) override {
         assert(picture.sizePixels == format_.sizePixels);
         if (!first_) first_ = tick;
@@ -222,8 +262,7 @@ class Video final : public Clip {
     void finish() override {
         encode(nullptr);
         check(av_write_trailer(file_.get()));
-        check(avio_closep(&file_->pb));
-        std::filesystem::rename(part_, format_.path);
+        written_->finish();
     }
 
   private:
@@ -244,12 +283,17 @@ class Video final : public Clip {
         stream_->time_base = kTick;
         stream_->avg_frame_rate = encoder_->framerate;
         avcodec_parameters_from_context(stream_->codecpar, encoder_.get());
-        const int opened = avio_open(&file_->pb, part_.c_str(), AVIO_FLAG_WRITE);
-        if (opened < 0)
-            throw Error(format_.path + " cannot be written (" + reason(opened) +
-                        "); choose a folder that can be");
+        written_ = std::make_unique<VideoStream>(format_.path);
+        file_->pb = written_->get();
+        file_->url =
+            av_strdup(written_->file().writtenPath().c_str());  // read to put the index first
+        // Plays before all of it has come; in a pipe the index cannot be put first.
+        const bool isPipe = !written_->file().canSeek();
         AVDictionary* options = nullptr;
-        av_dict_set(&options, "movflags", "+faststart", 0);  // plays before all of it has come
+        av_dict_set(&options,
+                    "movflags",
+                    isPipe ? "+frag_keyframe+empty_moov+default_base_moof" : "+faststart",
+                    0);
         const int written = avformat_write_header(file_.get(), &options);
         av_dict_free(&options);
         check(written);
@@ -304,13 +348,14 @@ class Video final : public Clip {
     }
 
     void check(int result) const {
+        if (written_) written_->rethrow();
         if (result < 0)
-            throw Error(format_.path + " cannot be written (" + reason(result) +
-                        "); is there room on the disk?");
+            throw Error(format_.path + ": a clip cannot be made (" + reason(result) +
+                        "); choose FILE.webp");
     }
 
     ClipFormat format_;
-    std::string part_;
+    std::unique_ptr<VideoStream> written_;
     Owner<AVFormatContext> file_;
     Owner<AVCodecContext> encoder_;
     Owner<AVPacket> packet_;

@@ -20,8 +20,8 @@ struct ClipFormat {
     int ticksBetween = 1;  // frames of a show from one picture of the clip to the next
 };
 
-// A clip that is being made. Its file is PATH.part until finish(), and is removed where that is not
-// called. The functions throw Error where the file cannot be written.
+// A clip that is being made: an OutputFile until finish(). The functions throw Error where the file
+// cannot be written.
 class Clip {
   public:
     virtual ~Clip() = default;

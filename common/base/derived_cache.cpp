@@ -26,6 +26,7 @@ using namespace std::chrono_literals;
 constexpr auto kLongestWait = 60s;
 constexpr auto kLook = 20ms;
 constexpr std::string_view kDataEnding = ".data";
+constexpr auto kMostAge = std::chrono::hours(24 * 365);
 
 // Held by the process that makes a piece of data; released by the system when the process dies.
 // Where no lock file can be made, and after the longest wait, the maker goes on without it: then
@@ -62,13 +63,6 @@ Seal sealOf(const DerivedKey& key, std::span<const std::byte> content) {
     const auto* bytes = reinterpret_cast<const Bytef*>(content.data());
     return {key.digest(), crc32_z(crc32_z(0, nullptr, 0), bytes, content.size())};
 }
-
-// A file of the folder, for makeRoom().
-struct KeptFile {
-    fs::file_time_type used;
-    std::uintmax_t bytes = 0;
-    fs::path path;
-};
 
 }  // namespace
 
@@ -113,7 +107,7 @@ std::optional<DerivedCache::Bytes> DerivedCache::read(const DerivedKey& key) con
         std::memcpy(&seal, bytes.data(), sizeof(seal));
         if (seal != sealOf(key, std::span{bytes}.subspan(sizeof(seal)))) return std::nullopt;
         bytes.erase(bytes.begin(), bytes.begin() + sizeof(seal));
-        fs::last_write_time(path, fs::file_time_type::clock::now(), error);
+        markUsed(path);
         return bytes;
     } catch (const Error&) {
         return std::nullopt;
@@ -125,29 +119,9 @@ void DerivedCache::write(const DerivedKey& key, const Bytes& content) const {
     Bytes bytes(sizeof(seal));
     std::memcpy(bytes.data(), &seal, sizeof(seal));
     bytes.insert(bytes.end(), content.begin(), content.end());
-    try {
-        writeWhole(folder_ / (key.fileName() + std::string(kDataEnding)), bytes);
-        makeRoom();
-    } catch (const std::exception&) {  // a full disk only costs time
-    }
-}
-
-void DerivedCache::makeRoom() const {
-    std::vector<KeptFile> files;
-    std::uintmax_t sum = 0;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder_, error)) {
-        KeptFile file{entry.last_write_time(error), entry.file_size(error), entry.path()};
-        if (error) continue;  // another process has just removed it
-        sum += file.bytes;
-        files.push_back(std::move(file));
-    }
-    std::ranges::sort(files, {}, &KeptFile::used);
-    for (const KeptFile& file : files) {
-        if (sum <= mostBytes_) return;
-        sum -= file.bytes;
-        fs::remove(file.path, error);
-    }
+    const fs::path path = folder_ / (key.fileName() + std::string(kDataEnding));
+    if (keepIfPossible(path, bytes, "it is made anew at each start"))
+        trimFolder(folder_, mostBytes_, kMostAge);
 }
 
 DerivedCache derivedCache() {

@@ -46,7 +46,7 @@ class DerivedKey {
 };
 
 // A folder of derived data. Any number of processes and threads may use it at a time. A failure to
-// read or write is not an error: the data is then made again.
+// read or write is not an error: the data is then made again, and a warning says so once.
 class DerivedCache {
   public:
     using Bytes = std::vector<std::byte>;
@@ -64,9 +64,8 @@ class DerivedCache {
   private:
     // Nothing where there is no file, or a damaged one. Marks the file as used.
     [[nodiscard]] std::optional<Bytes> read(const DerivedKey& key) const;
+    // And removes what was not used for longest until the folder is within its limit.
     void write(const DerivedKey& key, const Bytes& content) const;
-    // Removes files until the folder is within its limit.
-    void makeRoom() const;
 
     std::filesystem::path folder_;
     std::uintmax_t mostBytes_;

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/base/files.h"
 
-#include <atomic>
+#include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <fstream>
-#include <string>
+#include <mutex>
+#include <set>
+#include <utility>
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "common/base/log.h"
+#include "common/base/output_file.h"
 
 namespace aquarama {
 
@@ -21,6 +27,16 @@ namespace fs = std::filesystem;
 fs::path valueOf(const char* name) {
     const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody sets it
     return value != nullptr ? value : "";
+}
+
+void put(const fs::path& path,
+         std::span<const std::byte> content,
+         FileAccess access,
+         FileSafety safety) {
+    OutputFile file(path, access, safety);
+    file.reserve(content.size());
+    file.write(content);
+    file.finish();
 }
 
 }  // namespace
@@ -39,47 +55,131 @@ std::vector<std::byte> readWhole(const fs::path& path, std::uintmax_t mostBytes)
     return bytes;
 }
 
-namespace {
-
-// Of a file or a folder; whether the disk has it.
-bool flush(const fs::path& path) {
-    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) return false;
-    const bool isDone = fsync(file) == 0;
-    close(file);
-    return isDone;
+void writeWhole(const fs::path& path, std::span<const std::byte> content) {
+    put(path, content, FileAccess::Usual, FileSafety::Durable);
 }
 
-void write(const fs::path& path, std::span<const std::byte> content, bool isDurable) {
-    // Process and number make the temporary name unique: threads of one process may write the same
-    // file.
-    static std::atomic<unsigned> parts = 0;
-    std::error_code error;
-    if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
-    fs::path part = path;
-    part += "." + std::to_string(getpid()) + "." + std::to_string(++parts) + ".part";
-    std::ofstream file(part, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(content.data()),
-               static_cast<std::streamsize>(content.size()));
-    file.close();
-    const bool isWritten = file && (!isDurable || flush(part));
-    if (isWritten) fs::rename(part, path, error);
-    if (isDurable) flush(path.has_parent_path() ? path.parent_path() : ".");
-    if (!isWritten || error) {
-        fs::remove(part, error);
-        throw Error(path.string() +
-                    ": cannot be written; choose a folder that can, with space left");
+void writePrivate(const fs::path& path, std::span<const std::byte> content) {
+    put(path, content, FileAccess::Private, FileSafety::Durable);
+}
+
+bool keepIfPossible(const fs::path& path,
+                    std::span<const std::byte> content,
+                    const std::string& loss) {
+    try {
+        put(path, content, FileAccess::Usual, FileSafety::Quick);
+        return true;
+    } catch (const Error& problem) {
+        warnOnceOf(path.parent_path(), problem.what(), loss);
+        return false;
     }
+}
+
+void warnOnceOf(const fs::path& folder, const std::string& problem, const std::string& loss) {
+    static std::mutex mutex;
+    static std::set<fs::path> told;
+    {
+        const std::lock_guard lock(mutex);
+        if (!told.insert(folder).second) return;
+    }
+    logWarning("{} ({})", problem, loss);
+}
+
+namespace {
+
+// A file of a folder, for trimFolder().
+struct KeptFile {
+    fs::file_time_type used;
+    std::uintmax_t bytes = 0;
+    fs::path path;
+};
+
+// Longest unused first.
+std::vector<KeptFile> keptFilesIn(const fs::path& folder) {
+    std::vector<KeptFile> files;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        KeptFile file{entry.last_write_time(error), entry.file_size(error), entry.path()};
+        if (!error) files.push_back(std::move(file));  // else it has just been removed
+    }
+    std::ranges::sort(files, {}, &KeptFile::used);
+    return files;
 }
 
 }  // namespace
 
-void writeWhole(const fs::path& path, std::span<const std::byte> content) {
-    write(path, content, false);
+void trimFolder(const fs::path& folder, std::uintmax_t mostBytes, std::chrono::hours mostAge) {
+    const std::vector<KeptFile> files = keptFilesIn(folder);
+    std::uintmax_t sum = 0;
+    for (const KeptFile& file : files) sum += file.bytes;
+    const auto oldest = fs::file_time_type::clock::now() - mostAge;
+    std::error_code error;
+    for (const KeptFile& file : files) {
+        if (sum <= mostBytes && file.used >= oldest) return;
+        sum -= file.bytes;
+        fs::remove(file.path, error);
+    }
 }
 
-void writeDurably(const fs::path& path, std::span<const std::byte> content) {
-    write(path, content, true);
+void markUsed(const fs::path& path) {
+    std::error_code error;
+    fs::last_write_time(path, fs::file_time_type::clock::now(), error);
+}
+
+namespace {
+
+constexpr std::string_view kFolderBeginning = "aquarama.";
+
+// The folder for temporary files, also where TMPDIR names none.
+fs::path temporaryPlace() {
+    std::error_code error;
+    const fs::path place = fs::temp_directory_path(error);
+    return error ? "/tmp" : place;
+}
+
+// Locked for this process; -1 where it is not there, another's, or in use.
+int lockedFolder(const fs::path& path) {
+    const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (folder < 0) return -1;
+    struct stat status {};
+    const bool isOurs = fstat(folder, &status) == 0 && status.st_uid == geteuid();
+    if (isOurs && flock(folder, LOCK_EX | LOCK_NB) == 0) return folder;
+    close(folder);
+    return -1;
+}
+
+}  // namespace
+
+// Between being made and locked a folder may be taken for a left one: then another is made.
+TemporaryFolder::TemporaryFolder(const std::string& purpose) {
+    while (lock_ < 0) {
+        std::string made =
+            (temporaryPlace() / (std::string(kFolderBeginning) + purpose + ".XXXXXX")).string();
+        if (mkdtemp(made.data()) == nullptr)
+            throw Error(made + ": " + whyNotWritten(errno) + " (TMPDIR)");
+        path_ = made;
+        lock_ = lockedFolder(path_);
+        std::error_code error;
+        if (lock_ >= 0 && !fs::exists(path_, error)) close(std::exchange(lock_, -1));
+    }
+}
+
+// Throws nothing: what cannot be removed stays.
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code none;
+    fs::remove_all(path_, none);
+    close(lock_);
+}
+
+void removeLeftFolders() {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(temporaryPlace(), none)) {
+        if (!entry.path().filename().string().starts_with(kFolderBeginning)) continue;
+        const int lock = lockedFolder(entry.path());
+        if (lock < 0) continue;
+        fs::remove_all(entry.path(), none);
+        close(lock);
+    }
 }
 
 std::uint64_t freeBytesAt(fs::path path) {
@@ -94,7 +194,7 @@ fs::path userFolder(const char* variable, const char* underHome) {
     const fs::path given = valueOf(variable);
     if (given.is_absolute()) return given / "aquarama";
     const fs::path home = valueOf("HOME");
-    return (home.empty() ? fs::temp_directory_path() : home / underHome) / "aquarama";
+    return (home.empty() ? temporaryPlace() : home / underHome) / "aquarama";
 }
 
 fs::path cacheFolder() {

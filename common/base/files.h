@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole files: read up to a limit, written so that a reader sees the old file or the new one, never
-// a part.
+// a part. Folders of this user: for what is kept, and for the time of a work.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace aquarama {
@@ -15,12 +17,49 @@ namespace aquarama {
 [[nodiscard]] std::vector<std::byte> readWhole(const std::filesystem::path& path,
                                                std::uintmax_t mostBytes);
 
-// Writes a temporary file beside it and renames that. Makes the folder of the file where there is
-// none. Throws Error when it cannot be written.
+// By the rules of OutputFile (output_file.h). Returns when the disk has it: a power cut leaves the
+// old file or the new one. Throws Error when it cannot be written.
 void writeWhole(const std::filesystem::path& path, std::span<const std::byte> content);
+// The same, and nobody but this user may read it.
+void writePrivate(const std::filesystem::path& path, std::span<const std::byte> content);
 
-// The same, and returns when the disk has it: a power cut leaves the old file or the new one.
-void writeDurably(const std::filesystem::path& path, std::span<const std::byte> content);
+// What only saves time, or is only told: where it cannot be written, a warning says so, once for
+// each folder of a process, with what is lost ("fish are captured anew at each start"), and the
+// work goes on. Whether it was written. From any thread.
+bool keepIfPossible(const std::filesystem::path& path,
+                    std::span<const std::byte> content,
+                    const std::string& loss);
+// That warning, for a file that is written otherwise.
+void warnOnceOf(const std::filesystem::path& folder,
+                const std::string& problem,
+                const std::string& loss);
+
+// Files of a folder that were not used for longest are removed until `mostBytes` are left, and
+// those older than `mostAge`. The time of last write counts as that of last use. What cannot be
+// removed stays.
+void trimFolder(const std::filesystem::path& folder,
+                std::uintmax_t mostBytes,
+                std::chrono::hours mostAge);
+// Marks a file of such a folder as used.
+void markUsed(const std::filesystem::path& path);
+
+// A folder for the time of a work, in that for temporary files: aquarama.PURPOSE.LETTERS. It goes
+// with the object. Folders that killed processes have left are removed at the next start of any
+// program (removeLeftFolders()): the process that uses one holds a lock on it.
+class TemporaryFolder {
+  public:
+    // Throws Error where it cannot be made.
+    explicit TemporaryFolder(const std::string& purpose);
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+    int lock_ = -1;
+};
+void removeLeftFolders();
 
 // What this user may still write on the disk of a path, which need not be there yet; 0 where it
 // cannot be told.

@@ -12,6 +12,7 @@
 #include <spdlog/spdlog.h>
 
 #include "common/base/characters.h"
+#include "common/base/files.h"
 
 namespace aquarama {
 namespace {
@@ -47,8 +48,9 @@ void writeError(const std::string& line) {
 }
 
 void setLogListener(LogListener next) {
+    // The last listener goes without the lock: it may end a thread that logs.
     const std::lock_guard lock(listenerMutex);
-    listener = std::move(next);
+    listener.swap(next);
 }
 
 // The writing thread and its queue, and the logger that puts lines there.
@@ -73,6 +75,10 @@ LogFile::LogFile(const std::filesystem::path& path) : impl_(std::make_unique<Imp
                     "); make its folder writable");
     }
     impl_->logger->set_pattern("%v");
+    impl_->logger->set_error_handler([path](const std::string& problem) {
+        warnOnceOf(
+            path, path.string() + ": " + problem, "lines of the log are lost; make room there");
+    });
     impl_->logger->flush_on(spdlog::level::info);
 }
 

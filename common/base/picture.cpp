@@ -6,7 +6,6 @@
 #include <cmath>
 #include <csetjmp>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <utility>
 
@@ -303,17 +302,12 @@ Picture readPng(const std::string& path) {
 }
 
 void writePng(const std::string& path, const Picture& picture) {
-    const std::vector<std::byte> bytes = encodePng({.sizePixels = picture.sizePixels,
-                                                    .components = 3,
-                                                    .bits = picture.bits,
-                                                    .codes = picture.rgb},
-                                                   PngMeaning::Srgb);
-    std::ofstream file(path, std::ios::binary);
-    if (!file) throw Error(path + ": cannot be written; check the folder and its permissions");
-    file.write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
-    file.close();  // a full disk shows itself here
-    if (!file) throw Error(path + ": writing failed; is the disk full?");
+    writeWhole(path,
+               encodePng({.sizePixels = picture.sizePixels,
+                          .components = 3,
+                          .bits = picture.bits,
+                          .codes = picture.rgb},
+                         PngMeaning::Srgb));
 }
 
 }  // namespace aquarama

@@ -35,7 +35,7 @@ std::string textOf(const fs::path& file) {
 }
 
 bool isSame(const fs::path& one, const fs::path& other) {
-    return fs::exists(one) && fs::file_size(one) == fs::file_size(other) &&
+    return fs::is_regular_file(one) && fs::file_size(one) == fs::file_size(other) &&
            digestOf(std::span<const std::byte>(readWhole(one, kMostBlobBytes))) ==
                digestOf(std::span<const std::byte>(readWhole(other, kMostBlobBytes)));
 }
@@ -54,12 +54,12 @@ fs::path freshVersion(const fs::path& file, const std::vector<FileVersion>& vers
 
 // The note comes first, so that no version is without one.
 void keep(const fs::path& file, const std::string& note) {
-    if (!fs::exists(file)) return;
+    if (!fs::is_regular_file(file)) return;
     const auto versions = versionsOf(file);
     const auto kept = std::ranges::find(versions, true, &FileVersion::isInUse);
     const fs::path path = kept == versions.end() ? freshVersion(file, versions) : kept->path;
-    if (!note.empty()) writeDurably(noteOf(path), std::as_bytes(std::span(note)));
-    if (kept == versions.end()) writeDurably(path, readWhole(file, kMostBlobBytes));
+    if (!note.empty()) writeWhole(noteOf(path), std::as_bytes(std::span(note)));
+    if (kept == versions.end()) writeWhole(path, readWhole(file, kMostBlobBytes));
 }
 
 void dropOldest(const fs::path& file) {
@@ -98,7 +98,7 @@ void keepVersion(const fs::path& file, const std::string& note) {
 void useVersion(const fs::path& file, const FileVersion& version) {
     const auto bytes = readWhole(version.path, kMostBlobBytes);
     keep(file, "");
-    writeDurably(file, bytes);
+    writeWhole(file, bytes);
     dropOldest(file);
 }
 

@@ -5,7 +5,10 @@
 #include <array>
 #include <atomic>
 #include <cassert>
+#include <cerrno>
 #include <charconv>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -19,6 +22,9 @@
 #include <unistd.h>
 
 #include "common/base/characters.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/base/output_file.h"
 
 namespace aquarama::cli {
 
@@ -59,6 +65,13 @@ bool tellSupervisor(const std::string& line) {
     if (pipe == nullptr) return false;
     const std::string whole = line + '\n';
     return write(std::atoi(pipe), whole.data(), whole.size()) == static_cast<ssize_t>(whole.size());
+}
+
+// The status of a job whose standard output has arrived. One that is closed is wanted so.
+int withOutput(int status) {
+    errno = 0;
+    if ((std::fflush(stdout) == 0 && std::ferror(stdout) == 0) || errno == EBADF) return status;
+    throw Error("standard output: " + whyNotWritten(errno != 0 ? errno : EIO));
 }
 
 // An argument that an office program or a web page has given a long dash: what to type instead of
@@ -126,7 +139,10 @@ int runProgram(CLI::App& app, int count, char** arguments, const Job& job) {
     const std::string longDash = longDashIn(given);
     try {
         app.parse(count, arguments);
-        return longDash.empty() ? job() : sayUsage(app, longDash, {});
+        if (!longDash.empty()) return sayUsage(app, longDash, {});
+        std::signal(SIGXFSZ, SIG_IGN);  // a file past its limit is an error of who writes it
+        removeLeftFolders();
+        return withOutput(job());
     } catch (const CLI::ParseError& wrong) {
         if (wrong.get_exit_code() == 0) return app.exit(wrong);  // --help or --version
         return longDash.empty() ? sayUsage(app, wrong.what(), given) : sayUsage(app, longDash, {});

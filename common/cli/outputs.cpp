@@ -17,7 +17,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/base/output_file.h"
 
 namespace aquarama::cli {
 
@@ -25,32 +27,42 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Makes the folder and a file in it, which goes again.
-std::error_code tryFolder(const fs::path& folder) {
-    std::error_code failure;
-    fs::create_directories(folder, failure);
-    if (failure) return failure;
-    std::string probe = (folder / ".aquarama-XXXXXX").string();
-    const int file = mkstemp(probe.data());
-    if (file < 0) return {errno, std::system_category()};
-    close(file);
-    unlink(probe.c_str());
-    return {};
-}
-
-void require(const std::string& option, const std::string& path, const std::error_code& failure) {
-    if (failure)
-        throw Error(option + " " + path + ": cannot be written (" + failure.message() +
-                    "); choose another folder");
+// Whether the option's path can be written; errors name the option.
+template <class Require>
+void requireFor(const std::string& option, const std::string& path, const Require& require) {
+    if (path.empty()) return;  // not asked for
+    try {
+        require(path);
+    } catch (const Error& problem) {
+        throw Error(option + " " + problem.what());
+    }
 }
 
 enum class Output { Shown, Dropped };
 
-// Starts a program with no signal blocked and waits for its end: whether it ended with status 0.
-bool succeeds(const std::string& program, std::vector<std::string> arguments, Output output) {
-    std::vector<char*> vector{const_cast<char*>(program.c_str())};
-    for (std::string& argument : arguments) vector.push_back(argument.data());
-    vector.push_back(nullptr);
+// A script that cannot write ends with the number of the system's error, added to this.
+constexpr int kFirstErrno = 100;
+
+// As a C library takes them: the pointers before, those to the words, and null after the last.
+std::vector<char*> pointersTo(std::vector<char*> pointers, std::vector<std::string>& words) {
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
+// That of this process.
+std::vector<char*> environmentHere() {
+    std::vector<char*> variables;
+    for (char** one = environ; *one != nullptr; ++one) variables.push_back(*one);
+    return variables;
+}
+
+// Starts a program with no signal blocked and waits for its end: its exit status, or -1. The
+// variables ("NAME=value") are more of its environment.
+int statusOf(const std::string& program,
+             std::vector<std::string> arguments,
+             Output output,
+             std::vector<std::string> variables) {
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     if (output == Output::Dropped)
@@ -64,18 +76,32 @@ bool succeeds(const std::string& program, std::vector<std::string> arguments, Ou
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
     pid_t child = 0;
     const int error =
-        posix_spawnp(&child, program.c_str(), &files, &attributes, vector.data(), environ);
+        posix_spawnp(&child,
+                     program.c_str(),
+                     &files,
+                     &attributes,
+                     pointersTo({const_cast<char*>(program.c_str())}, arguments).data(),
+                     pointersTo(environmentHere(), variables).data());
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
     int status = 0;
-    return error == 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
-           WEXITSTATUS(status) == 0;
+    const bool hasEnded = error == 0 && waitpid(child, &status, 0) == child && WIFEXITED(status);
+    return hasEnded ? WEXITSTATUS(status) : -1;
 }
 
 std::vector<std::string> pythons() {
     // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody sets it
     if (const char* chosen = std::getenv("AQUARAMA_PYTHON")) return {chosen};
     return {"python3", "/usr/bin/python3"};
+}
+
+// Matplotlib keeps its list of fonts in this user's folder, and complains at length where it
+// cannot.
+bool mayKeepFonts() {
+    std::error_code none;
+    fs::path folder = userFolder("XDG_CONFIG_HOME", ".config").parent_path();
+    while (folder.has_relative_path() && !fs::exists(folder, none)) folder = folder.parent_path();
+    return access(folder.c_str(), W_OK) == 0;
 }
 
 std::string pythonWith(const std::vector<std::string>& modules) {
@@ -86,7 +112,7 @@ std::string pythonWith(const std::vector<std::string>& modules) {
         packages += " python3-" + module;
     }
     for (const std::string& python : pythons())
-        if (succeeds(python, {"-c", imports}, Output::Dropped)) return python;
+        if (statusOf(python, {"-c", imports}, Output::Dropped, {}) == 0) return python;
     throw Error("figures are drawn by Python, and no Python 3 with its modules is here; install" +
                 packages + " (apt), or name another Python in AQUARAMA_PYTHON");
 }
@@ -94,15 +120,11 @@ std::string pythonWith(const std::vector<std::string>& modules) {
 }  // namespace
 
 void requireFolder(const std::string& option, const std::string& folder) {
-    if (!folder.empty()) require(option, folder, tryFolder(folder));
+    requireFor(option, folder, requireWritableFolder);
 }
 
 void requireFile(const std::string& option, const std::string& file) {
-    if (file.empty()) return;
-    require(option,
-            file,
-            fs::is_directory(file) ? std::make_error_code(std::errc::is_a_directory)
-                                   : tryFolder(fs::absolute(file).parent_path()));
+    requireFor(option, file, requireWritable);
 }
 
 std::string findData(const std::string& file) {
@@ -121,14 +143,25 @@ void requirePython(const std::vector<std::string>& modules) {
 
 void runPython(const std::vector<std::string>& modules,
                const std::string& script,
-               const std::vector<std::string>& arguments) {
+               const std::vector<std::string>& arguments,
+               const fs::path& folder) {
     assert(!modules.empty());
     assert(script.ends_with(".py"));
     std::vector<std::string> all{"-B", findData(script)};  // -B: writes no bytecode
     all.insert(all.end(), arguments.begin(), arguments.end());
     std::cout.flush();
-    if (!succeeds(pythonWith(modules), all, Output::Shown))
-        throw Error(all[1] + " failed; its data are written");
+    const TemporaryFolder drawn("figures");
+    std::vector<std::string> variables{"AQUARAMA_DRAWN=" + drawn.path().string()};
+    if (!mayKeepFonts()) variables.push_back("MPLCONFIGDIR=" + drawn.path().string() + "/fonts");
+    const int status = statusOf(pythonWith(modules), all, Output::Shown, variables);
+    if (status > kFirstErrno)
+        throw Error(drawn.path().string() + ": " + whyNotWritten(status - kFirstErrno) +
+                    "; the data of the figures are written");
+    if (status != 0) throw Error(all[1] + " failed; its data are written");
+    constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 28U;
+    for (const auto& entry : fs::directory_iterator(drawn.path()))
+        if (entry.is_regular_file())
+            writeWhole(folder / entry.path().filename(), readWhole(entry.path(), kMostBytes));
 }
 
 bool Progress::isTerminal() {

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,7 +16,7 @@ namespace aquarama::cli {
 // Makes the folder where it is missing. Throws Error, which names the option, where no file can be
 // written into it. An empty name asks for nothing.
 void requireFolder(const std::string& option, const std::string& folder);
-// The same for the folder of a file; nor may the file be a folder.
+// The same for a file, which stays as it is: what is no regular file is not opened.
 void requireFile(const std::string& option, const std::string& file);
 
 // The path of a file that comes with the programs ("config/scenes/reef.txtpb"): that of the source
@@ -28,10 +29,12 @@ void requireFile(const std::string& option, const std::string& file);
 void requirePython(const std::vector<std::string>& modules);
 
 // Runs a script ("master/study/draw_study.py"), found as findData() does, with the first Python
-// that has the modules. Throws Error where it is missing or fails.
+// that has the modules. What it draws goes into `folder`, by the rules of all outputs: it writes
+// into a temporary folder, AQUARAMA_DRAWN. Throws Error where it is missing or fails.
 void runPython(const std::vector<std::string>& modules,
                const std::string& script,
-               const std::vector<std::string>& arguments);
+               const std::vector<std::string>& arguments,
+               const std::filesystem::path& folder);
 
 // Says how far a long work is on standard output: in one line of a terminal, written anew, or in a
 // line of a log every ten seconds.

@@ -2,14 +2,10 @@
 #include "common/config/keys.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <span>
 
-#include <fcntl.h>
 #include <google/protobuf/text_format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "common/base/files.h"
 #include "common/base/log.h"
@@ -45,16 +41,6 @@ void requirePrivate(const fs::path& path) {
         throw Error(path.string() +
                     ": others than its owner may read this key: chmod 600 it, and " +
                     "make a new one (aquarama keys rotate) if somebody may have");
-}
-
-// A file of this name that did not exist, open for its owner only.
-int privateFile(const fs::path& path) {
-    unlink(path.c_str());
-    const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    if (file < 0)
-        throw Error(path.string() + ": cannot be written (" + std::strerror(errno) +
-                    "); choose another folder");
-    return file;
 }
 
 }  // namespace
@@ -97,14 +83,7 @@ void writeKeyFile(const fs::path& path, const KeyFile& key) {
     std::string text;
     google::protobuf::TextFormat::PrintToString(out, &text);
     text = "# Secret: whoever holds this file takes part as " + key.name + ".\n" + text;
-    const fs::path fresh = path.string() + ".new";
-    const int file = privateFile(fresh);
-    const auto written = write(file, text.data(), text.size());
-    const bool isWhole = written == static_cast<ssize_t>(text.size()) && fsync(file) == 0;
-    close(file);
-    std::error_code problem;
-    if (isWhole) fs::rename(fresh, path, problem);
-    if (!isWhole || problem) throw Error(path.string() + ": cannot be written; is the disk full?");
+    writePrivate(path, std::as_bytes(std::span(text)));
 }
 
 fs::path keyFolderOf(const std::string& rigPath) {

@@ -58,6 +58,11 @@ std::optional<std::vector<std::byte>> BlobAssembly::checked() {
     return bytes;
 }
 
+BlobCache::BlobCache(std::filesystem::path directory, std::uintmax_t mostBytes)
+    : directory_(std::move(directory)), mostBytes_(mostBytes) {
+    trimFolder(directory_, mostBytes_, kMostAge);
+}
+
 std::filesystem::path BlobCache::pathOf(const Digest& digest) const {
     return directory_ / toHex(digest);
 }
@@ -67,17 +72,17 @@ std::optional<std::vector<std::byte>> BlobCache::find(const Digest& digest) cons
     if (!std::filesystem::exists(pathOf(digest), error)) return std::nullopt;
     try {
         auto bytes = readWhole(pathOf(digest), kMostBlobBytes);
-        if (digestOf(bytes) == digest) return bytes;
+        if (digestOf(bytes) != digest) return std::nullopt;
+        markUsed(pathOf(digest));
+        return bytes;
     } catch (const Error&) {  // no more than a cache: the blob is fetched again
     }
     return std::nullopt;
 }
 
 void BlobCache::keep(const Digest& digest, std::span<const std::byte> blob) const {
-    try {
-        writeWhole(pathOf(digest), blob);
-    } catch (const Error&) {  // a full disk only costs time
-    }
+    if (keepIfPossible(pathOf(digest), blob, "it is fetched anew at each start"))
+        trimFolder(directory_, mostBytes_, kMostAge);
 }
 
 std::uint64_t BlobCache::freeBytes() const {

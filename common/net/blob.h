@@ -2,6 +2,7 @@
 // Blobs named by their SHA-256: cut into chunks, put together again, checked and kept on disk.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -47,10 +48,16 @@ class BlobAssembly {
     std::vector<std::vector<std::byte>> parts_;
 };
 
-// A directory of blobs. What it cannot write it does without: a cache only saves time.
+// A directory of blobs. What it cannot write it does without, and warns once: a cache only saves
+// time. Blobs that were not used for kMostAge are removed, and those that were not used for longest
+// until there are at most `mostBytes`: when it is opened, and with each blob that is kept.
 class BlobCache {
   public:
-    explicit BlobCache(std::filesystem::path directory) : directory_(std::move(directory)) {}
+    // Many times what a wall needs: a repertoire takes 5 MB, a wall file some tens.
+    static constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 30U;
+    static constexpr std::chrono::hours kMostAge{24 * 90};
+
+    explicit BlobCache(std::filesystem::path directory, std::uintmax_t mostBytes = kMostBytes);
 
     // Empty where there is none, or what is there is not what its name says.
     [[nodiscard]] std::optional<std::vector<std::byte>> find(const Digest& digest) const;
@@ -63,6 +70,7 @@ class BlobCache {
   private:
     [[nodiscard]] std::filesystem::path pathOf(const Digest& digest) const;
     std::filesystem::path directory_;
+    std::uintmax_t mostBytes_;
 };
 
 // The folder "blobs" of cacheFolder().

@@ -352,10 +352,12 @@ fs::path cachedPath(const config::Species& species, const fs::path& folder) {
 
 // The bytes of a file that decodes without error; nothing when it is absent or damaged.
 std::optional<std::vector<std::byte>> findIntact(const fs::path& path) {
-    if (!fs::exists(path)) return std::nullopt;
+    std::error_code unreadable;
+    if (!fs::exists(path, unreadable)) return std::nullopt;
     try {
         std::vector<std::byte> bytes = readRepertoireFile(path);
         static_cast<void>(motion::decodeRepertoire(bytes, path.string()));
+        markUsed(path);
         return bytes;
     } catch (const Error&) {
         // Damaged, or of another version of the format.
@@ -363,18 +365,16 @@ std::optional<std::vector<std::byte>> findIntact(const fs::path& path) {
     }
 }
 
-// Writes a captured repertoire to the cache and puts its bytes, or its error, into `file`. A cache
-// that cannot be written is an error too.
+// Puts the bytes of a captured repertoire, or its error, into `file`, and writes them to the cache.
+// A cache that cannot be written only costs time.
 void keep(const CaptureOutcome& outcome, const fs::path& path, RepertoireFile& file) {
     file.error = outcome.error;
     if (!outcome.repertoire) return;
-    try {
-        std::vector<std::byte> bytes = motion::encodeRepertoire(*outcome.repertoire);
-        writeWhole(path, bytes);
-        file.bytes = std::move(bytes);
-    } catch (const Error& error) {
-        file.error = error.what();
-    }
+    file.bytes = motion::encodeRepertoire(*outcome.repertoire);
+    constexpr std::uintmax_t kMostCachedBytes = std::uintmax_t{1} << 30U;
+    constexpr std::chrono::hours kMostAge{24 * 365};
+    if (keepIfPossible(path, file.bytes, "the fish are captured anew at each start"))
+        trimFolder(path.parent_path(), kMostCachedBytes, kMostAge);
 }
 
 }  // namespace

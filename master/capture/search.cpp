@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <exception>
+#include <fstream>
 #include <iterator>
 #include <numbers>
 #include <numeric>
@@ -139,8 +140,10 @@ std::optional<SearchTrial> parseTrial(const std::string& line) {
     return lineOf(trial) == line ? std::optional(std::move(trial)) : std::nullopt;
 }
 
-// The text up to the last line end; empty when the file does not exist.
+// The text up to the last line end; empty when the file does not exist, or is a pipe.
 std::string wholeLinesOf(const fs::path& path) {
+    std::error_code none;
+    if (!fs::is_regular_file(path, none)) return {};
     std::ifstream file(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     return text.substr(0, text.rfind('\n') + 1);
@@ -173,20 +176,13 @@ std::vector<SearchTrial> parseTrials(const std::string& text,
 SearchJournal::SearchJournal(fs::path path, const std::string& search) : path_(std::move(path)) {
     assert(search.find('\n') == std::string::npos);
     const std::string before = wholeLinesOf(path_);
-    if (!before.empty()) {
-        trials_ = parseTrials(before, search, path_);
-        fs::resize_file(path_, before.size());
-    }
-    file_.open(path_, before.empty() ? std::ios::trunc : std::ios::app);
-    if (before.empty()) file_ << search << '\n' << std::flush;
-    if (!file_)
-        throw Error(path_.string() + ": cannot be written; choose another folder with --out");
+    if (!before.empty()) trials_ = parseTrials(before, search, path_);
+    file_ = GrowingFile(path_, before.size());
+    if (before.empty()) file_.append(search + '\n');
 }
 
 void SearchJournal::add(const SearchTrial& trial) {
-    file_ << lineOf(trial) << '\n' << std::flush;
-    if (!file_)
-        throw Error(path_.string() + ": cannot be written; make space and search again to go on");
+    file_.append(lineOf(trial) + '\n');
     trials_.push_back(trial);
 }
 

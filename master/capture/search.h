@@ -4,11 +4,11 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "common/base/output_file.h"
 #include "common/config/species.h"
 
 namespace aquarama::capture {
@@ -49,7 +49,7 @@ class SearchJournal {
   private:
     std::filesystem::path path_;
     std::vector<SearchTrial> trials_;
-    std::ofstream file_;
+    GrowingFile file_;
 };
 
 // The optimisation.

@@ -57,12 +57,10 @@ std::uint64_t freshSession() {
     return (high << 32U | device()) | 1U;  // never 0
 }
 
-std::ofstream openTrace(const std::filesystem::path& directory) {
+GrowingFile openTrace(const std::filesystem::path& directory) {
     if (directory.empty()) return {};
-    const auto path = directory / "master.csv";
-    std::ofstream trace(path);
-    trace << "frame,state_ns,ready_ns,present_ns\n";
-    if (!trace.flush()) throw Error("cannot write " + path.string() + "; create the directory");
+    GrowingFile trace(directory / "master.csv");
+    trace.append("frame,state_ns,ready_ns,present_ns\n");
     return trace;
 }
 
@@ -178,6 +176,7 @@ ShowReport Conductor::run() {
     sayFarewell();
     if (keeping_.valid()) keeping_.wait();
     keepWhatWasSet();
+    trace_.close();
     if (!failure_.empty()) throw Error(failure_);
     return report_;
 }
@@ -329,7 +328,8 @@ bool Conductor::publish(Frame frame, net::Instant now) {
     if (options_.log != nullptr) options_.log->masterFrame = frame.value;
     lastPublished_ = lastRepeat_ = net::monotonicNow();
     repeatAfter_ = isLockstep() ? kRepeat : deadline_;
-    if (trace_.is_open()) trace_ << frame.value << ',' << lastPublished_.count() << ",,\n";
+    if (trace_.isOpen())
+        trace_.appendOrLog(fmt::format("{},{},,\n", frame.value, lastPublished_.count()));
     if (published_.size() > 2) published_.erase(published_.begin());
     unpublished_ = {frame.value + 1};
     noteEye(*state);

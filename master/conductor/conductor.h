@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <future>
 #include <map>
@@ -20,6 +19,7 @@
 
 #include "common/base/digest.h"
 #include "common/base/log.h"
+#include "common/base/output_file.h"
 #include "common/base/service_notifier.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
@@ -318,7 +318,7 @@ class Conductor {
     std::vector<ChannelSlot> slots_;
     PresentBarrier barrier_;
     net::Instant refresh_, deadline_;
-    std::ofstream trace_;
+    GrowingFile trace_;
     std::atomic<bool> stopped_ = false;
     bool over_ = false;
     std::string failure_;

@@ -2,48 +2,27 @@
 #include "master/simulation/recorded_world.h"
 
 #include <cassert>
-#include <cerrno>
 #include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "common/base/log.h"
 
 namespace aquarama::simulation {
 
-namespace {
-
-// Writes and flushes; false where either fails.
-bool wrote(std::ofstream& file, const wire::Packet& bytes) {
-    file.write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
-    return static_cast<bool>(file.flush());
-}
-
-// The system's message for the last failed call.
-std::string reason() {
-    return std::system_category().message(errno);
-}
-
-}  // namespace
-
 void requireNewRecording(const std::string& path) {
-    if (std::filesystem::exists(path))
+    std::error_code none;
+    if (std::filesystem::is_regular_file(path, none))
         throw Error(path + ": is there already; a recording never overwrites a file: name another");
 }
 
-RecordingFile::RecordingFile(std::string path, const wire::AssetBundle& assets)
-    : path_(std::move(path)) {
-    requireNewRecording(path_);
-    file_.open(path_, std::ios::binary);
-    if (!file_ || !wrote(file_, wire::beginningOf(assets)))
-        throw Error(path_ + ": cannot be written: " + reason());
+RecordingFile::RecordingFile(const std::string& path, const wire::AssetBundle& assets) {
+    requireNewRecording(path);
+    file_ = GrowingFile(path);
+    file_.append(wire::beginningOf(assets));
 }
 
 void RecordingFile::add(const wire::Packet& entry) {
-    if (!file_.is_open() || wrote(file_, entry)) return;
-    logError("{}: the show is recorded no further: {}", path_, reason());
-    file_.close();
+    file_.appendOrLog(entry);
 }
 
 // A recording begins and ends with a hash, so that even a short one can be compared.

@@ -5,12 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/base/output_file.h"
 #include "common/wire/recording.h"
 #include "master/conductor/simulation.h"
 #include "master/world/events.h"
@@ -38,7 +38,7 @@ class SimulationDecorator : public conductor::Simulation {
 // Ticks between two recorded hashes: ten seconds.
 inline constexpr std::uint64_t kTicksBetweenCheckpoints = 600;
 
-// Throws Error where a file of this name exists.
+// Throws Error where a file of this name exists; a pipe or a device may.
 void requireNewRecording(const std::string& path);
 
 // A recording that grows. Each entry is flushed at once: however the program ends, the file is
@@ -46,17 +46,18 @@ void requireNewRecording(const std::string& path);
 class RecordingFile {
   public:
     // Throws Error where the file exists or cannot be written.
-    RecordingFile(std::string path, const wire::AssetBundle& assets);
+    RecordingFile(const std::string& path, const wire::AssetBundle& assets);
 
     // Appends an entry. Never throws, as a full disk must not end a show: the first entry that
     // cannot be written is reported in the log, and recording stops.
     void add(const wire::Packet& entry);
     // Whether entries are still written.
-    [[nodiscard]] bool recording() const { return file_.is_open(); }
+    [[nodiscard]] bool recording() const { return file_.isOpen(); }
+    // After the last entry. Throws Error where one could not be written.
+    void close() { file_.close(); }
 
   private:
-    std::string path_;
-    std::ofstream file_;
+    GrowingFile file_;
 };
 
 // A world whose inputs are recorded. An input waits until the next tick begins, here as in a

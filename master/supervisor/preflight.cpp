@@ -6,7 +6,6 @@
 #include <cassert>
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <memory>
 #include <utility>
@@ -22,11 +21,6 @@ namespace aquarama::supervisor {
 namespace {
 
 namespace fs = std::filesystem;
-
-// In words, of the last system call that failed: call it before any other.
-std::string reason() {
-    return std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): this process has one thread
-}
 
 // Whether an environment variable has a value.
 bool isSet(const char* variable) {
@@ -115,23 +109,9 @@ std::vector<std::string> channelsFor(const config::Rig& rig, const std::string& 
                 "\" has no such channel; choose one of " + known);
 }
 
-ClipPipes::ClipPipes(std::vector<std::string> channels) : channels_(std::move(channels)) {
-    std::string pattern = (fs::temp_directory_path() / "aquarama-clip-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr)
-        throw Error(pattern + ": no folder can be made for the clip's sockets (" + reason() +
-                    "); set TMPDIR to a folder of a local disk");
-    folder_ = pattern;
-}
-
-// Throws nothing: what cannot be removed stays.
-ClipPipes::~ClipPipes() {
-    std::error_code none;
-    fs::remove_all(folder_, none);
-}
-
 std::string ClipPipes::pipeOf(const std::string& channel) const {
     const bool isFilmed = std::ranges::find(channels_, channel) != channels_.end();
-    return isFilmed ? (folder_ / channel).string() : "";
+    return isFilmed ? (folder_.path() / channel).string() : "";
 }
 
 }  // namespace aquarama::supervisor

@@ -5,8 +5,10 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "common/base/files.h"
 #include "common/config/rig.h"
 
 namespace aquarama::supervisor {
@@ -36,17 +38,14 @@ void requireRecording(const std::string& path);
 // is removed with this object. Throws Error where no folder can be made.
 class ClipPipes {
   public:
-    explicit ClipPipes(std::vector<std::string> channels);
-    ~ClipPipes();
-    ClipPipes(const ClipPipes&) = delete;
-    ClipPipes& operator=(const ClipPipes&) = delete;
-    [[nodiscard]] std::string folder() const { return folder_.string(); }
+    explicit ClipPipes(std::vector<std::string> channels) : channels_(std::move(channels)) {}
+    [[nodiscard]] std::string folder() const { return folder_.path().string(); }
     // The path of the channel's socket; empty where it is not filmed.
     [[nodiscard]] std::string pipeOf(const std::string& channel) const;
 
   private:
     std::vector<std::string> channels_;
-    std::filesystem::path folder_;
+    TemporaryFolder folder_{"clip"};
 };
 
 }  // namespace aquarama::supervisor

@@ -342,11 +342,6 @@ void writeSnapshot(const std::string& folder,
                    const std::string& channel,
                    ChannelPicture& picture,
                    PictureBits bits) {
-    std::error_code failure;
-    std::filesystem::create_directories(folder, failure);
-    if (failure)
-        throw Error(folder + ": cannot be made (" + failure.message() +
-                    "); choose another folder for --snapshot");
     const std::string name = folder + "/channel-" + channel;
     writePng(name + ".png", takePicture(picture, bits, Shown::Display));
     if (picture.stereo().mode == config::StereoMode::Mono) return;

@@ -158,7 +158,11 @@ void ChannelShow::run(session::Admission first) {
         service_.status("the master is gone; waiting for it");
         admission = session_.join();
     }
-    if (!shown_ || options_.snapshotFolder.empty()) return;
+    if (shown_ && !options_.snapshotFolder.empty()) writePicture();
+    trace_.close();
+}
+
+void ChannelShow::writePicture() {
     stage_->workspace().makeCurrent();
     if (undrawn_) draw(*undrawn_);
     writeSnapshot(options_.snapshotFolder,
@@ -446,21 +450,17 @@ glm::dmat4 wallFromWorld(const wire::Eye& eye) {
 
 Trace::Trace(const std::string& folder, const std::string& name) {
     if (folder.empty()) return;
-    const std::string path = folder + "/" + name + ".csv";
-    file_.open(path, std::ios::trunc);
-    file_.close();
-    // Now empty, and opened for appending: where another program empties the file meanwhile, the
-    // next line starts at its new end.
-    file_.open(path, std::ios::app);
-    if (!(file_ << "frame,state_ns,ready_ns,present_ns\n" << std::flush))
-        throw Error(path + ": cannot be written; choose a folder that exists for --trace");
+    file_ = GrowingFile(folder + "/" + name + ".csv");
+    file_.append("frame,state_ns,ready_ns,present_ns\n");
 }
 
 void Trace::write(Frame frame, const FrameTimes& times) {
-    if (!file_.is_open()) return;
-    file_ << frame.value << ',' << times.state.count() << ',' << times.ready.count() << ','
-          << times.present.count() << '\n'
-          << std::flush;
+    if (!file_.isOpen()) return;
+    file_.appendOrLog(fmt::format("{},{},{},{}\n",
+                                  frame.value,
+                                  times.state.count(),
+                                  times.ready.count(),
+                                  times.present.count()));
 }
 
 config::QualityTier finestWithin(double budgetSeconds, const FrameCost& cost) {

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <fstream>
 #include <functional>
 #include <future>
 #include <memory>
@@ -16,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/output_file.h"
 #include "common/base/service_notifier.h"
 #include "common/base/units.h"
 #include "common/config/rig.h"
@@ -49,11 +49,14 @@ class Trace {
     // Creates folder/name.csv, or empties it; an empty folder means that nothing is written. Throws
     // Error where it cannot be written.
     Trace(const std::string& folder, const std::string& name);
-    // Appends a line and flushes it, so that a reader sees it at once.
+    // Appends a line, which a reader sees at once. A disk that is full ends the trace, not the
+    // show.
     void write(Frame frame, const FrameTimes& times);
+    // Throws Error where a line could not be written.
+    void close() { file_.close(); }
 
   private:
-    std::ofstream file_;
+    GrowingFile file_;
 };
 
 // A look that is ready to be drawn: the channel's picture of it, in a workspace of its own.
@@ -129,6 +132,8 @@ class ChannelShow {
     void run(session::Admission admission);
 
   private:
+    // Draws the last state and writes the picture of it.
+    void writePicture();
     // Prepares for a show; keeps everything where it is the same look as before.
     void build(session::Admission admission);
     // Begins to build the look that the master announces, and reports it when it is built.

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // aquarama-node: one process for each projector.
+#include <cstdlib>
+
 #include <CLI/CLI.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
@@ -77,6 +80,18 @@ void readKey(const std::string& path, aquarama::show::NodeOptions& options) {
     options.keys = net::PeerKeys{key.masterKey, {key.publicKey, key.secretKey}};
 }
 
+// Mesa maps its cache of shaders into memory: where the disk of it is full, the system ends the
+// node (SIGBUS). Before any thread is made.
+void spareFullDisk() {
+    using namespace aquarama;
+    constexpr std::uint64_t kLeastBytes = std::uint64_t{16} << 20U;
+    if (freeBytesAt(cacheFolder()) >= kLeastBytes) return;
+    for (const char* variable : {"MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DISABLE"})
+        setenv(variable, "true", 0);  // NOLINT(concurrency-mt-unsafe)
+    logWarning("{}: less than 16 MB are free; make room there (shaders are compiled at each start)",
+               cacheFolder().string());
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): outside runProgram() only a lack of memory throws
@@ -92,6 +107,7 @@ int main(int count, char** arguments) {
         cli::requireFolder("--snapshot", options.snapshotFolder);
         cli::requireFolder("--trace", options.traceFolder);
         spdlog::set_default_logger(spdlog::stdout_color_mt("node " + options.channel));
+        spareFullDisk();
         options.build = cli::buildText();
         return show::runNode(options) ? cli::kStartAgain : 0;
     });

@@ -145,5 +145,18 @@ TEST_F(AccessTest, othersCannotReadWhatIsKept) {
     EXPECT_EQ(fs::status(folder_).permissions() & fs::perms::mask, fs::perms::owner_all);
 }
 
+// A file stands where its folder should be, as good as a full disk.
+TEST_F(AccessTest, whereNothingCanBeKeptPeopleAreLetInUntilTheEnd) {
+    std::ofstream(folder_) << "";
+    Access access(folder_);
+    const std::string code = access.makeCode(ConsoleRole::Operator, 1000);
+    const auto secret = pair(access, code, 1001);
+    ASSERT_TRUE(secret);
+    EXPECT_TRUE(access.session(*secret, 1002));
+    EXPECT_FALSE(pair(access, code, 1003));
+    access.revoke(access.people().front().id);
+    EXPECT_FALSE(access.session(*secret, 1004));
+}
+
 }  // namespace
 }  // namespace aquarama::console

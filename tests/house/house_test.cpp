@@ -133,6 +133,27 @@ TEST(House, noTwoTypesShareAName) {
     EXPECT_GT(home.size(), 300U);
 }
 
+// Links, pipes, modes, full disks: output_file.h knows what to do with each, and nobody else. The
+// one file that is no output is the lock of the derived cache.
+TEST(House, filesAreWrittenByOneWriter) {
+    const std::regex opens(
+        R"re(\b(ofstream|fstream file|fopen|fdopen|freopen|mkstemp|mkdtemp|O_CREAT|O_TRUNC|avio_open|resize_file)\b(?!")|\b(creat|rename)\()re");
+    const std::vector<std::string> writers{"common/base/output_file.cpp",
+                                           "common/base/files.cpp",           // temporary folders
+                                           "common/base/derived_cache.cpp"};  // its lock
+    std::size_t found = 0;
+    for (const SourceFile& file : sourceFiles())
+        for (const std::string& line : file.lines) {
+            const std::string code = line.substr(0, line.find("//"));
+            if (!std::regex_search(code, opens)) continue;
+            ++found;
+            EXPECT_TRUE(within(file.path, writers))
+                << file.path << ": " << code
+                << ": write it by writeWhole(), OutputFile or GrowingFile";
+        }
+    EXPECT_GE(found, 3U) << "the writers are not found any more";
+}
+
 // Headers of tests meet in the benchmarks' program, where the linker would keep one of two inline
 // functions that differ in their return type alone. By name and parameters, as the linker sees
 // them.

@@ -4,7 +4,22 @@
 import base64
 import csv
 import html
+import os
+import sys
 from pathlib import Path
+
+# Where aquarama takes what is drawn from, to write it by the rules of all its outputs; else beside the data.
+DRAWN = os.environ.get("AQUARAMA_DRAWN")
+
+
+def end_with_cause(kind, error, trace):
+    """What the system refuses is told by the exit status, for one line of aquarama's; all else with its trace."""
+    if not DRAWN or not isinstance(error, OSError) or not error.errno:
+        return sys.__excepthook__(kind, error, trace)
+    os._exit(100 + error.errno)
+
+
+sys.excepthook = end_with_cause
 
 import matplotlib
 
@@ -44,9 +59,14 @@ img { max-width: 100%; height: auto; } summary { cursor: pointer; margin: 1em 0;
 def save(figure, path):
     """Writes a figure as SVG, the same bytes for the same data, and closes it."""
     # Without date and version of matplotlib, which would differ between runs.
-    figure.savefig(path, metadata={"Date": None, "Creator": None})
+    figure.savefig(drawn(path), metadata={"Date": None, "Creator": None})
     plt.close(figure)
     return Path(path)
+
+
+def drawn(path):
+    """Where the file of this path is written now."""
+    return Path(DRAWN) / Path(path).name if DRAWN else Path(path)
 
 
 def hide_axes(axes):
@@ -71,7 +91,7 @@ def read_csv(path):
 def picture(path, caption=""):
     """A file of SVG as part of a page that fetches nothing."""
     # Embedded as a data URI.
-    data = base64.b64encode(Path(path).read_bytes()).decode()
+    data = base64.b64encode(drawn(path).read_bytes()).decode()
     return (f'<figure id="{Path(path).stem}"><img alt="{html.escape(caption)}" src="data:image/svg+xml;base64,{data}">'
             f"<figcaption>{caption}</figcaption></figure>\n")
 
@@ -94,7 +114,7 @@ def markdown_table(head, rows):
 def write_page(path, title, body):
     """Writes a page of HTML; returns its path."""
     head = f'<meta charset="utf-8"><title>{title}</title><style>{STYLE}</style>'
-    Path(path).write_text(f'<!doctype html>\n<html lang="en"><head>{head}</head>\n<body><h1>{title}</h1>\n{body}</body>'
+    drawn(path).write_text(f'<!doctype html>\n<html lang="en"><head>{head}</head>\n<body><h1>{title}</h1>\n{body}</body>'
                           "</html>\n", encoding="utf-8")
     return path
 

@@ -2,12 +2,14 @@
 // Clips as a player sees them: every picture, when it is shown, and with which colours.
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include "calibration/theatre/clip.h"
@@ -120,9 +122,49 @@ TEST_F(ClipTest, whatIsNotFinishedLeavesNoFile) {
     EXPECT_TRUE(fs::is_empty(folder_));
 }
 
+// A player reads a pipe as it comes: the index cannot be written at the beginning afterwards.
+TEST_F(ClipTest, goesThroughAPipe) {
+    constexpr glm::ivec2 kSize(64, 48);
+    for (const char* name : {"a.mp4", "a.webp"}) {
+        const std::string pipe = path("pipe." + std::string(name).substr(2)), file = path(name);
+        ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+        std::jthread reader([&] {
+            std::ofstream(file, std::ios::binary) << std::ifstream(pipe, std::ios::binary).rdbuf();
+        });
+        writeSteps(*makeClip({pipe, kSize, 1}), kSize, 12, 1);
+        reader.join();
+        EXPECT_TRUE(fs::is_fifo(pipe));
+        EXPECT_GT(fs::file_size(file), 500U) << name;
+    }
+    const auto seen = readClip(path("a.mp4"));
+    ASSERT_EQ(seen.pictures.size(), 12U);
+    EXPECT_LT(meanCodesBetween(seen.pictures[5], pictureAt(kSize, 5)), 3);
+}
+
+TEST_F(ClipTest, aDiskThatIsFullLeavesTheOldClipAndNoPart) {
+    std::signal(SIGXFSZ, SIG_IGN);  // NOLINT(cert-err33-c): it was at its default
+    for (const char* name : {"a.mp4", "a.webp"}) {
+        const std::string file = path(name);
+        std::ofstream(file) << "old";
+        rlimit before{};
+        getrlimit(RLIMIT_FSIZE, &before);
+        const rlimit full{.rlim_cur = 1000, .rlim_max = before.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &full);
+        try {
+            writeSteps(*makeClip({file, {160, 90}, 1}), {160, 90}, 12, 1);
+            ADD_FAILURE() << "there was room for " << name;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr(file + ": cannot be written (File too"));
+        }
+        setrlimit(RLIMIT_FSIZE, &before);
+        EXPECT_EQ(fs::file_size(file), 3U);
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2);
+}
+
 TEST_F(ClipTest, aPathThatCannotBeAndAnEndingThatIsUnknownAreNamed) {
-    for (const char* name : {"nowhere/a.mp4", "nowhere/a.webp"})
-        EXPECT_THROW((void)makeClip({path(name), {32, 32}, 1}), Error) << name;
+    for (const char* name : {"/proc/nowhere/a.mp4", "/proc/nowhere/a.webp"})
+        EXPECT_THROW((void)makeClip({name, {32, 32}, 1}), Error) << name;
     try {
         (void)makeClip({path("a.avi"), {32, 32}, 1});
         FAIL() << "took another ending";

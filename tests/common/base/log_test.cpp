@@ -57,6 +57,25 @@ TEST_F(ShowLog, oldFilesAreKeptWithinABound) {
     EXPECT_LE(bytes, std::uintmax_t{6} * (std::uintmax_t{8} << 20U));
 }
 
+// The lines are written by a thread of their own, which ends with the file.
+TEST_F(ShowLog, aDiskThatIsFullIsSaidOnce) {
+    fs::create_directories(path_.parent_path());
+    fs::create_symlink("/dev/full", path_);
+    std::vector<std::string> warnings;
+    setLogListener([&](Severity severity, const std::string& line) {
+        if (severity == Severity::Warning) warnings.push_back(line);
+    });
+    {
+        LogFile log(path_);
+        for (std::uint64_t line = 0; line < 10; ++line)
+            log.write("left", line, Severity::Info, "x");
+    }
+    setLogListener({});
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_THAT(warnings[0], HasSubstr(path_.string()));
+    EXPECT_THAT(warnings[0], HasSubstr("make room"));
+}
+
 TEST_F(ShowLog, aFolderThatCannotBeMadeIsNamed) {
     std::ofstream(folder_) << "a file";
     try {

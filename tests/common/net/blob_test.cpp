@@ -88,6 +88,35 @@ TEST_F(Blob, leavesNothingElseInTheCache) {
     EXPECT_EQ(std::distance(begin(files), end(files)), 1);
 }
 
+TEST_F(Blob, thatWasNotUsedForLongestMakesRoom) {
+    const auto now = std::filesystem::file_time_type::clock::now();
+    const BlobCache cache(directory_, 250);
+    const std::vector<std::vector<std::byte>> blobs{someBlob(90), someBlob(100), someBlob(110)};
+    for (std::size_t i = 0; i < 2; ++i) {
+        cache.keep(digestOf(blobs[i]), blobs[i]);
+        std::filesystem::last_write_time(directory_ / toHex(digestOf(blobs[i])),
+                                         now - std::chrono::hours(10 - i));
+    }
+    EXPECT_TRUE(cache.find(digestOf(blobs[0])));  // now the second was not used for longest
+    cache.keep(digestOf(blobs[2]), blobs[2]);
+    EXPECT_TRUE(cache.find(digestOf(blobs[0])));
+    EXPECT_FALSE(cache.find(digestOf(blobs[1])));
+    EXPECT_TRUE(cache.find(digestOf(blobs[2])));
+}
+
+TEST_F(Blob, thatNobodyWantedForMonthsGoesWithTheNextStart) {
+    const auto now = std::filesystem::file_time_type::clock::now();
+    const auto old = someBlob(100), young = someBlob(200);
+    const BlobCache cache(directory_);
+    cache.keep(digestOf(old), old);
+    cache.keep(digestOf(young), young);
+    std::filesystem::last_write_time(directory_ / toHex(digestOf(old)),
+                                     now - BlobCache::kMostAge - std::chrono::hours(1));
+    const BlobCache next(directory_);
+    EXPECT_FALSE(std::filesystem::exists(directory_ / toHex(digestOf(old))));
+    EXPECT_TRUE(next.find(digestOf(young)));
+}
+
 TEST_F(Blob, goesWithoutACacheThatCannotBeWritten) {
     const BlobCache cache("/proc/no/such/place");
     cache.keep(digestOf("a"), someBlob(10));

@@ -117,7 +117,7 @@ TEST_F(Png, aFileOfAnotherKindOrNoneIsRefused) {
     EXPECT_THROW((void)readPng(path_), Error);
     std::ofstream(path_) << "This is no picture, it is a text of more than eight bytes.";
     EXPECT_THROW((void)readPng(path_), Error);
-    EXPECT_THROW(writePng("/no/such/folder/picture.png", pictureOf(ramp(), 8, 0)), Error);
+    EXPECT_THROW(writePng("/proc/no/such/folder/picture.png", pictureOf(ramp(), 8, 0)), Error);
 }
 
 }  // namespace

@@ -151,10 +151,11 @@ TEST_F(Record, neverOverwritesAFileAndSaysWhereItCannotWrite) {
     EXPECT_THROW(RecordingFile(path(), test::syntheticAssets()), Error);
     EXPECT_EQ(config::readTextFile(path()), "dear diary");
     try {
-        const RecordingFile nowhere("/nowhere/show.aqrec", test::syntheticAssets());
+        const RecordingFile nowhere("/proc/nowhere/show.aqrec", test::syntheticAssets());
         FAIL() << "it was opened";
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("/nowhere/show.aqrec: cannot be written: No such"));
+        EXPECT_THAT(error.what(),
+                    HasSubstr("/proc/nowhere/show.aqrec: cannot be written (No such"));
     }
 }
 
@@ -180,6 +181,7 @@ TEST_F(Record, theShowGoesOnWhenTheDiskIsFull) {
     recorded.advance();
     EXPECT_EQ(recorded.tick(), Tick{2});
     EXPECT_EQ(wire::readRecording(path()).checkpoints.size(), 1U);
+    EXPECT_THROW(file.close(), Error) << "the program has not done what it was asked for";
 }
 
 TEST_F(Record, visitorsDoNotReachAReplayAndItEndsOnce) {
