@@ -37,6 +37,7 @@ class Simulation {
     [[nodiscard]] virtual std::uint64_t hash() const = 0;
     [[nodiscard]] virtual Snapshot snapshot() const = 0;
     // What goes on in the mind of a fish, as lines of printable ASCII within the bounds of
+    // a reply (kMostExplanationLines of common/wire/messages.h).
     [[nodiscard]] virtual std::vector<std::string> explain(std::uint32_t fish) const = 0;
 };
 

@@ -388,7 +388,7 @@ std::size_t World::bytes() const {
            bytesIn(traits_, memory_.chosenAt, memory_.heldUntil, memory_.patience) +
            bytesIn(s.x, s.y, s.z, s.orientationA, s.orientationB, s.orientationC) +
            bytesIn(s.orientationLargest, s.phase, s.segment, s.fromPhase, s.fromSegment) +
-           bytesIn(s.warpFrame, s.warpLength, s.speed) +
+           bytesIn(s.warpFrame, s.warpLength, s.speed, s.spread) +
            bytesIn(c.action, c.phaseRate, c.pitch, c.yawRate, c.brake) +
            bytesIn(courses_, v.fish, v.kind, v.signs, v.partner, v.stage) +
            meals_.swallows.capacity() * sizeof(Meals::Swallow) +
