@@ -54,9 +54,7 @@ std::string textOf(BIO* memory) {
 
 // For its owner alone, whole or not at all.
 void write(const std::filesystem::path& path, const std::string& text) {
-    writeWhole(path, std::as_bytes(std::span(text)));
-    std::filesystem::permissions(
-        path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    writePrivate(path, std::as_bytes(std::span(text)));
 }
 
 // Without a pass phrase: the console starts without a person.

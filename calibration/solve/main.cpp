@@ -133,6 +133,7 @@ class Calibration {
         writeWhole(options_.out, formats::encodeMpcdi(wall.file, 2));
         constexpr std::size_t kPoints = 20000;
         if (!truth_) return;
+        if (!std::filesystem::is_regular_file(options_.out)) return;  // a pipe is not read again
         solve::setTrue(figures, solve::errorsOf(*truth_, rig_, wall.file, kPoints));
         figures.seams =
             solve::seamsOf(*truth_, hall::DrawnWall(hall::withWallFile(rig_, options_.out)));

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/wire/messages.h"
 #include "master/conductor/conductor.h"
@@ -408,7 +409,7 @@ void Conductor::dim(net::Instant now, Frame frame) {
 void Conductor::keepWhatWasSet() {
     if (isReady(keeping_))
         if (const std::string problem = keeping_.get(); !problem.empty())
-            logWarning("what was set is lost with the next start: {}", problem);
+            warnOnceOf(options_.keptAt, problem, "what was set is lost with the next start");
     if (options_.keptAt.empty() || keeping_.valid() || control_.kept() == keptOnDisk_) return;
     keptOnDisk_ = control_.kept();
     keeping_ = std::async(std::launch::async,
