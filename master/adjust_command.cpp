@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -154,20 +155,30 @@ void movePoint(const AdjustOptions& options) {
                        options.radius > 0 ? fmt::format(" radius_px: {}", options.radius) : ""));
 }
 
+// The number that begins at a place, which goes past it; nothing where there is none.
+std::optional<double> takeNumber(const char*& at, const char* end) {
+    double value = 0;
+    const auto read = std::from_chars(at, end, value);
+    at = read.ptr;
+    return read.ec == std::errc{} && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+[[noreturn]] void refuseCorner(const std::string& text) {
+    const std::string foreign = foreignCharacterIn(text);
+    throw Error("CORNERS \"" + text +
+                "\" is no corner: write X,Y as in 10,20.5, with a point before decimals" +
+                (foreign.empty() ? "" : "; " + foreign));
+}
+
 // Reads "X,Y". Throws Error where the text is none.
 glm::dvec2 cornerIn(const std::string& text) {
-    glm::dvec2 corner{};
-    const char* const end = text.data() + text.size();
-    const auto x = std::from_chars(text.data(), end, corner.x);
-    const bool hasComma = x.ec == std::errc{} && x.ptr != end && *x.ptr == ',';
-    const auto y = hasComma ? std::from_chars(x.ptr + 1, end, corner.y) : x;
-    if (!hasComma || y.ec != std::errc{} || y.ptr != end || !std::isfinite(corner.x + corner.y)) {
-        const std::string foreign = foreignCharacterIn(text);
-        throw Error("CORNERS \"" + text +
-                    "\" is no corner: write X,Y as in 10,20.5, with a point " + "before decimals" +
-                    (foreign.empty() ? "" : "; " + foreign));
-    }
-    return corner;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    const auto x = takeNumber(at, end);
+    const bool hasComma = x && at != end && *at++ == ',';
+    const auto y = hasComma ? takeNumber(at, end) : std::nullopt;
+    if (y && at == end) return {*x, *y};
+    refuseCorner(text);
 }
 
 // A mask without a channel holds for all of them.

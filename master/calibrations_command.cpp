@@ -26,6 +26,12 @@ struct CalibrationsOptions {
     std::string use;  // number or date; empty: list them
 };
 
+// Pixels; not a number on a wall without neighbours.
+std::string neighboursIn(double apart, double most) {
+    if (std::isnan(apart)) return "";
+    return fmt::format("neighbours part by {:.2f} px, at most {:.2f}; ", apart, most);
+}
+
 // What figures.json says of one, in words.
 std::string figuresIn(const std::string& note) {
     const auto figures = nlohmann::json::parse(note, nullptr, false);
@@ -35,12 +41,7 @@ std::string figuresIn(const std::string& note) {
         return found != figures.end() && found->is_number() ? found->get<double>() : std::nan("");
     };
     const auto verdict = figures.find("verdict");
-    const double apart = number("overlap_rms_px");  // none on a wall without neighbours
-    const std::string neighbours =
-        std::isnan(apart) ? ""
-                          : fmt::format("neighbours part by {:.2f} px, at most {:.2f}; ",
-                                        apart,
-                                        number("overlap_max_px"));
+    const std::string neighbours = neighboursIn(number("overlap_rms_px"), number("overlap_max_px"));
     return fmt::format("{}, {}place {:.2f} px",
                        verdict != figures.end() && verdict->is_string()
                            ? verdict->get<std::string>()

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <system_error>
 
@@ -36,6 +37,7 @@ constexpr std::array kManual{Manual{V4L2_CID_EXPOSURE_AUTO_PRIORITY, 0},
                              Manual{V4L2_CID_WIDE_DYNAMIC_RANGE, 0},
                              Manual{V4L2_CID_IMAGE_STABILIZATION, 0}};
 
+// False where the driver refuses it; errno says why.
 bool request(int descriptor, unsigned long what, void* argument) {
     return ioctl(descriptor, what, argument) == 0;
 }
@@ -56,56 +58,53 @@ std::optional<ExposureRange> exposuresOf(int descriptor) {
     return ExposureRange{std::max(asked.minimum, 1) * kExposureUnit, asked.maximum * kExposureUnit};
 }
 
-// Beginnings of a sentence about a device, and what to do.
-std::string problemOfVideo(int error) {
-    switch (error) {
-        case ENOENT:
-            return "is not there; plug the camera in, and look for its name by ls /dev/video*";
-        case EACCES:
-        case EPERM:
-            return "may not be opened by this user; add the user to the group \"video\" and log in "
-                   "again";
-        case EBUSY:
-            return "is in use; end the program that fuser -v names for it";
-        case ENODEV:
-        case ENXIO:
-        case EIO:
-            return "has no camera any more; plug it in again, and scan again";
-        case ENOTTY:
-        case EINVAL:
-        case ENOSYS:
-            return "gives no pictures, as the second device of a camera, or is none; choose "
-                   "another "
-                   "of v4l2-ctl --list-devices, and options that the camera has";
-        default:
-            return "";
-    }
-}
-
+// An error of the system, and the rest of a sentence about what it came of: what to do.
+struct KnownProblem {
+    int error;
+    const char* problem;
+};
+constexpr const char* kGone = "has no camera any more; plug it in again, and scan again";
+constexpr const char* kNoCamera =
+    "gives no pictures, as the second device of a camera, or is none; choose another of v4l2-ctl "
+    "--list-devices, and options that the camera has";
+constexpr const char* kForbidden =
+    "may not be opened by this user; add the user to the group \"video\" and log in again";
+// Of a device of V4L2.
+constexpr std::array kOfVideo{
+    KnownProblem{ENOENT,
+                 "is not there; plug the camera in, and look for its name by ls /dev/video*"},
+    KnownProblem{EACCES, kForbidden},
+    KnownProblem{EPERM, kForbidden},
+    KnownProblem{EBUSY, "is in use; end the program that fuser -v names for it"},
+    KnownProblem{ENODEV, kGone},
+    KnownProblem{ENXIO, kGone},
+    KnownProblem{EIO, kGone},
+    KnownProblem{ENOTTY, kNoCamera},
+    KnownProblem{EINVAL, kNoCamera},
+    KnownProblem{ENOSYS, kNoCamera}};
+constexpr const char* kSilent =
+    "does not answer; check its address and port, and that the camera is on this network";
 // Of a film or an address.
-std::string problemOfStream(int error) {
-    switch (error) {
-        case ENOENT:
-            return "is not there; check its name";
-        case EACCES:
-            return "may not be read by this user; check its permissions";
-        case ECONNREFUSED:
-        case EHOSTUNREACH:
-        case ENETUNREACH:
-        case ETIMEDOUT:
-            return "does not answer; check its address and port, and that the camera is on this "
-                   "network";
-        default:
-            return "";
-    }
+constexpr std::array kOfStream{
+    KnownProblem{ENOENT, "is not there; check its name"},
+    KnownProblem{EACCES, "may not be read by this user; check its permissions"},
+    KnownProblem{ECONNREFUSED, kSilent},
+    KnownProblem{EHOSTUNREACH, kSilent},
+    KnownProblem{ENETUNREACH, kSilent},
+    KnownProblem{ETIMEDOUT, kSilent}};
+
+// Null where the error is not known.
+const char* knownProblem(std::span<const KnownProblem> known, int error) {
+    const auto found = std::ranges::find(known, error, &KnownProblem::error);
+    return found == known.end() ? nullptr : found->problem;
 }
 
 }  // namespace
 
 std::string deviceProblem(const std::string& device, int error) {
     const bool isVideo = device.starts_with("/dev/");
-    const std::string problem = isVideo ? problemOfVideo(error) : problemOfStream(error);
-    if (!problem.empty()) return device + ": " + problem;
+    const char* problem = isVideo ? knownProblem(kOfVideo, error) : knownProblem(kOfStream, error);
+    if (problem != nullptr) return device + ": " + problem;
     return device + ": is no camera or film that can be read" +
            (error > 0 ? " (" + std::generic_category().message(error) + ")" : "") +
            "; check its name, and end other programs that use it";

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "calibration/scan/pictures.h"
 #include "calibration/scan/read_picture.h"
@@ -35,13 +36,10 @@ char lower(char letter) {
     return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
 }
 
+// Letters of ASCII alone: names may be of any language.
 std::string lowered(std::string text) {
     std::ranges::transform(text, text.begin(), lower);
     return text;
-}
-
-bool isDigit(char letter) {
-    return letter >= '0' && letter <= '9';
 }
 
 // Hidden files too are of the system that the folder was on ("._0001.png" of macOS).
@@ -52,33 +50,28 @@ bool isPicture(const fs::directory_entry& entry) {
            std::ranges::find(kEndings, ending) != kEndings.end();
 }
 
-// The number that begins at a place, without zeros before it.
-std::string_view numberAt(std::string_view name, std::size_t at) {
-    std::size_t end = at;
-    while (end < name.size() && isDigit(name[end])) ++end;
-    while (at + 1 < end && name[at] == '0') ++at;
-    return name.substr(at, end - at);
-}
+constexpr const char* kDigits = "0123456789";
 
-// As people count: "2.png" before "10.PNG". Numbers may have any length.
-bool comesBefore(const std::string& a, const std::string& b) {
-    std::size_t i = 0, j = 0;
-    while (i < a.size() && j < b.size()) {
-        if (isDigit(a[i]) && isDigit(b[j])) {
-            const std::string_view m = numberAt(a, i), n = numberAt(b, j);
-            if (m.size() != n.size()) return m.size() < n.size();
-            if (m != n) return m < n;
-            while (i < a.size() && isDigit(a[i])) ++i;
-            while (j < b.size() && isDigit(b[j])) ++j;
-            continue;
-        }
-        if (lower(a[i]) != lower(b[j])) return lower(a[i]) < lower(b[j]);
-        ++i;
-        ++j;
+// Compares as people count: "2.png" before "10.PNG". Before each number stands how long it is
+// without the zeros before it; numbers may have any length.
+std::string countingKey(const std::string& name) {
+    std::string key;
+    const std::string text = lowered(name);
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find_first_not_of(kDigits, at), text.size());
+        const std::size_t first = std::min(text.find_first_not_of('0', at), end);
+        if (end > at) key += static_cast<char>('0' + std::min<std::size_t>(end - first, 9));
+        key += end > at ? text.substr(first, end - first) : text.substr(at, 1);
+        at = std::max(end, at + 1);
     }
-    return a.size() - i != b.size() - j ? a.size() - i < b.size() - j : a < b;
+    return key;
 }
 
+bool comesBefore(const std::string& a, const std::string& b) {
+    return std::pair(countingKey(a), a) < std::pair(countingKey(b), b);
+}
+
+// In the order in which people count. Throws Error where it is no folder.
 std::vector<std::string> picturesIn(const std::string& folder) {
     std::error_code problem;
     std::vector<std::string> files;
@@ -95,12 +88,11 @@ std::vector<std::string> picturesIn(const std::string& folder) {
 std::optional<unsigned long> numberOf(const std::string& name) {
     constexpr std::size_t kMostDigits = 9;
     const std::string stem = fs::path(name).stem().string();
-    std::size_t begin = stem.size();
-    while (begin > 0 && !isDigit(stem[begin - 1])) --begin;
-    while (begin > 0 && isDigit(stem[begin - 1])) --begin;
-    const std::string_view digits = numberAt(stem, begin);
-    if (digits.empty() || digits.size() > kMostDigits) return std::nullopt;
-    return std::stoul(std::string(digits));
+    const std::size_t end = stem.find_last_of(kDigits);
+    if (end == std::string::npos) return std::nullopt;
+    const std::size_t begin = stem.find_last_not_of(kDigits, end) + 1;  // 0 where it is npos
+    if (end - begin >= kMostDigits) return std::nullopt;
+    return std::stoul(stem.substr(begin, end + 1 - begin));
 }
 
 // Where the numbers of the names leave some out; empty where they do not.
@@ -121,6 +113,7 @@ std::string hintAt(const std::string& folder) {
     return "";
 }
 
+// All bits of one axis, the coarsest first, each before its inverse.
 void addGray(std::vector<ScanPattern>& patterns, Kind kind, int pixels) {
     const ScanPattern gray{.kind = kind, .finestPixels = 1, .lit = 1, .tagged = false};
     for (int bit = 0; bit < wall::scanGrayBits(pixels, 1); ++bit)
@@ -164,6 +157,7 @@ void placeWhite(std::vector<ScanPattern>& patterns,
     if (isFirst) std::ranges::rotate(patterns, patterns.end() - 2);
 }
 
+// What the pictures show, told by how many there are. Throws Error where that fits nothing.
 std::vector<ScanPattern> patternsOf(const std::string& folder,
                                     const std::vector<std::string>& files,
                                     const config::Rig& rig) {
@@ -182,6 +176,7 @@ std::vector<ScanPattern> patternsOf(const std::string& folder,
     return patterns;
 }
 
+// By the manifest where there is one, else by the pictures' number.
 config::Scan scanOf(const std::string& folder, const config::Rig& rig) {
     const fs::path manifest = fs::path(folder) / kManifest;
     if (fs::exists(manifest)) {
@@ -199,33 +194,35 @@ config::Scan scanOf(const std::string& folder, const config::Rig& rig) {
     return scan;
 }
 
-// Disks of other systems change the case of names. Throws Error where a picture is missing.
+// The name that a file of the folder has but for the case of its letters, which disks of other
+// systems change; empty where it is not there.
+std::string nameThere(const std::string& folder, const std::string& name) {
+    if (fs::is_regular_file(fs::path(folder) / name)) return name;
+    for (const std::string& there : picturesIn(folder))
+        if (lowered(there) == lowered(name)) return there;
+    return "";
+}
+
+// Throws Error where a picture is missing.
 void findFiles(const std::string& folder, config::Scan& scan) {
-    std::vector<std::string> there;
-    std::string missing;
-    std::size_t more = 0;
+    std::vector<std::string> missing;
     for (config::ScanPicture& picture : scan.pictures) {
-        if (fs::is_regular_file(fs::path(folder) / picture.file)) continue;
-        if (there.empty()) there = picturesIn(folder);
-        const auto same = std::ranges::find_if(
-            there, [&](const std::string& name) { return lowered(name) == lowered(picture.file); });
-        if (same != there.end())
-            picture.file = *same;
-        else if (missing.empty())
-            missing = picture.file;
-        else
-            ++more;
+        const std::string there = nameThere(folder, picture.file);
+        if (there.empty()) missing.push_back(picture.file);
+        picture.file = there;
     }
-    if (!missing.empty())
-        throw Error(folder + " has no " + missing +
-                    (more > 0 ? " and " + std::to_string(more) + " more" : "") +
-                    ", which its scan names; copy all of the scan's pictures");
+    if (missing.empty()) return;
+    const std::string more =
+        missing.size() == 1 ? "" : " and " + std::to_string(missing.size() - 1) + " more";
+    throw Error(folder + " has no " + missing.front() + more +
+                ", which its scan names; copy all of the scan's pictures");
 }
 
 std::string sizeText(glm::ivec2 size) {
     return std::to_string(size.x) + " x " + std::to_string(size.y);
 }
 
+// Reads each picture when it is asked for; keeps none.
 class FolderSource final : public PictureSource {
   public:
     FolderSource(std::string folder, config::Scan scan)

@@ -144,6 +144,7 @@ class PictureFolder {
     TemporaryFolder folder_{"camera"};
 };
 
+// Runs gphoto2 anew for each question, in a folder of its own.
 class GphotoCamera final : public Camera {
   public:
     explicit GphotoCamera(const std::string& port) : port_{port} {
@@ -180,22 +181,33 @@ class GphotoCamera final : public Camera {
   private:
     // What helps against what gphoto2 says, in its English.
     [[nodiscard]] static std::string todoFor(const std::string& cause) {
-        const auto says = [&](const char* words) { return cause.find(words) != std::string::npos; };
-        if (says("claim") || says("busy"))
-            return "end other programs that use it, such as a desktop's own (gio mount -s gphoto2)";
-        if (says("ermission") || says("ccess"))
-            return "let this user at it: the groups plugdev or camera, or a rule of udev";
-        if (says("detect") || says("No camera found") || says("find the requested device"))
-            return "plug it in, switch it on, and set its USB mode to PTP; gphoto2 --auto-detect "
-                   "lists cameras and ports";
+        constexpr const char* kEnd =
+            "end other programs that use it, such as a desktop's own (gio mount -s gphoto2)";
+        constexpr const char* kPermit =
+            "let this user at it: the groups plugdev or camera, or a rule of udev";
+        constexpr const char* kPlug =
+            "plug it in, switch it on, and set its USB mode to PTP; gphoto2 --auto-detect lists "
+            "cameras and ports";
+        constexpr std::array<std::pair<const char*, const char*>, 7> kTodo{
+            {{"claim", kEnd},
+             {"busy", kEnd},
+             {"ermission", kPermit},
+             {"ccess", kPermit},
+             {"detect", kPlug},
+             {"No camera found", kPlug},
+             {"find the requested device", kPlug}}};
+        for (const auto& [said, todo] : kTodo)
+            if (cause.find(said) != std::string::npos) return todo;
         return "plug it in, switch it on, and end other programs that use it";
     }
+    // Throws Error where the program is not installed.
     [[nodiscard]] Said ask(const std::vector<std::string>& arguments) const {
         std::vector<std::string> words{"gphoto2"};
         if (!port_.empty()) words.insert(words.end(), {"--port", port_});
         words.insert(words.end(), arguments.begin(), arguments.end());
         return run(std::move(words));
     }
+    // By ratio: stops of a camera are powers.
     [[nodiscard]] const std::string& nearest(double seconds) const {
         const auto distance = [seconds](const auto& choice) {
             return std::abs(std::log(choice.first / seconds));
@@ -243,18 +255,20 @@ bool isBoilerplate(const std::string& line) {
 
 std::string gphotoCause(const std::string& text) {
     constexpr std::size_t kMost = 200;
-    constexpr std::string_view kError = "*** Error";
+    constexpr const char* kHead = "*** Error ***";
     const std::vector<std::string> lines = linesOf(legible(text));
-    std::string cause, last, block;
-    bool isBlock = false;
-    for (const std::string& line : lines) {
-        if (isBlock && block.empty()) block = line;
-        isBlock = line == "*** Error ***";
-        if (line.starts_with(kError) && !isBlock) cause = line;
-        if (!isBlock && !isBoilerplate(line)) last = line;
-    }
-    if (cause.empty()) cause = block.empty() ? last : block;
-    return cause.size() > kMost ? cause.substr(0, kMost) + "..." : cause;
+    // The last of the lines that pass; empty where none does.
+    const auto lastWhere = [&](const auto& passes) {
+        const auto found = std::find_if(lines.rbegin(), lines.rend(), passes);
+        return found == lines.rend() ? std::string() : *found;
+    };
+    std::string cause = lastWhere(
+        [&](const std::string& line) { return line.starts_with("*** Error") && line != kHead; });
+    const auto head = std::ranges::find(lines, kHead);
+    if (cause.empty() && std::distance(head, lines.end()) > 1) cause = *std::next(head);
+    if (cause.empty())
+        cause = lastWhere([](const std::string& line) { return !isBoilerplate(line); });
+    return cause.substr(0, kMost);
 }
 
 std::unique_ptr<Camera> openGphoto(const std::string& port) {

@@ -99,6 +99,7 @@ bool hasOverlaps(const SolvedHall& hall) {
     return false;
 }
 
+// Of places that were kept from the solve, where the rig has places that two channels light.
 void judgeOverlaps(Figures& figures, const SolvedHall& hall, const SolveFigures& solved) {
     constexpr std::size_t kLeastPoints = 8;
     if (solved.overlapPoints < kLeastPoints) {

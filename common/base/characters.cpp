@@ -2,8 +2,10 @@
 #include "common/base/characters.h"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +66,7 @@ constexpr std::string_view kTable =
 FEFF~~byte order mark|FFFD~~replacement character|
 )";
 
+// An entry of the table. The texts are parts of it.
 struct NamedCharacter {
     char32_t code = 0;
     std::string_view ascii, name;
@@ -95,6 +98,7 @@ const NamedCharacter* inTable(char32_t code) {
 // Each of ASCII has a form that is as wide as a Chinese character.
 constexpr char32_t kFirstFullWidth = 0xFF01, kLastFullWidth = 0xFF5E, kFullWidthOffset = 0xFEE0;
 
+// As keyboards of East Asian scripts type ASCII.
 bool isFullWidth(char32_t code) {
     return code >= kFirstFullWidth && code <= kLastFullWidth;
 }
@@ -111,18 +115,19 @@ constexpr DigitRange kDigits[] = {{0x0660, "Arabic-Indic"},
                                   {0x0E50, "Thai"},
                                   {0xFF10, "full-width"}};
 
+// Null where the character is no digit of these scripts.
 const DigitRange* digitsWith(char32_t code) {
     const auto* found = std::ranges::find_if(
         kDigits, [&](const DigitRange& range) { return code - range.zero < 10; });
     return found == std::end(kDigits) ? nullptr : found;
 }
 
-// Bytes that follow the first of a sequence; -1 where it is none.
+// Bytes that follow the first of a sequence, whose leading ones count all of them; -1 where it is
+// none.
 int continuationBytes(unsigned char first) {
-    if (first < 0x80) return 0;
-    if (first >= 0xC2 && first < 0xE0) return 1;
-    if (first >= 0xE0 && first < 0xF0) return 2;
-    return first >= 0xF0 && first < 0xF5 ? 3 : -1;
+    const int ones = std::countl_one(first);
+    if (ones == 0) return 0;
+    return ones > 1 && ones < 5 ? ones - 1 : -1;
 }
 
 // Neither longer than needed, nor half of a pair of UTF-16, nor beyond Unicode.
@@ -131,6 +136,7 @@ bool isScalar(char32_t code, int following) {
     return code >= kLeast[following] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
 }
 
+// The code point must be one of Unicode.
 void appendUtf8(std::string& text, char32_t code) {
     const auto part = [&](unsigned shift) {
         text += static_cast<char>(0x80U | ((code >> shift) & 0x3FU));
@@ -148,33 +154,45 @@ void appendUtf8(std::string& text, char32_t code) {
     }
 }
 
+// Of what cannot be shown itself; empty where it can.
+std::string wordsForUnseen(char32_t code) {
+    if (isControl(code) || code < ' ') return "a control character";
+    return isInvisible(code) ? "an invisible character" : "";
+}
+
+// A name by the table or the ranges; else the character itself, where it can be shown.
 std::string wordsFor(char32_t code) {
     if (const NamedCharacter* known = inTable(code)) return std::string(known->name);
     if (const DigitRange* range = digitsWith(code))
         return fmt::format("{} digit {}", range->script, static_cast<int>(code - range->zero));
     if (isFullWidth(code))
         return fmt::format("full-width {}", static_cast<char>(code - kFullWidthOffset));
-    if (isControl(code) || code < ' ') return "a control character";
-    std::string itself;
-    appendUtf8(itself, code);
-    return isInvisible(code) ? "an invisible character" : itself;
+    std::string words = wordsForUnseen(code);
+    if (words.empty()) appendUtf8(words, code);
+    return words;
+}
+
+// Bits of the bytes that follow, where each of them follows; nothing where one does not.
+std::optional<char32_t> joined(char32_t code, std::string_view following) {
+    for (const char byte : following) {
+        if ((static_cast<unsigned char>(byte) & 0xC0U) != 0x80) return std::nullopt;
+        code = (code << 6U) | (static_cast<unsigned char>(byte) & 0x3FU);
+    }
+    return code;
 }
 
 }  // namespace
 
 CodePoint codePointAt(std::string_view text, std::size_t at) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
-    const int following = continuationBytes(byte(0));
-    const CodePoint wrong{byte(0), 1, false};
-    if (following < 0 || at + static_cast<std::size_t>(following) >= text.size()) return wrong;
-    if (following == 0) return {byte(0), 1, true};
-    char32_t code = byte(0) & (0x3FU >> static_cast<unsigned>(following));
-    for (std::size_t i = 1; i <= static_cast<std::size_t>(following); ++i) {
-        if ((byte(i) & 0xC0U) != 0x80) return wrong;
-        code = (code << 6U) | (byte(i) & 0x3FU);
-    }
-    return isScalar(code, following) ? CodePoint{code, static_cast<std::size_t>(following) + 1}
-                                     : wrong;
+    const auto first = static_cast<unsigned char>(text[at]);
+    const int following = continuationBytes(first);
+    if (following == 0) return {first, 1, true};
+    const CodePoint wrong{first, 1, false};
+    const auto count = static_cast<std::size_t>(std::max(0, following));
+    if (following < 0 || at + count >= text.size()) return wrong;
+    const char32_t begun = first & (0x3FU >> static_cast<unsigned>(following));
+    const auto code = joined(begun, text.substr(at + 1, count));
+    return code && isScalar(*code, following) ? CodePoint{*code, count + 1} : wrong;
 }
 
 std::string nameOf(const CodePoint& point) {
@@ -225,32 +243,43 @@ bool isTypographicQuote(char32_t code) {
 
 namespace {
 
+// What is typed for a character of a number, nothing for one that nobody sees; not a value where
+// there is no such thing.
+std::optional<std::string> typedFor(const CodePoint& point) {
+    if (!point.isUtf8) return std::nullopt;
+    if (point.code < 0x80) return std::string(1, static_cast<char>(point.code));
+    const std::string ascii = asciiFor(point.code);
+    return ascii.empty() && !isInvisible(point.code) ? std::nullopt : std::optional(ascii);
+}
+
 // With ASCII for each character, without spaces about it; empty where one has none.
 std::string inAscii(std::string_view text) {
     std::string ascii;
     for (std::size_t at = 0; at < text.size();) {
         const CodePoint point = codePointAt(text, at);
-        const bool isAscii = point.isUtf8 && point.code < 0x80;
-        const std::string typed = isAscii ? std::string(text.substr(at, 1)) : asciiFor(point.code);
-        if (!point.isUtf8 || (typed.empty() && !isInvisible(point.code))) return "";
-        ascii += typed;
+        const auto typed = typedFor(point);
+        if (!typed) return "";
+        ascii += *typed;
         at += point.bytes;
     }
-    const std::size_t first = ascii.find_first_not_of(' ');
-    if (first == std::string::npos) return "";
+    const std::size_t first = std::min(ascii.find_first_not_of(' '), ascii.size());
     return ascii.substr(first, ascii.find_last_not_of(' ') + 1 - first);
 }
 
+bool isDigitAt(std::string_view text, std::size_t at) {
+    return at < text.size() && text[at] >= '0' && text[at] <= '9';
+}
+
 // Thousands may be parted by blanks, apostrophes and low lines; only between digits.
+bool isGapAt(std::string_view text, std::size_t at) {
+    const bool isSeparator = std::string_view(" _'").find(text[at]) != std::string_view::npos;
+    return isSeparator && at > 0 && isDigitAt(text, at - 1) && isDigitAt(text, at + 1);
+}
+
 std::string withoutGroups(const std::string& text) {
-    const auto isDigit = [&](std::size_t i) {
-        return i < text.size() && text[i] >= '0' && text[i] <= '9';
-    };
     std::string joined;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const bool isGap = std::string_view(" '_").find(text[i]) != std::string_view::npos;
-        if (!isGap || i == 0 || !isDigit(i - 1) || !isDigit(i + 1)) joined += text[i];
-    }
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if (!isGapAt(text, i)) joined += text[i];
     return joined;
 }
 
@@ -266,6 +295,7 @@ std::string withDecimalPoint(std::string text) {
     return text;
 }
 
+// Finite, with a digit: from_chars takes "nan" and "inf" too.
 bool isDecimal(const std::string& text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -283,16 +313,22 @@ std::string plainNumber(std::string_view text) {
     return plain != text && isDecimal(plain) ? plain : "";
 }
 
+namespace {
+
+// What to say of a character that is no ASCII.
+std::string foreignWords(const CodePoint& point) {
+    if (!point.isUtf8) return "it has " + nameOf(point) + ", which is not UTF-8";
+    const std::string ascii = asciiFor(point.code);
+    return "it has " + nameOf(point) + (ascii.empty() || ascii == " " ? "" : ": type " + ascii);
+}
+
+}  // namespace
+
 std::string foreignCharacterIn(std::string_view text) {
-    for (std::size_t at = 0; at < text.size();) {
-        const CodePoint point = codePointAt(text, at);
-        at += point.bytes;
-        if (point.isUtf8 && point.code < 0x80) continue;
-        if (!point.isUtf8) return "it has " + nameOf(point) + ", which is not UTF-8";
-        const std::string ascii = asciiFor(point.code);
-        return "it has " + nameOf(point) + (ascii.empty() || ascii == " " ? "" : ": type " + ascii);
-    }
-    return "";
+    const auto* const found =
+        std::ranges::find_if(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
+    if (found == text.end()) return "";
+    return foreignWords(codePointAt(text, static_cast<std::size_t>(found - text.begin())));
 }
 
 std::string legible(std::string_view text) {

@@ -74,19 +74,31 @@ int withOutput(int status) {
     throw Error("standard output: " + whyNotWritten(errno != 0 ? errno : EIO));
 }
 
-// An argument that an office program or a web page has given a long dash: what to type instead of
-// it; empty where there is none. A number is the concern of its option.
-std::string longDashIn(std::span<char* const> arguments) {
-    for (const std::string_view argument : arguments) {
-        const CodePoint first = argument.empty() ? CodePoint{} : codePointAt(argument, 0);
-        if (first.code < 0x80 || asciiFor(first.code) != "-") continue;
-        std::string_view name = argument;
-        while (!name.empty() && (name[0] == '-' || codePointAt(name, 0).code == first.code))
-            name.remove_prefix(codePointAt(name, 0).bytes);
-        if (name.empty() || !plainNumber(argument).empty()) continue;
-        return "\"" + std::string(argument) + "\" begins with " + nameOf(first) + ": type " +
-               (name.size() == 1 ? "-" : "--") + std::string(name);
+// What an argument is without the dashes before it, long ones too.
+std::string_view withoutDashes(std::string_view argument) {
+    while (!argument.empty()) {
+        const CodePoint first = codePointAt(argument, 0);
+        if (first.code != '-' && asciiFor(first.code) != "-") break;
+        argument.remove_prefix(first.bytes);
     }
+    return argument;
+}
+
+// Of an argument that an office program or a web page has given a long dash: what to type instead
+// of it; empty where there is none. A number is the concern of its option.
+std::string longDashOf(std::string_view argument) {
+    if (argument.empty() || argument[0] == '-') return "";
+    const std::string_view name = withoutDashes(argument);
+    const bool hasDashes = name.size() < argument.size() && !name.empty();
+    if (!hasDashes || !plainNumber(argument).empty()) return "";
+    return "\"" + std::string(argument) + "\" begins with " + nameOf(codePointAt(argument, 0)) +
+           ": type " + (name.size() == 1 ? "-" : "--") + std::string(name);
+}
+
+// Of the first such argument; empty where there is none.
+std::string longDashIn(std::span<char* const> arguments) {
+    for (const char* argument : arguments)
+        if (std::string wrong = longDashOf(argument); !wrong.empty()) return wrong;
     return "";
 }
 
@@ -119,10 +131,12 @@ CLI::Validator between(Number least, Number most, const std::string& kind) {
     text << least << " to " << most;
     const std::string range = text.str();
     return {[=](std::string& given) -> std::string {
-                const auto value = parsed<Number>(given);
-                if (value && *value >= least && *value <= most) return {};
-                const auto plain = parsed<Number>(plainNumber(given));
-                const bool isMeant = plain && *plain >= least && *plain <= most;
+                const auto isIn = [=](const std::string& said) {
+                    const auto value = parsed<Number>(said);
+                    return value && *value >= least && *value <= most;
+                };
+                if (isIn(given)) return {};
+                const bool isMeant = isIn(plainNumber(given));
                 return "\"" + given + "\" is not " + kind + " from " + range +
                        (isMeant ? ": type " + plainNumber(given) : "");
             },

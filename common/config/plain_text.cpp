@@ -16,10 +16,16 @@ namespace {
 
 constexpr int kTabWidth = 8;
 
+// Of ASCII, whatever the locale.
 bool isDigit(char c) {
     return c >= '0' && c <= '9';
 }
 
+bool beginsWithDigit(std::string_view text) {
+    return !text.empty() && isDigit(text[0]);
+}
+
+// Of a name in the text format.
 bool isWord(char c) {
     return isDigit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
@@ -32,6 +38,17 @@ bool isLatinLetter(char32_t code) {
 bool looksLatin(char32_t code) {
     const std::string ascii = code >= 0x0370 && code < 0x0530 ? asciiFor(code) : "";
     return !ascii.empty() && isLatinLetter(static_cast<unsigned char>(ascii[0]));
+}
+
+// A character as an ASCII keyboard has it.
+std::string asTyped(const CodePoint& point) {
+    return point.code < 0x80 ? std::string(1, static_cast<char>(point.code)) : asciiFor(point.code);
+}
+
+// Of any script.
+bool isAnyDigit(const CodePoint& point) {
+    const std::string ascii = asTyped(point);
+    return ascii.size() == 1 && isDigit(ascii[0]);
 }
 
 // Moves over a text, character by character, and knows where it is in the terms of an editor.
@@ -48,6 +65,7 @@ class TextCursor {
     [[nodiscard]] std::string_view rest() const { return text_.substr(at_); }
     [[nodiscard]] SourcePlace place() const { return {line_, column_ + 1}; }
 
+    // Past one character; the end of a line begins the next.
     void advance() {
         const CodePoint passed = point();
         at_ += passed.bytes;
@@ -56,6 +74,7 @@ class TextCursor {
         ++line_;
         column_ = 0;
     }
+    // They must end where a character does.
     void advanceBytes(std::size_t bytes) {
         for (const std::size_t end = at_ + bytes; at_ < end;) advance();
     }
@@ -71,28 +90,34 @@ class TextCursor {
     int line_ = 1, column_ = 0;
 };
 
+// How many of every second byte at a text's beginning are zero.
+std::size_t zerosFrom(std::string_view text, std::size_t first) {
+    constexpr std::size_t kTelling = 64;
+    std::size_t count = 0;
+    for (std::size_t i = first; i < std::min(text.size(), kTelling); i += 2)
+        if (text[i] == '\0') ++count;
+    return count;
+}
+
 // With a mark, or ASCII with a zero beside each character.
 bool isUtf16(std::string_view text) {
-    const auto zeros = [&](std::size_t from) {
-        constexpr std::size_t kTelling = 64;
-        std::size_t count = 0;
-        for (std::size_t i = from; i < std::min(text.size(), kTelling); i += 2)
-            count += text[i] == '\0' ? 1 : 0;
-        return count;
-    };
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return true;
-    return zeros(0) + zeros(1) > 0 && (zeros(0) == 0 || zeros(1) == 0);
+    return (zerosFrom(text, 0) == 0) != (zerosFrom(text, 1) == 0);
+}
+
+// What is wrong with a character wherever it stands; empty: nothing.
+std::string faultOf(const CodePoint& point) {
+    if (!point.isUtf8) return nameOf(point) + " is no UTF-8: save the file as UTF-8";
+    const bool isBlank = point.code == '\f' || point.code == '\v';
+    if (isBlank || !isControl(point.code)) return "";
+    return nameOf(point) + ": remove it; is this a text file?";
 }
 
 void checkEncoding(std::string_view text, const std::string& source) {
     if (isUtf16(text))
         throw Error(placed(source, {1, 1}, "the file is saved as UTF-16: save it as UTF-8"));
-    for (TextCursor cursor(text, source); !cursor.isAtEnd(); cursor.advance()) {
-        const CodePoint point = cursor.point();
-        if (!point.isUtf8) cursor.refuse(nameOf(point) + " is no UTF-8: save the file as UTF-8");
-        if (isControl(point.code) && point.code != '\f' && point.code != '\v')
-            cursor.refuse(nameOf(point) + ": remove it; is this a text file?");
-    }
+    for (TextCursor cursor(text, source); !cursor.isAtEnd(); cursor.advance())
+        if (const std::string fault = faultOf(cursor.point()); !fault.empty()) cursor.refuse(fault);
 }
 
 // Ends of lines of old Macs, which protobuf does not know.
@@ -113,18 +138,25 @@ class CharacterCheck {
                 passComment();
             else if (c == '"' || c == '\'')
                 checkQuoted(c);
-            else if (beginsNumber())
-                checkNumber();
-            else if (isWord(c))
-                passWord();
             else
-                checkSign(c);
+                checkToken(c);
         }
     }
 
   private:
+    // Up to the end of its line, which ends it.
     void passComment() {
         while (!cursor_.isAtEnd() && cursor_.byte() != '\n') cursor_.advance();
+    }
+
+    // What is neither a comment nor between quotes.
+    void checkToken(char c) {
+        if (beginsNumber())
+            checkNumber();
+        else if (isWord(c))
+            passWord();
+        else
+            checkSign(c);
     }
 
     // A name or a choice, which ends at a character of another alphabet.
@@ -134,6 +166,7 @@ class CharacterCheck {
         if (next.code >= 0x80) refuseForeign(next);
     }
 
+    // Brackets, colons and the like; counts the lists that are open.
     void checkSign(char c) {
         if (c == '[') ++lists_;
         if (c == ']' && lists_ > 0) --lists_;
@@ -143,6 +176,7 @@ class CharacterCheck {
         cursor_.advance();
     }
 
+    // With what to type instead, where there is such a thing.
     [[noreturn]] void refuseForeign(const CodePoint& point) const {
         const std::string ascii = asciiFor(point.code);
         const std::string what = nameOf(point);
@@ -155,47 +189,51 @@ class CharacterCheck {
     // The text between two quotes on one line.
     void checkQuoted(char quote) {
         const SourcePlace begin = cursor_.place();
-        SourcePlace curlyAt;
-        std::string curly;
-        char32_t before = 0;
-        for (cursor_.advance(); cursor_.byte() != quote; cursor_.advance()) {
-            if (cursor_.isAtEnd() || cursor_.byte() == '\n') refuseOpen(begin, curlyAt, curly);
-            if (cursor_.byte() == '\\' && cursor_.byte(1) != '\n') cursor_.advance();
-            if (cursor_.isAtEnd()) refuseOpen(begin, curlyAt, curly);
-            const CodePoint point = cursor_.point();
-            checkInQuotes(point, before);
-            before = point.code;
-            if (!isTypographicQuote(point.code) || !curly.empty()) continue;
-            curlyAt = cursor_.place();
-            curly = nameOf(point);
+        before_ = 0;
+        curly_.clear();
+        cursor_.advance();
+        while (cursor_.byte() != quote) {
+            if (cursor_.byte() == '\\') cursor_.advance();
+            if (cursor_.isAtEnd() || cursor_.byte() == '\n') refuseOpen(begin);
+            checkInQuotes(cursor_.point());
+            cursor_.advance();
         }
         cursor_.advance();
     }
 
-    [[noreturn]] void refuseOpen(SourcePlace begin,
-                                 SourcePlace curlyAt,
-                                 const std::string& curly) const {
-        if (!curly.empty())
-            cursor_.refuseAt(curlyAt, curly + " ends no text: type the quote that began it");
+    // At the curly quote that was meant as its end, where there is one.
+    [[noreturn]] void refuseOpen(SourcePlace begin) const {
+        if (!curly_.empty())
+            cursor_.refuseAt(curlyAt_, curly_ + " ends no text: type the quote that began it");
         cursor_.refuseAt(begin, "the text that begins here has no end: type \" after it");
     }
 
-    void checkInQuotes(const CodePoint& point, char32_t before) const {
-        const std::string ascii = asciiFor(point.code);
-        if (isInvisible(point.code))
-            cursor_.refuse(nameOf(point) +
-                           " in a text: " + (ascii == " " ? "type a space" : "remove it"));
-        const auto next = cursor_.rest().substr(point.bytes);
-        const char32_t after = next.empty() ? 0 : codePointAt(next, 0).code;
-        if (looksLatin(point.code) && (isLatinLetter(before) || isLatinLetter(after)))
-            cursor_.refuse(nameOf(point) + " among Latin letters: type " + ascii);
+    // Any language is good; what misleads is refused.
+    void checkInQuotes(const CodePoint& point) {
+        if (isInvisible(point.code)) refuseInvisible(point);
+        if (looksLatin(point.code) && isBesideLatin(point))
+            cursor_.refuse(nameOf(point) + " among Latin letters: type " + asciiFor(point.code));
+        before_ = point.code;
+        if (!curly_.empty() || !isTypographicQuote(point.code)) return;
+        curlyAt_ = cursor_.place();
+        curly_ = nameOf(point);
+    }
+
+    [[noreturn]] void refuseInvisible(const CodePoint& point) const {
+        const bool isSpace = asciiFor(point.code) == " ";
+        cursor_.refuse(nameOf(point) + " in a text: " + (isSpace ? "type a space" : "remove it"));
+    }
+
+    // The character stands where the cursor is.
+    [[nodiscard]] bool isBesideLatin(const CodePoint& point) const {
+        const std::string_view next = cursor_.rest().substr(point.bytes);
+        return isLatinLetter(before_) ||
+               (!next.empty() && isLatinLetter(codePointAt(next, 0).code));
     }
 
     [[nodiscard]] bool beginsNumber() const {
-        const char c = cursor_.byte();
-        if (isDigit(c) || (c == '.' && isDigit(cursor_.byte(1)))) return true;
-        const std::string ascii = cursor_.point().code < 0x80 ? "" : asciiFor(cursor_.point().code);
-        return !ascii.empty() && isDigit(ascii[0]);
+        const bool isFraction = cursor_.byte() == '.' && isDigit(cursor_.byte(1));
+        return isFraction || isAnyDigit(cursor_.point());
     }
 
     // What is written as one number, with all that may stand between its digits.
@@ -213,28 +251,27 @@ class CharacterCheck {
     // Digits, letters and points; the sign of an exponent; digits of other scripts.
     [[nodiscard]] static bool isOfNumber(std::string_view rest, std::size_t at) {
         const CodePoint point = codePointAt(rest, at);
-        if (point.code >= 0x80) {
-            const std::string ascii = asciiFor(point.code);
-            return !ascii.empty() && isDigit(ascii[0]);
-        }
-        const char c = rest[at];
-        const bool isExponent = at > 0 && (rest[at - 1] == 'e' || rest[at - 1] == 'E') &&
-                                !rest.starts_with("0x") && !rest.starts_with("0X");
-        return isWord(c) || c == '.' || (isExponent && (c == '+' || c == '-'));
+        if (point.code >= 0x80) return isAnyDigit(point);
+        if (rest[at] == '+' || rest[at] == '-') return isExponentAt(rest, at);
+        return isWord(rest[at]) || rest[at] == '.';
     }
 
-    // A comma parts the numbers of a list, and a blank does so nowhere.
+    // Whether a sign is that of an exponent: 1e-3.
+    [[nodiscard]] static bool isExponentAt(std::string_view number, std::size_t sign) {
+        return sign > 0 && !isHex(number) &&
+               std::string_view("eE").find(number[sign - 1]) != std::string_view::npos;
+    }
+
+    // A comma parts the numbers of a list; elsewhere, as a blank, it parts digits of one number.
     [[nodiscard]] bool isBetweenDigits(std::string_view rest, std::size_t at) const {
         const CodePoint point = codePointAt(rest, at);
-        const std::string ascii =
-            point.code < 0x80 ? std::string(1, rest[at]) : asciiFor(point.code);
-        const std::size_t next = at + point.bytes;
-        const bool isSeparator = ascii == "'" || ascii == " " || ascii == "," || ascii == ".";
-        const bool isOfList = lists_ > 0 && (ascii == "," || ascii == " ");
-        return isSeparator && !isOfList && at > 0 && isDigit(rest[at - 1]) && next < rest.size() &&
-               isDigit(rest[next]);
+        const std::string ascii = asTyped(point);
+        const std::string_view separators = lists_ > 0 ? "'." : "'., ";
+        if (ascii.size() != 1 || separators.find(ascii) == std::string_view::npos) return false;
+        return at > 0 && isDigit(rest[at - 1]) && beginsWithDigit(rest.substr(at + point.bytes));
     }
 
+    // The number as a whole, so that the message can quote it.
     void checkNumber() {
         const std::string_view word = numberAhead();
         if (!isNumber(word)) {
@@ -258,10 +295,13 @@ class CharacterCheck {
         return "";
     }
 
+    [[nodiscard]] static bool isHex(std::string_view word) {
+        return word.starts_with("0x") || word.starts_with("0X");
+    }
+
     // As the text format has them: decimal, hexadecimal, with a fraction, an exponent or an f.
     [[nodiscard]] static bool isNumber(std::string_view word) {
-        const bool isHex = word.starts_with("0x") || word.starts_with("0X");
-        if (isHex)
+        if (isHex(word))
             return word.size() > 2 &&
                    word.find_first_not_of("0123456789abcdefABCDEF", 2) == std::string_view::npos;
         if (word.ends_with('f') || word.ends_with('F')) word.remove_suffix(1);
@@ -270,6 +310,7 @@ class CharacterCheck {
         return error != std::errc::invalid_argument && end == word.data() + word.size();
     }
 
+    // A zero before other digits.
     [[nodiscard]] static bool isOctal(std::string_view word) {
         return word.size() > 1 && word[0] == '0' &&
                word.find_first_not_of("0123456789") == std::string_view::npos;
@@ -277,6 +318,10 @@ class CharacterCheck {
 
     TextCursor cursor_;
     int lists_ = 0;  // brackets that are open
+    // Of the text between quotes: the character before, and the first curly quote in it.
+    char32_t before_ = 0;
+    SourcePlace curlyAt_;
+    std::string curly_;
 };
 
 }  // namespace

@@ -233,6 +233,7 @@ class Reader {
     [[nodiscard]] Frustum frustumOf(xml_node node) const;
     [[nodiscard]] CoordinateFrame frameOf(xml_node node) const;
     [[nodiscard]] std::vector<std::byte> contentOf(xml_node element);
+    [[nodiscard]] Pfm mapOf(xml_node element);
     [[nodiscard]] std::optional<Warp> warpOf(xml_node element, const FileChannel& channel);
     [[nodiscard]] std::optional<Mask> maskOf(xml_node element, double gamma);
 
@@ -454,18 +455,24 @@ std::vector<std::byte> Reader::contentOf(xml_node element) {
     return manifest_.archive->read(*entry);
 }
 
-std::optional<Warp> Reader::warpOf(xml_node element, const FileChannel& channel) {
-    if (pathOf(element).empty()) return std::nullopt;
+// The float map that an element names, in the order of rows that the user says.
+Pfm Reader::mapOf(xml_node element) {
     Pfm pfm = decodePfm(contentOf(element), manifest_.whereOf(pathOf(element)));
     if (options_.upsideDown) turnOver(pfm);
+    const std::string scale = scaleRemark(pfm);
+    if (!scale.empty()) say(fmt::format("{}: {}", pathOf(element), scale));
+    return pfm;
+}
+
+std::optional<Warp> Reader::warpOf(xml_node element, const FileChannel& channel) {
+    if (pathOf(element).empty()) return std::nullopt;
+    Pfm pfm = mapOf(element);
     TexelMeaning meaning{
         .profile = wall_.profile,
         .corner = channel.corner,
         .extent = channel.extent,
         .unitMetres = metresOf(textOf(formats::element(element, "geometricUnit")))};
     if (meaning.unitMetres == 0) refuse(where_, "has an unknown geometricUnit");
-    if (const std::string scale = scaleRemark(pfm); !scale.empty())
-        say(fmt::format("{}: {}", pathOf(element), scale));
     guessMeaning(meaning, pfm);
     if (const auto own = own_.find({channel.name, element.name()}); own != own_.end())
         std::tie(meaning.sampling, meaning.stored) = own->second;
@@ -613,12 +620,24 @@ std::vector<std::string> entriesAt(const Archive& archive, bool atRoot, std::str
     return found;
 }
 
+// Of several walls in one archive nobody knows which is meant.
 [[noreturn]] void refuseSeveral(const std::string& source, const std::vector<std::string>& names) {
     throw Error(fmt::format("{}: has {} manifests, \"{}\" and \"{}\"; pack each wall by itself",
                             source,
                             names.size(),
                             printable(names[0]),
                             printable(names[1])));
+}
+
+// Of an archive whose root has none; empty where its folders have none either. Throws Error where
+// they have several.
+std::string manifestInFolders(const Archive& archive, const std::string& source) {
+    for (const char* ending : {"/mpcdi.xml", "/mpacs.xml", ".xml"}) {
+        const std::vector<std::string> found = entriesAt(archive, false, ending);
+        if (found.size() > 1) refuseSeveral(source, found);
+        if (!found.empty()) return found.front();
+    }
+    return "";
 }
 
 // The manifest's name: the standard's, an older one, or any that stands alone; in a folder where
@@ -628,11 +647,8 @@ std::string manifestOf(const Archive& archive, const std::string& source) {
         if (const auto found = archive.find(name)) return *found;
     const std::vector<std::string> others = entriesAt(archive, true, ".xml");
     if (others.size() == 1) return others.front();
-    for (const char* ending : {"/mpcdi.xml", "/mpacs.xml", ".xml"}) {
-        const std::vector<std::string> inFolders = entriesAt(archive, false, ending);
-        if (inFolders.size() > 1) refuseSeveral(source, inFolders);
-        if (!inFolders.empty()) return inFolders.front();
-    }
+    std::string inFolders = manifestInFolders(archive, source);
+    if (!inFolders.empty()) return inFolders;
     throw Error(
         fmt::format("{}: has no mpcdi.xml, and {} other xml files where one could be "
                     "meant; export it anew",

@@ -52,6 +52,7 @@ struct ObjReader {
             lines.number(fields[1]), lines.number(fields[2]), lines.number(fields[3]));
     }
 
+    // Up to two numbers count; a depth is passed over.
     void readTexture(const std::vector<std::string_view>& fields) {
         if (fields.size() < 3 || textures.size() == kMostVertices)
             lines.fail("a vt needs u v, and at most 4194304 may be; export it anew");

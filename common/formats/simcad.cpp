@@ -2,6 +2,7 @@
 // Barco SimCAD: an XML file of offsets of a square grid of nodes, top row first, in parts of a
 // range that is the projector's width or height in pixels.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <pugixml.hpp>
@@ -71,9 +72,11 @@ void sayOthers(const pugi::xml_node& definition,
                std::vector<std::string>& remarks) {
     for (const pugi::xml_node parent : {definition, definition.parent()})
         for (const pugi::xml_node node : parent.children()) {
+            constexpr std::array<std::string_view, 3> kRead{
+                "GeometryDefinition", "X-FlatParameters", "Y-FlatParameters"};
             const std::string_view name = node.name();
-            if (node.type() == pugi::node_element && name != "GeometryDefinition" &&
-                name != "X-FlatParameters" && name != "Y-FlatParameters")
+            const bool isRead = std::ranges::find(kRead, name) != kRead.end();
+            if (node.type() == pugi::node_element && !isRead)
                 remark(remarks,
                        source + ": <" + printable(name) +
                            "> is passed over: compare the picture with the producer's");

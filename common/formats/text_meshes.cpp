@@ -422,21 +422,36 @@ constexpr std::array<std::pair<std::string_view, const char*>, 6> kSaidKeys{{
     {"DO_NO_WARP", "nothing is warped, only its blend is taken: set it to 0 for the mesh's warp"},
 }};
 
+// A value that is neither zero nor one of the words for off.
 bool isOn(std::string_view value) {
     const std::string_view off[] = {"", "0", "OFF", "FALSE", "NO", "off", "false", "no"};
     return std::ranges::find(off, value) == std::end(off) && numberIn(value) != 0.0;
 }
 
-// What is to be said of a key that is switched on; empty: nothing.
-std::string scalableRemark(std::string_view key, std::string_view value) {
-    const bool isUsual =
-        (key == "SAMPLING" && value == "LINEAR") || (key == "PROJECTION" && value == "PERSPECTIVE");
-    if (isUsual || !isOn(value) || std::ranges::find(kQuietKeys, key) != kQuietKeys.end())
-        return "";
+// Keys whose usual value is a word, and what it is.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kUsualWords{
+    {{"SAMPLING", "LINEAR"}, {"PROJECTION", "PERSPECTIVE"}}};
+
+// Whether nothing is to be said of a key with this value.
+bool isQuiet(std::string_view key, std::string_view value) {
+    const bool isUsual = std::ranges::find(kUsualWords, std::pair{key, value}) != kUsualWords.end();
+    return isUsual || !isOn(value) || std::ranges::find(kQuietKeys, key) != kQuietKeys.end();
+}
+
+// Says what a key that is switched on does not do here, and obeys the one that is obeyed.
+void heedSwitch(const VendorLines& lines,
+                std::string_view key,
+                std::string_view value,
+                ScalableFile& file) {
+    if (key == "DO_NO_WARP") file.isEven = isOn(value);
+    if (isQuiet(key, value)) return;
     const auto* said = std::ranges::find(kSaidKeys, key, [](const auto& one) { return one.first; });
     const std::string what = printable(std::string(key) + " " + std::string(value)) + ": ";
-    if (said != kSaidKeys.end()) return what + said->second;
-    return what + "is not known here and passed over: compare the picture with the producer's";
+    remark(file.remarks,
+           lines.placed(what + (said != kSaidKeys.end()
+                                    ? said->second
+                                    : "is not known here and passed over: compare the picture with "
+                                      "the producer's")));
 }
 
 void readScalableKey(const VendorLines& lines,
@@ -447,9 +462,7 @@ void readScalableKey(const VendorLines& lines,
     if (key == "FACES") file.faces = scalableCount(lines, value, file.faces);
     if (key == "MAPPING" && value != "NORMALIZED")
         lines.fail("its mapping is not NORMALIZED; export it so");
-    if (const std::string said = scalableRemark(key, value); !said.empty())
-        remark(file.remarks, lines.placed(said));
-    if (key == "DO_NO_WARP") file.isEven = isOn(value);
+    heedSwitch(lines, key, value, file);
     const std::optional<double> number = numberIn(value);
     if (number && file.keys.size() < kMostKeys) file.keys.emplace_back(key, *number);
 }
@@ -464,6 +477,7 @@ void readScalableLine(const VendorLines& lines, ScalableFile& file) {
         readScalableKey(lines, fields, file);
 }
 
+// The whole file. Throws Error where its counts do not hold.
 ScalableFile scalableFile(VendorLines& lines) {
     ScalableFile file;
     while (lines.next()) readScalableLine(lines, file);

@@ -150,8 +150,8 @@ Warp readRecords(VendorBytes& in, const ViosoHeader& header, bool upsideDown) {
 bool placeInContent(FileChannel& channel, const std::array<double, 4>& content) {
     const auto [left, top, right, bottom] = content;
     const auto isPart = [](double low, double high) { return low >= 0 && low < high && high <= 1; };
-    const bool isSaid = left != 0 || top != 0 || right != 0 || bottom != 0;
-    if (!isPart(left, right) || !isPart(top, bottom)) return isSaid;
+    if (!isPart(left, right) || !isPart(top, bottom))
+        return content != std::array<double, 4>{};  // four zeros say nothing
     channel.corner = {left, top};
     channel.extent = {right - left, bottom - top};
     return false;
@@ -278,6 +278,12 @@ Mask readBitmap(VendorBytes& in, const Bitmap& bitmap, double scale) {
     return mask;
 }
 
+std::string unusedBitmap(int which) {
+    return "bitmap " + std::to_string(which + 1) +
+           " (white, or of later versions) is not used: measure the projectors by aquarama "
+           "calibrate where their whites differ";
+}
+
 // Blend, then black level; what follows is not used by the vendor either.
 void addBitmap(VendorBytes& in, ViosoChannel& to) {
     const Bitmap bitmap = readBitmapHeader(in);
@@ -287,11 +293,7 @@ void addBitmap(VendorBytes& in, ViosoChannel& to) {
         if (which == 0) to.channel.blend = readBitmap(in, bitmap, 1);
         if (which == 1 && scale > 0)
             to.channel.black = readBitmap(in, bitmap, std::min(scale, kMostScale));
-        if (which > 1)
-            remark(to.remarks,
-                   "bitmap " + std::to_string(which + 1) +
-                       " (white, or of later versions) is not used: measure the projectors by "
-                       "aquarama calibrate where their whites differ");
+        if (which > 1) remark(to.remarks, unusedBitmap(which));
     }
     const std::size_t rows = static_cast<std::size_t>(bitmap.height) * bitmap.rowBytes();
     in.go(std::max(bitmap.end, bitmap.pixels + rows));
