@@ -23,6 +23,7 @@ int fuzzAdjustments(const std::uint8_t* bytes, std::size_t size) {
         for (const config::MaskedArea& mask : all.masks)
             promise(mask.corners.size() >= 3, "masks have corners");
     } catch (const Error& error) {
+        promiseLine(error.what());
         promise(std::string(error.what()).starts_with("fuzzed"), "an error names its source");
     }
     return 0;

@@ -19,6 +19,7 @@ int fuzzHours(const std::uint8_t* bytes, std::size_t size) {
         }
         static_cast<void>(config::wantedAt(hours, 0LL));
     } catch (const Error& error) {
+        promiseLine(error.what());
         promise(std::string(error.what()).starts_with("fuzzed"), "an error names its source");
     }
     return 0;

@@ -15,6 +15,7 @@ int fuzzKeys(const std::uint8_t* bytes, std::size_t size) {
         promise(key.publicKey.size() == 40 && key.secretKey.size() == 40,
                 "keys have 40 characters");
     } catch (const Error& error) {
+        promiseLine(error.what());
         promise(std::string(error.what()).starts_with("fuzzed"), "an error names its source");
     }
     return 0;

@@ -26,11 +26,13 @@ void readAndWrite(Bytes bytes) {
     try {
         wall = formats::readMpcdi(bytes, "fuzzed");
     } catch (const Error& error) {
+        promiseLine(error.what());
         const std::string line = error.what();
         promise(line.starts_with("fuzzed"), "an error names its source");
-        promise(line.find('\n') == std::string::npos, "an error is one line");
         return;
     }
+    promise(wall.remarks.size() <= formats::kMostRemarks, "remarks are few");
+    for (const std::string& remark : wall.remarks) promiseLine(remark);
     for (const int version : {1, 2}) {
         const formats::WallFile again =
             formats::readMpcdi(formats::encodeMpcdi(wall, version), "again");
@@ -51,6 +53,8 @@ void packAndRead(const std::string& manifest, Bytes floatMap) {
     const Bytes text = std::as_bytes(std::span(manifest));
     readAndWrite(formats::encodeArchive({{"mpcdi.xml", {text.begin(), text.end()}},
                                          {"a.pfm", {floatMap.begin(), floatMap.end()}}}));
+    readAndWrite(formats::encodeArchive({{"hall/mpcdi.xml", {text.begin(), text.end()}},
+                                         {"hall/a.pfm", {floatMap.begin(), floatMap.end()}}}));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ int fuzzRig(const std::uint8_t* bytes, std::size_t size) {
         for (const config::Channel& channel : config::parseRig(text, "fuzzed").channels)
             promise(channel.sizePixels.x > 0 && channel.sizePixels.y > 0, "a channel has pixels");
     } catch (const Error& error) {
+        promiseLine(error.what());
         promise(std::string(error.what()).starts_with("fuzzed"), "an error names its source");
     }
     return 0;

@@ -14,6 +14,7 @@ int fuzzScene(const std::uint8_t* bytes, std::size_t size) {
         const config::Scene scene = config::parseScene(text, "fuzzed");
         promise(config::fishIn(scene) <= kMostFish, "the fish of a scene are bounded");
     } catch (const Error& error) {
+        promiseLine(error.what());
         promise(std::string(error.what()).starts_with("fuzzed"), "an error names its source");
     }
     return 0;

@@ -16,6 +16,7 @@ int fuzzSpecies(const std::uint8_t* bytes, std::size_t size) {
         const body::FishBody body = body::makeBody(config::parseSpecies(text, "fuzzed"));
         promise(body.cage.vertices.size() == std::size_t{body::kControlPoints}, "a cage is whole");
     } catch (const Error& error) {
+        promiseLine(error.what());
         promise(*error.what() != '\0', "an error says what is wrong");
     }
     return 0;

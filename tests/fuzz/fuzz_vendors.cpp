@@ -34,6 +34,8 @@ void promiseWhole(const formats::Mask& mask) {
 
 void promiseWhole(const WallFile& file) {
     promise(!file.channels.empty(), "a file has a channel");
+    promise(file.remarks.size() <= formats::kMostRemarks, "remarks are few");
+    for (const std::string& remark : file.remarks) promiseLine(remark);
     for (const formats::FileChannel& channel : file.channels) {
         if (channel.warp) promiseWhole(*channel.warp);
         if (channel.blend) promiseWhole(*channel.blend);
@@ -51,7 +53,7 @@ void feed(const std::function<WallFile()>& read) {
     } catch (const Error& error) {
         const std::string why = error.what();
         promise(why.starts_with("fuzzed:"), "an error names its source");
-        promise(why.find('\n') == std::string::npos, "an error is one line");
+        promiseLine(why);
     }
 }
 

@@ -3,6 +3,9 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <string>
+
+#include "common/base/characters.h"
 
 namespace aquarama {
 
@@ -11,6 +14,13 @@ inline void promise(bool kept, const char* what) {
     if (kept) return;
     std::fprintf(stderr, "broken promise: %s\n", what);
     std::abort();
+}
+
+// Of errors and remarks, which go into logs and pages: nothing of the bytes that were read comes
+// through raw.
+inline void promiseLine(const std::string& text) {
+    promise(text.find('\n') == std::string::npos, "a message is one line");
+    promise(legible(text) == text, "a message is UTF-8 without controls");
 }
 
 }  // namespace aquarama
