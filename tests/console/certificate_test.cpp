@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "console/certificate.h"
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "common/base/log.h"
@@ -112,18 +114,51 @@ TEST_F(CertificateTest, withoutTheAuthoritysKeyItIsSaidWeeksBeforeAndAnew) {
     EXPECT_EQ(keysOf(keeper.faults(kMade + 400 * kDay)), "");
 }
 
-TEST_F(CertificateTest, oneThatCannotBeWrittenSaysSo) {
+// No file gets any content while it lives, as on a disk that is full.
+class FullDisk {
+  public:
+    FullDisk() {
+        signal(SIGXFSZ, SIG_IGN);
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit none{0, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &none);
+    }
+    ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
+    FullDisk(const FullDisk&) = delete;
+    FullDisk& operator=(const FullDisk&) = delete;
+
+  private:
+    rlimit before_{};
+};
+
+TEST_F(CertificateTest, oneThatCannotBeWrittenOrSignedSaysWhyAndStays) {
     make(kMade);
-    // The file's place is taken by a folder that is not empty, which nothing is renamed over.
+    const std::string first = textOf(files_.certificate);
+    const UnixSeconds later = kMade + 380 * kDay;
+    const auto said = [&](CertificateKeeper& keeper) -> std::string {
+        const auto faults = keeper.faults(later);
+        EXPECT_EQ(keysOf(faults), "certificate soon");
+        return faults.empty() ? "" : faults[0].text;
+    };
     CertificateKeeper keeper = this->keeper();
-    fs::remove(files_.authorityKey);
+    {
+        const FullDisk full;
+        EXPECT_FALSE(keeper.tend(later));
+    }
+    EXPECT_NE(said(keeper).find("in 17 days; it cannot be renewed: "), std::string::npos);
+    EXPECT_NE(said(keeper).find("certificate.pem"), std::string::npos) << said(keeper);
+    EXPECT_EQ(textOf(files_.certificate), first) << "whole, and the one that the server has";
+    const std::string key = textOf(files_.authorityKey);
     std::ofstream(files_.authorityKey) << "no key";
-    EXPECT_FALSE(keeper.tend(kMade + 380 * kDay));
-    const auto faults = keeper.faults(kMade + 380 * kDay);
-    ASSERT_EQ(keysOf(faults), "certificate soon");
-    EXPECT_NE(faults[0].text.find("in 17 days; it cannot be renewed: "), std::string::npos)
-        << faults[0].text;
-    EXPECT_NE(faults[0].text.find("is damaged"), std::string::npos) << faults[0].text;
+    CertificateKeeper another = this->keeper();
+    EXPECT_FALSE(another.tend(later));
+    EXPECT_NE(said(another).find("is damaged"), std::string::npos) << said(another);
+    // Mended, it is renewed within the hour.
+    std::ofstream(files_.authorityKey) << key;
+    bool isRenewed = false;
+    for (int call = 0; call < 361 && !isRenewed; ++call) isRenewed = another.tend(later);
+    EXPECT_TRUE(isRenewed);
+    EXPECT_EQ(keysOf(another.faults(later)), "");
 }
 
 TEST_F(CertificateTest, oneThatSomebodyBroughtIsWatchedAndNeverReplaced) {
