@@ -89,6 +89,8 @@ class GrowingFile {
     // The first `keptBytes` of a file that is there stay. Makes its folder where there is none.
     explicit GrowingFile(std::filesystem::path path, std::uint64_t keptBytes = 0);
     ~GrowingFile();
+    GrowingFile(const GrowingFile&) = delete;
+    GrowingFile& operator=(const GrowingFile&) = delete;
     GrowingFile(GrowingFile&& other) noexcept { *this = std::move(other); }
     GrowingFile& operator=(GrowingFile&& other) noexcept;
 
