@@ -357,7 +357,6 @@ std::optional<std::vector<std::byte>> findIntact(const fs::path& path) {
     try {
         std::vector<std::byte> bytes = readRepertoireFile(path);
         static_cast<void>(motion::decodeRepertoire(bytes, path.string()));
-        markUsed(path);
         return bytes;
     } catch (const Error&) {
         // Damaged, or of another version of the format.
@@ -371,10 +370,7 @@ void keep(const CaptureOutcome& outcome, const fs::path& path, RepertoireFile& f
     file.error = outcome.error;
     if (!outcome.repertoire) return;
     file.bytes = motion::encodeRepertoire(*outcome.repertoire);
-    constexpr std::uintmax_t kMostCachedBytes = std::uintmax_t{1} << 30U;
-    constexpr std::chrono::hours kMostAge{24 * 365};
-    if (keepIfPossible(path, file.bytes, "the fish are captured anew at each start"))
-        trimFolder(path.parent_path(), kMostCachedBytes, kMostAge);
+    keepIfPossible(path, file.bytes, "the fish are captured anew at each start");
 }
 
 }  // namespace
