@@ -63,13 +63,15 @@ void describe(CLI::App& app, Options& options) {
         ->check(cli::wholeNumber(0, 65535));
     app.add_option("--listen", options.listen, "address of a network card, for other machines")
         ->capture_default_str();
-    app.add_option("--name", options.names, "another name of this machine that browsers may use");
+    app.add_option("--name", options.names, "another name of this machine that browsers may use")
+        ->check(cli::plainWord());
     app.add_option("--keys", options.keys, "folder of the master's keys, where the rig needs them");
     app.add_option("--key", options.key, "file of the operator's key; else that of the folder");
     app.add_option("--pair", options.pair, "print a code that lets one more browser in, and end")
         ->check(role);
     app.add_option(
-        "--token", options.token, "print a new token for a machine of this name, and end");
+           "--token", options.token, "print a new token for a machine of this name, and end")
+        ->check(cli::plainWord());
     app.add_option("--role", options.role, "of that token")->check(role)->capture_default_str();
     app.add_option("--certify",
                    options.certify,

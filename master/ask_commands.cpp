@@ -226,7 +226,8 @@ void addSet(CommandLine& line) {
                     options.value,
                     "a scene's name; low, medium, high, ultra or auto; world, grid or grey; on or "
                     "off; a channel, whose node is started again")
-        ->required();
+        ->required()
+        ->check(cli::plainWord());
     command.footer("What is set is kept: a master that is started again shows it.");
 }
 

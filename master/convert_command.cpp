@@ -153,7 +153,7 @@ void convert(const ConvertOptions& options) {
     if (!options.out.ends_with(".mpcdi"))
         throw Error(options.out + ": only MPCDI is written; name it NAME.mpcdi");
     formats::WallFile file = readAny(options);
-    for (const std::string& said : file.remarks) logWarning("{}", said);
+    formats::sayRemarks(file.remarks);
     resample(file, options.in);
     formats::writeMpcdi(options.out, file, options.version);
     for (const formats::FileChannel& channel : file.channels) std::cout << lineOf(channel) << '\n';

@@ -20,6 +20,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 
+#include "common/base/characters.h"
 #include "common/base/connectors.h"
 #include "common/base/counted.h"
 #include "common/base/files.h"
@@ -93,13 +94,14 @@ class Dialogue {
                 Range range) {
         if (wish) return;
         ask(question, fmt::format("{:g}", usual), [&](const std::string& answer) -> std::string {
-            double value = 0;
-            const auto [end, error] =
-                std::from_chars(answer.data(), answer.data() + answer.size(), value);
-            const bool isNumber = error == std::errc{} && end == answer.data() + answer.size();
-            if (!isNumber || !(value >= range.least && value <= range.most))
-                return fmt::format("a number from {:g} to {:g}, please", range.least, range.most);
-            wish = value;
+            std::string said = answer;
+            const std::string plain = plainNumber(answer);
+            if (!cli::number(range.least, range.most)(said).empty())
+                return fmt::format("a number from {:g} to {:g}, please{}",
+                                   range.least,
+                                   range.most,
+                                   plain.empty() ? "" : ": type " + plain);
+            std::from_chars(answer.data(), answer.data() + answer.size(), wish.emplace());
             return {};
         });
     }

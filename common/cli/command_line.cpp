@@ -192,6 +192,20 @@ CLI::Validator number(double least, double most) {
     return between(least, most, "a number");
 }
 
+CLI::Validator plainWord() {
+    return {[](std::string& given) -> std::string {
+                for (std::size_t at = 0; at < given.size(); at += codePointAt(given, at).bytes) {
+                    const CodePoint point = codePointAt(given, at);
+                    const bool isSeen =
+                        point.code >= ' ' && !isControl(point.code) && !isInvisible(point.code);
+                    if (!point.isUtf8 || !isSeen)
+                        return "\"" + given + "\" has " + nameOf(point) + ": type it without";
+                }
+                return {};
+            },
+            ""};
+}
+
 namespace {
 
 constexpr std::array kWatched{SIGINT, SIGTERM, SIGHUP};

@@ -42,6 +42,8 @@ inline constexpr const char* kErrorPipeVariable = "AQUARAMA_CAUSES";
 // to type where it is meant as a number: 2.5 for "2,5". Both ends of a range are allowed.
 [[nodiscard]] CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most);
 [[nodiscard]] CLI::Validator number(double least, double most);
+// A text that goes to other machines or into pages: UTF-8, without controls and what nobody sees.
+[[nodiscard]] CLI::Validator plainWord();
 inline constexpr std::uint64_t kMostSeed = UINT32_MAX;
 inline constexpr std::uint64_t kMostShownFrames = 1'000'000'000;  // half a year
 

@@ -91,6 +91,9 @@ struct TriangleMesh {
                                           const std::string& source);
 [[nodiscard]] WarpMesh scissMesh(std::span<const std::byte> bytes, const std::string& source);
 
+// Warns of each of these, once in a process: a wall may be made of the same files several times.
+void sayRemarks(const std::vector<std::string>& remarks);
+
 // What these readers share.
 
 // The most that a file may have: vertices or samples; pixels each way and in all of a picture.

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <mutex>
+#include <set>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -75,6 +77,14 @@ Between between(double place, int count, Sampling sampling) {
 
 void remark(std::vector<std::string>& remarks, const std::string& line) {
     if (remarks.size() < kMostRemarks) remarks.push_back(line);
+}
+
+void sayRemarks(const std::vector<std::string>& remarks) {
+    static std::mutex mutex;
+    static std::set<std::string> said;
+    const std::lock_guard lock(mutex);
+    for (const std::string& line : remarks)
+        if (said.insert(line).second) logWarning("{}", line);
 }
 
 glm::dvec3 CoordinateFrame::canonicalPosition() const {

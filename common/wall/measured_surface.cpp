@@ -207,7 +207,7 @@ std::unique_ptr<const ScreenSurface> makeMeasuredSurface(const config::Rig& rig)
     const auto content = rig.files.find(file);
     if (content == rig.files.end()) throw Error(file + ": the measured screen is missing");
     const formats::TriangleMesh mesh = formats::readObj(*content->second, file);
-    for (const std::string& said : mesh.remarks) logWarning("{}", said);
+    formats::sayRemarks(mesh.remarks);
     if (mesh.triangles.empty())
         throw Error(file + ": has no faces; export the screen as triangles or polygons");
     return std::make_unique<Measured>(mesh, rig.sweetSpotMetres);

@@ -13,6 +13,7 @@
 
 #include "common/base/log.h"
 #include "common/base/units.h"
+#include "common/formats/vendors.h"
 
 namespace aquarama::wall {
 
@@ -37,8 +38,7 @@ Wall::Wall(const config::Rig& rig)
       adjustments_(config::adjustmentsOf(rig_)),
       blend_(adjustments_) {
     const WallFiles files = readWallFiles(rig_);
-    for (const auto& [name, file] : files)
-        for (const std::string& said : file.remarks) logWarning("{}", said);
+    for (const auto& [name, file] : files) formats::sayRemarks(file.remarks);
     for (std::size_t i = 0; i < rig_.channels.size(); ++i)
         channels_.push_back(
             adjusted(makeOptics(rig_, i, *screen_, files), rig_, i, *screen_, adjustments_));

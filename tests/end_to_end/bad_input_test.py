@@ -118,6 +118,9 @@ class Usage(Case):
         self.misused(r'aquarama run: --quality: .*U\+201C \(left double quotation mark\): type "', "run", "--quality", "“high”")
 
     def test_bytes_that_are_no_text_are_shown_as_such(self):
+        run = subprocess.run([BIN / "aquarama", "set", "config/desk.txtpb", "scene", b"b\xfchne"], capture_output=True, timeout=60, cwd=ROOT)
+        self.assertEqual((run.returncode, run.stdout), (2, b""))
+        self.assertIn(b"aquarama set: VALUE: \"b\\xFChne\" has byte 0xFC (\xc3\xbc in Latin-1): type it without", run.stderr)
         run = subprocess.run([BIN / "aquarama", "run", b"b\xfchne\x1b[2J.txtpb"], capture_output=True, timeout=60, cwd=ROOT)
         self.assertEqual((run.returncode, run.stdout), (1, b""))
         self.assertRegex(run.stderr, rb"\Aaquarama run: b\\xFChne\\x1B\[2J\.txtpb: cannot be read.*\n\Z")
@@ -201,6 +204,15 @@ class Files(Case):
             self.refuses(rf"aquarama(?:-calibrate)? check: \S+/marked\.txtpb:\d+:\d+: {said}", "check", marked)
         marked.write_bytes(b"\xff\xfe" + text.decode().encode("utf-16-le"))
         self.refuses(r"aquarama(?:-calibrate)? check: \S+/marked\.txtpb:1:1: the file is saved as UTF-16: save it as UTF-8", "check", marked)
+
+    def test_what_a_wall_file_asks_for_and_is_not_done_is_said_once(self):
+        mesh = self.path / "left.ol"
+        mesh.write_text("OPENMESH Version 1.1\nVERTICES 4\nFACES 2\nMAPPING NORMALIZED\nNATIVEXRES 64\nNATIVEYRES 48\n"
+                        "APPLY_MASK 1\nDO_NO_WARP 1\nAPPLY_COLOR 0\n0 0 255 0 0\n64 0 255 1 0\n0 48 255 0 1\n64 48 255 1 1\n"
+                        "[ 0 1 2 ]\n[ 1 3 2 ]\n")
+        run = aquarama("convert", mesh, self.path / "left.mpcdi")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(re.findall(r"left\.ol:(\d+): (\w+) 1: ", run.stdout), [("7", "APPLY_MASK"), ("8", "DO_NO_WARP")])
 
     def test_overlapping_ids(self):
         rig = self.edited((r"\bid: 2\b", "id: 1"))
