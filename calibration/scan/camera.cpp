@@ -52,6 +52,7 @@ struct Source {
     bool isLive = true;                     // gives its frames in real time by itself
 };
 
+// What follows a question mark is for V4L2 alone: addresses have theirs.
 Source sourceOf(const std::string& device) {
     if (device.starts_with(kGraph))
         return {device.substr(kGraph.size()), av_find_input_format("lavfi"), "", false};
@@ -88,6 +89,7 @@ Owner<AVFormatContext> openInput(const Source& source, const std::atomic<bool>& 
     return input;
 }
 
+// Null where FFmpeg has none for the stream.
 Owner<AVCodecContext> openDecoder(const AVStream& stream) {
     const AVCodec* codec = avcodec_find_decoder(stream.codecpar->codec_id);
     Owner<AVCodecContext> decoder(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));

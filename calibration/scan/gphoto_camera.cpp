@@ -88,6 +88,7 @@ pid_t startProgram(std::vector<std::string>& words, int output) {
     return process;
 }
 
+// Waits for its end. Throws Error where it cannot be started.
 Said run(std::vector<std::string> words) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("no pipe is left for gphoto2");

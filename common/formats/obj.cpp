@@ -45,6 +45,7 @@ struct ObjReader {
     TriangleMesh mesh;
     std::set<std::string> said;  // words that are not known, each once
 
+    // Weights and colours behind the three are passed over.
     void readPoint(const std::vector<std::string_view>& fields) {
         if (fields.size() < 4 || points.size() == kMostVertices)
             lines.fail("a point needs x y z, and at most 4194304 points may be; export it anew");
@@ -107,6 +108,7 @@ struct ObjReader {
         mesh.triangles.push_back(t);
     }
 
+    // A fan about its first corner.
     void readFace(const std::vector<std::string_view>& fields) {
         if (fields.size() < 4) lines.fail("a face has fewer than three corners; export it anew");
         std::array<std::uint32_t, 3> fan{pointOf(corner(fields[1])), pointOf(corner(fields[2])), 0};

@@ -63,6 +63,7 @@ void readCounts(VendorBytes& in, ScissHeader& header) {
     in.need(header.vertices, kVertexBytes, "vertices");
 }
 
+// Up to the vertices. Throws Error where no mesh can follow.
 ScissHeader readHeader(VendorBytes& in) {
     ScissHeader header;
     in.go(3);
@@ -97,6 +98,7 @@ std::vector<WarpMesh::Vertex> readVertices(VendorBytes& in, std::uint64_t count)
     return vertices;
 }
 
+// Each names a vertex that is there.
 std::vector<std::uint32_t> readIndices(VendorBytes& in, std::uint64_t vertices) {
     const std::uint32_t count = in.u32();
     in.need(count, 4, "indices");
@@ -120,6 +122,7 @@ std::vector<std::array<std::uint32_t, 3>> trianglesOf(const std::vector<std::uin
     return triangles;
 }
 
+// Past its last index.
 WarpMesh readMesh(VendorBytes& in, const ScissHeader& header) {
     WarpMesh mesh;
     mesh.vertices = readVertices(in, header.vertices);

@@ -53,6 +53,7 @@ std::vector<double> numbersOf(std::string_view text,
     return numbers;
 }
 
+// Of one direction. Throws Error where the element or its range is missing.
 Offsets readOffsets(const pugi::xml_node& definition,
                     const char* element,
                     const std::string& source) {
@@ -104,6 +105,7 @@ SimcadFile simcadFile(std::span<const std::byte> bytes, const std::string& sourc
     return file;
 }
 
+// The even grid is what is shown, the offsets say where.
 WarpMesh meshOf(const SimcadFile& file) {
     WarpMesh mesh{{}, gridTriangles(file.side, file.side)};
     const glm::dvec2 last(static_cast<double>(file.side - 1));

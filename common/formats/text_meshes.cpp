@@ -100,6 +100,7 @@ EdgePair edgesOf(const CsvTable& table, const char* low, const char* high, doubl
 }
 
 // Files give left and bottom as angles away from the middle; where left is negative, with signs.
+// Degrees in the file, radians here.
 Frustum frustumOf(const CsvTable& table) {
     const double sign = table.number("left") < 0 ? 1 : -1;
     const EdgePair across = edgesOf(table, "left", "right", sign);
@@ -126,6 +127,7 @@ struct GridVertex {
     WarpMesh::Vertex vertex{};
 };
 
+// In the order of the file; each row of the table is one vertex.
 std::vector<GridVertex> gridVertices(CsvTable& table) {
     std::vector<GridVertex> vertices;
     while (table.next()) {
@@ -217,6 +219,7 @@ struct BourkeMesh {
     WarpMesh mesh;
 };
 
+// Type, then columns and rows. Throws Error where no mesh has so many.
 void readBourkeHeader(VendorLines& lines, BourkeMesh& read) {
     lines.next();
     read.type = lines.integer(lines.line(), 1000);
@@ -231,6 +234,7 @@ void readBourkeHeader(VendorLines& lines, BourkeMesh& read) {
                    std::to_string(read.rows) + " vertices; copy it anew");
 }
 
+// All of them, row by row; a light below zero hides a vertex.
 void readBourkeVertices(VendorLines& lines, BourkeMesh& read) {
     const std::size_t count = std::size_t{read.columns} * read.rows;
     while (lines.next()) {

@@ -123,6 +123,7 @@ glm::vec3 contentRecord(VendorBytes& in, bool border) {
     return sample;
 }
 
+// Metres; three numbers that are none where nothing is lit.
 glm::vec3 pointRecord(VendorBytes& in) {
     glm::vec3 sample;
     for (int i = 0; i < 3; ++i) sample[i] = in.f32();
@@ -157,6 +158,7 @@ bool placeInContent(FileChannel& channel, const std::array<double, 4>& content) 
     return false;
 }
 
+// A warp without data has a header alone: its channel has no warp.
 ViosoChannel readWarp(VendorBytes& in, std::size_t number, bool upsideDown) {
     ViosoChannel read;
     read.header = readHeader(in);

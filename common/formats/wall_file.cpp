@@ -106,6 +106,10 @@ WallFile readWith(Bytes bytes,
                   const FrustumFile& frustum) {
     for (const Format& format : kFormats)
         if (format.isIt(bytes)) return format.read(bytes, source, options, frustum);
+    // Of text formats only the manifest of an MPCDI may have two bytes a letter.
+    const std::string_view mark = beginning(bytes, 2);
+    if (mark == "\xFF\xFE" || mark == "\xFE\xFF")
+        throw Error(source + ": is saved as UTF-16, or is no wall file; save it as UTF-8");
     throw Error(source + ": is of no known format of wall files; export it as MPCDI");
 }
 

@@ -537,6 +537,13 @@ TEST(Vendors, whatIsPassedOverIsSaid) {
         EXPECT_EQ(said(reader.read(reader.sample, "hall/left", kSmall)), "") << reader.name;
 }
 
+TEST(Vendors, aTextOfTwoBytesALetterIsNamed) {
+    std::string wide = "\xFF\xFE";
+    for (const char letter : kObj) (wide += letter) += '\0';
+    EXPECT_EQ(refusalOf([&] { return readWallFile(bytesOf(wide), "a.obj"); }),
+              "a.obj: is saved as UTF-16, or is no wall file; save it as UTF-8");
+}
+
 TEST(Vendors, decimalCommasAreNamed) {
     EXPECT_THAT(
         refusalOf([] {
