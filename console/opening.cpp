@@ -236,18 +236,18 @@ void Opening::rest() {
     for (const auto& one : projectors_) one->release();
 }
 
-// Since when the wall should be open, and its projectors are looked at.
+// Since when the wall should be open, its lamps be on, and its projectors are looked at.
 void Opening::noteOpening(UnixSeconds now) {
     if (watchedSince_ == 0) watchedSince_ = now;
     const bool isOpen = wantedIn(now).isOpen;
     if (!isOpen) openSince_ = 0;
     if (isOpen && openSince_ == 0) openSince_ = now;
+    if (isLampWanted(now) && power_ != true) litSince_ = now;
 }
 
 // Said when it changes: what somebody sets on the page between holds.
-void Opening::tellProjectors(UnixSeconds now, bool power, std::optional<bool> shut) {
+void Opening::tellProjectors(bool power, std::optional<bool> shut) {
     if (power_ == power && shut_ == shut) return;
-    if (power && power_ != true) litSince_ = now;
     power_ = power;
     shut_ = shut;
     for (const auto& one : projectors_) one->want(power, shut);
@@ -260,7 +260,7 @@ void Opening::switchProjectors(UnixSeconds now, bool isWallInStep) {
     noteOpening(now);
     std::optional<bool> shut = shut_;
     if (!isFirstLook(now)) shut = !mayOpenShutters(now, isWallInStep);
-    tellProjectors(now, isLampWanted(now), shut);
+    tellProjectors(isLampWanted(now), shut);
 }
 
 // Until the hours want something else of it.

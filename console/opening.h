@@ -63,7 +63,7 @@ class Opening {
     void readDone();
     void rest();
     void noteOpening(UnixSeconds now);
-    void tellProjectors(UnixSeconds now, bool power, std::optional<bool> shut);
+    void tellProjectors(bool power, std::optional<bool> shut);
 
     std::filesystem::path folder_;
     MakeProjector make_;
