@@ -22,8 +22,9 @@ glm::dvec2 placeIn(glm::ivec2 cell, int x, int y, int samples) {
 
 // Of a dome's square panorama the corners lie on no screen: what is nearest to them does.
 glm::dvec2 pulledIn(const wall::ScreenSurface& shape, glm::dvec2 place) {
-    for (double share = 1; share > 0; share -= 0.02) {
-        const glm::dvec2 inside = 0.5 + share * (place - 0.5);
+    constexpr int kSteps = 50;
+    for (int step = kSteps; step > 0; --step) {
+        const glm::dvec2 inside = 0.5 + double(step) / kSteps * (place - 0.5);
         if (shape.at(inside)) return inside;
     }
     return glm::dvec2(0.5);
@@ -57,6 +58,7 @@ namespace {
 // Places of a patch, so many each way.
 std::vector<glm::dvec2> placesOf(glm::ivec2 cell, int samples) {
     std::vector<glm::dvec2> places;
+    places.reserve(static_cast<std::size_t>(samples) * static_cast<std::size_t>(samples));
     for (int i = 0; i < samples * samples; ++i)
         places.push_back(placeIn(cell, i % samples, i / samples, samples));
     return places;

@@ -162,7 +162,8 @@ std::vector<std::uint8_t> HallView::smoothed(int y) const {
         if (lit % 5 == 0) continue;
         int parts = 0;
         for (int i = 0; i < kFullCoverage; ++i) {
-            const glm::dvec2 part(i % 4 + 0.5, i / 4 + 0.5);
+            const int column = i % 4, row = i / 4;
+            const glm::dvec2 part(column + 0.5, row + 0.5);
             parts += isWhite(glm::dvec2(x, y) + part / 4.0) ? 1 : 0;
         }
         coverage[static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(parts);

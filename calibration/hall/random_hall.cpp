@@ -136,10 +136,12 @@ void hangAll(const config::Rig& rig, Chance& chance, config::Hall& hall) {
         drawLight(projector, chance);
     }
     // Until a crew would be content.
-    for (double share = 1; share > 0.01; share *= 0.8) {
+    double share = 1;
+    while (share > 0.01) {
         for (std::size_t i = 0; i < crooked.size(); ++i)
             hang(rig.channels[i], crooked[i], share, *screen, hall.projectors[i]);
         if (lightsAll(TrueHall(rig, hall))) return;
+        share *= 0.8;
     }
 }
 

@@ -227,7 +227,7 @@ Picture SimulatedCamera::counted(const Light& light, float gain, std::uint32_t s
                     aquarama::hashOf(seed, static_cast<std::uint32_t>(3 * i + c));
                 const float noise = std::sqrt(shot * mean + read) * normal[draw >> 20U];
                 const float level = std::clamp(mean + noise, 0.0F, 1.0F) * float{kLevels - 1};
-                picture.rgb[3 * i + c] = codes_[static_cast<std::size_t>(level + 0.5F)];
+                picture.rgb[3 * i + c] = codes_[static_cast<std::size_t>(std::lround(level))];
             }
     });
     return picture;

@@ -69,7 +69,9 @@ void fillLines(const config::HallProjector& projector,
     pattern.tagged = false;
     const glm::ivec2 size = out.sizePixels, way = isRows ? glm::ivec2(0, 1) : glm::ivec2(1, 0);
     std::vector<glm::vec4> line;
-    for (int i = 0; i < (isRows ? size.y : size.x); ++i)
+    const int count = isRows ? size.y : size.x;
+    line.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i)
         line.push_back(sent(projector, wall::scanLight(pattern, channel, size, i * way)));
     const auto width = static_cast<std::size_t>(size.x);
     for (std::size_t i = 0; i < out.light.size(); ++i)
@@ -126,7 +128,8 @@ ThrownPicture resized(const ThrownPicture& full, glm::ivec2 size) {
 
 ThrownPicture asSent(const TrueHall& hall, std::size_t channel, ThrownPicture picture) {
     const auto& mode = hall.hall().faults.mode;
-    return mode && mode->channel == channel ? resized(picture, mode->sizePixels) : picture;
+    if (mode && mode->channel == channel) picture = resized(picture, mode->sizePixels);
+    return picture;
 }
 
 }  // namespace

@@ -346,6 +346,7 @@ class Writer {
             const std::string colour = colourOf(i);
             for (const auto& piece : footprint(after.wall(), i, size)) {
                 std::vector<glm::dvec2> points;
+                points.reserve(piece.size());
                 for (const glm::dvec2 place : piece) points.push_back(drawn(place));
                 overlay += line(points, "#fff") + line(points, colour + "\" stroke-dasharray=\"8");
             }
@@ -409,9 +410,9 @@ class Writer {
             const std::size_t i = shares.size();
             shares.push_back({rig_.channels[i].name, colourOf(i), values});
         }
-        const std::string text = section("Shares of light",
-                                         "What each projector gives along the middle of the wall.",
-                                         plot(shares, 1, 4, "shares of light"));
+        std::string text = section("Shares of light",
+                                   "What each projector gives along the middle of the wall.",
+                                   plot(shares, 1, 4, "shares of light"));
         if (page_.truth == nullptr) return text;
         const std::vector<Curve> brightness{greyCurve(fall, before, "before", {0.6F, 0.6F, 0.6F}),
                                             greyCurve(fall, after, "after", {0.1F, 0.55F, 0.9F})};

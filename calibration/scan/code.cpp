@@ -506,7 +506,8 @@ void AxisSignals::addStripes(const ScanFrame& frame,
             if (owner == Round::kNobody || ((pattern.lit >> owner) & 1U) == 0) continue;
             const float half = 0.5F * views[owner].light[p];
             std::int16_t& bit = contrast[p * bits + pattern.step];
-            const float value = bit + unit * (frame.luminance[p] - round.middle[p]) / half;
+            const float value =
+                static_cast<float>(bit) + unit * (frame.luminance[p] - round.middle[p]) / half;
             bit = static_cast<std::int16_t>(std::clamp(value, -32767.0F, 32767.0F));
         }
     });
@@ -588,7 +589,7 @@ std::optional<double> stripeShift(const AxisSignals& signals,
     const auto found = fit.solve();
     if (std::min(count[0], count[1]) < kLeastPixels || !found) return std::nullopt;
     // More than that is no longer told from stripes of no use.
-    constexpr double kMost = wall::kScanPeriodPixels / 2;
+    constexpr double kMost = wall::kScanPeriodPixels / 2.0;
     return std::clamp((*found)[1] / std::max(1e-3, (*found)[0]), -kMost, kMost);
 }
 

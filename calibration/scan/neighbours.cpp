@@ -35,7 +35,8 @@ void forNeighbours(std::size_t pixel, int width, std::size_t pixels, int reach, 
 std::optional<float> expectedAt(const ChannelView& view, std::size_t pixel, int width, int axis) {
     constexpr int kReach = 2;
     constexpr std::size_t kLeast = 5;
-    std::array<float, (2 * kReach + 1) * (2 * kReach + 1)> places{};
+    constexpr std::size_t kSide = 2 * kReach + 1;
+    std::array<float, kSide * kSide> places{};
     std::size_t count = 0;
     forNeighbours(pixel, width, view.place.size(), kReach, [&](std::size_t other) {
         const float place = view.place[other][axis];

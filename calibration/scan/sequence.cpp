@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 
 #include "calibration/scan/pictures.h"
 #include "common/wall/scan_pattern.h"
@@ -44,7 +45,7 @@ Cells litCells(const wall::Wall& wall) {
 }
 
 std::uint64_t litAround(const Cells& cells, int x, int y) {
-    const int reach = static_cast<int>(kSlack * kCells.x + 0.5);
+    const int reach = static_cast<int>(std::lround(kSlack * kCells.x));
     std::uint64_t lit = 0;
     for (int j = std::max(0, y - reach); j <= std::min(kCells.y - 1, y + reach); ++j)
         for (int i = std::max(0, x - reach); i <= std::min(kCells.x - 1, x + reach); ++i)
@@ -112,8 +113,8 @@ void addAxis(std::vector<ScanPattern>& sequence,
              Kind gray,
              Kind phase) {
     const int late = lateBit(rig, round, gray);
-    for (int bit = 0; const std::uint64_t lit = withBit(rig, round, gray, bit); ++bit)
-        if (bit != late) sequence.push_back(stripes(gray, bit, lit));
+    for (int bit = 0; withBit(rig, round, gray, bit) != 0; ++bit)
+        if (bit != late) sequence.push_back(stripes(gray, bit, withBit(rig, round, gray, bit)));
     for (int step = 0; step < wall::kScanPhaseSteps; ++step)
         sequence.push_back({.kind = phase, .step = static_cast<std::uint8_t>(step), .lit = round});
 }
@@ -174,10 +175,9 @@ std::vector<ScanPattern> sequenceOf(const config::Rig& rig) {
 
 std::vector<ScanPattern> dotSequenceOf(const config::Rig& rig, bool isNumbered) {
     std::vector<ScanPattern> sequence{black()};
-    const int steps =
-        isNumbered
-            ? std::bit_width(wall::scanDotNumber(rig.channels.size() - 1, wall::kScanDotCount - 1))
-            : 0;
+    const int steps = isNumbered ? static_cast<int>(std::bit_width(wall::scanDotNumber(
+                                       rig.channels.size() - 1, wall::kScanDotCount - 1)))
+                                 : 0;
     for (const std::uint64_t round : roundsOf(rig)) {
         sequence.push_back({.lit = round, .tagged = false});
         for (int step = 0; step <= steps; ++step)

@@ -150,7 +150,8 @@ class TieCost {
 
     // Where a ray meets the screen.
     template <class T>
-    std::optional<Three<T>> met(const RayOf<T>& ray, const std::array<T, 16>& controls) const {
+    [[nodiscard]] std::optional<Three<T>> met(const RayOf<T>& ray,
+                                              const std::array<T, 16>& controls) const {
         HeldDisplacement held{cell_, {}};
         for (std::size_t i = 0; i < 16; ++i) held.controls[i] = valueOf(controls[i]);
         const auto hit = screen_.hit({vectorOf(ray.origin), vectorOf(ray.direction)}, held);

@@ -23,6 +23,8 @@ class JointProblem {
                  const std::vector<Device>& expected,
                  const std::vector<glm::ivec2>& cameraSizes);
     ~JointProblem();
+    JointProblem(const JointProblem&) = delete;
+    JointProblem& operator=(const JointProblem&) = delete;
 
     // Standard deviations, pixels of the channel and of the camera. A tie's own is added.
     void add(const Tie& tie, double sigma);

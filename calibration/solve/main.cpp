@@ -151,7 +151,7 @@ class Calibration {
                         figures.advice));
         if (figures.verdict == solve::Judgement::Refuse) return;
         say(figures.overlapPoints == 0
-                ? "no two channels show one place, so none part"
+                ? "no two channels overlap: there is no overlap to measure"
                 : fmt::format(
                       "neighbours part by {:.2f} panorama pixels (RMS; 95 % {:.2f}, most {:.2f})",
                       figures.overlapRms,

@@ -42,6 +42,7 @@ double medianWhite(const LevelSamples& levels,
                    std::size_t channel,
                    const std::vector<Sample>& samples) {
     std::vector<double> whites;
+    whites.reserve(samples.size());
     for (const Sample& sample : samples)
         whites.push_back(luminance(levels.white(channel, sample.index)));
     return quantile(std::move(whites), 0.5);
@@ -145,6 +146,7 @@ void addDark(std::vector<glm::dvec2>& points) {
 std::vector<float> responseOf(const std::vector<Response>& levels, int colour) {
     constexpr std::size_t kCodes = 257;
     std::vector<glm::dvec2> points;
+    points.reserve(levels.size() + 2);
     for (const Response& level : levels)
         points.emplace_back(std::log(level.code), std::log(level.light[colour]));
     addDark(points);

@@ -64,6 +64,8 @@ class Wall {
     // Throws Error where a measured screen, a wall file or the adjustments cannot be used.
     explicit Wall(const config::Rig& rig);
     ~Wall();
+    Wall(const Wall&) = delete;
+    Wall& operator=(const Wall&) = delete;
 
     [[nodiscard]] const ScreenSurface& screen() const { return *screen_; }
     [[nodiscard]] const Optics& channel(std::size_t channel) const { return *channels_[channel]; }
