@@ -154,7 +154,7 @@ void placeWhite(std::vector<ScanPattern>& patterns,
     const bool isFirst = std::abs(first[0] - first[1]) > std::abs(last[0] - last[1]);
     const auto& pair = isFirst ? first : last;
     if (pair[1] > pair[0]) std::swap(patterns.end()[-1], patterns.end()[-2]);
-    if (isFirst) std::ranges::rotate(patterns, patterns.end() - 2);
+    if (isFirst) std::rotate(patterns.begin(), patterns.end() - 2, patterns.end());
 }
 
 // What the pictures show, told by how many there are. Throws Error where that fits nothing.

@@ -228,7 +228,7 @@ FileKind fileKindOf(const std::string& text) {
     return static_cast<FileKind>(best);
 }
 
-TextReader::TextReader(const std::string& text, std::string source, Message& message)
+TextReader::TextReader(const std::string& text, const std::string& source, Message& message)
     : TextReader(message, plainText(text, source), source) {}
 
 TextReader::TextReader(Message& message, const std::string& text, std::string source)

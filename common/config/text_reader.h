@@ -26,7 +26,7 @@ class TextReader {
     // Parses `text` into `message`, which must outlive the reader. `source` is the file's name in
     // errors. Throws Error at the first character that is of no text file of ours (plain_text.h),
     // and at the first thing that the schema does not allow, an unknown field among them.
-    TextReader(const std::string& text, std::string source, Message& message);
+    TextReader(const std::string& text, const std::string& source, Message& message);
 
     // Fills in the defaults of what is left out and holds every field to its rule: required fields,
     // bounds, numbers of entries; no text is empty and no choice unspecified. Once, before all
