@@ -9,7 +9,7 @@ import os
 import pathlib
 import sys
 
-MOST_FILES = 584            # .h .cpp .proto .py and shaders
+MOST_FILES = 597            # .h .cpp .proto .py and shaders
 MOST_FOLDERS = 39           # that hold such files
 MOST_LINES_P95 = 26         # of a function
 MOST_LINES = 60
