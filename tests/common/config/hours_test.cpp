@@ -303,7 +303,7 @@ TEST(Hours, aMistakeIsNamedWithItsPlaceAndWhatToDo) {
         {"projectors { name: \"left\" address: \"10.0.0.1\" password: \"schl\303\274ssel\" }",
          "letters without accents"},
         {"projectors { name: \"left\" address: \"10.0.0.1\" password: \"a\\nb\" }",
-         "letters without accents"},
+         "2:47: password has U+000A (a control character): remove it"},
         {"projectors { name: \"left\" address: \"10.0.0.1\" input: \"HDMI1\" }",
          "2:47: input \"HDMI1\" is no code of PJLink"},
         {"projectors { name: \"left\" address: \"10.0.0.1\" input: \"30\" }", "no code of PJLink"},
