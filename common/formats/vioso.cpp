@@ -342,8 +342,9 @@ WallFile readVioso(std::span<const std::byte> bytes,
     WallFile file;
     file.profile = points(read.front()) ? Profile::Screen : Profile::Content;
     for (const ViosoChannel& one : read) {
+        const std::string where = source + ": channel \"" + one.channel.name + "\": ";
         for (const std::string& said : one.remarks)
-            remark(file.remarks, source + ": channel \"" + one.channel.name + "\": " + said);
+            remark(file.remarks, std::string(where).append(said));
         if (points(one) != points(read.front()))
             throw Error(source + ": channel \"" + one.channel.name +
                         "\": has points where others have content, or the other way; export it "
