@@ -53,10 +53,10 @@ void setLogListener(LogListener next) {
     listener.swap(next);
 }
 
-// The writing thread and its queue, and the logger that puts lines there.
+// The logger, and the thread that writes what it puts into a queue. The thread goes first.
 struct LogFile::Impl {
-    std::shared_ptr<spdlog::details::thread_pool> thread;
     std::shared_ptr<spdlog::async_logger> logger;
+    std::shared_ptr<spdlog::details::thread_pool> thread;
 };
 
 LogFile::LogFile(const std::filesystem::path& path) : impl_(std::make_unique<Impl>()) {

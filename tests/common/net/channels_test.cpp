@@ -336,15 +336,23 @@ TEST_F(Keyed, hundredsOfConnectionsThatSayNothingKeepNobodyOut) {
     EXPECT_TRUE(silent.front().isCutOffWithin(seconds(10)));
 }
 
-// It is let in again ten seconds after the first of them: not waited for here.
+// A hundred within ten seconds of the first: where a slow machine takes longer for all of them, the
+// next is heard after that.
 TEST_F(Keyed, whoConnectsWithOneKeyAgainAndAgainIsRefusedForAWhileAndTheOthersAreNot) {
+    using Clock = std::chrono::steady_clock;
     const auto right = nodeWith(right_);
     ASSERT_TRUE(hears(*right, seconds(10)));
-    int heard = 0;
-    for (int connection = 0; connection < 130; ++connection)
-        if (hears(*nodeWith(left_), milliseconds(connection < 100 ? 5000 : 100))) ++heard;
-    EXPECT_GE(heard, 50);
-    EXPECT_LE(heard, 100);
+    std::vector<Clock::time_point> begun, ended;
+    for (int connection = 0; connection < 130; ++connection) {
+        const auto begin = Clock::now();
+        if (!hears(*nodeWith(left_), milliseconds(connection < 100 ? 5000 : 100))) continue;
+        begun.push_back(begin);
+        ended.push_back(Clock::now());
+    }
+    EXPECT_GE(begun.size(), 50U);
+    if (ended.size() > 100) {
+        EXPECT_GE(ended[100] - begun[0], seconds(10));
+    }
     EXPECT_TRUE(hears(*right, seconds(10)));
     EXPECT_EQ(user_, "node right");
 }
