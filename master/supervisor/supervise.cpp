@@ -228,12 +228,16 @@ std::string described(const Ending& ending) {
                               : "ended with status " + std::to_string(ending.exitCode);
 }
 
-// The line for a show that ends with this death: the first error that was reported, as later ones
-// follow from it.
+// The line for a show that ends with this death: that of the clip, whose nodes then have nobody to
+// send frames to, or else the first error that was reported, as later ones follow from it.
 std::string causeOf(const ErrorPipe& errors, const Process& process, const Ending& ending) {
     const std::vector<std::string> said = errors.heard();
-    return said.empty() ? "aquarama: " + process.name + ' ' + described(ending) + "; the show ends"
-                        : said.front();
+    if (said.empty())
+        return "aquarama: " + process.name + ' ' + described(ending) + "; the show ends";
+    const auto ofClip = std::ranges::find_if(said, [](const std::string& line) {
+        return line.find(std::string(" ") + kClip + ": ") < line.find(": ");
+    });
+    return ofClip != said.end() ? *ofClip : said.front();
 }
 
 // The show goes on without its console; one that has lived is started again.
@@ -266,10 +270,7 @@ Verdict judge(const RunOptions& options,
         process.launch();
         return Verdict::GoesOn;
     }
-    if (options.lockstep() || !process.proven) {
-        std::cerr << causeOf(errors, process, ending) << '\n';
-        return Verdict::Failed;
-    }
+    if (options.lockstep() || !process.proven) return Verdict::Failed;
     for (const std::string& line : errors.heard()) std::cerr << line << '\n';
     std::cerr << "aquarama: " << process.name << ' ' << described(ending) << "; starting it again"
               << (process.name == kMaster && !options.show.recordPath.empty()
@@ -298,8 +299,11 @@ Outcome watch(const RunOptions& options, const ErrorPipe& errors, std::vector<Pr
         bool failed = false;
         for (const auto& [process, ending] : deaths(processes, heard)) {
             const Verdict verdict = judge(options, errors, *process, ending);
-            failed = verdict == Verdict::Failed;
-            if (failed) break;  // other deaths follow from this one
+            if (verdict == Verdict::Failed) {  // other deaths follow from this one
+                endAll(processes);             // and all have said what they know
+                std::cerr << causeOf(errors, *process, ending) << '\n';
+                return Outcome::Failed;
+            }
             if (verdict == Verdict::Over) {
                 lastMoment = Clock::now() + kTimeForPictures;
                 endConsole(processes);
