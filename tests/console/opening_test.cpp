@@ -145,12 +145,12 @@ struct Noted final : SwitchedProjector {
 class OpeningOfProjectors : public OpeningTest {
   protected:
     Opening openingWith(const std::string& text) {
-        noted_.clear();
         Opening opening(folder_, [this](const config::ControlledProjector&) {
             auto made = std::make_unique<Noted>();
             noted_.push_back(made.get());
             return made;
         });
+        noted_.clear();  // those of hours that were kept
         opening.setText(text);
         return opening;
     }
