@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <chrono>
 #include <span>
 
 #include <nlohmann/json.hpp>
@@ -144,10 +143,8 @@ std::optional<ConsoleRole> roleNamed(std::string_view name) {
     return std::nullopt;
 }
 
-// Of the system's clock, which may be set; sessions are valid for days.
 UnixSeconds unixNow() {
-    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
-        .count();
+    return systemSeconds();
 }
 
 // OpenSSL's generator, seeded by the kernel.

@@ -241,18 +241,14 @@ void addMove(CommandLine& line, CLI::App& parent) {
         addOne(line, parent, "move", "what a channel shows at a place, and round it", movePoint);
     move.app.add_option("CHANNEL", move.options.channel)->required();
     const CLI::Validator ofPlace = cli::number(-65536, 65536), ofMove = cli::number(-2000, 2000);
-    move.app.add_option("X", move.options.place.x, "pixels from the left")
-        ->required()
-        ->check(ofPlace);
-    move.app.add_option("Y", move.options.place.y, "pixels from the top")
-        ->required()
-        ->check(ofPlace);
-    move.app.add_option("RIGHT", move.options.by.x, "pixels of the panorama")
-        ->required()
-        ->check(ofMove);
-    move.app.add_option("DOWN", move.options.by.y, "pixels of the panorama")
-        ->required()
-        ->check(ofMove);
+    const auto addPixels =
+        [&](const char* name, double& value, const char* what, const CLI::Validator& range) {
+            move.app.add_option(name, value, what)->required()->check(range);
+        };
+    addPixels("X", move.options.place.x, "pixels from the left", ofPlace);
+    addPixels("Y", move.options.place.y, "pixels from the top", ofPlace);
+    addPixels("RIGHT", move.options.by.x, "pixels of the panorama", ofMove);
+    addPixels("DOWN", move.options.by.y, "pixels of the panorama", ofMove);
     move.app.add_option("--radius", move.options.radius, "nothing beyond it moves")
         ->check(cli::number(2, 32768));
     describePicture(move);
