@@ -334,7 +334,7 @@ browser::Done Console::showScan(const Holder& holder, Visitor* visitor, const Co
     set.set_request(command.id());
     set.mutable_scan()->set_holder(holder_);
     if (pattern) wire::writeScanPattern(*pattern, *set.mutable_scan()->mutable_pattern());
-    const browser::Done done = tellWall(holder, visitor, command, set);
+    browser::Done done = tellWall(holder, visitor, command, set);
     const bool isHeld = isShown && done.outcome() == "waiting";
     scan_ = isHeld ? ShownScan{visitor, command.id(), set.scan()} : ShownScan{};
     return done;

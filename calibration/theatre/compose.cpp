@@ -111,7 +111,7 @@ Picture readChannel(const config::Channel& channel,
                     const std::string& folder,
                     const std::string& eye) {
     const std::string path = folder + "/channel-" + channel.name + eye + ".png";
-    const Picture picture = readPng(path);
+    Picture picture = readPng(path);
     if (picture.sizePixels != channel.sizePixels)
         throw Error(path + ": is " + sizeText(picture.sizePixels) +
                     " pixels, the rig's channel \"" + channel.name + "\" has " +

@@ -271,7 +271,7 @@ std::vector<CaptureOutcome> captureRepertoires(const std::vector<config::Species
     WorkerPool pool(run.threads);
     for (const auto& [first, jobs] :
          {std::pair{std::size_t{0}, kSteadyJobs}, std::pair{kSteadyJobs, kLaterJobs}})
-        pool.run(jobs * species.size(), [&, first](std::size_t i) {
+        pool.run(jobs * species.size(), [&, first = first](std::size_t i) {
             runOne(first + i / species.size(), i % species.size());
         });
 

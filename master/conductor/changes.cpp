@@ -91,7 +91,7 @@ Answer Conductor::change(const std::string& user, const v1::Set& set) {
         return {Outcome::Refused, std::move(objection)};
     const ShowChange change = changeIn(set);
     const std::uint64_t before = control_.version();
-    const Answer answer = control_.set(set.request(), change);
+    Answer answer = control_.set(set.request(), change);
     if (simulationThread_) simulationThread_->freeze(control_.wanted().freeze);
     if (control_.version() != before) logInfo("{} sets {}", user, textOf(change));
     return answer;
@@ -267,7 +267,8 @@ void Conductor::nameRigFiles(v1::Look& look, const RigFiles& files) {
 
 void Conductor::forgetRigFiles(const RigFiles& old, const RigFiles& kept) {
     for (const auto& [name, digest] : old)
-        if (std::ranges::none_of(kept, [&](const auto& file) { return file.second == digest; }))
+        if (std::ranges::none_of(
+                kept, [&gone = digest](const auto& file) { return file.second == gone; }))
             blobs_.erase(digest);
 }
 
