@@ -67,15 +67,15 @@ function(aquarama_write_version program)
   aquarama_collect_links(${program} links)
   set(LIBRARIES "")
   foreach(library IN ITEMS
-      "CLI11 CLI11::CLI11 . CLI11_VERSION" "Eigen Eigen3::Eigen master/capture Eigen3_VERSION"
-      "FFmpeg-libavcodec PkgConfig::FFMPEG calibration/theatre FFMPEG_libavcodec_VERSION" "GLFW glfw render_node glfw3_VERSION"
+      "CLI11 CLI11::CLI11 . CLI11_VERSION" "Eigen Eigen3::Eigen capture Eigen3_VERSION"
+      "FFmpeg-libavcodec PkgConfig::FFMPEG calibration/compose FFMPEG_libavcodec_VERSION" "GLFW glfw render_node glfw3_VERSION"
       "GLM glm::glm . glm_VERSION" "Highway hwy::hwy common hwy_VERSION" "libepoxy PkgConfig::EPOXY render_node EPOXY_VERSION"
-      "libpng PNG::PNG common PNG_VERSION_STRING" "libjpeg-turbo PkgConfig::TURBOJPEG render_node TURBOJPEG_VERSION" "libzip PkgConfig::LIBZIP common/formats LIBZIP_VERSION" "libwebp PkgConfig::WEBP calibration/theatre WEBP_libwebp_VERSION"
-      "nlohmann-json nlohmann_json::nlohmann_json master/capture/report nlohmann_json_VERSION"
-      "NLopt PkgConfig::NLOPT master/capture NLOPT_VERSION" "OpenSSL OpenSSL::Crypto common OPENSSL_VERSION"
+      "libpng PNG::PNG common PNG_VERSION_STRING" "libjpeg-turbo PkgConfig::TURBOJPEG render_node TURBOJPEG_VERSION" "libzip PkgConfig::LIBZIP common/formats LIBZIP_VERSION" "libwebp PkgConfig::WEBP calibration/compose WEBP_libwebp_VERSION"
+      "nlohmann-json nlohmann_json::nlohmann_json capture/report nlohmann_json_VERSION"
+      "NLopt PkgConfig::NLOPT capture NLOPT_VERSION" "OpenSSL OpenSSL::Crypto common OPENSSL_VERSION"
       "OpenSubdiv OpenSubdiv::osdCPU common OpenSubdiv_VERSION" "Protobuf protobuf::libprotobuf common Protobuf_VERSION"
       "pugixml pugixml::pugixml common/formats pugixml_VERSION"
-      "spdlog spdlog::spdlog . spdlog_VERSION" "TinyGLTF TinyGLTF::TinyGLTF master/capture TinyGLTF_VERSION"
+      "spdlog spdlog::spdlog . spdlog_VERSION" "TinyGLTF TinyGLTF::TinyGLTF capture TinyGLTF_VERSION"
       "ZeroMQ cppzmq common ZeroMQ_VERSION")
     separate_arguments(library)
     list(GET library 0 name)

@@ -10,7 +10,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "common/base/log.h"
-#include "common/base/machine_power.h"
+#include "common/machine/machine_power.h"
 #include "console/console.h"
 
 namespace aquarama::console {
@@ -295,7 +295,7 @@ std::string Console::carryOutOfHall(const Holder& holder, const Command& command
 // The service of the machine ends the show in order.
 std::string Console::switchMachine(const Holder& holder, const std::string& word) {
     try {
-        sayPower(powerFolder(), word);
+        machine::sayPower(machine::powerFolder(), word);
     } catch (const Error& problem) {
         return problem.what();
     }

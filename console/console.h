@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "common/ask/request_client.h"
-#include "common/base/service_notifier.h"
 #include "common/config/rig.h"
+#include "common/machine/service_notifier.h"
 #include "console/access.h"
 #include "console/alerts.h"
 #include "console/certificate.h"
@@ -32,12 +32,12 @@ namespace aquarama::console {
 
 struct ConsoleOptions {
     config::Rig rig;
-    ask::AskedMaster master;             // of this rig, with the operator's key where it needs one
-    std::string keyFolder = {};          // of the master's keys; empty: the rig's own
-    std::string build;                   // version and commit
-    ServiceNotifier* service = nullptr;  // hears of every second; null: nobody
-    CertificateKeeper* certificate = nullptr;  // of the server; null: it is without TLS
-    UnixSeconds built = 0;                     // no clock before that is right
+    ask::AskedMaster master;     // of this rig, with the operator's key where it needs one
+    std::string keyFolder = {};  // of the master's keys; empty: the rig's own
+    std::string build;           // version and commit
+    machine::ServiceNotifier* service = nullptr;  // hears of every second; null: nobody
+    CertificateKeeper* certificate = nullptr;     // of the server; null: it is without TLS
+    UnixSeconds built = 0;                        // no clock before that is right
 };
 
 // Of a WebSocket whose session has ended; from RFC 6455's private range, 4000 to 4999.

@@ -15,10 +15,10 @@
 #include "common/base/dates.h"
 #include "common/base/log.h"
 #include "common/base/output_file.h"
-#include "common/base/service_notifier.h"
 #include "common/cli/command_line.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
+#include "common/machine/service_notifier.h"
 #include "console/access.h"
 #include "console/certificate.h"
 #include "console/console.h"
@@ -161,7 +161,7 @@ void serve(const Options& options, const config::Rig& rig, console::Access& acce
     cli::holdSignals();
     constexpr int kNice = 5;  // the wall goes before
     setpriority(PRIO_PROCESS, 0, kNice);
-    ServiceNotifier service;
+    machine::ServiceNotifier service;
     const web::ServerOptions where = serverOptions(options, rig);
     const bool isTls = !where.certificateFile.empty();
     const auto keeper = keeperOf(options, isTls);

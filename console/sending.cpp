@@ -6,7 +6,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "common/base/machine_power.h"
+#include "common/machine/machine_power.h"
 #include "console/console.h"
 
 namespace aquarama::console {
@@ -138,7 +138,7 @@ browser::ToBrowser Console::snapshotFor(const Visitor& visitor) const {
     snapshot.set_rig(options_.rig.name);
     snapshot.set_role(static_cast<browser::Role>(visitor.holder.role));
     snapshot.set_name(visitor.holder.name);
-    snapshot.set_has_power(takesPowerWord(powerFolder()));
+    snapshot.set_has_power(machine::takesPowerWord(machine::powerFolder()));
     for (const config::Channel& from : options_.rig.channels) {
         browser::Channel& channel = *snapshot.add_channels();
         channel.set_name(from.name);

@@ -127,7 +127,7 @@ calibration() {
     for when in before after; do
         $bin/aquarama run "$rig" --quality medium --headless --frames 61 --film-every 60 --clip "$drawn/$when.mp4" \
             --snapshot "$drawn/$when"
-        $bin/aquarama theatre config/desk.txtpb --hall random:7 --frame "$drawn/$when" --view hall --out "$drawn/$when.png"
+        $bin/aquarama view config/desk.txtpb --hall random:7 --frame "$drawn/$when" --view hall --out "$drawn/$when.png"
         echo 'calibration: "hall.mpcdi"' >>"$rig"
     done
     /usr/bin/python3 - "$drawn" <<'PYTHON'
@@ -176,7 +176,7 @@ done
 
 cmake --preset show-tests >"$drawn/configure.log" 2>&1 || { cat "$drawn/configure.log" >&2; exit 1; }
 if [ "${names[*]}" != modules.svg ]; then
-    cmake --build --preset show-tests --target aquarama_programs aquarama-solve aquarama_draw_still aquarama_draw_species aquarama_draw_sheet
+    cmake --build --preset show-tests --target aquarama_programs aquarama-calibrate aquarama_draw_still aquarama_draw_species aquarama_draw_sheet
 fi
 
 declare -A seconds=()

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # try-packages.sh [--built] RELEASE...: Aquarama's packages on a fresh Debian (bookworm, trixie), one release after the other.
 #
-# In one minimal system it builds the packages of HEAD, and once more as version 0.1.0, and asks lintian. In another it
+# In one minimal system it builds the packages of HEAD, and once more as version 0.2.0, and asks lintian. In another it
 # installs, upgrades, downgrades, removes and purges them, and looks each time at what is kept; asks systemd-analyze about
 # the units; and has a normal user make the desk's panorama. The packages are left in build/debs/RELEASE; --built takes those that an
 # earlier run left there. Needs root and debootstrap: without them it ends with status 77, in CI with 1.
@@ -13,7 +13,7 @@ built=false
 [ $# -gt 0 ] || { echo "usage: packaging/try-packages.sh [--built] RELEASE..., for example bookworm trixie" >&2; exit 2; }
 source packaging/bare_systems.sh
 
-version_before=0.1.0  # the first release has none before it: the same files under a lower version
+version_before=0.2.0  # the same files under a lower version
 most_exposed=2.5  # by systemd-analyze security, of 10
 packages=(aquarama aquarama-master aquarama-node aquarama-calibrate aquarama-console aquarama-kiosk aquarama-doc)
 
@@ -106,7 +106,7 @@ try_desk() {
     python3 packaging/check_pictures.py "$root/home/visitor/show"
     say "the desk's panorama is drawn by the installed programs: $(in_system "$root" 'aquarama --version' | head -n 2 | tr -s '\n ' ' ')"
     logged "a manual page cannot be read" "$root" \
-        'for page in aquarama aquarama-calibrate aquarama-console aquarama-hall aquarama-node aquarama-outputs aquarama-solve; do
+        'for page in aquarama aquarama-calibrate aquarama-compose aquarama-console aquarama-hall aquarama-node aquarama-outputs; do
              test -s /usr/share/man/man1/$page.1.gz || exit 1
          done'
 }

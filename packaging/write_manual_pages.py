@@ -11,14 +11,14 @@ import sys
 
 SUMMARIES = {  # what --help does not say in a line
     "aquarama": "one living undersea world on a wall of projectors",
-    "aquarama-calibrate": "check a rig, compose what its projectors show",
+    "aquarama-calibrate": "find by camera how projectors hang before their screen",
+    "aquarama-compose": "check a rig, compose what its projectors show",
     "aquarama-console": "the operator's console of a show, for browsers",
     "aquarama-hall": "run a command of aquarama as the services of a hall do",
     "aquarama-outputs": "pin a machine's outputs, so that a projector that is off changes none",
     "aquarama-node": "show one channel of a wall, in step with all others",
-    "aquarama-solve": "find by camera how projectors hang before their screen",
 }
-ELSEWHERE = {"node": "aquarama-node", "console": "aquarama-console", "calibrate": "aquarama-solve"}  # commands with a page
+ELSEWHERE = {"node": "aquarama-node", "console": "aquarama-console", "calibrate": "aquarama-calibrate"}  # commands with a page
 COLUMN = 30  # where --help begins to say what an option does
 COMMAND_GROUP = re.compile(r"^(A show|While a show|Files|Fish and|Worlds|Commands|Subcommands)\b.*:$")
 

@@ -10,12 +10,12 @@
 
 #include <glm/geometric.hpp>
 
-#include "common/base/connectors.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/base/units.h"
 #include "common/config/rig.pb.h"
 #include "common/config/text_reader.h"
+#include "common/machine/connectors.h"
 
 namespace aquarama::config {
 
@@ -227,8 +227,9 @@ void checkDevice(const TextReader& file, const v1::Display& in) {
 // Former rigs counted monitors; the count shifts when one is off.
 void refuseCounted(const TextReader& file, const v1::Display& in, const std::string& machine) {
     if (!in.has_monitor()) return;
-    const std::string where = machine.empty() ? "this machine has " + namesOf(connectedMonitors())
-                                              : "xrandr on machine " + machine + " lists them";
+    const std::string where = machine.empty()
+                                  ? "this machine has " + namesOf(machine::connectedMonitors())
+                                  : "xrandr on machine " + machine + " lists them";
     file.refuse(in,
                 "monitor",
                 "monitor: " + std::to_string(in.monitor()) +
@@ -244,7 +245,7 @@ Display displayOf(const TextReader& file, const v1::Display& in) {
         file.refuse(in, "connector", "connector is longer than any: write as xrandr lists it");
     Display display{
         .mode = in.mode() == v1::Display::WINDOW ? DisplayMode::Window : DisplayMode::Fullscreen,
-        .connector = connectorName(in.connector()),
+        .connector = machine::connectorName(in.connector()),
         .windowPosition = {in.window_x_px(), in.window_y_px()},
         .device = in.device()};
     if (in.has_refresh_hz()) display.refreshHertz = in.refresh_hz();
@@ -316,7 +317,7 @@ void refuseOverlaps(const TextReader& file, const v1::Rig& in) {
                 "name \"" + channel.name() + "\" is taken by another channel: give each its own");
         const v1::Display& display = channel.display();
         const bool isWhole = display.mode() == v1::Display::FULLSCREEN;
-        const std::string connector = connectorName(display.connector());
+        const std::string connector = machine::connectorName(display.connector());
         if (isWhole && !monitors.emplace(channel.machine(), connector).second)
             file.refuse(display,
                         "connector",

@@ -138,7 +138,7 @@ class ZmqFrameSender final : public FrameSender {
   private:
     [[noreturn]] static void refuse(const std::filesystem::path& path, const std::string& why) {
         throw Error(path.string() + ": no frames can be sent there (" + why +
-                    "); start aquarama-calibrate clip first");
+                    "); start aquarama-compose clip first");
     }
     // False where the queue is full, or a signal came; the message is still whole then.
     bool trySend(zmq::message_t& message) {

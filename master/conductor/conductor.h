@@ -20,9 +20,9 @@
 #include "common/base/digest.h"
 #include "common/base/log.h"
 #include "common/base/output_file.h"
-#include "common/base/service_notifier.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
+#include "common/machine/service_notifier.h"
 #include "common/motion/motor.h"
 #include "common/net/blob.h"
 #include "common/net/channels.h"
@@ -78,7 +78,8 @@ struct ConductorOptions {
     std::vector<std::string> expected;     // the channels that take part; empty: all of the rig
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
     LogFile* log = nullptr;                // of the whole show; null: none
-    ServiceNotifier* service = nullptr;    // hears of every turn of the frame loop; null: nobody
+    machine::ServiceNotifier* service =
+        nullptr;  // hears of every turn of the frame loop; null: nobody
     net::Instant patience =
         std::chrono::seconds(60);  // lockstep: silence of a node that ends the show
 };

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "capture/capture_repertoire.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/config/scene.h"
@@ -15,7 +16,6 @@
 #include "common/motion/motor.h"
 #include "common/motion/repertoire.h"
 #include "common/place/place.h"
-#include "master/capture/capture_repertoire.h"
 #include "master/simulation/insight.h"
 
 namespace aquarama::simulation {

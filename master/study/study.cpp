@@ -11,10 +11,10 @@
 #include <string>
 #include <string_view>
 
+#include "capture/report/report_data.h"
 #include "common/base/worker_pool.h"
 #include "common/config/species.h"
 #include "common/place/place.h"
-#include "master/capture/report/report_data.h"
 #include "master/simulation/living_world.h"
 #include "master/study/quantities.h"
 

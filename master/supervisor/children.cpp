@@ -62,9 +62,10 @@ std::filesystem::path siblingProgram(const std::string& name) {
     assert(!name.empty());
     auto program = ownProgram().parent_path() / ("aquarama-" + name);
     if (!std::filesystem::exists(program)) {
-        throw Error(program.string() +
-                    " is missing; build or install all of Aquarama's programs into one folder" +
-                    (name == "solve" ? " (docs/calibration.md says how to build this one)" : ""));
+        throw Error(
+            program.string() +
+            " is missing; build or install all of Aquarama's programs into one folder" +
+            (name == "calibrate" ? " (docs/calibration.md says how to build this one)" : ""));
     }
     return program;
 }

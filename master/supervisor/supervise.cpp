@@ -106,7 +106,7 @@ Process clipProcess(const RunOptions& options, const std::string& pipes) {
     if (options.show.frames) append(arguments, "--frames", std::to_string(*options.show.frames));
     if (showsAllChannels(options.clipOf)) append(arguments, "--first", options.snapshotFolder);
     return {.name = kClip,
-            .command = {siblingProgram("calibrate"), arguments, typedCommand(options)},
+            .command = {siblingProgram("compose"), arguments, typedCommand(options)},
             .started = {}};
 }
 
@@ -321,13 +321,13 @@ Outcome watch(const RunOptions& options, const ErrorPipe& errors, std::vector<Pr
     return Outcome::Finished;
 }
 
-// Has aquarama-calibrate compose the panorama and the hall of the nodes' pictures; false where it
+// Has aquarama-compose compose the panorama and the hall of the nodes' pictures; false where it
 // fails.
 bool compose(const RunOptions& options, const ErrorPipe& errors) {
     std::vector<std::string> arguments{"compose", options.show.rigPath, options.snapshotFolder};
     if (options.deep) arguments.emplace_back("--deep");
     Process composer{.name = "compose",
-                     .command = {siblingProgram("calibrate"), arguments, typedCommand(options)},
+                     .command = {siblingProgram("compose"), arguments, typedCommand(options)},
                      .started = {}};
     composer.launch();
     while (true) {

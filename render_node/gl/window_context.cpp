@@ -18,8 +18,8 @@
 #include <GLFW/glfw3.h>
 #include <glm/common.hpp>
 
-#include "common/base/connectors.h"
 #include "common/base/log.h"
+#include "common/machine/connectors.h"
 #include "render_node/gl/context.h"
 
 namespace aquarama::gl {
@@ -87,7 +87,7 @@ std::span<GLFWmonitor*> allMonitors() {
 std::string monitorNames() {
     std::string names;
     for (GLFWmonitor* monitor : allMonitors())
-        names += (names.empty() ? "" : ", ") + connectorName(glfwGetMonitorName(monitor));
+        names += (names.empty() ? "" : ", ") + machine::connectorName(glfwGetMonitorName(monitor));
     return names.empty() ? "none" : names;
 }
 
@@ -96,7 +96,7 @@ GLFWmonitor* monitorAt(const std::string& connector) {
     const auto monitors = allMonitors();
     if (connector.empty()) return monitors.size() == 1 ? monitors.front() : nullptr;
     const auto found = std::ranges::find(monitors, connector, [](GLFWmonitor* monitor) {
-        return connectorName(glfwGetMonitorName(monitor));
+        return machine::connectorName(glfwGetMonitorName(monitor));
     });
     return found == monitors.end() ? nullptr : *found;
 }
@@ -139,7 +139,7 @@ const GLFWvidmode* modeOf(const config::Display& display, glm::ivec2 size, GLFWm
         text(size) + (display.refreshHertz
                           ? " at " + std::to_string(std::lround(*display.refreshHertz)) + " Hz"
                           : "");
-    throw Error("display: monitor " + connectorName(glfwGetMonitorName(monitor)) +
+    throw Error("display: monitor " + machine::connectorName(glfwGetMonitorName(monitor)) +
                 " cannot show the channel's " + wanted + ", it is at " +
                 described(*glfwGetVideoMode(monitor)) +
                 "; correct the channel's size or refresh rate, or the cable's monitor");
@@ -355,7 +355,7 @@ class WindowContext : public Context {
         std::vector<std::string> texts;
         for (GLFWmonitor* monitor : allMonitors()) {
             const GLFWvidmode& mode = *glfwGetVideoMode(monitor);
-            texts.push_back(connectorName(glfwGetMonitorName(monitor)) + " " +
+            texts.push_back(machine::connectorName(glfwGetMonitorName(monitor)) + " " +
                             std::to_string(mode.width) + "x" + std::to_string(mode.height) + " " +
                             std::to_string(mode.refreshRate) + " Hz");
         }
@@ -553,8 +553,8 @@ void WindowContext::check() {
     GLFWmonitor* monitor = ownMonitor();
     const GLFWvidmode mode = *glfwGetVideoMode(monitor);
     if (refreshDiffers(display_, mode)) {
-        throw Error("display: monitor " + connectorName(glfwGetMonitorName(monitor)) + " runs " +
-                    described(mode) + ", the channel wants " +
+        throw Error("display: monitor " + machine::connectorName(glfwGetMonitorName(monitor)) +
+                    " runs " + described(mode) + ", the channel wants " +
                     std::to_string(*display_.refreshHertz) +
                     " Hz; set the monitor or the channel's refresh rate");
     }

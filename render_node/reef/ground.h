@@ -12,8 +12,8 @@
 
 #include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
+#include "render_node/quality/quality.h"
 #include "render_node/reef/mesh.h"
-#include "render_node/reef/quality.h"
 
 namespace aquarama::scene {
 

@@ -12,8 +12,8 @@
 
 #include "common/place/place.h"
 #include "render_node/gl/handle.h"
+#include "render_node/quality/quality.h"
 #include "render_node/reef/mesh.h"
-#include "render_node/reef/quality.h"
 #include "render_node/reef/scatter.h"
 
 namespace aquarama::scene {

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "common/base/log.h"
-#include "common/base/machine_power.h"
+#include "common/machine/machine_power.h"
 
 namespace aquarama::session {
 namespace {
@@ -433,7 +433,7 @@ void MasterLink::switchMachine(const v1::PowerOrder& order) {
     v1::PowerReply& reply = *message.mutable_power_reply();
     reply.set_request(order.request());
     try {
-        sayPower(powerFolder(), word);
+        machine::sayPower(machine::powerFolder(), word);
         logInfo("the master has this machine switched: {}", word);
     } catch (const Error& problem) {
         logWarning("the master asks for {}, and is refused: {}", word, problem.what());
@@ -681,7 +681,7 @@ void MasterLink::sayReport(net::Instant now) {
     report.set_free_disk_bytes(cache_.freeBytes());
     report.set_clock_synchronised(net::isClockSynchronised());
     report.set_real_time(isInRealTime_);
-    report.set_takes_power_word(takesPowerWord(powerFolder()));
+    report.set_takes_power_word(machine::takesPowerWord(machine::powerFolder()));
     report.set_picture_median_ms(pictures_.quantileMs(0.5));
     report.set_picture_p99_ms(pictures_.quantileMs(0.99));
     report.set_clock_drift_ppm(static_cast<float>(clock_.driftPpm()));

@@ -16,7 +16,7 @@
 #include "common/motion/reconstruct.h"
 #include "common/wire/state_codec.h"
 #include "render_node/gl/handle.h"
-#include "render_node/light/scene.h"
+#include "render_node/scene/scene.h"
 #include "render_node/session/session.h"
 #include "render_node/show/controls.h"
 #include "render_node/show/overlay.h"

@@ -127,7 +127,7 @@ double BuiltLook::secondsAFrame(config::QualityTier quality) {
 ChannelShow::ChannelShow(session::Session& session,
                          gl::Context& context,
                          Controls& controls,
-                         ServiceNotifier& service,
+                         machine::ServiceNotifier& service,
                          const NodeOptions& options)
     : session_{session},
       context_{context},

@@ -16,15 +16,15 @@
 #include <vector>
 
 #include "common/base/output_file.h"
-#include "common/base/service_notifier.h"
 #include "common/base/units.h"
 #include "common/config/rig.h"
+#include "common/machine/service_notifier.h"
 #include "common/motion/reconstruct.h"
 #include "common/net/channels.h"
 #include "common/wire/state_codec.h"
 #include "render_node/gl/context.h"
 #include "render_node/gl/handle.h"
-#include "render_node/light/scene.h"
+#include "render_node/scene/scene.h"
 #include "render_node/session/session.h"
 #include "render_node/show/channel_picture.h"
 #include "render_node/show/controls.h"
@@ -119,7 +119,7 @@ class ChannelShow {
     ChannelShow(session::Session& session,
                 gl::Context& context,
                 Controls& controls,
-                ServiceNotifier& service,
+                machine::ServiceNotifier& service,
                 const NodeOptions& options);
 
     ~ChannelShow();
@@ -173,7 +173,7 @@ class ChannelShow {
     session::Session& session_;
     gl::Context& context_;
     Controls& controls_;
-    ServiceNotifier& service_;  // hears of every frame that was presented
+    machine::ServiceNotifier& service_;  // hears of every frame that was presented
     NodeOptions options_;
     Trace trace_;
     // Sends frames to the program that encodes a clip; null: none.

@@ -55,7 +55,7 @@ void describe(CLI::App& app, aquarama::show::NodeOptions& options, std::string& 
     app.add_flag("--deep", options.deep, "16 bits in the snapshot instead of 8 dithered ones")
         ->needs("--snapshot");
     CLI::Option* film = app.add_option(
-        "--film", options.filmPipe, "socket of aquarama-calibrate clip, for every frame");
+        "--film", options.filmPipe, "socket of aquarama-compose clip, for every frame");
     app.add_option("--film-every", options.filmEvery, "with --film: for every so many frames")
         ->needs(film)
         ->check(aquarama::cli::wholeNumber(1, 10000));

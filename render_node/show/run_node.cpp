@@ -9,8 +9,8 @@
 
 #include <pthread.h>
 
-#include "common/base/service_notifier.h"
 #include "common/cli/command_line.h"
+#include "common/machine/service_notifier.h"
 #include "common/wall/wall.h"
 #include "render_node/gl/context.h"
 #include "render_node/session/session.h"
@@ -48,7 +48,7 @@ std::unique_ptr<gl::Context> openContext(const NodeOptions& options,
 void show(session::Session& session,
           gl::Context& context,
           Controls& controls,
-          ServiceNotifier& service,
+          machine::ServiceNotifier& service,
           const NodeOptions& options,
           session::Admission admission) {
     pthread_setname_np(pthread_self(), "frames");  // for debuggers, and tests that hold it
@@ -62,7 +62,7 @@ bool runNode(const NodeOptions& options) {
     cli::holdSignals();
     const std::unique_ptr<session::Session> session =
         session::connectSession(options.channel, options.masterAddress, options.keys);
-    ServiceNotifier service;
+    machine::ServiceNotifier service;
     const cli::SignalWatch watch([&] {
         service.stopping();
         session->stop();

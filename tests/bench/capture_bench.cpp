@@ -5,7 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "master/capture/capture_repertoire.h"
+#include "capture/capture_repertoire.h"
 
 namespace aquarama::bench {
 namespace {

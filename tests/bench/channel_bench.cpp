@@ -9,7 +9,7 @@
 #include "common/place/place.h"
 #include "render_node/gl/context.h"
 #include "render_node/gl/handle.h"
-#include "render_node/light/scene.h"
+#include "render_node/scene/scene.h"
 #include "render_node/show/projection.h"
 #include "tests/common/wall/rigs.h"
 #include "tests/render_node/surface/test_fish.h"

@@ -1,1 +1,1 @@
-aquarama_bench(SOURCES detail_bench.cpp LINK aquarama_light aquarama_surface aquarama_gl)
+aquarama_bench(SOURCES detail_bench.cpp LINK aquarama_scene aquarama_surface aquarama_gl)

@@ -14,7 +14,7 @@
 
 #include "common/place/place.h"
 #include "render_node/gl/context.h"
-#include "render_node/light/scene.h"
+#include "render_node/scene/scene.h"
 #include "render_node/surface/school_surface.h"
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"

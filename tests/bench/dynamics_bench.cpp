@@ -10,10 +10,10 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "capture/dynamics.h"
+#include "capture/swimmer.h"
 #include "common/base/units.h"
 #include "common/config/species.h"
-#include "master/capture/dynamics.h"
-#include "master/capture/swimmer.h"
 
 namespace aquarama::bench {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "common/place/place.h"
 #include "render_node/gl/context.h"
-#include "render_node/light/sea_light.h"
 #include "render_node/reef/mesh.h"
+#include "render_node/scene/sea_light.h"
 #include "render_node/shaders/frame_uniforms.h"
 
 namespace aquarama::bench {

@@ -12,8 +12,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include "capture/capture_repertoire.h"
 #include "common/motion/motor.h"
-#include "master/capture/capture_repertoire.h"
 #include "master/world/world.h"
 #include "tests/support/cast.h"
 #include "tests/support/scad.h"

@@ -8,7 +8,7 @@
 
 #include "common/place/place.h"
 #include "render_node/gl/context.h"
-#include "render_node/light/scene.h"
+#include "render_node/scene/scene.h"
 
 namespace aquarama::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <benchmark/benchmark.h>
 #include <epoxy/gl.h>
 
-#include "master/capture/capture_repertoire.h"
+#include "capture/capture_repertoire.h"
 #include "render_node/gl/context.h"
 #include "render_node/surface/school_surface.h"
 #include "tests/render_node/surface/test_fish.h"

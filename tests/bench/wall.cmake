@@ -1,1 +1,1 @@
-aquarama_bench(SOURCES wall_bench.cpp LINK aquarama_wall_truth aquarama_theatre)
+aquarama_bench(SOURCES wall_bench.cpp LINK aquarama_wall_truth aquarama_compose)

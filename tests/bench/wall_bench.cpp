@@ -7,7 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "calibration/theatre/compose.h"
+#include "calibration/compose/compose.h"
 #include "common/formats/mpcdi.h"
 #include "common/wall/optics.h"
 #include "common/wall/surface.h"
@@ -171,14 +171,14 @@ BENCHMARK(warpMapOfTheatre)->Name("warp_map")->Unit(benchmark::kMillisecond);
 void panoramaOfTheatre(benchmark::State& state) {
     const config::Rig rig = theatre();
     const std::vector<Light> channels = greyChannels(rig);
-    for (auto _ : state) benchmark::DoNotOptimize(theatre::composePanorama(rig, channels));
+    for (auto _ : state) benchmark::DoNotOptimize(compose::composePanorama(rig, channels));
 }
 BENCHMARK(panoramaOfTheatre)->Name("compose_panorama")->Unit(benchmark::kMillisecond);
 
 void hallOfTheatre(benchmark::State& state) {
     const config::Rig rig = theatre();
     const Light panorama = test::directPanorama(rig, wall::TestPattern::Grey);
-    for (auto _ : state) benchmark::DoNotOptimize(theatre::composeHall(rig, panorama, {1600, 900}));
+    for (auto _ : state) benchmark::DoNotOptimize(compose::composeHall(rig, panorama, {1600, 900}));
 }
 BENCHMARK(hallOfTheatre)->Name("compose_hall")->Unit(benchmark::kMillisecond);
 

@@ -1,1 +1,1 @@
-aquarama_bench(SOURCES water_bench.cpp LINK aquarama_light aquarama_gl)
+aquarama_bench(SOURCES water_bench.cpp LINK aquarama_scene aquarama_gl)

@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "render_node/gl/context.h"
-#include "render_node/light/scene_picture.h"
+#include "render_node/scene/scene_picture.h"
 #include "render_node/shaders/frame_uniforms.h"
 #include "render_node/water/water_tables.h"
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from show import BIN, ROOT, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, wait_until
 
-PROGRAMS = ["aquarama", "aquarama-node", "aquarama-calibrate"]
+PROGRAMS = ["aquarama", "aquarama-node", "aquarama-compose"]
 COMMANDS = ["new-rig", "run", "replay", "master", "node", "capture", "export", "gaits", "search", "fidelity", "controllers", "study", "check",
             "inspect", "status", "pilot", "explain"]
 STARTED = r"starting the master and 3 nodes of \S+\n(\[.*\n)*"
@@ -138,7 +138,7 @@ class Usage(Case):
                      "node", "left", "--master", "somewhere", "--headless")
 
     def test_a_command_that_another_program_carries_out_has_the_name_that_was_typed(self):
-        for command in ("check", "theatre", "calibrate", "drift", "node", "console", "inspect"):
+        for command in ("check", "view", "calibrate", "drift", "node", "console", "inspect"):
             with self.subTest(command):
                 self.assertRegex(aquarama(command, "--help").stdout, rf"(?m)^Usage: aquarama {command} ")
                 wrong = aquarama(command, "--warp-nine")
@@ -147,8 +147,8 @@ class Usage(Case):
             self.assertTrue(aquarama(command, "--version").stdout.startswith("aquarama"), command)
         self.refuses(r"aquarama console: nowhere\.txtpb: .*", "console", "nowhere.txtpb")
         self.refuses(r"aquarama inspect: nowhere\.txtpb: .*", "inspect", "nowhere.txtpb")
-        direct = subprocess.run([BIN / "aquarama-calibrate", "check", "nowhere.txtpb"], capture_output=True, text=True, timeout=60, cwd=ROOT)
-        self.assertRegex(direct.stderr, r"\Aaquarama-calibrate check: nowhere\.txtpb: .*\n\Z")
+        direct = subprocess.run([BIN / "aquarama-compose", "check", "nowhere.txtpb"], capture_output=True, text=True, timeout=60, cwd=ROOT)
+        self.assertRegex(direct.stderr, r"\Aaquarama-compose check: nowhere\.txtpb: .*\n\Z")
 
     def test_help_is_for_every_command_and_says_what_inspect_takes(self):
         for command in COMMANDS:
@@ -161,7 +161,7 @@ class Usage(Case):
 
     def test_version_names_commit_build_and_the_libraries_that_the_program_links(self):
         links = {"aquarama": ["ZeroMQ", "Protobuf", "Eigen", "NLopt"], "aquarama-node": ["GLFW", "OpenSubdiv", "ZeroMQ"],
-                 "aquarama-calibrate": ["FFmpeg-libavcodec"]}
+                 "aquarama-compose": ["FFmpeg-libavcodec"]}
         for program in PROGRAMS:
             run = subprocess.run([BIN / program, "--version"], capture_output=True, text=True, timeout=60)
             self.said(run, 0, rf"{program} \d+\.\d+\.\d+\n"

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "calibration/theatre/compose.h"
+#include "calibration/compose/compose.h"
 #include "common/place/place.h"
 #include "common/wall/wall.h"
 #include "render_node/show/channel_picture.h"
@@ -52,7 +52,7 @@ class Projected {
         for (const config::Channel& other : rig.channels)
             lights_.push_back(darkness(other.sizePixels));
         lights_[channel] = lightOf({picture.sizePixels(), 16, {pixels.begin(), pixels.end()}});
-        panorama_ = theatre::composePanorama(rig, lights_);
+        panorama_ = compose::composePanorama(rig, lights_);
     }
     [[nodiscard]] double weight(glm::ivec2 at) const {
         const glm::dvec2 place = (glm::dvec2(at) + 0.5) / glm::dvec2(rig_.panoramaPixels);

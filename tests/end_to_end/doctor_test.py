@@ -173,7 +173,7 @@ class Doctor(unittest.TestCase):
         self.assertEqual(found["node right"][0][0], "fail")
         self.assertIn("absent", found["node right"][0][1])
         said = " ".join(what for _, what, _ in found["node left"])
-        for word in ("in step", "OpenGL", "build 0.2.0", "round trip", "jitter", "real-time", "free"):
+        for word in ("in step", "OpenGL", "build 0.3.0", "round trip", "jitter", "real-time", "free"):
             self.assertIn(word, said)
         self.assertIn("its only monitor, of 0", said)
         self.assertNotIn("monitor", " ".join(what for _, what, _ in found["node middle"]))

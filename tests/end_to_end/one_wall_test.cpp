@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "calibration/theatre/compose.h"
+#include "calibration/compose/compose.h"
 #include "common/base/units.h"
 #include "common/config/rig.h"
 #include "common/wall/wall.h"
@@ -48,7 +48,7 @@ class Installation {
                                     folder_.string() + " " + arguments + " > " +
                                     (folder_ / "log").string() + " 2>&1";
         EXPECT_EQ(std::system(command.c_str()), 0) << log();
-        return theatre::readChannels(rig_, folder_.string());
+        return compose::readChannels(rig_, folder_.string());
     }
     [[nodiscard]] const config::Rig& rig() const { return rig_; }
 
@@ -65,7 +65,7 @@ class OneWall : public testing::TestWithParam<const char*> {};
 
 TEST_P(OneWall, everyLineOfTheGridIsWhereADirectRenderHasIt) {
     const Installation installation(GetParam());
-    const Light composed = theatre::composePanorama(
+    const Light composed = compose::composePanorama(
         installation.rig(), installation.show("--frames 2 --pattern grid --deep"));
     const auto offsets =
         test::lineOffsets(installation.rig(),
@@ -82,9 +82,9 @@ TEST_P(OneWall, everyLineOfTheGridIsWhereADirectRenderHasIt) {
 TEST_P(OneWall, flatGreyStaysFlatAcrossTheOverlaps) {
     const Installation installation(GetParam());
     const auto deep = installation.show("--frames 2 --pattern grey --deep");
-    EXPECT_LT(test::unevenness(theatre::composePanorama(installation.rig(), deep), 1), 0.01);
+    EXPECT_LT(test::unevenness(compose::composePanorama(installation.rig(), deep), 1), 0.01);
     const auto dithered = installation.show("--frames 2 --pattern grey");
-    EXPECT_LT(test::unevenness(theatre::composePanorama(installation.rig(), dithered), 16), 0.01);
+    EXPECT_LT(test::unevenness(compose::composePanorama(installation.rig(), dithered), 16), 0.01);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rigs, OneWall, testing::Values("theatre", "touring"));
@@ -117,7 +117,7 @@ TEST_P(AnyScreen, everyLineOfTheGridIsWhereADirectRenderHasItAndGreyIsFlat) {
     const Installation installation(GetParam());
     const config::Rig& rig = installation.rig();
     const Light grid =
-        theatre::composePanorama(rig, installation.show("--frames 2 --pattern grid --deep"));
+        compose::composePanorama(rig, installation.show("--frames 2 --pattern grid --deep"));
     const Light screen = measuredPart(rig);
     const auto offsets =
         test::windowOffsets(grid, test::directPanorama(rig, wall::TestPattern::Grid), screen);
@@ -127,7 +127,7 @@ TEST_P(AnyScreen, everyLineOfTheGridIsWhereADirectRenderHasItAndGreyIsFlat) {
     RecordProperty("worst_px", std::to_string(worst));
     EXPECT_LT(worst, 0.5);
     const Light grey =
-        theatre::composePanorama(rig, installation.show("--frames 2 --pattern grey --deep"));
+        compose::composePanorama(rig, installation.show("--frames 2 --pattern grey --deep"));
     EXPECT_LT(test::unevennessOn(grey, screen), 0.01);
 }
 
@@ -140,7 +140,7 @@ class Alone {
         for (std::size_t other = 0; other < only.size(); ++other) {
             if (other != channel) only[other] = darkness(only[other].sizePixels);
         }
-        panorama_ = theatre::composePanorama(rig, only);
+        panorama_ = compose::composePanorama(rig, only);
     }
     [[nodiscard]] double weight(glm::ivec2 at) const {
         const glm::dvec2 unrolledAt = (glm::dvec2(at) + 0.5) / glm::dvec2(rig_.panoramaPixels);

@@ -323,7 +323,7 @@ class LeftByKilledPrograms(Case):
 
 class StandardOutput(unittest.TestCase):
     def test_that_is_full_is_an_error(self):
-        for program, command in [("aquarama-calibrate", "inspect"), ("aquarama", "inspect")]:
+        for program, command in [("aquarama-compose", "inspect"), ("aquarama", "inspect")]:
             with open("/dev/full", "w") as full:
                 run = subprocess.run([BIN / program, command, ROOT / "config/desk.txtpb"], stdout=full, stderr=subprocess.PIPE,
                                      text=True, cwd=ROOT)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Holds the size of the product's code to limits: files, folders, functions, comments, repeated lines.
 
-Product code is what stands in common, master, render_node, calibration and console. Functions are measured by lizard, which
+Product code is what stands in common, capture, master, commands, render_node, calibration and console. Functions are measured by lizard, which
 tests/support/get_tools.sh fetches. Usage: measures.py ROOT
 """
 import os
@@ -18,7 +18,7 @@ LEAST_COMMENT_SHARE = 0.12  # comment lines / (comment + code lines)
 REPEATED_LINES = 10         # so many equal lines of code, one after another, are a repetition
 TABLES = ("water_lobes_table.cpp",)  # data
 
-PARTS = ("common", "master", "render_node", "calibration", "console")
+PARTS = ("common", "capture", "master", "commands", "render_node", "calibration", "console")
 SUFFIXES = {".h", ".cpp", ".proto", ".py", ".glsl", ".vert", ".frag", ".comp"}
 
 

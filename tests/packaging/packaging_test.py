@@ -49,7 +49,7 @@ class Installed(unittest.TestCase):
         if done.returncode != 0:
             raise RuntimeError(done.stdout + done.stderr)
         cls.files = {str(path.relative_to(cls.root)) for path in cls.root.rglob("*") if path.is_file()}
-        cls.programs = [path for path in sorted((cls.root / "usr/bin").iterdir()) if path.name not in ("aquarama-hall", "aquarama-outputs")]
+        cls.programs = [path for path in sorted((cls.root / "usr/bin").iterdir()) if path.name not in ("aquarama-hall", "aquarama-outputs", "aquarama-solve")]
         cls.alone = {"HOME": str(cls.root / "nobody"), "PATH": "/usr/bin:/bin"}
 
     @classmethod
@@ -65,7 +65,7 @@ class Installed(unittest.TestCase):
 
     def test_programs_run_from_where_they_are_installed(self):
         self.assertEqual([program.name for program in self.programs],
-                         ["aquarama", "aquarama-calibrate", "aquarama-console", "aquarama-node", "aquarama-solve"])
+                         ["aquarama", "aquarama-calibrate", "aquarama-compose", "aquarama-console", "aquarama-node"])
         for program in self.programs:
             said = called(program, "--version", cwd="/", env=self.alone)
             self.assertEqual((said.returncode, said.stdout.split("\n")[0].split()[-1]), (0, VERSION), program.name + said.stderr)

@@ -2,9 +2,9 @@
 // The species that these tests swim with, and its repertoire, captured once for all of them.
 #pragma once
 
+#include "capture/capture_repertoire.h"
 #include "common/config/species.h"
 #include "common/motion/repertoire.h"
-#include "master/capture/capture_repertoire.h"
 
 namespace aquarama::test {
 

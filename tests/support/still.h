@@ -14,7 +14,7 @@
 
 #include "common/base/picture.h"
 #include "common/place/place.h"
-#include "render_node/light/scene.h"
+#include "render_node/scene/scene.h"
 
 namespace aquarama::test {
 

@@ -17,7 +17,7 @@
 #include <CLI/CLI.hpp>
 #include <epoxy/gl.h>
 
-#include "calibration/theatre/compose.h"
+#include "calibration/compose/compose.h"
 #include "common/base/log.h"
 #include "common/base/picture.h"
 #include "common/wall/wall.h"
@@ -82,7 +82,7 @@ const SeaChoice kSeas[]{{"reef", "reef", std::nullopt},
 struct NamedWall {
     std::string name;
     config::Rig rig;
-    theatre::PanoramaMap panorama{rig};
+    compose::PanoramaMap panorama{rig};
 };
 
 config::Rig within(const Extent& extent, config::Rig rig) {

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "capture/capture_repertoire.h"
 #include "common/motion/motor.h"
-#include "master/capture/capture_repertoire.h"
 #include "tests/support/all_species.h"
 
 namespace aquarama::motion {

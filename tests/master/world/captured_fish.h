@@ -8,11 +8,11 @@
 #include <string>
 #include <utility>
 
+#include "capture/capture_repertoire.h"
 #include "common/base/files.h"
 #include "common/config/scene.h"
 #include "common/config/species.h"
 #include "common/motion/motor.h"
-#include "master/capture/capture_repertoire.h"
 #include "master/world/world.h"
 #include "tests/support/cast.h"
 

@@ -58,7 +58,7 @@ class ChannelShowTest : public testing::Test {
     std::string folder_ = testing::TempDir() + "aquarama_channel_show_test";
     Events events_;
     CountingContext context_{events_, {480, 360}};
-    ServiceNotifier service_;
+    machine::ServiceNotifier service_;
 };
 
 TEST_F(ChannelShowTest, everyFrameIsReadyBeforeItIsSwapped) {

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "render_node/gl/context.h"
-#include "render_node/light/scene.h"
+#include "render_node/scene/scene.h"
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
 #include "tests/support/flip.h"

@@ -17,8 +17,8 @@
 
 #include "common/place/place.h"
 #include "render_node/gl/context.h"
-#include "render_node/light/scene.h"
 #include "render_node/reef/mesh.h"
+#include "render_node/scene/scene.h"
 #include "render_node/water/water_tables.h"
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+// aquarama-compose: checks a rig, says what it does, and composes what its projectors show.
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "calibration/compose/check.h"
+#include "calibration/compose/compose.h"
+#include "calibration/compose/film.h"
+#include "calibration/compose/simulated_view.h"
+#include "common/base/counted.h"
+#include "common/base/log.h"
+#include "common/base/units.h"
+#include "common/cli/command_line.h"
+#include "common/cli/outputs.h"
+#include "common/config/rig.h"
+#include "common/config/scene.h"
+#include "common/config/text_file.h"
+#include "common/wall/wall.h"
+
+namespace aquarama {
+namespace {
+
+// To standard output, without a line end of its own.
+void say(const std::string& text) {
+    std::fputs(text.c_str(), stdout);
+}
+
+// Throws Error for a mistake in the file, or for a projector that misses the screen.
+config::Rig checkedRig(const std::string& text, const std::string& path) {
+    config::Rig rig = config::parseRig(text, path);
+    config::readRigFiles(rig, path);
+    wall::checkGeometry(rig, path);
+    return rig;
+}
+
+// Throws Error as checkedRig() does, and where the file cannot be read.
+config::Rig readCheckedRig(const std::string& path) {
+    return checkedRig(config::readTextFile(path), path);
+}
+
+// How much the rig's file of adjustments holds.
+std::string byHand(const config::Adjustments& adjustments) {
+    return fmt::format("by hand: {} control points, {} masks, {} limits of blends\n",
+                       adjustments.points.size(),
+                       adjustments.masks.size(),
+                       adjustments.blends.size());
+}
+
+// Says what each channel lights; checks the scene that the rig shows as well.
+void checkRig(const config::Rig& rig, const std::string& path) {
+    const wall::Wall wall(rig);
+    for (std::size_t i = 0; i < rig.channels.size(); ++i)
+        std::printf("%s\n", compose::oneLine(compose::surveyChannel(rig, wall, i)).c_str());
+    const double dark = wall::darkShare(wall);
+    if (dark > 0) std::printf("dark: %.1f %% of the screen\n", 100 * dark);
+    if (!rig.adjustments.empty()) say(byHand(wall.adjustments()));
+    const bool blendsItself = std::ranges::none_of(
+        rig.channels, [](const config::Channel& channel) { return channel.wallFile.has_value(); });
+    const double worst = compose::worstBlendSum(wall);
+    if (blendsItself && worst > 1e-6)
+        throw Error(path + ": the channels' shares of light do not sum to one");
+    const std::string scene = config::scenePathOf(rig, path);
+    (void)compose::inventoryOf(config::readScene(scene), scene);
+    std::printf("%s: good; the %s sum to one within %.0e\n",
+                path.c_str(),
+                blendsItself ? "channels' shares of light" : "blends of its wall files",
+                worst);
+}
+
+// A rig, a scene or a species, whichever the file holds; `showRig` is called for a rig.
+void show(const std::string& path, void (*showRig)(const config::Rig&, const std::string&)) {
+    const std::string text = config::readTextFile(path);
+    switch (config::fileKindOf(text)) {
+        case config::FileKind::Rig:
+            return showRig(checkedRig(text, path), path);
+        case config::FileKind::Scene:
+            return say(compose::inventoryOf(config::parseScene(text, path), path));
+        case config::FileKind::Species:
+            return say(compose::inventoryOf(config::parseSpecies(text, path), path));
+    }
+}
+
+// All of them; `program` begins each error. Returns the exit status.
+int checkAll(const std::string& program, const std::vector<std::string>& paths) {
+    int status = 0;
+    for (const std::string& path : paths) {
+        try {
+            show(path, checkRig);
+        } catch (const Error& error) {
+            cli::sayError(program + " check", error.what());
+            status = 1;
+        }
+    }
+    return status;
+}
+
+// Lengths in metres, angles in degrees.
+std::string textOf(const config::Screen& screen) {
+    const double degrees = screen.arcRadians / kRadiansPerDegree<double>;
+    const std::string tilt = screen.tiltRadians == 0
+                                 ? ""
+                                 : fmt::format(", tilted {:.1f} degrees",
+                                               screen.tiltRadians / kRadiansPerDegree<double>);
+    switch (screen.shape) {
+        case config::ScreenShape::Cylinder:
+            return fmt::format("radius {:.3f} m, {:.1f} degrees ({:.3f} m of arc), {:.3f} m high",
+                               screen.radiusMetres,
+                               degrees,
+                               screen.arcRadians * screen.radiusMetres,
+                               screen.heightMetres) +
+                   tilt;
+        case config::ScreenShape::Flat:
+            return fmt::format("flat, {:.3f} x {:.3f} m, {:.3f} m away",
+                               screen.widthMetres,
+                               screen.heightMetres,
+                               screen.distanceMetres) +
+                   tilt;
+        case config::ScreenShape::Dome:
+            return fmt::format(
+                       "dome, radius {:.3f} m, {:.1f} degrees open", screen.radiusMetres, degrees) +
+                   tilt;
+        case config::ScreenShape::Measured:
+            return "measured, " + screen.meshFile;
+        case config::ScreenShape::Panels:
+            return "panels";
+    }
+    return {};
+}
+
+std::string placeOf(const config::Display& display) {
+    if (display.mode == config::DisplayMode::Window)
+        return "window at " + std::to_string(display.windowPosition.x) + ", " +
+               std::to_string(display.windowPosition.y);
+    return "fullscreen on " +
+           (display.connector.empty() ? "the only monitor" : "monitor " + display.connector);
+}
+
+// Says what the file holds, without any geometry of the wall. show() wants the path, which is not
+// used.
+void inspectRig(const config::Rig& rig, const std::string& /*path*/) {
+    std::printf(
+        "rig \"%s\": %s\n", rig.name.c_str(), counted(rig.channels.size(), "channel").c_str());
+    std::printf("scene: %s\n", rig.scene.c_str());
+    std::printf("screen: %s\n", textOf(rig.screen).c_str());
+    std::printf("panorama: %d x %d pixels\n", rig.panoramaPixels.x, rig.panoramaPixels.y);
+    if (rig.stereo.mode != config::StereoMode::Mono)
+        std::printf("stereo: %s, eyes %.0f mm apart\n",
+                    config::nameOf(rig.stereo.mode).c_str(),
+                    1000 * rig.stereo.eyeSeparationMetres);
+    std::printf(
+        "addresses: control %s, state %s\n", rig.controlAddress.c_str(), rig.stateAddress.c_str());
+    std::printf("timing: %g Hz, present deadline %g s, membership %g s\n",
+                rig.timing.refreshHertz,
+                rig.timing.presentDeadlineSeconds,
+                rig.timing.membershipSeconds);
+    for (const config::Channel& channel : rig.channels) {
+        const std::string place = placeOf(channel.display);
+        std::printf("channel %u \"%s\": %d x %d pixels, %s, device %s\n",
+                    channel.id,
+                    channel.name.c_str(),
+                    channel.sizePixels.x,
+                    channel.sizePixels.y,
+                    place.c_str(),
+                    channel.display.device.c_str());
+    }
+}
+
+// Options of `compose` and `clip`.
+struct Composition {
+    std::string rig;
+    std::string folder;
+    bool deep = false;
+};
+
+struct Clip {
+    std::string rig;
+    compose::Filming filming;
+};
+
+// The callback only chooses the job, which runs when the whole line has been read. `options` must
+// outlive it.
+void describeCompose(CLI::App& app, Composition& options, cli::Job& job) {
+    CLI::App& compose = *app.add_subcommand(
+        "compose", "make DIR/panorama.png and DIR/hall.png from DIR/channel-NAME.png");
+    compose.add_option("RIG", options.rig, "rig file that the pictures were taken with")
+        ->required();
+    compose.add_option("DIR", options.folder, "folder of the pictures")->required();
+    compose.add_flag("--deep", options.deep, "write 16 bits instead of 8");
+    compose.callback([&] {
+        job = [&] {
+            compose::composeSnapshot(
+                readCheckedRig(options.rig), options.folder, options.deep ? 16 : 8);
+            return 0;
+        };
+    });
+}
+
+void describeClip(CLI::App& app, Clip& options, cli::Job& job) {
+    CLI::App& clip = *app.add_subcommand(
+        "clip", "make FILE.mp4 or FILE.webp of the frames that running nodes send (--film)");
+    clip.add_option("RIG", options.rig, "rig file that is shown")->required();
+    clip.add_option("FILE", options.filming.clipPath, "the clip")->required();
+    clip.add_option("--pipes",
+                    options.filming.pipes,
+                    "folder of the sockets by which the nodes send frames")
+        ->required();
+    clip.add_option("--of", options.filming.of, "panorama, hall or a channel's name");
+    clip.add_option("--every", options.filming.ticksBetween, "frames of the show to one picture")
+        ->check(cli::wholeNumber(1, 10000));
+    clip.add_option("--frames",
+                    options.filming.frames,
+                    "how many frames the show has, to say how long it takes")
+        ->check(cli::wholeNumber(1, cli::kMostShownFrames));
+    clip.add_option("--first",
+                    options.filming.firstPictures,
+                    "folder for panorama.png and hall.png of the first frame, at once");
+    clip.callback([&] {
+        job = [&] {
+            compose::film(readCheckedRig(options.rig), options.filming);
+            return 0;
+        };
+    });
+}
+
+void describeView(CLI::App& app, compose::SimulatedView& options, cli::Job& job) {
+    CLI::App& command = *app.add_subcommand(
+        "view", "what an eye in the hall or a camera sees of the channels' pictures");
+    command.add_option("RIG", options.rigPath, "the rig")->required();
+    command
+        .add_option("--frame",
+                    options.folder,
+                    "folder of channel-NAME.png, as run --snapshot writes them, or of a "
+                    "panorama.png to be drawn")
+        ->required();
+    command.add_option("--wall",
+                       options.wallPath,
+                       "wall file by which a panorama is drawn and, without --hall, how the "
+                       "projectors hang");
+    command.add_option("--hall",
+                       options.hall,
+                       "how projectors and screen truly are: a simulated hall's file or "
+                       "random:SEED; instead of as the rig says");
+    command.add_option("--view", options.view, "hall: an eye at the back; or camera")
+        ->required()
+        ->check(CLI::IsMember({"hall", "camera"}));
+    command.add_option("--out", options.outPath, "the picture (.png)")->required();
+    command.callback([&] {
+        job = [&] {
+            cli::requireFile("--out", options.outPath);
+            compose::drawView(options);
+            return 0;
+        };
+    });
+}
+
+}  // namespace
+}  // namespace aquarama
+
+// NOLINTNEXTLINE(bugprone-exception-escape): outside runProgram() only a lack of memory throws
+int main(int count, char** arguments) {
+    using namespace aquarama;
+    CLI::App app("Checks a rig and composes what its projectors show.", "aquarama-compose");
+    app.require_subcommand(1);
+    cli::Job job;
+
+    std::vector<std::string> checked;
+    CLI::App& checking =
+        *app.add_subcommand("check",
+                            "validate rigs and say what their projectors light; or scenes or "
+                            "species, and say what is in them");
+    checking.add_option("FILE", checked, "such as config/desk.txtpb; several are checked in turn")
+        ->required();
+    checking.callback([&] { job = [&] { return checkAll(app.get_name(), checked); }; });
+
+    Composition composition;
+    describeCompose(app, composition, job);
+    Clip clip;
+    describeClip(app, clip, job);
+
+    compose::SimulatedView view;
+    describeView(app, view, job);
+
+    std::string inspected;
+    CLI::App& inspecting =
+        *app.add_subcommand("inspect", "say what a rig, a scene or a species holds");
+    inspecting.add_option("FILE", inspected, "a rig, a scene or a species")->required();
+    inspecting.callback([&] {
+        job = [&] {
+            show(inspected, inspectRig);
+            return 0;
+        };
+    });
+    return cli::runProgram(app, count, arguments, [&] { return job(); });
+}

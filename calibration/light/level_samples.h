@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The thinned-out pictures of a view that tell of levels, in light that is linear.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "calibration/scan/decode.h"
+
+namespace aquarama::light {
+
+[[nodiscard]] double luminance(glm::dvec3 rgb);
+
+// The view with the light of its samples as the camera should have counted it, all in the exposure
+// of the first picture: without what noise adds to black where it is cut off below zero, and by
+// pictures of one white in several exposures.
+[[nodiscard]] scan::CameraView linearised(scan::CameraView view);
+
+// Of a linearised view, which outlives it.
+class LevelSamples {
+  public:
+    explicit LevelSamples(const scan::CameraView& view);
+
+    [[nodiscard]] std::size_t channels() const { return whites_.size(); }
+    // Whether there is a black, a white of each channel, and places of each.
+    [[nodiscard]] bool isWhole() const;
+    // The mean of the pictures of it.
+    [[nodiscard]] const Light& black() const { return black_; }
+    // Of all channels at once; null where there is none.
+    [[nodiscard]] const scan::SampledPicture* level(glm::vec3 light) const;
+    // Grey levels of all channels below white, rising.
+    [[nodiscard]] std::vector<const scan::SampledPicture*> greys() const;
+    // Without black; not a number where the camera was blinded.
+    [[nodiscard]] glm::dvec3 light(const scan::SampledPicture& picture, std::size_t index) const {
+        return glm::dvec3(picture.light.rgb[index]) - glm::dvec3(black_.rgb[index]);
+    }
+    // White of a channel alone.
+    [[nodiscard]] glm::dvec3 white(std::size_t channel, std::size_t index) const {
+        return light(*whites_[channel], index);
+    }
+    // Of all channels of a set.
+    [[nodiscard]] glm::dvec3 whites(std::uint64_t lit, std::size_t index) const;
+    // The place in a channel's picture that lights a sample; not a number where that is not known.
+    [[nodiscard]] glm::dvec2 place(std::size_t channel, std::size_t index) const;
+
+  private:
+    [[nodiscard]] const scan::SampledPicture* levelOf(std::uint64_t lit, glm::vec3 light) const;
+
+    const scan::CameraView& view_;
+    Light black_;
+    std::vector<const scan::SampledPicture*> whites_;
+};
+
+// Bands of samples along rows and columns that responses are not told from, so that they tell
+// whether these are right.
+inline constexpr std::array kBands{0.15, 0.3, 0.5, 0.7, 0.85};  // shares of the picture
+inline constexpr int kBandWidth = 5;                            // samples
+[[nodiscard]] int firstOfBand(double at, int samples);
+[[nodiscard]] bool isHeldOut(glm::ivec2 size, std::size_t index);
+
+}  // namespace aquarama::light

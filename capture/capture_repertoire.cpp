@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/capture_repertoire.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <exception>
+#include <iostream>
+#include <mutex>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include <unistd.h>
+
+#include "capture/compile_segment.h"
+#include "capture/measure.h"
+#include "capture/speed_response.h"
+#include "capture/turn.h"
+#include "common/base/digest.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/base/worker_pool.h"
+#include "common/motion/repertoire.h"
+
+namespace aquarama::capture {
+
+namespace {
+
+// Progress bar.
+
+constexpr int kCells = 40;                    // characters between the brackets
+constexpr const char* kEraseRest = "\033[K";  // ANSI: erases the rest of the line
+
+}  // namespace
+
+ProgressBar::ProgressBar(std::string what)
+    : what_(std::move(what)), isTerminal_(isatty(STDERR_FILENO) == 1) {}
+
+ProgressBar::~ProgressBar() {
+    // A job that did not end leaves its bar; the next message begins on a line of its own.
+    if (shown_ >= 0 && shown_ < 100) std::cerr << '\n';
+}
+
+void ProgressBar::show(double share, const std::string& note) {
+    assert(share >= 0);
+    assert(share <= 1);
+    // The small term keeps rounding from showing 99 % for a share of 1.
+    const int percent = static_cast<int>(share * 100 + 1e-6);
+    if (!isTerminal_ || (percent == shown_ && note == note_)) return;
+    const bool isLast = percent == 100 && shown_ < 100;
+    shown_ = percent;
+    note_ = note;
+    const auto filled = static_cast<std::size_t>(percent * kCells / 100);
+    std::cerr << '\r' << what_ << " [" << std::string(filled, '#')
+              << std::string(kCells - filled, '.') << "] " << percent << " %  " << note
+              << kEraseRest;
+    if (isLast) std::cerr << '\n';
+    std::cerr.flush();
+}
+
+namespace {
+
+// Capture. A species has jobs in two groups. The first simulates what it does steadily: each gait
+// straight on, on two curves and on a loop upwards, the retreat, and straight on half-way between
+// two gaits. The second, the two turns and the speed response, starts from the gaits. Within a
+// group the jobs are independent of one another, so they run in parallel.
+
+constexpr std::size_t kGaits = motion::kForwardGaits;  // slow, medium, fast
+enum class Way : std::uint8_t { Straight, WideCurve, TightCurve, Loop };
+constexpr std::size_t kWays = 4;
+constexpr std::size_t kRetreatJob =
+    kGaits * kWays;  // job i before: gait i % kGaits, way i / kGaits
+constexpr std::size_t kBetweenJob = kRetreatJob + 1;  // slow and medium; then medium and fast
+constexpr std::size_t kSteadyJobs = kBetweenJob + kGaits - 1;
+constexpr std::size_t kLaterJobs = 3;
+constexpr std::size_t kJobs = kSteadyJobs + kLaterJobs;
+
+// Of Order. Over all species and gaits a wide curve has a radius of 3.8 to 9.7 body lengths, a
+// tight one of 1.7 to 4.6.
+constexpr double kWideCurve = 0.2;
+constexpr double kTightCurve = 0.4;
+constexpr double kLoopLiftRadians = 0.2;
+
+// The results of one species' jobs. Each job writes its own member only, so no lock is needed.
+struct Swum {
+    std::array<std::optional<SteadySwimming>, kSteadyJobs> steady;
+    std::array<RecordedCycle, 2> leftTurn;                // gradual, sharp
+    std::array<std::vector<EnteredTurn>, 2> enteredLeft;  // likewise
+    motion::SpeedResponse response;
+    std::array<std::string, kJobs> errors;  // of each job
+
+    [[nodiscard]] const RecordedCycle& beat(std::size_t gait, Way way) const {
+        return steady.at(static_cast<std::size_t>(way) * kGaits + gait)->beat;
+    }
+};
+
+Order orderOf(const config::Species& species, std::size_t job) {
+    if (job == kRetreatJob) return retreatOf(species);
+    const std::array gaits{&species.swim.slow, &species.swim.medium, &species.swim.fast};
+    if (job >= kBetweenJob) {
+        const config::Gait& slower = *gaits.at(job - kBetweenJob);
+        const config::Gait& faster = *gaits.at(job - kBetweenJob + 1);
+        return {.controller = Controller::ForwardSwim,
+                .gait = {.beatHertz = (slower.beatHertz + faster.beatHertz) / 2,
+                         .gain = (slower.gain + faster.gain) / 2}};
+    }
+    Order order{.controller = Controller::ForwardSwim, .gait = *gaits.at(job % kGaits)};
+    switch (static_cast<Way>(job / kGaits)) {
+        case Way::Straight:
+            break;
+        case Way::WideCurve:
+            order.curve = kWideCurve;
+            break;
+        case Way::TightCurve:
+            order.curve = kTightCurve;
+            break;
+        case Way::Loop:
+            order.liftRadians = kLoopLiftRadians;
+            break;
+    }
+    return order;
+}
+
+// A turn out of a glide, and out of the beats of all speeds, from slow to fast.
+void recordTurn(const config::Species& species, std::size_t sharp, Swum& swum) {
+    const config::Bend& bend = sharp == 1 ? species.turn.sharp : species.turn.gradual;
+    const auto steady = [&](std::size_t job) { return &*swum.steady.at(job); };
+    RecordedCycle& turn = swum.leftTurn.at(sharp);
+    turn = recordTypicalLeftTurn(species, *steady(1), bend);
+    swum.enteredLeft.at(sharp) = recordEnteredTurns(
+        species,
+        {steady(0), steady(kBetweenJob), steady(1), steady(kBetweenJob + 1), steady(2)},
+        bend,
+        turn.periodSeconds);
+}
+
+// Throws Error where the simulation fails. A job of the second group does nothing when one of the
+// first has failed; the error of that one is reported instead.
+void runJob(const config::Species& species, std::size_t job, Swum& swum) {
+    assert(job < kJobs);
+    if (job < kSteadyJobs) {
+        swum.steady.at(job) = swimUntilSteady(species, orderOf(species, job));
+        return;
+    }
+    if (!std::ranges::all_of(swum.steady, [](const auto& steady) { return steady.has_value(); }))
+        return;
+    const auto steady = [&](std::size_t first) -> const SteadySwimming& {
+        return *swum.steady.at(first);
+    };
+    if (job < kSteadyJobs + 2)
+        recordTurn(species, job - kSteadyJobs, swum);
+    else
+        swum.response = fitResponse(
+            swimTransitions(species, {&steady(0), &steady(1), &steady(2)}, steady(kRetreatJob)));
+}
+
+// The segments of one gait: those to the right and downwards are mirror images.
+void compileGait(const Swum& swum, std::size_t gait, motion::Repertoire& repertoire) {
+    using motion::Action;
+    const auto segment = [&](Action slow) -> motion::ActionSegment& {
+        return repertoire.segments.at(indexOf(atGait(slow, static_cast<Action>(gait))));
+    };
+    segment(Action::ForwardSlow) = compileForward(swum.beat(gait, Way::Straight));
+    segment(Action::CurveLeftWideSlow) = compileCurve(swum.beat(gait, Way::WideCurve));
+    segment(Action::CurveLeftTightSlow) = compileCurve(swum.beat(gait, Way::TightCurve));
+    segment(Action::CurveRightWideSlow) = mirroredLeftRight(segment(Action::CurveLeftWideSlow));
+    segment(Action::CurveRightTightSlow) = mirroredLeftRight(segment(Action::CurveLeftTightSlow));
+    segment(Action::ClimbSlow) = compileSlope(swum.beat(gait, Way::Loop));
+    segment(Action::DiveSlow) = mirroredTopBottom(segment(Action::ClimbSlow));
+}
+
+// The paths of a left turn by its entries; every other phase of the beat is a blend of the recorded
+// ones about it.
+std::vector<motion::TurnPath> pathsOf(const std::vector<EnteredTurn>& turns, const SwimsOn& on) {
+    constexpr std::size_t kRecorded = kRecordedPhases;
+    static_assert(kRecorded * 2 == motion::kEntryPhases);
+    std::vector<motion::TurnPath> paths;
+    for (std::size_t speed = 0; speed < motion::kEntrySpeeds; ++speed) {
+        for (std::size_t i = 0; i < kRecorded; ++i) {
+            const auto recorded = [&](std::size_t phase) {
+                return compileEntered(turns.at(speed * kRecorded + phase % kRecorded), on);
+            };
+            paths.push_back(recorded(i));
+            paths.push_back(blended(recorded(i), recorded(i + 1)));
+        }
+    }
+    return paths;
+}
+
+// Those of the right turn: its mirror image is the left turn half a beat later.
+std::vector<motion::TurnPath> mirroredPaths(const std::vector<motion::TurnPath>& left) {
+    std::vector<motion::TurnPath> right;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        const std::size_t phase = (i + motion::kEntryPhases / 2) % motion::kEntryPhases;
+        const std::size_t speed = i / motion::kEntryPhases;
+        right.push_back(mirroredLeftRight(left[speed * motion::kEntryPhases + phase]));
+    }
+    return right;
+}
+
+// From recordings to a repertoire; right turns are the mirror images of the left ones, the glide is
+// derived from the captured segments. All jobs of the species must have succeeded.
+motion::Repertoire compile(const config::Species& species, const Swum& swum) {
+    using motion::Action;
+    const body::FishBody body = body::makeBody(species);
+    motion::Repertoire repertoire;
+    repertoire.species = species.name;
+    repertoire.recordedLengthMetres = body.typicalLengthMetres;
+    repertoire.response = swum.response;
+    const auto segment = [&](Action action) -> motion::ActionSegment& {
+        return repertoire.segments.at(indexOf(action));
+    };
+    for (std::size_t gait = 0; gait < kGaits; ++gait) compileGait(swum, gait, repertoire);
+    segment(Action::Retreat) = compileForward(swum.steady.at(kRetreatJob)->beat);
+    const auto medium = indexOf(Action::ForwardMedium);
+    const SwimsOn on{.speed = measure(segment(Action::ForwardMedium)).strideBodyLengths /
+                              static_cast<double>(segment(Action::ForwardMedium).periodSeconds),
+                     .drag = static_cast<double>(swum.response.swimDrag.at(medium))};
+    for (const auto& [left, right, sharp] :
+         {std::tuple{Action::TurnLeftGradual, Action::TurnRightGradual, 0U},
+          std::tuple{Action::TurnLeftSharp, Action::TurnRightSharp, 1U}}) {
+        segment(left) = compileLeftTurn(swum.leftTurn.at(sharp));
+        segment(left).entered = pathsOf(swum.enteredLeft.at(sharp), on);
+        segment(right) = mirroredLeftRight(segment(left));
+        segment(right).entered = mirroredPaths(segment(left).entered);
+    }
+    if (species.recordsControlPoints)
+        for (int action = 0; action < motion::kCapturedActions; ++action)
+            addControlPoints(body, segment(static_cast<Action>(action)));
+    motion::addGlide(repertoire);
+    return repertoire;
+}
+
+// The first error of its jobs, in their order, else what compile() gives.
+CaptureOutcome outcomeOf(const config::Species& species, const Swum& swum) {
+    const auto error = std::ranges::find_if_not(swum.errors, &std::string::empty);
+    if (error != swum.errors.end()) return {.repertoire = {}, .error = *error};
+    try {
+        return {.repertoire = compile(species, swum), .error = {}};
+    } catch (const std::exception& thrown) {
+        return {.repertoire = {}, .error = thrown.what()};
+    }
+}
+
+}  // namespace
+
+std::vector<CaptureOutcome> captureRepertoires(const std::vector<config::Species>& species,
+                                               const CaptureRun& run) {
+    assert(run.progress);
+    assert(run.isStopped);
+    std::vector<Swum> swum(species.size());
+    std::mutex telling;  // guards `done` and the calls of run.progress
+    std::size_t done = 0;
+    const auto runOne = [&](std::size_t job, std::size_t fish) {
+        std::string& error = swum[fish].errors.at(job);
+        if (run.isStopped()) {
+            error = species[fish].name + ": interrupted";
+            return;
+        }
+        try {
+            runJob(species[fish], job, swum[fish]);
+        } catch (const std::exception& thrown) {
+            error = thrown.what();
+        }
+        const std::lock_guard lock(telling);
+        run.progress(static_cast<double>(++done) / static_cast<double>(kJobs * species.size()));
+    };
+    // The pool's jobs may not throw: runOne() keeps each error. The second group starts when all
+    // jobs of the first have ended, of every species.
+    WorkerPool pool(run.threads);
+    for (const auto& [first, jobs] :
+         {std::pair{std::size_t{0}, kSteadyJobs}, std::pair{kSteadyJobs, kLaterJobs}})
+        pool.run(jobs * species.size(), [&, first = first](std::size_t i) {
+            runOne(first + i / species.size(), i % species.size());
+        });
+
+    std::vector<CaptureOutcome> outcomes(species.size());
+    pool.run(species.size(), [&](std::size_t i) { outcomes[i] = outcomeOf(species[i], swum[i]); });
+    return outcomes;
+}
+
+motion::Repertoire captureRepertoire(const config::Species& species, const Progress& progress) {
+    CaptureOutcome outcome =
+        std::move(captureRepertoires({species}, {.progress = progress}).front());
+    if (!outcome.repertoire) throw Error(outcome.error);
+    return *std::move(outcome.repertoire);
+}
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Species files.
+
+constexpr const char* kExtension = ".txtpb";
+
+// Sorted by path, so that the order does not depend on the file system. Throws Error for none.
+std::vector<fs::path> allSpeciesIn(const fs::path& folder) {
+    std::vector<fs::path> files;
+    if (fs::is_directory(folder))
+        for (const auto& entry : fs::directory_iterator(folder))
+            if (entry.path().extension() == kExtension) files.push_back(entry.path());
+    if (files.empty())
+        throw Error(folder.string() + ": holds no species; name the right folder with --config");
+    std::ranges::sort(files);
+    return files;
+}
+
+}  // namespace
+
+// Goes from the program's folder upwards, to the root.
+fs::path findConfigFolder() {
+    const fs::path program = fs::read_symlink("/proc/self/exe");
+    for (fs::path folder = program.parent_path();; folder = folder.parent_path()) {
+        for (const fs::path& candidate : {folder / "config", folder / "share/aquarama/config"})
+            if (fs::is_directory(candidate / "species")) return candidate;
+        if (folder == folder.root_path()) break;
+    }
+    throw Error(program.string() + ": no folder config/species above it; name one with --config");
+}
+
+std::vector<fs::path> speciesFiles(const std::vector<std::string>& namesOrFiles,
+                                   const fs::path& configFolder) {
+    if (namesOrFiles.empty()) return allSpeciesIn(configFolder / "species");
+    std::vector<fs::path> files;
+    for (const std::string& asked : namesOrFiles) {
+        const fs::path named = configFolder / "species" / (asked + kExtension);
+        files.push_back(fs::exists(named) ? named : fs::path(asked));
+        if (!fs::is_regular_file(files.back()))
+            throw Error("species \"" + asked + "\": neither a file nor a name in " +
+                        (configFolder / "species").string() + "; choose one that is there");
+    }
+    return files;
+}
+
+namespace {
+
+// Cache.
+
+// Part of every key: raise it when a change of the simulation or of the compilation changes the
+// repertoires.
+constexpr const char* kCaptureVersion = "aquarama capture 9\n";
+constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 5 MB
+
+// SPECIES-DIGEST.aqrep. The digest covers only the parts of the species file that influence motion:
+// a change of colours or habits does not capture again.
+fs::path cachedPath(const config::Species& species, const fs::path& folder) {
+    const std::string key = toHex(digestOf(kCaptureVersion + species.motion));
+    return folder / (species.name + "-" + key + ".aqrep");
+}
+
+// The bytes of a file that decodes without error; nothing when it is absent or damaged.
+std::optional<std::vector<std::byte>> findIntact(const fs::path& path) {
+    std::error_code unreadable;
+    if (!fs::exists(path, unreadable)) return std::nullopt;
+    try {
+        std::vector<std::byte> bytes = readRepertoireFile(path);
+        static_cast<void>(motion::decodeRepertoire(bytes, path.string()));
+        return bytes;
+    } catch (const Error&) {
+        // Damaged, or of another version of the format.
+        return std::nullopt;
+    }
+}
+
+// Puts the bytes of a captured repertoire, or its error, into `file`, and writes them to the cache.
+// A cache that cannot be written only costs time.
+void keep(const CaptureOutcome& outcome, const fs::path& path, RepertoireFile& file) {
+    file.error = outcome.error;
+    if (!outcome.repertoire) return;
+    file.bytes = motion::encodeRepertoire(*outcome.repertoire);
+    keepIfPossible(path, file.bytes, "the fish are captured anew at each start");
+}
+
+}  // namespace
+
+std::vector<std::byte> readRepertoireFile(const fs::path& path) {
+    return readWhole(path, kMostBytes);
+}
+
+std::vector<RepertoireFile> repertoiresFor(const std::vector<config::Species>& all,
+                                           const fs::path& cacheFolder,
+                                           const CaptureRun& run) {
+    std::vector<RepertoireFile> files(all.size());
+    // The species that the cache lacks, and the index of each in `all`.
+    std::vector<config::Species> missing;
+    std::vector<std::size_t> missingAt;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        files[i].species = all[i].name;
+        if (auto cached = findIntact(cachedPath(all[i], cacheFolder))) {
+            files[i].bytes = *std::move(cached);
+            continue;
+        }
+        missing.push_back(all[i]);
+        missingAt.push_back(i);
+    }
+    if (!missing.empty()) run.begins(missing.size());
+    const std::vector<CaptureOutcome> outcomes = captureRepertoires(missing, run);
+    assert(outcomes.size() == missing.size());
+    for (std::size_t k = 0; k < missing.size(); ++k)
+        keep(outcomes[k], cachedPath(missing[k], cacheFolder), files[missingAt[k]]);
+    return files;
+}
+
+}  // namespace aquarama::capture

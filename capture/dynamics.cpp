@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/dynamics.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "capture/biomechanical_fish.h"
+
+namespace aquarama::capture {
+
+// Body frame.
+
+// The paper takes the origin from one diagonal of ring 2 and the lateral axis from one edge. Shear
+// of that ring then moves the frame up and down and rolls it by some degrees. The means over both
+// diagonals and both edges do not move with the shear. y is normalised, since x is not quite
+// perpendicular to the lateral axis.
+PoseFrame frameOf(const NodeVectors& pose) {
+    const glm::dvec3 origin = (pose[5] + pose[6] + pose[7] + pose[8]) / 4.0;
+    const glm::dvec3 right = (pose[6] - pose[5]) + (pose[7] - pose[8]);
+    const glm::dvec3 x = glm::normalize(pose[0] - origin);
+    const glm::dvec3 y = glm::normalize(glm::cross(right, x));
+    return {origin, {x, y, glm::cross(x, y)}};
+}
+
+NodeVectors inBodyFrame(const NodeVectors& pose) {
+    const PoseFrame frame = frameOf(pose);
+    const glm::dmat3 bodyFromWorld = glm::transpose(frame.worldFromBody);
+    NodeVectors body{};
+    for (std::size_t i = 0; i < pose.size(); ++i)
+        body.at(i) = bodyFromWorld * (pose.at(i) - frame.origin);
+    return body;
+}
+
+namespace {
+
+// The linear system.
+
+constexpr auto kUnknowns = static_cast<std::size_t>(EnvelopeSystem::kUnknowns);
+
+// The last node that shares an equation with `node` after the elimination of all nodes before it
+// (fill-in included): the last node of the next ring.
+constexpr std::size_t lastNeighbour(std::size_t node) {
+    const std::size_t nextRingsEnd = node == 0 ? 4 : 4 * ((node - 1) / 4 + 2);
+    return nextRingsEnd < body::kNodalPoints ? nextRingsEnd : body::kNodalPoints - 1;
+}
+
+// Number of elements of each row to the right of the diagonal; the three rows of a node end at the
+// same column.
+constexpr auto kWidths = [] {
+    std::array<std::size_t, kUnknowns> widths{};
+    for (std::size_t row = 0; row < kUnknowns; ++row)
+        widths[row] = 3 * lastNeighbour(row / 3) + 2 - row;
+    return widths;
+}();
+
+}  // namespace
+
+void EnvelopeSystem::clear() {
+    rows_ = {};
+    right_ = {};
+}
+
+void EnvelopeSystem::addToDiagonal(int node, double value) {
+    for (std::size_t p = 0; p < 3; ++p) rows_[3 * static_cast<std::size_t>(node) + p][0] += value;
+}
+
+void EnvelopeSystem::addDiagonalBlock(int node, const glm::dmat3& block) {
+    assert(node >= 0);
+    assert(node < body::kNodalPoints);
+    const std::size_t row = 3 * static_cast<std::size_t>(node);
+    for (std::size_t p = 0; p < 3; ++p)
+        for (std::size_t q = p; q < 3; ++q)
+            rows_[row + p][q - p] += block[static_cast<int>(p)][static_cast<int>(q)];
+}
+
+void EnvelopeSystem::addOffDiagonalBlock(int first, int second, const glm::dmat3& block) {
+    const std::size_t row = 3 * static_cast<std::size_t>(first);
+    const std::size_t offset = 3 * static_cast<std::size_t>(second - first);
+    for (std::size_t p = 0; p < 3; ++p)
+        for (std::size_t q = 0; q < 3; ++q)
+            rows_[row + p][offset + q - p] += block[static_cast<int>(p)][static_cast<int>(q)];
+}
+
+void EnvelopeSystem::addToRightSide(int node, const glm::dvec3& value) {
+    for (std::size_t p = 0; p < 3; ++p)
+        right_[3 * static_cast<std::size_t>(node) + p] += value[static_cast<int>(p)];
+}
+
+// LDL^T: about 12 thousand multiplications, where a dense solver needs 55 thousand.
+void EnvelopeSystem::solve() {
+    eliminate();
+    substituteBack();
+}
+
+// Node by node: its three rows end at the same column, so that one pass subtracts all three from
+// each later row. Afterwards each row holds the inverse of its pivot and, right of it, its row of
+// D L^T. The right side is reduced in the same pass.
+void EnvelopeSystem::eliminate() {
+    for (std::size_t row = 0; row < kUnknowns; row += 3) {
+        const std::size_t end = row + kWidths[row] + 1;
+        invertPivot(row);
+        subtract<1>(row, row + 1, end);
+        invertPivot(row + 1);
+        subtract<2>(row, row + 2, end);
+        invertPivot(row + 2);
+        for (std::size_t target = row + 3; target < end; ++target) subtract<3>(row, target, end);
+    }
+}
+
+void EnvelopeSystem::invertPivot(std::size_t row) {
+    rows_[row][0] = 1 / rows_[row][0];
+}
+
+// Eliminates the unknowns row to row + count - 1, whose pivots are inverted, from the row `target`.
+// `end` is one past the last column of the rows.
+template <std::size_t count>
+void EnvelopeSystem::subtract(std::size_t row, std::size_t target, std::size_t end) {
+    std::array<double, count> factors;
+    std::array<const double*, count> sources;
+    for (std::size_t i = 0; i < count; ++i) {
+        sources[i] = rows_[row + i].data() + (target - row - i);
+        factors[i] = sources[i][0] * rows_[row + i][0];
+        right_[target] -= factors[i] * right_[row + i];
+    }
+    double* const elements = rows_[target].data();
+    for (std::size_t k = 0; k < end - target; ++k)
+        for (std::size_t i = 0; i < count; ++i) elements[k] -= factors[i] * sources[i][k];
+}
+
+// Solves D L^T x = right from the last node to the first; the three unknowns of a node first take
+// what later nodes contribute, then each other's share.
+void EnvelopeSystem::substituteBack() {
+    for (std::size_t row = kUnknowns; row > 0;) {
+        row -= 3;
+        const std::size_t end = row + kWidths[row] + 1;
+        for (std::size_t column = row + 3; column < end; ++column)
+            for (std::size_t p = 0; p < 3; ++p)
+                right_[row + p] -= rows_[row + p][column - row - p] * right_[column];
+        for (std::size_t p = 3; p-- > 0;) {
+            for (std::size_t q = p + 1; q < 3; ++q)
+                right_[row + p] -= rows_[row + p][q - p] * right_[row + q];
+            right_[row + p] *= rows_[row + p][0];
+        }
+    }
+}
+
+glm::dvec3 EnvelopeSystem::solution(int node) const {
+    const std::size_t row = 3 * static_cast<std::size_t>(node);
+    return {right_[row], right_[row + 1], right_[row + 2]};
+}
+
+namespace {
+
+// Forces. Each function adds one force, at the middle of a step, to the system of one Newton
+// iteration: to the right side the force itself, to the matrix minus its derivative by the
+// velocities at the middle. The places at the middle are x + h/2 v, so that a derivative by places
+// counts h/2 times.
+
+// The left and right nodes of rings 1 and 2, ascending.
+constexpr std::array<int, 4> kLeftFinRoot{1, 4, 5, 8};
+constexpr std::array<int, 4> kRightFinRoot{2, 3, 6, 7};
+
+// The current share of the relaxed rest length, by UnitKind and Side.
+using RestShares = std::array<std::array<double, 3>, 5>;
+
+RestShares restShares(const MuscleActivation& muscles, double contraction) {
+    const auto left = [&](double activation) {
+        return 1 - contraction * std::clamp(activation, 0.0, 1.0);
+    };
+    return {{{1, 1, 1},
+             {1, 1, 1},
+             {1, left(muscles.frontLeft), left(muscles.frontRight)},
+             {1, left(muscles.middleLeft), left(muscles.middleRight)},
+             {1, left(muscles.backLeft), left(muscles.backRight)}}};
+}
+
+// A Voigt unit: spring and damper in parallel, acting along r from the first node to the second:
+//     force = stiffness (1 - length / l) r + damping (u.v) u,  u = r / |r|,  v = dr/dt,
+// where l is the mean of the lengths at the two ends of the step. With |r| in place of l this would
+// be the plain midpoint rule; with l, the work of the spring in the step is the change of its
+// energy exactly, so that stiff springs cannot gain energy from the rule at any step (Greenspan
+// 1984; Simo & Tarnow 1992). `length` is the rest length now, with any contraction.
+//
+// The matrix has, with t = stiffness (1 - length / l),
+//     h/2 (stiffness u u^T + g (1 - u u^T)) + damping u u^T,  g = max(0, t).
+// In compression t is negative; it is left out there, which keeps the system positive definite at
+// any step. So is the change of the damping force with the direction u, which is not symmetric.
+// Both slow the convergence of the iteration a little and leave its limit as it is.
+void addSpring(const Spring& spring,
+               double length,
+               double damping,
+               double halfStep,
+               const FishState& middle,
+               EnvelopeSystem& system) {
+    const glm::dvec3 r = middle.positions[spring.second] - middle.positions[spring.first];
+    const glm::dvec3 v = middle.velocities[spring.second] - middle.velocities[spring.first];
+    const double ends = (glm::length(r - halfStep * v) + glm::length(r + halfStep * v)) / 2;
+    const double distance = glm::length(r);
+    const glm::dvec3 u = r / distance;
+    const double tension = spring.stiffness * (1 - length / ends);
+    const double rate = damping * glm::dot(u, v) / distance;
+    const double geometric = std::max(0.0, tension);
+    const double along = halfStep * (spring.stiffness - geometric) + damping;
+    const glm::dmat3 block = glm::outerProduct(along * u, u) + glm::dmat3(halfStep * geometric);
+    const glm::dvec3 force = (tension + rate) * r;
+    system.addDiagonalBlock(spring.first, block);
+    system.addDiagonalBlock(spring.second, block);
+    system.addOffDiagonalBlock(spring.first, spring.second, -block);
+    system.addToRightSide(spring.first, force);
+    system.addToRightSide(spring.second, -force);
+}
+
+// Drag acts only on a face that advances into the water (Tu & Terzopoulos 1994), here with the
+// square of its normal speed: -drag A (n.v)^2 n, where A is the area, n the outward normal and v
+// the mean velocity of the three nodes. A third of it acts on each node. The derivative by places
+// is left out of the matrix; it is small beside that by velocities.
+void addDrag(const WettedFace& face, const FishState& middle, EnvelopeSystem& system) {
+    const auto [a, b, c] = face.nodes;
+    const glm::dvec3 areaVector = glm::cross(middle.positions[b] - middle.positions[a],
+                                             middle.positions[c] - middle.positions[a]) /
+                                  2.0;
+    const glm::dvec3 velocity =
+        (middle.velocities[a] + middle.velocities[b] + middle.velocities[c]) / 3.0;
+    const double flow = glm::dot(areaVector, velocity);  // area * normal speed
+    if (flow <= 0) return;
+    const double areaSquared = glm::dot(areaVector, areaVector);
+    const glm::dvec3 scaled = face.drag / 3 * flow / areaSquared * areaVector;
+    const glm::dmat3 block = glm::outerProduct(2.0 / 3 * scaled, areaVector);
+    for (std::size_t i = 0; i < 3; ++i) {
+        system.addDiagonalBlock(face.nodes[i], block);
+        const auto next = face.nodes[(i + 1) % 3];
+        system.addOffDiagonalBlock(
+            std::min(face.nodes[i], next), std::max(face.nodes[i], next), block);
+        system.addToRightSide(face.nodes[i], -flow * scaled);
+    }
+}
+
+// -drag (n.v) n, linear in speed as Tu's law. v is the mean velocity of the four nodes at the fin's
+// root, plus the sweep of the fin along the body's x axis; a quarter of the force acts on each of
+// those nodes. Tu distributes it over rings 1 to 3; over the first two rings alone it pitches the
+// fish twice as much. `worldFromBody` is the body frame at the middle of the step.
+void addFin(const PectoralFin& fin,
+            const std::array<int, 4>& root,
+            double drag,
+            const glm::dmat3& worldFromBody,
+            const FishState& middle,
+            EnvelopeSystem& system) {
+    const double across = std::cos(fin.angleRadians);
+    const glm::dvec3 normal = worldFromBody * glm::dvec3(across, std::sin(fin.angleRadians), 0);
+    const glm::dmat3 block = glm::outerProduct(drag / 16 * normal, normal);
+    glm::dvec3 velocity{};
+    for (const int node : root) velocity += middle.velocities[static_cast<std::size_t>(node)] / 4.0;
+    const double normalSpeed = glm::dot(normal, velocity) + fin.sweepSpeed * across;
+    for (std::size_t i = 0; i < root.size(); ++i) {
+        system.addDiagonalBlock(root[i], block);
+        for (std::size_t j = i + 1; j < root.size(); ++j)
+            system.addOffDiagonalBlock(root[i], root[j], block);
+        system.addToRightSide(root[i], -drag / 4 * normalSpeed * normal);
+    }
+}
+
+// The equation of the step. With v the velocities at its middle and v0 those at its beginning, the
+// implicit midpoint rule is
+//     2 m / h (v - v0) = force(x0 + h/2 v, v) + lift.
+// Adds the inertia and the lift.
+void addInertia(const BiomechanicalFish& fish,
+                double halfStep,
+                const FishState& start,
+                const FishState& middle,
+                EnvelopeSystem& system) {
+    for (int i = 0; i < body::kNodalPoints; ++i) {
+        const auto node = static_cast<std::size_t>(i);
+        const double inertia = fish.masses[node] / halfStep;
+        system.addToDiagonal(i, inertia);
+        system.addToRightSide(i,
+                              inertia * (start.velocities[node] - middle.velocities[node]) +
+                                  glm::dvec3(0, fish.lifts[node], 0));
+    }
+}
+
+// Forces on the body from within and from the water.
+void addForces(const BiomechanicalFish& fish,
+               const MotorControl& control,
+               double halfStep,
+               const FishState& middle,
+               EnvelopeSystem& system) {
+    const RestShares shares = restShares(control.muscles, fish.muscleContraction);
+    const auto& units = anatomy().units;
+    for (std::size_t i = 0; i < kUnits; ++i) {
+        const Spring& spring = fish.springs[i];
+        const double share = shares.at(static_cast<std::size_t>(units[i].kind))
+                                 .at(static_cast<std::size_t>(units[i].side));
+        const double length = spring.restLength * share;
+        addSpring(spring, length, fish.damping, halfStep, middle, system);
+    }
+    for (const WettedFace& face : fish.faces) addDrag(face, middle, system);
+    const glm::dmat3 worldFromBody = frameOf(middle.positions).worldFromBody;
+    addFin(control.fins.left, kLeftFinRoot, fish.finDrag, worldFromBody, middle, system);
+    addFin(control.fins.right, kRightFinRoot, fish.finDrag, worldFromBody, middle, system);
+}
+
+// The iteration ends when no velocity changed by more than this in its last round, body lengths a
+// second. What remains then is below a hundredth of it, since each round leaves less than that of
+// the error. Steady swimming takes 1 to 1.5 rounds.
+constexpr double kConverged = 0.005;
+// Only a fish that was torn apart needs more; it is left where it is then.
+constexpr int kMostRounds = 12;
+
+// The middle of the step if the acceleration stays that of the step before: its error is of second
+// order in the step.
+FishState extrapolated(const FishState& start, double halfStep) {
+    FishState middle = start;
+    for (std::size_t i = 0; i < middle.positions.size(); ++i) {
+        middle.velocities[i] += halfStep * start.accelerations[i];
+        middle.positions[i] += halfStep * middle.velocities[i];
+    }
+    return middle;
+}
+
+// One round of Newton's method. Returns the largest change of a velocity.
+double improve(const BiomechanicalFish& fish,
+               const MotorControl& control,
+               double halfStep,
+               const FishState& start,
+               FishState& middle) {
+    EnvelopeSystem system;
+    addInertia(fish, halfStep, start, middle, system);
+    addForces(fish, control, halfStep, middle, system);
+    system.solve();
+    double most = 0;
+    for (int i = 0; i < body::kNodalPoints; ++i) {
+        const auto node = static_cast<std::size_t>(i);
+        const glm::dvec3 change = system.solution(i);
+        most = std::max(most, glm::length(change));
+        middle.velocities[node] += change;
+        middle.positions[node] = start.positions[node] + halfStep * middle.velocities[node];
+    }
+    return most;
+}
+
+}  // namespace
+
+void step(const BiomechanicalFish& fish,
+          const MotorControl& control,
+          double stepSeconds,
+          FishState& state) {
+    assert(stepSeconds > 0);
+    const double halfStep = stepSeconds / 2;
+    FishState middle = extrapolated(state, halfStep);
+    for (int round = 0; round < kMostRounds; ++round)
+        if (improve(fish, control, halfStep, state, middle) < kConverged) break;
+    // The middle is the mean of both ends.
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+        const glm::dvec3 gained = 2.0 * (middle.velocities[i] - state.velocities[i]);
+        state.positions[i] += stepSeconds * middle.velocities[i];
+        state.velocities[i] += gained;
+        state.accelerations[i] = gained / stepSeconds;
+    }
+}
+
+}  // namespace aquarama::capture

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The motor controllers as pure functions of time and attitude: what the muscles do at each
+// instant, and what the pectoral fins do. Swimmer chooses among them.
+#pragma once
+
+#include "capture/biomechanical_fish.h"
+#include "capture/swimmer.h"
+#include "common/config/species.h"
+
+namespace aquarama::capture {
+
+// Linear interpolation muscle by muscle: `from` at a share of 0, `to` at 1.
+[[nodiscard]] MuscleActivation mix(const MuscleActivation& from,
+                                   const MuscleActivation& to,
+                                   double share);
+// Left and right exchanged.
+[[nodiscard]] MuscleActivation mirrored(const MuscleActivation& muscles);
+
+// Swimming at a phase of the beat, in beats: of `beat` only the fraction counts. Middle and back
+// muscles contract left and right in turn, as sines. The back ones follow later by
+// swim.backLagRadians, so that a wave travels down the body (Tu 1996, swim-MC). The activations are
+// proportional to `gain` and are not clamped here. On a curve, those of the left are 1 + curve
+// times as strong and those of the right 1 - curve times.
+[[nodiscard]] MuscleActivation beatAt(const config::Swim& swim,
+                                      double gain,
+                                      double beat,
+                                      double curve = 0);
+
+// A bend of the whole body to the left, at a time since the order. The muscles contract quickly and
+// relax slowly, so that the body straightens without undoing the turn (Tu & Terzopoulos 1994,
+// turn-MC). Zero before the order and after the bend.
+[[nodiscard]] MuscleActivation bendLeft(const config::Bend& bend, double ownSeconds);
+
+// Swimming from rest: the amplitude of the beat grows linearly over this many of the fish's own
+// seconds.
+inline constexpr double kRampOwnSeconds = 1;
+// beatAt() with that ramp; `seconds` since the fish was at rest.
+[[nodiscard]] MuscleActivation swim(const config::Species& species,
+                                    const config::Gait& gait,
+                                    double seconds);
+
+// From the order to turn until all muscles are relaxed, in seconds (not the fish's own).
+[[nodiscard]] double secondsOf(const config::Bend& bend, const config::Species& species);
+
+// What the pectoral fins do at each instant.
+
+// Proportional feedback towards a pitch and no roll, for a fish that moves forward: both fins turn
+// by the error of the pitch, and in opposite directions by the roll (the force law of the fins is
+// Tu & Terzopoulos 1994's; this feedback is ours).
+[[nodiscard]] PectoralFins hold(const BodyAngles& attitude, double pitchRadians);
+
+// Both fins at the same angle from parallel to the flow: the head of a fish that swims forward is
+// lifted by a positive one.
+[[nodiscard]] PectoralFins lift(double radians);
+
+// Both fins perpendicular to the flow (Tu & Terzopoulos 1994, brake-MC).
+[[nodiscard]] PectoralFins brake();
+
+// Swimming backward by rowing, at a phase of the stroke from 0 to 1. The power stroke goes forward
+// with the fins broadside, the recovery stroke back with the fins feathered. In the power stroke
+// one fin moves faster than the other, to keep the fish at `headingRadians`; in the recovery stroke
+// the fins control pitch and roll. Tu names a retreat without a method; rowing is what living fish
+// do.
+[[nodiscard]] PectoralFins row(const config::Gait& gait,
+                               double stroke,
+                               const BodyAngles& attitude,
+                               double headingRadians);
+
+}  // namespace aquarama::capture

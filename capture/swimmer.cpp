@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/swimmer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "capture/dynamics.h"
+#include "capture/motor_controllers.h"
+
+namespace aquarama::capture {
+
+namespace {
+
+// Linear, the short way round the circle.
+double mixAngles(double from, double to, double share) {
+    return from + share * std::remainder(to - from, 2 * std::numbers::pi);
+}
+
+}  // namespace
+
+// Body x is the nose's direction. Left is -z, so the heading is positive there. The roll compares
+// the heights of the z and the y axis; it is defined unless the fish stands on its nose or tail.
+BodyAngles bodyAnglesOf(const FishState& state) {
+    const glm::dmat3 worldFromBody = frameOf(state.positions).worldFromBody;
+    const glm::dvec3& x = worldFromBody[0];
+    return {.headingRadians = std::atan2(-x.z, x.x),
+            .pitchRadians = std::asin(std::clamp(x.y, -1.0, 1.0)),
+            .rollRadians = std::atan2(worldFromBody[2].y, worldFromBody[1].y)};
+}
+
+BodyAngles sense(const BodyAngles& before,
+                 const FishState& state,
+                 double share,
+                 double stepSeconds) {
+    assert(stepSeconds > 0);
+    assert(share >= 0);
+    assert(share <= 1);
+    const BodyAngles now = bodyAnglesOf(state);
+    return {.headingRadians = mixAngles(before.headingRadians, now.headingRadians, share),
+            .pitchRadians = std::lerp(before.pitchRadians, now.pitchRadians, share),
+            .rollRadians = now.rollRadians,
+            .pitchRate = share * (now.pitchRadians - before.pitchRadians) / stepSeconds};
+}
+
+namespace {
+
+// The tail beat fades out over this many beats. If it stopped at once, the fish would keep the yaw
+// that the unfinished beat gave it.
+constexpr double kLastBeats = 0.5;
+
+// The change-over from one order's muscle activations to the next one's, in the fish's own seconds.
+// A jump would kick the body.
+constexpr double kHandover = 0.04;
+
+// The fins act on the pitch that the fish will have so much later: a body that pitches goes on to,
+// and without a lead it overshot a commanded slope by 70 %. Times of the low pass, a beat each.
+constexpr double kPitchLeadBeats = 2;
+
+}  // namespace
+
+Swimmer::Swimmer(const BiomechanicalFish& fish, const config::Swim& swim, double stepSeconds)
+    : fish_(fish), swim_(swim), stepSeconds_(stepSeconds), state_(stateAtRest(fish_)) {
+    assert(stepSeconds > 0);
+}
+
+Swimmer::Swimmer(const config::Species& species, double stepSeconds)
+    : Swimmer(makeBiomechanicalFish(species), species.swim, stepSeconds) {}
+
+Swimmer::Swimmer(const config::Species& species)
+    : Swimmer(species, longestStepSeconds(makeBiomechanicalFish(species))) {}
+
+void Swimmer::give(const Order& order) {
+    assert(order.bend.tempo > 0);
+    // After an order without a tail beat no beat is left that a glide or a brake could fade out.
+    if (!swims()) beating_.gain = 0;
+    order_ = order;
+    if (swims() || order.controller == Controller::Retreat) beating_ = order.gait;
+    ownSecondsOfOrder_ = 0;
+    headingOfOrder_ = attitude_.headingRadians;
+    musclesBefore_ = control_.muscles;
+}
+
+void Swimmer::advance(int steps) {
+    assert(steps >= 0);
+    for (int i = 0; i < steps; ++i) advanceOne();
+}
+
+// The clocks of the controllers stand at the middle of the step while the dynamics move, as the
+// midpoint rule asks. The attitude is that sensed after the step before.
+void Swimmer::advanceOne() {
+    advanceClocks(stepSeconds_ / 2);
+    const double handedOver = std::min(1.0, ownSecondsOfOrder_ / kHandover);
+    control_ = {.muscles = mix(musclesBefore_, muscleProgram(), handedOver), .fins = finProgram()};
+    step(fish_, control_, stepSeconds_, state_);
+    ++steps_;
+    // The low pass has a time constant of one beat, or of the fish's own second if that is shorter.
+    const double hertz = std::max(beating_.beatHertz, fish_.timeScale);
+    attitude_ = sense(attitude_, state_, stepSeconds_ * hertz, stepSeconds_);
+    advanceClocks(stepSeconds_ / 2);
+}
+
+void Swimmer::advanceClocks(double seconds) {
+    const double ownSeconds = seconds * fish_.timeScale;
+    ownSecondsOfOrder_ += ownSeconds;
+    if (swims()) ownSecondsSwum_ += ownSeconds;
+    beat_ += seconds * beating_.beatHertz;
+    beat_ -= std::floor(beat_);
+}
+
+bool Swimmer::swims() const {
+    return order_.controller == Controller::ForwardSwim ||
+           order_.controller == Controller::Ascend || order_.controller == Controller::Descend ||
+           order_.controller == Controller::Balance;
+}
+
+MuscleActivation Swimmer::muscleProgram() const {
+    const double beatsOfOrder = ownSecondsOfOrder_ / fish_.timeScale * beating_.beatHertz;
+    switch (order_.controller) {
+        case Controller::ForwardSwim:
+        case Controller::Ascend:
+        case Controller::Descend:
+        case Controller::Balance:
+            return tailBeat(1);
+        case Controller::LeftTurn:
+            return bendLeft(order_.bend, ownSecondsOfOrder_);
+        case Controller::RightTurn:
+            return mirrored(bendLeft(order_.bend, ownSecondsOfOrder_));
+        case Controller::Glide:
+        case Controller::Brake:
+            return tailBeat(std::max(0.0, 1 - beatsOfOrder / kLastBeats));
+        case Controller::Retreat:
+            break;
+    }
+    return {};
+}
+
+// `share` scales the beat: 1 while the fish swims, less while the beat fades out. From rest the
+// beat grows over kRampOwnSeconds.
+MuscleActivation Swimmer::tailBeat(double share) const {
+    const double grown = std::min(1.0, ownSecondsSwum_ / kRampOwnSeconds);
+    const double curve = order_.controller == Controller::ForwardSwim ? order_.curve : 0;
+    return beatAt(swim_, share * beating_.gain * grown, beat_, curve);
+}
+
+// The attitude with the pitch that the fish will have in kPitchLeadBeats if it pitches on as it
+// does.
+BodyAngles Swimmer::foreseen() const {
+    BodyAngles ahead = attitude_;
+    ahead.pitchRadians +=
+        attitude_.pitchRate * kPitchLeadBeats / std::max(beating_.beatHertz, fish_.timeScale);
+    return ahead;
+}
+
+PectoralFins Swimmer::finProgram() const {
+    switch (order_.controller) {
+        case Controller::Ascend:
+            return hold(foreseen(), order_.pitchRadians);
+        case Controller::Descend:
+            return hold(foreseen(), -order_.pitchRadians);
+        case Controller::Balance:
+            return hold(foreseen(), 0);
+        case Controller::Brake:
+            return brake();
+        case Controller::Retreat:
+            return row(beating_, beat_, attitude_, headingOfOrder_);
+        case Controller::ForwardSwim:
+            return lift(order_.liftRadians);
+        case Controller::LeftTurn:
+        case Controller::RightTurn:
+        case Controller::Glide:
+            break;
+    }
+    return {};
+}
+
+}  // namespace aquarama::capture

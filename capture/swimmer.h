@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// The biomechanical fish under its motor controllers: its attitude as the controllers sense it, the
+// orders that it obeys, and the simulation that runs both.
+#pragma once
+
+#include <cstdint>
+
+#include "capture/biomechanical_fish.h"
+#include "common/config/species.h"
+
+namespace aquarama::capture {
+
+// Attitude of the body frame in the world, y up.
+struct BodyAngles {
+    double headingRadians = 0;  // of the body axis in the horizontal plane, left of +x positive
+    double pitchRadians = 0;    // nose up positive
+    double rollRadians = 0;     // right side up positive
+    // Change of the sensed pitch, radians a second; 0 without a filter.
+    double pitchRate = 0;
+};
+
+// Heading and roll in -pi .. pi, pitch in -pi/2 .. pi/2; without any filter.
+[[nodiscard]] BodyAngles bodyAnglesOf(const FishState& state);
+
+// What is sensed now, given what was sensed before. Heading and pitch pass a first-order low pass,
+// since the tail beat makes them oscillate: `share`, 0 to 1, of the difference is taken up in this
+// step of `stepSeconds`. Roll is not filtered: the beat does not roll the fish, and a delay in the
+// roll feedback would make it oscillate.
+[[nodiscard]] BodyAngles sense(const BodyAngles& before,
+                               const FishState& state,
+                               double share,
+                               double stepSeconds);
+
+// The nine motor controllers (the paper's section 3.2).
+enum class Controller : std::uint8_t {
+    ForwardSwim,
+    LeftTurn,
+    RightTurn,
+    Glide,
+    Ascend,
+    Descend,
+    Balance,
+    Brake,
+    Retreat
+};
+
+// A command to the fish, which replaces the one before. A turn is over after secondsOf(bend); then
+// the muscles stay relaxed until the next order. Each parameter is read only by the controllers
+// named beside it.
+struct Order {
+    Controller controller = Controller::Glide;
+    config::Gait gait{};      // ForwardSwim, Ascend, Descend, Balance, Retreat
+    config::Bend bend{};      // LeftTurn, RightTurn
+    double pitchRadians = 0;  // Ascend, Descend: slope of the body axis, positive in both
+    // ForwardSwim on a curve: the left muscles pull more by this share, the right ones less.
+    double curve = 0;
+    // ForwardSwim on a loop: both pectoral fins turn by this from parallel to the flow, radians;
+    // the fish pitches up.
+    double liftRadians = 0;
+};
+
+// A simulated fish. It starts at rest at the origin with its nose towards +x. Lengths are body
+// lengths. A value: a copy continues on its own. Not for use by several threads at once.
+class Swimmer {
+  public:
+    explicit Swimmer(const config::Species& species);  // with longestStepSeconds()
+    Swimmer(const config::Species& species, double stepSeconds);
+    Swimmer(const BiomechanicalFish& fish, const config::Swim& swim, double stepSeconds);
+
+    // Holds from the next step on. The phase of the beat continues through all orders. The muscles
+    // change from the old program to the new one within a few hundredths of the fish's own second.
+    // When a fish stops swimming, its tail beat fades out over half a beat.
+    void give(const Order& order);
+    void advance(int steps);  // steps >= 0
+
+    [[nodiscard]] double stepSeconds() const { return stepSeconds_; }
+    // Simulated since the start.
+    [[nodiscard]] double seconds() const { return stepSeconds_ * static_cast<double>(steps_); }
+    [[nodiscard]] const FishState& state() const { return state_; }
+    [[nodiscard]] const MotorControl& control() const { return control_; }  // of the last step
+
+  private:
+    void advanceOne();
+    // Time of the order, of swimming and of the beat; `seconds` are not the fish's own.
+    void advanceClocks(double seconds);
+    // Whether the present order beats the tail.
+    [[nodiscard]] bool swims() const;
+    // What the present order asks of muscles and fins at this instant, without the change-over from
+    // the order before.
+    [[nodiscard]] MuscleActivation muscleProgram() const;
+    [[nodiscard]] MuscleActivation tailBeat(double share) const;
+    [[nodiscard]] PectoralFins finProgram() const;
+    [[nodiscard]] BodyAngles foreseen() const;
+
+    BiomechanicalFish fish_;
+    config::Swim swim_;
+    double stepSeconds_;
+    std::int64_t steps_ = 0;
+    FishState state_;
+
+    Order order_;
+    // The fish's own seconds (timeScale of them in one second): since the present order, and in all
+    // orders that beat the tail.
+    double ownSecondsOfOrder_ = 0;
+    double ownSecondsSwum_ = 0;
+    config::Gait beating_{};     // of the tail, or of the fins in a retreat
+    double beat_ = 0;            // phase of the beat, 0 to 1
+    double headingOfOrder_ = 0;  // sensed when the order came, radians: what a retreat keeps
+    BodyAngles attitude_;        // as sensed
+    MotorControl control_;
+    MuscleActivation musclesBefore_;  // activations when the order came
+};
+
+}  // namespace aquarama::capture

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+// `aquarama status`, `set`, `pilot` and `explain`: they ask the master of a running show, or tell
+// it.
+#include <array>
+#include <chrono>
+#include <iostream>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <poll.h>
+#include <spdlog/fmt/fmt.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include "commands/commands.h"
+#include "common/ask/request_client.h"
+#include "common/base/log.h"
+#include "common/config/keys.h"
+#include "common/config/rig.h"
+#include "common/config/scene.h"
+#include "common/wire/recording.h"
+#include "master/conductor/requests.h"
+#include "master/conductor/steering.h"
+#include "master/simulation/living_world.h"
+#include "master/simulation/recorded_world.h"
+
+namespace aquarama {
+
+namespace {
+
+using ask::AskedMaster;
+
+// The options by which a command finds its master.
+void describeMaster(CLI::App& command, AskedMaster& asked) {
+    asked.rig = supervisor::kDefaultRig;
+    command.add_option("RIG", asked.rig, "whose master is asked")->capture_default_str();
+    command.add_option("--master", asked.address, "its control address, instead of the rig's");
+    command.add_option("--key", asked.key, "file of the key to show (aquarama keys bundle)");
+}
+
+void showStatus(const AskedMaster& asked) {
+    ask::RequestClient master = asked.connect();
+    std::cout << conductor::statusText(master.status());
+}
+
+// So short that the submarine never takes its pilot for gone.
+constexpr auto kBetweenMessages = std::chrono::milliseconds(100);
+
+// The terminal of standard input, set to give every key as it is pressed and to show none, as long
+// as this lives. Other inputs are read as they are.
+class Keyboard {
+  public:
+    Keyboard() : isTerminal_(tcgetattr(STDIN_FILENO, &before_) == 0) {
+        if (!isTerminal_) return;
+        termios raw = before_;
+        raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | ISIG);
+        tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+    }
+    ~Keyboard() {
+        if (isTerminal_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+    }
+    Keyboard(const Keyboard&) = delete;
+    Keyboard& operator=(const Keyboard&) = delete;
+
+    // Waits no longer than `kBetweenMessages`. False: no more keys will come.
+    bool read(std::string& keys) {
+        keys.clear();
+        pollfd input{STDIN_FILENO, POLLIN, 0};
+        if (poll(&input, 1, static_cast<int>(kBetweenMessages.count())) <= 0) return true;
+        std::array<char, 64> bytes{};
+        const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+        if (count <= 0) return false;
+        keys.assign(bytes.data(), static_cast<std::size_t>(count));
+        return true;
+    }
+
+  private:
+    termios before_{};
+    bool isTerminal_;
+};
+
+// Tells the master what the keys say, and shows where the submarine is, until a key ends it.
+void steer(const AskedMaster& asked) {
+    ask::RequestClient master = asked.connect();
+    Keyboard keyboard;
+    conductor::TerminalSteering terminal;
+    const bool onScreen = isatty(STDOUT_FILENO) != 0;
+    std::cout << conductor::kTerminalSteeringHelp << '\n';
+    Steering said;
+    for (std::string keys; keyboard.read(keys) && !terminal.ended();) {
+        terminal.press(keys);
+        const Steering& held = terminal.steering();
+        if (held != said || held != Steering{}) master.steer(held);
+        said = held;
+        const v1::StatusReply status = master.status();
+        // On a screen one line that changes, else one after the other.
+        std::cout << fmt::format("{}{}   {}{}",
+                                 onScreen ? "\r\x1b[K" : "",
+                                 conductor::submarineText(status),
+                                 terminal.text(),
+                                 onScreen ? "" : "\n")
+                  << std::flush;
+    }
+    master.steer({});
+    master.status();  // an answer: the master has had both
+    if (onScreen) std::cout << '\n';
+}
+
+// Of explain --follow, whose help says twice a second.
+constexpr auto kBetweenLooks = std::chrono::milliseconds(500);
+// ANSI escapes: the cursor goes home, then the screen is erased.
+constexpr const char* kClearScreen = "\x1b[H\x1b[2J";
+
+// Options of `explain`: of a running master or of a recording.
+struct ExplainOptions {
+    std::uint32_t fish = 0;
+    AskedMaster asked;
+    bool follow = false;
+    std::string recording;   // empty: a running master is asked
+    std::uint64_t tick = 0;  // of the recording
+};
+
+// Throws Error where the world has no such fish.
+void print(std::uint32_t fish, std::size_t school, std::span<const std::string> lines) {
+    if (fish >= school)
+        throw Error("there is no fish " + std::to_string(fish) + ": the world has " +
+                    std::to_string(school) +
+                    (school == 0 ? "" : ", 0 to " + std::to_string(school - 1)));
+    for (const std::string& line : lines) std::cout << line << '\n';
+    std::cout.flush();
+}
+
+// With --follow it goes on until somebody interrupts it.
+void explainLive(const ExplainOptions& options) {
+    ask::RequestClient master = options.asked.connect();
+    const bool onScreen = options.follow && isatty(STDOUT_FILENO) != 0;
+    do {
+        const v1::Explanation explanation = master.explain(options.fish);
+        if (onScreen) std::cout << kClearScreen;
+        const std::vector<std::string> lines{explanation.lines().begin(),
+                                             explanation.lines().end()};
+        print(options.fish, explanation.school(), lines);
+        if (options.follow) std::this_thread::sleep_for(kBetweenLooks);
+    } while (options.follow);
+}
+
+// Replays up to the tick, without a wall.
+void explainReplay(const ExplainOptions& options) {
+    const wire::Recording recording = wire::readRecording(options.recording);
+    for (const std::string& doubt : wire::doubtsAbout(recording))
+        std::cerr << options.recording << ": " << doubt << '\n';
+    if (options.tick > recording.lastTick().value)
+        throw Error(options.recording + ": ends at tick " +
+                    std::to_string(recording.lastTick().value) + "; choose an earlier one");
+    simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
+    simulation::Playback playback(recording, world);
+    while (world.tick().value < options.tick) playback.advance();
+    if (playback.difference())
+        std::cerr << options.recording << ": from tick " << playback.difference()->tick.value
+                  << " on this is another world than the recorded one\n";
+    print(options.fish, world.world().traits().size(), world.explain(options.fish));
+}
+
+// A recording goes before a running master.
+void explain(const ExplainOptions& options) {
+    options.recording.empty() ? explainLive(options) : explainReplay(options);
+}
+
+// A value of the show, by name.
+struct SetOptions {
+    AskedMaster asked;
+    std::string what, value;
+};
+
+// Throws Error where it is none.
+bool switchedOn(const SetOptions& options) {
+    if (options.value == "on") return true;
+    if (options.value == "off") return false;
+    throw Error(options.what + " is on or off, not \"" + options.value + "\"");
+}
+
+// Throws Error where no pattern has this name.
+v1::Pattern patternIn(const SetOptions& options) {
+    if (const auto pattern = wire::patternNamed(options.value))
+        return static_cast<v1::Pattern>(*pattern);
+    throw Error("pattern is world, grid or grey, not \"" + options.value + "\"");
+}
+
+// Returns when the wall shows it.
+void set(const SetOptions& options) {
+    v1::Set set;
+    if (options.what == "scene") set.set_scene(options.value);
+    if (options.what == "quality") set.set_quality(options.value);
+    if (options.what == "pattern") set.set_pattern(patternIn(options));
+    if (options.what == "black") set.set_black(switchedOn(options));
+    if (options.what == "freeze") set.set_freeze(switchedOn(options));
+    if (options.what == "restart") set.set_restart(options.value);
+    options.asked.connect().set(std::move(set), [](const std::string& what) {
+        std::cout << what << std::endl;  // at once: it takes a while
+    });
+    std::cout << options.what << ' ' << options.value << '\n';
+}
+
+}  // namespace
+
+// Shows the operator's key where a folder of keys is given.
+ask::RequestClient connectToMaster(const std::string& rigPath, const std::string& keyFolder) {
+    AskedMaster asked{.rig = rigPath, .address = {}, .key = {}};
+    if (!keyFolder.empty()) asked.key = config::keyFileIn(keyFolder, "operator").string();
+    return asked.connect();
+}
+
+void addSet(CommandLine& line) {
+    const auto [command, options] =
+        line.add<SetOptions>("set", "what the running wall shows: scene, pattern, black ...", set);
+    describeMaster(command, options.asked);
+    command.get_option("RIG")->required();
+    command.add_option("WHAT", options.what, "scene, quality, pattern, black, freeze or restart")
+        ->required()
+        ->check(CLI::IsMember({"scene", "quality", "pattern", "black", "freeze", "restart"}));
+    command
+        .add_option("VALUE",
+                    options.value,
+                    "a scene's name; low, medium, high, ultra or auto; world, grid or grey; on or "
+                    "off; a channel, whose node is started again")
+        ->required()
+        ->check(cli::plainWord());
+    command.footer("What is set is kept: a master that is started again shows it.");
+}
+
+void addStatus(CommandLine& line) {
+    const auto [command, asked] =
+        line.add<AskedMaster>("status", "what the running wall is doing", showStatus);
+    describeMaster(command, asked);
+}
+
+void addPilot(CommandLine& line) {
+    const auto [command, asked] = line.add<AskedMaster>(
+        "pilot", "steer the submarine of the running wall from a terminal", steer);
+    describeMaster(command, asked);
+}
+
+void addExplain(CommandLine& line) {
+    const auto [command, options] = line.add<ExplainOptions>(
+        "explain", "what a fish sees, feels, intends and does, and why: --fish ID", explain);
+    command.add_option("--fish", options.fish, "which, by its number")
+        ->required()
+        ->check(cli::wholeNumber(0, kMostFish));
+    describeMaster(command, options.asked);
+    CLI::Option* follow = command.add_flag("--follow", options.follow, "go on, twice a second");
+    CLI::Option* replay =
+        command.add_option("--replay", options.recording, "ask this recording, not a master");
+    replay->excludes(follow);
+    command.add_option("--tick", options.tick, "of the recording")
+        ->needs(replay)
+        ->check(cli::wholeNumber(0, cli::kMostShownFrames));
+}
+
+}  // namespace aquarama

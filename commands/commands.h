@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// The commands of `aquarama`: each function adds one to the command line, with its options and what
+// it does. What several commands share is here as well.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "common/cli/command_line.h"
+#include "common/config/rig.h"
+#include "common/net/channels.h"
+#include "master/supervisor/supervise.h"
+
+namespace aquarama::ask {
+class RequestClient;
+}
+
+namespace aquarama {
+
+// A command that was added, to describe its options; both live as long as the command line.
+template <class Options>
+struct AddedCommand {
+    CLI::App& app;
+    Options& options;
+};
+
+// The command line of `aquarama` while commands are added to it, and then the job that it chose.
+class CommandLine {
+  public:
+    explicit CommandLine(CLI::App& app) : app_{app} {}
+    // The heading, in the program's help, of the commands that are added next.
+    void startGroup(std::string heading) { heading_ = std::move(heading); }
+    // `run(options)` does what the command is for, and returns the exit status, or nothing for 0.
+    template <class Options, class Run>
+    AddedCommand<Options> add(const std::string& name, const std::string& what, Run run) {
+        const auto added = addTo<Options>(app_, name, what, std::move(run));
+        added.app.group(heading_);
+        return added;
+    }
+    // The help does not list this command.
+    void hide(const std::string& name) { app_.get_subcommand(name)->group(""); }
+    // A command of the command `parent`.
+    template <class Options, class Run>
+    AddedCommand<Options> addTo(CLI::App& parent,
+                                const std::string& name,
+                                const std::string& what,
+                                Run run) {
+        auto options = std::make_shared<Options>();
+        CLI::App& command = *parent.add_subcommand(name, what);
+        command.callback([this, options, run = std::move(run)] {
+            if (job_) return;  // by a nested command: CLI11 calls the innermost first
+            job_ = [options, run] {
+                if constexpr (std::is_void_v<std::invoke_result_t<Run, const Options&>>) {
+                    run(*options);
+                    return 0;
+                } else {
+                    return run(*options);
+                }
+            };
+        });
+        return {command, *options};
+    }
+    // Does what was chosen; returns the exit status. Throws CLI::RequiredError where nothing was.
+    [[nodiscard]] int runChosen() const {
+        if (!job_) throw CLI::RequiredError("a command");
+        return job_();
+    }
+
+  private:
+    CLI::App& app_;
+    std::string heading_;
+    cli::Job job_;
+};
+
+// In the order of the program's help; what each command does its help says.
+void addRun(CommandLine& line);     // a show on this machine
+void addReplay(CommandLine& line);  // a recorded one
+void addMaster(CommandLine& line);  // the master alone
+void addNode(CommandLine& line);    // hands over to aquarama-node
+void addKeyCommands(CommandLine& line);
+void addDoctor(CommandLine& line);
+void addStatus(CommandLine& line);
+void addSet(CommandLine& line);
+void addPilot(CommandLine& line);
+void addExplain(CommandLine& line);
+void addNewRig(CommandLine& line);
+void addCheck(CommandLine& line);      // hands over to aquarama-compose
+void addView(CommandLine& line);       // likewise, and so does its former name "theatre"
+void addCalibrate(CommandLine& line);  // hands over to aquarama-calibrate
+void addCalibrations(CommandLine& line);
+void addDrift(CommandLine& line);  // hands over to aquarama-calibrate
+void addAdjust(CommandLine& line);
+void addConsole(CommandLine& line);  // hands over to aquarama-console
+void addInspect(CommandLine& line);
+void addConvert(CommandLine& line);
+void addCapture(CommandLine& line);
+void addExport(CommandLine& line);
+void addGaits(CommandLine& line);
+void addSearch(CommandLine& line);
+void addControllers(CommandLine& line);
+void addFidelity(CommandLine& line);
+void addStudy(CommandLine& line);
+
+// Options of `run`, `replay` and `master`, declared once: which rig shows which world, and how.
+void describeWorld(CLI::App& command, supervisor::ShowOptions& options);
+void describeWall(CLI::App& command, supervisor::ShowOptions& options);
+
+// The keys of a master that listens past its machine; nothing where the rig needs none. Throws
+// Error where there are none yet.
+[[nodiscard]] std::optional<net::MasterKeys> masterKeysOf(const config::Rig& rig,
+                                                          const supervisor::ShowOptions& show);
+
+// A connection to the master of a rig for questions, with the operator's key of this folder (empty:
+// the user's) where the rig needs one. Throws Error where it cannot be read.
+[[nodiscard]] ask::RequestClient connectToMaster(const std::string& rigPath,
+                                                 const std::string& keyFolder);
+
+// Replays a recording without a wall and says whether it is the same world again. Returns the exit
+// status: 1 where it is another. Throws Error where it cannot be read.
+[[nodiscard]] int checkReplay(const std::string& path);
+
+// The option --config, and the folder that it names or that is found.
+void describeConfig(CLI::App& command, std::string& folder);
+[[nodiscard]] std::filesystem::path configFolder(const std::string& given);
+
+}  // namespace aquarama

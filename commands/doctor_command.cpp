@@ -1,0 +1,515 @@
+// SPDX-License-Identifier: Apache-2.0
+// `aquarama doctor`: looks over a wall before a show: the rig, its keys and ports, this machine,
+// and by the running master every node and its way to it.
+#include <array>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <ifaddrs.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include "commands/commands.h"
+#include "common/ask/request_client.h"
+#include "common/base/counted.h"
+#include "common/base/dates.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/config/keys.h"
+#include "common/config/rig.h"
+#include "common/config/scene.h"
+#include "common/net/clock.h"
+#include "common/wall/wall.h"
+#include "master/supervisor/preflight.h"
+
+namespace aquarama {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Options of `doctor`. `json`: for other programs, as the console.
+struct DoctorOptions {
+    std::string rig = supervisor::kDefaultRig;
+    std::string keyFolder;  // empty: the user's
+    bool json = false;
+};
+
+// Only Fail makes the exit status 1.
+enum class Verdict : std::uint8_t { Pass, Warn, Fail };
+
+// What was found about one thing, and what to do about it.
+struct Finding {
+    Verdict verdict = Verdict::Pass;
+    std::string subject, what, todo;
+};
+
+// Kept in the order in which they were found.
+class Findings {
+  public:
+    void pass(std::string subject, std::string what) {
+        all_.push_back({Verdict::Pass, std::move(subject), std::move(what), {}});
+    }
+    // Passes where `isGood`, else it is `otherwise`, and `todo` says what to do.
+    void judge(
+        bool isGood, Verdict otherwise, std::string subject, std::string what, std::string todo) {
+        if (isGood) return pass(std::move(subject), std::move(what));
+        all_.push_back({otherwise, std::move(subject), std::move(what), std::move(todo)});
+    }
+    void fail(std::string subject, std::string problem) {
+        all_.push_back({Verdict::Fail, std::move(subject), std::move(problem), {}});
+    }
+    // Passes where `check()`, which returns what it found, throws no Error; that says what to do.
+    template <class Check>
+    bool attempt(const std::string& subject, Check check) {
+        try {
+            pass(subject, check());
+            return true;
+        } catch (const Error& problem) {
+            fail(subject, problem.what());
+            return false;
+        }
+    }
+    [[nodiscard]] const std::vector<Finding>& all() const { return all_; }
+
+  private:
+    std::vector<Finding> all_;
+};
+
+// 2^30 bytes, for repertoires, keys and logs; here and on the machines of nodes.
+constexpr std::uint64_t kLeastDiskBytes = std::uint64_t{1} << 30U;
+// An older key is still valid, and gets a warning.
+constexpr double kOldKeyDays = 365;
+constexpr float kSlowRoundTripMs = 5;  // the release of a frame is said 2 ms before it
+// Of the pings; more is a warning.
+constexpr float kMostUnansweredPercent = 1;
+
+// What to do about a clock, for this machine and for each node's.
+constexpr const char* kSynchronise =
+    "install chrony or linuxptp, so that the logs of all machines agree; frames do not need it";
+
+// In units of 10^9 bytes.
+std::string gigabytes(std::uint64_t bytes) {
+    return fmt::format("{:.0f} GB free", static_cast<double>(bytes) / 1e9);
+}
+
+// By the day on which it was made, which a wrong clock may have given, or may not have reached.
+void judgeAge(Findings& findings, const config::KeyFile& key) {
+    const std::string subject = "key " + key.name;
+    const double now = systemSeconds();
+    const auto made = secondsOfDay(key.made);
+    const bool isKnown = made && *made <= now;
+    if (!isKnown)
+        return findings.judge(
+            false,
+            Verdict::Warn,
+            subject,
+            "made on " + key.made + ", and the clock of this machine says " + dayOf(now),
+            "its age is not known: set the clock of this machine, or make another key (aquarama "
+            "keys rotate)");
+    const double days = (now - *made) / kSecondsOfDay;
+    findings.judge(days <= kOldKeyDays,
+                   Verdict::Warn,
+                   subject,
+                   counted(static_cast<std::uint64_t>(days), "day") + " old",
+                   "older than a year: aquarama keys rotate makes another");
+}
+
+// A key that is missing or revoked fails; an old one is a warning.
+void lookAtKey(Findings& findings, const fs::path& folder, const std::string& name) {
+    try {
+        const config::KeyFile key = config::readKeyFile(config::keyFileIn(folder, name));
+        if (!key.revoked.empty())
+            throw Error("was revoked on " + key.revoked + "; aquarama keys rotate makes another");
+        judgeAge(findings, key);
+    } catch (const Error& problem) {
+        findings.fail("key " + name, problem.what());
+    }
+}
+
+// Of an address in the rig, as the system has it; null where it is no number.
+using NumericAddress = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
+NumericAddress numericAddress(std::string host) {
+    if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+    addrinfo numeric{};
+    numeric.ai_flags = AI_NUMERICHOST;
+    numeric.ai_socktype = SOCK_STREAM;
+    addrinfo* found = nullptr;
+    if (getaddrinfo(host.c_str(), nullptr, &numeric, &found) != 0) found = nullptr;
+    return {found, &freeaddrinfo};
+}
+
+// Version 4 or 6, without the port; empty for other families.
+std::string_view bytesOf(const sockaddr* address) {
+    const auto view = [](const auto& bytes) {
+        return std::string_view(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+    };
+    if (address == nullptr) return {};
+    if (address->sa_family == AF_INET)
+        return view(reinterpret_cast<const sockaddr_in*>(address)->sin_addr);
+    if (address->sa_family == AF_INET6)
+        return view(reinterpret_cast<const sockaddr_in6*>(address)->sin6_addr);
+    return {};
+}
+
+// All of 127.0.0.0/8 is this machine, whether an interface names it or not (Debian gives the host's
+// name 127.0.1.1), and so is ::1.
+bool isLoopbackAddress(std::string_view bytes) {
+    constexpr std::size_t kBytes4 = 4;
+    constexpr unsigned char kLoopbackNet = 127;
+    if (bytes.size() == kBytes4) return static_cast<unsigned char>(bytes[0]) == kLoopbackNet;
+    return bytes == std::string_view(reinterpret_cast<const char*>(&in6addr_loopback),
+                                     sizeof in6addr_loopback);
+}
+
+// Whether this machine has the address of the rig: on its loopback or on an interface.
+bool isOwnAddress(const std::string& address) {
+    const std::size_t begin = address.find("//") + 2;
+    const std::string host = address.substr(begin, address.rfind(':') - begin);
+    if (host == "localhost") return true;
+    const NumericAddress numeric = numericAddress(host);
+    const std::string_view bytes = numeric ? bytesOf(numeric->ai_addr) : std::string_view{};
+    if (bytes.empty()) return false;
+    if (isLoopbackAddress(bytes)) return true;
+    ifaddrs* list = nullptr;
+    if (getifaddrs(&list) != 0) return false;
+    const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> owner(list, &freeifaddrs);
+    for (const ifaddrs* one = list; one != nullptr; one = one->ifa_next)
+        if (bytesOf(one->ifa_addr) == bytes) return true;
+    return false;
+}
+
+// A clock before the program's own date spoils hours, certificates and logs.
+void lookAtClock(Findings& findings, bool isAlone) {
+    const double now = systemSeconds();
+    const std::string doubt = clockDoubt(now, static_cast<double>(builtAt()));
+    findings.judge(doubt.empty(),
+                   Verdict::Fail,
+                   "clock",
+                   doubt.empty() ? "says " + dayOf(now) + " (UTC)" : doubt,
+                   kSetTheClock);
+    if (isAlone) return;
+    findings.judge(net::isClockSynchronised(),
+                   Verdict::Warn,
+                   "clock",
+                   net::isClockSynchronised() ? "synchronised" : "not synchronised",
+                   kSynchronise);
+}
+
+// The file of a certificate, where there is one for this user to see: that of the console, or its
+// authority's.
+void lookAtCertificate(Findings& findings,
+                       const fs::path& file,
+                       double noticeDays,
+                       const std::string& todo) {
+    std::error_code hidden;
+    if (!fs::exists(file, hidden)) return;
+    const std::string subject = file.stem().string();
+    try {
+        const Validity validity = validityOf(file);
+        const auto concern = concernAbout(validity, systemSeconds(), noticeDays);
+        findings.judge(!concern,
+                       concern && concern->isUrgent ? Verdict::Fail : Verdict::Warn,
+                       subject,
+                       concern ? concern->what : "valid until " + dayOf(validity.until),
+                       todo);
+    } catch (const Error& problem) {
+        findings.fail(subject, problem.what());
+    }
+}
+
+// Of this rig's console; its folder is that of console/files_of_show.h. A clock that is wrong for
+// certain tells nothing of their ends.
+void lookAtCertificates(Findings& findings, const std::string& rig) {
+    if (!clockDoubt(systemSeconds(), static_cast<double>(builtAt())).empty()) return;
+    const fs::path folder =
+        userFolder("XDG_STATE_HOME", ".local/state") / "console" / fs::path(rig).stem() / "tls";
+    lookAtCertificate(findings,
+                      folder / "certificate.pem",
+                      kCertificateNoticeDays,
+                      "a console that runs renews it where its authority's key is (" +
+                          (folder / "authority.key").string() +
+                          "): start it, and see its log; else make another: aquarama console " +
+                          rig + " --certify ADDRESS");
+    lookAtCertificate(findings,
+                      folder / "authority.pem",
+                      kAuthorityNoticeDays,
+                      "make another and install it on each tablet: aquarama console " + rig +
+                          " --certify ADDRESS --new-authority");
+}
+
+// What is needed for a show on this machine, whether one runs or not.
+void lookAtMachine(Findings& findings, const DoctorOptions& options, const config::Rig& rig) {
+    findings.attempt("scene", [&] {
+        const std::string path = config::scenePathOf(rig, options.rig);
+        return path + ", " + std::to_string(config::readScene(path).cast.size()) + " species";
+    });
+    findings.judge(
+        isOwnAddress(rig.controlAddress),
+        Verdict::Fail,
+        "address",
+        rig.controlAddress,
+        "no network interface here has it: this is not the master's machine, its cable is "
+        "out, or the rig names another");
+    const std::uint64_t free = freeBytesAt(cacheFolder());
+    findings.judge(free > kLeastDiskBytes,
+                   Verdict::Warn,
+                   "disk",
+                   gigabytes(free) + " at " + cacheFolder().string(),
+                   "repertoires, keys and logs need a gigabyte: make room");
+    const bool isAlone = std::ranges::all_of(
+        rig.channels, [](const config::Channel& channel) { return channel.machine.empty(); });
+    lookAtClock(findings, isAlone);
+    lookAtCertificates(findings, options.rig);
+    if (!config::needsKeys(rig)) return findings.pass("keys", "none are needed on one machine");
+    const fs::path folder =
+        options.keyFolder.empty() ? config::keyFolderOf(options.rig) : fs::path(options.keyFolder);
+    lookAtKey(findings, folder, "master");
+    for (const config::Channel& channel : rig.channels) lookAtKey(findings, folder, channel.name);
+}
+
+// The line of the monitor at this connector, or of the only one where it is empty; nothing where
+// there is none.
+std::optional<std::string> monitorIn(const v1::NodeReport& report, const std::string& connector) {
+    if (connector.empty() && report.monitors_size() != 1) return std::nullopt;
+    for (const std::string& monitor : report.monitors())
+        if (connector.empty() || monitor.starts_with(connector + " ")) return monitor;
+    return std::nullopt;
+}
+
+// What the node's machine has, against what the rig says of its channel.
+void lookAtMonitors(Findings& findings,
+                    const std::string& subject,
+                    const config::Channel& channel,
+                    const v1::NodeReport& report) {
+    for (const std::string& monitor : report.monitors())
+        findings.pass(subject, "monitor " + monitor);
+    if (channel.display.mode != config::DisplayMode::Fullscreen) return;
+    const std::string& wanted = channel.display.connector;
+    const auto found = monitorIn(report, wanted);
+    const std::string name = wanted.empty() ? "its only monitor" : "monitor " + wanted;
+    findings.judge(found.has_value(),
+                   Verdict::Warn,
+                   subject,
+                   fmt::format("the rig wants {}, of {}", name, report.monitors_size()),
+                   "see its cables, or correct display.connector; without a display (--headless) "
+                   "nothing is shown there");
+    if (!found) return;
+    const std::string size = fmt::format("{}x{}", channel.sizePixels.x, channel.sizePixels.y);
+    findings.judge(found->find(" " + size + " ") != std::string::npos,
+                   Verdict::Warn,
+                   subject,
+                   fmt::format("{} is to show {}", name, size),
+                   "it is at another size now: correct the channel's, or the monitor's mode");
+}
+
+// How well it keeps time with the master.
+void lookAtTime(Findings& findings, const std::string& subject, const v1::NodeStatus& node) {
+    const v1::NodeReport& report = node.report();
+    // Within one machine only a busy processor delays an answer.
+    const bool isFar = !node.machine().empty();
+    findings.judge(
+        !isFar || (report.round_trip_p99_ms() < kSlowRoundTripMs &&
+                   report.unanswered_percent() < kMostUnansweredPercent),
+        Verdict::Warn,
+        subject,
+        fmt::format("round trip {:.2f} ms, 99 % within {:.2f} ms, jitter {:.2f} ms, "
+                    "{:.1f} % of pings unanswered, the master's clock {:+.1f} ppm faster",
+                    report.round_trip_median_ms(),
+                    report.round_trip_p99_ms(),
+                    report.jitter_ms(),
+                    report.unanswered_percent(),
+                    report.clock_drift_ppm()),
+        "use a cable and a switch of its own for the wall; wireless is too uneven");
+    findings.judge(report.real_time(),
+                   Verdict::Warn,
+                   subject,
+                   report.real_time() ? "real-time priority" : "no real-time priority",
+                   "frames are late where its machine is busy: allow it, as docs/cluster.md says");
+    if (isFar)
+        findings.judge(
+            report.clock_synchronised(),
+            Verdict::Warn,
+            subject,
+            report.clock_synchronised() ? "clock synchronised" : "clock not synchronised",
+            kSynchronise);
+}
+
+// llvmpipe is Mesa's renderer for machines without a graphics card.
+void lookAtReport(Findings& findings, const std::string& subject, const v1::NodeStatus& node) {
+    const v1::NodeReport& report = node.report();
+    const bool isSoftware = report.renderer().find("llvmpipe") != std::string::npos;
+    findings.judge(!isSoftware,
+                   Verdict::Warn,
+                   subject,
+                   "machine " + report.host() + ", " + report.renderer(),
+                   "it draws on the processor: install its card's driver, or accept a slow wall");
+    findings.judge(report.build() == cli::buildText(),
+                   Verdict::Warn,
+                   subject,
+                   "build " + report.build(),
+                   "this machine has " + cli::buildText() + ": install the same on both");
+    findings.judge(report.free_disk_bytes() > kLeastDiskBytes,
+                   Verdict::Warn,
+                   subject,
+                   gigabytes(report.free_disk_bytes()),
+                   "make room on its disk");
+}
+
+// A node that has sent no report yet is judged by what the master knows of it.
+void lookAtNode(Findings& findings, const config::Rig& rig, const v1::NodeStatus& node) {
+    const std::string subject = "node " + node.name();
+    const std::string machine =
+        node.machine().empty() ? "this machine" : "machine " + node.machine();
+    findings.judge(node.condition() == v1::NODE_IN_STEP,
+                   node.condition() == v1::NODE_ABSENT ? Verdict::Fail : Verdict::Warn,
+                   subject,
+                   wire::wordFor(node.condition()) + ", " + machine,
+                   node.condition() == v1::NODE_ABSENT
+                       ? "start it there: aquarama-node --key FILE; see its output"
+                       : "it draws more slowly than the others: see its frame times");
+    findings.judge(node.hash_mismatches() == 0,
+                   Verdict::Fail,
+                   subject,
+                   node.hash_mismatches() == 0 ? "decodes the fish as they were sent"
+                                               : "decodes other fish than were sent",
+                   "check its memory and its version");
+    if (!node.has_report()) return;
+    lookAtReport(findings, subject, node);
+    lookAtTime(findings, subject, node);
+    const auto channel = std::ranges::find(rig.channels, node.name(), &config::Channel::name);
+    if (channel != rig.channels.end()) lookAtMonitors(findings, subject, *channel, node.report());
+}
+
+// What a master says: its status, or what it prepares; neither where none answers.
+struct MasterAnswer {
+    std::optional<v1::StatusReply> status;
+    std::string preparing;
+};
+MasterAnswer answerOf(ask::RequestClient client) {
+    MasterAnswer answer;
+    try {
+        answer.status = client.status();
+    } catch (const Error&) {
+        answer.preparing = client.preparing();
+    }
+    return answer;
+}
+
+// Asks the master of the running show; false where none runs.
+bool lookAtShow(Findings& findings, const DoctorOptions& options, const config::Rig& rig) {
+    MasterAnswer answer;
+    try {
+        answer = answerOf(connectToMaster(options.rig, options.keyFolder));
+    } catch (const Error&) {
+        return false;
+    }
+    if (!answer.preparing.empty()) {
+        findings.judge(false,
+                       Verdict::Warn,
+                       "show",
+                       answer.preparing,
+                       "nothing is known of the nodes yet: ask again in a while");
+        return true;
+    }
+    if (!answer.status) return false;
+    const v1::StatusReply& status = *answer.status;
+    findings.pass("show",
+                  fmt::format("runs, frame {}: median {:.1f} ms, 99 % {:.1f} ms; release skew "
+                              "{:.2f} ms, 99 % {:.2f} ms",
+                              status.frame(),
+                              status.frame_median_ms(),
+                              status.frame_p99_ms(),
+                              status.skew_median_ms(),
+                              status.skew_p99_ms()));
+    for (const v1::NodeStatus& node : status.nodes()) lookAtNode(findings, rig, node);
+    return true;
+}
+
+// Only where no show runs: a running master holds both ports.
+void lookAtPorts(Findings& findings, const config::Rig& rig) {
+    findings.attempt("ports", [&] {
+        for (const std::string& address : {rig.controlAddress, rig.stateAddress})
+            supervisor::requireFreePort(address);
+        return std::string("free");
+    });
+    findings.judge(false,
+                   Verdict::Warn,
+                   "show",
+                   "none runs, so nothing is known of the nodes",
+                   "start it (aquarama run, or the services of all machines) and ask again");
+}
+
+// A rig that cannot be read ends it, because all other checks need it.
+Findings lookOver(const DoctorOptions& options) {
+    Findings findings;
+    config::Rig rig;
+    const bool isRig = findings.attempt("rig", [&] {
+        rig = config::readRig(options.rig);
+        wall::checkGeometry(rig, options.rig);
+        return options.rig + ", " + counted(rig.channels.size(), "channel");
+    });
+    if (!isRig) return findings;
+    lookAtMachine(findings, options, rig);
+    if (!lookAtShow(findings, options, rig)) lookAtPorts(findings, rig);
+    return findings;
+}
+
+// In the order of Verdict.
+constexpr std::array kVerdicts{"pass", "warn", "fail"};
+
+// One line for each, the verdict first.
+void printTable(const Findings& findings) {
+    for (const Finding& finding : findings.all())
+        std::cout << fmt::format("{}  {:<14} {}{}{}\n",
+                                 kVerdicts.at(static_cast<std::size_t>(finding.verdict)),
+                                 finding.subject,
+                                 finding.what,
+                                 finding.todo.empty() ? "" : ": ",
+                                 finding.todo);
+}
+
+// The console reads these fields by name: files_of_show.cpp.
+void printJson(const Findings& findings) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const Finding& finding : findings.all())
+        list.push_back({{"verdict", kVerdicts.at(static_cast<std::size_t>(finding.verdict))},
+                        {"subject", finding.subject},
+                        {"what", finding.what},
+                        {"todo", finding.todo}});
+    std::cout << list.dump(2) << '\n';
+}
+
+// 1 where something fails.
+int doctor(const DoctorOptions& options) {
+    const Findings findings = lookOver(options);
+    (options.json ? printJson : printTable)(findings);
+    return std::ranges::any_of(
+        findings.all(), [](const Finding& finding) { return finding.verdict == Verdict::Fail; });
+}
+
+}  // namespace
+
+void addDoctor(CommandLine& line) {
+    const auto [command, options] = line.add<DoctorOptions>(
+        "doctor", "whether a wall is ready: rig, keys, network, machines", doctor);
+    command.add_option("RIG", options.rig, "the rig's file")->capture_default_str();
+    command.add_option(
+        "--keys", options.keyFolder, "folder of the rig's keys, instead of the user's");
+    command.add_flag(
+        "--json", options.json, "for programs: verdict, subject, what and todo of each");
+    command.footer(
+        "A line for each finding: pass, warn or fail, what was found, and what to do. The exit "
+        "status is 1 "
+        "where something\nfails. With a running show it tells of every node as well.");
+}
+
+}  // namespace aquarama

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+// `aquarama master`: joins a world, living or replayed, to the conductor, which shows it on the
+// wall.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <sys/stat.h>
+
+#include "commands/commands.h"
+#include "common/base/digest.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/cli/command_line.h"
+#include "common/cli/outputs.h"
+#include "common/config/rig.h"
+#include "common/config/scene.h"
+#include "common/net/channels.h"
+#include "common/wall/wall.h"
+#include "common/wire/recording.h"
+#include "master/conductor/conductor.h"
+#include "master/conductor/preparation.h"
+#include "master/simulation/living_world.h"
+#include "master/simulation/recorded_world.h"
+
+namespace aquarama {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// `lockstep`: frame n shows tick n. `resume`: a show goes on after its master has died.
+struct MasterOptions {
+    supervisor::ShowOptions show;
+    bool lockstep = false;
+    bool resume = false;
+    std::shared_ptr<LogFile> log;                 // of a show by the clock
+    machine::ServiceNotifier* service = nullptr;  // of a show that runs
+};
+
+// None: the nodes measure which they can draw. In lockstep no clock is read, so nothing is
+// measured.
+std::optional<config::QualityTier> qualityOf(const config::Rig& rig, const MasterOptions& options) {
+    constexpr config::QualityTier kOfLockstep = config::QualityTier::Low;
+    if (!options.show.quality.empty()) return config::tierNamed(options.show.quality);
+    if (!rig.quality && options.lockstep) return kOfLockstep;
+    return rig.quality;
+}
+
+// A scene is a file where its name ends so, else a name beside the rig's scene.
+constexpr std::string_view kSceneEnding = ".txtpb";
+
+// Names without their ending, sorted, for the text of an error.
+std::string scenesIn(const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == kSceneEnding) names.push_back(entry.path().stem().string());
+    std::ranges::sort(names);
+    std::string list;
+    for (const std::string& one : names) list += (list.empty() ? "" : ", ") + one;
+    return list;
+}
+
+// The file of a scene: a name lies beside the rig's scene. Throws Error, naming those that are
+// there.
+std::string sceneFile(const config::Rig& rig, const std::string& rigPath, const std::string& name) {
+    if (name.ends_with(kSceneEnding)) return name;
+    const fs::path folder = fs::path(config::scenePathOf(rig, rigPath)).parent_path();
+    const fs::path file = folder / (name + std::string(kSceneEnding));
+    if (fs::is_regular_file(file)) return file.string();
+    throw Error("there is no scene \"" + name + "\" in " + folder.string() + ", only " +
+                scenesIn(folder));
+}
+
+// What is chosen for this run: by the options, else by the rig.
+wire::ShowChange chosenBy(const MasterOptions& options) {
+    const supervisor::ShowOptions& show = options.show;
+    wire::ShowChange chosen;
+    if (!show.scenePath.empty()) chosen.scene = show.scenePath;
+    if (!show.quality.empty()) chosen.quality = config::tierNamed(show.quality);
+    chosen.pattern = wire::patternNamed(show.pattern);
+    return chosen;
+}
+
+// What earlier runs were told to show. A file that cannot be read does not keep the wall dark.
+wire::ShowChange keptShow(const config::Rig& rig, const MasterOptions& options) {
+    const fs::path path = wire::keptShowOf(options.show.rigPath);
+    try {
+        wire::ShowChange kept = wire::readKeptShow(path);
+        if (kept.scene) static_cast<void>(sceneFile(rig, options.show.rigPath, *kept.scene));
+        return kept;
+    } catch (const Error& problem) {
+        logWarning("what was set before is not shown: {}", problem.what());
+        return {};
+    }
+}
+
+// A show by the clock begins with what was set before, under the options of its command line. A
+// master that is started again goes on with what was set.
+void chooseWanted(const config::Rig& rig,
+                  const MasterOptions& options,
+                  conductor::ConductorOptions& conductor) {
+    wire::WantedShow wanted{.scene = fs::path(rig.scene).stem().string(),
+                            .quality = qualityOf(rig, options)};
+    const bool isKept = !options.lockstep && options.show.replayPath.empty();
+    if (isKept) {
+        conductor.keptAt = wire::keptShowOf(options.show.rigPath);
+        conductor.kept = keptShow(rig, options);
+    }
+    const wire::ShowChange chosen = chosenBy(options);
+    const auto& [under, over] =
+        options.resume ? std::pair{chosen, conductor.kept} : std::pair{conductor.kept, chosen};
+    conductor.wanted = wire::with(wire::with(std::move(wanted), under), over);
+    if (const std::string text = textOf(conductor.kept); !text.empty())
+        logInfo("as it was set before: {} (change it with aquarama set)", text);
+}
+
+// Looks at the files that a rig names, whether they have changed: ConductorOptions::changedRig.
+class RigFileWatch {
+  public:
+    RigFileWatch(config::Rig rig, std::string path)
+        : rig_{std::move(rig)}, path_{std::move(path)}, seen_{look()} {}
+
+    // Nothing where no file has changed. Throws Error where the new files are wrong, once for each
+    // change.
+    std::optional<config::Rig> operator()() {
+        auto now = look();
+        if (now == seen_) return std::nullopt;
+        seen_ = std::move(now);
+        config::readRigFiles(rig_, path_);
+        wall::checkGeometry(rig_, path_);
+        return rig_;
+    }
+
+  private:
+    // Which file it is, its size, and when it and what is known of it changed: one that takes its
+    // place may have its size and time of writing. While one is being replaced it may be missing.
+    using Stamp = std::array<std::int64_t, 7>;
+    static Stamp stampOf(const std::string& file) {
+        struct stat found {};
+        if (stat(file.c_str(), &found) != 0) return {};
+        return {static_cast<std::int64_t>(found.st_dev),
+                static_cast<std::int64_t>(found.st_ino),
+                found.st_size,
+                found.st_mtim.tv_sec,
+                found.st_mtim.tv_nsec,
+                found.st_ctim.tv_sec,
+                found.st_ctim.tv_nsec};
+    }
+    [[nodiscard]] std::vector<Stamp> look() const {
+        std::vector<Stamp> stamps;
+        for (const auto& [name, content] : rig_.files)
+            stamps.push_back(stampOf(config::besideFile(path_, name)));
+        return stamps;
+    }
+
+    config::Rig rig_;
+    std::string path_;
+    std::vector<Stamp> seen_;
+};
+
+// How the conductor runs the frames.
+conductor::ConductorOptions conductorOptions(const config::Rig& rig, const MasterOptions& options) {
+    conductor::ConductorOptions conductor;
+    conductor.pace = options.lockstep ? wire::Pace::Lockstep : wire::Pace::Live;
+    chooseWanted(rig, options, conductor);
+    conductor.frames = options.show.frames;
+    conductor.traceDirectory = options.show.traceFolder;
+    conductor.log = options.log.get();
+    conductor.service = options.service;
+    if (!rig.files.empty()) conductor.changedRig = RigFileWatch(rig, options.show.rigPath);
+    return conductor;
+}
+
+// What is shown: the living world, or `simulation` as a decorator of it, which records or replays.
+struct Shown {
+    const wire::AssetBundle& assets;
+    const simulation::LivingWorld& world;
+    conductor::Simulation& simulation;
+};
+
+// Returns when the show is over. Until then `*running` is its conductor.
+void show(const config::Rig& rig,
+          const conductor::ConductorOptions& options,
+          const Shown& shown,
+          std::unique_ptr<net::MasterChannels> channels,
+          conductor::Conductor** running = nullptr) {
+    conductor::Conductor conductor(rig,
+                                   options,
+                                   shown.simulation,
+                                   shown.assets,
+                                   shown.world.world().traits(),
+                                   std::move(channels));
+    if (running != nullptr) *running = &conductor;
+    const cli::SignalWatch watch([&] { conductor.stop(); });
+    conductor.run();
+}
+
+// Answers for the master while its world is made, and says the same to the service manager.
+class WorldPreparation {
+  public:
+    WorldPreparation(net::MasterChannels& channels, machine::ServiceNotifier* service)
+        : answers_{channels}, service_{service} {}
+    // From any thread, but never from two at once.
+    void tell(const std::string& what) {
+        const std::string sentence = answers_.tell(what);
+        if (service_ != nullptr) service_->beginLongWork(sentence);
+    }
+
+  private:
+    conductor::Preparation answers_;
+    machine::ServiceNotifier* service_;
+};
+
+// A new world, recorded where that is asked for.
+void showNew(const config::Rig& rig,
+             const MasterOptions& options,
+             std::unique_ptr<net::MasterChannels> channels) {
+    conductor::ConductorOptions conducting = conductorOptions(rig, options);
+    std::optional<WorldPreparation> preparation(std::in_place, *channels, options.service);
+    const simulation::Assets assets =
+        simulation::readAssets(sceneFile(rig, options.show.rigPath, conducting.wanted.scene),
+                               {.seed = options.show.seed,
+                                .fish = options.show.fish,
+                                .tell = [&](const std::string& what) { preparation->tell(what); }});
+    preparation->tell("making the world");
+    simulation::LivingWorld world(simulation::worldOptionsOf(assets));
+    preparation.reset();
+    if (options.show.recordPath.empty()) {
+        conducting.makeWorld = [rig, show = options.show](const std::string& scene) {
+            simulation::Assets next = simulation::readAssets(
+                sceneFile(rig, show.rigPath, scene), {.seed = show.seed, .fish = {}, .tell = {}});
+            auto made = std::make_unique<simulation::LivingWorld>(simulation::worldOptionsOf(next));
+            const auto traits = made->world().traits();
+            return conductor::NextWorld{
+                std::move(next.bytes), {traits.begin(), traits.end()}, std::move(made)};
+        };
+        return show(rig, conducting, {assets.bytes, world, world}, std::move(channels));
+    }
+    conducting.whyOneScene = "the show is recorded, and a recording has one scene";
+    simulation::RecordingFile file(options.show.recordPath, assets.bytes);
+    {
+        simulation::RecordedWorld recorded(world, file);
+        show(rig, conducting, {assets.bytes, world, recorded}, std::move(channels));
+    }
+    file.close();
+}
+
+// A recording; the show ends with it.
+void showAgain(const config::Rig& rig,
+               const MasterOptions& options,
+               std::unique_ptr<net::MasterChannels> channels) {
+    std::optional<WorldPreparation> preparation(std::in_place, *channels, options.service);
+    preparation->tell("reading the recording");
+    const wire::Recording recording = wire::readRecording(options.show.replayPath);
+    for (const std::string& doubt : wire::doubtsAbout(recording))
+        logWarning("{}: {}", options.show.replayPath, doubt);
+    simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
+    preparation.reset();
+    conductor::ConductorOptions conducting = conductorOptions(rig, options);
+    conducting.whyOneScene = "a recording is shown, and has one scene";
+    // In lockstep the world runs ahead of the frames, so the frames are counted instead.
+    conductor::Conductor* running = nullptr;
+    std::function<void()> onEnd = [&running] { running->stop(); };
+    if (options.lockstep) {
+        const std::uint64_t frames = recording.lastTick().value + 1;
+        conducting.frames = std::min(conducting.frames.value_or(frames), frames);
+        onEnd = [] {};
+    }
+    simulation::ReplayedWorld replayed(recording, world, onEnd);
+    show(rig, conducting, {recording.assets, world, replayed}, std::move(channels), &running);
+}
+
+// The log of this rig's shows; the master's own lines go into it from now on. A show goes on
+// without where it cannot be written.
+std::shared_ptr<LogFile> openLog(const std::string& rigPath) {
+    const fs::path path = userFolder("XDG_STATE_HOME", ".local/state") / "logs" /
+                          (fs::path(rigPath).stem().string() + ".jsonl");
+    try {
+        auto log = std::make_shared<LogFile>(path);
+        setLogListener([log](Severity severity, const std::string& line) {
+            log->write("master", log->masterFrame, severity, line);
+        });
+        return log;
+    } catch (const Error& problem) {
+        logWarning("{}", problem.what());
+        return nullptr;
+    }
+}
+
+// Binds the addresses before it makes the world, which takes seconds, and minutes at the first
+// start: a second master of the rig is refused at once, and who asks meanwhile is answered.
+void runMaster(const MasterOptions& options) {
+    cli::holdSignals();
+    machine::ServiceNotifier service;
+    const config::Rig rig = config::readRig(options.show.rigPath);
+    wall::checkGeometry(rig, options.show.rigPath);
+    cli::requireFolder("--trace", options.show.traceFolder);
+    if (!options.show.recordPath.empty()) simulation::requireNewRecording(options.show.recordPath);
+    cli::requireFile("--record", options.show.recordPath);
+    auto channels =
+        net::bindMaster(rig.controlAddress, rig.stateAddress, {}, masterKeysOf(rig, options.show));
+    MasterOptions telling = options;
+    telling.service = &service;
+    if (!options.lockstep) telling.log = openLog(options.show.rigPath);
+    service.beginLongWork("making the world");
+    (options.show.replayPath.empty() ? showNew : showAgain)(rig, telling, std::move(channels));
+    setLogListener({});
+}
+
+}  // namespace
+
+void addMaster(CommandLine& line) {
+    const auto [command, options] = line.add<MasterOptions>(
+        "master", "the master of a rig, alone: aquarama master RIG", runMaster);
+    describeWorld(command, options.show);
+    describeWall(command, options.show);
+    command.add_flag("--lockstep", options.lockstep, "frame n shows tick n; no clock is read");
+    command
+        .add_flag("--resume",
+                  options.resume,
+                  "of a show that goes on: what was set meanwhile goes before the options")
+        ->excludes("--lockstep");
+    command.add_option("--replay", options.show.replayPath, "show this recording")
+        ->excludes("--record")
+        ->excludes("--seed")
+        ->excludes("--scene")
+        ->excludes("--fish");
+}
+
+}  // namespace aquarama

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// `aquarama capture` and `export`: repertoires are made, and go to other programs.
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <filesystem>
+#include <iostream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "capture/capture_repertoire.h"
+#include "capture/report/gltf.h"
+#include "capture/report/report_data.h"
+#include "capture/report/take.h"
+#include "commands/commands.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/cli/command_line.h"
+#include "common/cli/outputs.h"
+
+namespace aquarama {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Options of `capture`. Empty folders: no report is written, and the config folder is searched for.
+struct CaptureOptions {
+    std::vector<std::string> species;  // names or files; none: all
+    std::string out;
+    std::string report;
+    std::string config;
+};
+
+// From the cache or simulated, with a bar of progress; Ctrl-C ends it.
+std::vector<capture::RepertoireFile> captured(const std::vector<config::Species>& species) {
+    std::atomic<bool> isStopped = false;
+    const cli::SignalWatch watch([&] { isStopped = true; });
+    capture::ProgressBar bar("capturing");
+    return capture::repertoiresFor(species,
+                                   cacheFolder() / "repertoires",
+                                   {.progress = [&](double share) { bar.show(share); },
+                                    .isStopped = [&] { return isStopped.load(); }});
+}
+
+// Writes the repertoire and, where a report is asked for, its data; returns the path of these.
+fs::path write(const capture::RepertoireFile& file, const CaptureOptions& options) {
+    const fs::path path = fs::path(options.out) / (file.species + ".aqrep");
+    writeWhole(path, file.bytes);
+    std::cout << path.string() << '\n';
+    if (options.report.empty()) return {};
+    const motion::Repertoire repertoire = motion::decodeRepertoire(file.bytes, path.string());
+    return report::writeReport(repertoire, options.report);
+}
+
+// Names a species that fails, and writes the others. Returns the exit status.
+int captureAll(const CaptureOptions& options) {
+    cli::holdSignals();
+    cli::requireFolder("--out", options.out);
+    cli::requireFolder("--report", options.report);
+    if (!options.report.empty()) cli::requirePython({"matplotlib"});
+    const fs::path config = configFolder(options.config);
+    int status = 0;
+    const auto fail = [&](const std::string& why) {
+        cli::sayError("aquarama capture", why);
+        status = 1;
+    };
+    std::vector<config::Species> species;
+    for (const fs::path& file : capture::speciesFiles(options.species, config)) {
+        try {
+            species.push_back(config::readSpecies(file.string()));
+        } catch (const Error& error) {
+            fail(error.what());
+        }
+    }
+    std::vector<std::string> reports;
+    for (const capture::RepertoireFile& file : captured(species)) {
+        if (file.error.empty())
+            reports.push_back(write(file, options));
+        else
+            fail(file.error);
+    }
+    if (!options.report.empty() && !reports.empty())
+        cli::runPython({"matplotlib"}, "capture/report/draw_report.py", reports, options.report);
+    return status;
+}
+
+// Options of `export`. `cycles`: how often the segment is repeated.
+struct ExportOptions {
+    std::string file;
+    std::string segment;
+    int cycles = 1;
+    std::string c3d, gltf, csv;  // where to; one is asked for
+    std::string config;
+};
+
+// In the order of motion::Action, of which only the captured ones are in a repertoire.
+std::vector<std::string> segmentNames() {
+    std::vector<std::string> names;
+    names.reserve(motion::kCapturedActions);
+    for (int i = 0; i < motion::kCapturedActions; ++i)
+        names.emplace_back(motion::nameOf(static_cast<motion::Action>(i)));
+    return names;
+}
+
+// Of a name out of segmentNames().
+motion::Action actionNamed(const std::string& segment) {
+    const std::vector<std::string> names = segmentNames();
+    const auto found = std::ranges::find(names, segment);
+    assert(found != names.end());
+    return static_cast<motion::Action>(found - names.begin());
+}
+
+// By the ending of the name. Throws Error where it is neither .glb nor .gltf.
+report::GltfContainer containerOf(const fs::path& path) {
+    if (path.extension() == ".glb") return report::GltfContainer::Binary;
+    if (path.extension() == ".gltf") return report::GltfContainer::Text;
+    throw Error(path.string() + ": name it .glb (binary) or .gltf (text)");
+}
+
+// The body with its skin, which is not in the repertoire but in the species' file.
+body::FishBody bodyOf(const motion::Repertoire& repertoire, const ExportOptions& options) {
+    const fs::path config = configFolder(options.config);
+    return body::makeBody(
+        config::readSpecies(capture::speciesFiles({repertoire.species}, config).front().string()));
+}
+
+// Writes the one file that was asked for.
+void exportSegment(const ExportOptions& options) {
+    cli::requireFile("--c3d", options.c3d);
+    cli::requireFile("--gltf", options.gltf);
+    cli::requireFile("--csv", options.csv);
+    const motion::Action action = actionNamed(options.segment);
+    const motion::Repertoire repertoire =
+        motion::decodeRepertoire(capture::readRepertoireFile(options.file), options.file);
+    if (!options.gltf.empty()) {
+        const report::GltfContainer container = containerOf(options.gltf);
+        const body::FishBody body = bodyOf(repertoire, options);
+        writeWhole(options.gltf,
+                   report::gltfOf(repertoire, body, action, options.cycles, container));
+        return;
+    }
+    const report::Take take = report::takeAtTicks(repertoire, action, options.cycles);
+    if (options.csv.empty()) {
+        writeWhole(options.c3d, report::c3dOf(take));
+    } else {
+        const std::string rows = report::csvOf(take);
+        writeWhole(options.csv, std::as_bytes(std::span(rows)));
+    }
+}
+
+}  // namespace
+
+void describeConfig(CLI::App& command, std::string& folder) {
+    command.add_option("--config", folder, "folder that holds scenes and species");
+}
+
+// An empty name has the folder searched for.
+fs::path configFolder(const std::string& given) {
+    return given.empty() ? capture::findConfigFolder() : fs::path(given);
+}
+
+void addCapture(CommandLine& line) {
+    const auto [command, options] = line.add<CaptureOptions>(
+        "capture",
+        "simulate the biomechanical fish and compile repertoires: --out DIR",
+        captureAll);
+    command.add_option("--species",
+                       options.species,
+                       "name of a species in the config folder, or a file; all when not given");
+    command.add_option("--out", options.out, "folder for SPECIES.aqrep")->required();
+    command.add_option("--report", options.report, "folder for a page with pictures and figures");
+    describeConfig(command, options.config);
+}
+
+void addExport(CommandLine& line) {
+    const auto [command, options] = line.add<ExportOptions>(
+        "export",
+        "a segment as C3D, glTF or CSV: aquarama export FILE --segment NAME --c3d OUT",
+        exportSegment);
+    command.footer("Metres, Y up; the fish swims from the origin along +x.");
+    command.add_option("FILE", options.file, "a repertoire")->required();
+    command.add_option("--segment", options.segment, "which")
+        ->required()
+        ->check(CLI::IsMember(segmentNames()));
+    command.add_option("--cycles", options.cycles, "how often it is repeated")
+        ->check(cli::wholeNumber(1, report::kMostCycles))
+        ->capture_default_str();
+    CLI::Option_group& out = *command.add_option_group("format", "one of");
+    out.add_option("--c3d", options.c3d, "nodal points as markers, 60 frames a second");
+    out.add_option("--csv", options.csv, "nodal points as a table, 60 rows a second");
+    out.add_option("--gltf", options.gltf, "the skin, swimming: a .glb or .gltf file");
+    out.require_option(1);
+    describeConfig(command, options.config);
+}
+
+}  // namespace aquarama

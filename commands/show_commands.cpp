@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// `aquarama run` and `aquarama replay`: shows on this machine; and the options that they share with
+// `aquarama master`, which they start.
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "commands/commands.h"
+#include "common/config/rig.h"
+#include "common/config/scene.h"
+#include "master/supervisor/children.h"
+#include "master/supervisor/preflight.h"
+
+namespace aquarama {
+
+namespace {
+
+// For CLI::Validator: an empty text means that the name is good.
+std::string clipNameProblem(const std::string& path) {
+    if (path.ends_with(".mp4") || path.ends_with(".webp")) return {};
+    return "\"" + path + "\" is not FILE.mp4 or FILE.webp";
+}
+
+// What only a supervisor does: windows or not, and pictures of all channels.
+void describePictures(CLI::App& command, supervisor::RunOptions& options) {
+    command.add_flag("--headless", options.headless, "without a display");
+    CLI::Option* snapshot = command.add_option(
+        "--snapshot",
+        options.snapshotFolder,
+        "folder for pictures of the last frame, and with --clip of the first as soon as "
+        "it is there");
+    command.add_flag("--deep", options.deep, "pictures of 16 bits instead of 8 dithered ones")
+        ->needs(snapshot);
+    CLI::Option* clip = command.add_option("--clip", options.clipPath, "FILE.mp4 or FILE.webp")
+                            ->check(CLI::Validator(clipNameProblem, ""));
+    command
+        .add_option("--clip-of", options.clipOf, "panorama (by default), hall or a channel's name")
+        ->needs(clip);
+    command.add_option("--film-every", options.filmEvery, "the clip has every so many frames only")
+        ->needs(clip)
+        ->check(cli::wholeNumber(1, 10000));
+    command.add_flag("--live", options.live, "keep to the clock where lockstep would be implied")
+        ->excludes(clip);
+    command.footer(
+        "--headless, --frames, --snapshot and --clip imply lockstep: frame n shows tick n, and no "
+        "clock is read.");
+}
+
+// Throws Error where the rig needs keys and has none, before a process is started.
+int runWith(const supervisor::RunOptions& options) {
+    const config::Rig rig = config::readRig(options.show.rigPath);
+    static_cast<void>(masterKeysOf(rig, options.show));  // says at once where there are none
+    return supervisor::runShow(options, rig);
+}
+
+// Options of `replay`. With `check` no wall is started and only hashes are compared.
+struct ReplayOptions {
+    supervisor::RunOptions run;
+    bool check = false;
+};
+
+// Throws Error before anything is started where the file is no recording.
+int replay(const ReplayOptions& options) {
+    supervisor::requireRecording(options.run.show.replayPath);
+    return options.check ? checkReplay(options.run.show.replayPath) : runWith(options.run);
+}
+
+// What another program of the installation does with the arguments after the command's name.
+struct HandedOver {
+    const CLI::App* command = nullptr;
+    std::string program;
+    std::vector<std::string> first;  // its own subcommand, before the arguments
+    std::string name;                // that its errors and its help begin with
+    std::string notice = {};         // written to stderr before; empty: none
+};
+
+// Does not return: the other program takes the place of this process.
+void handOver(const HandedOver& to) {
+    if (!to.notice.empty()) cli::sayError("aquarama", to.notice);
+    supervisor::Command other{supervisor::siblingProgram(to.program), to.first, to.name};
+    for (const std::string& argument : to.command->remaining()) other.arguments.push_back(argument);
+    supervisor::become(other);
+}
+
+// A command that another program of the installation carries out, with all of its arguments. Where
+// it is a command of the other program as well, that adds its name by itself.
+HandedOver& addHandedOver(CommandLine& line,
+                          const std::string& name,
+                          const std::string& what,
+                          const std::string& program,
+                          const std::vector<std::string>& first) {
+    const auto [command, options] = line.add<HandedOver>(name, what, handOver);
+    command.prefix_command();
+    command.set_help_flag();  // the other program has its own
+    options = {&command, program, first, first.empty() ? "aquarama " + name : "aquarama"};
+    return options;
+}
+
+}  // namespace
+
+void describeWorld(CLI::App& command, supervisor::ShowOptions& options) {
+    command.add_option("RIG", options.rigPath, "the rig's file")->capture_default_str();
+    command.add_option("--seed", options.seed, "of the world: the same seed gives the same world")
+        ->check(cli::wholeNumber(0, cli::kMostSeed));
+    command.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
+    command
+        .add_option(
+            "--fish", options.fish, "how many of the first species, instead of the scene's number")
+        ->check(cli::wholeNumber(0, kMostFish));
+    command.add_option("--record", options.recordPath, "write the show to this new file");
+}
+
+// What `run`, `replay` and `master` have in common about the wall.
+void describeWall(CLI::App& command, supervisor::ShowOptions& options) {
+    command.add_option("--frames", options.frames, "end after so many frames")
+        ->check(cli::wholeNumber(1, cli::kMostShownFrames));
+    command.add_option("--pattern", options.pattern, "show this instead of the world")
+        ->check(CLI::IsMember({"world", "grid", "grey"}));
+    command
+        .add_option(
+            "--quality", options.quality, "how fine the wall is drawn, instead of the rig's")
+        ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));
+    command.add_option("--keys",
+                       options.keyFolder,
+                       "folder of the rig's keys, instead of the user's (aquarama keys)");
+    command.add_option(
+        "--trace", options.traceFolder, "folder for a line of times a frame, of each process");
+}
+
+void addRun(CommandLine& line) {
+    const auto [run, options] = line.add<supervisor::RunOptions>(
+        "run", "the master and all nodes of a rig on this machine", runWith);
+    describeWorld(run, options.show);
+    describeWall(run, options.show);
+    describePictures(run, options);
+}
+
+void addReplay(CommandLine& line) {
+    const auto [command, options] =
+        line.add<ReplayOptions>("replay", "a recorded show once more", replay);
+    command.add_option("FILE", options.run.show.replayPath, "the recording")->required();
+    command.add_option("--rig", options.run.show.rigPath, "the wall that shows it")
+        ->capture_default_str();
+    command.add_flag("--check", options.check, "no wall: only whether it is the same world again");
+    describeWall(command, options.run.show);
+    describePictures(command, options.run);
+}
+
+void addNode(CommandLine& line) {
+    addHandedOver(line, "node", "one render node: aquarama node NAME --master ADDRESS", "node", {});
+}
+
+void addCheck(CommandLine& line) {
+    addHandedOver(line,
+                  "check",
+                  "validate rigs, scenes and species: aquarama check FILE...",
+                  "compose",
+                  {"check"});
+}
+
+void addView(CommandLine& line) {
+    addHandedOver(line,
+                  "view",
+                  "what a simulated hall makes of channel pictures: aquarama view RIG "
+                  "--frame DIR --view hall --out PNG",
+                  "compose",
+                  {"view"});
+    HandedOver& former = addHandedOver(line, "theatre", "", "compose", {"view"});
+    former.notice =
+        "\"theatre\" is called \"view\" now; the former name ends with the next release";
+    line.hide("theatre");
+}
+
+void addCalibrate(CommandLine& line) {
+    addHandedOver(line,
+                  "calibrate",
+                  "find how projectors hang, by camera: aquarama calibrate --rig RIG --out WALL",
+                  "calibrate",
+                  {});
+}
+
+void addDrift(CommandLine& line) {
+    addHandedOver(line,
+                  "drift",
+                  "has a projector moved since last night: aquarama drift --rig RIG --camera DEV",
+                  "calibrate",
+                  {"drift"});
+}
+
+void addConsole(CommandLine& line) {
+    addHandedOver(line,
+                  "console",
+                  "the operator's console, for browsers: aquarama console RIG",
+                  "console",
+                  {});
+}
+
+}  // namespace aquarama

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// `aquarama gaits`, `search`, `controllers` and `fidelity`: how species swim, and how closely their
+// replicas follow.
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <iterator>
+#include <span>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "capture/capture_repertoire.h"
+#include "capture/gait_trial.h"
+#include "capture/report/fidelity.h"
+#include "capture/report/report_data.h"
+#include "capture/search.h"
+#include "commands/commands.h"
+#include "common/base/files.h"
+#include "common/cli/outputs.h"
+
+namespace aquarama {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct GaitsOptions {
+    std::vector<std::string> species;  // names or files; none: all
+    std::string config;
+};
+
+// A line as soon as its species has swum.
+void printGaits(const GaitsOptions& options) {
+    const fs::path config = configFolder(options.config);
+    const auto files = capture::speciesFiles(options.species, config);
+    std::cout << capture::gaitTableHead();
+    for (const auto& file : files)
+        std::cout << capture::gaitTableRows(config::readSpecies(file.string())) << std::flush;
+    std::cout << '\n' << capture::turnTableHead();
+    for (const auto& file : files)
+        std::cout << capture::turnTableRow(config::readSpecies(file.string())) << std::flush;
+}
+
+// Options of `search`. The journal lies beside `out`.
+struct SearchOptions {
+    std::string species;
+    std::string out;
+    std::string config;
+    std::size_t trials = 1000;
+};
+
+// The bytes of the whole file; empty where it cannot be read.
+std::string textOf(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The best trial so far, for the bar of progress.
+std::string told(std::size_t trials, const capture::SearchTrial& best) {
+    std::ostringstream note;
+    note << std::fixed << std::setprecision(2) << "trial " << trials << ", Strouhal "
+         << best.leastStrouhal << "-" << best.mostStrouhal << ", stride " << best.leastStride << "-"
+         << best.mostStride << ", miss " << best.miss;
+    return note.str();
+}
+
+// Goes on where its journal ends; then chooses the strength of turns, and writes the species' text
+// with what was found.
+void searchGaitsOf(const SearchOptions& options) {
+    cli::requireFile("--out", options.out);
+    const fs::path file =
+        capture::speciesFiles({options.species}, configFolder(options.config)).front();
+    const std::string text = textOf(file);
+    const config::Species species = config::parseSpecies(text, file.string());
+    capture::SearchJournal journal(options.out + ".journal", capture::searchName(text));
+    capture::ProgressBar bar("searching " + species.name);
+    const capture::SearchTrial best = capture::searchGaits(
+        species,
+        options.trials,
+        journal,
+        [&](std::size_t trials, const capture::SearchTrial& soFar) {
+            bar.show(static_cast<double>(trials) / static_cast<double>(options.trials),
+                     told(trials, soFar));
+        });
+    bar.show(1, told(journal.trials().size(), best));
+
+    config::Species swimmer = capture::speciesAt(best.point, species);
+    swimmer.turn = capture::withFittingStrengths(swimmer);
+    const std::string found = capture::withGaitsOf(swimmer, text);
+    writeWhole(options.out, std::as_bytes(std::span(found)));
+    std::cout << options.out << "\n\n"
+              << capture::gaitTableHead()
+              << capture::gaitTableRows(config::parseSpecies(found, options.out));
+}
+
+struct ControllersOptions {
+    std::string species = "bigeye_scad";
+    std::string out;
+    std::string config;
+};
+
+// Measures each controller and has Python draw the sheet.
+void drawControllers(const ControllersOptions& options) {
+    cli::requireFolder("--out", options.out);
+    cli::requirePython({"matplotlib"});
+    const fs::path config = configFolder(options.config);
+    const fs::path file = capture::speciesFiles({options.species}, config).front();
+    const fs::path data = report::writeControllers(config::readSpecies(file.string()), options.out);
+    cli::runPython(
+        {"matplotlib"}, "capture/report/draw_controllers.py", {data.string()}, options.out);
+}
+
+struct FidelityOptions {
+    std::vector<std::string> species;  // names or files; none: all
+    std::string out;
+    std::string config;
+    std::uint64_t seed = 1;  // of the script of commands
+    double seconds = 60;     // its length
+};
+
+// Names the file on stderr: stdout is for the tables.
+void writeText(const fs::path& path, const std::string& text) {
+    writeWhole(path, std::as_bytes(std::span(text.data(), text.size())));
+    std::cerr << path.string() << '\n';
+}
+
+// The same script to the fish and its replica, for each species; Python draws what was measured.
+void compareAll(const FidelityOptions& options) {
+    cli::requireFolder("--out", options.out);
+    cli::requirePython({"matplotlib"});
+    const fs::path config = configFolder(options.config);
+    std::vector<report::Fidelity> fidelities;
+    std::vector<report::SpeciesVocabularies> vocabularies;
+    for (const fs::path& file : capture::speciesFiles(options.species, config)) {
+        const config::Species species = config::readSpecies(file.string());
+        capture::ProgressBar bar("comparing " + species.name);
+        const motion::Repertoire repertoire =
+            capture::captureRepertoire(species, [&](double share) { bar.show(0.5 * share); });
+        fidelities.push_back(
+            report::measureFidelity(species, repertoire, options.seed, options.seconds));
+        bar.show(0.6);
+        vocabularies.push_back(
+            {species.name,
+             report::compareVocabularies(species, repertoire, options.seed, options.seconds)});
+        bar.show(1);
+    }
+    const fs::path out = options.out;
+    writeText(out / "fidelity.csv", report::commandsCsv(fidelities));
+    writeText(out / "fidelity_summaries.csv", report::summariesCsv(fidelities));
+    writeText(out / "fidelity_ticks.csv", report::ticksCsv(fidelities));
+    writeText(out / "fidelity_vocabularies.csv", report::vocabulariesCsv(vocabularies));
+    cli::runPython({"matplotlib"},
+                   "capture/report/draw_fidelity.py",
+                   {options.out, std::to_string(options.seed)},
+                   options.out);
+}
+
+}  // namespace
+
+void addGaits(CommandLine& line) {
+    const auto [command, options] = line.add<GaitsOptions>(
+        "gaits", "how species swim and turn, as tables in Markdown", printGaits);
+    command.add_option("SPECIES", options.species, "names or files; all when none is given");
+    describeConfig(command, options.config);
+}
+
+void addSearch(CommandLine& line) {
+    const auto [command, options] = line.add<SearchOptions>(
+        "search", "find gait parameters with which a species swims", searchGaitsOf);
+    command.add_option("SPECIES", options.species, "a name in the config folder, or a file")
+        ->required();
+    command
+        .add_option(
+            "--out",
+            options.out,
+            "the species file to write; beside it FILE.journal, with which the same command "
+            "goes on where it was interrupted")
+        ->required();
+    command.add_option("--trials", options.trials, "the most to make")
+        ->check(cli::wholeNumber(1, 1'000'000))
+        ->capture_default_str();
+    describeConfig(command, options.config);
+}
+
+void addControllers(CommandLine& line) {
+    const auto [command, options] = line.add<ControllersOptions>(
+        "controllers",
+        "what the biomechanical fish does under each of its motor controllers",
+        drawControllers);
+    command
+        .add_option(
+            "--species", options.species, "name of a species in the config folder, or a file")
+        ->capture_default_str();
+    command.add_option("--out", options.out, "folder for controllers.svg and its data")->required();
+    describeConfig(command, options.config);
+}
+
+void addFidelity(CommandLine& line) {
+    const auto [command, options] = line.add<FidelityOptions>(
+        "fidelity", "how far replicas are from the fish that they stand for", compareAll);
+    command.add_option("--species",
+                       options.species,
+                       "name of a species in the config folder, or a file; all when not given");
+    command.add_option("--seed", options.seed, "which script of commands")
+        ->check(cli::wholeNumber(0, cli::kMostSeed))
+        ->capture_default_str();
+    command.add_option("--seconds", options.seconds, "how long the script is")
+        ->check(cli::number(1, 3600))
+        ->capture_default_str();
+    command.add_option("--out", options.out, "folder for the page, its data and the pictures")
+        ->required();
+    describeConfig(command, options.config);
+}
+
+}  // namespace aquarama

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/scene/scene.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <future>
+#include <optional>
+#include <vector>
+
+#include <glm/matrix.hpp>
+
+#include "common/place/place.h"
+#include "render_node/gl/handle.h"
+#include "render_node/gl/program.h"
+#include "render_node/quality/quality.h"
+#include "render_node/reef/ground.h"
+#include "render_node/reef/mesh.h"
+#include "render_node/reef/reef.h"
+#include "render_node/scene/scene_picture.h"
+#include "render_node/scene/sea_light.h"
+#include "render_node/shaders/frame_uniforms.h"
+#include "render_node/shaders/shader_interface.h"
+#include "render_node/surface/school_surface.h"
+
+namespace aquarama::scene {
+
+namespace {
+
+// The share of noon's light that reaches the water: of the sun (x), and of the sky's red, green and
+// blue (yzw). When the sun is low the surface reflects its light away; what remains is bluer and
+// comes from above. Never 0, so that the wall is not dark at night. Exactly 1 at noon.
+glm::vec4 daylightOf(float daylight) {
+    const glm::vec4 night{0.02F, 0.16F, 0.24F, 0.36F};
+    const float sun = daylight * daylight;
+    return glm::mix(night, glm::vec4{1.0F}, glm::vec4{sun, glm::vec3{daylight}});
+}
+
+// The floodlight 1 m above the shared eye: position in the world, and power (w). By day it is weak
+// near the surface, where it would flatten the shading by the sun, and stronger where the sun does
+// not reach. In the deep the exposure is higher, so the power is divided by it; at night the
+// exposure is the same as by day, so power is added.
+glm::vec4 lampOf(const SceneFrame& frame, float exposure) {
+    const glm::vec3 above{0.0F, 1.0F, 0.0F};
+    const float deep = glm::smoothstep(9.0F, 24.0F, -frame.eyePositionMetres.y);
+    const float power = glm::mix(8.0F, 12.0F, deep) / exposure + 8.0F * (1.0F - frame.daylight);
+    return {frame.eyePositionMetres + above, power};
+}
+
+// Shaders count time in 32-bit floats, which would become coarse after months. The clock therefore
+// restarts after this many seconds, a whole number of periods of all that the shaders derive from
+// it: drifting snow, clouds and fins.
+constexpr double kClockSeconds = 9000;
+
+// The uniforms that all views of a frame share; the rest is left to setView().
+shaders::FrameUniforms frameUniforms(const SceneFrame& frame,
+                                     const SeaLight& light,
+                                     float pixelRadians) {
+    shaders::FrameUniforms uniforms{};
+    const auto clock = static_cast<float>(std::fmod(frame.timeSeconds, kClockSeconds));
+    uniforms.eyeAndTime = glm::vec4(frame.eyePositionMetres, clock);
+    uniforms.sharedEyeAndPixel = glm::vec4(frame.eyePositionMetres, pixelRadians);
+    uniforms.sunAndFilterDepth = glm::vec4(
+        sunInWater(), static_cast<float>(filterDepthMetres(-double{frame.eyePositionMetres.y})));
+    uniforms.kdAndExposure = light.kdAndExposure(frame.eyePositionMetres);
+    uniforms.daylight = daylightOf(frame.daylight);
+    uniforms.lamp = lampOf(frame, uniforms.kdAndExposure.w);
+    return uniforms;
+}
+
+// Fills in what depends on the view: matrices, the position of this eye, the size of the picture.
+void setView(shaders::FrameUniforms& uniforms, const View& view) {
+    uniforms.clipFromWorld = view.clipFromCamera * view.cameraFromWorld;
+    uniforms.worldFromClip = glm::inverse(uniforms.clipFromWorld);
+    const glm::vec3 eye(glm::inverse(view.cameraFromWorld)[3]);
+    uniforms.eyeAndTime = glm::vec4(eye, uniforms.eyeAndTime.w);
+    const glm::vec2 size(view.sizePixels);
+    uniforms.viewport = glm::vec4(size, 1.0F / size);
+}
+
+// The sea floor and what stands on it. In the open sea there is none: the floor is too deep to be
+// seen.
+struct Bottom {
+    Ground ground;
+    Reef reef;
+};
+
+// Tables of the sea floor, made by two threads while this one compiles shaders. The futures stay
+// invalid in the open sea.
+struct BottomTables {
+    explicit BottomTables(const SceneOptions& options) {
+        if (options.place != config::PlaceKind::Reef) return;
+        reef = std::async(
+            std::launch::async, reefTables, place::PlaceKey{options.seed, options.place});
+        ground = std::async(std::launch::async, groundTables, options.seed);
+    }
+    std::future<ReefTables> reef;
+    std::future<GroundTables> ground;
+};
+
+}  // namespace
+
+// The members in the order in which they are made: the tables start first, programs and textures
+// follow, and the body of the constructor waits for the tables.
+struct SceneRenderer::Parts {
+    Parts(const SceneOptions& chosen, std::span<const surface::SchoolSpecies> cast)
+        : options{chosen},
+          quality{qualityOf(chosen.quality)},
+          shaders{replacementsOf(quality.light)},
+          bottomTables{chosen},
+          light{{chosen.seed, chosen.water, quality.light}},
+          picture{quality},
+          school{cast,
+                 {.culling = chosen.culling,
+                  .levelsOfDetail = chosen.levelsOfDetail,
+                  .finest =
+                      quality.closeUps ? surface::DetailLevel::CloseUp : surface::DetailLevel::Hero,
+                  .fineness = quality.fishFineness},
+                 surface::makeSkinPrograms(shaders)},
+          food{shaders},
+          surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"}, shaders)},
+          water{gl::makeProgram({"quad.vert", "water.frag"}, shaders)},
+          snow{gl::makeProgram({"snow.vert", "snow.frag"}, shaders)} {
+        if (bottomTables.reef.valid())
+            bottom = Bottom{Ground{bottomTables.ground.get(), shaders},
+                            Reef{bottomTables.reef.get(), quality}};
+        if (bottom && quality.light.isFine) bakeShadows();
+    }
+
+    // Uploads the uniforms and binds them.
+    void setUniforms() const;
+    // Draws the shadow maps of the place, once.
+    void bakeShadows();
+    void drawSolids(const Viewpoint& viewpoint);
+    void drawWater() const;
+    void drawSnow() const;
+
+    SceneOptions options;
+    Quality quality;
+    // Includes that the tier of quality replaces.
+    gl::Replacements shaders;
+    BottomTables bottomTables;
+    shaders::FrameUniforms uniforms{};
+    // The frame's food, kept for its views.
+    std::vector<FoodParticle> specks;
+    gl::Buffer frameBlock{
+        gl::makeBuffer(sizeof(shaders::FrameUniforms), "frame", GL_DYNAMIC_STORAGE_BIT)};
+    gl::VertexArray empty;
+    SeaLight light;
+    std::optional<Bottom> bottom;
+    ScenePicture picture;
+    surface::SchoolSurface school;
+    FoodSpecks food;
+    gl::ProgramHandle surface, water, snow;
+};
+
+void SceneRenderer::Parts::setUniforms() const {
+    glNamedBufferSubData(frameBlock.name(), 0, sizeof(uniforms), &uniforms);
+    glBindBufferBase(GL_UNIFORM_BUFFER, shaders::kFrameBlock, frameBlock.name());
+}
+
+// Draws the static place into the shadow maps. Levels of detail are chosen for an eye far above
+// with coarse pixels, 2 mrad, so that the meshes are about as fine as the texels of the maps.
+void SceneRenderer::Parts::bakeShadows() {
+    constexpr glm::vec4 kFarAboveWithCoarsePixels{0.0F, 30.0F, 0.0F, 0.002F};
+    const Reef::DepthPrograms reefPrograms = bottom->reef.depthPrograms();
+    const gl::ProgramHandle groundProgram = Ground::depthProgram();
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    uniforms.sharedEyeAndPixel = kFarAboveWithCoarsePixels;
+    light.shade().setPlace([&](const glm::mat4& clipFromWorld) {
+        uniforms.clipFromWorld = clipFromWorld;
+        setUniforms();
+        light.bind();
+        bottom->reef.cull({.culling = false, .levelsOfDetail = options.levelsOfDetail});
+        bottom->reef.drawDepths(reefPrograms);
+        bottom->ground.drawDepths(groundProgram,
+                                  Viewpoint{surface::frustumOf(clipFromWorld),
+                                            place::kEyePosition,
+                                            false,
+                                            options.levelsOfDetail});
+    });
+}
+
+// The reef before the sand, so that the depth test saves shading sand that the reef hides.
+void SceneRenderer::Parts::drawSolids(const Viewpoint& viewpoint) {
+    const gl::Stage stage{"place"};
+    if (!bottom) return;
+    bottom->reef.draw();
+    bottom->ground.draw(viewpoint);
+}
+
+// The surface as a square of four vertices, then open water on the far plane: it passes the depth
+// test only where nothing else was drawn.
+void SceneRenderer::Parts::drawWater() const {
+    const gl::Stage stage{"water"};
+    glBindVertexArray(empty.name());
+    glUseProgram(surface.name());
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glUseProgram(water.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+// Marine snow: points of light, added over everything and hidden by what is nearer.
+void SceneRenderer::Parts::drawSnow() const {
+    const gl::Stage stage{"snow"};
+    glBindVertexArray(empty.name());
+    glUseProgram(snow.name());
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glDrawArrays(GL_POINTS, 0, quality.light.flakes);
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+}
+
+SceneRenderer::SceneRenderer(const SceneOptions& options,
+                             std::span<const surface::SchoolSpecies> cast)
+    : parts_{std::make_unique<Parts>(options, cast)} {}
+
+SceneRenderer::~SceneRenderer() = default;
+
+void SceneRenderer::update(const SceneFrame& frame) {
+    assert(std::isfinite(frame.timeSeconds));
+    Parts& parts = *parts_;
+    parts.uniforms = frameUniforms(frame, parts.light, parts.options.pixelRadians);
+    parts.uniforms.bottom.x = parts.bottom ? 1.0F : 0.0F;
+    parts.specks.assign(frame.food.begin(), frame.food.end());
+    parts.setUniforms();
+    parts.school.update(frame.fish);
+    parts.school.bindRecords();
+    if (parts.bottom)
+        parts.bottom->reef.stir(parts.school.fishInRecords(), parts.school.fraction());
+    parts.light.update(frame.timeSeconds, frame.eyePositionMetres);
+    parts.light.shade().updateFish(parts.school);
+}
+
+// The order of a view: computation, opaque bodies and place, water, then all that is blended, in a
+// fixed order, then the passes over the picture.
+unsigned SceneRenderer::draw(const View& view) {
+    assert(view.sizePixels.x > 0);
+    assert(view.sizePixels.y > 0);
+    Parts& parts = *parts_;
+    setView(parts.uniforms, view);
+    parts.setUniforms();
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    const glm::vec3 eye(parts.uniforms.eyeAndTime);
+    parts.light.bind();
+    parts.light.drawShafts(eye, parts.uniforms.worldFromClip);
+    parts.school.look(parts.uniforms.clipFromWorld,
+                      {glm::vec3(parts.uniforms.sharedEyeAndPixel), parts.options.pixelRadians});
+    // All compute passes run before anything is drawn: a driver may have to wait when it switches
+    // between the two.
+    if (parts.bottom)
+        parts.bottom->reef.cull({parts.options.culling, parts.options.levelsOfDetail});
+    parts.picture.begin(view.sizePixels);
+    const Viewpoint viewpoint{surface::frustumOf(parts.uniforms.clipFromWorld),
+                              glm::vec3(parts.uniforms.sharedEyeAndPixel),
+                              parts.options.culling,
+                              parts.options.levelsOfDetail,
+                              parts.quality.placeDetail};
+    parts.school.drawBodies();
+    parts.drawSolids(viewpoint);
+    parts.drawWater();
+    parts.school.drawBlended();
+    parts.food.update(parts.specks, viewpoint);
+    parts.food.draw();
+    parts.drawSnow();
+    return parts.picture.finish();
+}
+
+}  // namespace aquarama::scene

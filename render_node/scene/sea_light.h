@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light in the sea at one instant: the tables of the water, the waves, their caustics on the
+// sand and the shafts of light in the water. Every node computes the same textures.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "render_node/gl/handle.h"
+#include "render_node/quality/quality.h"
+#include "render_node/scene/sea_shade.h"
+#include "render_node/water/water_tables.h"
+#include "render_node/water/waves.h"
+
+namespace aquarama::scene {
+
+// What the light is computed for; fixed for the life of a SeaLight.
+struct SeaLightOptions {
+    std::uint32_t seed = 1;
+    config::WaterType water = config::WaterType::IB;
+    LightQuality quality;
+    // A flat surface without waves, for tests.
+    bool calm = false;
+};
+
+// Owns its GL objects; construct, use and destroy it with the same context current. Call update()
+// once for each frame, then drawShafts() and bind() for each view.
+class SeaLight {
+  public:
+    explicit SeaLight(const SeaLightOptions& options)
+        : SeaLight(options, waterTables(options.water)) {}
+    // tables: those of options.water.
+    SeaLight(const SeaLightOptions& options, WaterTables tables);
+
+    // For the frame's uniforms: Kd of the three primaries (xyz, 1/m), and the exposure at this eye
+    // (w).
+    [[nodiscard]] glm::vec4 kdAndExposure(glm::vec3 sharedEyeMetres) const;
+
+    // Draws waves and caustics, which all views share, and mixes the water tables for the eye's
+    // depth. Expects the frame's uniform block to be bound. Switches the depth test off.
+    void update(double timeSeconds, glm::vec3 sharedEyeMetres);
+    // Draws the map of shafts, but only the directions that this view reads. Expects the sea's
+    // light to be updated.
+    void drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip);
+    // Binds block and textures to the units that water.glsl and what it includes name.
+    void bind() const;
+
+    [[nodiscard]] SeaShade& shade() { return shade_; }
+    // For tests: sunlight by depth (array layers) and by direction.
+    [[nodiscard]] const gl::Texture& causticLayers() const { return causticLayers_; }
+    [[nodiscard]] const gl::Texture& shaftMap() const { return shaftMap_; }
+
+  private:
+    void drawWaves();
+    void drawCaustics();
+
+    LightQuality quality_;
+    Sea sea_;
+    Inscatter inscatter_;
+    // Depth of the eye that atEye_ and inscatterTable_ were mixed for, metres.
+    float tableDepthMetres_;
+    Table atEye_;
+    glm::vec3 primariesKd_;
+    gl::Texture direct_, inscatterTable_, openWater_, cloudTile_;
+    gl::Texture waveTile_, rippleTile_, causticLayers_, shaftMap_;
+    gl::Framebuffer waveTarget_, rippleTarget_, causticTarget_, shaftTarget_;
+    gl::ProgramHandle waveProgram_, causticProgram_, shaftProgram_;
+    gl::Buffer seaBlock_, causticIndices_;
+    gl::VertexArray empty_, causticGrid_;
+    int causticIndexCount_ = 0;
+    SeaShade shade_;
+};
+
+}  // namespace aquarama::scene

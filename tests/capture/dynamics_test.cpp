@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/dynamics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <gtest/gtest.h>
+
+#include "capture/biomechanical_fish.h"
+#include "capture/motor_controllers.h"
+#include "tests/capture/dense.h"
+#include "tests/capture/disturbed.h"
+#include "tests/support/all_species.h"
+#include "tests/support/scad.h"
+
+namespace aquarama::capture {
+namespace {
+
+glm::dvec3 momentumOf(const BiomechanicalFish& fish, const FishState& state) {
+    glm::dvec3 momentum{};
+    for (std::size_t i = 0; i < state.velocities.size(); ++i)
+        momentum += fish.masses.at(i) * state.velocities.at(i);
+    return momentum;
+}
+
+void addBlock(DenseMatrix& matrix, int rowNode, int columnNode, const glm::dmat3& block) {
+    for (int p = 0; p < 3; ++p)
+        for (int q = 0; q < 3; ++q)
+            matrix.at(3 * static_cast<std::size_t>(rowNode) + static_cast<std::size_t>(p))
+                .at(3 * static_cast<std::size_t>(columnNode) + static_cast<std::size_t>(q)) +=
+                block[p][q];
+}
+
+TEST(EnvelopeSystem, solvesWhatADenseSolverSolves) {
+    constexpr std::size_t kSize = EnvelopeSystem::kUnknowns;
+    EnvelopeSystem system;
+    DenseMatrix dense(kSize, std::vector<double>(kSize));
+    std::vector<double> right;
+    for (int i = 0; i < body::kNodalPoints; ++i) {
+        system.addToDiagonal(i, 1 + 0.1 * i);
+        addBlock(dense, i, i, glm::dmat3(1 + 0.1 * i));
+        const glm::dvec3 value{std::sin(i), std::cos(i), 0.5};
+        system.addToRightSide(i, value);
+        right.insert(right.end(), {value.x, value.y, value.z});
+    }
+    for (const Unit& unit : anatomy().units) {
+        const glm::dvec3 u = glm::normalize(
+            glm::dvec3(std::sin(unit.first), std::cos(unit.second), std::sin(unit.second)));
+        const glm::dmat3 block = glm::outerProduct(u, u) + glm::dmat3(0.1);
+        system.addDiagonalBlock(unit.first, block);
+        system.addDiagonalBlock(unit.second, block);
+        system.addOffDiagonalBlock(unit.first, unit.second, -block);
+        addBlock(dense, unit.first, unit.first, block);
+        addBlock(dense, unit.second, unit.second, block);
+        addBlock(dense, unit.first, unit.second, -block);
+        addBlock(dense, unit.second, unit.first, -block);
+    }
+    system.solve();
+    const std::vector<double> expected = solveDense(dense, right);
+    for (int i = 0; i < body::kNodalPoints; ++i)
+        for (int p = 0; p < 3; ++p)
+            EXPECT_NEAR(system.solution(i)[p],
+                        expected.at(3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(p)),
+                        1e-12);
+}
+
+TEST(Dynamics, aFishAtRestStaysAtRest) {
+    const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
+    FishState state = stateAtRest(fish);
+    for (int i = 0; i < 100; ++i) step(fish, {}, longestStepSeconds(fish), state);
+    for (std::size_t i = 0; i < state.positions.size(); ++i)
+        EXPECT_LT(glm::distance(state.positions.at(i), fish.restPositions.at(i)), 1e-12);
+}
+
+TEST(Dynamics, waterOnlyEverSlowsAStiffFish) {
+    const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
+    FishState state = stateAtRest(fish);
+    for (glm::dvec3& velocity : state.velocities) velocity = {2, 0, 0};
+    double speed = momentumOf(fish, state).x;
+    for (int i = 0; i < 200; ++i) {
+        step(fish, {}, longestStepSeconds(fish), state);
+        const double now = momentumOf(fish, state).x;
+        ASSERT_LT(now, speed);
+        ASSERT_GT(now, 0);
+        speed = now;
+    }
+}
+
+TEST(Dynamics, exchangedMusclesSwimTheMirroredPathInEverySpecies) {
+    for (const config::Species& species : test::allSpecies()) {
+        const BiomechanicalFish fish = makeBiomechanicalFish(species);
+        FishState left = stateAtRest(fish);
+        FishState right = stateAtRest(fish);
+        for (int i = 0; i < 600; ++i) {
+            const double seconds = i * longestStepSeconds(fish);
+            const MuscleActivation muscles =
+                mix(beatAt(species.swim, 1, species.swim.medium.beatHertz * seconds),
+                    bendLeft(species.turn.gradual, seconds * fish.timeScale),
+                    std::min(1.0, seconds));
+            step(fish, {.muscles = muscles, .fins = {}}, longestStepSeconds(fish), left);
+            step(fish, {.muscles = mirrored(muscles), .fins = {}}, longestStepSeconds(fish), right);
+        }
+        for (int i = 0; i < body::kNodalPoints; ++i) {
+            const glm::dvec3 image =
+                glm::dvec3(1, 1, -1) *
+                right.positions.at(static_cast<std::size_t>(mirroredLeftRight(i)));
+            EXPECT_LT(glm::distance(left.positions.at(static_cast<std::size_t>(i)), image), 1e-9)
+                << species.name;
+        }
+    }
+}
+
+TEST(Dynamics, swimsInAPlane) {
+    const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
+    FishState state = stateAtRest(fish);
+    for (int i = 0; i < 5000; ++i)
+        step(fish,
+             {.muscles = beatAt(test::scad().swim,
+                                1,
+                                test::scad().swim.fast.beatHertz * i * longestStepSeconds(fish)),
+              .fins = {}},
+             longestStepSeconds(fish),
+             state);
+    for (int i = 0; i < body::kNodalPoints; ++i) {
+        const double height = state.positions.at(static_cast<std::size_t>(i)).y;
+        const double image = state.positions.at(static_cast<std::size_t>(mirroredTopBottom(i))).y;
+        EXPECT_NEAR(height, -image, 1e-9);
+    }
+}
+
+TEST(BodyFrame, isOrthonormalAndPointsForwardUpAndRight) {
+    const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
+    const PoseFrame rest = frameOf(fish.restPositions);
+    EXPECT_LT(glm::distance(rest.worldFromBody[0], glm::dvec3(1, 0, 0)), 1e-12);
+    EXPECT_LT(glm::distance(rest.worldFromBody[1], glm::dvec3(0, 1, 0)), 1e-12);
+    EXPECT_LT(glm::distance(rest.worldFromBody[2], glm::dvec3(0, 0, 1)), 1e-12);
+    const PoseFrame bent = frameOf(disturbed(fish).positions);
+    const glm::dmat3 square = glm::transpose(bent.worldFromBody) * bent.worldFromBody;
+    for (int p = 0; p < 3; ++p)
+        for (int q = 0; q < 3; ++q) EXPECT_NEAR(square[p][q], p == q ? 1 : 0, 1e-12);
+    EXPECT_GT(glm::determinant(bent.worldFromBody), 0);
+}
+
+}  // namespace
+}  // namespace aquarama::capture
