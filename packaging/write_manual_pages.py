@@ -19,6 +19,7 @@ SUMMARIES = {  # what --help does not say in a line
     "aquarama-node": "show one channel of a wall, in step with all others",
 }
 ELSEWHERE = {"node": "aquarama-node", "console": "aquarama-console", "calibrate": "aquarama-calibrate"}  # commands with a page
+FORMER = {"aquarama-solve"}  # names of the release before, whose page is that of the new name
 COLUMN = 30  # where --help begins to say what an option does
 COMMAND_GROUP = re.compile(r"^(A show|While a show|Files|Fish and|Worlds|Commands|Subcommands)\b.*:$")
 
@@ -111,6 +112,8 @@ def main():
     shown = subprocess.run([programs / "aquarama", "--version"], capture_output=True, text=True, check=True)
     version = shown.stdout.split()[1]
     for program in sorted(programs.iterdir()):
+        if program.name in FORMER:
+            continue
         if program.name not in SUMMARIES:
             sys.exit(f"write_manual_pages.py: {program.name} has no line in SUMMARIES; write one")
         (out / f"{program.name}.1").write_text("\n".join(page(program, version)) + "\n")
