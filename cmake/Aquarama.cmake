@@ -46,6 +46,29 @@ function(aquarama_library name)
   endif()
 endfunction()
 
+# aquarama_schema(config SOURCES rules.proto ... [LINK targets...]): the messages of a folder, as library
+# aquarama_config_schema. A schema is imported, and its header included, from the root: "common/config/rules.proto". What
+# protoc writes is compiled apart: our warnings and our linter are not its business.
+function(aquarama_schema name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  file(RELATIVE_PATH FOLDER ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  set(WRITTEN "")
+  foreach(SCHEMA IN LISTS ARG_SOURCES)
+    get_filename_component(BASE ${SCHEMA} NAME_WE)
+    set(OUTPUTS ${CMAKE_BINARY_DIR}/${FOLDER}/${BASE}.pb.cc ${CMAKE_BINARY_DIR}/${FOLDER}/${BASE}.pb.h)
+    add_custom_command(OUTPUT ${OUTPUTS}
+      COMMAND protobuf::protoc --cpp_out=${CMAKE_BINARY_DIR} -I ${PROJECT_SOURCE_DIR} ${FOLDER}/${SCHEMA}
+      WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} DEPENDS ${ARG_SOURCES} protobuf::protoc)
+    list(APPEND WRITTEN ${OUTPUTS})
+  endforeach()
+  add_library(aquarama_${name}_schema STATIC ${WRITTEN})
+  target_compile_features(aquarama_${name}_schema PUBLIC cxx_std_20)
+  target_compile_options(aquarama_${name}_schema PRIVATE -w)
+  target_include_directories(aquarama_${name}_schema SYSTEM PUBLIC ${CMAKE_BINARY_DIR})
+  target_link_libraries(aquarama_${name}_schema PUBLIC protobuf::libprotobuf ${ARG_LINK})
+  set_target_properties(aquarama_${name}_schema PROPERTIES CXX_CLANG_TIDY "")
+endfunction()
+
 # aquarama_program(aquarama-node SOURCES main.cpp LINK targets...): an executable in build/PRESET/bin.
 function(aquarama_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})

@@ -22,6 +22,7 @@
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 #include "common/wire/recording.h"
+#include "common/wire/show_file.h"
 #include "master/conductor/requests.h"
 #include "master/conductor/steering.h"
 #include "master/simulation/living_world.h"
@@ -183,22 +184,35 @@ bool switchedOn(const SetOptions& options) {
 }
 
 // Throws Error where no pattern has this name.
-v1::Pattern patternIn(const SetOptions& options) {
+v1::WantedShow::Shown patternIn(const SetOptions& options) {
     if (const auto pattern = wire::patternNamed(options.value))
-        return static_cast<v1::Pattern>(*pattern);
+        return static_cast<v1::WantedShow::Shown>(*pattern);
     throw Error("pattern is world, grid or grey, not \"" + options.value + "\"");
 }
 
-// Returns when the wall shows it.
+// Throws Error where no tier has this name.
+v1::WantedShow::Tier tierIn(const SetOptions& options) {
+    if (options.value == "auto") return v1::WantedShow::AUTO;
+    if (const auto tier = config::tierNamed(options.value)) return wire::tierOf(tier);
+    throw Error("quality is low, medium, high, ultra or auto, not \"" + options.value + "\"");
+}
+
+// Returns when it is done.
 void set(const SetOptions& options) {
-    v1::Set set;
-    if (options.what == "scene") set.set_scene(options.value);
-    if (options.what == "quality") set.set_quality(options.value);
-    if (options.what == "pattern") set.set_pattern(patternIn(options));
-    if (options.what == "black") set.set_black(switchedOn(options));
-    if (options.what == "freeze") set.set_freeze(switchedOn(options));
-    if (options.what == "restart") set.set_restart(options.value);
-    options.asked.connect().set(std::move(set), [](const std::string& what) {
+    v1::Order order;
+    if (options.what == "restart")
+        order.mutable_restart()->set_channel(options.value);
+    else if (options.what == "scene")
+        order.mutable_show()->set_scene(options.value);
+    else if (options.what == "quality")
+        order.mutable_show()->set_quality(tierIn(options));
+    else if (options.what == "pattern")
+        order.mutable_show()->set_pattern(patternIn(options));
+    else if (options.what == "black")
+        order.mutable_show()->set_black(switchedOn(options));
+    else
+        order.mutable_show()->set_freeze(switchedOn(options));
+    options.asked.connect().carryOut(std::move(order), [](const std::string& what) {
         std::cout << what << std::endl;  // at once: it takes a while
     });
     std::cout << options.what << ' ' << options.value << '\n';

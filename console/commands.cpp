@@ -11,6 +11,7 @@
 
 #include "common/base/log.h"
 #include "common/machine/machine_power.h"
+#include "common/wire/show_file.h"
 #include "console/console.h"
 
 namespace aquarama::console {
@@ -44,67 +45,66 @@ std::optional<ConsoleRole> roleFor(What what) {
     return role == kRoles.end() ? std::nullopt : std::optional(role->second);
 }
 
-// For the list of events.
-std::string onOff(bool on) {
-    return on ? "on" : "off";
+// Nothing where there is no tier of this name.
+std::optional<v1::WantedShow::Tier> tierNamed(const std::string& name) {
+    if (name == "auto") return v1::WantedShow::AUTO;
+    if (const auto tier = config::tierNamed(name)) return wire::tierOf(tier);
+    return std::nullopt;
 }
 
-// Of the machine of a node; a word that is none stays unspecified.
-v1::MachineOfNode machineIn(const browser::Command& command) {
-    v1::MachineOfNode machine;
-    machine.set_run(command.run());
-    machine.set_channel(command.machine().channel());
-    if (command.machine().word() == "poweroff") machine.set_word(v1::POWER_OFF);
-    if (command.machine().word() == "reboot") machine.set_word(v1::POWER_REBOOT);
-    return machine;
+v1::Power::Word powerWordNamed(const std::string& word) {
+    if (word == "poweroff") return v1::Power::POWEROFF;
+    return word == "reboot" ? v1::Power::REBOOT : v1::Power::WORD_UNSPECIFIED;
 }
 
 // Of a command for the wall, for the master; empty where it is of something else.
-std::optional<v1::Set> setOf(const browser::Command& command) {
-    v1::Set set;
-    set.set_request(command.id());
+std::optional<v1::Order> orderOf(const browser::Command& command) {
+    v1::Order order;
+    order.set_request(command.id());
+    order.set_run(command.run());
+    v1::WantedShow& show = *order.mutable_show();
     switch (command.what_case()) {
         case What::kBlack:
-            set.set_black(command.black());
-            return set;
+            show.set_black(command.black());
+            return order;
         case What::kFreeze:
-            set.set_freeze(command.freeze());
-            return set;
+            show.set_freeze(command.freeze());
+            return order;
         case What::kScene:
-            set.set_scene(command.scene());
-            return set;
+            show.set_scene(command.scene());
+            return order;
         case What::kQuality:
-            set.set_quality(command.quality());
-            return set;
+            show.set_quality(
+                tierNamed(command.quality()).value_or(v1::WantedShow::TIER_UNSPECIFIED));
+            return order;
         case What::kPattern:
-            set.set_pattern(static_cast<v1::Pattern>(
-                wire::patternNamed(command.pattern()).value_or(wire::Pattern::Scan)));
-            return set;
+            if (const auto pattern = wire::patternNamed(command.pattern()))
+                show.set_pattern(static_cast<v1::WantedShow::Shown>(*pattern));
+            else
+                show.set_pattern(v1::WantedShow::SHOWN_UNSPECIFIED);
+            return order;
         case What::kRestart:
-            set.set_restart(command.restart());
-            return set;
+            order.mutable_restart()->set_channel(command.restart());
+            return order;
         case What::kMachine:
-            *set.mutable_machine() = machineIn(command);
-            return set;
+            order.mutable_power()->set_channel(command.machine().channel());
+            order.mutable_power()->set_word(powerWordNamed(command.machine().word()));
+            return order;
         default:
             return std::nullopt;
     }
 }
 
 // What was asked for, as the list of events has it.
-std::string textOf(const v1::Set& set) {
-    if (set.has_black()) return "black " + onOff(set.black());
-    if (set.has_freeze()) return "freeze " + onOff(set.freeze());
-    if (set.has_scene()) return "scene " + set.scene();
-    if (set.has_quality()) return "quality " + set.quality();
-    if (set.has_restart()) return "restart node " + set.restart();
-    if (set.has_machine())
-        return (set.machine().word() == v1::POWER_OFF ? "poweroff of the machine of "
-                                                      : "reboot of the machine of ") +
-               set.machine().channel();
-    if (set.has_scan())
-        return set.scan().has_pattern() ? "a pattern of a scan" : "no pattern of a scan";
-    return "pattern " + std::string(wire::nameOf(static_cast<wire::Pattern>(set.pattern())));
+std::string textOf(const v1::Order& order) {
+    if (order.has_restart()) return "restart node " + order.restart().channel();
+    if (order.has_power())
+        return (order.power().word() == v1::Power::POWEROFF ? "poweroff of the machine of "
+                                                            : "reboot of the machine of ") +
+               order.power().channel();
+    if (order.has_scan())
+        return order.scan().has_pattern() ? "a pattern of a scan" : "no pattern of a scan";
+    return wire::textOf(wire::changeIn(order.show()));
 }
 
 // A name that the master takes: a packet of ours is never malformed there.
@@ -114,20 +114,16 @@ bool isName(const std::string& text) {
                text, [](char c) { return static_cast<unsigned char>(c) >= 0x20 && c != 0x7F; });
 }
 
-// Of a scene, a tier or a node, where the value is one.
-std::optional<std::string> nameIn(const v1::Set& set) {
-    if (set.has_scene()) return set.scene();
-    if (set.has_quality()) return set.quality();
-    if (set.has_restart()) return set.restart();
-    if (set.has_machine()) return set.machine().channel();
-    return std::nullopt;
-}
-
-// Of one value, as setOf() makes it.
-bool isSendable(const v1::Set& set) {
-    if (const auto name = nameIn(set); name && !isName(*name)) return false;
-    if (set.has_machine()) return set.machine().word() != v1::POWER_UNSPECIFIED;
-    return set.pattern() != v1::PATTERN_SCAN;
+// Of one value, as orderOf() makes it.
+bool isSendable(const v1::Order& order) {
+    if (order.has_restart()) return isName(order.restart().channel());
+    if (order.has_power())
+        return isName(order.power().channel()) &&
+               order.power().word() != v1::Power::WORD_UNSPECIFIED;
+    const v1::WantedShow& show = order.show();
+    return (!show.has_scene() || isName(show.scene())) &&
+           (!show.has_quality() || show.quality() != v1::WantedShow::TIER_UNSPECIFIED) &&
+           (!show.has_pattern() || show.pattern() != v1::WantedShow::SHOWN_UNSPECIFIED);
 }
 
 // A place of a picture, as shares of its size. A number that is none is no place.
@@ -213,7 +209,7 @@ browser::Done Console::carryOutAllowed(const Holder& holder,
                                        const Command& command) {
     if (command.has_scan()) return showScan(holder, visitor, command);
     if (command.has_use_calibration()) return useKept(holder, visitor, command);
-    if (const auto set = setOf(command)) return tellWall(holder, visitor, command, *set);
+    if (const auto order = orderOf(command)) return tellWall(holder, visitor, command, *order);
     return carryOutHere(holder, visitor, command);
 }
 
@@ -221,15 +217,15 @@ browser::Done Console::carryOutAllowed(const Holder& holder,
 browser::Done Console::tellWall(const Holder& holder,
                                 Visitor* visitor,
                                 const Command& command,
-                                const v1::Set& set) {
+                                const v1::Order& order) {
     if (!wall_.heard()) return settle(command.id(), "refused", "the master does not answer");
     if (command.run() != wall_.run())
         return settle(command.id(),
                       "refused",
                       "the show was started again meanwhile: look, and say it once more");
-    if (!isSendable(set)) return settle(command.id(), "refused", "there is nothing of that name");
-    pending_[command.id()] = {visitor, holder.name, textOf(set)};
-    link_->set(set);
+    if (!isSendable(order)) return settle(command.id(), "refused", "there is nothing of that name");
+    pending_[command.id()] = {visitor, holder.name, textOf(order)};
+    link_->give(order);
     return settle(command.id(), "waiting", "");
 }
 
@@ -330,13 +326,14 @@ browser::Done Console::showScan(const Holder& holder, Visitor* visitor, const Co
     const bool isShown = !scan.kind().empty();
     if (isShown && (!pattern || visitor == nullptr))
         return settle(command.id(), "refused", "there is no such pattern, or no page to hold it");
-    v1::Set set;
-    set.set_request(command.id());
-    set.mutable_scan()->set_holder(holder_);
-    if (pattern) wire::writeScanPattern(*pattern, *set.mutable_scan()->mutable_pattern());
-    browser::Done done = tellWall(holder, visitor, command, set);
+    v1::Order order;
+    order.set_request(command.id());
+    order.set_run(command.run());
+    order.mutable_scan()->set_holder(holder_);
+    if (pattern) wire::writeScanPattern(*pattern, *order.mutable_scan()->mutable_pattern());
+    browser::Done done = tellWall(holder, visitor, command, order);
     const bool isHeld = isShown && done.outcome() == "waiting";
-    scan_ = isHeld ? ShownScan{visitor, command.id(), set.scan()} : ShownScan{};
+    scan_ = isHeld ? ShownScan{visitor, command.id(), order.scan()} : ShownScan{};
     return done;
 }
 

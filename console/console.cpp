@@ -13,27 +13,30 @@
 
 #include "common/base/dates.h"
 #include "common/base/log.h"
+#include "common/wire/show_file.h"
 
 namespace aquarama::console {
 
 namespace {
 
 // What the master is told where the hours want this.
-v1::Set setOfHours(const config::WantedHours& wanted) {
-    v1::Set set;
-    set.set_request(ask::freshRequest());
-    set.set_black(!wanted.isOpen);
-    if (!wanted.scene.empty()) set.set_scene(wanted.scene);
-    if (!wanted.quality.empty()) set.set_quality(wanted.quality);
-    return set;
+v1::Order orderOfHours(const config::WantedHours& wanted) {
+    v1::Order order;
+    order.set_request(ask::freshRequest());
+    v1::WantedShow& show = *order.mutable_show();
+    show.set_black(!wanted.isOpen);
+    if (!wanted.scene.empty()) show.set_scene(wanted.scene);
+    if (wanted.quality == "auto") show.set_quality(v1::WantedShow::AUTO);
+    if (const auto tier = config::tierNamed(wanted.quality)) show.set_quality(wire::tierOf(tier));
+    return order;
 }
 
 // What is said of a scan again and again; nobody asks how it went.
-v1::Set setOf(const v1::HeldScan& scan) {
-    v1::Set set;
-    set.set_request(ask::freshRequest());
-    *set.mutable_scan() = scan;
-    return set;
+v1::Order orderOf(const v1::HeldScan& scan) {
+    v1::Order order;
+    order.set_request(ask::freshRequest());
+    *order.mutable_scan() = scan;
+    return order;
 }
 
 // The shutters of projectors wait for that.
@@ -328,10 +331,10 @@ void Console::keepHours() {
     opening_.switchProjectors(unixNow(), isInStep(wall_));
     const auto due = opening_.due(unixNow());
     if (!due || beingOpened_ || !wall_.heard()) return;
-    const v1::Set set = setOfHours(*due);
-    openingId_ = set.request();
+    const v1::Order order = orderOfHours(*due);
+    openingId_ = order.request();
     beingOpened_ = due;
-    link_->set(set);
+    link_->give(order);
 }
 
 // Also what people should notice although they look at nothing.
@@ -394,7 +397,7 @@ void Console::keepScan() {
     if (scan_.visitor->ticksToLook <= 0 || !scan_.visitor->wants("calibrations"))
         scan_ = {};  // the page was left
     else
-        link_->set(setOf(scan_.held));
+        link_->give(orderOf(scan_.held));
 }
 
 }  // namespace aquarama::console

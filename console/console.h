@@ -131,7 +131,7 @@ class Console final : public web::Service {
     [[nodiscard]] browser::Done tellWall(const Holder& holder,
                                          Visitor* visitor,
                                          const Command& command,
-                                         const v1::Set& set);
+                                         const v1::Order& order);
     // Each carries one out; why not, where it is refused.
     [[nodiscard]] std::string acknowledge(const Holder& holder, const std::string& alert);
     [[nodiscard]] std::string carryOutOfHall(const Holder& holder, const Command& command);

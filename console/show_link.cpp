@@ -31,10 +31,10 @@ ShowLink::~ShowLink() {
 }
 
 // Of a flood the rest is lost: it is repeated by whoever wants it.
-void ShowLink::set(v1::Set set) {
+void ShowLink::give(v1::Order order) {
     {
         const std::lock_guard lock(mutex_);
-        if (wanted_.size() < kMostWanted) wanted_.push_back(std::move(set));
+        if (wanted_.size() < kMostWanted) wanted_.push_back(std::move(order));
     }
     changed_.notify_all();
 }
@@ -74,7 +74,7 @@ void ShowLink::run() {
 
 // A change that takes minutes is asked for again and again, beside all others.
 void ShowLink::work() {
-    std::deque<v1::Set> wanted;
+    std::deque<v1::Order> wanted;
     std::optional<Steering> steering;
     std::optional<std::uint32_t> fish;
     {
@@ -85,9 +85,10 @@ void ShowLink::work() {
     }
     if (steering) client_.steer(*steering);
     try {
-        for (v1::Set& set : wanted) press(set);
+        for (v1::Order& order : wanted) press(order);
     } catch (const Error& problem) {
-        for (const v1::Set& set : wanted) listener_.said(set.request(), "lost", problem.what());
+        for (const v1::Order& order : wanted)
+            listener_.said(order.request(), "lost", problem.what());
         throw;
     }
     if (fish) listener_.explained(client_.explain(*fish));
@@ -96,17 +97,17 @@ void ShowLink::work() {
 }
 
 // Asked once; what takes longer is asked for again at the next turn.
-void ShowLink::press(v1::Set& set) {
-    const v1::SetReply reply = client_.ask(set);
-    const std::uint64_t id = set.request();
-    if (reply.request() != id) return this->set(std::move(set));  // an answer to another
-    if (reply.outcome() == v1::OUTCOME_PREPARING) {
+void ShowLink::press(v1::Order& order) {
+    const v1::OrderReply reply = client_.give(order);
+    const std::uint64_t id = order.request();
+    if (reply.request() != id) return give(std::move(order));  // an answer to another
+    if (reply.outcome() == v1::OrderReply::WAITING) {
         if (std::exchange(waitingFor_[id], reply.reason()) != reply.reason())
             listener_.said(id, "waiting", reply.reason());
-        return this->set(std::move(set));
+        return give(std::move(order));
     }
     waitingFor_.erase(id);
-    const bool isDone = reply.outcome() == v1::OUTCOME_DONE;
+    const bool isDone = reply.outcome() == v1::OrderReply::DONE;
     listener_.said(id, isDone ? "done" : "refused", reply.reason());
 }
 

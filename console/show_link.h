@@ -24,7 +24,7 @@ struct ShowListener {
     std::function<void(const v1::StatusReply&, std::uint64_t run)> heard;
     // Nobody answers, or the master prepares its show: what it says then, else empty.
     std::function<void(const std::string& preparing)> silent;
-    // What has become of a Set: "done", "waiting", "refused", "lost" where
+    // What has become of an order: "done", "waiting", "refused", "lost" where
     // nobody answered; and why.
     std::function<void(std::uint64_t id, const std::string& outcome, const std::string& why)> said;
     std::function<void(const v1::Explanation&)> explained;
@@ -40,14 +40,14 @@ class ShowLink {
     ShowLink& operator=(const ShowLink&) = delete;
 
     // From any thread; none waits.
-    void set(v1::Set set);  // its request names it in what is said
+    void give(v1::Order order);  // its request names it in what is said
     void steer(const Steering& steering);
     void explain(std::uint32_t fish);
 
   private:
     void run();
     void work();
-    void press(v1::Set& set);
+    void press(v1::Order& order);
 
     ask::RequestClient client_;
     ShowListener listener_;
@@ -56,7 +56,7 @@ class ShowLink {
     std::condition_variable changed_;
     bool ended_ = false;
     // Not sent yet.
-    std::deque<v1::Set> wanted_;
+    std::deque<v1::Order> wanted_;
     std::optional<Steering> steering_;
     std::optional<std::uint32_t> fish_;
     std::thread thread_;

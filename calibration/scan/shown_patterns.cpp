@@ -40,8 +40,8 @@ class ShownPatterns::Link {
     std::uint64_t show(const config::ScanPattern& pattern) {
         const auto giveUp = Clock::now() + patience_;
         while (true) {
-            const v1::SetReply reply = say(pattern);
-            if (reply.outcome() == v1::OUTCOME_DONE) return reply.frame();
+            const v1::OrderReply reply = say(pattern);
+            if (reply.outcome() == v1::OrderReply::DONE) return reply.frame();
             if (Clock::now() > giveUp)
                 throw Error("pattern " + std::to_string(pattern.number) + " is " + reply.reason() +
                             " after " + std::to_string(patience_ / 1s) +
@@ -51,9 +51,9 @@ class ShownPatterns::Link {
     }
 
     void confirm() {
-        const std::optional<v1::SetReply> reply = sayHeld();
+        const std::optional<v1::OrderReply> reply = sayHeld();
         if (!reply) throw Error("no pattern of the scan is shown; scan again");
-        if (reply->outcome() != v1::OUTCOME_DONE)
+        if (reply->outcome() != v1::OrderReply::DONE)
             throw Error("the pattern of the scan is " + reply->reason() +
                         " any more; look after these nodes (aquarama status)");
     }
@@ -62,35 +62,35 @@ class ShownPatterns::Link {
         const std::lock_guard lock(mutex_);
         if (std::exchange(isOver_, true) || !held_) return;
         held_.reset();
-        v1::Set set;
-        set.set_request(ask::freshRequest());
-        set.mutable_scan()->set_holder(holder_);
-        client_.ask(set);
+        v1::Order order;
+        order.set_request(ask::freshRequest());
+        order.mutable_scan()->set_holder(holder_);
+        client_.give(order);
     }
 
   private:
-    v1::SetReply say(const config::ScanPattern& pattern) {
+    v1::OrderReply say(const config::ScanPattern& pattern) {
         const std::lock_guard lock(mutex_);
         if (isOver_) throw Error("the scan was ended; the wall shows its scene again");
-        v1::SetReply reply = ask(pattern);
+        v1::OrderReply reply = ask(pattern);
         held_ = pattern;
         return reply;
     }
 
     // The pattern is read and said under one lock: a later one is never taken back by an earlier.
-    std::optional<v1::SetReply> sayHeld() {
+    std::optional<v1::OrderReply> sayHeld() {
         const std::lock_guard lock(mutex_);
         return held_ ? std::optional(ask(*held_)) : std::nullopt;
     }
 
     // Throws Error where the master refuses it.
-    v1::SetReply ask(const config::ScanPattern& pattern) {
-        v1::Set set;
-        set.set_request(ask::freshRequest());
-        set.mutable_scan()->set_holder(holder_);
-        wire::writeScanPattern(pattern, *set.mutable_scan()->mutable_pattern());
-        v1::SetReply reply = client_.ask(set);
-        if (reply.outcome() == v1::OUTCOME_REFUSED)
+    v1::OrderReply ask(const config::ScanPattern& pattern) {
+        v1::Order order;
+        order.set_request(ask::freshRequest());
+        order.mutable_scan()->set_holder(holder_);
+        wire::writeScanPattern(pattern, *order.mutable_scan()->mutable_pattern());
+        v1::OrderReply reply = client_.give(order);
+        if (reply.outcome() == v1::OrderReply::REFUSED)
             throw Error("the master refuses to show a scan: " + reply.reason() +
                         "; see aquarama status");
         return reply;

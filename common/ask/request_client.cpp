@@ -14,7 +14,7 @@ namespace aquarama::ask {
 
 std::uint64_t freshRequest() {
     std::random_device device;
-    return std::uint64_t{device()} << 32U | device();
+    return (std::uint64_t{device()} << 32U | device()) | 1U;
 }
 
 v1::StatusReply RequestClient::status() {
@@ -29,20 +29,21 @@ v1::Explanation RequestClient::explain(std::uint32_t fish) {
     return ask(question, v1::Envelope::kExplanation).explanation();
 }
 
-v1::SetReply RequestClient::ask(const v1::Set& set) {
+v1::OrderReply RequestClient::give(const v1::Order& order) {
     v1::Envelope question;
-    *question.mutable_set() = set;
-    return ask(question, v1::Envelope::kSetReply).set_reply();
+    *question.mutable_order() = order;
+    return ask(question, v1::Envelope::kOrderReply).order_reply();
 }
 
-void RequestClient::set(v1::Set set, const std::function<void(const std::string&)>& onWait) {
+void RequestClient::carryOut(v1::Order order,
+                             const std::function<void(const std::string&)>& onWait) {
     constexpr auto kBetween = std::chrono::milliseconds(100);
-    set.set_request(freshRequest());
+    order.set_request(freshRequest());
     std::string waitingFor;
     while (true) {
-        const v1::SetReply reply = ask(set);
-        if (reply.outcome() == v1::OUTCOME_DONE) return;
-        if (reply.outcome() == v1::OUTCOME_REFUSED) throw Error("refused: " + reply.reason());
+        const v1::OrderReply reply = give(order);
+        if (reply.outcome() == v1::OrderReply::DONE) return;
+        if (reply.outcome() != v1::OrderReply::WAITING) throw Error("refused: " + reply.reason());
         if (std::exchange(waitingFor, reply.reason()) != reply.reason()) onWait(reply.reason());
         std::this_thread::sleep_for(kBetween);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests to the master of a running show, by whoever takes no part in it. Included only by who
-// speaks to a peer, as common/wire/messages.h.
+// Orders and questions to the master of a running show, by whoever takes no part in it. Included
+// only by who speaks to a peer, as common/wire/messages.h.
 #pragma once
 
 #include <functional>
@@ -33,12 +33,12 @@ class RequestClient {
     // Empty where it answered, or nobody did.
     [[nodiscard]] const std::string& preparing() const { return preparing_; }
 
-    // Asks for a change once, and says what has become of it so far.
-    v1::SetReply ask(const v1::Set& set);
-    // Repeated until the show shows it, also through the minutes that a new scene may take; between
+    // Gives an order once, and returns what has become of it so far.
+    v1::OrderReply give(const v1::Order& order);
+    // Repeated until it is done, also through the minutes that a new scene may take; between
     // that, `onWait` hears what is waited for, whenever that changes. Throws Error where it is
     // refused, saying why.
-    void set(v1::Set set, const std::function<void(const std::string&)>& onWait);
+    void carryOut(v1::Order order, const std::function<void(const std::string&)>& onWait);
 
     // Not answered, and lost where the connection does not stand yet.
     void steer(const Steering& steering);
@@ -52,7 +52,7 @@ class RequestClient {
     std::string preparing_;
 };
 
-// Of Set.request: no two are the same.
+// Of Order.request: no two are the same, none is 0.
 [[nodiscard]] std::uint64_t freshRequest();
 
 // Which master is asked, and with whose key.

@@ -109,37 +109,37 @@ bool isValid(const v1::Welcome& m) {
            isValid(m.look());
 }
 
-// The pattern of a scan is set by the scan.
-bool isChosenPattern(v1::Pattern pattern) {
-    return pattern != v1::PATTERN_SCAN && isOneOf(pattern, v1::Pattern_IsValid);
-}
-
 bool isValid(const v1::HeldScan& m) {
     return m.holder() != 0 && (!m.has_pattern() || readScanPattern(m.pattern()));
 }
 
-bool isValid(const v1::MachineOfNode& m) {
-    return m.has_run() && isName(m.channel()) && isOneOf(m.word(), v1::PowerWord_IsValid);
+// A value that is there is one of its choices.
+bool isValid(const v1::WantedShow& m) {
+    return (!m.has_scene() || isName(m.scene())) &&
+           (!m.has_quality() || isOneOf(m.quality(), v1::WantedShow::Tier_IsValid)) &&
+           (!m.has_pattern() || isOneOf(m.pattern(), v1::WantedShow::Shown_IsValid));
 }
 
-bool isValid(const v1::Set& m) {
-    return m.has_request() && (!m.has_scene() || isName(m.scene())) &&
-           (!m.has_quality() || isName(m.quality())) &&
-           (!m.has_pattern() || isChosenPattern(m.pattern())) &&
-           (!m.has_scan() || isValid(m.scan())) && (!m.has_restart() || isName(m.restart())) &&
-           (!m.has_machine() || isValid(m.machine()));
+bool isValid(const v1::Order& m) {
+    if (m.request() == 0) return false;
+    switch (m.order_case()) {
+        case v1::Order::kShow:
+            return isValid(m.show());
+        case v1::Order::kScan:
+            return isValid(m.scan());
+        case v1::Order::kRestart:
+            return isName(m.restart().channel());
+        case v1::Order::kPower:
+            return m.run() != 0 && isName(m.power().channel()) &&
+                   isOneOf(m.power().word(), v1::Power::Word_IsValid);
+        case v1::Order::ORDER_NOT_SET:
+            break;
+    }
+    return false;
 }
 
-bool isValid(const v1::PowerOrder& m) {
-    return m.has_request() && isOneOf(m.word(), v1::PowerWord_IsValid);
-}
-
-bool isValid(const v1::PowerReply& m) {
-    return m.has_request() && isText(m.refusal(), kMostReasonBytes);
-}
-
-bool isValid(const v1::SetReply& m) {
-    return m.has_request() && isOneOf(m.outcome(), v1::Outcome_IsValid) &&
+bool isValid(const v1::OrderReply& m) {
+    return m.request() != 0 && isOneOf(m.outcome(), v1::OrderReply::Outcome_IsValid) &&
            isText(m.reason(), kMostReasonBytes);
 }
 
@@ -283,14 +283,10 @@ bool isValid(const v1::Envelope& m) {
             return isValid(m.prepare().look());
         case v1::Envelope::kPrepared:
             return isValid(m.prepared());
-        case v1::Envelope::kSet:
-            return isValid(m.set());
-        case v1::Envelope::kSetReply:
-            return isValid(m.set_reply());
-        case v1::Envelope::kPowerOrder:
-            return isValid(m.power_order());
-        case v1::Envelope::kPowerReply:
-            return isValid(m.power_reply());
+        case v1::Envelope::kOrder:
+            return isValid(m.order());
+        case v1::Envelope::kOrderReply:
+            return isValid(m.order_reply());
         case v1::Envelope::kNodeReport:
             return isValid(m.node_report());
         case v1::Envelope::kLogLine:
@@ -315,7 +311,6 @@ bool isValid(const v1::Envelope& m) {
             return m.explain_request().has_fish();
         case v1::Envelope::kExplanation:
             return isValid(m.explanation());
-        case v1::Envelope::kLeave:
         case v1::Envelope::kState:  // by readState()
         case v1::Envelope::kBeacon:
         case v1::Envelope::kFarewell:

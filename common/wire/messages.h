@@ -23,7 +23,7 @@
 namespace aquarama::wire {
 
 // Peers of another major version are refused.
-inline constexpr std::uint32_t kProtocolMajor = 4;
+inline constexpr std::uint32_t kProtocolMajor = 5;
 
 // Bounds. Larger or longer values are refused on arrival; text has no control characters, since it
 // is printed in logs and terminals.

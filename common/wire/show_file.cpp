@@ -56,12 +56,26 @@ constexpr std::uint32_t kVersion = 1;
 static_assert(v1::WantedShow::LOW - v1::WantedShow::AUTO == 1);
 static_assert(int{v1::WantedShow::GREY} == static_cast<int>(Pattern::Grey));
 
+}  // namespace
+
 v1::WantedShow::Tier tierOf(const std::optional<config::QualityTier>& quality) {
     if (!quality) return v1::WantedShow::AUTO;
     return static_cast<v1::WantedShow::Tier>(v1::WantedShow::LOW + static_cast<int>(*quality));
 }
 
-}  // namespace
+ShowChange changeIn(const v1::WantedShow& message) {
+    ShowChange change;
+    if (message.has_scene()) change.scene = message.scene();
+    if (message.has_quality())  // AUTO is no tier
+        change.quality = message.quality() == v1::WantedShow::AUTO
+                             ? std::nullopt
+                             : config::tierAt(static_cast<std::uint32_t>(message.quality() -
+                                                                         v1::WantedShow::LOW));
+    if (message.has_pattern()) change.pattern = static_cast<Pattern>(message.pattern());
+    if (message.has_black()) change.black = message.black();
+    if (message.has_freeze()) change.freeze = message.freeze();
+    return change;
+}
 
 fs::path keptShowOf(const std::string& rigPath) {
     return userFolder("XDG_STATE_HOME", ".local/state") / "shows" /
@@ -77,17 +91,7 @@ ShowChange parseKeptShow(const std::string& text, const std::string& source) {
     v1::WantedShow in;
     config::TextReader file(text, source, in);
     file.check();
-    ShowChange kept;
-    if (in.has_scene()) kept.scene = in.scene();
-    if (in.has_quality())  // AUTO is no tier
-        kept.quality =
-            in.quality() == v1::WantedShow::AUTO
-                ? std::nullopt
-                : config::tierAt(static_cast<std::uint32_t>(in.quality() - v1::WantedShow::LOW));
-    if (in.has_pattern()) kept.pattern = static_cast<Pattern>(in.pattern());
-    if (in.has_black()) kept.black = in.black();
-    if (in.has_freeze()) kept.freeze = in.freeze();
-    return kept;
+    return changeIn(in);
 }
 
 void keepShow(const fs::path& path, const ShowChange& kept) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "common/config/keys.pb.h"
 #include "common/config/rig.h"
 #include "common/wire/state_codec.h"
 
@@ -31,6 +32,10 @@ struct ShowChange {
     std::optional<bool> freeze = {};
     friend bool operator==(const ShowChange&, const ShowChange&) = default;
 };
+// A tier as the generated message has it; nothing: the finest that every node bears.
+[[nodiscard]] v1::WantedShow::Tier tierOf(const std::optional<config::QualityTier>& quality);
+// The values of an order or a file.
+[[nodiscard]] ShowChange changeIn(const v1::WantedShow& message);
 // `wanted` with the values that are set.
 [[nodiscard]] WantedShow with(WantedShow wanted, const ShowChange& change);
 

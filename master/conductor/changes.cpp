@@ -20,7 +20,6 @@ using Phase = ShowControl::Phase;
 constexpr net::Instant kRepeat = std::chrono::seconds(1);
 // To build a look; software OpenGL on a busy machine takes some ten seconds.
 constexpr net::Instant kMostPreparing = std::chrono::seconds(120);
-constexpr std::string_view kAuto = "auto";
 // Requests that are known again when they are repeated.
 constexpr std::size_t kRemembered = 16;
 
@@ -36,17 +35,6 @@ std::map<std::string, std::pair<Digest, net::Blob>> filesOf(const std::optional<
     for (const auto& [name, content] : rig->files)
         files.emplace(name, std::pair{digestOf(std::span{*content}), content});
     return files;
-}
-
-// Of a message to which there is no objection.
-ShowChange changeIn(const v1::Set& set) {
-    ShowChange change;
-    if (set.has_scene()) change.scene = set.scene();
-    if (set.has_quality()) change.quality = config::tierNamed(set.quality());
-    if (set.has_pattern()) change.pattern = static_cast<wire::Pattern>(set.pattern());
-    if (set.has_black()) change.black = set.black();
-    if (set.has_freeze()) change.freeze = set.freeze();
-    return change;
 }
 
 }  // namespace
@@ -67,31 +55,29 @@ std::string Conductor::objectionToScene(const std::string& scene) const {
     return {};
 }
 
-std::string Conductor::objectionToQuality(const std::string& quality) const {
-    if (config::tierNamed(quality)) return {};
-    if (quality != kAuto) return "quality is low, medium, high, ultra or auto, not " + quality;
-    if (!measuredTier())
+std::string Conductor::objectionToQuality(v1::WantedShow::Tier quality) const {
+    if (quality == v1::WantedShow::AUTO && !measuredTier())
         return "not every node has measured which quality it bears; that is done when a show "
                "starts without a chosen quality";
     return {};
 }
 
-std::string Conductor::objectionTo(const v1::Set& set) const {
+std::string Conductor::objectionTo(const v1::WantedShow& show) const {
     if (isLockstep()) return "a show in lockstep is the same every time; run it with --live";
-    const bool isOfLook = set.has_scene() || set.has_quality() || set.has_pattern();
+    const bool isOfLook = show.has_scene() || show.has_quality() || show.has_pattern();
     if (scan_.pattern() && isOfLook) return "a scan holds the wall; wait for its end, or end it";
     std::string objection;
-    if (set.has_scene()) objection = objectionToScene(set.scene());
-    if (set.has_quality() && objection.empty()) objection = objectionToQuality(set.quality());
+    if (show.has_scene()) objection = objectionToScene(show.scene());
+    if (show.has_quality() && objection.empty()) objection = objectionToQuality(show.quality());
     return objection;
 }
 
-Answer Conductor::change(const std::string& user, const v1::Set& set) {
-    if (std::string objection = objectionTo(set); !objection.empty())
+Answer Conductor::change(const std::string& user, const v1::Order& order) {
+    if (std::string objection = objectionTo(order.show()); !objection.empty())
         return {Outcome::Refused, std::move(objection)};
-    const ShowChange change = changeIn(set);
+    const ShowChange change = wire::changeIn(order.show());
     const std::uint64_t before = control_.version();
-    Answer answer = control_.set(set.request(), change);
+    Answer answer = control_.set(order.request(), change);
     if (simulationThread_) simulationThread_->freeze(control_.wanted().freeze);
     if (control_.version() != before) logInfo("{} sets {}", user, textOf(change));
     return answer;
@@ -132,7 +118,7 @@ Answer Conductor::scan(const std::string& user, const v1::HeldScan& scan, net::I
         return {Outcome::Refused, "another scan holds the wall; wait for its end, or end it"};
     if (begins) logInfo("{} holds the wall for a scan", user);
     const std::string missing = notShowingScan();
-    return missing.empty() ? Answer{} : Answer{Outcome::Preparing, "not shown yet by " + missing};
+    return missing.empty() ? Answer{} : Answer{Outcome::Waiting, "not shown yet by " + missing};
 }
 
 std::string Conductor::objectionToEnding(const std::string& channel) const {
@@ -143,23 +129,23 @@ std::string Conductor::objectionToEnding(const std::string& channel) const {
     return {};
 }
 
-Answer Conductor::restart(const std::string& user, const v1::Set& set) {
-    if (std::ranges::find(restarts_, set.request()) != restarts_.end()) return {};
-    if (std::string objection = objectionToEnding(set.restart()); !objection.empty())
+Answer Conductor::restart(const std::string& user, const v1::Order& order) {
+    if (std::ranges::find(restarts_, order.request()) != restarts_.end()) return {};
+    const std::string& channel = order.restart().channel();
+    if (std::string objection = objectionToEnding(channel); !objection.empty())
         return {Outcome::Refused, std::move(objection)};
-    restarts_.push_back(set.request());
+    restarts_.push_back(order.request());
     if (restarts_.size() > kRemembered) restarts_.pop_front();
-    logInfo("{} restarts node {}", user, set.restart());
+    logInfo("{} restarts node {}", user, channel);
     v1::Envelope message;
-    message.mutable_leave();
-    say(slots_[*seatNamed(set.restart())].peer, std::move(message));
+    *message.mutable_order() = order;
+    say(slots_[*seatNamed(channel)].peer, std::move(message));
     return {};
 }
 
 // Nodes of another build do not say whether their machine takes the word.
-std::string Conductor::objectionToPower(const v1::MachineOfNode& machine) const {
-    const std::string& channel = machine.channel();
-    if (machine.run() != session_) return "the show was started again meanwhile";
+std::string Conductor::objectionToPower(const v1::Order& order) const {
+    const std::string& channel = order.power().channel();
     if (std::string objection = objectionToEnding(channel); !objection.empty()) return objection;
     const auto& report = slots_[*seatNamed(channel)].report;
     if (!report) return "nothing is known of the machine of " + channel + " yet; say it again";
@@ -170,55 +156,56 @@ std::string Conductor::objectionToPower(const v1::MachineOfNode& machine) const 
 Answer Conductor::answerTo(const PowerRequest& request, net::Instant now) const {
     constexpr net::Instant kPatience = std::chrono::seconds(3);
     const std::string machine = "the machine of " + slots_[request.node].name;
-    if (request.refusal) {
-        if (request.refusal->empty()) return {};
-        return {Outcome::Refused, *request.refusal};
-    }
-    if (now - request.said < kPatience) return {Outcome::Preparing, machine + " is told"};
-    return {Outcome::Refused, machine + " has not answered; look whether it ends"};
+    if (request.answer) return *request.answer;
+    if (now - request.said < kPatience) return {Outcome::Waiting, machine + " is told"};
+    return {Outcome::Lost, machine + " has not answered; look whether it ends"};
 }
 
 // Said once: a word that was lost is not said again by itself.
-Answer Conductor::switchMachine(const std::string& user, const v1::Set& set, net::Instant now) {
-    const auto known = std::ranges::find(powerRequests_, set.request(), &PowerRequest::request);
+Answer Conductor::switchMachine(const std::string& user, const v1::Order& order, net::Instant now) {
+    const auto known = std::ranges::find(powerRequests_, order.request(), &PowerRequest::request);
     if (known != powerRequests_.end()) return answerTo(*known, now);
-    if (std::string objection = objectionToPower(set.machine()); !objection.empty())
+    if (std::string objection = objectionToPower(order); !objection.empty())
         return {Outcome::Refused, std::move(objection)};
-    powerRequests_.push_back({set.request(), *seatNamed(set.machine().channel()), now, {}});
+    powerRequests_.push_back({order.request(), *seatNamed(order.power().channel()), now, {}});
     if (powerRequests_.size() > kRemembered) powerRequests_.pop_front();
     const PowerRequest& request = powerRequests_.back();
     logInfo("{} switches the machine of {}: {}",
             user,
-            set.machine().channel(),
-            set.machine().word() == v1::POWER_OFF ? "poweroff" : "reboot");
+            order.power().channel(),
+            order.power().word() == v1::Power::POWEROFF ? "poweroff" : "reboot");
     v1::Envelope message;
-    message.mutable_power_order()->set_request(set.request());
-    message.mutable_power_order()->set_word(set.machine().word());
+    *message.mutable_order() = order;
     say(slots_[request.node].peer, std::move(message));
     return answerTo(request, now);
 }
 
-void Conductor::switched(std::size_t node, const v1::PowerReply& reply) {
+void Conductor::switched(std::size_t node, const v1::OrderReply& reply) {
     const auto known = std::ranges::find(powerRequests_, reply.request(), &PowerRequest::request);
-    if (known != powerRequests_.end() && known->node == node) known->refusal = reply.refusal();
+    if (known != powerRequests_.end() && known->node == node)
+        known->answer = {static_cast<Outcome>(reply.outcome()), reply.reason()};
 }
 
-Answer Conductor::carryOut(const std::string& user, const v1::Set& set, net::Instant now) {
-    if (set.has_scan()) return scan(user, set.scan(), now);
-    if (set.has_restart()) return restart(user, set);
-    if (set.has_machine()) return switchMachine(user, set, now);
-    return change(user, set);
+Answer Conductor::carryOut(const std::string& user, const v1::Order& order, net::Instant now) {
+    if (order.run() != 0 && order.run() != session_)
+        return {Outcome::Refused,
+                "the show was started again meanwhile: look, and say it once more"};
+    if (order.has_scan()) return scan(user, order.scan(), now);
+    if (order.has_restart()) return restart(user, order);
+    if (order.has_power()) return switchMachine(user, order, now);
+    return change(user, order);
 }
 
 // Whoever shows no key is an account of this machine.
-void Conductor::set(const net::FromPeer& from, const v1::Set& set, net::Instant now) {
+void Conductor::obey(const net::FromPeer& from, const v1::Order& order, net::Instant now) {
     const std::string user = from.user.empty() ? "somebody here" : from.user;
-    const Answer answer = carryOut(user, set, now);
+    const Answer answer = carryOut(user, order, now);
     v1::Envelope message;
-    v1::SetReply& reply = *message.mutable_set_reply();
-    if (set.has_scan() && answer.outcome == Outcome::Done) reply.set_frame(newestReleased().value);
-    reply.set_request(set.request());
-    reply.set_outcome(static_cast<v1::Outcome>(answer.outcome));
+    v1::OrderReply& reply = *message.mutable_order_reply();
+    if (order.has_scan() && answer.outcome == Outcome::Done)
+        reply.set_frame(newestReleased().value);
+    reply.set_request(order.request());
+    reply.set_outcome(static_cast<v1::OrderReply::Outcome>(answer.outcome));
     reply.set_reason(answer.reason);
     say(from.peer, std::move(message));
 }

@@ -42,12 +42,11 @@ class HeldScan;
 class Input;
 class LogLine;
 class Look;
-class MachineOfNode;
 class NodeReport;
-class PowerReply;
+class Order;
+class OrderReply;
 class Prepared;
 class Ready;
-class Set;
 class Welcome;
 }  // namespace aquarama::v1
 
@@ -201,15 +200,17 @@ class Conductor {
     void leave(std::size_t node);
     void handle(std::size_t node, const v1::Input& input, net::Instant now);
     // What the show shall be.
-    void set(const net::FromPeer& from, const v1::Set& set, net::Instant now);
-    [[nodiscard]] Answer carryOut(const std::string& user, const v1::Set& set, net::Instant now);
-    [[nodiscard]] Answer change(const std::string& user, const v1::Set& set);
+    void obey(const net::FromPeer& from, const v1::Order& order, net::Instant now);
+    [[nodiscard]] Answer carryOut(const std::string& user,
+                                  const v1::Order& order,
+                                  net::Instant now);
+    [[nodiscard]] Answer change(const std::string& user, const v1::Order& order);
     // Why a change is refused; empty where it is not.
-    [[nodiscard]] std::string objectionTo(const v1::Set& set) const;
+    [[nodiscard]] std::string objectionTo(const v1::WantedShow& show) const;
     // A scan takes the wall, says its pattern again, or gives the wall back.
     [[nodiscard]] Answer scan(const std::string& user, const v1::HeldScan& scan, net::Instant now);
     // A node is to end; the same request again does nothing more.
-    [[nodiscard]] Answer restart(const std::string& user, const v1::Set& set);
+    [[nodiscard]] Answer restart(const std::string& user, const v1::Order& order);
     // Why a node cannot be ended by a word; empty where it can.
     [[nodiscard]] std::string objectionToEnding(const std::string& channel) const;
     // A node leaves the word for its machine; the same request again hears what became of it.
@@ -217,24 +218,23 @@ class Conductor {
         std::uint64_t request = 0;
         std::size_t node = 0;
         net::Instant said{};
-        std::optional<std::string> refusal =
-            {};  // none: not answered yet; empty: the word was left
+        std::optional<Answer> answer = {};  // of the node; none: not answered yet
     };
     [[nodiscard]] Answer switchMachine(const std::string& user,
-                                       const v1::Set& set,
+                                       const v1::Order& order,
                                        net::Instant now);
     // Why no machine is told; empty where it is.
-    [[nodiscard]] std::string objectionToPower(const v1::MachineOfNode& machine) const;
+    [[nodiscard]] std::string objectionToPower(const v1::Order& order) const;
     // What has become of it.
     [[nodiscard]] Answer answerTo(const PowerRequest& request, net::Instant now) const;
     // The node has left the word, or says why it has not.
-    void switched(std::size_t node, const v1::PowerReply& reply);
+    void switched(std::size_t node, const v1::OrderReply& reply);
     [[nodiscard]] std::string objectionToScan() const;
     // The channels that have not shown the pattern of the scan yet; empty where all have.
     [[nodiscard]] std::string notShowingScan() const;
     [[nodiscard]] Frame newestReleased() const;
     [[nodiscard]] std::string objectionToScene(const std::string& scene) const;
-    [[nodiscard]] std::string objectionToQuality(const std::string& quality) const;
+    [[nodiscard]] std::string objectionToQuality(v1::WantedShow::Tier quality) const;
     // Inputs, passed on to the tick thread where they are in bounds.
     void feed(net::Instant& lastFed, glm::vec3 positionMetres, net::Instant now);
     void steer(const net::PeerId& peer, const Steering& steering, net::Instant now);

@@ -112,7 +112,7 @@ bool mayNodeSay(const std::string& channel, const v1::Envelope& message) {
         case v1::Envelope::kBlobRequest:
         case v1::Envelope::kPrepared:
         case v1::Envelope::kFarewell:
-        case v1::Envelope::kPowerReply:
+        case v1::Envelope::kOrderReply:
         case v1::Envelope::kExplainRequest:
             return true;
         default:
@@ -133,7 +133,7 @@ bool maySay(const User& user, const v1::Envelope& message) {
         case config::KeyRole::Operator:
         case config::KeyRole::Crew:
             return asks(message) || message.message_case() == v1::Envelope::kInput ||
-                   message.message_case() == v1::Envelope::kSet;
+                   message.message_case() == v1::Envelope::kOrder;
         case config::KeyRole::Master:
             break;
     }
@@ -182,7 +182,7 @@ void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net
     const auto user = userIn(from.user);
     if (user && !maySay(*user, message)) return refuse(from.user, message);
     const bool isCostly = asks(message) || message.message_case() == v1::Envelope::kHello ||
-                          message.message_case() == v1::Envelope::kSet;
+                          message.message_case() == v1::Envelope::kOrder;
     if (isCostly && !isWithinRate(from.user, now)) {
         ++report_.refusedPackets;
         return;
@@ -195,8 +195,8 @@ void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net
             return say(peer, status(now));
         case v1::Envelope::kExplainRequest:
             return ask(peer, message.explain_request().fish());
-        case v1::Envelope::kSet:
-            return set(from, message.set(), now);
+        case v1::Envelope::kOrder:
+            return obey(from, message.order(), now);
         case v1::Envelope::kInput:
             if (node || !isVisitorsInput(message)) break;
             return takeOfVisitor(from, message.input(), now);
@@ -228,8 +228,8 @@ void Conductor::takeOfNode(std::size_t node, const v1::Envelope& message, net::I
             return;
         case v1::Envelope::kLogLine:
             return note(node, message.log_line());
-        case v1::Envelope::kPowerReply:
-            return switched(node, message.power_reply());
+        case v1::Envelope::kOrderReply:
+            return switched(node, message.order_reply());
         case v1::Envelope::kInput:
             return handle(node, message.input(), now);
         case v1::Envelope::kFarewell:

@@ -53,7 +53,7 @@ ShowControl::ShowControl(WantedShow wanted, ShowChange kept)
 Answer ShowControl::set(std::uint64_t request, const ShowChange& change) {
     const auto known = std::ranges::find(answers_, request, &RequestAndAnswer::first);
     if (known != answers_.end()) {
-        if (known->second.outcome == Outcome::Preparing) known->second.reason = waitingFor_;
+        if (known->second.outcome == Outcome::Waiting) known->second.reason = waitingFor_;
         return known->second;
     }
     const WantedShow goal = with(wanted_, change);
@@ -87,7 +87,7 @@ Answer ShowControl::begin(std::uint64_t request, const WantedShow& goal, const S
     phase_ = goal.scene != wanted_.scene ? Phase::Making : Phase::Preparing;
     waitingFor_ = phase_ == Phase::Making ? "the world of scene " + goal.scene + " is being made"
                                           : "nodes build it";
-    return remember(request, {Outcome::Preparing, waitingFor_});
+    return remember(request, {Outcome::Waiting, waitingFor_});
 }
 
 bool ShowControl::renew() {

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "common/ask/order_book.h"
 #include "common/base/units.h"
 #include "common/config/scan.h"
 #include "common/net/clock.h"
@@ -18,12 +19,8 @@ namespace aquarama::conductor {
 using wire::ShowChange;
 using wire::WantedShow;
 
-// What became of a change; numbered as in aquarama.proto.
-enum class Outcome : std::uint8_t { Done = 1, Preparing = 2, Refused = 3 };
-struct Answer {
-    Outcome outcome = Outcome::Done;
-    std::string reason;  // why it was refused, or what is waited for
-};
+using ask::Answer;
+using ask::Outcome;
 
 // Who holds the wall for a scan, and the pattern that it shows meanwhile, in place of what is
 // wanted. Nothing of it is kept on disk.

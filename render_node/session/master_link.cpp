@@ -335,10 +335,10 @@ void MasterLink::handle(const v1::Input& input) {
     say(std::move(message));
 }
 
-void MasterLink::handle(const v1::Set& set) {
+void MasterLink::handle(const v1::Order& order) {
     if (session_ == 0) return;
     v1::Envelope message;
-    *message.mutable_set() = set;
+    *message.mutable_order() = order;
     say(std::move(message));
 }
 
@@ -412,11 +412,8 @@ void MasterLink::takeOfRun(const v1::Envelope& message) {
             return beReleased(message.present());
         case v1::Envelope::kFarewell:
             return end();
-        case v1::Envelope::kLeave:
-            isToRestart_ = true;
-            return stop();
-        case v1::Envelope::kPowerOrder:
-            return switchMachine(message.power_order());
+        case v1::Envelope::kOrder:
+            return carryOut(message.order());
         case v1::Envelope::kExplanation: {
             const v1::Explanation& mind = message.explanation();
             return mailbox_.tellMind({mind.fish(), {mind.lines().begin(), mind.lines().end()}});
@@ -426,18 +423,28 @@ void MasterLink::takeOfRun(const v1::Envelope& message) {
     }
 }
 
+// Other orders are the master's own.
+void MasterLink::carryOut(const v1::Order& order) {
+    if (order.has_power()) return switchMachine(order);
+    if (!order.has_restart()) return;
+    isToRestart_ = true;
+    stop();
+}
+
 // The service of the machine ends this node in order.
-void MasterLink::switchMachine(const v1::PowerOrder& order) {
-    const std::string word = order.word() == v1::POWER_OFF ? "poweroff" : "reboot";
+void MasterLink::switchMachine(const v1::Order& order) {
+    const std::string word = order.power().word() == v1::Power::POWEROFF ? "poweroff" : "reboot";
     v1::Envelope message;
-    v1::PowerReply& reply = *message.mutable_power_reply();
+    v1::OrderReply& reply = *message.mutable_order_reply();
     reply.set_request(order.request());
+    reply.set_outcome(v1::OrderReply::DONE);
     try {
         machine::sayPower(machine::powerFolder(), word);
         logInfo("the master has this machine switched: {}", word);
     } catch (const Error& problem) {
         logWarning("the master asks for {}, and is refused: {}", word, problem.what());
-        reply.set_refusal(printable(problem.what()));
+        reply.set_outcome(v1::OrderReply::REFUSED);
+        reply.set_reason(printable(problem.what()));
     }
     say(std::move(message));
 }

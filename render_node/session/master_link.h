@@ -139,7 +139,7 @@ class MasterLink {
                                  Logged,
                                  Obtained,
                                  v1::Input,
-                                 v1::Set,
+                                 v1::Order,
                                  v1::ExplainRequest>;
     void post(const Request& request);
     // From any thread, also the net thread; where too many wait, the line is lost.
@@ -175,7 +175,7 @@ class MasterLink {
     void handle(const Logged& line);
     void handle(const Obtained& obtained);
     void handle(const v1::Input& input);
-    void handle(const v1::Set& set);
+    void handle(const v1::Order& order);
     void handle(const v1::ExplainRequest& request);
 
     // Whatever cannot be decoded is ignored.
@@ -192,7 +192,8 @@ class MasterLink {
     void beReleased(const v1::Present& present);
     void beDismissed(const std::string& reason);
     void end();
-    void switchMachine(const v1::PowerOrder& order);
+    void carryOut(const v1::Order& order);
+    void switchMachine(const v1::Order& order);
 
     [[nodiscard]] bool isFetching() const;
     // Of what is fetched.

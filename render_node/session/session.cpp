@@ -211,10 +211,10 @@ class LinkSession final : public Session {
     }
     // Said once: a hand that sees no effect presses again.
     void freeze(bool frozen) override {
-        v1::Set message;
-        message.set_request(static_cast<std::uint64_t>(net::monotonicNow().count()));
-        message.set_freeze(frozen);
-        link_.post(message);
+        v1::Order order;
+        order.set_request(static_cast<std::uint64_t>(net::monotonicNow().count()));
+        order.mutable_show()->set_freeze(frozen);
+        link_.post(order);
     }
     void dropFood(glm::vec3 positionMetres) override {
         v1::Input message;

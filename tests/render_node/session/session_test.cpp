@@ -226,21 +226,23 @@ TEST_F(SessionTest, leavesTheWordForItsMachineOrSaysWhyNot) {
     becomeMember(wire::Pace::Live, {5});
     EXPECT_TRUE(master_.hear(v1::Envelope::kNodeReport)->node_report().takes_power_word());
     v1::Envelope order;
-    order.mutable_power_order()->set_request(7);
-    order.mutable_power_order()->set_word(v1::POWER_OFF);
+    order.mutable_order()->set_request(7);
+    order.mutable_order()->set_run(1);
+    order.mutable_order()->mutable_power()->set_channel("left");
+    order.mutable_order()->mutable_power()->set_word(v1::Power::POWEROFF);
     master_.say(order);
-    const auto done = master_.hear(v1::Envelope::kPowerReply);
+    const auto done = master_.hear(v1::Envelope::kOrderReply);
     ASSERT_TRUE(done);
-    EXPECT_EQ(done->power_reply().request(), 7U);
-    EXPECT_EQ(done->power_reply().refusal(), "");
+    EXPECT_EQ(done->order_reply().request(), 7U);
+    EXPECT_EQ(done->order_reply().outcome(), v1::OrderReply::DONE);
     std::string word;
     EXPECT_TRUE(std::getline(std::ifstream(folder / "word"), word));
     EXPECT_EQ(word, "poweroff");
     std::filesystem::remove_all(folder);
     master_.say(order);
-    const auto refused = master_.hear(v1::Envelope::kPowerReply);
+    const auto refused = master_.hear(v1::Envelope::kOrderReply);
     ASSERT_TRUE(refused);
-    EXPECT_THAT(refused->power_reply().refusal(), testing::HasSubstr("takes no such word"));
+    EXPECT_THAT(refused->order_reply().reason(), testing::HasSubstr("takes no such word"));
     EXPECT_FALSE(std::filesystem::exists(folder));
     unsetenv("AQUARAMA_POWER_FOLDER");
 }
@@ -433,7 +435,7 @@ TEST_F(SessionTest, stopEndsTheWaitForARelease) {
 TEST_F(SessionTest, passesOnWhatItsKeysSay) {
     becomeMember(wire::Pace::Live, {0});
     session_->freeze(true);
-    EXPECT_TRUE(master_.hear(v1::Envelope::kSet)->set().freeze());
+    EXPECT_TRUE(master_.hear(v1::Envelope::kOrder)->order().show().freeze());
     session_->quit();
     EXPECT_EQ(master_.hear(v1::Envelope::kInput)->input().kind(), v1::INPUT_QUIT);
 }
