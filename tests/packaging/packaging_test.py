@@ -70,6 +70,23 @@ class Installed(unittest.TestCase):
             said = called(program, "--version", cwd="/", env=self.alone)
             self.assertEqual((said.returncode, said.stdout.split("\n")[0].split()[-1]), (0, VERSION), program.name + said.stderr)
 
+    def test_former_names_of_programs_work_and_name_the_new_one(self):
+        solver = self.root / "usr/bin/aquarama-solve"
+        said = called(solver, "--help", cwd="/", env=self.alone)
+        self.assertEqual(said.returncode, 0)
+        self.assertIn("--simulate", said.stdout)
+        self.assertRegex(said.stderr, r"\Aaquarama-solve: .* called aquarama-calibrate now; .* next release\n\Z")
+        desk = self.root / "usr/share/aquarama/config/desk.txtpb"
+        said = called(self.root / "usr/bin/aquarama-calibrate", "check", desk, cwd="/", env=self.alone)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertIn("left", said.stdout)
+        self.assertIn("check is a command of aquarama-compose now", said.stderr)
+        said = called(self.root / "usr/bin/aquarama", "theatre", "--help", cwd="/", env=self.alone)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertRegex(said.stdout, r"(?m)^Usage: aquarama view ")
+        self.assertIn('"theatre" is called "view" now', said.stderr)
+        self.assertNotIn("theatre", called(self.root / "usr/bin/aquarama", "--help", cwd="/", env=self.alone).stdout)
+
     def test_installed_rigs_scenes_and_species_are_good(self):
         config = self.root / "usr/share/aquarama/config"
         of_source = {path.relative_to(ROOT / "config") for path in (ROOT / "config").rglob("*") if path.is_file()}
@@ -80,7 +97,9 @@ class Installed(unittest.TestCase):
         self.assertGreater(len(rigs), 5)
 
     def test_scripts_that_draw_figures_are_installed(self):
-        for source in (ROOT / "master").rglob("*.py"):
+        sources = [*(ROOT / "master").rglob("*.py"), *(ROOT / "capture").rglob("*.py")]
+        self.assertGreater(len(sources), 3)
+        for source in sources:
             self.assertTrue((self.root / "usr/share/aquarama" / source.relative_to(ROOT)).is_file(), source)
 
     def test_each_program_has_a_page_with_all_its_commands_and_options(self):
