@@ -4,16 +4,34 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <utility>
 
 namespace aquarama::conductor {
 namespace {
 
 constexpr std::chrono::duration<float> kFade{0.5F};
-constexpr std::size_t kAnswers = 16;
 
-template <class Value>
-void put(std::optional<Value>& into, const std::optional<Value>& value) {
-    if (value) into = value;
+// The values that come with another look only.
+v1::WantedShow ofLook(const v1::WantedShow& show) {
+    v1::WantedShow values = show;
+    values.clear_black();
+    values.clear_freeze();
+    return values;
+}
+
+// With every value.
+v1::WantedShow completed(const v1::WantedShow& show) {
+    v1::WantedShow all;
+    all.set_quality(v1::WantedShow::AUTO);
+    all.set_pattern(v1::WantedShow::WORLD);
+    all.set_black(false);
+    all.set_freeze(false);
+    all.MergeFrom(show);
+    return all;
+}
+
+bool isWorld(const v1::WantedShow& show) {
+    return show.pattern() == v1::WantedShow::WORLD;
 }
 
 }  // namespace
@@ -44,56 +62,59 @@ bool ScanHold::expires(net::Instant now) {
     return true;
 }
 
-ShowControl::ShowControl(WantedShow wanted, ShowChange kept)
-    : wanted_{std::move(wanted)},
+ShowControl::ShowControl(v1::WantedShow wanted, v1::WantedShow kept, ask::OrderBook& book)
+    : book_{book},
+      wanted_{completed(wanted)},
       kept_{std::move(kept)},
-      hasWorld_{wanted_.pattern == wire::Pattern::World},
-      brightness_{wanted_.black ? 0.0F : 1.0F} {}
+      hasWorld_{isWorld(wanted_)},
+      brightness_{wanted_.black() ? 0.0F : 1.0F} {}
 
-Answer ShowControl::set(std::uint64_t request, const ShowChange& change) {
-    const auto known = std::ranges::find(answers_, request, &RequestAndAnswer::first);
-    if (known != answers_.end()) {
-        if (known->second.outcome == Outcome::Waiting) known->second.reason = waitingFor_;
-        return known->second;
-    }
-    const WantedShow goal = with(wanted_, change);
-    const bool lacksWorld = goal.pattern == wire::Pattern::World && !hasWorld_;
-    const bool isAnotherLook =
-        goal.scene != wanted_.scene || goal.quality != wanted_.quality || lacksWorld;
+Answer ShowControl::set(std::uint64_t request, const v1::WantedShow& change) {
+    if (const Answer* known = book_.find(request)) return *known;
+    v1::WantedShow goal = wanted_;
+    goal.MergeFrom(change);
+    const bool lacksWorld = isWorld(goal) && !hasWorld_;
+    const bool isAnotherLook = goal.scene() != wanted_.scene() ||
+                               goal.quality() != wanted_.quality() || lacksWorld;
     if (isAnotherLook && phase_ != Phase::Steady)
-        return remember(request,
-                        {Outcome::Refused,
-                         "another change is under way (" + waitingFor_ + "); wait for its end"});
-    if (goal != wanted_) ++version_;
+        return book_.enter(
+            request,
+            {Outcome::Refused,
+             "another change is under way (" + waitingFor_ + "); wait for its end"});
+    if (!wire::areSame(goal, wanted_)) ++version_;
     // At once, whatever else is under way.
-    wanted_.black = next_.black = goal.black;
-    wanted_.freeze = next_.freeze = goal.freeze;
-    put(kept_.black, change.black);
-    put(kept_.freeze, change.freeze);
+    for (v1::WantedShow* show : {&wanted_, &next_}) {
+        show->set_black(goal.black());
+        show->set_freeze(goal.freeze());
+    }
+    if (change.has_black()) kept_.set_black(change.black());
+    if (change.has_freeze()) kept_.set_freeze(change.freeze());
     if (isAnotherLook) return begin(request, goal, change);
-    wanted_.pattern = next_.pattern = goal.pattern;
-    put(kept_.pattern, change.pattern);
-    put(kept_.quality, change.quality);
-    put(kept_.scene, change.scene);
-    return remember(request, {});
+    wanted_.set_pattern(goal.pattern());
+    next_.set_pattern(goal.pattern());
+    kept_.MergeFrom(ofLook(change));
+    return book_.enter(request, {});
 }
 
-Answer ShowControl::begin(std::uint64_t request, const WantedShow& goal, const ShowChange& change) {
+Answer ShowControl::begin(std::uint64_t request,
+                          const v1::WantedShow& goal,
+                          const v1::WantedShow& change) {
     next_ = goal;
-    change_ = change;
+    change_ = ofLook(change);
     underWay_ = request;
     ++nextLook_;
-    nextHasWorld_ = hasWorld_ || goal.pattern == wire::Pattern::World;
-    phase_ = goal.scene != wanted_.scene ? Phase::Making : Phase::Preparing;
-    waitingFor_ = phase_ == Phase::Making ? "the world of scene " + goal.scene + " is being made"
-                                          : "nodes build it";
-    return remember(request, {Outcome::Waiting, waitingFor_});
+    nextHasWorld_ = hasWorld_ || isWorld(goal);
+    phase_ = goal.scene() != wanted_.scene() ? Phase::Making : Phase::Preparing;
+    setWaitingFor(phase_ == Phase::Making
+                      ? "the world of scene " + goal.scene() + " is being made"
+                      : "nodes build it");
+    return {Outcome::Waiting, waitingFor_};
 }
 
 bool ShowControl::renew() {
     if (phase_ != Phase::Steady) return false;
     next_ = wanted_;
-    change_ = {};
+    change_.Clear();
     underWay_ = 0;
     ++nextLook_;
     nextHasWorld_ = hasWorld_;
@@ -109,7 +130,7 @@ void ShowControl::made() {
 
 void ShowControl::prepared() {
     assert(phase_ == Phase::Preparing);
-    phase_ = next_.scene != wanted_.scene ? Phase::Fading : Phase::Switching;
+    phase_ = next_.scene() != wanted_.scene() ? Phase::Fading : Phase::Switching;
 }
 
 void ShowControl::blackShown() {
@@ -120,9 +141,7 @@ void ShowControl::switched() {
     assert(phase_ == Phase::Switching);
     hasWorld_ = nextHasWorld_;
     wanted_ = next_;
-    put(kept_.scene, change_.scene);
-    put(kept_.quality, change_.quality);
-    put(kept_.pattern, change_.pattern);
+    kept_.MergeFrom(change_);
     phase_ = Phase::Steady;
     look_ = nextLook_;
     ++version_;
@@ -136,27 +155,21 @@ void ShowControl::fail(const std::string& reason) {
     settle({Outcome::Refused, reason});
 }
 
-Answer ShowControl::remember(std::uint64_t request, const Answer& answer) {
-    answers_.emplace_back(request, answer);
-    if (answers_.size() > kAnswers) answers_.pop_front();
-    return answer;
+void ShowControl::setWaitingFor(const std::string& what) {
+    waitingFor_ = what;
+    if (underWay_ != 0) book_.enter(underWay_, {Outcome::Waiting, what});
 }
 
 void ShowControl::settle(const Answer& answer) {
     waitingFor_.clear();
-    if (underWay_ == 0) return;
-    const auto known = std::ranges::find(answers_, underWay_, &RequestAndAnswer::first);
-    if (known != answers_.end())
-        known->second = answer;
-    else  // many others have asked meanwhile
-        remember(underWay_, answer);
+    if (const std::uint64_t request = std::exchange(underWay_, 0)) book_.enter(request, answer);
 }
 
 float ShowControl::brightness(net::Instant now) {
     const std::chrono::duration<float> passed =
         brightnessAt_ == net::Instant{} ? net::Instant{} : now - brightnessAt_;
     brightnessAt_ = now;
-    const bool isDark = wanted_.black || phase_ == Phase::Fading || phase_ == Phase::Switching;
+    const bool isDark = wanted_.black() || phase_ == Phase::Fading || phase_ == Phase::Switching;
     const float step = passed / kFade;
     brightness_ = std::clamp(isDark ? brightness_ - step : brightness_ + step, 0.0F, 1.0F);
     return brightness_;

@@ -3,21 +3,16 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "common/ask/order_book.h"
 #include "common/base/units.h"
 #include "common/config/scan.h"
 #include "common/net/clock.h"
-#include "common/wire/show_file.h"
+#include "common/wire/wanted_show.h"
 
 namespace aquarama::conductor {
-
-using wire::ShowChange;
-using wire::WantedShow;
 
 using ask::Answer;
 using ask::Outcome;
@@ -60,18 +55,19 @@ class ScanHold {
 // also goes through black.
 class ShowControl {
   public:
-    // `kept`: what was set in earlier runs, already part of `wanted`.
-    ShowControl(WantedShow wanted, ShowChange kept);
+    // `wanted`: values that are left out are auto, the world, and off. `kept`: what was set in
+    // earlier runs, already part of `wanted`. `book` outlives this: it is told how changes end.
+    ShowControl(v1::WantedShow wanted, v1::WantedShow kept, ask::OrderBook& book);
 
-    // Applies a change, or begins it. `request` is its sender's number: a change that is said again
-    // is answered again, and not begun anew.
-    Answer set(std::uint64_t request, const ShowChange& change);
+    // Applies the values that are set, or begins the change. `request` is its sender's number: a
+    // change that the book knows is answered again, and not begun anew.
+    Answer set(std::uint64_t request, const v1::WantedShow& change);
     // The files of the wall are others: the same is to be shown by another look, without black.
     // False while another change is under way.
     bool renew();
     // Of the change that is under way; empty where there is none.
     [[nodiscard]] const std::string& waitingFor() const { return waitingFor_; }
-    void setWaitingFor(std::string what) { waitingFor_ = std::move(what); }
+    void setWaitingFor(const std::string& what);
 
     enum class Phase : std::uint8_t {
         Steady,     // nothing changes but brightness
@@ -90,11 +86,11 @@ class ShowControl {
     void fail(const std::string& reason);
 
     // What the wall shows, or fades to.
-    [[nodiscard]] const WantedShow& wanted() const { return wanted_; }
+    [[nodiscard]] const v1::WantedShow& wanted() const { return wanted_; }
     // All that was ever set and is shown: kept on disk for the next run.
-    [[nodiscard]] const ShowChange& kept() const { return kept_; }
+    [[nodiscard]] const v1::WantedShow& kept() const { return kept_; }
     // What the look under way will show.
-    [[nodiscard]] const WantedShow& next() const { return next_; }
+    [[nodiscard]] const v1::WantedShow& next() const { return next_; }
     // Whether the look that is shown has the world, not patterns alone; and the next one.
     [[nodiscard]] bool hasWorld() const { return hasWorld_; }
     [[nodiscard]] bool nextHasWorld() const { return nextHasWorld_; }
@@ -107,20 +103,18 @@ class ShowControl {
     [[nodiscard]] float brightness(net::Instant now);
 
   private:
-    using RequestAndAnswer = std::pair<std::uint64_t, Answer>;
-    Answer begin(std::uint64_t request, const WantedShow& goal, const ShowChange& change);
-    Answer remember(std::uint64_t request, const Answer& answer);
+    Answer begin(std::uint64_t request, const v1::WantedShow& goal, const v1::WantedShow& change);
     void settle(const Answer& answer);  // of the change under way
 
-    WantedShow wanted_, next_;
-    ShowChange kept_, change_;  // change_: under way
+    ask::OrderBook& book_;
+    v1::WantedShow wanted_, next_;
+    v1::WantedShow kept_, change_;  // change_: under way
     Phase phase_ = Phase::Steady;
     bool hasWorld_, nextHasWorld_ = false;
     std::uint32_t look_ = 1, nextLook_ = 1;
     std::uint64_t version_ = 1;
     std::uint64_t underWay_ = 0;  // request; 0: of nobody
     std::string waitingFor_;
-    std::deque<RequestAndAnswer> answers_;  // the last few
     float brightness_;
     net::Instant brightnessAt_{};
 };

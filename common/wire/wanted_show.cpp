@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/wire/wanted_show.h"
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include <google/protobuf/text_format.h>
+
+#include "common/base/files.h"
+#include "common/config/text_reader.h"
+#include "common/wire/state_codec.h"
+
+namespace aquarama::wire {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t kVersion = 1;
+
+// Tiers follow AUTO, in their order; patterns are numbered as in aquarama.proto.
+static_assert(v1::WantedShow::LOW - v1::WantedShow::AUTO == 1);
+static_assert(int{v1::WantedShow::GREY} == static_cast<int>(Pattern::Grey));
+
+std::string_view onOff(bool isOn) {
+    return isOn ? "on" : "off";
+}
+
+void add(std::string& text, std::string_view what, std::string_view value) {
+    if (!text.empty()) text += ", ";
+    text.append(what).append(" ").append(value);
+}
+
+}  // namespace
+
+v1::WantedShow::Tier tierOf(const std::optional<config::QualityTier>& quality) {
+    if (!quality) return v1::WantedShow::AUTO;
+    return static_cast<v1::WantedShow::Tier>(v1::WantedShow::LOW + static_cast<int>(*quality));
+}
+
+std::optional<config::QualityTier> tierIn(const v1::WantedShow& show) {
+    if (show.quality() < v1::WantedShow::LOW) return std::nullopt;
+    return config::tierAt(static_cast<std::uint32_t>(show.quality() - v1::WantedShow::LOW));
+}
+
+bool areSame(const v1::WantedShow& one, const v1::WantedShow& other) {
+    return one.SerializeAsString() == other.SerializeAsString();
+}
+
+std::string textOf(const v1::WantedShow& show) {
+    std::string text;
+    if (show.has_scene()) add(text, "scene", show.scene());
+    if (show.has_quality()) {
+        const auto tier = tierIn(show);
+        add(text, "quality", tier ? config::nameOf(*tier) : "auto");
+    }
+    if (show.has_pattern()) add(text, "pattern", nameOf(static_cast<Pattern>(show.pattern())));
+    if (show.has_black()) add(text, "black", onOff(show.black()));
+    if (show.has_freeze()) add(text, "freeze", onOff(show.freeze()));
+    return text;
+}
+
+fs::path keptShowOf(const std::string& rigPath) {
+    return userFolder("XDG_STATE_HOME", ".local/state") / "shows" /
+           (fs::path(rigPath).stem().string() + ".txtpb");
+}
+
+v1::WantedShow readKeptShow(const fs::path& path) {
+    if (!fs::exists(path)) return {};
+    return parseKeptShow(config::readTextFile(path.string()), path.string());
+}
+
+v1::WantedShow parseKeptShow(const std::string& text, const std::string& source) {
+    v1::WantedShow kept;
+    config::TextReader file(text, source, kept);
+    file.check();
+    kept.clear_version();
+    return kept;
+}
+
+void keepShow(const fs::path& path, const v1::WantedShow& kept) {
+    v1::WantedShow out = kept;
+    out.set_version(kVersion);
+    std::string text;
+    google::protobuf::TextFormat::PrintToString(out, &text);
+    text = "# What the wall was last told to show (aquarama set).\n" + text;
+    writeWhole(path, std::as_bytes(std::span{text}));
+}
+
+}  // namespace aquarama::wire

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is wanted of a wall (v1::WantedShow, of orders and of the file that a master keeps): its
+// values, words for logs, and that file.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "common/config/keys.pb.h"
+#include "common/config/rig.h"
+
+namespace aquarama::wire {
+
+// A tier as the message has it; nothing: the finest that every node bears.
+[[nodiscard]] v1::WantedShow::Tier tierOf(const std::optional<config::QualityTier>& quality);
+// The tier of the message; nothing where it is AUTO or unset.
+[[nodiscard]] std::optional<config::QualityTier> tierIn(const v1::WantedShow& show);
+// Whether two have the same values, and the same values unset.
+[[nodiscard]] bool areSame(const v1::WantedShow& one, const v1::WantedShow& other);
+// For logs: "scene reef, black on"; empty where nothing is set.
+[[nodiscard]] std::string textOf(const v1::WantedShow& show);
+
+// Where the values that were set for a rig are kept: aquarama/shows/RIG.txtpb in the user's folder
+// for state ($XDG_STATE_HOME, or ~/.local/state).
+[[nodiscard]] std::filesystem::path keptShowOf(const std::string& rigPath);
+// Nothing is set where there is no such file. Throws Error where it is malformed.
+[[nodiscard]] v1::WantedShow readKeptShow(const std::filesystem::path& path);
+// The same of its text; `source` names it in errors.
+[[nodiscard]] v1::WantedShow parseKeptShow(const std::string& text, const std::string& source);
+// Throws Error where it cannot be written.
+void keepShow(const std::filesystem::path& path, const v1::WantedShow& kept);
+
+}  // namespace aquarama::wire

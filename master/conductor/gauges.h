@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a show measures of itself: its figures for Prometheus and its status; and the watchdog, by
+// which a service manager knows that it is alive.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/machine/service_notifier.h"
+#include "common/net/metrics.h"
+#include "common/wire/messages.h"
+#include "common/wire/state_codec.h"
+#include "master/conductor/present_barrier.h"
+#include "master/conductor/roster.h"
+
+namespace aquarama::conductor {
+
+// What a show came to.
+struct ShowReport {
+    std::uint64_t frames = 0;  // presented
+    Tick tick;                 // the last that was shown
+    std::uint64_t worldHash = 0;
+    std::uint64_t refusedPackets = 0;
+};
+
+// Of the conductor's thread.
+class Gauges {
+  public:
+    // `port`: on which Prometheus may ask; 0: it may not. Throws Error where it is occupied.
+    Gauges(const Roster& roster, std::uint16_t port);
+
+    // A frame is released `interval` after the one before.
+    void released(net::Instant now, net::Instant interval);
+    // A node let go of this frame, in nanoseconds of the master's clock.
+    void nodeReleased(net::Instant now, Frame frame, std::int64_t atNs);
+    // A state of so many bytes is published.
+    void published(const wire::StateView& state, std::size_t bytes);
+    // Where the eye was in the last state that was published.
+    [[nodiscard]] const wire::Eye& eye() const { return eye_; }
+
+    // For Prometheus; once a second, else nothing. True: it has counted.
+    bool count(net::Instant now,
+               const ShowReport& report,
+               std::uint32_t fish,
+               bool isBlack,
+               const Roster& roster,
+               const PresentBarrier& barrier);
+    // All of a status reply but pace, frame, show and change.
+    void writeStatus(v1::StatusReply& reply,
+                     const ShowReport& report,
+                     const Roster& roster,
+                     const PresentBarrier& barrier) const;
+
+  private:
+    struct NodeFigures {
+        net::Record condition, late, dropped, mismatches, roundTrip, drift, celsius;
+    };
+    [[nodiscard]] NodeFigures figuresOf(const Seat& seat);
+
+    net::Metrics metrics_;
+    net::Record frameSeconds_, skewSeconds_, frames_, fish_, bytes_, refused_, black_;
+    std::vector<NodeFigures> nodes_;
+    net::RecentTimes frameTimes_;
+    net::RecentPeak framePeak_, skewPeak_;
+    SkewMeter skew_;
+    wire::Eye eye_;
+    double eyeTicks_ = 0;  // when it was there, in ticks and parts of them
+    float speedMetresPerSecond_ = 0;
+    std::uint64_t publishedBytes_ = 0;
+    net::Instant lastCount_{};
+};
+
+// Tells the service manager at every turn of the frame loop that the show is alive, as long as
+// ticks come: a tick that does not come is a hang of this process too.
+class Watchdog {
+  public:
+    // Null: nobody is told. `service` outlives this.
+    explicit Watchdog(machine::ServiceNotifier* service) : service_{service} {}
+
+    void ready() const;
+    // `isStill`: no tick has to come, as the world stands still.
+    void turn(net::Instant now, std::optional<Tick> newest, bool isStill, std::uint64_t frames);
+    void stopping() const;
+
+  private:
+    machine::ServiceNotifier* service_;
+    std::optional<Tick> lastTick_;  // that has come, and when
+    net::Instant lastTickAt_{};
+};
+
+}  // namespace aquarama::conductor

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run of the master says to its peers: encodes each message and hands it to the channels.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "common/net/channels.h"
+#include "common/wire/messages.h"
+
+namespace aquarama::conductor {
+
+// Of the conductor's thread.
+class Outbox {
+  public:
+    using Send = std::function<void(const net::PeerId&, net::ByteView)>;
+    // `session`: of this run of the master. `send` must not throw.
+    Outbox(std::uint64_t session, Send send) : session_{session}, send_{std::move(send)} {}
+
+    [[nodiscard]] std::uint64_t session() const { return session_; }
+    // A message of this run as the bytes that are sent.
+    [[nodiscard]] wire::Packet packetOf(v1::Envelope message) const {
+        return wire::encode(session_, std::move(message));
+    }
+    void send(const net::PeerId& peer, net::ByteView packet) const { send_(peer, packet); }
+    void say(const net::PeerId& peer, v1::Envelope message) const {
+        send_(peer, packetOf(std::move(message)));
+    }
+    // Tells the peer that it is not counted, or not any more.
+    void dismiss(const net::PeerId& peer, const std::string& why) const {
+        v1::Envelope message;
+        message.mutable_dismissed()->set_reason(why);
+        say(peer, std::move(message));
+    }
+
+  private:
+    std::uint64_t session_;
+    Send send_;
+};
+
+}  // namespace aquarama::conductor
