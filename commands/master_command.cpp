@@ -83,21 +83,22 @@ std::string sceneFile(const config::Rig& rig, const std::string& rigPath, const 
 }
 
 // What is chosen for this run: by the options, else by the rig.
-wire::ShowChange chosenBy(const MasterOptions& options) {
+v1::WantedShow chosenBy(const MasterOptions& options) {
     const supervisor::ShowOptions& show = options.show;
-    wire::ShowChange chosen;
-    if (!show.scenePath.empty()) chosen.scene = show.scenePath;
-    if (!show.quality.empty()) chosen.quality = config::tierNamed(show.quality);
-    chosen.pattern = wire::patternNamed(show.pattern);
+    v1::WantedShow chosen;
+    if (!show.scenePath.empty()) chosen.set_scene(show.scenePath);
+    if (!show.quality.empty()) chosen.set_quality(wire::tierOf(config::tierNamed(show.quality)));
+    if (const auto pattern = wire::patternNamed(show.pattern))
+        chosen.set_pattern(static_cast<v1::WantedShow::Shown>(*pattern));
     return chosen;
 }
 
 // What earlier runs were told to show. A file that cannot be read does not keep the wall dark.
-wire::ShowChange keptShow(const config::Rig& rig, const MasterOptions& options) {
+v1::WantedShow keptShow(const config::Rig& rig, const MasterOptions& options) {
     const fs::path path = wire::keptShowOf(options.show.rigPath);
     try {
-        wire::ShowChange kept = wire::readKeptShow(path);
-        if (kept.scene) static_cast<void>(sceneFile(rig, options.show.rigPath, *kept.scene));
+        v1::WantedShow kept = wire::readKeptShow(path);
+        if (kept.has_scene()) static_cast<void>(sceneFile(rig, options.show.rigPath, kept.scene()));
         return kept;
     } catch (const Error& problem) {
         logWarning("what was set before is not shown: {}", problem.what());
@@ -110,22 +111,23 @@ wire::ShowChange keptShow(const config::Rig& rig, const MasterOptions& options) 
 void chooseWanted(const config::Rig& rig,
                   const MasterOptions& options,
                   conductor::ConductorOptions& conductor) {
-    wire::WantedShow wanted{.scene = fs::path(rig.scene).stem().string(),
-                            .quality = qualityOf(rig, options)};
+    conductor.wanted.set_scene(fs::path(rig.scene).stem().string());
+    conductor.wanted.set_quality(wire::tierOf(qualityOf(rig, options)));
     const bool isKept = !options.lockstep && options.show.replayPath.empty();
     if (isKept) {
         conductor.keptAt = wire::keptShowOf(options.show.rigPath);
         conductor.kept = keptShow(rig, options);
     }
-    const wire::ShowChange chosen = chosenBy(options);
+    const v1::WantedShow chosen = chosenBy(options);
     const auto& [under, over] =
         options.resume ? std::pair{chosen, conductor.kept} : std::pair{conductor.kept, chosen};
-    conductor.wanted = wire::with(wire::with(std::move(wanted), under), over);
-    if (const std::string text = textOf(conductor.kept); !text.empty())
+    conductor.wanted.MergeFrom(under);
+    conductor.wanted.MergeFrom(over);
+    if (const std::string text = wire::textOf(conductor.kept); !text.empty())
         logInfo("as it was set before: {} (change it with aquarama set)", text);
 }
 
-// Looks at the files that a rig names, whether they have changed: ConductorOptions::changedRig.
+// Looks at the files that a rig names, whether they have changed: LookSources::changedRig.
 class RigFileWatch {
   public:
     RigFileWatch(config::Rig rig, std::string path)
@@ -178,7 +180,7 @@ conductor::ConductorOptions conductorOptions(const config::Rig& rig, const Maste
     conductor.traceDirectory = options.show.traceFolder;
     conductor.log = options.log.get();
     conductor.service = options.service;
-    if (!rig.files.empty()) conductor.changedRig = RigFileWatch(rig, options.show.rigPath);
+    if (!rig.files.empty()) conductor.looks.changedRig = RigFileWatch(rig, options.show.rigPath);
     return conductor;
 }
 
@@ -229,7 +231,7 @@ void showNew(const config::Rig& rig,
     conductor::ConductorOptions conducting = conductorOptions(rig, options);
     std::optional<WorldPreparation> preparation(std::in_place, *channels, options.service);
     const simulation::Assets assets =
-        simulation::readAssets(sceneFile(rig, options.show.rigPath, conducting.wanted.scene),
+        simulation::readAssets(sceneFile(rig, options.show.rigPath, conducting.wanted.scene()),
                                {.seed = options.show.seed,
                                 .fish = options.show.fish,
                                 .tell = [&](const std::string& what) { preparation->tell(what); }});
@@ -237,7 +239,7 @@ void showNew(const config::Rig& rig,
     simulation::LivingWorld world(simulation::worldOptionsOf(assets));
     preparation.reset();
     if (options.show.recordPath.empty()) {
-        conducting.makeWorld = [rig, show = options.show](const std::string& scene) {
+        conducting.looks.makeWorld = [rig, show = options.show](const std::string& scene) {
             simulation::Assets next = simulation::readAssets(
                 sceneFile(rig, show.rigPath, scene), {.seed = show.seed, .fish = {}, .tell = {}});
             auto made = std::make_unique<simulation::LivingWorld>(simulation::worldOptionsOf(next));

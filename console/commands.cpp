@@ -11,7 +11,7 @@
 
 #include "common/base/log.h"
 #include "common/machine/machine_power.h"
-#include "common/wire/show_file.h"
+#include "common/wire/wanted_show.h"
 #include "console/console.h"
 
 namespace aquarama::console {
@@ -104,7 +104,7 @@ std::string textOf(const v1::Order& order) {
                order.power().channel();
     if (order.has_scan())
         return order.scan().has_pattern() ? "a pattern of a scan" : "no pattern of a scan";
-    return wire::textOf(wire::changeIn(order.show()));
+    return wire::textOf(order.show());
 }
 
 // A name that the master takes: a packet of ours is never malformed there.

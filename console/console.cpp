@@ -13,7 +13,7 @@
 
 #include "common/base/dates.h"
 #include "common/base/log.h"
-#include "common/wire/show_file.h"
+#include "common/wire/wanted_show.h"
 
 namespace aquarama::console {
 

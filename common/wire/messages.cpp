@@ -16,7 +16,6 @@
 namespace aquarama::wire {
 namespace {
 
-constexpr float kFullLight = 255;
 constexpr int kEyeNumbers = 7;  // position and rotation
 // In the order of Input.steering.
 constexpr std::array kAxes{
@@ -435,20 +434,6 @@ std::optional<config::ScanPattern> readScanPattern(const v1::ScanPattern& m) {
                                .lit = m.lit(),
                                .number = static_cast<std::uint16_t>(m.number()),
                                .tagged = m.tagged()};
-}
-
-void writeShow(const Show& show, v1::Show& message) {
-    message.set_version(show.version);
-    message.set_look(show.look);
-    message.set_scene(show.scene);
-    message.set_quality(static_cast<std::uint32_t>(show.quality));
-    message.set_pattern(static_cast<v1::Pattern>(show.pattern));
-    message.set_black(show.black);
-    message.set_brightness(static_cast<std::uint32_t>(std::lround(kFullLight * show.brightness)));
-    message.set_frozen(show.frozen);
-    message.set_pilot(show.pilot);
-    message.set_calibration(show.calibration);
-    if (show.scan) writeScanPattern(*show.scan, *message.mutable_scan());
 }
 
 std::optional<Show> readShow(const v1::Show& m) {

@@ -43,6 +43,7 @@ inline constexpr std::size_t kMostExplanationLineBytes = 120;
 inline constexpr std::size_t kMostJpegBytes = std::size_t{60} << 10U;
 inline constexpr std::uint32_t kMostPictureWidth = 1920;  // of one that a console is shown
 inline constexpr int kMostSkewCounts = 16;
+inline constexpr float kFullLight = 255;  // of Show.brightness
 // All messages but welcomes, states and chunks, which alone hold their content as plain bytes or
 // numbers. Nothing larger goes from a node to the master.
 inline constexpr std::size_t kMostSmallPacketBytes = std::size_t{64} << 10U;
@@ -62,8 +63,7 @@ inline constexpr std::size_t kMostPacketBytes = std::size_t{64} << 20U;  // two 
 void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers);
 [[nodiscard]] std::optional<Eye> readEye(const google::protobuf::RepeatedField<float>& numbers);
 
-// Every field is written. Reading: empty where one is missing or out of bounds.
-void writeShow(const Show& show, v1::Show& message);
+// Empty where a field is missing or out of bounds.
 [[nodiscard]] std::optional<Show> readShow(const v1::Show& message);
 
 // Reading: empty where a field is missing, or no channel could show it.

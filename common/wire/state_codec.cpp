@@ -85,22 +85,6 @@ FoodRecord foodRecord(FoodRecord::Kind kind, glm::vec3 offsetMetres, unsigned ge
             static_cast<std::uint64_t>(kind) << 60U | std::uint64_t{generation & 3U} << 62U};
 }
 
-StateView viewOf(const StateFrame& state) {
-    return {.frame = state.frame,
-            .tick = state.tick,
-            .fraction = state.fraction,
-            .eye = state.eye,
-            .worldHash = state.worldHash,
-            .motionHash = state.motionHash,
-            .before = state.before,
-            .after = state.after,
-            .foodOriginMetres = state.foodOriginMetres,
-            .foodBefore = state.foodBefore,
-            .foodAfter = state.foodAfter,
-            .daylight = state.daylight,
-            .show = state.show};
-}
-
 Packet encodeState(std::uint64_t session, const StateView& state) {
     v1::Envelope envelope;
     v1::State& message = *envelope.mutable_state();
@@ -119,7 +103,8 @@ Packet encodeState(std::uint64_t session, const StateView& state) {
     writeRecords(state.foodBefore, *message.mutable_food_before());
     writeRecords(state.foodAfter, *message.mutable_food_after());
     message.set_daylight(state.daylight);
-    writeShow(state.show, *message.mutable_show());
+    assert(state.show != nullptr);
+    *message.mutable_show() = *state.show;
     return encode(session, std::move(envelope));
 }
 

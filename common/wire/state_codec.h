@@ -25,9 +25,10 @@
 #include "common/config/scene.h"
 #include "common/motion/motion_state.h"
 
-namespace aquarama::v1 {
-class State;  // generated from aquarama.proto
-}
+namespace aquarama::v1 {  // generated from aquarama.proto
+class Show;
+class State;
+}  // namespace aquarama::v1
 
 namespace aquarama::wire {
 
@@ -99,7 +100,8 @@ struct Eye {
     glm::quat worldFromWall{1, 0, 0, 0};
 };
 
-// What the whole wall shows, in every frame. Only the master changes it, between two frames.
+// What the whole wall shows, in every frame, as a node has received it. Only the master changes it,
+// between two frames.
 struct Show {
     std::uint64_t version = 0;  // grows with every change but those of brightness and pilot
     std::uint32_t look = 0;     // what nodes have built, and draw this frame with
@@ -118,7 +120,7 @@ struct Show {
 // All that a frame shows; nothing before it is needed to draw it. `before` and `foodBefore` are
 // empty where fraction is 1: the frame shows the tick itself. Else the frame shows the moment
 // between tick - 1 (before) and tick (after).
-template <class FishRecords, class FoodRecords>
+template <class FishRecords, class FoodRecords, class Shown>
 struct BasicState {
     Frame frame;
     Tick tick;
@@ -132,17 +134,16 @@ struct BasicState {
     FoodRecords foodBefore;
     FoodRecords foodAfter;
     float daylight = 1.0F;  // of the sky: 1 at noon, less towards the night, never below 0
-    Show show;
+    Shown show{};
 };
 // What a node has received: owns its records.
-using StateFrame = BasicState<std::vector<motion::FishRecord>, std::vector<FoodRecord>>;
-// What the master sends: views of the records of its snapshots.
-using StateView = BasicState<std::span<const motion::FishRecord>, std::span<const FoodRecord>>;
+using StateFrame = BasicState<std::vector<motion::FishRecord>, std::vector<FoodRecord>, Show>;
+// What the master sends: views of the records of its snapshots, and of the message of what is
+// shown, null until it is known.
+using StateView =
+    BasicState<std::span<const motion::FishRecord>, std::span<const FoodRecord>, const v1::Show*>;
 
-// A view of all of `state`, which outlives it.
-[[nodiscard]] StateView viewOf(const StateFrame& state);
-
-// The packet of a state, of the master's run `session`.
+// The packet of a state whose `show` is known, of the master's run `session`.
 [[nodiscard]] Packet encodeState(std::uint64_t session, const StateView& state);
 
 // The state in a decoded message; empty where a field is missing, a record is impossible, or a

@@ -1,53 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame loop. Who comes and goes is in reception.cpp.
 #include "master/conductor/conductor.h"
 
 #include <algorithm>
-#include <array>
-#include <cassert>
+#include <chrono>
+#include <cmath>
 #include <random>
 #include <utility>
 
-#include <glm/geometric.hpp>
+#include <spdlog/fmt/fmt.h>
 
-#include "common/base/log.h"
-#include "common/wire/messages.h"
+#include "common/motion/motor.h"
 
 namespace aquarama::conductor {
 namespace {
 
-using std::chrono::milliseconds;
+using Phase = ShowControl::Phase;
 
-// Time for a release to reach every node: ten times the median of a busy machine's loopback.
-constexpr net::Instant kLead = milliseconds(2);
-// A state is published so long before the release of the frame before it: nodes begin to draw then.
-constexpr net::Instant kPublishLead = milliseconds(3);
-// A frame shows the world as it was so long before its release, which is a refresh after the one
-// before: the two ticks on either side are simulated when it is published.
-constexpr net::Instant kShownAge = 2 * kTickPeriod + kPublishLead + milliseconds(1);
-constexpr net::Instant kBeacon = milliseconds(50);
-constexpr net::Instant kRepeat = std::chrono::seconds(1);
-constexpr net::Instant kLongestWait = milliseconds(10);
-constexpr std::size_t kMostNodes = 64;  // as many as a rig has channels
+// Of one turn of the loop: a flood of packets never stops the frames.
+constexpr int kMostPackets = 256;
+// A node whose name comes up again is taken for dead after so much silence.
+constexpr net::Instant kSilenceOfTheDead = std::chrono::milliseconds(250);
 
 net::Instant fromSeconds(double seconds) {
     return std::chrono::duration_cast<net::Instant>(std::chrono::duration<double>(seconds));
 }
 
-BarrierLimits limitsOf(const config::Timing& timing, const ConductorOptions& options) {
+PresentationLimits limitsOf(const config::Timing& timing, const ConductorOptions& options) {
     const double deadline = timing.presentDeadlineSeconds > 0 ? timing.presentDeadlineSeconds
                                                               : 1.0 / timing.refreshHertz;
-    return {options.pace == wire::Pace::Lockstep,
-            fromSeconds(deadline),
-            fromSeconds(timing.membershipSeconds),
-            options.patience};
+    return {.barrier = {.lockstep = options.pace == wire::Pace::Lockstep,
+                        .deadline = fromSeconds(deadline),
+                        .membership = fromSeconds(timing.membershipSeconds),
+                        .patience = options.patience},
+            .refresh = fromSeconds(1.0 / timing.refreshHertz),
+            .frames = options.frames,
+            .traceDirectory = options.traceDirectory};
 }
 
-std::vector<std::string> namesOf(const config::Rig& rig, const ConductorOptions& options) {
-    if (!options.expected.empty()) return options.expected;
-    std::vector<std::string> names;
-    for (const config::Channel& channel : rig.channels) names.push_back(channel.name);
-    return names;
+OrderLimits limitsOf(const ConductorOptions& options) {
+    return {.isLockstep = options.pace == wire::Pace::Lockstep,
+            .whyOneScene = options.looks.makeWorld ? "" : options.whyOneScene,
+            .wanted = options.wanted,
+            .kept = options.kept};
+}
+
+// A show in lockstep is the same every time: its wall does not change.
+LookSources sourcesOf(const ConductorOptions& options) {
+    LookSources sources = options.looks;
+    if (options.pace == wire::Pace::Lockstep) sources.changedRig = nullptr;
+    return sources;
+}
+
+v1::Welcome welcomeTo(const config::Rig& rig,
+                      const ConductorOptions& options,
+                      const net::MasterChannels& channels) {
+    v1::Welcome welcome;
+    welcome.set_rig_text(rig.text);
+    welcome.set_state_address(channels.stateAddress());
+    welcome.set_pace(static_cast<v1::Pace>(options.pace));
+    return welcome;
 }
 
 // From no seed: two runs must not be taken for one another.
@@ -57,43 +68,7 @@ std::uint64_t freshSession() {
     return (high << 32U | device()) | 1U;  // never 0
 }
 
-GrowingFile openTrace(const std::filesystem::path& directory) {
-    if (directory.empty()) return {};
-    GrowingFile trace(directory / "master.csv");
-    trace.append("frame,state_ns,ready_ns,present_ns\n");
-    return trace;
-}
-
 }  // namespace
-
-Blobs blobsOf(const wire::AssetBundle& assets) {
-    Blobs blobs;
-    for (const wire::SpeciesAssets& species : assets.cast) {
-        const auto text = std::as_bytes(std::span{species.text});
-        blobs.emplace(digestOf(text),
-                      std::make_shared<const net::ByteVector>(text.begin(), text.end()));
-        blobs.emplace(digestOf(species.repertoire),
-                      std::make_shared<const net::ByteVector>(species.repertoire));
-    }
-    return blobs;
-}
-
-v1::Look lookOf(const wire::AssetBundle& assets, std::span<const motion::FishTraits> school) {
-    v1::Look look;
-    look.set_scene_text(assets.scene);
-    look.set_seed(assets.seed);
-    for (const motion::FishTraits& fish : school) {
-        look.add_fish_ids(fish.id);
-        look.add_length_millimetres(fish.lengthMillimetres);
-    }
-    for (const wire::SpeciesAssets& species : assets.cast) {
-        v1::SpeciesBlobs& member = *look.add_cast();
-        member.set_species(wire::bytesOf(digestOf(species.text)));
-        member.set_repertoire(wire::bytesOf(digestOf(species.repertoire)));
-        member.set_fish(species.fish);
-    }
-    return look;
-}
 
 Conductor::Conductor(const config::Rig& rig,
                      ConductorOptions options,
@@ -101,43 +76,31 @@ Conductor::Conductor(const config::Rig& rig,
                      const wire::AssetBundle& assets,
                      std::span<const motion::FishTraits> school,
                      std::unique_ptr<net::MasterChannels> channels)
-    : options_(std::move(options)),
-      simulation_(&simulation),
-      fishOfSchool_(static_cast<std::uint32_t>(school.size())),
-      rigText_(rig.text),
-      control_(options_.wanted, options_.kept),
-      windowsEndShow_(rig.windowsEndShow),
-      look_(std::make_unique<v1::Look>(lookOf(assets, school))),
-      blobs_(blobsOf(assets)),
-      channels_(std::move(channels)),
-      session_(freshSession()),
-      barrier_(namesOf(rig, options_).size(), limitsOf(rig.timing, options_), net::monotonicNow()),
-      refresh_(fromSeconds(1.0 / rig.timing.refreshHertz)),
-      deadline_(limitsOf(rig.timing, options_).deadline),
-      trace_(openTrace(options_.traceDirectory)),
-      keptOnDisk_(options_.kept),
-      metrics_(isLockstep() ? std::uint16_t{0} : rig.metricsPort) {
-    assert(rig.channels.size() <= kMostNodes);
-    for (const std::string& name : namesOf(rig, options_)) {
-        slots_.emplace_back().name = name;
-        const auto channel = std::ranges::find(rig.channels, name, &config::Channel::name);
-        slots_.back().machine = channel->machine;
-    }
-    figures_ = makeFigures();
-    for (const auto& [name, content] : rig.files) {
-        const Digest digest = digestOf(std::span{*content});
-        rigFiles_.emplace(name, digest);
-        blobs_.emplace(digest, content);
-    }
-    nameRigFiles(*look_, rigFiles_);
-    look_->set_number(control_.look());
-    look_->set_world(control_.hasWorld());
-    if (const auto& quality = control_.wanted().quality)
-        look_->set_quality(static_cast<std::uint32_t>(*quality));
-    welcomeToLook();
-    v1::Envelope beacon;
-    beacon.mutable_beacon();
-    beacon_ = wire::encode(session_, std::move(beacon));
+    : options_{std::move(options)},
+      channels_{std::move(channels)},
+      outbox_{freshSession(),
+              [this](const net::PeerId& peer, net::ByteView packet) {
+                  channels_->sendControl(peer, packet);
+              }},
+      roster_{rig, options_.expected},
+      orders_{limitsOf(options_), roster_, outbox_},
+      looks_{sourcesOf(options_),
+             welcomeTo(rig, options_, *channels_),
+             rig.files,
+             lookOf(assets, school),
+             blobsOf(assets),
+             orders_.control(),
+             roster_,
+             outbox_},
+      keeper_{options_.keptAt, options_.kept},
+      gauges_{roster_, isLockstep() ? std::uint16_t{0} : rig.metricsPort},
+      presentation_{
+          limitsOf(rig.timing, options_), roster_, outbox_, *channels_, gauges_, report_, *this},
+      visitors_{outbox_, [this] { channels_->wake(); }},
+      watchdog_{options_.service},
+      simulation_{&simulation},
+      windowsEndShow_{rig.windowsEndShow} {
+    visitors_.enter(nullptr, static_cast<std::uint32_t>(school.size()));
 }
 
 Conductor::~Conductor() = default;
@@ -148,49 +111,45 @@ void Conductor::stop() {
 }
 
 ShowReport Conductor::run() {
-    over_ = options_.frames == 0U;
     if (!isLockstep() && !net::runInRealTime())
         logInfo(
             "no real-time priority: frames are late where this machine is busy; "
             "docs/cluster.md says how to allow it");
-    startSimulation();
-    if (options_.service != nullptr) options_.service->ready();
-    while (!over_ && !stopped_) {
+    startSimulation(visitors_.fish());
+    watchdog_.ready();
+    while (!isOver_ && !stopped_ && !presentation_.isOver()) {
         const net::Instant now = net::monotonicNow();
         hear(now);
-        takeTicks();
-        answer();
+        visitors_.answer();
         changeShow(now);
-        conduct(now);
+        presentation_.turn(now);
         nameMissing(now);
-        count(now);
-        sayAlive(now);
-        if (now - lastPublished_ > kBeacon) {
-            channels_->publishState(beacon_);
-            lastPublished_ = now;
-        }
-        channels_->wait(untilDue());
+        const v1::WantedShow& wanted = orders_.control().wanted();
+        if (gauges_.count(
+                now, report_, visitors_.fish(), wanted.black(), roster_, presentation_.barrier()))
+            for (Seat& seat : roster_.seats()) seat.logLines = 0;
+        const bool isStill = isLockstep() || wanted.freeze();
+        watchdog_.turn(now, presentation_.newestTick(), isStill, report_.frames);
+        channels_->wait(presentation_.untilDue());
     }
-    if (options_.service != nullptr) options_.service->stopping();
+    watchdog_.stopping();
+    visitors_.enter(nullptr, visitors_.fish());
     simulationThread_.reset();
     sayFarewell();
-    if (keeping_.valid()) keeping_.wait();
-    keepWhatWasSet();
-    trace_.close();
-    if (!failure_.empty()) throw Error(failure_);
+    keeper_.finish(orders_.control().kept());
+    if (!presentation_.failure().empty()) throw Error(presentation_.failure());
     return report_;
 }
 
-// In the log, every few seconds: nodes of other machines are started by other hands.
 void Conductor::nameMissing(net::Instant now) {
     constexpr net::Instant kBetweenRolls = std::chrono::seconds(5);
     if (now - lastRoll_ < kBetweenRolls) return;
     lastRoll_ = now;
     std::string missing;
-    for (const ChannelSlot& slot : slots_) {
-        if (!slot.peer.empty()) continue;
-        missing += (missing.empty() ? "" : ", ") + slot.name;
-        if (!slot.machine.empty()) missing += " (machine " + slot.machine + ")";
+    for (const Seat& seat : roster_.seats()) {
+        if (!seat.peer.empty()) continue;
+        missing += (missing.empty() ? "" : ", ") + seat.name;
+        if (!seat.machine.empty()) missing += " (machine " + seat.machine + ")";
     }
     if (!missing.empty()) logInfo("waiting for {}", missing);
 }
@@ -204,13 +163,12 @@ void Conductor::sayFarewell() {
     net::Instant lastSaid = begin - kFarewellRepeat;
     v1::Envelope farewell;
     farewell.mutable_farewell();
-    while (
-        std::ranges::any_of(slots_, [](const ChannelSlot& slot) { return !slot.peer.empty(); })) {
+    while (!roster_.isEmpty()) {
         const net::Instant now = net::monotonicNow();
         if (now - begin > kLongest) return;
         if (now - lastSaid >= kFarewellRepeat) {
-            for (const ChannelSlot& slot : slots_)
-                if (!slot.peer.empty()) say(slot.peer, farewell);
+            for (const Seat& seat : roster_.seats())
+                if (!seat.peer.empty()) outbox_.say(seat.peer, farewell);
             lastSaid = now;
         }
         channels_->wait(kFarewellRepeat / 4);
@@ -218,146 +176,309 @@ void Conductor::sayFarewell() {
     }
 }
 
-// Lockstep takes a tick when its frame comes up, so that the tick thread waits for the frames.
-void Conductor::takeTicks() {
-    while (!isLockstep() || snapshots_.newest() < Tick{unpublished_.value}) {
-        auto snapshot = simulationThread_->take();
-        if (!snapshot) return;
-        snapshots_.add(std::move(*snapshot));
+void Conductor::hear(net::Instant now) {
+    report_.refusedPackets += channels_->discardNoise();
+    for (int packet = 0; packet < kMostPackets; ++packet) {
+        const auto from = channels_->receiveControl();
+        if (!from) return;
+        const auto message = wire::decode(from->bytes);
+        if (message && !from->peer.empty())
+            take(*from, *message, now);
+        else
+            countRefused(false);
     }
 }
 
-bool Conductor::isLast(Frame frame) const {
-    return options_.frames && frame.value + 1 >= *options_.frames;
-}
-
-void Conductor::conduct(net::Instant now) {
-    for (const std::size_t node : barrier_.expelSilent(now)) {
-        ++slots_[node].dropped;
-        vacate(node);
-    }
-    const auto decision = barrier_.decide(now);
-    if (decision.verdict == PresentBarrier::Verdict::Silent) {
-        failure_ = "node \"" + slots_[decision.node].name + "\" has been silent for " +
-                   std::to_string(options_.patience / std::chrono::seconds(1)) +
-                   " s; see its own output, and start the show again";
-        over_ = true;
+// Without keys anybody on this machine may ask, steer and feed; the rest is for nodes of this run.
+void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net::Instant now) {
+    const auto user = userIn(from.user);
+    if (user && !maySay(*user, message)) {
+        countRefused(false);
+        if (roster_.isFirstRefusalOf(from.user))
+            logWarning(
+                "{} said what its key does not allow (message {}); refused, as all that follows",
+                from.user,
+                static_cast<int>(message.message_case()));
         return;
     }
-    if (!drawing_) return beginNext(now);
-    // As late as possible, so that what it shows is fresh; early enough to be there on time.
-    const bool isDue = isLockstep() || now + kPublishLead >= nextRelease(now);
-    if (barrier_.anyReady() && isDue && !isLast(next_)) publish({next_.value + 1}, now);
-    if (decision.verdict == PresentBarrier::Verdict::Present) return release(now);
-    if (decision.verdict == PresentBarrier::Verdict::Idle) {
-        if (const auto awaited = barrier_.nextAwaited()) {
-            next_ = *awaited;
-            beginNext(now);
-        }
+    const bool isCostly = isQuestion(message) || message.has_hello() || message.has_order();
+    if (isCostly && !roster_.isWithinRate(from.user, now)) return countRefused(false);
+    const auto node = roster_.speaker(from, message.session() == outbox_.session());
+    switch (message.message_case()) {
+        case v1::Envelope::kHello:
+            return greet(from.peer, message.hello(), now);
+        case v1::Envelope::kStatusRequest:
+            return outbox_.say(from.peer, status(now));
+        case v1::Envelope::kExplainRequest:
+            return countRefused(visitors_.ask(from.peer, message.explain_request().fish()));
+        case v1::Envelope::kOrder:
+            return obey(from, message.order(), now);
+        case v1::Envelope::kInput:
+            if (node || !isVisitorsInput(message)) break;
+            return takeInput(from, node, message.input(), now);
+        default:
+            break;
     }
-    if (now - lastRepeat_ > repeatAfter_) publishAgain(now);
-}
-
-void Conductor::beginNext(net::Instant now) {
-    const bool mayBegin = isLockstep()
-                              ? barrier_.allPrepared()
-                              : barrier_.hasMembers() && now + kPublishLead >= lastRelease_;
-    drawing_ = mayBegin && publish(next_, now);
-    if (drawing_) barrier_.begin(next_);
-}
-
-// How long the loop may sleep where nothing is heard: the next state has its time.
-net::Instant Conductor::untilDue() const {
-    const net::Instant due = lastRelease_ - kPublishLead - net::monotonicNow();
-    return drawing_ || isLockstep() || due < net::Instant{0} ? kLongestWait
-                                                             : std::min(due, kLongestWait);
-}
-
-net::Instant Conductor::nextRelease(net::Instant now) const {
-    constexpr net::Instant kBelieved = std::chrono::seconds(2);
-    std::array<net::Blanks, kMostNodes> displays;
-    std::size_t count = 0;
-    for (std::size_t node = 0; node < slots_.size(); ++node) {
-        const auto& blanks = slots_[node].blanks;
-        if (blanks && blanks->last > now - kBelieved && barrier_.isWaitedFor(node))
-            displays[count++] = *blanks;
+    if (node && message.session() == outbox_.session()) {
+        roster_.seats()[*node].lastHeard = now;
+        presentation_.barrier().heard(*node, now);
+        takeOfNode(*node, message, now);
+    } else {
+        countRefused(false);
+        outbox_.dismiss(from.peer, "the master does not know this connection");
     }
-    return releaseTime(now + kLead, lastRelease_, refresh_, std::span(displays).first(count));
 }
 
-// Of the frame that is drawn, or of the one after it.
-net::Instant Conductor::releaseOf(Frame frame, net::Instant now) const {
-    return nextRelease(now) + (next_ < frame ? refresh_ : net::Instant{0});
+void Conductor::takeOfNode(std::size_t node, const v1::Envelope& message, net::Instant now) {
+    Seat& seat = roster_.seats()[node];
+    switch (message.message_case()) {
+        case v1::Envelope::kPing:
+            return pong(seat.peer, message.ping().sent_ns());
+        case v1::Envelope::kReady:
+            return presentation_.ready(node, message.ready(), now);
+        case v1::Envelope::kBlobRequest:
+            return giveChunk(seat.peer, message.blob_request());
+        case v1::Envelope::kPrepared:
+            return prepared(node, message.prepared());
+        case v1::Envelope::kNodeReport:
+            seat.report = std::make_shared<const v1::NodeReport>(message.node_report());
+            return;
+        case v1::Envelope::kLogLine:
+            return note(seat, message.log_line());
+        case v1::Envelope::kOrderReply:
+            return orders_.hear(node, message.order_reply());
+        case v1::Envelope::kInput:
+            return takeInput({.peer = seat.peer, .bytes = {}}, node, message.input(), now);
+        case v1::Envelope::kFarewell:
+            return leave(node);
+        default:
+            countRefused(false);
+    }
 }
 
-void Conductor::release(net::Instant now) {
-    const net::Instant at = nextRelease(now);
+void Conductor::takeInput(const net::FromPeer& from,
+                          std::optional<std::size_t> node,
+                          const v1::Input& input,
+                          net::Instant now) {
+    switch (input.kind()) {
+        case v1::INPUT_QUIT:
+            isOver_ = isOver_ || windowsEndShow_;
+            return countRefused(windowsEndShow_);
+        case v1::INPUT_DROP_FOOD:
+            return countRefused(
+                node ? visitors_.feed(roster_.seats()[*node], input, gauges_.eye(), now)
+                     : visitors_.feed(from.user, input, gauges_.eye(), now));
+        case v1::INPUT_STEER:
+            return countRefused(visitors_.steer(from.peer, input, now));
+        default:
+            countRefused(false);
+    }
+}
+
+// Why a node is refused; empty where it is not.
+std::string Conductor::objectionTo(const v1::Hello& hello) const {
+    if (hello.major() != wire::kProtocolMajor)
+        return fmt::format(
+            "it speaks protocol {} (build {}), the master {}; install the same version on both",
+            hello.major(),
+            hello.build(),
+            wire::kProtocolMajor);
+    static const std::uint64_t ownHash = motion::motorSelfTest();
+    if (hello.motor_hash() != ownHash)
+        return fmt::format(
+            "its processor or build moves fish to other places (self-test {:016x}, the master's "
+            "{:016x}); install the same version on both",
+            hello.motor_hash(),
+            ownHash);
+    if (roster_.named(hello.channel())) return {};
+    return "the rig has no such channel, only " + roster_.listed([](const Seat&) { return true; });
+}
+
+void Conductor::greet(const net::PeerId& peer, const v1::Hello& hello, net::Instant now) {
+    if (const std::string objection = objectionTo(hello); !objection.empty()) {
+        countRefused(false);
+        if (roster_.isFirstObjection(objection))
+            logWarning("refused node {}: {}", hello.channel(), objection);
+        v1::Envelope refusal;
+        refusal.mutable_refusal()->set_reason(objection);
+        return outbox_.say(peer, std::move(refusal));
+    }
+    const std::size_t node = *roster_.named(hello.channel());
+    Seat& seat = roster_.seats()[node];
+    const bool isAnother = !seat.peer.empty() && seat.peer != peer;
+    if (isAnother && now - seat.lastHeard < kSilenceOfTheDead)
+        return outbox_.dismiss(peer, "another node of this name takes part already");
+    if (seat.peer != peer) logInfo("welcomed node {}", seat.name);
+    presentation_.barrier().leave(node);
+    presentation_.barrier().heard(node, now);
+    seat.peer = peer;
+    seat.prepared = false;
+    seat.lastHeard = now;
+    seat.released = {};
+    outbox_.send(peer, looks_.welcome());
+}
+
+void Conductor::pong(const net::PeerId& peer, std::int64_t sentNs) const {
     v1::Envelope message;
-    message.mutable_present()->set_frame(next_.value);
-    message.mutable_present()->set_at_ns(isLockstep() ? 0 : at.count());
-    lastPresent_.emplace(next_, wire::encode(session_, std::move(message)));
-    for (const ChannelSlot& slot : slots_) {
-        if (slot.prepared) channels_->sendControl(slot.peer, lastPresent_->second);
-    }
-    if (black_ && *black_ <= next_) control_.blackShown();
-    if (report_.frames++ > 0) {
-        frameTimes_.add(at - lastRelease_);
-        framePeak_.add(now, at - lastRelease_);
-        figures_.frameSeconds(net::secondsIn(at - lastRelease_));
-    }
-    lastRelease_ = at;
-    over_ = over_ || isLast(next_);
-    drawing_ = false;
-    ++next_.value;
-    if (!over_) beginNext(now);
+    message.mutable_pong()->set_sent_ns(sentNs);
+    message.mutable_pong()->set_master_ns(net::monotonicNow().count());
+    outbox_.say(peer, std::move(message));
 }
 
-// True where the frame's state has been published, now or earlier.
-bool Conductor::publish(Frame frame, net::Instant now) {
-    if (frame < unpublished_) return true;
-    takeTicks();
-    auto state = isLockstep() ? snapshots_.showing(frame, Tick{frame.value})
-                              : snapshots_.showing(frame, releaseOf(frame, now) - kShownAge);
-    if (!state) return false;
-    dim(now, frame);
-    state->show = shown(now);
-    state->motionHash = motion::hashOf(state->after);
-    const wire::Packet& packet = published_[frame] = wire::encodeState(session_, *state);
-    channels_->publishState(packet);
-    publishedBytes_ += packet.size();
+void Conductor::note(Seat& seat, const v1::LogLine& line) const {
+    constexpr std::uint64_t kMostLinesASecond = 50;
+    if (options_.log == nullptr || ++seat.logLines > kMostLinesASecond) return;
+    options_.log->write(seat.name,
+                        line.frame(),
+                        static_cast<Severity>(line.severity() - v1::LOG_INFO),
+                        line.text());
+}
+
+void Conductor::prepared(std::size_t node, const v1::Prepared& prepared) {
+    Seat& seat = roster_.seats()[node];
+    seat.builtLook = prepared.look();
+    if (prepared.look() == orders_.control().look()) {
+        if (!looks_.shown().has_quality()) seat.bears = config::tierAt(prepared.quality());
+        return admit(node);
+    }
+    if (seat.prepared) return;  // the next one, or one that was given up
+    // It was built while the wall went on to another.
+    presentation_.barrier().leave(node);
+    outbox_.dismiss(std::exchange(seat.peer, {}), "the wall shows another look by now");
+    seat.prepared = false;
+}
+
+void Conductor::admit(std::size_t node) {
+    Seat& seat = roster_.seats()[node];
+    if (seat.prepared) return;
+    looks_.prepareAgain();  // if another look is being prepared, this node has to build it as well
+    seat.prepared = true;
+    const Frame first = presentation_.admit(node);
+    v1::Envelope message;
+    message.mutable_joined()->set_first_frame(first.value);
+    outbox_.say(seat.peer, std::move(message));
+    logInfo("node {} takes part from frame {}", seat.name, first.value);
+}
+
+void Conductor::leave(std::size_t node) {
+    presentation_.barrier().leave(node);
+    roster_.seats()[node].vacate();
+    logInfo("node {} has left", roster_.seats()[node].name);
+}
+
+void Conductor::giveChunk(const net::PeerId& peer, const v1::BlobRequest& request) {
+    const net::Blob blob = looks_.blob(wire::digestIn(request.digest()));
+    countRefused(blob && request.offset() <= blob->size());
+    if (!blob) return outbox_.dismiss(peer, "the wall shows another look by now");
+    if (request.offset() > blob->size()) return;
+    const auto content = net::chunkAt(*blob, request.offset(), wire::kBlobChunkBytes);
+    v1::Envelope message;
+    v1::BlobChunk& chunk = *message.mutable_blob_chunk();
+    chunk.set_digest(request.digest());
+    chunk.set_offset(request.offset());
+    chunk.set_total(blob->size());
+    chunk.set_content(content.data(), content.size());
+    outbox_.say(peer, std::move(message));
+}
+
+// Whoever shows no key is an account of this machine.
+void Conductor::obey(const net::FromPeer& from, const v1::Order& order, net::Instant now) {
+    const std::string user = from.user.empty() ? "somebody here" : from.user;
+    v1::Envelope message;
+    *message.mutable_order_reply() = orders_.obey(user, order, presentation_.unpublished(), now);
+    if (simulationThread_ && !isLockstep())
+        simulationThread_->freeze(orders_.control().wanted().freeze());
+    outbox_.say(from.peer, std::move(message));
+}
+
+v1::Envelope Conductor::status(net::Instant now) const {
+    v1::Envelope message;
+    v1::StatusReply& reply = *message.mutable_status_reply();
+    reply.set_pace(static_cast<v1::Pace>(options_.pace));
+    reply.set_frame(presentation_.next().value);
+    *reply.mutable_show() = shown(now);
+    reply.set_change(orders_.control().waitingFor());
+    gauges_.writeStatus(reply, report_, roster_, presentation_.barrier());
+    return message;
+}
+
+void Conductor::changeShow(net::Instant now) {
+    ShowControl& control = orders_.control();
+    orders_.giveUpTheSilent(now);
+    looks_.step(now);
+    if (control.phase() == Phase::Switching) {
+        if (auto world = looks_.switchToNext()) {
+            simulationThread_.reset();
+            // The world before is large: it ends beside the frames.
+            retiring_ = std::async(std::launch::async, [old = std::move(own_)] {});
+            own_ = std::move(world->simulation);
+            simulation_ = own_.get();
+            presentation_.forgetTicks();
+            startSimulation(static_cast<std::uint32_t>(world->school.size()));
+        }
+        black_.reset();
+    }
+    // Nobody draws, so nobody has to see black.
+    if (control.phase() == Phase::Fading && !presentation_.barrier().hasMembers())
+        control.blackShown();
+    keeper_.keep(control.kept());
+}
+
+void Conductor::startSimulation(std::uint32_t fish) {
+    std::optional<Tick> lastTick;
+    if (isLockstep() && options_.frames) lastTick = Tick{*options_.frames - 1};
+    simulationThread_ = std::make_unique<SimulationThread>(
+        *simulation_, options_.pace, lastTick, [this] { channels_->wake(); });
+    if (!isLockstep()) simulationThread_->freeze(orders_.control().wanted().freeze());
+    visitors_.enter(simulationThread_.get(), fish);
+}
+
+std::optional<Snapshot> Conductor::takeTick() {
+    return simulationThread_->take();
+}
+
+// On the way to the next scene it is noted when light went, for the log, and which frame is black.
+const v1::Show& Conductor::showOf(Frame frame, net::Instant now) {
+    ShowControl& control = orders_.control();
     if (options_.log != nullptr) options_.log->masterFrame = frame.value;
-    lastPublished_ = lastRepeat_ = net::monotonicNow();
-    repeatAfter_ = isLockstep() ? kRepeat : deadline_;
-    if (trace_.isOpen())
-        trace_.appendOrLog(fmt::format("{},{},,\n", frame.value, lastPublished_.count()));
-    if (published_.size() > 2) published_.erase(published_.begin());
-    unpublished_ = {frame.value + 1};
-    noteEye(*state);
-    report_.tick = state->tick;
-    report_.worldHash = state->worldHash;
-    return true;
+    if (!isLockstep()) brightness_ = control.brightness(now);
+    const bool fades = control.phase() == Phase::Fading;
+    if (fades && !dimmedSince_) dimmedSince_ = now;
+    if (fades && brightness_ == 0 && !black_) black_ = frame;
+    if (brightness_ == 1 && dimmedSince_)
+        logInfo("through black in {:.1f} s",
+                std::chrono::duration<double>(now - *std::exchange(dimmedSince_, {})).count());
+    return shown_ = shown(now);
 }
 
-void Conductor::noteEye(const wire::StateView& state) {
-    const double ticks =
-        static_cast<double>(state.tick.value) - 1 + static_cast<double>(state.fraction);
-    const double seconds = (ticks - std::exchange(eyeTicks_, ticks)) / kTicksPerSecond;
-    const float metres = glm::distance(state.eye.positionMetres, eye_.positionMetres);
-    speedMetresPerSecond_ = seconds > 0 ? metres / static_cast<float>(seconds) : 0.0F;
-    eye_ = state.eye;
+void Conductor::onReleased(Frame frame) {
+    if (black_ && *black_ <= frame) orders_.control().blackShown();
 }
 
-// Where all wait for a state that was lost on its way, it must come again; less and less often, as
-// they may just be slow.
-void Conductor::publishAgain(net::Instant now) {
-    for (const auto& [frame, packet] : published_) channels_->publishState(packet);
-    lastRepeat_ = now;
-    repeatAfter_ = std::min(2 * repeatAfter_, kRepeat);
+v1::Show Conductor::shown(net::Instant now) const {
+    const ShowControl& control = orders_.control();
+    const auto& scan = orders_.scan().pattern();
+    v1::Show show;
+    show.set_version(control.version() + orders_.scan().changes());
+    show.set_look(control.look());
+    show.set_scene(looks_.sceneName());
+    show.set_quality(static_cast<std::uint32_t>(looks_.quality()));
+    show.set_pattern(scan ? v1::PATTERN_SCAN
+                          : static_cast<v1::Pattern>(control.wanted().pattern()));
+    show.set_black(control.wanted().black());
+    show.set_brightness(static_cast<std::uint32_t>(std::lround(wire::kFullLight * brightness_)));
+    show.set_frozen(control.wanted().freeze());
+    show.set_pilot(pilotName(now));
+    show.set_calibration(looks_.calibration());
+    if (scan) wire::writeScanPattern(*scan, *show.mutable_scan());
+    return show;
 }
 
-void Conductor::say(const net::PeerId& peer, v1::Envelope message) {
-    assert(!peer.empty());
-    channels_->sendControl(peer, wire::encode(session_, std::move(message)));
+std::string Conductor::pilotName(net::Instant now) const {
+    const auto pilot = visitors_.pilot(now);
+    if (!pilot) return {};
+    const auto seat = roster_.of(*pilot);
+    return seat ? roster_.seats()[*seat].name : "pilot";
 }
 
 }  // namespace aquarama::conductor

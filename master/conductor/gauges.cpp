@@ -49,11 +49,10 @@ Gauges::NodeFigures Gauges::figuresOf(const Seat& seat) {
             m.gauge("aquarama_node_condition", "1 absent, 2 preparing, 3 in step, 4 late", node),
         .late = m.counter("aquarama_node_late_total", "Deadlines that it missed", node),
         .dropped = m.counter("aquarama_node_dropped_total", "Times it fell silent", node),
-        .mismatches = m.counter("aquarama_node_hash_mismatches_total",
-                                "States that it decoded to another hash",
-                                node),
-        .roundTrip = m.gauge(
-            "aquarama_node_round_trip_seconds", "Median of its pings of ten seconds", node),
+        .mismatches = m.counter(
+            "aquarama_node_hash_mismatches_total", "States that it decoded to another hash", node),
+        .roundTrip =
+            m.gauge("aquarama_node_round_trip_seconds", "Median of its pings of ten seconds", node),
         .drift = m.gauge("aquarama_node_clock_drift_ppm",
                          "By which the master's clock is faster than its own",
                          node),

@@ -109,7 +109,7 @@ class Looks {
     Roster& roster_;
     const Outbox& outbox_;
     v1::Welcome welcome_;         // with the look that is shown
-    wire::Packet welcomePacket_;   // encoded once for many
+    wire::Packet welcomePacket_;  // encoded once for many
     std::string sceneName_;
     std::uint64_t calibration_ = 0;
     Blobs blobs_;

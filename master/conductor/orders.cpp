@@ -122,8 +122,7 @@ std::string Orders::objectionToEnding(const std::string& channel) const {
     if (limits_.isLockstep) return "a node of a show in lockstep is not restarted";
     const auto node = roster_.named(channel);
     if (!node) return "the rig has no channel " + channel;
-    if (roster_.seats()[*node].peer.empty())
-        return channel + " is absent: start it on its machine";
+    if (roster_.seats()[*node].peer.empty()) return channel + " is absent: start it on its machine";
     return {};
 }
 

@@ -17,10 +17,10 @@ namespace aquarama::conductor {
 
 // What a show allows.
 struct OrderLimits {
-    bool isLockstep = false;    // such a show is the same every time: nothing is ordered
-    std::string whyOneScene;    // empty: other scenes can be shown
-    v1::WantedShow wanted;      // at first
-    v1::WantedShow kept;        // what was set in earlier runs, part of `wanted`
+    bool isLockstep = false;  // such a show is the same every time: nothing is ordered
+    std::string whyOneScene;  // empty: other scenes can be shown
+    v1::WantedShow wanted;    // at first
+    v1::WantedShow kept;      // what was set in earlier runs, part of `wanted`
 };
 
 // Of the conductor's thread. An order that a node carries out is passed on to it once; the node's

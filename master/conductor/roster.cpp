@@ -119,7 +119,8 @@ std::string Roster::listed(const std::function<bool(const Seat&)>& isListed) con
 }
 
 std::optional<config::QualityTier> Roster::measuredTier() const {
-    const bool all = std::ranges::all_of(seats_, [](const Seat& seat) { return seat.bears; });
+    const bool all =
+        std::ranges::all_of(seats_, [](const Seat& seat) { return seat.bears.has_value(); });
     return all ? std::optional(finestTier()) : std::nullopt;
 }
 

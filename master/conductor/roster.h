@@ -38,20 +38,20 @@ struct User {
 // A channel of the show, and the node that draws it.
 struct Seat {
     std::string name;
-    std::string machine = {};  // empty: the master's
-    net::PeerId peer = {};     // of its node; empty: it is absent
-    bool prepared = false;     // the node takes part
+    std::string machine = {};                       // empty: the master's
+    net::PeerId peer = {};                          // of its node; empty: it is absent
+    bool prepared = false;                          // the node takes part
     std::uint32_t builtLook = 0;                    // the newest that the node has built
     std::optional<config::QualityTier> bears = {};  // the finest tier that it has kept up with
     net::Instant lastHeard = {};
-    std::uint64_t dropped = 0;                                // how often it fell silent
-    std::uint64_t mismatches = 0;                             // states decoded to another hash
-    std::shared_ptr<const v1::NodeReport> report = {};        // the node's last
-    std::optional<net::Blanks> blanks = {};                   // of its display, in the master's clock
-    net::Instant lastFed = {};                                // when food was last dropped in its window
-    std::uint64_t logLines = 0;                               // of the node, in this second
-    net::RecentPeak pictures = {};                            // how long those of the node take
-    Frame released = {};                                      // the newest that the node has shown
+    std::uint64_t dropped = 0;                          // how often it fell silent
+    std::uint64_t mismatches = 0;                       // states decoded to another hash
+    std::shared_ptr<const v1::NodeReport> report = {};  // the node's last
+    std::optional<net::Blanks> blanks = {};             // of its display, in the master's clock
+    net::Instant lastFed = {};                          // when food was last dropped in its window
+    std::uint64_t logLines = 0;                         // of the node, in this second
+    net::RecentPeak pictures = {};                      // how long those of the node take
+    Frame released = {};                                // the newest that the node has shown
 
     // The node is not counted any more.
     void vacate();

@@ -74,13 +74,12 @@ Answer ShowControl::set(std::uint64_t request, const v1::WantedShow& change) {
     v1::WantedShow goal = wanted_;
     goal.MergeFrom(change);
     const bool lacksWorld = isWorld(goal) && !hasWorld_;
-    const bool isAnotherLook = goal.scene() != wanted_.scene() ||
-                               goal.quality() != wanted_.quality() || lacksWorld;
+    const bool isAnotherLook =
+        goal.scene() != wanted_.scene() || goal.quality() != wanted_.quality() || lacksWorld;
     if (isAnotherLook && phase_ != Phase::Steady)
-        return book_.enter(
-            request,
-            {Outcome::Refused,
-             "another change is under way (" + waitingFor_ + "); wait for its end"});
+        return book_.enter(request,
+                           {Outcome::Refused,
+                            "another change is under way (" + waitingFor_ + "); wait for its end"});
     if (!wire::areSame(goal, wanted_)) ++version_;
     // At once, whatever else is under way.
     for (v1::WantedShow* show : {&wanted_, &next_}) {
@@ -105,9 +104,8 @@ Answer ShowControl::begin(std::uint64_t request,
     ++nextLook_;
     nextHasWorld_ = hasWorld_ || isWorld(goal);
     phase_ = goal.scene() != wanted_.scene() ? Phase::Making : Phase::Preparing;
-    setWaitingFor(phase_ == Phase::Making
-                      ? "the world of scene " + goal.scene() + " is being made"
-                      : "nodes build it");
+    setWaitingFor(phase_ == Phase::Making ? "the world of scene " + goal.scene() + " is being made"
+                                          : "nodes build it");
     return {Outcome::Waiting, waitingFor_};
 }
 

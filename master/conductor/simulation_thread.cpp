@@ -34,7 +34,7 @@ wire::StateView showingOne(Frame frame, const Snapshot& snapshot) {
             .foodBefore = {},
             .foodAfter = snapshot.food.particles,
             .daylight = snapshot.daylight,
-            .show = {}};
+            .show = nullptr};
 }
 
 // Where the eye is at a fraction of the way between two ticks.

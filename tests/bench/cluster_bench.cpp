@@ -14,6 +14,7 @@
 
 #include "common/wire/messages.h"
 #include "tests/support/stage.h"
+#include "tests/support/state_packet.h"
 
 namespace aquarama::bench {
 namespace {
@@ -49,7 +50,7 @@ void encodeFish(benchmark::State& bench) {
     const wire::StateFrame state = stateOf(bench.range(0));
     std::size_t bytes = 0;
     for (auto _ : bench) {
-        const wire::Packet packet = wire::encodeState(1, wire::viewOf(state));
+        const wire::Packet packet = test::packetOf(1, state);
         bytes = packet.size();
         benchmark::DoNotOptimize(packet.data());
     }
@@ -57,7 +58,7 @@ void encodeFish(benchmark::State& bench) {
 }
 
 void decodeFish(benchmark::State& bench) {
-    const wire::Packet packet = wire::encodeState(1, wire::viewOf(stateOf(bench.range(0))));
+    const wire::Packet packet = test::packetOf(1, stateOf(bench.range(0)));
     for (auto _ : bench) {
         auto state = wire::readState(wire::decode(packet)->state());
         benchmark::DoNotOptimize(state);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "console/overview.h"
+#include "tests/support/state_packet.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@ v1::StatusReply statusWith(v1::NodeCondition condition) {
     wire::Show show;
     show.scene = "reef";
     show.black = true;
-    wire::writeShow(show, *status.mutable_show());
+    *status.mutable_show() = test::messageOf(show);
     v1::NodeStatus& node = *status.add_nodes();
     node.set_name("left");
     node.set_condition(condition);

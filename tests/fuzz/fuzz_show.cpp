@@ -2,7 +2,7 @@
 #include <string>
 
 #include "common/base/log.h"
-#include "common/wire/show_file.h"
+#include "common/wire/wanted_show.h"
 #include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 
@@ -11,11 +11,10 @@ namespace aquarama {
 int fuzzShow(const std::uint8_t* bytes, std::size_t size) {
     const std::string text(reinterpret_cast<const char*>(bytes), size);
     try {
-        const wire::ShowChange kept = wire::parseKeptShow(text, "fuzzed");
-        const bool isPattern = !kept.pattern || wire::nameOf(*kept.pattern) != "";
-        promise(isPattern, "a pattern has a name");
-        promise(!kept.quality || !*kept.quality || !config::nameOf(**kept.quality).empty(),
-                "a quality has a name");
+        const v1::WantedShow kept = wire::parseKeptShow(text, "fuzzed");
+        const bool isEmpty = !kept.has_scene() && !kept.has_quality() && !kept.has_pattern() &&
+                             !kept.has_black() && !kept.has_freeze();
+        promise(wire::textOf(kept).empty() == isEmpty, "what is set has words");
     } catch (const Error& error) {
         promise(std::string(error.what()).starts_with("fuzzed"), "an error names its source");
     }

@@ -11,6 +11,7 @@
 #include "common/base/units.h"
 #include "tests/common/wire/sample_messages.h"
 #include "tests/support/count_memory.h"
+#include "tests/support/state_packet.h"
 
 namespace aquarama::wire {
 namespace {
@@ -74,7 +75,7 @@ TEST(Messages, everyKindComesBackToTheBit) {
 
 TEST(Messages, aStateKeepsEveryBitOfEveryFish) {
     const StateFrame sent = sampleState(1000);
-    const auto state = stateIn(encodeState(9, viewOf(sent)));
+    const auto state = stateIn(test::packetOf(9, sent));
     ASSERT_TRUE(state);
     EXPECT_EQ(state->before, sent.before);
     EXPECT_EQ(state->after, sent.after);
@@ -94,10 +95,10 @@ TEST(Messages, aStateKeepsEveryBitOfEveryFish) {
 // An empty sea between two ticks, and a school before any food has come.
 TEST(Messages, aStateWithoutFishOrFoodIsAState) {
     StateFrame state = sampleState(0);
-    EXPECT_TRUE(stateIn(encodeState(1, viewOf(state))));
+    EXPECT_TRUE(stateIn(test::packetOf(1, state)));
     state.foodBefore.clear();
     state.foodAfter.clear();
-    EXPECT_TRUE(stateIn(encodeState(1, viewOf(state))));
+    EXPECT_TRUE(stateIn(test::packetOf(1, state)));
 }
 
 TEST(FoodRecord, keepsAParticleToATenthOfAMillimetre) {
@@ -122,7 +123,7 @@ TEST(Messages, aFishCostsItsRecordAndLittleMore) {
     StateFrame state = sampleState(1000);
     state.before.clear();
     state.fraction = 1.0F;
-    EXPECT_LT(encodeState(9, viewOf(state)).size(), 1000 * sizeof(motion::FishRecord) + 200);
+    EXPECT_LT(test::packetOf(9, state).size(), 1000 * sizeof(motion::FishRecord) + 200);
 }
 
 TEST(Messages, noPrefixOfAMessageIsAMessage) {
@@ -181,7 +182,7 @@ TEST(Messages, aStateThatLiesIsRefused) {
     const auto refused = [](auto alter) {
         StateFrame state = sampleState(4);
         alter(state);
-        return !stateIn(encodeState(1, viewOf(state)));
+        return !stateIn(test::packetOf(1, state));
     };
     const auto nan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_FALSE(refused([](StateFrame&) {}));
@@ -216,7 +217,7 @@ TEST(Messages, aStateThatLiesIsRefused) {
 TEST(Messages, aScanHasAPatternWithinItsBoundsAndNoOtherPatternHasOne) {
     const auto accepted = [](auto alter) {
         v1::Envelope message = sampleScan();
-        alter(*message.mutable_set()->mutable_scan());
+        alter(*message.mutable_order()->mutable_scan());
         return isUnderstood(message);
     };
     EXPECT_TRUE(accepted([](v1::HeldScan& s) { s.clear_pattern(); }));
@@ -239,17 +240,18 @@ TEST(Messages, aScanHasAPatternWithinItsBoundsAndNoOtherPatternHasOne) {
                               Alter{[](v1::ScanPattern& p) { p.clear_inverse(); }},
                               Alter{[](v1::ScanPattern& p) { p.clear_tagged(); }}})
         EXPECT_FALSE(accepted([&](v1::HeldScan& s) { alter(*s.mutable_pattern()); }));
-    v1::Envelope byName = sampleSet();
-    byName.mutable_set()->set_pattern(v1::PATTERN_SCAN);
+    v1::Envelope byName = sampleOrder();
+    byName.mutable_order()->mutable_show()->set_pattern(
+        static_cast<v1::WantedShow::Shown>(v1::PATTERN_SCAN));
     EXPECT_FALSE(isUnderstood(byName));
     StateFrame state = sampleScanState();
-    EXPECT_TRUE(stateIn(encodeState(1, viewOf(state))));
-    EXPECT_EQ(stateIn(encodeState(1, viewOf(state)))->show, state.show);
+    EXPECT_TRUE(stateIn(test::packetOf(1, state)));
+    EXPECT_EQ(stateIn(test::packetOf(1, state))->show, state.show);
     state.show.pattern = Pattern::Grey;
-    EXPECT_FALSE(stateIn(encodeState(1, viewOf(state))));
+    EXPECT_FALSE(stateIn(test::packetOf(1, state)));
     state.show.pattern = Pattern::Scan;
     state.show.scan.reset();
-    EXPECT_FALSE(stateIn(encodeState(1, viewOf(state))));
+    EXPECT_FALSE(stateIn(test::packetOf(1, state)));
 }
 
 // What a node sends may come from a broken one.

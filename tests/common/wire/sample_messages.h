@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/support/messages.h"
+#include "tests/support/state_packet.h"
 
 namespace aquarama::wire {
 
@@ -117,41 +118,42 @@ inline v1::Envelope samplePrepare() {
     return message;
 }
 
-inline v1::Envelope sampleSet() {
+inline v1::Envelope sampleOrder() {
     v1::Envelope message;
-    v1::Set& set = *message.mutable_set();
-    set.set_request(0x8000000000000001U);
-    set.set_scene("bait_ball");
-    set.set_quality("auto");
-    set.set_pattern(v1::PATTERN_WORLD);
-    set.set_black(false);
-    set.set_freeze(true);
+    v1::Order& order = *message.mutable_order();
+    order.set_request(0x8000000000000001U);
+    v1::WantedShow& show = *order.mutable_show();
+    show.set_scene("bait_ball");
+    show.set_quality(v1::WantedShow::AUTO);
+    show.set_pattern(v1::WantedShow::WORLD);
+    show.set_black(false);
+    show.set_freeze(true);
     return message;
 }
 
 inline v1::Envelope sampleScan() {
     v1::Envelope message;
-    v1::Set& set = *message.mutable_set();
-    set.set_request(7);
-    set.mutable_scan()->set_holder(0x8000000000000003U);
-    writeScanPattern(sampleScanPattern(), *set.mutable_scan()->mutable_pattern());
+    v1::Order& order = *message.mutable_order();
+    order.set_request(7);
+    order.mutable_scan()->set_holder(0x8000000000000003U);
+    writeScanPattern(sampleScanPattern(), *order.mutable_scan()->mutable_pattern());
     return message;
 }
 
-inline v1::Envelope sampleSetReply() {
+inline v1::Envelope sampleOrderReply() {
     v1::Envelope message;
-    v1::SetReply& reply = *message.mutable_set_reply();
+    v1::OrderReply& reply = *message.mutable_order_reply();
     reply.set_request(0x8000000000000001U);
-    reply.set_outcome(v1::OUTCOME_REFUSED);
+    reply.set_outcome(v1::OrderReply::REFUSED);
     reply.set_reason("there is no such scene");
     return message;
 }
 
 inline v1::Envelope sampleScanReply() {
     v1::Envelope message;
-    message.mutable_set_reply()->set_request(7);
-    message.mutable_set_reply()->set_outcome(v1::OUTCOME_DONE);
-    message.mutable_set_reply()->set_frame(77);
+    message.mutable_order_reply()->set_request(7);
+    message.mutable_order_reply()->set_outcome(v1::OrderReply::DONE);
+    message.mutable_order_reply()->set_frame(77);
     return message;
 }
 
@@ -208,7 +210,7 @@ inline v1::Envelope sampleStatus() {
     reply.set_refused_packets(3);
     writeEye({{1, -6, 2.5F}, {0.5F, 0.5F, 0.5F, -0.5F}}, *reply.mutable_eye());
     reply.set_speed_m_s(0.375F);
-    writeShow(sampleShow(), *reply.mutable_show());
+    *reply.mutable_show() = test::messageOf(sampleShow());
     reply.set_change("prepared by all nodes but left");
     const auto add = [&](const char* name, v1::NodeCondition is, std::uint64_t late, int dropped) {
         v1::NodeStatus& node = *reply.add_nodes();
@@ -223,41 +225,38 @@ inline v1::Envelope sampleStatus() {
     return message;
 }
 
-// How a machine is switched, from the operator to its node and back.
+// Orders for a node and its machine, and the report that allows one.
 inline std::vector<v1::Envelope> samplePower() {
-    std::vector<v1::Envelope> messages(4);
-    messages[0].mutable_set()->set_request(78);
-    v1::MachineOfNode& machine = *messages[0].mutable_set()->mutable_machine();
-    machine.set_run(0x0123456789ABCDEFU);
-    machine.set_channel("left");
-    machine.set_word(v1::POWER_OFF);
-    messages[1].mutable_power_order()->set_request(78);
-    messages[1].mutable_power_order()->set_word(v1::POWER_REBOOT);
-    messages[2].mutable_power_reply()->set_request(78);
-    messages[2].mutable_power_reply()->set_refusal("this machine takes no such word");
-    messages[3].mutable_node_report()->set_takes_power_word(true);
+    std::vector<v1::Envelope> messages(3);
+    v1::Order& power = *messages[0].mutable_order();
+    power.set_request(78);
+    power.set_run(0x0123456789ABCDEFU);
+    power.mutable_power()->set_channel("left");
+    power.mutable_power()->set_word(v1::Power::POWEROFF);
+    messages[1].mutable_order()->set_request(79);
+    messages[1].mutable_order()->mutable_restart()->set_channel("left");
+    messages[2].mutable_node_report()->set_takes_power_word(true);
     return messages;
 }
 
-// What a node and the operator's console say to each other, and the order to make way.
+// What a node and the operator's console say to each other.
 inline std::vector<v1::Envelope> sampleWatch() {
-    std::vector<v1::Envelope> messages(6);
-    messages[0].mutable_leave();
-    messages[1].mutable_watch_hello()->set_channel("left");
-    messages[2].mutable_picture_request()->set_number(7);
-    messages[2].mutable_picture_request()->set_width_px(480);
-    v1::FramePicture& picture = *messages[3].mutable_frame_picture();
+    std::vector<v1::Envelope> messages(5);
+    messages[0].mutable_watch_hello()->set_channel("left");
+    messages[1].mutable_picture_request()->set_number(7);
+    messages[1].mutable_picture_request()->set_width_px(480);
+    v1::FramePicture& picture = *messages[2].mutable_frame_picture();
     picture.set_number(7);
     picture.set_frame(1200);
     picture.set_width_px(480);
     picture.set_height_px(360);
     picture.set_jpeg("\xFF\xD8\xFF");
-    v1::FishRequest& request = *messages[4].mutable_fish_request();
+    v1::FishRequest& request = *messages[3].mutable_fish_request();
     request.set_number(8);
     request.set_frame(1200);
     request.set_x(0.25F);
     request.set_y(1);
-    v1::FishReply& reply = *messages[5].mutable_fish_reply();
+    v1::FishReply& reply = *messages[4].mutable_fish_reply();
     reply.set_number(8);
     reply.set_frame(1200);
     reply.set_fish(59);
@@ -294,18 +293,18 @@ inline std::vector<Packet> samplePackets() {
         test::explainRequest(59),
         test::explanation(59, 60, 7200, {"59  bigeye_scad", "", "~"}),
         samplePrepare(),
-        sampleSet(),
-        sampleSetReply(),
+        sampleOrder(),
+        sampleOrderReply(),
         sampleNodeReport(),
         sampleLogLine(),
         sampleScan(),
         sampleScanReply()};
     std::vector<Packet> packets;
     for (const v1::Envelope& message : before) packets.push_back(encode(kSession, message));
-    packets.push_back(encodeState(kSession, viewOf(sampleState(5))));
+    packets.push_back(test::packetOf(kSession, sampleState(5)));
     for (const v1::Envelope& message : after) packets.push_back(encode(kSession, message));
     for (const v1::Envelope& message : sampleWatch()) packets.push_back(encode(kSession, message));
-    packets.push_back(encodeState(kSession, viewOf(sampleScanState())));
+    packets.push_back(test::packetOf(kSession, sampleScanState()));
     for (const v1::Envelope& message : samplePower()) packets.push_back(encode(kSession, message));
     return packets;
 }

@@ -42,10 +42,10 @@ TEST(Preparation, whoAsksHearsWhatTheMasterPrepares) {
                      "the master prepares: capturing 3 of 7 species, 20 %; ask again in a while");
     }
     EXPECT_EQ(client.preparing(), "the master prepares: capturing 3 of 7 species, 20 %");
-    v1::Set set;
-    set.set_request(1);
-    set.set_black(true);
-    EXPECT_THROW(static_cast<void>(client.ask(set)), Error);
+    v1::Order order;
+    order.set_request(1);
+    order.mutable_show()->set_black(true);
+    EXPECT_THROW(static_cast<void>(client.give(order)), Error);
     preparation.tell("making the world");
     EXPECT_THROW(static_cast<void>(client.explain(1)), Error);
     EXPECT_EQ(client.preparing(), "the master prepares: making the world");

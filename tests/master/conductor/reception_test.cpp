@@ -138,8 +138,8 @@ TEST_F(Reception, refusesAMachineWhoseMotorMovesFishElsewhere) {
 
 v1::Envelope setBlack(std::uint64_t request, bool black = true) {
     v1::Envelope message;
-    message.mutable_set()->set_request(request);
-    message.mutable_set()->set_black(black);
+    message.mutable_order()->set_request(request);
+    message.mutable_order()->mutable_show()->set_black(black);
     return message;
 }
 
@@ -195,17 +195,17 @@ TEST_F(Reception, aNodeIsAskedToMakeWayOnceForEachRequest) {
     ASSERT_TRUE(node.join("left"));
     const auto restart = [&](std::uint64_t request, const std::string& channel) {
         v1::Envelope message;
-        message.mutable_set()->set_request(request);
-        message.mutable_set()->set_restart(channel);
+        message.mutable_order()->set_request(request);
+        message.mutable_order()->mutable_restart()->set_channel(channel);
         asker.say(message);
-        return asker.hear(v1::Envelope::kSetReply).value_or(v1::Envelope{}).set_reply();
+        return asker.hear(v1::Envelope::kOrderReply).value_or(v1::Envelope{}).order_reply();
     };
-    EXPECT_EQ(restart(1, "nobody").outcome(), v1::OUTCOME_REFUSED);
+    EXPECT_EQ(restart(1, "nobody").outcome(), v1::OrderReply::REFUSED);
     EXPECT_EQ(restart(2, "right").reason(), "right is absent: start it on its machine");
-    EXPECT_EQ(restart(3, "left").outcome(), v1::OUTCOME_DONE);
-    EXPECT_TRUE(node.hear(v1::Envelope::kLeave));
-    EXPECT_EQ(restart(3, "left").outcome(), v1::OUTCOME_DONE) << "said again";
-    EXPECT_TRUE(node.hearsNo(v1::Envelope::kLeave, milliseconds(200)));
+    EXPECT_EQ(restart(3, "left").outcome(), v1::OrderReply::DONE);
+    EXPECT_TRUE(node.hear(v1::Envelope::kOrder));
+    EXPECT_EQ(restart(3, "left").outcome(), v1::OrderReply::DONE) << "said again";
+    EXPECT_TRUE(node.hearsNo(v1::Envelope::kOrder, milliseconds(200)));
 }
 
 class MachineSwitch : public Reception {
@@ -216,20 +216,22 @@ class MachineSwitch : public Reception {
         message.mutable_node_report()->set_takes_power_word(takesPowerWord);
         node.say(message);
     }
-    v1::SetReply ask(std::uint64_t request, const std::string& channel = "left") {
+    v1::OrderReply ask(std::uint64_t request, const std::string& channel = "left") {
         v1::Envelope message;
-        message.mutable_set()->set_request(request);
-        v1::MachineOfNode& machine = *message.mutable_set()->mutable_machine();
-        machine.set_run(run == 0 ? node.session : run);
-        machine.set_channel(channel);
-        machine.set_word(v1::POWER_REBOOT);
+        v1::Order& order = *message.mutable_order();
+        order.set_request(request);
+        order.set_run(run == 0 ? node.session : run);
+        order.mutable_power()->set_channel(channel);
+        order.mutable_power()->set_word(v1::Power::REBOOT);
         asker.say(message);
-        return asker.hear(v1::Envelope::kSetReply).value_or(v1::Envelope{}).set_reply();
+        return asker.hear(v1::Envelope::kOrderReply).value_or(v1::Envelope{}).order_reply();
     }
     void answer(std::uint64_t request, const std::string& refusal) {
         v1::Envelope message;
-        message.mutable_power_reply()->set_request(request);
-        message.mutable_power_reply()->set_refusal(refusal);
+        v1::OrderReply& reply = *message.mutable_order_reply();
+        reply.set_request(request);
+        reply.set_outcome(refusal.empty() ? v1::OrderReply::DONE : v1::OrderReply::REFUSED);
+        reply.set_reason(refusal);
         node.say(message);
     }
 
@@ -240,19 +242,19 @@ class MachineSwitch : public Reception {
 
 TEST_F(MachineSwitch, isToldOnceAndWhatItAnswersIsPassedOn) {
     report(true);
-    EXPECT_EQ(ask(1).outcome(), v1::OUTCOME_PREPARING);
-    const auto order = node.hear(v1::Envelope::kPowerOrder);
+    EXPECT_EQ(ask(1).outcome(), v1::OrderReply::WAITING);
+    const auto order = node.hear(v1::Envelope::kOrder);
     ASSERT_TRUE(order);
-    EXPECT_EQ(order->power_order().word(), v1::POWER_REBOOT);
-    EXPECT_EQ(ask(1).outcome(), v1::OUTCOME_PREPARING) << "said again";
+    EXPECT_EQ(order->order().power().word(), v1::Power::REBOOT);
+    EXPECT_EQ(ask(1).outcome(), v1::OrderReply::WAITING) << "said again";
     answer(1, "");
-    EXPECT_EQ(ask(1).outcome(), v1::OUTCOME_DONE);
-    EXPECT_EQ(ask(2).outcome(), v1::OUTCOME_PREPARING);
-    ASSERT_TRUE(node.hear(v1::Envelope::kPowerOrder));
+    EXPECT_EQ(ask(1).outcome(), v1::OrderReply::DONE);
+    EXPECT_EQ(ask(2).outcome(), v1::OrderReply::WAITING);
+    ASSERT_TRUE(node.hear(v1::Envelope::kOrder));
     answer(2, "it takes no word");
     EXPECT_EQ(ask(2).reason(), "it takes no word");
-    EXPECT_EQ(ask(1).outcome(), v1::OUTCOME_DONE);
-    EXPECT_TRUE(node.hearsNo(v1::Envelope::kPowerOrder, milliseconds(200)));
+    EXPECT_EQ(ask(1).outcome(), v1::OrderReply::DONE);
+    EXPECT_TRUE(node.hearsNo(v1::Envelope::kOrder, milliseconds(200)));
 }
 
 TEST_F(MachineSwitch, isRefusedWhereNothingCouldComeOfIt) {
@@ -263,18 +265,19 @@ TEST_F(MachineSwitch, isRefusedWhereNothingCouldComeOfIt) {
     EXPECT_EQ(ask(3, "right").reason(), "right is absent: start it on its machine");
     EXPECT_EQ(ask(4, "nobody").reason(), "the rig has no channel nobody");
     run = node.session + 1;
-    EXPECT_EQ(ask(5).reason(), "the show was started again meanwhile");
-    EXPECT_TRUE(node.hearsNo(v1::Envelope::kPowerOrder, milliseconds(200)));
+    EXPECT_THAT(ask(5).reason(), testing::HasSubstr("the show was started again meanwhile"));
+    EXPECT_TRUE(node.hearsNo(v1::Envelope::kOrder, milliseconds(200)));
 }
 
 TEST_F(MachineSwitch, thatIsNotAnsweredSaysSoAndIsNotSaidAgain) {
     report(true);
-    EXPECT_EQ(ask(1).outcome(), v1::OUTCOME_PREPARING);
-    ASSERT_TRUE(node.hear(v1::Envelope::kPowerOrder));
-    v1::SetReply reply;
+    EXPECT_EQ(ask(1).outcome(), v1::OrderReply::WAITING);
+    ASSERT_TRUE(node.hear(v1::Envelope::kOrder));
+    v1::OrderReply reply;
     const net::Instant end = net::monotonicNow() + seconds(10);
-    while ((reply = ask(1)).outcome() == v1::OUTCOME_PREPARING && net::monotonicNow() < end)
-        EXPECT_TRUE(node.hearsNo(v1::Envelope::kPowerOrder, milliseconds(200)));
+    while ((reply = ask(1)).outcome() == v1::OrderReply::WAITING && net::monotonicNow() < end)
+        EXPECT_TRUE(node.hearsNo(v1::Envelope::kOrder, milliseconds(200)));
+    EXPECT_EQ(reply.outcome(), v1::OrderReply::LOST);
     EXPECT_THAT(reply.reason(), testing::HasSubstr("the machine of left has not answered"));
 }
 
@@ -300,7 +303,7 @@ TEST_F(Reception, refusesANameThatTheRigDoesNotHaveAndSaysWhichItHas) {
 
 TEST_F(Reception, welcomesWithAllThatANodeNeeds) {
     ConductorOptions options;
-    options.wanted.pattern = wire::Pattern::Grid;
+    options.wanted.set_pattern(v1::WantedShow::GRID);
     const test::StageMaster master(options, net_.master());
     Peer peer(net_);
     peer.say(test::hello("left"));
@@ -545,7 +548,7 @@ TEST_F(Reception, theSlowestNodeDecidesHowFineTheWallIsDrawn) {
 
 TEST_F(Reception, aRigMaySayHowFineItsWallIsDrawn) {
     ConductorOptions options = lockstepOf({"left"});
-    options.wanted.quality = config::QualityTier::Ultra;
+    options.wanted.set_quality(v1::WantedShow::ULTRA);
     test::StageMaster master(options, net_.master());
     Peer left(net_);
     left.say(test::hello("left"));
@@ -562,10 +565,10 @@ TEST_F(Reception, aShowInLockstepCannotBeChanged) {
     const test::StageMaster master(lockstepOf({"left"}), net_.master());
     Peer asker(net_);
     asker.say(setBlack(1));
-    const auto reply = asker.hear(v1::Envelope::kSetReply);
+    const auto reply = asker.hear(v1::Envelope::kOrderReply);
     ASSERT_TRUE(reply);
-    EXPECT_EQ(reply->set_reply().outcome(), v1::OUTCOME_REFUSED);
-    EXPECT_THAT(reply->set_reply().reason(), testing::HasSubstr("lockstep"));
+    EXPECT_EQ(reply->order_reply().outcome(), v1::OrderReply::REFUSED);
+    EXPECT_THAT(reply->order_reply().reason(), testing::HasSubstr("lockstep"));
 }
 
 TEST_F(Reception, whatCannotBeShownIsRefusedByName) {
@@ -574,17 +577,20 @@ TEST_F(Reception, whatCannotBeShownIsRefusedByName) {
     const auto refusal = [&](auto alter) {
         static std::uint64_t request = 0;
         v1::Envelope message;
-        message.mutable_set()->set_request(++request);
-        alter(*message.mutable_set());
+        message.mutable_order()->set_request(++request);
+        alter(*message.mutable_order()->mutable_show());
         asker.say(message);
-        const auto reply = asker.hear(v1::Envelope::kSetReply).value_or(v1::Envelope{}).set_reply();
-        EXPECT_EQ(reply.outcome(), v1::OUTCOME_REFUSED);
+        const auto reply =
+            asker.hear(v1::Envelope::kOrderReply).value_or(v1::Envelope{}).order_reply();
+        EXPECT_EQ(reply.outcome(), v1::OrderReply::REFUSED);
         return reply.reason();
     };
-    EXPECT_THAT(refusal([](v1::Set& s) { s.set_scene("reef"); }), testing::HasSubstr("one scene"));
-    EXPECT_THAT(refusal([](v1::Set& s) { s.set_scene("a/b"); }), testing::HasSubstr("one scene"));
-    EXPECT_THAT(refusal([](v1::Set& s) { s.set_quality("best"); }), testing::HasSubstr("best"));
-    EXPECT_THAT(refusal([](v1::Set& s) { s.set_quality("auto"); }), testing::HasSubstr("measured"));
+    EXPECT_THAT(refusal([](v1::WantedShow& s) { s.set_scene("reef"); }),
+                testing::HasSubstr("one scene"));
+    EXPECT_THAT(refusal([](v1::WantedShow& s) { s.set_scene("a/b"); }),
+                testing::HasSubstr("one scene"));
+    EXPECT_THAT(refusal([](v1::WantedShow& s) { s.set_quality(v1::WantedShow::AUTO); }),
+                testing::HasSubstr("measured"));
     EXPECT_EQ(status().show().version(), 1U);
 }
 

@@ -16,21 +16,29 @@ using Phase = ShowControl::Phase;
 
 constexpr net::Instant kStart = std::chrono::seconds(100);
 
-ShowControl reef() {
-    return ShowControl({.scene = "reef", .quality = config::QualityTier::Low}, {});
-}
-
-ShowChange scene(const std::string& name) {
-    ShowChange change;
-    change.scene = name;
+v1::WantedShow scene(const std::string& name) {
+    v1::WantedShow change;
+    change.set_scene(name);
     return change;
 }
 
-ShowChange black(bool on) {
-    ShowChange change;
-    change.black = on;
+v1::WantedShow black(bool on) {
+    v1::WantedShow change;
+    change.set_black(on);
     return change;
 }
+
+// A control with its book.
+struct Controlled {
+    explicit Controlled(const v1::WantedShow& wanted) : control(wanted, {}, book) {}
+    ask::OrderBook book;
+    ShowControl control;
+};
+
+// A wall that shows the scene reef.
+struct Reef : Controlled {
+    Reef() : Controlled(scene("reef")) {}
+};
 
 // To the phase in which the next look is shown with the next frame.
 void prepareAll(ShowControl& control) {
@@ -40,42 +48,46 @@ void prepareAll(ShowControl& control) {
 }
 
 TEST(ShowControl, blackFreezeAndPatternsHoldAtOnce) {
-    ShowControl control = reef();
-    ShowChange change;
-    change.black = change.freeze = true;
-    change.pattern = wire::Pattern::Grid;
+    Reef reef;
+    ShowControl& control = reef.control;
+    v1::WantedShow change;
+    change.set_black(true);
+    change.set_freeze(true);
+    change.set_pattern(v1::WantedShow::GRID);
     EXPECT_EQ(control.set(1, change).outcome, Outcome::Done);
     EXPECT_EQ(control.phase(), Phase::Steady);
-    EXPECT_TRUE(control.wanted().black);
-    EXPECT_TRUE(control.wanted().freeze);
-    EXPECT_EQ(control.wanted().pattern, wire::Pattern::Grid);
+    EXPECT_TRUE(control.wanted().black());
+    EXPECT_TRUE(control.wanted().freeze());
+    EXPECT_EQ(control.wanted().pattern(), v1::WantedShow::GRID);
     EXPECT_EQ(control.look(), 1U);
-    EXPECT_EQ(control.kept(), change);
+    EXPECT_TRUE(wire::areSame(control.kept(), change));
 }
 
 TEST(ShowControl, aSceneIsMadeThenBuiltThenShownAfterBlack) {
-    ShowControl control = reef();
-    EXPECT_EQ(control.set(1, scene("lagoon")).outcome, Outcome::Preparing);
+    Reef reef;
+    ShowControl& control = reef.control;
+    EXPECT_EQ(control.set(1, scene("lagoon")).outcome, Outcome::Waiting);
     EXPECT_EQ(control.phase(), Phase::Making);
     control.made();
     EXPECT_EQ(control.phase(), Phase::Preparing);
-    EXPECT_EQ(control.wanted().scene, "reef") << "until it is shown";
-    EXPECT_EQ(control.kept(), ShowChange{}) << "a scene that never comes on is not kept";
+    EXPECT_EQ(control.wanted().scene(), "reef") << "until it is shown";
+    EXPECT_TRUE(wire::areSame(control.kept(), {})) << "a scene that never comes on is not kept";
     control.prepared();
     EXPECT_EQ(control.phase(), Phase::Fading);
-    EXPECT_EQ(control.set(1, scene("lagoon")).outcome, Outcome::Preparing);
+    EXPECT_EQ(control.set(1, scene("lagoon")).outcome, Outcome::Waiting);
     control.blackShown();
     EXPECT_EQ(control.phase(), Phase::Switching);
     control.switched();
-    EXPECT_EQ(control.wanted().scene, "lagoon");
+    EXPECT_EQ(control.wanted().scene(), "lagoon");
     EXPECT_EQ(control.look(), 2U);
     EXPECT_EQ(control.set(1, scene("lagoon")).outcome, Outcome::Done);
-    EXPECT_EQ(control.kept(), scene("lagoon"));
+    EXPECT_TRUE(wire::areSame(control.kept(), scene("lagoon")));
 }
 
 // Half a second to black and half a second back, whatever the times of the frames.
 TEST(ShowControl, fadesInHalfASecond) {
-    ShowControl control = reef();
+    Reef reef;
+    ShowControl& control = reef.control;
     EXPECT_EQ(control.brightness(kStart), 1);
     static_cast<void>(control.set(1, scene("lagoon")));
     EXPECT_EQ(control.brightness(kStart + milliseconds(100)), 1) << "while it is prepared";
@@ -92,7 +104,10 @@ TEST(ShowControl, fadesInHalfASecond) {
 }
 
 TEST(ShowControl, blackStaysBlackThroughAChangeOfScene) {
-    ShowControl control({.scene = "reef", .black = true}, {});
+    v1::WantedShow dark = scene("reef");
+    dark.set_black(true);
+    Controlled wall(dark);
+    ShowControl& control = wall.control;
     EXPECT_EQ(control.brightness(kStart), 0);
     static_cast<void>(control.set(1, scene("lagoon")));
     prepareAll(control);
@@ -104,30 +119,33 @@ TEST(ShowControl, blackStaysBlackThroughAChangeOfScene) {
 
 // What was set while a scene is prepared is not undone by it.
 TEST(ShowControl, blackThatIsSetWhileASceneIsPreparedStays) {
-    ShowControl control = reef();
+    Reef reef;
+    ShowControl& control = reef.control;
     static_cast<void>(control.set(1, scene("lagoon")));
     EXPECT_EQ(control.set(2, black(true)).outcome, Outcome::Done);
     prepareAll(control);
     control.switched();
-    EXPECT_TRUE(control.wanted().black);
+    EXPECT_TRUE(control.wanted().black());
 }
 
 TEST(ShowControl, aSecondSceneIsRefusedUntilTheFirstIsShown) {
-    ShowControl control = reef();
+    Reef reef;
+    ShowControl& control = reef.control;
     static_cast<void>(control.set(1, scene("lagoon")));
     EXPECT_EQ(control.set(2, scene("pond")).outcome, Outcome::Refused);
     prepareAll(control);
     control.switched();
     EXPECT_EQ(control.set(2, scene("pond")).outcome, Outcome::Refused) << "the same answer again";
-    EXPECT_EQ(control.set(3, scene("pond")).outcome, Outcome::Preparing);
+    EXPECT_EQ(control.set(3, scene("pond")).outcome, Outcome::Waiting);
 }
 
 TEST(ShowControl, aChangeThatFailsLeavesTheWallAsItWas) {
-    ShowControl control = reef();
+    Reef reef;
+    ShowControl& control = reef.control;
     static_cast<void>(control.set(1, scene("pond")));
     control.fail("there is no such scene");
     EXPECT_EQ(control.phase(), Phase::Steady);
-    EXPECT_EQ(control.wanted().scene, "reef");
+    EXPECT_EQ(control.wanted().scene(), "reef");
     EXPECT_EQ(control.look(), 1U);
     const Answer answer = control.set(1, scene("pond"));
     EXPECT_EQ(answer.outcome, Outcome::Refused);
@@ -138,46 +156,51 @@ TEST(ShowControl, aChangeThatFailsLeavesTheWallAsItWas) {
 
 // A packet that was delayed must not undo what somebody else has set since.
 TEST(ShowControl, aRequestThatIsSaidAgainIsNotDoneAgain) {
-    ShowControl control = reef();
+    Reef reef;
+    ShowControl& control = reef.control;
     static_cast<void>(control.set(1, black(true)));
     static_cast<void>(control.set(2, black(false)));
     EXPECT_EQ(control.set(1, black(true)).outcome, Outcome::Done);
-    EXPECT_FALSE(control.wanted().black);
+    EXPECT_FALSE(control.wanted().black());
     EXPECT_EQ(control.version(), 3U);
 }
 
 // A wall that began with a pattern has built no world.
 TEST(ShowControl, aWorldIsBuiltBeforeItReplacesAPattern) {
-    ShowControl control({.scene = "reef", .pattern = wire::Pattern::Grid}, {});
-    ShowChange world;
-    world.pattern = wire::Pattern::World;
-    EXPECT_EQ(control.set(1, world).outcome, Outcome::Preparing);
+    v1::WantedShow grid = scene("reef");
+    grid.set_pattern(v1::WantedShow::GRID);
+    Controlled wall(grid);
+    ShowControl& control = wall.control;
+    v1::WantedShow world;
+    world.set_pattern(v1::WantedShow::WORLD);
+    EXPECT_EQ(control.set(1, world).outcome, Outcome::Waiting);
     EXPECT_EQ(control.phase(), Phase::Preparing);
-    EXPECT_EQ(control.wanted().pattern, wire::Pattern::Grid);
+    EXPECT_EQ(control.wanted().pattern(), v1::WantedShow::GRID);
     EXPECT_TRUE(control.nextHasWorld());
     control.prepared();
     EXPECT_EQ(control.phase(), Phase::Switching) << "the same scene needs no black";
     control.switched();
-    EXPECT_EQ(control.wanted().pattern, wire::Pattern::World);
+    EXPECT_EQ(control.wanted().pattern(), v1::WantedShow::WORLD);
 }
 
 TEST(KeptShow, isReadAsItWasWritten) {
     const std::filesystem::path file = testing::TempDir() + "aquarama_kept_show.txtpb";
-    ShowChange kept;
+    v1::WantedShow kept;
     for (const bool on : {false, true}) {
         wire::keepShow(file, kept);
-        EXPECT_EQ(wire::readKeptShow(file), kept);
-        kept.scene = "lagoon";
-        kept.quality = on ? std::optional(config::QualityTier::High) : std::nullopt;
-        kept.pattern = wire::Pattern::Grey;
-        kept.black = kept.freeze = on;
+        EXPECT_TRUE(wire::areSame(wire::readKeptShow(file), kept));
+        kept.set_scene("lagoon");
+        kept.set_quality(on ? v1::WantedShow::HIGH : v1::WantedShow::AUTO);
+        kept.set_pattern(v1::WantedShow::GREY);
+        kept.set_black(on);
+        kept.set_freeze(on);
     }
     wire::keepShow(file, kept);
-    EXPECT_EQ(wire::readKeptShow(file), kept);
+    EXPECT_TRUE(wire::areSame(wire::readKeptShow(file), kept));
     std::ofstream(file) << "version: 1 colour: 3";
     EXPECT_THROW(static_cast<void>(wire::readKeptShow(file)), Error);
     std::filesystem::remove(file);
-    EXPECT_EQ(wire::readKeptShow(file), ShowChange{});
+    EXPECT_TRUE(wire::areSame(wire::readKeptShow(file), {}));
 }
 
 // The laptop of a crew may die in the middle of a scan.

@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #include "common/ask/request_client.h"
-#include "master/conductor/requests.h"
+#include "master/conductor/status_text.h"
 #include "tests/support/stage.h"
 
 namespace aquarama::conductor {
@@ -416,11 +416,12 @@ TEST(Show, aFrozenWorldStandsStillWhileFramesGoOn) {
 }
 
 // Sets a value as `aquarama set` does; returns why it was refused, empty where it was not.
-std::string setting(const test::StageMaster& master, const std::function<void(v1::Set&)>& alter) {
-    v1::Set set;
-    alter(set);
+std::string setting(const test::StageMaster& master,
+                    const std::function<void(v1::WantedShow&)>& alter) {
+    v1::Order order;
+    alter(*order.mutable_show());
     try {
-        ask::RequestClient(master.control()).set(set, [](const std::string&) {});
+        ask::RequestClient(master.control()).carryOut(order, [](const std::string&) {});
         return "";
     } catch (const Error& refused) {
         return refused.what();
@@ -428,15 +429,15 @@ std::string setting(const test::StageMaster& master, const std::function<void(v1
 }
 
 // Asks for a pattern of a scan until it is answered otherwise than "ask again".
-v1::SetReply scanning(ask::RequestClient& client,
-                      std::uint64_t holder,
-                      const std::optional<config::ScanPattern>& pattern) {
-    v1::Set set;
-    set.set_request(ask::freshRequest());
-    set.mutable_scan()->set_holder(holder);
-    if (pattern) wire::writeScanPattern(*pattern, *set.mutable_scan()->mutable_pattern());
-    v1::SetReply reply = client.ask(set);
-    while (reply.outcome() == v1::OUTCOME_PREPARING) reply = client.ask(set);
+v1::OrderReply scanning(ask::RequestClient& client,
+                        std::uint64_t holder,
+                        const std::optional<config::ScanPattern>& pattern) {
+    v1::Order order;
+    order.set_request(ask::freshRequest());
+    order.mutable_scan()->set_holder(holder);
+    if (pattern) wire::writeScanPattern(*pattern, *order.mutable_scan()->mutable_pattern());
+    v1::OrderReply reply = client.give(order);
+    while (reply.outcome() == v1::OrderReply::WAITING) reply = client.give(order);
     return reply;
 }
 
@@ -454,7 +455,7 @@ std::vector<wire::Show> shownFrom(const test::Journal& journal,
 
 TEST(Show, aScanIsShownByAllBeforeItIsDoneAndLeavesTheWallAsItWas) {
     ConductorOptions options;
-    options.wanted.pattern = wire::Pattern::Grid;
+    options.wanted.set_pattern(v1::WantedShow::GRID);
     test::StageMaster master(options);
     test::Journal journal;
     const auto nodes = nodesOf(master, journal);
@@ -462,30 +463,31 @@ TEST(Show, aScanIsShownByAllBeforeItIsDoneAndLeavesTheWallAsItWas) {
     config::ScanPattern pattern{.light = glm::vec3(0.5F), .lit = 5};
     for (const std::uint16_t number : std::array<std::uint16_t, 2>{1, 2}) {
         pattern.number = number;
-        const v1::SetReply done = scanning(client, 9, pattern);
-        ASSERT_EQ(done.outcome(), v1::OUTCOME_DONE);
+        const v1::OrderReply done = scanning(client, 9, pattern);
+        ASSERT_EQ(done.outcome(), v1::OrderReply::DONE);
         for (const std::string& name : kNames) {
             const auto shows = shownFrom(journal, name, done.frame());
             for (const wire::Show& show : shows) EXPECT_EQ(show.scan, pattern) << name;
         }
     }
-    EXPECT_EQ(scanning(client, 10, pattern).outcome(), v1::OUTCOME_REFUSED) << "another holder";
-    EXPECT_THAT(setting(master, [](v1::Set& set) { set.set_pattern(v1::PATTERN_GREY); }),
-                testing::HasSubstr("a scan holds the wall"));
+    EXPECT_EQ(scanning(client, 10, pattern).outcome(), v1::OrderReply::REFUSED) << "another holder";
+    EXPECT_THAT(
+        setting(master, [](v1::WantedShow& show) { show.set_pattern(v1::WantedShow::GREY); }),
+        testing::HasSubstr("a scan holds the wall"));
     EXPECT_EQ(client.status().show().pattern(), v1::PATTERN_SCAN);
-    EXPECT_EQ(scanning(client, 10, {}).outcome(), v1::OUTCOME_DONE) << "not its to end";
+    EXPECT_EQ(scanning(client, 10, {}).outcome(), v1::OrderReply::DONE) << "not its to end";
     EXPECT_EQ(client.status().show().pattern(), v1::PATTERN_SCAN);
-    EXPECT_EQ(scanning(client, 9, {}).outcome(), v1::OUTCOME_DONE);
+    EXPECT_EQ(scanning(client, 9, {}).outcome(), v1::OrderReply::DONE);
     EXPECT_EQ(client.status().show().pattern(), v1::PATTERN_GRID);
-    EXPECT_EQ(setting(master, [](v1::Set& set) { set.set_black(true); }), "");
-    const v1::SetReply refused = scanning(client, 9, pattern);
+    EXPECT_EQ(setting(master, [](v1::WantedShow& show) { show.set_black(true); }), "");
+    const v1::OrderReply refused = scanning(client, 9, pattern);
     EXPECT_THAT(refused.reason(), testing::HasSubstr("black"));
 }
 
 ConductorOptions withScenes() {
     ConductorOptions options;
-    options.wanted.scene = "reef";
-    options.makeWorld = [](const std::string& scene) {
+    options.wanted.set_scene("reef");
+    options.looks.makeWorld = [](const std::string& scene) {
         if (scene != "lagoon") throw Error("there is no scene " + scene);
         return NextWorld{test::StageMaster::assets(),
                          test::StageMaster::school(),
@@ -528,7 +530,7 @@ TEST(Show, aSceneChangesThroughBlackWhenEveryNodeHasBuiltIt) {
             test::StageNode::Habits{{}, {}, milliseconds(name == "middle" ? 400 : 20)}));
     for (const std::string& name : kNames) ASSERT_TRUE(journal.awaitPresented(name, 5));
     const std::uint64_t before = journal.presentedBy("left");
-    EXPECT_EQ(setting(master, [](v1::Set& set) { set.set_scene("lagoon"); }), "");
+    EXPECT_EQ(setting(master, [](v1::WantedShow& show) { show.set_scene("lagoon"); }), "");
     EXPECT_TRUE(journal.await([](const test::Event& event) {
         return event.kind == test::Event::Kind::Presented && event.state.show.look == 2 &&
                event.state.show.brightness == 1;
@@ -543,7 +545,7 @@ TEST(Show, aSceneChangesThroughBlackWhenEveryNodeHasBuiltIt) {
     EXPECT_EQ(events.back().state.show.scene, "lagoon");
     for (const auto& node : nodes) EXPECT_EQ(node->joins(), 1);
 
-    EXPECT_THAT(setting(master, [](v1::Set& set) { set.set_scene("pond"); }),
+    EXPECT_THAT(setting(master, [](v1::WantedShow& show) { show.set_scene("pond"); }),
                 testing::HasSubstr("there is no scene pond"));
     EXPECT_EQ(ask::RequestClient(master.control()).status().show().scene(), "lagoon");
 }
@@ -562,7 +564,7 @@ TEST(Show, aNodeThatComesWhileASceneChangesShowsTheNewOne) {
         master.connect(),
         journal,
         test::StageNode::Habits{{}, milliseconds(50), milliseconds(250)}));
-    EXPECT_EQ(setting(master, [](v1::Set& set) { set.set_scene("lagoon"); }), "");
+    EXPECT_EQ(setting(master, [](v1::WantedShow& show) { show.set_scene("lagoon"); }), "");
     EXPECT_TRUE(journal.await([](const test::Event& event) {
         return event.kind == test::Event::Kind::Presented && event.node == "right" &&
                event.state.show.scene == "lagoon";
@@ -579,14 +581,14 @@ TEST(Show, whatWasSetIsShownByAMasterThatIsStartedAgain) {
         const auto nodes = nodesOf(master, journal);
         ASSERT_TRUE(journal.awaitPresented("left", 3));
         EXPECT_EQ(setting(master,
-                          [](v1::Set& set) {
-                              set.set_black(true);
-                              set.set_pattern(v1::PATTERN_GRID);
+                          [](v1::WantedShow& show) {
+                              show.set_black(true);
+                              show.set_pattern(v1::WantedShow::GRID);
                           }),
                   "");
     }
     options.kept = wire::readKeptShow(options.keptAt);
-    options.wanted = wire::with({}, options.kept);
+    options.wanted = options.kept;
     test::StageMaster master(options);
     test::Journal journal;
     const auto nodes = nodesOf(master, journal);

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/ask/request_client.h"
-#include "master/conductor/requests.h"
+#include "master/conductor/status_text.h"
 #include "tests/support/stage.h"
 
 namespace aquarama::conductor {

@@ -12,6 +12,7 @@
 
 #include "common/net/blob.h"
 #include "tests/support/stage.h"
+#include "tests/support/state_packet.h"
 
 namespace aquarama::session {
 namespace {
@@ -103,7 +104,7 @@ class ScriptedMaster {
         wire::StateFrame state;
         state.frame = {frame};
         state.show.calibration = shortHash(digestOf(test::StageMaster::deskRig().text));
-        channels_->publishState(wire::encodeState(run, wire::viewOf(state)));
+        channels_->publishState(test::packetOf(run, state));
     }
 
     std::uint64_t run = kRun;

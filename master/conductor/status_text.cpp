@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/conductor/requests.h"
+#include "master/conductor/status_text.h"
 
 #include <cmath>
 

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/conductor/presentation.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <chrono>
+#include <span>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "common/base/log.h"
+#include "common/motion/motion_state.h"
+
+namespace aquarama::conductor {
+namespace {
+
+using std::chrono::milliseconds;
+
+// Time for a release to reach every node: ten times the median of a busy machine's loopback.
+constexpr net::Instant kLead = milliseconds(2);
+// A state is published so long before the release of the frame before it: nodes begin to draw then.
+constexpr net::Instant kPublishLead = milliseconds(3);
+// A frame shows the world as it was so long before its release, which is a refresh after the one
+// before: the two ticks on either side are simulated when it is published.
+constexpr net::Instant kShownAge = 2 * kTickPeriod + kPublishLead + milliseconds(1);
+constexpr net::Instant kBeacon = milliseconds(50);
+constexpr net::Instant kRepeat = std::chrono::seconds(1);
+constexpr net::Instant kLongestWait = milliseconds(10);
+constexpr std::size_t kMostNodes = 64;  // as many as a rig has channels
+
+GrowingFile openTrace(const std::filesystem::path& directory) {
+    if (directory.empty()) return {};
+    GrowingFile trace(directory / "master.csv");
+    trace.append("frame,state_ns,ready_ns,present_ns\n");
+    return trace;
+}
+
+wire::Packet beaconOf(const Outbox& outbox) {
+    v1::Envelope beacon;
+    beacon.mutable_beacon();
+    return outbox.packetOf(std::move(beacon));
+}
+
+}  // namespace
+
+Presentation::Presentation(const PresentationLimits& limits,
+                           Roster& roster,
+                           const Outbox& outbox,
+                           net::MasterChannels& channels,
+                           Gauges& gauges,
+                           ShowReport& report,
+                           FrameSource& source)
+    : limits_{limits},
+      roster_{roster},
+      outbox_{outbox},
+      channels_{channels},
+      gauges_{gauges},
+      report_{report},
+      source_{source},
+      barrier_{roster.seats().size(), limits.barrier, net::monotonicNow()},
+      trace_{openTrace(limits.traceDirectory)},
+      beacon_{beaconOf(outbox)},
+      isOver_{limits.frames == 0U} {
+    assert(roster.seats().size() <= kMostNodes);
+}
+
+void Presentation::turn(net::Instant now) {
+    takeTicks();
+    expelSilent(now);
+    conduct(now);
+    sendBeacon(now);
+}
+
+bool Presentation::isLast(Frame frame) const {
+    return limits_.frames && frame.value + 1 >= *limits_.frames;
+}
+
+// Lockstep takes a tick when its frame comes up, so that the tick thread waits for the frames.
+void Presentation::takeTicks() {
+    while (!isLockstep() || snapshots_.newest() < Tick{unpublished_.value}) {
+        auto snapshot = source_.takeTick();
+        if (!snapshot) return;
+        snapshots_.add(std::move(*snapshot));
+    }
+}
+
+void Presentation::expelSilent(net::Instant now) {
+    for (const std::size_t node : barrier_.expelSilent(now)) {
+        Seat& seat = roster_.seats()[node];
+        ++seat.dropped;
+        logWarning("node {} is not counted any more: silent", seat.name);
+        outbox_.dismiss(seat.peer, "you were silent for too long");
+        seat.vacate();
+    }
+}
+
+void Presentation::conduct(net::Instant now) {
+    const auto decision = barrier_.decide(now);
+    if (decision.verdict == PresentBarrier::Verdict::Silent) {
+        failure_ = "node \"" + roster_.seats()[decision.node].name + "\" has been silent for " +
+                   std::to_string(limits_.barrier.patience / std::chrono::seconds(1)) +
+                   " s; see its own output, and start the show again";
+        isOver_ = true;
+        return;
+    }
+    if (!isDrawing_) return beginNext(now);
+    // As late as possible, so that what it shows is fresh; early enough to be there on time.
+    const bool isDue = isLockstep() || now + kPublishLead >= nextRelease(now);
+    if (barrier_.anyReady() && isDue && !isLast(next_)) publish({next_.value + 1}, now);
+    if (decision.verdict == PresentBarrier::Verdict::Present) return release(now);
+    if (decision.verdict == PresentBarrier::Verdict::Idle) {
+        if (const auto awaited = barrier_.nextAwaited()) {
+            next_ = *awaited;
+            beginNext(now);
+        }
+    }
+    if (now - lastRepeat_ > repeatAfter_) publishAgain(now);
+}
+
+void Presentation::beginNext(net::Instant now) {
+    const bool mayBegin = isLockstep()
+                              ? barrier_.allPrepared()
+                              : barrier_.hasMembers() && now + kPublishLead >= lastRelease_;
+    isDrawing_ = mayBegin && publish(next_, now);
+    if (isDrawing_) barrier_.begin(next_);
+}
+
+net::Instant Presentation::untilDue() const {
+    const net::Instant due = lastRelease_ - kPublishLead - net::monotonicNow();
+    return isDrawing_ || isLockstep() || due < net::Instant{0} ? kLongestWait
+                                                               : std::min(due, kLongestWait);
+}
+
+net::Instant Presentation::nextRelease(net::Instant now) const {
+    constexpr net::Instant kBelieved = std::chrono::seconds(2);
+    std::array<net::Blanks, kMostNodes> displays;
+    std::size_t count = 0;
+    for (std::size_t node = 0; node < roster_.seats().size(); ++node) {
+        const auto& blanks = roster_.seats()[node].blanks;
+        if (blanks && blanks->last > now - kBelieved && barrier_.isWaitedFor(node))
+            displays[count++] = *blanks;
+    }
+    return releaseTime(
+        now + kLead, lastRelease_, limits_.refresh, std::span(displays).first(count));
+}
+
+// Of the frame that is drawn, or of the one after it.
+net::Instant Presentation::releaseOf(Frame frame, net::Instant now) const {
+    return nextRelease(now) + (next_ < frame ? limits_.refresh : net::Instant{0});
+}
+
+void Presentation::release(net::Instant now) {
+    const net::Instant at = nextRelease(now);
+    v1::Envelope message;
+    message.mutable_present()->set_frame(next_.value);
+    message.mutable_present()->set_at_ns(isLockstep() ? 0 : at.count());
+    lastPresent_.emplace(next_, outbox_.packetOf(std::move(message)));
+    for (const Seat& seat : roster_.seats())
+        if (seat.prepared) outbox_.send(seat.peer, lastPresent_->second);
+    source_.onReleased(next_);
+    if (report_.frames++ > 0) gauges_.released(now, at - lastRelease_);
+    lastRelease_ = at;
+    isOver_ = isOver_ || isLast(next_);
+    isDrawing_ = false;
+    ++next_.value;
+    if (!isOver_) beginNext(now);
+}
+
+bool Presentation::publish(Frame frame, net::Instant now) {
+    if (frame < unpublished_) return true;
+    takeTicks();
+    auto state = isLockstep() ? snapshots_.showing(frame, Tick{frame.value})
+                              : snapshots_.showing(frame, releaseOf(frame, now) - kShownAge);
+    if (!state) return false;
+    state->show = &source_.showOf(frame, now);
+    state->motionHash = motion::hashOf(state->after);
+    const wire::Packet& packet = published_[frame] = wire::encodeState(outbox_.session(), *state);
+    channels_.publishState(packet);
+    lastPublished_ = lastRepeat_ = net::monotonicNow();
+    repeatAfter_ = isLockstep() ? kRepeat : limits_.barrier.deadline;
+    if (trace_.isOpen())
+        trace_.appendOrLog(fmt::format("{},{},,\n", frame.value, lastPublished_.count()));
+    gauges_.published(*state, packet.size());
+    if (published_.size() > 2) published_.erase(published_.begin());
+    unpublished_ = {frame.value + 1};
+    report_.tick = state->tick;
+    report_.worldHash = state->worldHash;
+    return true;
+}
+
+// Where all wait for a state that was lost on its way, it must come again; less and less often, as
+// they may just be slow.
+void Presentation::publishAgain(net::Instant now) {
+    for (const auto& [frame, packet] : published_) channels_.publishState(packet);
+    lastRepeat_ = now;
+    repeatAfter_ = std::min(2 * repeatAfter_, kRepeat);
+}
+
+// So that a fresh subscriber knows that it hears the channel.
+void Presentation::sendBeacon(net::Instant now) {
+    if (now - lastPublished_ <= kBeacon) return;
+    channels_.publishState(beacon_);
+    lastPublished_ = now;
+}
+
+Frame Presentation::admit(std::size_t node) {
+    const Frame first = isLockstep() ? next_ : unpublished_;
+    barrier_.join(node, first);
+    if (isLockstep()) publishAgain(net::monotonicNow());
+    return first;
+}
+
+void Presentation::ready(std::size_t node, const v1::Ready& ready, net::Instant now) {
+    const Frame frame{ready.frame()};
+    Seat& seat = roster_.seats()[node];
+    barrier_.ready(node, frame, now);
+    seat.mismatches = ready.hash_mismatches();
+    seat.blanks = blanksIn(ready);
+    if (ready.has_picture_us())
+        seat.pictures.add(now, std::chrono::microseconds(ready.picture_us()));
+    if (ready.has_released_frame()) {
+        seat.released = std::max(seat.released, Frame{ready.released_frame()});
+        gauges_.nodeReleased(now, {ready.released_frame()}, ready.released_ns());
+    }
+    // It asks again for a release that never came.
+    if (lastPresent_ && frame <= lastPresent_->first) outbox_.send(seat.peer, lastPresent_->second);
+}
+
+// A display of quite another rate cannot be kept in step with the wall.
+std::optional<net::Blanks> Presentation::blanksIn(const v1::Ready& ready) const {
+    const net::Blanks blanks{net::Instant{ready.blank_ns()}, net::Instant{ready.blank_period_ns()}};
+    const net::Instant apart = blanks.period - limits_.refresh;
+    const bool isBelieved = ready.has_blank_ns() && apart < limits_.refresh / 50 &&
+                            -apart < limits_.refresh / 50 && blanks.last < net::monotonicNow();
+    return isBelieved ? std::optional(blanks) : std::nullopt;
+}
+
+}  // namespace aquarama::conductor

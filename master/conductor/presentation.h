@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// The frame that is drawn now: its state is published in time, and all nodes present it together.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "common/base/output_file.h"
+#include "common/config/rig.h"
+#include "common/net/channels.h"
+#include "master/conductor/gauges.h"
+#include "master/conductor/outbox.h"
+#include "master/conductor/present_barrier.h"
+#include "master/conductor/roster.h"
+#include "master/conductor/simulation_thread.h"
+
+namespace aquarama::conductor {
+
+// What the presentation asks of the show around it.
+class FrameSource {
+  public:
+    virtual ~FrameSource() = default;
+    // The next tick of the world, in order; nothing where it is not simulated yet.
+    [[nodiscard]] virtual std::optional<Snapshot> takeTick() = 0;
+    // What the wall shows in a frame that is published now; valid until the next call.
+    [[nodiscard]] virtual const v1::Show& showOf(Frame frame, net::Instant now) = 0;
+    // All nodes are told to present this frame.
+    virtual void onReleased(Frame frame) = 0;
+};
+
+struct PresentationLimits {
+    BarrierLimits barrier;
+    net::Instant refresh{};                // of the displays
+    std::optional<std::uint64_t> frames;   // the show ends after so many
+    std::filesystem::path traceDirectory;  // for master.csv; empty: none
+};
+
+// Of the conductor's thread.
+class Presentation {
+  public:
+    // All that is referred to outlives this. Throws Error where the trace cannot be written.
+    Presentation(const PresentationLimits& limits,
+                 Roster& roster,
+                 const Outbox& outbox,
+                 net::MasterChannels& channels,
+                 Gauges& gauges,
+                 ShowReport& report,
+                 FrameSource& source);
+
+    // Frames and ticks that are due, at one turn of the loop that began at `now`.
+    void turn(net::Instant now);
+    // The last frame is released.
+    [[nodiscard]] bool isOver() const { return isOver_; }
+    // Why the show cannot go on: a node of a lockstep show is silent; empty: it can.
+    [[nodiscard]] const std::string& failure() const { return failure_; }
+    // How long the loop may sleep where nothing is heard.
+    [[nodiscard]] net::Instant untilDue() const;
+
+    [[nodiscard]] PresentBarrier& barrier() { return barrier_; }
+    [[nodiscard]] const PresentBarrier& barrier() const { return barrier_; }
+    // The frame that is drawn, or will be as soon as it can; the first that is not published.
+    [[nodiscard]] Frame next() const { return next_; }
+    [[nodiscard]] Frame unpublished() const { return unpublished_; }
+    [[nodiscard]] std::optional<Tick> newestTick() const { return snapshots_.newest(); }
+    // The world is another one from now on.
+    void forgetTicks() { snapshots_ = {}; }
+
+    // The node at this seat has built the look that is shown. Returns the first frame in which it
+    // is waited for: in lockstep the one that is drawn now, live the first that it surely sees.
+    Frame admit(std::size_t node);
+    // The node's picture of a frame is finished, and it has let go of an earlier one.
+    void ready(std::size_t node, const v1::Ready& ready, net::Instant now);
+
+  private:
+    [[nodiscard]] bool isLockstep() const { return limits_.barrier.lockstep; }
+    [[nodiscard]] bool isLast(Frame frame) const;
+    void takeTicks();
+    void expelSilent(net::Instant now);
+    void conduct(net::Instant now);
+    void beginNext(net::Instant now);  // as soon as there is somebody to draw it
+    void release(net::Instant now);    // the frame that is drawn, to all prepared nodes
+    // True where the frame's state has been published, now or earlier.
+    bool publish(Frame frame, net::Instant now);
+    // Sends the last two states again, for nodes that missed them.
+    void publishAgain(net::Instant now);
+    void sendBeacon(net::Instant now);
+    // When a frame that is ready now is shown, not before the release can have reached every node:
+    // releaseTime() for the displays of those who are waited for.
+    [[nodiscard]] net::Instant nextRelease(net::Instant now) const;
+    [[nodiscard]] net::Instant releaseOf(Frame frame, net::Instant now) const;
+    // Of a node's display, where they can be believed.
+    [[nodiscard]] std::optional<net::Blanks> blanksIn(const v1::Ready& ready) const;
+
+    PresentationLimits limits_;
+    Roster& roster_;
+    const Outbox& outbox_;
+    net::MasterChannels& channels_;
+    Gauges& gauges_;
+    ShowReport& report_;
+    FrameSource& source_;
+    PresentBarrier barrier_;
+    GrowingFile trace_;
+    wire::Packet beacon_;
+    SnapshotBuffer snapshots_;
+    Frame next_;
+    bool isDrawing_ = false;  // next_ is drawn
+    Frame unpublished_;
+    std::map<Frame, wire::Packet> published_;  // the last two: sent again to whoever may lack them
+    net::Instant lastPublished_{};             // of anything, also of a beacon
+    net::Instant lastRepeat_{}, repeatAfter_{};
+    std::optional<std::pair<Frame, wire::Packet>> lastPresent_;
+    net::Instant lastRelease_{};
+    bool isOver_ = false;
+    std::string failure_;
+};
+
+}  // namespace aquarama::conductor

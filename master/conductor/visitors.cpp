@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/conductor/visitors.h"
+
+#include <chrono>
+
+#include <glm/geometric.hpp>
+
+namespace aquarama::conductor {
+namespace {
+
+// Between two inputs of food from one visitor.
+constexpr net::Instant kBetweenPinches = std::chrono::milliseconds(200);
+constexpr float kReachMetres = 8.0F;  // from the eye
+
+}  // namespace
+
+Visitors::Visitors(const Outbox& outbox, std::function<void()> wake)
+    : outbox_{outbox}, wake_{std::move(wake)} {}
+
+void Visitors::enter(SimulationThread* world, std::uint32_t fish) {
+    world_ = world;
+    fish_ = fish;
+}
+
+bool Visitors::feed(Seat& seat, const v1::Input& input, const wire::Eye& eye, net::Instant now) {
+    return feed(seat.lastFed, input, eye, now);
+}
+
+bool Visitors::feed(const std::string& user,
+                    const v1::Input& input,
+                    const wire::Eye& eye,
+                    net::Instant now) {
+    return feed(lastFed_[user], input, eye, now);
+}
+
+// The world bounds the number of pellets; here the rate of a visitor is bounded, and the reach.
+bool Visitors::feed(net::Instant& lastFed,
+                    const v1::Input& input,
+                    const wire::Eye& eye,
+                    net::Instant now) {
+    if (now - lastFed < kBetweenPinches || world_ == nullptr) return true;
+    const glm::vec3 at{input.position(0), input.position(1), input.position(2)};
+    const auto drop = [at](Simulation& simulation) {
+        simulation.apply(world::DropFood{.position = at});
+    };
+    const bool isInReach = glm::distance(at, eye.positionMetres) < kReachMetres;
+    if (!isInReach || !world_->betweenTicks(drop)) return false;
+    lastFed = now;
+    return true;
+}
+
+bool Visitors::steer(const net::PeerId& peer, const v1::Input& input, net::Instant now) {
+    const Steering steering = wire::steeringOf(input);
+    if (world_ == nullptr || !arbitration_.accepts(peer, steering, now)) return true;
+    return world_->betweenTicks([steering](Simulation& simulation) { simulation.apply(steering); });
+}
+
+// A mind is looked into between two ticks.
+bool Visitors::ask(const net::PeerId& peer, std::uint32_t fish) {
+    if (world_ == nullptr) return true;  // the show is over
+    return world_->betweenTicks([=, this](const Simulation& simulation) {
+        v1::Envelope message;
+        v1::Explanation& explanation = *message.mutable_explanation();
+        explanation.set_fish(fish);
+        explanation.set_school(fish_);
+        explanation.set_tick(simulation.tick().value);
+        for (const std::string& line : simulation.explain(fish)) explanation.add_lines(line);
+        explanations_.tryPut({peer, outbox_.packetOf(std::move(message))});
+        wake_();
+    });
+}
+
+void Visitors::answer() {
+    while (const auto explanation = explanations_.tryTake())
+        outbox_.send(explanation->first, explanation->second);
+}
+
+}  // namespace aquarama::conductor
