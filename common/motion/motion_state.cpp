@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "common/base/digest.h"
+
 namespace aquarama::motion {
 namespace {
 
@@ -68,12 +70,21 @@ void MotionStates::resize(std::size_t fish) {
     }
 }
 
+std::size_t MotionStates::bytes() const {
+    return bytesIn(x, y, z, orientationA, orientationB, orientationC, orientationLargest, phase) +
+           bytesIn(segment, fromPhase, fromSegment, warpFrame, warpLength, speed, spread);
+}
+
 void MotorCommands::resize(std::size_t fish) {
     action.resize(fish);
     phaseRate.resize(fish);
     brake.resize(fish);
     pitch.resize(fish);
     yawRate.resize(fish);
+}
+
+std::size_t MotorCommands::bytes() const {
+    return bytesIn(action, phaseRate, brake, pitch, yawRate);
 }
 
 FishRecord recordOf(const MotionStates& states, std::size_t fish) {

@@ -156,8 +156,12 @@ struct MotionStates {
     // kSpreadStep a tick.
     std::vector<std::uint8_t> spread;
 
+    // Gives each of so many fish an element of every column.
     void resize(std::size_t fish);
+    // Number of fish.
     [[nodiscard]] std::size_t size() const { return x.size(); }
+    // Memory in use.
+    [[nodiscard]] std::size_t bytes() const;
 };
 
 // What the mind asks of the body; the motor's only input. One element for each fish. It changes at
@@ -175,7 +179,10 @@ struct MotorCommands {
     // is positive.
     std::vector<std::int16_t> yawRate;
 
+    // Gives each of so many fish an element of every column.
     void resize(std::size_t fish);
+    // Memory in use.
+    [[nodiscard]] std::size_t bytes() const;
 };
 
 // What never changes about a fish, sent once to each node.

@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/base/digest.h"
 #include "common/base/units.h"
 #include "common/config/species.h"
 
@@ -80,6 +81,8 @@ struct FishView {
         partner.resize(count, kNobody);
         stage.resize(count);
     }
+    // Memory in use.
+    [[nodiscard]] std::size_t bytes() const { return bytesIn(fish, kind, signs, partner, stage); }
     [[nodiscard]] std::size_t size() const { return fish.size(); }
     [[nodiscard]] glm::vec3 position(std::size_t i) const { return fish[i].position; }
     [[nodiscard]] glm::vec3 heading(std::size_t i) const { return fish[i].heading; }

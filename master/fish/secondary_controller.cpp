@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "common/base/digest.h"
 #include "common/base/random_streams.h"
 #include "common/base/units.h"
 #include "common/place/place.h"
@@ -272,6 +273,10 @@ void ControllerMemory::resize(std::size_t fish) {
     chosenAt.resize(fish);
     heldUntil.resize(fish);
     patience.resize(fish);
+}
+
+std::size_t ControllerMemory::bytes() const {
+    return bytesIn(chosenAt, heldUntil, patience);
 }
 
 float tempoOf(std::uint32_t seed, std::size_t fish) {

@@ -78,7 +78,10 @@ struct ControllerMemory {
     // Ticks of one segment after which another is recommended.
     std::vector<std::uint16_t> patience;
 
+    // Gives each of so many fish an element of every column.
     void resize(std::size_t fish);
+    // Memory in use.
+    [[nodiscard]] std::size_t bytes() const;
 };
 
 // Initial commands of fish [first, last): medium forward gait, straight on; draws the patience of
