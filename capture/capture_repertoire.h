@@ -21,6 +21,7 @@ namespace aquarama::capture {
 // nothing: stderr is for errors. Not synchronised: one thread at a time calls it.
 class ProgressBar {
   public:
+    // Shows `what` before the bar; the destructor ends the line.
     explicit ProgressBar(std::string what);
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;

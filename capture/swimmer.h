@@ -63,8 +63,10 @@ struct Order {
 // lengths. A value: a copy continues on its own. Not for use by several threads at once.
 class Swimmer {
   public:
-    explicit Swimmer(const config::Species& species);  // with longestStepSeconds()
+    // A fish of the species; without a step, longestStepSeconds() is used.
+    explicit Swimmer(const config::Species& species);
     Swimmer(const config::Species& species, double stepSeconds);
+    // This fish, with the muscle program of the species.
     Swimmer(const BiomechanicalFish& fish, const config::Swim& swim, double stepSeconds);
 
     // Holds from the next step on. The phase of the beat continues through all orders. The muscles
@@ -73,6 +75,7 @@ class Swimmer {
     void give(const Order& order);
     void advance(int steps);  // steps >= 0
 
+    // Length of one step.
     [[nodiscard]] double stepSeconds() const { return stepSeconds_; }
     // Simulated since the start.
     [[nodiscard]] double seconds() const { return stepSeconds_ * static_cast<double>(steps_); }

@@ -31,6 +31,7 @@ struct AddedCommand {
 // The command line of `aquarama` while commands are added to it, and then the job that it chose.
 class CommandLine {
   public:
+    // Adds to this application, which outlives it.
     explicit CommandLine(CLI::App& app) : app_{app} {}
     // The heading, in the program's help, of the commands that are added next.
     void startGroup(std::string heading) { heading_ = std::move(heading); }

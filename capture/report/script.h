@@ -44,6 +44,7 @@ inline constexpr int kManoeuvres = 13;
 // The pitch of Ascend and, downwards, of Descend: 20 degrees.
 inline constexpr double kScriptPitchRadians = 0.35;
 
+// One command to the fish and its replica.
 struct ScriptCommand {
     Manoeuvre manoeuvre = Manoeuvre::ForwardMedium;
     int ticks = 0;         // how long it lasts
@@ -63,9 +64,7 @@ using Script = std::vector<ScriptCommand>;
 // The length of the script without its run-in.
 [[nodiscard]] int ticksOf(const Script& script);
 
-// Traces: what a fish did, tick by tick, in the same form for the biomechanical fish and its
-// replica.
-
+// What a fish did at one tick, in the same form for the biomechanical fish and its replica.
 struct TracePoint {
     capture::PoseFrame frame;     // body frame in the world, body lengths
     capture::NodeVectors pose{};  // nodal points in the body frame, body lengths (eq. 8)

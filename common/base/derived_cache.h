@@ -49,6 +49,7 @@ class DerivedKey {
 // read or write is not an error: the data is then made again, and a warning says so once.
 class DerivedCache {
   public:
+    // The content of one piece of derived data.
     using Bytes = std::vector<std::byte>;
 
     // The folder holds at most about `mostBytes`; files that were not used for longest are removed
@@ -78,6 +79,7 @@ class DerivedCache {
 // are in memory. Only for files that this machine reads itself.
 class ArrayWriter {
   public:
+    // Appends one array.
     template <class T>
     requires std::is_trivially_copyable_v<T> ArrayWriter& add(std::span<const T> values) {
         const std::uint64_t count = values.size();
@@ -85,6 +87,7 @@ class ArrayWriter {
         append(std::as_bytes(values));
         return *this;
     }
+    // The same for a vector.
     template <class T>
     ArrayWriter& add(const std::vector<T>& values) {
         return add(std::span{values});
@@ -102,8 +105,9 @@ class ArrayWriter {
 // Reads what an ArrayWriter wrote, in the same order with the same types. Does not own the bytes.
 class ArrayReader {
   public:
+    // Begins at the first byte.
     explicit ArrayReader(std::span<const std::byte> bytes) : rest_{bytes} {}
-    // Throws Error where there are fewer bytes than the array needs.
+    // The next array. Throws Error where there are fewer bytes than it needs.
     template <class T>
     requires std::is_trivially_copyable_v<T>
     [[nodiscard]] std::vector<T> next() {

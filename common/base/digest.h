@@ -27,6 +27,7 @@ struct Digest {
 // The largest content that is fetched by its digest: of wall files one of 4K, raw, has 100 MB.
 inline constexpr std::size_t kMostBlobBytes = std::size_t{256} << 20U;
 
+// The SHA-256 of the content.
 [[nodiscard]] Digest digestOf(std::span<const std::byte> content);
 [[nodiscard]] Digest digestOf(std::string_view content);
 [[nodiscard]] std::string toHex(const Digest& digest);  // 64 lower-case digits

@@ -59,6 +59,7 @@ class TemporaryFolder {
     std::filesystem::path path_;
     int lock_ = -1;
 };
+// Removes the temporary folders that killed processes have left. Called when a program starts.
 void removeLeftFolders();
 
 // What this user may still write on the disk of a path, which need not be there yet; 0 where it

@@ -20,6 +20,7 @@ namespace aquarama {
 // the frame loop: there a bad packet becomes an empty optional, and is counted.
 class Error : public std::runtime_error {
   public:
+    // With the line that is shown.
     explicit Error(const std::string& whatWhereAndWhatToDo)
         : std::runtime_error(whatWhereAndWhatToDo) {}
 };

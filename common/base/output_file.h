@@ -94,6 +94,7 @@ class GrowingFile {
     GrowingFile(GrowingFile&& other) noexcept { *this = std::move(other); }
     GrowingFile& operator=(GrowingFile&& other) noexcept;
 
+    // Whether entries reach a file.
     [[nodiscard]] bool isOpen() const { return file_ >= 0; }
     // Nothing where it is not open. Where it throws, the entry is not in the file, which is closed.
     void append(std::span<const std::byte> entry);

@@ -9,6 +9,7 @@
 
 namespace aquarama {
 
+// One earlier version of a file.
 struct FileVersion {
     std::string name;  // when it was kept, in UTC: "2026-11-24T210301"
     std::filesystem::path path;

@@ -59,6 +59,7 @@ struct CageTopology {
 // Keeps its own copies of the curves and fins that it needs, so the species may go away. Immutable.
 class CageShape {
   public:
+    // The shape of a species at rest.
     explicit CageShape(const config::Species& species);
     // Position, part and fin coordinates of one site of makeCageTopology().
     [[nodiscard]] CageVertex place(const CageSite& site) const;

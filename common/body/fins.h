@@ -21,6 +21,7 @@ namespace aquarama::body {
 // and edge are monotone curves through the drawn points.
 class FinPatch {
   public:
+    // The fin of a species file.
     explicit FinPatch(const config::Fin& fin);
     // The point (s, y) of ray p at q; outside of [0, 1] p takes the nearest ray.
     [[nodiscard]] glm::vec2 at(float p, float q) const;

@@ -18,6 +18,7 @@ namespace aquarama::body {
 // outside of the table the value of the nearest end holds.
 class MonotoneCurve {
   public:
+    // The curve through (x[i], y[i]).
     MonotoneCurve(std::vector<float> x, std::vector<float> y);
     // Cost: a binary search.
     [[nodiscard]] float at(float x) const;

@@ -57,6 +57,7 @@ void holdSignals();
 // Calls `onSignal` for each of these signals, on its own thread, as long as it lives.
 class SignalWatch {
   public:
+    // Begins to wait for signals, on a thread of its own.
     explicit SignalWatch(std::function<void()> onSignal);
 
   private:

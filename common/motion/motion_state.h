@@ -205,6 +205,7 @@ struct FishRecord {
 };
 static_assert(sizeof(FishRecord) == 32);
 
+// FishRecord::speedAndSpread of its two parts, and back.
 [[nodiscard]] inline std::uint32_t packedSpeedAndSpread(std::int32_t speed, std::uint8_t spread) {
     return (static_cast<std::uint32_t>(speed) & 0xFFFFFFU) | std::uint32_t{spread} << 24U;
 }

@@ -159,6 +159,7 @@ struct MotorColumns {
     std::uint8_t *segment, *fromSegment, *warpFrame, *warpLength;
 };
 
+// Pointers to the columns, valid until one is resized.
 [[nodiscard]] inline MotorColumns columnsOf(const MotorCommands& commands, MotionStates& states) {
     return {commands.action.data(),
             commands.phaseRate.data(),
@@ -184,7 +185,7 @@ struct Travel {
     std::int32_t strokePhase = 0;
 };
 
-// Component by component and not normalised.
+// Interpolates component by component, not normalised.
 [[nodiscard]] inline Quaternion lerp(const Quaternion& a, const Quaternion& b, float share) {
     return {a.w + share * (b.w - a.w),
             a.x + share * (b.x - a.x),
@@ -192,6 +193,7 @@ struct Travel {
             a.z + share * (b.z - a.z)};
 }
 
+// Interpolates rotation, translation and speed.
 [[nodiscard]] inline PathSample lerp(const PathSample& a, const PathSample& b, float share) {
     PathSample at{.rotation = lerp(a.rotation, b.rotation, share)};
     for (std::size_t i = 0; i < at.translationAndSpeed.size(); ++i) {

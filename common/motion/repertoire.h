@@ -21,6 +21,7 @@ namespace aquarama::motion {
 // Appends little-endian numbers to bytes, which it owns.
 class ByteWriter {
   public:
+    // Appends a number, the lowest byte first.
     template <class Unsigned>
     void unsignedNumber(Unsigned value) {
         for (std::size_t byte = 0; byte < sizeof(Unsigned); ++byte) {
@@ -30,11 +31,12 @@ class ByteWriter {
     }
     void int16(std::int16_t value) { unsignedNumber(static_cast<std::uint16_t>(value)); }
     void float32(float value) { unsignedNumber(std::bit_cast<std::uint32_t>(value)); }
+    // Appends a byte for each character.
     template <class Container>
     void characters(const Container& text) {
         for (const auto character : text) unsignedNumber(static_cast<std::uint8_t>(character));
     }
-
+    // What was written: moved out, or as a view that is valid until the next call.
     [[nodiscard]] std::vector<std::byte> take() && { return std::move(bytes_); }
     [[nodiscard]] std::span<const std::byte> written() const { return bytes_; }
 
@@ -42,12 +44,14 @@ class ByteWriter {
     std::vector<std::byte> bytes_;
 };
 
-// Reads them back; does not own the bytes. It never reads beyond their end: after the first number
-// that is not wholly there, every number is zero and ok() is false.
+// Reads what a ByteWriter wrote; does not own the bytes. It never reads beyond their end: after the
+// first number that is not wholly there, every number is zero and ok() is false.
 class ByteReader {
   public:
+    // Begins at the first byte.
     explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
+    // The next number, the lowest byte first.
     template <class Unsigned>
     [[nodiscard]] Unsigned unsignedNumber() {
         std::uint64_t value = 0;
@@ -68,6 +72,7 @@ class ByteReader {
         return text;
     }
 
+    // Whether all that was read was there, and how many bytes are left.
     [[nodiscard]] bool ok() const { return ok_; }
     [[nodiscard]] std::size_t remaining() const { return rest_.size(); }
 
@@ -130,6 +135,7 @@ inline constexpr int kForwardGaits = 3;
 inline constexpr int kSwimmingActions = 21;
 [[nodiscard]] const char* nameOf(Action action);  // "forward_slow", ...
 
+// The action as an index of arrays of kActions.
 [[nodiscard]] constexpr std::size_t indexOf(Action action) {
     return static_cast<std::size_t>(action);
 }
@@ -215,6 +221,7 @@ using NodalPose = std::array<std::array<std::int16_t, 3>, body::kNodalPoints>;
 // Poses are 16-bit: a position in the body frame, in body lengths, is component * kPoseUnit.
 inline constexpr float kPoseUnit = 1.0F / 32767.0F;
 
+// A frame increment for each phase.
 using FrameIncrements = std::array<FrameIncrement, kPhases>;
 
 // A turn as begun in a tail beat. The courses are unit vectors in the body frame at its first and

@@ -35,11 +35,12 @@ inline constexpr float kPi = 3.14159265F;
     return y < 0 ? -angle : angle;
 }
 
-// As glm's, with a fixed order of additions.
+// Scalar product as of glm, with a fixed order of additions.
 [[nodiscard]] inline float dot(glm::vec3 a, glm::vec3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+// Euclidean length.
 [[nodiscard]] inline float lengthOf(glm::vec3 v) {
     return std::sqrt(dot(v, v));
 }
@@ -106,6 +107,7 @@ struct Rock {
 // Made anew at every call; none in the open sea.
 [[nodiscard]] std::vector<Rock> rocksOf(const PlaceKey& place);
 
+// What a plant looks like.
 enum class PlantKind : std::uint8_t { Kelp, Seagrass };
 
 // One plant; the seed decides its details.

@@ -31,6 +31,7 @@ class FaceGrid {
         float u = 0, v = 0;
     };
 
+    // n.
     [[nodiscard]] int cuts() const { return cuts_; }
     // The vertex of a face at column i and row j, each from 0 to n.
     [[nodiscard]] std::uint32_t at(std::size_t face, int i, int j) const;

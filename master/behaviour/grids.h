@@ -27,6 +27,7 @@ struct Points {
     std::size_t count = 0;
     std::size_t stride = 1;
 
+    // Position of point i.
     [[nodiscard]] glm::vec3 operator[](std::size_t i) const {
         return {x[i * stride], y[i * stride], z[i * stride]};
     }
@@ -351,6 +352,7 @@ class Grids {
         });
     }
 
+    // Memory in use.
     [[nodiscard]] std::size_t bytes() const;
 
     SpatialGrid fish;

@@ -101,6 +101,7 @@ struct Aim {
 // whole of one mind.
 class Minds {
   public:
+    // As of a vector with one mind for each fish.
     void resize(std::size_t fish) { minds_.resize(fish); }
     [[nodiscard]] std::size_t size() const { return minds_.size(); }
     [[nodiscard]] const Mind& operator[](std::size_t fish) const { return minds_[fish]; }

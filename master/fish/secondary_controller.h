@@ -44,7 +44,6 @@ using Courses = std::vector<Course>;
 
 // Three changes of the mind that make up for a motor weaker than the biomechanical fish (paper,
 // sections 5.1 and 5.2). All are on in a show; the study switches them off to measure their effect.
-
 struct Adaptation {
     bool recommendations = true;  // another swim pattern when one was pursued for too long
     bool enlargedRegions = true;  // collision threats are felt from farther off

@@ -27,6 +27,7 @@ class LivingWorld : public conductor::Simulation {
     [[nodiscard]] conductor::Snapshot snapshot() const override;
     [[nodiscard]] std::vector<std::string> explain(std::uint32_t fish) const override;
 
+    // The world itself, for who measures it.
     [[nodiscard]] const world::World& world() const { return world_; }
 
   private:

@@ -17,8 +17,7 @@
 
 namespace aquarama::simulation {
 
-// Passes every question on to the simulation behind it, which it does not own and which outlives
-// it.
+// Passes every question on to another simulation, which it does not own and which outlives it.
 class SimulationDecorator : public conductor::Simulation {
   public:
     [[nodiscard]] Tick tick() const override { return world_.tick(); }
@@ -29,6 +28,7 @@ class SimulationDecorator : public conductor::Simulation {
     }
 
   protected:
+    // Stands before this simulation.
     explicit SimulationDecorator(conductor::Simulation& world) : world_(world) {}
     conductor::Simulation& world_;
 };
@@ -64,6 +64,7 @@ class RecordingFile {
 // replay, so that a snapshot between two ticks is the same in both.
 class RecordedWorld final : public SimulationDecorator {
   public:
+    // Records this world into this file; both outlive it.
     RecordedWorld(conductor::Simulation& world, RecordingFile& file);
     // Writes the end of the recording.
     ~RecordedWorld() override;
@@ -137,7 +138,6 @@ class ReplayedWorld final : public SimulationDecorator {
 };
 
 // Inputs as a recording stores them, and back.
-
 [[nodiscard]] wire::RecordedInput recorded(Tick tick, const world::WorldInput& input);
 [[nodiscard]] world::WorldInput inputOf(const wire::RecordedInput& recorded);
 

@@ -39,7 +39,6 @@ class Feeding {
 
 // The quantities of a run. Those that are rates are for each fish and minute; overlaps count for
 // both fish.
-
 enum class Quantity : std::uint8_t {
     Touches,
     DeepTouches,

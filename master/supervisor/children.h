@@ -29,6 +29,7 @@ struct Ending {
     pid_t child = 0;
     int exitCode = 0;
     int signal = 0;  // 0 where it ended by itself
+    // Whether it ended by itself without an error.
     [[nodiscard]] bool clean() const { return signal == 0 && exitCode == 0; }
 };
 
@@ -56,7 +57,8 @@ void listenForSignals();
 // reports to it; whatever else a child writes goes to stderr. One at a time.
 class ErrorPipe {
   public:
-    ErrorPipe();  // throws Error where there can be no pipe
+    // Opens the pipe and closes it. Throws Error where there can be none.
+    ErrorPipe();
     ~ErrorPipe();
     ErrorPipe(const ErrorPipe&) = delete;
     ErrorPipe& operator=(const ErrorPipe&) = delete;

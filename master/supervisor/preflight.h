@@ -38,6 +38,7 @@ void requireRecording(const std::string& path);
 // is removed with this object. Throws Error where no folder can be made.
 class ClipPipes {
   public:
+    // Sockets of these channels, in this folder.
     explicit ClipPipes(std::vector<std::string> channels) : channels_(std::move(channels)) {}
     [[nodiscard]] std::string folder() const { return folder_.path().string(); }
     // The path of the channel's socket; empty where it is not filmed.

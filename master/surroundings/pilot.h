@@ -20,6 +20,7 @@ namespace aquarama::surroundings {
 // A closed path through stops in order; the last leads to the first. With one stop the submarine
 // stays there.
 struct Tour {
+    // A stop on the path.
     struct Stop {
         glm::vec3 at{};
         // Point to look at; without one the submarine looks at the school.

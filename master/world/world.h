@@ -129,6 +129,7 @@ class World {
     // world.
     void advance();
 
+    // The state after the last tick.
     [[nodiscard]] Tick tick() const { return tick_; }
     [[nodiscard]] const motion::MotionStates& states() const { return columns_.states; }
     [[nodiscard]] const motion::MotorCommands& commands() const { return columns_.commands; }

@@ -9,12 +9,14 @@ Doc lines: each type and function that a header declares and that is not private
   - at the end of one of its lines, up to the line that ends in ; { or }; or
   - above the first declaration of its group: within a group there is no blank line and no public:, protected: or
     private:.
-Exempt are: functions that are defaulted or deleted, comparison operators, and overrides (their base has the line).
+Exempt are: functions that are defaulted or deleted, comparison operators, overrides (their base has the line), what
+stands in an unnamed namespace, and calls of macros, which look like functions (names in capitals).
 """
 import collections
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -79,6 +81,8 @@ def size_problems(of_file):
 
 def needs_doc_line(declaration, classes):
     if declaration["kind"] not in (*FUNCTIONS, *TYPES) or declaration.get("scopeKind") == "function":
+        return False
+    if "__anon" in scope_of(declaration) or re.fullmatch("[A-Z]+_[A-Z_]+", declaration["name"]):
         return False
     around = declaration
     while around:
