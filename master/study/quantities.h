@@ -9,7 +9,7 @@
 
 #include "common/motion/motion_state.h"
 #include "master/fish/fish_view.h"
-#include "master/study/chronicle.h"
+#include "master/study/diary.h"
 #include "master/world/world.h"
 
 namespace aquarama::study {

@@ -13,7 +13,9 @@
 
 #include "master/fish/secondary_controller.h"
 #include "master/study/chronicle.h"
+#include "master/study/overlaps.h"
 #include "master/study/quantities.h"
+#include "master/study/species_log.h"
 #include "master/world/world.h"
 
 namespace aquarama::study {
