@@ -43,7 +43,8 @@ def declarations(files):
     """File -> its declarations as dictionaries of ctags, in the order of lines."""
     command = ["ctags", "--output-format=json", "--languages=C++", "--langmap=C++:.h.cpp", "--kinds-C++=+p",
                "--fields=+neaSs", "--fields-C++=+{properties}", "-L", "-", "-f", "-"]
-    output = subprocess.run(command, input="\n".join(map(str, files)), capture_output=True, text=True, check=True).stdout
+    output = subprocess.run(command, input="\n".join(map(str, files)), capture_output=True, text=True,
+                            check=True).stdout
     found = collections.defaultdict(list)
     for line in output.splitlines():
         declaration = json.loads(line)
