@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The unrolled wall, put together in the browser: each channel's picture lies where its mesh says, and light adds up where
-// pictures overlap, as on the wall. What a projector adds by itself (its black) is not in it.
+// The unrolled wall, put together in the browser: each channel's picture lies where its mesh says, and light adds up
+// where pictures overlap, as on the wall. What a projector adds by itself (its black) is not in it.
 import {t} from '/widgets.js';
 
 const BETWEEN_MS = 200;  // five a second: as many as pictures come
@@ -66,8 +66,8 @@ export function samplesOf(mesh, width, height) {
   return {places: Uint32Array.from(places), across: Float32Array.from(across), down: Float32Array.from(down)};
 }
 
-// What a projector throws for the codes of its picture: of its own red, green and blue, and how much light of the wall's colours
-// (linear Rec. 709) each of these is, row by row; without rows the two are the same.
+// What a projector throws for the codes of its picture: of its own red, green and blue, and how much light of the
+// wall's colours (linear Rec. 709) each of these is, row by row; without rows the two are the same.
 function projectorOf({lightOfCodes, lightOfOwn}) {
   if (!lightOfCodes) return {own: [LIGHT, LIGHT, LIGHT], rows: null};
   const numbers = new DataView(Uint8Array.from(atob(lightOfCodes), letter => letter.charCodeAt(0)).buffer);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of the schedule: hours as a form. What is saved is the text of it, which the console holds to its schema; what is
-// wrong stands beside the field that it is wrong in.
+// The page of the schedule: hours as a form. What is saved is the text of it, which the console holds to its schema;
+// what is wrong stands beside the field that it is wrong in.
 import {html, nothing, svg} from '/vendor/lit-html.js';
 import {QUALITIES, button, holdButton, language, t, time, word} from '/widgets.js';
 
