@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama new-rig`: asks about the wall, or takes options, and writes a rig.
+// `aquarama new-rig`: asks for the wall's measures, or reads options, and writes a rig.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -44,7 +44,7 @@ struct NewRigOptions {
     NewRigWishes wishes;
 };
 
-// What a number of an option or an answer may be.
+// The range of a number in an option or an answer.
 struct Range {
     double least, most;
 };
@@ -58,7 +58,7 @@ std::vector<std::string> wordsIn(const std::string& text) {
     return {std::istream_iterator<std::string>(stream), {}};
 }
 
-// "1920x1080"; nothing where it is none.
+// Parses "1920x1080"; empty for any other text.
 std::optional<glm::ivec2> sizeIn(const std::string& text) {
     glm::ivec2 size{};
     int end = 0;
@@ -69,11 +69,11 @@ std::optional<glm::ivec2> sizeIn(const std::string& text) {
     return isSize && isInBounds ? std::optional(size) : std::nullopt;
 }
 
-// A dialogue on the terminal. An empty answer takes what stands in brackets; a bad one is told in
-// one line and asked again.
+// A dialogue on the terminal. An empty answer selects the default in brackets. A wrong one gets one
+// line, and the question is repeated.
 class Dialogue {
   public:
-    // Asks until `take` finds no fault with the answer.
+    // Repeats the question until `take` accepts the answer.
     void ask(const std::string& question,
              const std::string& usual,
              const std::function<std::string(const std::string&)>& take) {
@@ -87,7 +87,7 @@ class Dialogue {
             std::cout << "  " << fault << '\n';
         }
     }
-    // A number, unless an option has said it.
+    // Asks for a number, unless an option has given it.
     void number(const std::string& question,
                 std::optional<double>& wish,
                 double usual,
@@ -191,7 +191,7 @@ void askMeasures(Dialogue& dialogue,
         "How high they hang above the eye, metres", wishes.mount, *wishes.height / 2 + 0.3, kMount);
 }
 
-// Everything that the options have not said.
+// Asks for everything that the options have not given.
 void askAll(NewRigWishes& wishes, const std::vector<machine::Connector>& connected) {
     Dialogue dialogue;
     const std::vector<machine::Connector> monitors = wallMonitors(connected);
@@ -201,7 +201,7 @@ void askAll(NewRigWishes& wishes, const std::vector<machine::Connector>& connect
     askMeasures(dialogue, wishes, monitors);
 }
 
-// Of the reef: beside the rig where it is there, else the one that comes with the programs.
+// Path of the reef's scene: beside the rig where it exists, else that of the installation.
 std::string sceneFor(const std::string& rigFile) {
     const std::string beside = "scenes/reef.txtpb";
     if (fs::exists(fs::path(rigFile).parent_path() / beside)) return beside;
@@ -261,7 +261,7 @@ void newRig(const NewRigOptions& options) {
                              options.file);
 }
 
-// An option for a number.
+// Adds an option with a number.
 void addNumber(CLI::App& command,
                const std::string& name,
                std::optional<double>& wish,

@@ -22,7 +22,7 @@ std::string clipNameProblem(const std::string& path) {
     return "\"" + path + "\" is not FILE.mp4 or FILE.webp";
 }
 
-// What only a supervisor does: windows or not, and pictures of all channels.
+// Options of the supervisor alone: windows or not, and pictures of all channels.
 void describePictures(CLI::App& command, supervisor::RunOptions& options) {
     command.add_flag("--headless", options.headless, "without a display");
     CLI::Option* snapshot = command.add_option(
@@ -47,10 +47,10 @@ void describePictures(CLI::App& command, supervisor::RunOptions& options) {
         "clock is read.");
 }
 
-// Throws Error where the rig needs keys and has none, before a process is started.
+// Throws Error where the rig needs keys and has none, before any process starts.
 int runWith(const supervisor::RunOptions& options) {
     const config::Rig rig = config::readRig(options.show.rigPath);
-    static_cast<void>(masterKeysOf(rig, options.show));  // says at once where there are none
+    static_cast<void>(masterKeysOf(rig, options.show));  // throws where there are none
     return supervisor::runShow(options, rig);
 }
 
@@ -60,22 +60,22 @@ struct ReplayOptions {
     bool check = false;
 };
 
-// Throws Error before anything is started where the file is no recording.
+// Throws Error, before any process starts, where the file is not a recording.
 int replay(const ReplayOptions& options) {
     supervisor::requireRecording(options.run.show.replayPath);
     return options.check ? checkReplay(options.run.show.replayPath) : runWith(options.run);
 }
 
-// What another program of the installation does with the arguments after the command's name.
+// Another program of the installation that takes the arguments after the command's name.
 struct HandedOver {
     const CLI::App* command = nullptr;
     std::string program;
     std::vector<std::string> first;  // its own subcommand, before the arguments
-    std::string name;                // that its errors and its help begin with
+    std::string name;                // at the beginning of its errors and its help
     std::string notice = {};         // written to stderr before; empty: none
 };
 
-// Does not return: the other program takes the place of this process.
+// Replaces this process by the other program; does not return.
 void handOver(const HandedOver& to) {
     if (!to.notice.empty()) cli::sayError("aquarama", to.notice);
     supervisor::Command other{supervisor::siblingProgram(to.program), to.first, to.name};
@@ -83,8 +83,8 @@ void handOver(const HandedOver& to) {
     supervisor::become(other);
 }
 
-// A command that another program of the installation carries out, with all of its arguments. Where
-// it is a command of the other program as well, that adds its name by itself.
+// Adds a command that another program of the installation runs, with all arguments. Where the other
+// program has a command of that name, its errors add the name.
 HandedOver& addHandedOver(CommandLine& line,
                           const std::string& name,
                           const std::string& what,
@@ -111,7 +111,7 @@ void describeWorld(CLI::App& command, supervisor::ShowOptions& options) {
     command.add_option("--record", options.recordPath, "write the show to this new file");
 }
 
-// What `run`, `replay` and `master` have in common about the wall.
+// Adds the options about the wall that `run`, `replay` and `master` share.
 void describeWall(CLI::App& command, supervisor::ShowOptions& options) {
     command.add_option("--frames", options.frames, "end after so many frames")
         ->check(cli::wholeNumber(1, cli::kMostShownFrames));

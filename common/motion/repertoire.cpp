@@ -250,6 +250,16 @@ Repertoire readContent(ByteReader& in, const std::string& source) {
     return repertoire;
 }
 
+// The mean of two poses, point by point.
+template <class Pose>
+Pose meanOf(const Pose& a, const Pose& b) {
+    Pose mean{};
+    for (std::size_t i = 0; i < mean.size(); ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            mean[i][axis] = static_cast<std::int16_t>(roundToEven((a[i][axis] + b[i][axis]) / 2.0));
+    return mean;
+}
+
 }  // namespace
 
 const char* nameOf(Action action) {
@@ -333,20 +343,6 @@ Repertoire decodeRepertoire(std::span<const std::byte> bytes, const std::string&
     addGlide(repertoire);
     return repertoire;
 }
-
-namespace {
-
-// The mean of two poses, point by point.
-template <class Pose>
-Pose meanOf(const Pose& a, const Pose& b) {
-    Pose mean{};
-    for (std::size_t i = 0; i < mean.size(); ++i)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            mean[i][axis] = static_cast<std::int16_t>(roundToEven((a[i][axis] + b[i][axis]) / 2.0));
-    return mean;
-}
-
-}  // namespace
 
 void addGlide(Repertoire& repertoire) {
     const ActionSegment& medium =

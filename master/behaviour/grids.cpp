@@ -21,6 +21,39 @@ int cellsAcross(float halfExtent, float cellMetres) {
     return std::max(1, static_cast<int>(2 * halfExtent / cellMetres) + 1);
 }
 
+// Widths of cells of the sparse grids and of food: about how far they are searched.
+constexpr float kSparseCellMetres = 2.0F;
+constexpr float kFoodCellMetres = 0.8F;
+
+// Limit of the number of cells: a wide sea gets larger cells, as empty ones cost time and memory.
+std::size_t mostCellsFor(std::size_t points) {
+    constexpr std::size_t kFew = 4096;
+    constexpr std::size_t kToPoint = 4;
+    return std::max(kFew, points * kToPoint);
+}
+
+// A grid of points that are seen from so far that with small cells a search would pass many empty
+// ones: at most one cell for two points.
+SpatialGrid farSeen(const place::Region& water, std::size_t points) {
+    return {water, kSparseCellMetres, points, points / 2};
+}
+
+bool isPredator(const fish::FishView& view,
+                std::span<const fish::SpeciesParameters> speciesParameters,
+                std::size_t fish) {
+    return speciesParameters[view.kind[fish]].habits.role == config::Role::Predator;
+}
+
+// A block is 4 cells wide along each axis.
+constexpr int kBlockBits = 2;
+// Values of kindOfCell_ that are no kind: no fish, and fish of several kinds.
+constexpr std::uint8_t kEmpty = 0xff;
+constexpr std::uint8_t kMixed = 0xfe;
+
+int blocksAcross(int cells) {
+    return ((cells - 1) >> kBlockBits) + 1;
+}
+
 }  // namespace
 
 CellLayout::CellLayout(const place::Region& water, float cellMetres, std::size_t mostCells)
@@ -147,33 +180,6 @@ std::size_t SpatialGrid::bytes() const {
            sorted_.bytes() + spread_.bytes();
 }
 
-namespace {
-
-// Widths of cells of the sparse grids and of food: about how far they are searched.
-constexpr float kSparseCellMetres = 2.0F;
-constexpr float kFoodCellMetres = 0.8F;
-
-// Limit of the number of cells: a wide sea gets larger cells, as empty ones cost time and memory.
-std::size_t mostCellsFor(std::size_t points) {
-    constexpr std::size_t kFew = 4096;
-    constexpr std::size_t kToPoint = 4;
-    return std::max(kFew, points * kToPoint);
-}
-
-// A grid of points that are seen from so far that with small cells a search would pass many empty
-// ones: at most one cell for two points.
-SpatialGrid farSeen(const place::Region& water, std::size_t points) {
-    return {water, kSparseCellMetres, points, points / 2};
-}
-
-bool isPredator(const fish::FishView& view,
-                std::span<const fish::SpeciesParameters> speciesParameters,
-                std::size_t fish) {
-    return speciesParameters[view.kind[fish]].habits.role == config::Role::Predator;
-}
-
-}  // namespace
-
 Grids::Grids(const place::Region& water, std::size_t fishCount, std::size_t foodCount)
     : fish(water, kCellMetres, fishCount, mostCellsFor(fishCount)),
       kinds(fish),
@@ -268,20 +274,6 @@ std::size_t Grids::bytes() const {
     return lists + fish.bytes() + kinds.bytes() + predators.bytes() + large.bytes() +
            mates.bytes() + food.bytes();
 }
-
-namespace {
-
-// A block is 4 cells wide along each axis.
-constexpr int kBlockBits = 2;
-// Values of kindOfCell_ that are no kind: no fish, and fish of several kinds.
-constexpr std::uint8_t kEmpty = 0xff;
-constexpr std::uint8_t kMixed = 0xfe;
-
-int blocksAcross(int cells) {
-    return ((cells - 1) >> kBlockBits) + 1;
-}
-
-}  // namespace
 
 KindsAbout::KindsAbout(const SpatialGrid& grid)
     : cells_(grid.cells()),

@@ -27,16 +27,16 @@ namespace aquarama::simulation {
 struct Insight {
     std::uint32_t fish = 0;
     Tick tick;
-    // Of its species.
+    // The parameters of its species.
     fish::SpeciesParameters parameters;
     float lengthMetres = 0;
     // Eaten, or not yet come: it does not think, and senses, feelings and reasoning are empty.
     bool away = false;
-    // As its last thought left it.
+    // The mind after its last thought.
     fish::Mind mind;
     behaviour::Senses senses;
     fish::Feelings feelings;
-    // Of a thought at this tick; the fish may not have decided so yet.
+    // The results of a thought at this tick; the fish may not have decided so yet.
     behaviour::Reasoning reasoning;
     // The course that it asks its motor for.
     fish::Course course;

@@ -38,7 +38,7 @@ class SimulationDecorator : public conductor::Simulation {
 // Ticks between two recorded hashes: ten seconds.
 inline constexpr std::uint64_t kTicksBetweenCheckpoints = 600;
 
-// Throws Error where a file of this name exists; a pipe or a device may.
+// Throws Error where a regular file of this name exists. A pipe or a device may exist.
 void requireNewRecording(const std::string& path);
 
 // A recording that grows. Each entry is flushed at once: however the program ends, the file is
@@ -53,7 +53,7 @@ class RecordingFile {
     void add(const wire::Packet& entry);
     // Whether entries are still written.
     [[nodiscard]] bool recording() const { return file_.isOpen(); }
-    // After the last entry. Throws Error where one could not be written.
+    // Closes the file after the last entry. Throws Error where an entry could not be written.
     void close() { file_.close(); }
 
   private:

@@ -50,44 +50,6 @@ bool isClear(const surroundings::Obstacles& obstacles, glm::vec3 place) {
     });
 }
 
-}  // namespace
-
-std::vector<Absence> makeAbsences(std::span<const fish::SpeciesParameters> speciesParameters) {
-    std::size_t hunted = 0;
-    for (const fish::SpeciesParameters& parameters : speciesParameters)
-        if (parameters.huntedBy != 0) hunted += parameters.last - parameters.first;
-    std::vector<Absence> absences;
-    absences.reserve(hunted);
-    return absences;
-}
-
-Absence absenceFrom(std::uint32_t seed, std::uint32_t fish, Tick now) {
-    const std::uint32_t hash =
-        hashOf(hashOf(hashOf(seed, Stream::Absence), fish), static_cast<std::uint32_t>(now.value));
-    return {fish, {now.value + kShortestAbsence + hash % (kLongestAbsence - kShortestAbsence)}};
-}
-
-glm::vec3 arrivalPlace(const surroundings::Surroundings& surroundings,
-                       std::uint32_t fish,
-                       Tick tick) {
-    const std::uint32_t own = hashOf(hashOf(hashOf(surroundings.seed, Stream::Arrival), fish),
-                                     static_cast<std::uint32_t>(tick.value));
-    glm::vec3 best = surroundings.obstacles.water.centre;
-    float farthest = -1;
-    for (std::uint32_t i = 0; i < kPlacesTried; ++i) {
-        const glm::vec3 place = placeDrawn(surroundings.obstacles, hashOf(own, i));
-        if (!isClear(surroundings.obstacles, place)) continue;
-        const float far =
-            std::min(place::lengthOf(place - surroundings.submarine.position), kHazeMetres);
-        if (far <= farthest) continue;
-        farthest = far;
-        best = place;
-    }
-    return best;
-}
-
-namespace {
-
 // Sizes of the parts of a tick's work. They depend on the number of fish alone, never on the number
 // of threads, so that the order of events is always the same.
 constexpr std::size_t kFishInChunk = 512;
@@ -124,6 +86,40 @@ fish::Mind beginningMind(const fish::SpeciesParameters& parameters,
 }
 
 }  // namespace
+
+std::vector<Absence> makeAbsences(std::span<const fish::SpeciesParameters> speciesParameters) {
+    std::size_t hunted = 0;
+    for (const fish::SpeciesParameters& parameters : speciesParameters)
+        if (parameters.huntedBy != 0) hunted += parameters.last - parameters.first;
+    std::vector<Absence> absences;
+    absences.reserve(hunted);
+    return absences;
+}
+
+Absence absenceFrom(std::uint32_t seed, std::uint32_t fish, Tick now) {
+    const std::uint32_t hash =
+        hashOf(hashOf(hashOf(seed, Stream::Absence), fish), static_cast<std::uint32_t>(now.value));
+    return {fish, {now.value + kShortestAbsence + hash % (kLongestAbsence - kShortestAbsence)}};
+}
+
+glm::vec3 arrivalPlace(const surroundings::Surroundings& surroundings,
+                       std::uint32_t fish,
+                       Tick tick) {
+    const std::uint32_t own = hashOf(hashOf(hashOf(surroundings.seed, Stream::Arrival), fish),
+                                     static_cast<std::uint32_t>(tick.value));
+    glm::vec3 best = surroundings.obstacles.water.centre;
+    float farthest = -1;
+    for (std::uint32_t i = 0; i < kPlacesTried; ++i) {
+        const glm::vec3 place = placeDrawn(surroundings.obstacles, hashOf(own, i));
+        if (!isClear(surroundings.obstacles, place)) continue;
+        const float far =
+            std::min(place::lengthOf(place - surroundings.submarine.position), kHazeMetres);
+        if (far <= farthest) continue;
+        farthest = far;
+        best = place;
+    }
+    return best;
+}
 
 SchoolGoal::SchoolGoal(const WorldOptions& options,
                        const place::Region& water,
