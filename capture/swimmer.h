@@ -22,10 +22,10 @@ struct BodyAngles {
 // Heading and roll in -pi .. pi, pitch in -pi/2 .. pi/2; without any filter.
 [[nodiscard]] BodyAngles bodyAnglesOf(const FishState& state);
 
-// What is sensed now, given what was sensed before. Heading and pitch pass a first-order low pass,
-// since the tail beat makes them oscillate: `share`, 0 to 1, of the difference is taken up in this
-// step of `stepSeconds`. Roll is not filtered: the beat does not roll the fish, and a delay in the
-// roll feedback would make it oscillate.
+// The angles that the fish senses now, from those that it sensed before. Heading and pitch pass a
+// first-order low pass, since the tail beat makes them oscillate: `share`, 0 to 1, of the
+// difference is taken up in this step of `stepSeconds`. Roll is not filtered: the beat does not
+// roll the fish, and a delay in the roll feedback would make it oscillate.
 [[nodiscard]] BodyAngles sense(const BodyAngles& before,
                                const FishState& state,
                                double share,
@@ -88,8 +88,8 @@ class Swimmer {
     void advanceClocks(double seconds);
     // Whether the present order beats the tail.
     [[nodiscard]] bool swims() const;
-    // What the present order asks of muscles and fins at this instant, without the change-over from
-    // the order before.
+    // The wanted state of muscles and fins at this instant under the present order, without the
+    // transition from the order before.
     [[nodiscard]] MuscleActivation muscleProgram() const;
     [[nodiscard]] MuscleActivation tailBeat(double share) const;
     [[nodiscard]] PectoralFins finProgram() const;

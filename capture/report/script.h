@@ -14,8 +14,8 @@
 
 namespace aquarama::report {
 
-// What can be commanded. The replica swims level, climbs and dives on the captured slopes, and
-// brakes in the glide with its fins spread.
+// The manoeuvres that can be commanded. The replica swims level, climbs and dives on the captured
+// slopes, and brakes in the glide with its fins spread.
 enum class Manoeuvre : std::uint8_t {
     ForwardSlow,
     ForwardMedium,
@@ -38,7 +38,7 @@ inline constexpr int kManoeuvres = 13;
     return m >= Manoeuvre::TurnLeftGradual && m <= Manoeuvre::TurnRightSharp;
 }
 
-// What the replica plays for a manoeuvre while its pitch is the wanted one.
+// The action that the replica plays for a manoeuvre while its pitch is the wanted one.
 [[nodiscard]] motion::Action actionOf(Manoeuvre manoeuvre);
 
 // The pitch of Ascend and, downwards, of Descend: 20 degrees.

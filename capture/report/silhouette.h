@@ -44,7 +44,7 @@ using Polygon = std::vector<glm::dvec2>;
 // points down on the figure.
 [[nodiscard]] glm::dvec2 fromAbove(const glm::dvec3& world);
 
-// In the coordinates of fromAbove().
+// An outline in the coordinates of fromAbove().
 struct FishOutline {
     std::vector<glm::dvec2> outline;                 // closed polygon of body and tail
     std::vector<std::vector<glm::dvec2>> pectorals;  // left and right; none without control points

@@ -61,7 +61,7 @@ struct FinDrive {
     float tilt = 0;                  // height of its right side: sine of its roll to the left
     float spread = 0;                // 0 to 1: how far its pectoral fins brake
     std::array<float, 2> turning{};  // 0 to 1: how far it is in a turn to the left, to the right
-    // Of the fish; gives each its own phase.
+    // Id of the fish, which gives each its own phase.
     std::uint32_t id = 0;
     // Phase of its tail beat and of the beat that a motion warp leaves, in cycles; weight is the
     // share of the first, 1 when no warp is under way.

@@ -56,8 +56,8 @@ struct Spine {
 // Sets the slopes from stations and centres.
 void setSlopes(Spine& spine);
 
-// Where the axis is at a station, which way it runs and which way is right; the two directions are
-// not normalised.
+// The axis at a station: its place, its direction and the direction to the right. The directions
+// are not normalised.
 struct SpineSample {
     glm::vec3 centre{};
     glm::vec3 tailwards{};

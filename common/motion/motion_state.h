@@ -126,7 +126,7 @@ inline constexpr float kOrientationLimit = 524287.0F;
 inline constexpr float kPositionUnitMetres = 1.0F / 65536.0F;
 inline constexpr float kSpeedUnitsPerBodyLength = 262144.0F;  // 2^18
 inline constexpr std::int32_t kFastestUnits = 4194303;        // 16 body lengths a second
-// Of MotionStates::spread in a tick: fins are spread within a fifth of a second.
+// Change of MotionStates::spread in a tick: fins are spread within a fifth of a second.
 inline constexpr int kSpreadStep = 21;
 
 // Structure of arrays, one element for each fish; all columns have the same length. The world owns
@@ -251,7 +251,7 @@ void setAway(MotionStates& states, std::size_t fish);
 // Folds every bit of the state into one number: equal worlds have equal hashes. Cost: four multiply
 // chains for each fish.
 [[nodiscard]] std::uint64_t hashOf(const MotionStates& states);
-// The same of the same fish.
+// The same hash, of records of the same fish.
 [[nodiscard]] std::uint64_t hashOf(std::span<const FishRecord> records);
 
 }  // namespace aquarama::motion

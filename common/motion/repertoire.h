@@ -95,8 +95,8 @@ class ByteReader {
 // Samples of one cycle; phase k is at k / 64 of the period.
 inline constexpr int kPhases = 64;
 
-// What a fish can be told to do. The numbers are part of files and of the wire. Each gait swims
-// straight on, on four curves and on two slopes.
+// The actions that a fish can be told to do. Files and the wire contain the numbers. Each gait
+// swims straight on, on four curves and on two slopes.
 enum class Action : std::uint8_t {
     ForwardSlow,
     ForwardMedium,
@@ -157,7 +157,7 @@ inline constexpr int kSwimmingActions = 21;
 [[nodiscard]] constexpr bool isTurn(Action action) {
     return action >= Action::TurnLeftGradual && action <= Action::TurnRightSharp;
 }
-// Of a turn.
+// Whether a turn leads to the left.
 [[nodiscard]] constexpr bool isLeft(Action turn) {
     return turn <= Action::TurnLeftSharp;
 }
@@ -227,10 +227,11 @@ using FrameIncrements = std::array<FrameIncrement, kPhases>;
 // A turn as begun in a tail beat. The courses are unit vectors in the body frame at its first and
 // at its last phase; speeds are body lengths a second.
 struct TurnPath {
-    // Of the fish before the turn.
+    // Course and speed of the fish before the turn.
     glm::vec3 courseBefore{1, 0, 0};
     float speedBefore = 0.0F;
-    // On which a fish that swims on at the medium gait arrives where the simulated one does.
+    // Course and speed after the turn: with these, a fish at the medium gait arrives where the
+    // simulated one does.
     glm::vec3 courseAfter{1, 0, 0};
     float speedAfter = 0.0F;
     FrameIncrements increments{};
@@ -238,15 +239,15 @@ struct TurnPath {
 
 // One captured cycle of an action, as recorded from a fish of Repertoire::recordedLengthMetres.
 struct ActionSegment {
-    // Of one cycle.
+    // Time of one cycle.
     float periodSeconds = 0.0F;
     // A turn is entered at phase 0 and left at its end; all other segments anywhere.
     bool playsToEnd = false;
     // From phase k to k + 1; the last leads to the end of the cycle. A turn: from the pose of a
     // glide.
     FrameIncrements increments{};
-    // Of a turn begun in a tail beat: kTurnEntries, those of the lowest speed first and each speed
-    // by the phase of the beat; or none, if they are all like `increments`.
+    // The paths of a turn begun in a tail beat: kTurnEntries, those of the lowest speed first and
+    // each speed by the phase of the beat; or none, if they are all like `increments`.
     std::vector<TurnPath> entered;
     // Deformation d at phase k (eq. 8).
     std::array<NodalPose, kPhases> nodes{};

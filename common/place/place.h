@@ -134,8 +134,8 @@ struct Region {
 // open sea also downwards. The face towards the eye and the top stay.
 [[nodiscard]] Region waterFor(const config::Scene& scene, std::size_t fish, float meanLengthMetres);
 
-// Where the submarine may go: the box around the fish's water and the eye, with a margin of four
-// metres, below the surface. Takes no account of the sand.
+// The region of the submarine: the box around the fish's water and the eye, with a margin of four
+// metres, below the surface. It ignores the sand.
 [[nodiscard]] Region roamingRegion(const Region& fishWater, glm::vec3 eye);
 
 // How many fish have room: a reef is bounded by its rocks, the open sea only by kMostFish.

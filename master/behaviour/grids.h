@@ -104,11 +104,11 @@ class SpatialGrid {
     // stand in the order of their index. A counting sort: O(chosen + cells). Allocates nothing.
     void rebuild(const Points& points, std::span<const std::uint32_t> chosen);
 
-    // The same for many points, in steps: count() for every part, arrange(), spread() for every
-    // part, sort() for every bucket. The jobs of one step may run on several threads; the next step
-    // begins when all are done. A part is a run of indices, a bucket a run of cells. Both depend on
-    // `most` alone, so that any number of threads makes the same grid.
-    // Allocates what the steps need. Once, before the first step.
+    // Rebuilds the grid for many points, in steps: count() for every part, arrange(), spread() for
+    // every part, sort() for every bucket. The jobs of one step may run on several threads; the
+    // next step begins when all are done. A part is a run of indices, a bucket a run of cells. Both
+    // depend on `most` alone, so that any number of threads makes the same grid. Allocates what the
+    // steps need. Once, before the first step.
     void makeRoomForSteps();
     // The number of parts and of buckets, and the first index of a part.
     [[nodiscard]] std::size_t parts() const { return parts_; }
@@ -251,7 +251,7 @@ class SpatialGrid {
     std::vector<std::uint32_t> starts_;       // first slot of each cell; one more at the end
     std::vector<std::uint32_t> cellOfPoint_;  // by index; by place where the points are chosen
     Columns sorted_;
-    // Of the steps. tallies_ has for each part and bucket first the number of points, then the
+    // Data of the steps. tallies_ has for each part and bucket first the number of points, then the
     // place of the next one; bucketStarts_ the first slot of each bucket; spread_ the points by
     // bucket.
     std::size_t parts_, buckets_ = 1, cellsInBucket_ = 1;

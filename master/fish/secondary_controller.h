@@ -25,8 +25,8 @@ inline constexpr std::uint64_t kTicksBetweenThoughts = 8;
     return (tick.value + fish) % kTicksBetweenThoughts == 0;
 }
 
-// What a mind asks of its motor: direction, speed and urgency (the motor controller parameters of
-// the paper, section 5.1). Written at every thought, kept until the next.
+// The course that a mind asks of its motor: direction, speed and urgency (the motor controller
+// parameters of the paper, section 5.1). Written at every thought, kept until the next.
 struct Course {
     glm::vec3 direction{1, 0, 0};  // unit vector
     // Body lengths a second. Below a quarter of the slow gait's speed the fish hovers; a negative
@@ -67,8 +67,8 @@ struct Gaits {
 
 // The controller and its memory.
 
-// What the controller remembers of each fish from one decision to the next. Owned by the world; a
-// thread writes only the elements of the fish that it controls.
+// The controller's memory of each fish from one decision to the next. Owned by the world; a thread
+// writes only the elements of the fish that it controls.
 struct ControllerMemory {
     // Tick at which the present segment was chosen.
     std::vector<std::uint64_t> chosenAt;

@@ -66,7 +66,7 @@ struct Assets {
 // Options of a world from its files. The number of threads suits the number of fish. Throws Error
 // where a repertoire is wrong.
 [[nodiscard]] world::WorldOptions worldOptionsOf(const Assets& assets);
-// Of a recording: parses its files first, and throws Error where one is wrong, too.
+// The same for a recording: parses its files first, and throws Error where one is wrong.
 [[nodiscard]] world::WorldOptions worldOptionsOf(const wire::AssetBundle& recorded);
 
 }  // namespace aquarama::simulation

@@ -22,7 +22,7 @@ namespace aquarama::study {
 // be shorter.
 struct Hour {
     std::uint64_t ticks = 0;
-    // What happened in it.
+    // Counters of what happened in it.
     world::WorldCounts counts;
     // Smallest number of fish that were there at once.
     std::uint32_t fewest = 0;
@@ -32,7 +32,7 @@ struct Hour {
     double changes = 0;
     // Overlaps that began, for each fish and minute.
     double touches = 0;
-    // Of the time of a fish.
+    // Share of a fish's time in overlaps.
     double overlapPercent = 0;
     // Times that a fish got into rock, sand or surface.
     std::uint64_t bumps = 0;
@@ -63,7 +63,7 @@ class Chronicle {
     void note(const world::World& world);
     // All hours that are complete, and the present one if it is more than half over.
     [[nodiscard]] std::vector<Hour> hours() const;
-    // What was noted of overlaps and species.
+    // The noted overlaps and species.
     [[nodiscard]] const OverlapLog& overlaps() const { return diary_.overlaps(); }
     [[nodiscard]] const SpeciesLog& species() const { return species_; }
 

@@ -22,7 +22,7 @@ inline constexpr float kNoseAhead = 0.385F;
 
 // A body as a straight line with a half-width around it. A fish that is away has length 0.
 struct Rod {
-    // Of the body frame, metres.
+    // Origin of the body frame, metres.
     glm::vec3 origin{};
     glm::vec3 heading{1, 0, 0};  // unit vector
     float length = 0;            // metres
@@ -63,7 +63,7 @@ inline constexpr float kDeepShare = 0.25F;
 // time between two glances may be missed.
 class OverlapLog {
   public:
-    // With the time between two glances.
+    // Begins empty; `ticksBetweenGlances` is the time between two calls of note().
     explicit OverlapLog(std::uint64_t ticksBetweenGlances) : between_(ticksBetweenGlances) {}
     // Notes one glance and returns the overlaps that began at it, valid until the next call. Rods
     // and intentions are by fish.

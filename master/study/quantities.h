@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the study measures of a run: a simulated visitor who feeds, the quantities and their names,
-// and the figures of a school.
+// The measures of a run in the study: a simulated visitor who feeds, the quantities and their
+// names, and the figures of a school.
 #pragma once
 
 #include <array>
@@ -97,7 +97,7 @@ struct Synchrony {
     // Share of pairs that are in step.
     double inStep = 0;
 };
-// Of all fish [first, last), whether away or not. O(fish^2).
+// The figures of all fish [first, last), whether away or not. O(fish^2).
 [[nodiscard]] Synchrony synchronyOf(const motion::MotionStates& states,
                                     std::size_t first,
                                     std::size_t last);

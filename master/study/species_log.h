@@ -33,7 +33,7 @@ struct SpeciesTally {
     // over the same half second. Fish slower than kSlowestPath or backing are left out.
     std::array<std::uint64_t, 91> meanSlip{}, bodySlip{};
 
-    // Of what was turned; all of it where nothing was.
+    // Share of the turning that was captured; 100 where there was none.
     [[nodiscard]] double capturedPercent() const {
         const double turned = captured + added;
         return turned > 0 ? 100 * captured / turned : 100;
@@ -54,7 +54,7 @@ class SpeciesLog {
 
     // Call it after every tick.
     void note(const world::World& world);
-    // By species, in the order of the cast.
+    // The sums by species, in the order of the cast.
     [[nodiscard]] std::span<const SpeciesTally> byKind() const { return tallies_; }
     // The sum of all species.
     [[nodiscard]] SpeciesTally all() const;
@@ -62,8 +62,7 @@ class SpeciesLog {
     [[nodiscard]] std::size_t distinctCommands() const { return commands_.size(); }
 
   private:
-    // Of one fish: what it faced and was told in the tick before, and what is averaged for the
-    // slip.
+    // The state of one fish: its heading and command in the tick before, and the sums for the slip.
     struct Fish {
         glm::vec3 heading{};
         float addedYaw = 0;  // radians

@@ -49,7 +49,7 @@ struct Scenario {
 // Figures of one scenario, by condition and by seed less 1.
 using Sample = std::array<std::vector<Figures>, kConditions.size()>;
 
-// What a study runs: every scenario under every condition with seeds 1 to `seeds`.
+// The plan of a study: every scenario under every condition with seeds 1 to `seeds`.
 struct StudyPlan {
     std::vector<Scenario> scenarios;
     // Simulated time of each run, after 30 s of settling.

@@ -78,7 +78,7 @@ struct Voyage {
 // The state of the submarine and its steering. Owned by the world; part of its hash.
 struct Pilot {
     Vessel vessel;
-    // What the last hand asked for, and the tick until which it holds.
+    // The steering of the last visitor, and the tick until which it holds.
     Steering steering;
     Tick heldUntil;
     // Tick from which the autopilot steers if no hand does before.

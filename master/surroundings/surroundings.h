@@ -20,7 +20,7 @@ namespace aquarama::surroundings {
 
 // The submarine as fish perceive it.
 struct Submarine {
-    // Of the eye, metres, world frame.
+    // Position of the eye, metres, world frame.
     glm::vec3 position{};
     glm::vec3 velocityMetresPerSecond{};
     // No fish comes nearer: it would fill the wall.

@@ -16,7 +16,7 @@ namespace aquarama::world {
 
 // The columns of a world. Owned by the world; in a tick each thread writes the fish of its chunk.
 struct FishColumns {
-    // With an element in each column for each of these fish.
+    // Makes an element in each column for each of these fish.
     explicit FishColumns(std::vector<motion::FishTraits> ofFish);
 
     std::vector<motion::FishTraits> traits;

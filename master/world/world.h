@@ -58,7 +58,7 @@ struct Absence {
 // An absence that ends 20 to 60 seconds from now, drawn by the seed.
 [[nodiscard]] Absence absenceFrom(std::uint32_t seed, std::uint32_t fish, Tick now);
 
-// Where a new fish begins: a place in the water, clear of rocks and sand; of several drawn the one
+// The first place of a new fish: in the water, clear of rocks and sand; of several drawn the one
 // farthest from the eye, where all beyond 12 m count as hidden by haze.
 [[nodiscard]] glm::vec3 arrivalPlace(const surroundings::Surroundings& surroundings,
                                      std::uint32_t fish,
@@ -74,7 +74,7 @@ struct WorldSpecies {
     // The name by which Habits::hunts and shadows refer to it.
     std::string name = {};
     config::Habits habits = {};
-    // Where its fish begin, and in which mood, if the scene says so.
+    // The place and mood in which its fish begin, if the scene sets them.
     std::optional<config::Start> start = {};
 };
 
@@ -140,9 +140,9 @@ class World {
     [[nodiscard]] std::span<const fish::SpeciesParameters> speciesParameters() const {
         return speciesParameters_;
     }
-    // As it was when the last tick began.
+    // The view of all fish when the last tick began.
     [[nodiscard]] const fish::FishView& view() const { return columns_.view; }
-    // What the fish that thought in the last tick saw. Points into this world.
+    // The environment that fish saw in the last tick. Points into this world.
     [[nodiscard]] behaviour::Environment environment() const;
     [[nodiscard]] std::span<const motion::FishTraits> traits() const { return columns_.traits; }
     [[nodiscard]] const WorldCounts& counts() const { return counts_; }
@@ -151,7 +151,7 @@ class World {
 
     // Hash of all state that decides how the world goes on: equal worlds have equal hashes.
     [[nodiscard]] std::uint64_t hash() const;
-    // What is published of every fish, by index.
+    // Writes the published record of every fish, by index.
     void records(std::vector<motion::FishRecord>& records) const;
 
   private:
