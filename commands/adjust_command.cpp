@@ -237,8 +237,8 @@ void describePicture(const AddedCommand<AdjustOptions>& to) {
 }
 
 void addMove(CommandLine& line, CLI::App& parent) {
-    const auto move =
-        addOne(line, parent, "move", "what a channel shows at a place, and round it", movePoint);
+    const auto move = addOne(
+        line, parent, "move", "move what a channel shows at a place, and around it", movePoint);
     move.app.add_option("CHANNEL", move.options.channel)->required();
     const CLI::Validator ofPlace = cli::number(-65536, 65536), ofMove = cli::number(-2000, 2000);
     const auto addPixels =
@@ -269,7 +269,7 @@ void addMask(CommandLine& line, CLI::App& parent) {
 void addAdjust(CommandLine& line) {
     struct Nothing {};
     const auto adjust = line.add<Nothing>(
-        "adjust", "control points, masks and limits of blends, by hand", [](const Nothing&) {
+        "adjust", "edit control points, masks and limits of blends by hand", [](const Nothing&) {
             throw CLI::RequiredError("adjust: move, mask, blend, list or remove");
         });
     addMove(line, adjust.app);

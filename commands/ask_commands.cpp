@@ -37,7 +37,8 @@ using ask::AskedMaster;
 void describeMaster(CLI::App& command, AskedMaster& asked) {
     asked.rig = supervisor::kDefaultRig;
     command.add_option("RIG", asked.rig, "whose master is asked")->capture_default_str();
-    command.add_option("--master", asked.address, "its control address, instead of the rig's");
+    command.add_option(
+        "--master", asked.address, "control address of the master, instead of the rig's");
     command.add_option("--key", asked.key, "file of the key to show (aquarama keys bundle)");
 }
 
@@ -214,8 +215,8 @@ ask::RequestClient connectToMaster(const std::string& rigPath, const std::string
 }
 
 void addSet(CommandLine& line) {
-    const auto [command, options] =
-        line.add<SetOptions>("set", "what the running wall shows: scene, pattern, black ...", set);
+    const auto [command, options] = line.add<SetOptions>(
+        "set", "set what the running wall shows: scene, pattern, black ...", set);
     describeMaster(command, options.asked);
     command.get_option("RIG")->required();
     command.add_option("WHAT", options.what, "scene, quality, pattern, black, freeze or restart")
@@ -245,7 +246,7 @@ void addPilot(CommandLine& line) {
 
 void addExplain(CommandLine& line) {
     const auto [command, options] = line.add<ExplainOptions>(
-        "explain", "what a fish sees, feels, intends and does, and why: --fish ID", explain);
+        "explain", "explain what a fish sees, feels, intends and does: --fish ID", explain);
     command.add_option("--fish", options.fish, "which, by its number")
         ->required()
         ->check(cli::wholeNumber(0, kMostFish));

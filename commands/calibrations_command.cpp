@@ -110,7 +110,7 @@ void listOrUse(const CalibrationsOptions& options) {
 
 void addCalibrations(CommandLine& line) {
     const auto [command, options] = line.add<CalibrationsOptions>(
-        "calibrations", "those that were kept of a rig, and the way back to one", listOrUse);
+        "calibrations", "list the kept calibrations of a rig, and restore one", listOrUse);
     command.add_option("RIG", options.rig, "the rig, which names its calibration")->required();
     command.add_option("--use", options.use, "show this one again: number of the list, or date");
     command.footer("A running wall shows it within a second, between two frames.");

@@ -178,10 +178,10 @@ void addConvert(CommandLine& line) {
     command
         .add_option("--sampling",
                     options.sampling,
-                    "where the samples of a coarse grid lie, where IN leaves it open")
+                    "position of the samples of a coarse grid, if IN does not tell")
         ->check(CLI::IsMember({"centres", "nodes"}));
     command.add_flag(
-        "--upside-down", options.upsideDown, "IN's rows run the other way than its format says");
+        "--upside-down", options.upsideDown, "IN's rows are in the opposite order to its format");
     command.add_option("--mpcdi", options.version, "version to write")
         ->check(CLI::IsMember({1, 2}))
         ->capture_default_str();

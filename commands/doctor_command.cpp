@@ -500,12 +500,13 @@ int doctor(const DoctorOptions& options) {
 
 void addDoctor(CommandLine& line) {
     const auto [command, options] = line.add<DoctorOptions>(
-        "doctor", "whether a wall is ready: rig, keys, network, machines", doctor);
+        "doctor", "check that a wall is ready: rig, keys, network, machines", doctor);
     command.add_option("RIG", options.rig, "the rig's file")->capture_default_str();
     command.add_option(
         "--keys", options.keyFolder, "folder of the rig's keys, instead of the user's");
-    command.add_flag(
-        "--json", options.json, "for programs: verdict, subject, what and todo of each");
+    command.add_flag("--json",
+                     options.json,
+                     "output for programs: verdict, subject, what and todo of each finding");
     command.footer(
         "A line for each finding: pass, warn or fail, what was found, and what to do. The exit "
         "status is 1 "

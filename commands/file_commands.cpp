@@ -158,7 +158,7 @@ int checkReplay(const std::string& path) {
 void addInspect(CommandLine& line) {
     const auto [command, options] = line.add<InspectOptions>(
         "inspect",
-        "what a file holds: a rig, a scene, a species, a repertoire or a recording",
+        "show the contents of a rig, a scene, a species, a repertoire or a recording",
         inspect);
     command
         .add_option("FILE",

@@ -290,13 +290,14 @@ std::optional<net::MasterKeys> masterKeysOf(const config::Rig& rig,
 void addKeyCommands(CommandLine& line) {
     struct Nothing {};
     const auto keys = line.add<Nothing>(
-        "keys", "who may take part in a rig of several machines", [](const Nothing&) {
+        "keys", "manage the keys of a rig of several machines", [](const Nothing&) {
             throw CLI::RequiredError("keys: new, list, revoke, rotate or bundle");
         });
     addKeys(line, keys.app, "new", "make those that the rig lacks", makeKeys);
-    addKeys(line, keys.app, "list", "whose there are, how old, and which are revoked", listKeys);
+    addKeys(line, keys.app, "list", "list the keys: holder, age, and whether revoked", listKeys);
     addOneKey(line, keys.app, "revoke", "somebody may not take part any more", revokeKey);
-    addOneKey(line, keys.app, "rotate", "give somebody a new key; the old one ends", rotateKey);
+    addOneKey(
+        line, keys.app, "rotate", "replace a holder's key; the old one becomes invalid", rotateKey);
     const auto bundle =
         addOneKey(line, keys.app, "bundle", "write the one file for another machine", bundleKey);
     bundle.app.add_option("--out", bundle.options.out, "file; NAME.key here when left out");

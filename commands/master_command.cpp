@@ -330,7 +330,7 @@ void addMaster(CommandLine& line) {
     command
         .add_flag("--resume",
                   options.resume,
-                  "of a show that goes on: what was set meanwhile goes before the options")
+                  "continue a show: values that were set override the options")
         ->excludes("--lockstep");
     command.add_option("--replay", options.show.replayPath, "show this recording")
         ->excludes("--record")

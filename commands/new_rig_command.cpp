@@ -233,7 +233,7 @@ void newRig(const NewRigOptions& options) {
     if (!wishes.kind) {
         if (isatty(STDIN_FILENO) == 0)
             throw Error(
-                "say what the world appears on (--screen televisions, cylinder or flat), or "
+                "choose the kind of display (--screen televisions, cylinder or flat), or "
                 "start it on a terminal to be asked");
         askAll(wishes, connected);
     }
@@ -274,30 +274,31 @@ void describeMeasures(CLI::App& command, NewRigWishes& wishes) {
     addNumber(
         command, "--diagonal", wishes.diagonalInches, "of a television's picture, inches", kInches);
     addNumber(command, "--bezel", wishes.bezel, "width of a television's frame, metres", kFrame);
-    addNumber(command, "--angle", wishes.angle, "between neighbouring televisions, degrees", kTurn);
+    addNumber(
+        command, "--angle", wishes.angle, "angle between neighbouring televisions, degrees", kTurn);
     addNumber(command,
               "--distance",
               wishes.distance,
-              "from the eye to the middle of a flat wall or of televisions, metres",
+              "distance from the eye to the middle of a flat wall or of televisions, metres",
               kMetres);
     addNumber(command, "--radius", wishes.radius, "of a cylinder, metres", kMetres);
-    addNumber(command, "--arc", wishes.arc, "how far a cylinder reaches round, degrees", kArc);
+    addNumber(command, "--arc", wishes.arc, "angle that a cylinder covers, degrees", kArc);
     addNumber(command, "--width", wishes.width, "of a flat wall, metres", kMetres);
     addNumber(command, "--height", wishes.height, "of the screen, metres", kMetres);
     addNumber(command,
               "--throw",
               wishes.throwRatio,
-              "ratio of the projectors: distance by width",
+              "throw ratio of the projectors: distance by width",
               kThrow);
     addNumber(
-        command, "--mount", wishes.mount, "how high projectors hang above the eye, metres", kMount);
+        command, "--mount", wishes.mount, "height of projectors above the eye, metres", kMount);
 }
 
 }  // namespace
 
 void addNewRig(CommandLine& line) {
     const auto [command, options] = line.add<NewRigOptions>(
-        "new-rig", "write a rig for the wall at hand: asks, or takes options", newRig);
+        "new-rig", "write a rig for this wall, from questions or options", newRig);
     const auto isSize = [](const std::string& text) {
         return sizeIn(text) ? std::string() : text + " is no size, as 1920x1080";
     };
@@ -320,7 +321,9 @@ void addNewRig(CommandLine& line) {
                   "small windows on this desktop, not whole monitors")
         ->excludes(monitors);
     command
-        .add_option("--size", options.size, "of each picture, as 1920x1080; as the monitors say")
+        .add_option("--size",
+                    options.size,
+                    "size of each picture, as 1920x1080; by default the monitors' own")
         ->check(CLI::Validator(isSize, ""));
     command.add_option("--scene", options.wishes.scene, "what is shown, from the rig's folder");
     describeMeasures(command, options.wishes);

@@ -40,7 +40,9 @@ void describePictures(CLI::App& command, supervisor::RunOptions& options) {
     command.add_option("--film-every", options.filmEvery, "the clip has every so many frames only")
         ->needs(clip)
         ->check(cli::wholeNumber(1, 10000));
-    command.add_flag("--live", options.live, "keep to the clock where lockstep would be implied")
+    command
+        .add_flag(
+            "--live", options.live, "follow the clock even where other options imply lockstep")
         ->excludes(clip);
     command.footer(
         "--headless, --frames, --snapshot and --clip imply lockstep: frame n shows tick n, and no "
@@ -101,12 +103,13 @@ HandedOver& addHandedOver(CommandLine& line,
 
 void describeWorld(CLI::App& command, supervisor::ShowOptions& options) {
     command.add_option("RIG", options.rigPath, "the rig's file")->capture_default_str();
-    command.add_option("--seed", options.seed, "of the world: the same seed gives the same world")
+    command
+        .add_option("--seed", options.seed, "seed of the world: the same seed gives the same world")
         ->check(cli::wholeNumber(0, cli::kMostSeed));
-    command.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
+    command.add_option("--scene", options.scenePath, "the scene to show, instead of the rig's");
     command
         .add_option(
-            "--fish", options.fish, "how many of the first species, instead of the scene's number")
+            "--fish", options.fish, "number of fish of the first species, instead of the scene's")
         ->check(cli::wholeNumber(0, kMostFish));
     command.add_option("--record", options.recordPath, "write the show to this new file");
 }
@@ -117,9 +120,7 @@ void describeWall(CLI::App& command, supervisor::ShowOptions& options) {
         ->check(cli::wholeNumber(1, cli::kMostShownFrames));
     command.add_option("--pattern", options.pattern, "show this instead of the world")
         ->check(CLI::IsMember({"world", "grid", "grey"}));
-    command
-        .add_option(
-            "--quality", options.quality, "how fine the wall is drawn, instead of the rig's")
+    command.add_option("--quality", options.quality, "quality of drawing, instead of the rig's")
         ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));
     command.add_option("--keys",
                        options.keyFolder,
@@ -142,7 +143,8 @@ void addReplay(CommandLine& line) {
     command.add_option("FILE", options.run.show.replayPath, "the recording")->required();
     command.add_option("--rig", options.run.show.rigPath, "the wall that shows it")
         ->capture_default_str();
-    command.add_flag("--check", options.check, "no wall: only whether it is the same world again");
+    command.add_flag(
+        "--check", options.check, "without a wall: only check that the world is the same again");
     describeWall(command, options.run.show);
     describePictures(command, options.run);
 }
@@ -162,7 +164,7 @@ void addCheck(CommandLine& line) {
 void addView(CommandLine& line) {
     addHandedOver(line,
                   "view",
-                  "what a simulated hall makes of channel pictures: aquarama view RIG "
+                  "show channel pictures in a simulated hall: aquarama view RIG "
                   "--frame DIR --view hall --out PNG",
                   "compose",
                   {"view"});
@@ -183,7 +185,7 @@ void addCalibrate(CommandLine& line) {
 void addDrift(CommandLine& line) {
     addHandedOver(line,
                   "drift",
-                  "has a projector moved since last night: aquarama drift --rig RIG --camera DEV",
+                  "check whether a projector has moved: aquarama drift --rig RIG --camera DEV",
                   "calibrate",
                   {"drift"});
 }

@@ -190,7 +190,7 @@ void addSearch(CommandLine& line) {
 void addControllers(CommandLine& line) {
     const auto [command, options] = line.add<ControllersOptions>(
         "controllers",
-        "what the biomechanical fish does under each of its motor controllers",
+        "draw the biomechanical fish under each of its motor controllers",
         drawControllers);
     command
         .add_option(
@@ -202,7 +202,7 @@ void addControllers(CommandLine& line) {
 
 void addFidelity(CommandLine& line) {
     const auto [command, options] = line.add<FidelityOptions>(
-        "fidelity", "how far replicas are from the fish that they stand for", compareAll);
+        "fidelity", "measure how closely replicas follow the fish that they stand for", compareAll);
     command.add_option("--species",
                        options.species,
                        "name of a species in the config folder, or a file; all when not given");

@@ -129,11 +129,12 @@ void chronicle(const ChronicleOptions& options) {
 }  // namespace
 
 void addStudy(CommandLine& line) {
-    const auto [command, options] = line.add<StudyOptions>(
-        "study",
-        "with and without each adaptation of the mind to its motor; study chronicle SCENE: an hour "
-        "of a scene in figures",
-        runStudy);
+    const auto [command, options] =
+        line.add<StudyOptions>("study",
+                               "compare minds with and without each adaptation to their motor; "
+                               "study chronicle SCENE: an hour "
+                               "of a scene in figures",
+                               runStudy);
     command.require_subcommand(0, 1);
     command.footer("Prints its tables in Markdown.");
     command.add_option("--out", options.out, "folder for a table of all runs and a figure");
