@@ -96,7 +96,7 @@ inline constexpr float kFastestTurn = 0.35F;
 inline constexpr float kTurnDamping = 2;
 inline constexpr float kSteepestPitch = 0.436F;  // 25 degrees
 inline constexpr float kStrongestBank = 0.087F;  // 5 degrees
-// Fastest change of a push that a hand asks for, a second.
+// Fastest change of a push that a visitor asks for, a second.
 inline constexpr float kHandsSlew = 2.5F;
 
 // Pushes of thrusters and rudders, each -1 to 1; axes and signs as in Steering.
@@ -120,8 +120,8 @@ struct Vessel {
 };
 
 // Applies thrusters, rudders and drag for one tick: changes velocity, attitude and its rate. The
-// pushes follow the wanted ones by at most `slew` (above 0) a second, so that no hand jerks. The
-// position stays: moveHull() changes it.
+// pushes follow the wanted ones by at most `slew` (above 0) a second, so that no steering jerks.
+// The position stays: moveHull() changes it.
 void pushVessel(Vessel& vessel, const Push& wanted, float slew);
 
 // Speed at which the drag equals this thrust, metres a second.

@@ -76,7 +76,7 @@ class NewRig(unittest.TestCase):
                                ("--screen", "cylinder", "--count", 1, "--arc", 200, "--windows")),
                               (r"monitors are needed, this machine has .*--windows",
                                ("--screen", "flat", "--count", 3, "--monitors", "HDMI-1")),
-                              (r"say what the world appears on", ())):
+                              (r"choose the kind of display", ())):
             self.refuses(said, *options)
         for said, options in ((r"--size.*12 is no size, as 1920x1080", ("--screen", "flat", "--size", "12")),
                               (r"--count", ("--screen", "flat", "--count", 17)),
