@@ -80,9 +80,10 @@ class Measures(unittest.TestCase):
 
     def test_width(self):
         fits = "x" * texts.MOST_COLUMNS
-        self.assertEqual(list(texts.width_problems("a.md", f"{fits}\n| {fits} |\n- [{fits}](b)")), [])
+        self.assertEqual(list(texts.width_problems("a.md", f"{fits}\n- [{fits}](b)\nhttps://{fits}")), [])
         self.assertEqual(len(list(texts.width_problems("a.md", f"{fits} y"))), 1)
-        self.assertEqual(len(list(texts.width_problems("a.py", f"| {fits} |"))), 1)
+        self.assertEqual(len(list(texts.width_problems("a.md", f"| {fits} |"))), 1)
+        self.assertEqual(len(list(texts.width_problems("a.py", f"https://{fits}"))), 1)
 
     def test_sentences(self):
         short, long = "word " * texts.MOST_WORDS + ".\n", "word " * (texts.MOST_WORDS + 1) + ".\n"
