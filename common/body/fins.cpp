@@ -16,7 +16,7 @@ namespace aquarama::body {
 
 namespace {
 
-// Of each curve of a patch; even in p.
+// Samples of each curve of a patch, evenly spaced in p.
 constexpr int kSamples = 101;
 
 // Values from 0 to 1.

@@ -53,8 +53,8 @@ glm::dquat towards(const glm::dvec3& way) {
     return glm::normalize(glm::dquat(1 + way.x / length, 0, -way.z / length, way.y / length));
 }
 
-// That along the path at phase k. The path's direction is taken over two phases to either side, or
-// fewer near the ends.
+// The rotation along the path at phase k. The path's direction is taken over two phases to either
+// side, or fewer near the ends.
 glm::dquat alongPath(const GaitPath& path, std::size_t k) {
     const std::size_t reach = std::clamp<std::size_t>(std::min(k, kCycle - k), 1, 2);
     const std::size_t from = k < reach ? k : k - reach;
@@ -135,7 +135,7 @@ void setMeans(const Means& means, bool playsToEnd, GaitPath& path) {
     }
 }
 
-// To floats, when all arithmetic is done.
+// Converts to floats, after all arithmetic.
 Quaternion narrow(const glm::dquat& q) {
     return {static_cast<float>(q.w),
             static_cast<float>(q.x),

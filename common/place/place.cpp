@@ -270,7 +270,7 @@ bool standsInRock(const std::vector<Rock>& rocks, glm::vec3 root) {
     return false;
 }
 
-// What is sown, from which seed, and the least height as a share of the stand's.
+// One kind of plant that is sown, with its seed and its least height as a share of the stand's.
 struct Sowing {
     PlantKind kind;
     std::uint32_t seed;
@@ -339,7 +339,7 @@ std::string wrongWith(const config::Scene& scene,
     return {};
 }
 
-// By which factors the box grows: sideways and away from the eye, and downwards.
+// The factors by which the box grows: sideways and away from the eye, and downwards.
 struct Growth {
     double wider = 1, deeper = 1;
 };

@@ -23,10 +23,10 @@ constexpr float kTurnAway = 1.6F;
 constexpr float kLean = 0.25F;
 // Share by which it is slower than the fish ahead.
 constexpr float kBrake = 0.25F;
-// In body lengths: a smaller miss says nothing about the side.
+// A miss in body lengths; a smaller one does not tell the side.
 constexpr float kSureMissLengths = 0.05F;
 
-// To the right of a heading, level.
+// The level direction to the right of a heading.
 glm::vec3 rightOf(glm::vec3 heading) {
     return place::directionOf({-heading.z, 0, heading.x}, {0, 0, 1});
 }

@@ -22,9 +22,9 @@ constexpr float kReachSeconds = 2.2F;
 constexpr float kReachMetres = 0.4F;
 // A submarine that approaches counts as larger by its way in this time.
 constexpr float kBowWaveSeconds = 1.5F;
-// For so long the submarine is taken to go on; a fish turns aside in two to four seconds.
+// Time for which the submarine is assumed to continue; a fish turns aside in two to four seconds.
 constexpr float kSubmarineSeconds = 3.0F;
-// By the push of the submarine: half a push is enough for the greatest haste.
+// Urgency for each unit of the submarine's push: half a push gives the greatest urgency.
 constexpr float kHurry = 2.0F;
 
 // b1 and b2 of the cost of a prey: schooling and turning make it costlier (Tu & Terzopoulos 1994).
@@ -252,7 +252,7 @@ bool isWorthLeaving(const Onlooker& onlooker, std::uint32_t particle, float dist
            distance < kDartBodyLengths * onlooker.senses.length;
 }
 
-// In body lengths: added cost of a particle straight behind, for which the fish has to turn round.
+// Added cost, in body lengths, of a particle straight behind, for which the fish has to turn round.
 constexpr float kComeAboutBodyLengths = 2;
 
 // Distance, and by the angle from the mouth the cost of turning.

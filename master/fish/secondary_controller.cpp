@@ -135,7 +135,7 @@ motion::Action gaitFor(const Gaits& gaits, float speed, motion::Action present) 
 
 }  // namespace
 
-// What one fish wants and does at its decision.
+// The wishes and motion of one fish at its decision.
 struct SecondaryController::Moment {
     // Segment that was commanded last.
     motion::Action present;
@@ -225,8 +225,7 @@ float levelFor(float wanted, float present, float level) {
     return std::round(wanted / level) * level;
 }
 
-// What is added to the yaw that the chosen segment has by itself, in units of
-// MotorCommands::yawRate.
+// The yaw added to that of the chosen segment, in units of MotorCommands::yawRate.
 std::int16_t yawRateFor(const Gaits& gaits,
                         const Moment& moment,
                         motion::Action chosen,

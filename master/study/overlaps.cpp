@@ -18,7 +18,7 @@ glm::vec3 pointOf(const Rod& rod, float behindNose) {
     return rod.origin + rod.heading * (rod.length * (kNoseAhead - behindNose));
 }
 
-// From a point to the middle line of a rod.
+// Distance from a point to the middle line of a rod.
 float distanceTo(const Rod& rod, glm::vec3 point) {
     const float along = glm::dot(point - rod.origin, rod.heading);
     const float nearest = std::clamp(along, (kNoseAhead - 1) * rod.length, kNoseAhead * rod.length);

@@ -108,7 +108,7 @@ float cubeRoot(float x) {
     return root;
 }
 
-// Of a round ball; its volume grows with the number of fish.
+// Radius of a round ball; its volume grows with the number of fish.
 float ballRadius(std::size_t fish, float lengthMetres) {
     return kRoomOfMill * lengthMetres * cubeRoot(static_cast<float>(fish));
 }

@@ -153,8 +153,8 @@ void placeBall(std::uint32_t seed,
     }
 }
 
-// Where a fish that does not school begins: near its home, or at the first place that it would go
-// to.
+// The first place of a fish that does not school: near its home, or at the first place that it
+// would go to.
 glm::vec3 restingPlace(std::uint32_t seed,
                        const config::Habits& habits,
                        const surroundings::Obstacles& obstacles,

@@ -57,7 +57,7 @@ constexpr std::size_t kSlotsInSlice = 1024;
 // A thinker is prefetched this many thoughts ahead.
 constexpr std::size_t kFetchedAhead = 3;
 
-// Of the school; of a scad where there is no cast.
+// Mean length of the school's fish; of a scad where there is no cast.
 float meanLengthMetres(const WorldOptions& options) {
     return options.cast.empty() ? 0.24F : options.cast.front().size.meanMetres;
 }
