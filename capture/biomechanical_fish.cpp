@@ -123,7 +123,7 @@ class Builder {
     std::size_t faces_ = 0;
 };
 
-// For a node of a ring: the node of the same ring that the permutation of its corners gives.
+// The node of the same ring at the exchanged corner, for a node of a ring.
 int exchanged(int node, const std::array<int, 4>& exchange) {
     assert(node > 0);
     assert(node < kDorsalTip);

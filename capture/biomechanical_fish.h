@@ -27,7 +27,7 @@ inline constexpr int kDragFaces = 78;
 // A normal unit lies on the surface of the body, a cross unit braces a ring or a face against
 // shear. A muscle is a unit along the body whose rest length a controller shortens.
 enum class UnitKind : std::uint8_t { Normal, Cross, FrontMuscle, MiddleMuscle, BackMuscle };
-// Of the body, for a muscle; Neither for every other unit.
+// The side of the body, for a muscle; Neither for every other unit.
 enum class Side : std::uint8_t { Neither, Left, Right };
 
 // A spring with a damper between two nodal points; first < second.

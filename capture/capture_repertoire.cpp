@@ -76,8 +76,8 @@ constexpr std::size_t kSteadyJobs = kBetweenJob + kGaits - 1;
 constexpr std::size_t kLaterJobs = 3;
 constexpr std::size_t kJobs = kSteadyJobs + kLaterJobs;
 
-// Of Order. Over all species and gaits a wide curve has a radius of 3.8 to 9.7 body lengths, a
-// tight one of 1.7 to 4.6.
+// Values of Order::curve and liftRadians. Over all species and gaits a wide curve has a radius of
+// 3.8 to 9.7 body lengths, a tight one of 1.7 to 4.6.
 constexpr double kWideCurve = 0.2;
 constexpr double kTightCurve = 0.4;
 constexpr double kLoopLiftRadians = 0.2;

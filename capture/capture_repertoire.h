@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Captures the repertoires of species (the paper's section 3), finds the species files, and keeps
-// captured repertoires in a cache; and shows the progress of that.
+// Captures the repertoires of species (the paper's section 3), finds the species files, caches
+// captured repertoires, and shows progress.
 #pragma once
 
 #include <cstddef>
@@ -21,6 +21,7 @@ namespace aquarama::capture {
 // nothing: stderr is for errors. Not synchronised: one thread at a time calls it.
 class ProgressBar {
   public:
+    // Shows `what` before the bar; the destructor ends the line.
     explicit ProgressBar(std::string what);
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
@@ -68,7 +69,7 @@ struct CaptureOutcome {
 [[nodiscard]] motion::Repertoire captureRepertoire(const config::Species& species,
                                                    const Progress& progress);
 
-// Where the species files are.
+// Species files.
 
 // The folder `config` of the source tree, or share/aquarama/config of an installation: the nearest
 // above the running program that holds a folder `species`. Throws Error where there is none.

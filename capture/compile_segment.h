@@ -20,7 +20,7 @@ struct RecordedCycle {
     // Unit vector in the world: the direction of travel over the beat, or over the last beat before
     // a turn.
     glm::dvec3 course{1, 0, 0};
-    // In body lengths, at the phases 0 to kPhases, both included: kPhases + 1 of them.
+    // Poses in body lengths, at the phases 0 to kPhases, both included: kPhases + 1 of them.
     std::vector<NodeVectors> poses;
 };
 
@@ -34,12 +34,12 @@ struct RecordedCycle {
 // symmetry that the exact motion has is given to it. All throw Error where a nodal point is farther
 // from the body frame's origin, along an axis, than a body length, which 16 bits cannot hold.
 //
-// Straight on or backwards: the motion lies in a horizontal plane, and half a beat later it is its
-// mirror image.
+// A gait straight on or backwards: the motion lies in a horizontal plane, and half a beat later it
+// is its mirror image.
 [[nodiscard]] motion::ActionSegment compileForward(const RecordedCycle& recording);
-// On a curve: the motion lies in a horizontal plane.
+// A gait on a curve: the motion lies in a horizontal plane.
 [[nodiscard]] motion::ActionSegment compileCurve(const RecordedCycle& recording);
-// On a slope: half a beat later the motion is its mirror image, left and right exchanged.
+// A gait on a slope: half a beat later the motion is its mirror image, left and right exchanged.
 [[nodiscard]] motion::ActionSegment compileSlope(const RecordedCycle& recording);
 [[nodiscard]] motion::ActionSegment compileLeftTurn(const RecordedCycle& recording);
 
@@ -56,8 +56,8 @@ struct SwimsOn {
     double speed = 0;
     double drag = 0;
 };
-// By eq. 6 and 7. The speed after the turn is that from which a fish that obeys the law of
-// motion::SpeedResponse swims the measured way.
+// Compiles a turn by eq. 6 and 7. The speed after the turn is that from which a fish that obeys the
+// law of motion::SpeedResponse swims the measured way.
 [[nodiscard]] motion::TurnPath compileEntered(const EnteredTurn& entered, const SwimsOn& on);
 // The path half-way between two, on one course before the turn.
 [[nodiscard]] motion::TurnPath blended(const motion::TurnPath& a, const motion::TurnPath& b);

@@ -37,6 +37,7 @@ class EnvelopeSystem {
     static constexpr int kUnknowns = 3 * body::kNodalPoints;
     static constexpr int kLongestRow = 24;
 
+    // Sets all terms to zero.
     EnvelopeSystem() { clear(); }
     void clear();
 

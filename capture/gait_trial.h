@@ -23,7 +23,7 @@ inline constexpr double kSharpDegrees = 58;
 
 // The figures of straight swimming.
 
-// Of one gait.
+// The figures of one gait.
 struct GaitFigures {
     double beatHertz = 0;
     SegmentMeasures swum;

@@ -69,7 +69,7 @@ struct BodyWave {
     [[nodiscard]] double leastPhaseFall() const;
 };
 
-// Of one cycle of straight swimming; the fish must move forward.
+// The body wave of one cycle of straight swimming; the fish must move forward.
 [[nodiscard]] BodyWave bodyWave(const motion::ActionSegment& segment);
 
 }  // namespace aquarama::capture

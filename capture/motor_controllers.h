@@ -42,7 +42,7 @@ inline constexpr double kRampOwnSeconds = 1;
 // From the order to turn until all muscles are relaxed, in seconds (not the fish's own).
 [[nodiscard]] double secondsOf(const config::Bend& bend, const config::Species& species);
 
-// What the pectoral fins do at each instant.
+// Control of the pectoral fins at each instant.
 
 // Proportional feedback towards a pitch and no roll, for a fish that moves forward: both fins turn
 // by the error of the pitch, and in opposite directions by the roll (the force law of the fins is

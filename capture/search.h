@@ -42,6 +42,7 @@ class SearchJournal {
     // the file is of another search, is damaged, or cannot be written.
     SearchJournal(std::filesystem::path path, const std::string& search);
 
+    // All trials of the file, in order.
     [[nodiscard]] const std::vector<SearchTrial>& trials() const { return trials_; }
     // The trial has been handed to the file when this returns. Throws Error when that fails.
     void add(const SearchTrial& trial);

@@ -162,10 +162,10 @@ Transition backOut(const SteadySwimming& medium,
     return transition;
 }
 
-// From one gait to another, a sample a step. A sample is the mean speed over a beat
-// of `to` around it, along the course of `from`: from the place half a beat before to that half a
-// beat after, by time. For the first samples the half beat before the order is extrapolated from
-// the steady speed of `from`.
+// The transition from one gait to another, one sample in each step. A sample is the mean speed over
+// a beat of `to` around it, along the course of `from`: from the place half a beat before to that
+// half a beat after, by time. For the first samples the half beat before the order is extrapolated
+// from the steady speed of `from`.
 Transition changeTo(const SteadySwimming& to,
                     const SteadySwimming& from,
                     const config::Gait& gait,

@@ -50,16 +50,16 @@ struct Transition {
     // The steady speed that it leads to; 0 for a glide and a brake, negative for a retreat.
     double segmentSpeed = 0;
     std::vector<double> speeds;
-    // Of a retreat, which begins at the start of a stroke; 0 for the others.
+    // Time of a stroke, for a retreat, which begins at the start of one; 0 for the others.
     double strokeSeconds = 0;
 };
-// By how much stronger the tail or the fins act on the speed at a sample than in the mean: in a
-// retreat they do in the first half of a stroke, the power stroke, alone.
+// Strength with which tail or fins act on the speed at a sample, relative to the mean. In a retreat
+// they act in the first half of a stroke, the power stroke, alone.
 [[nodiscard]] double strengthAt(const Transition& transition, std::size_t sample);
 
 // The transitions of one species that fitResponse() needs.
 struct Transitions {
-    // To each gait from the other two.
+    // Transitions to each gait from the other two.
     std::array<std::vector<Transition>, motion::kForwardGaits> swim;
     Transition glide, brake, retreat;  // out of medium swimming
 };

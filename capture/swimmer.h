@@ -22,10 +22,10 @@ struct BodyAngles {
 // Heading and roll in -pi .. pi, pitch in -pi/2 .. pi/2; without any filter.
 [[nodiscard]] BodyAngles bodyAnglesOf(const FishState& state);
 
-// What is sensed now, given what was sensed before. Heading and pitch pass a first-order low pass,
-// since the tail beat makes them oscillate: `share`, 0 to 1, of the difference is taken up in this
-// step of `stepSeconds`. Roll is not filtered: the beat does not roll the fish, and a delay in the
-// roll feedback would make it oscillate.
+// The angles that the fish senses now, from those that it sensed before. Heading and pitch pass a
+// first-order low pass, since the tail beat makes them oscillate: `share`, 0 to 1, of the
+// difference is taken up in this step of `stepSeconds`. Roll is not filtered: the beat does not
+// roll the fish, and a delay in the roll feedback would make it oscillate.
 [[nodiscard]] BodyAngles sense(const BodyAngles& before,
                                const FishState& state,
                                double share,
@@ -63,8 +63,10 @@ struct Order {
 // lengths. A value: a copy continues on its own. Not for use by several threads at once.
 class Swimmer {
   public:
-    explicit Swimmer(const config::Species& species);  // with longestStepSeconds()
+    // A fish of the species; without a step, longestStepSeconds() is used.
+    explicit Swimmer(const config::Species& species);
     Swimmer(const config::Species& species, double stepSeconds);
+    // This fish, with the muscle program of the species.
     Swimmer(const BiomechanicalFish& fish, const config::Swim& swim, double stepSeconds);
 
     // Holds from the next step on. The phase of the beat continues through all orders. The muscles
@@ -73,6 +75,7 @@ class Swimmer {
     void give(const Order& order);
     void advance(int steps);  // steps >= 0
 
+    // Length of one step.
     [[nodiscard]] double stepSeconds() const { return stepSeconds_; }
     // Simulated since the start.
     [[nodiscard]] double seconds() const { return stepSeconds_ * static_cast<double>(steps_); }
@@ -85,8 +88,8 @@ class Swimmer {
     void advanceClocks(double seconds);
     // Whether the present order beats the tail.
     [[nodiscard]] bool swims() const;
-    // What the present order asks of muscles and fins at this instant, without the change-over from
-    // the order before.
+    // The wanted state of muscles and fins at this instant under the present order, without the
+    // transition from the order before.
     [[nodiscard]] MuscleActivation muscleProgram() const;
     [[nodiscard]] MuscleActivation tailBeat(double share) const;
     [[nodiscard]] PectoralFins finProgram() const;

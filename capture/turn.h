@@ -34,6 +34,7 @@ struct TurnSpread {
     motion::Action turn = motion::Action::TurnLeftGradual;
     motion::Action entry = motion::Action::ForwardMedium;
     std::array<double, kOnsets> radians{};  // begun at phase i / kOnsets of the beat
+    // The least, mean and greatest of `radians`.
     [[nodiscard]] double least() const;
     [[nodiscard]] double mean() const;
     [[nodiscard]] double most() const;

@@ -1,16 +1,17 @@
 # The functions that every CMakeLists.txt here uses. Each folder is one static library and has one test program.
 
-# Headers that most sources include, parsed once. A source still includes what it uses: the dev preset builds the programs
-# without this.
+# Headers that most sources include, parsed once. A source still includes what it uses: the dev preset builds the
+# programs without this.
 option(AQUARAMA_PCH "compile sooner: the headers that most sources include, and the commands of a program, once" OFF)
 set(AQUARAMA_COMMON_HEADERS
-  <algorithm> <array> <cmath> <cstddef> <cstdint> <filesystem> <functional> <memory> <numbers> <optional> <span> <string>
+  <algorithm> <array> <cmath> <cstddef> <cstdint> <filesystem> <functional> <memory> <numbers> <optional> <span>
+  <string>
   <string_view> <utility> <vector>
   <glm/common.hpp> <glm/geometric.hpp> <glm/gtc/quaternion.hpp> <glm/mat3x3.hpp> <glm/mat4x4.hpp> <glm/matrix.hpp>
   <glm/vec2.hpp> <glm/vec3.hpp> <glm/vec4.hpp>)
 
-# aquarama_precompiled(aquarama_headers HEADERS <vector> ... [LINK targets...] [OPTIONS flags...]): headers for others to
-# reuse that are compiled with the same flags.
+# aquarama_precompiled(aquarama_headers HEADERS <vector> ... [LINK targets...] [OPTIONS flags...]): headers for others
+# to reuse that are compiled with the same flags.
 function(aquarama_precompiled name)
   cmake_parse_arguments(ARG "" "" "HEADERS;LINK;OPTIONS" ${ARGN})
   set(SOURCE ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
@@ -36,7 +37,8 @@ function(aquarama_library name)
     target_compile_options(aquarama_${name} PRIVATE -O3)
   endif()
   if(AQUARAMA_PCH)
-    # With a precompiled <string>, GCC 12 gives these two warnings falsely; builds without precompiled headers keep them.
+    # With a precompiled <string>, GCC 12 gives these two warnings falsely; builds without precompiled headers keep
+    # them.
     target_compile_options(aquarama_${name} PRIVATE -Wno-stringop-overflow -Wno-array-bounds)
     if(ARG_OPTIMISED)
       target_precompile_headers(aquarama_${name} REUSE_FROM aquarama_headers_optimised)
@@ -79,11 +81,12 @@ function(aquarama_program name)
   aquarama_version(${name})
 endfunction()
 
-# aquarama_version(aquarama): writes the text of its --version. It runs when everything is configured, since only then it
-# is known what the program links. The commit is in a source of its own, so that after a commit only one small file is
-# compiled and the programs are linked.
+# aquarama_version(aquarama): writes the text of its --version. It runs when everything is configured, since only then
+# it is known what the program links. The commit is in a source of its own, so that after a commit only one small file
+# is compiled and the programs are linked.
 function(aquarama_version program)
-  cmake_language(EVAL CODE "cmake_language(DEFER DIRECTORY [[${PROJECT_SOURCE_DIR}]] CALL aquarama_write_version ${program})")
+  cmake_language(EVAL CODE
+    "cmake_language(DEFER DIRECTORY [[${PROJECT_SOURCE_DIR}]] CALL aquarama_write_version ${program})")
 endfunction()
 
 function(aquarama_write_version program)
@@ -91,9 +94,13 @@ function(aquarama_write_version program)
   set(LIBRARIES "")
   foreach(library IN ITEMS
       "CLI11 CLI11::CLI11 . CLI11_VERSION" "Eigen Eigen3::Eigen capture Eigen3_VERSION"
-      "FFmpeg-libavcodec PkgConfig::FFMPEG calibration/compose FFMPEG_libavcodec_VERSION" "GLFW glfw render_node glfw3_VERSION"
-      "GLM glm::glm . glm_VERSION" "Highway hwy::hwy common hwy_VERSION" "libepoxy PkgConfig::EPOXY render_node EPOXY_VERSION"
-      "libpng PNG::PNG common PNG_VERSION_STRING" "libjpeg-turbo PkgConfig::TURBOJPEG render_node TURBOJPEG_VERSION" "libzip PkgConfig::LIBZIP common/formats LIBZIP_VERSION" "libwebp PkgConfig::WEBP calibration/compose WEBP_libwebp_VERSION"
+      "FFmpeg-libavcodec PkgConfig::FFMPEG calibration/compose FFMPEG_libavcodec_VERSION"
+      "GLFW glfw render_node glfw3_VERSION"
+      "GLM glm::glm . glm_VERSION" "Highway hwy::hwy common hwy_VERSION"
+      "libepoxy PkgConfig::EPOXY render_node EPOXY_VERSION"
+      "libpng PNG::PNG common PNG_VERSION_STRING" "libjpeg-turbo PkgConfig::TURBOJPEG render_node TURBOJPEG_VERSION"
+      "libzip PkgConfig::LIBZIP common/formats LIBZIP_VERSION"
+      "libwebp PkgConfig::WEBP calibration/compose WEBP_libwebp_VERSION"
       "nlohmann-json nlohmann_json::nlohmann_json capture/report nlohmann_json_VERSION"
       "NLopt PkgConfig::NLOPT capture NLOPT_VERSION" "OpenSSL OpenSSL::Crypto common OPENSSL_VERSION"
       "OpenSubdiv OpenSubdiv::osdCPU common OpenSubdiv_VERSION" "Protobuf protobuf::libprotobuf common Protobuf_VERSION"
@@ -166,12 +173,12 @@ function(aquarama_test name)
   aquarama_suite(${name} ${KIND} COMMAND $<TARGET_FILE:aquarama_${name}_test>)
 endfunction()
 
-# aquarama_suite(motion [WAITS|REAL_TIME] COMMAND command...): a ctest row whose processor time is compared with its line in
-# tests/budgets.csv. The timeouts of the test presets are only for programs that hang. Software OpenGL draws with one thread.
-# The user's cache of the programs is in the build folder. What runs at once, where ctest has twice as many places as there
-# are processors:
-#   REAL_TIME: processes wait for one another by the clock, on ports that others use too. One at a time, at first, and beside it
-#              only suites that compute.
+# aquarama_suite(motion [WAITS|REAL_TIME] COMMAND command...): a ctest row whose processor time is compared with its
+# line in tests/budgets.csv. The timeouts of the test presets are only for programs that hang. Software OpenGL draws
+# with one thread. The user's cache of the programs is in the build folder. What runs at once, where ctest has twice as
+# many places as there are processors:
+#   REAL_TIME: processes wait for one another by the clock, on ports that others use too. One at a time, at first, and
+#              beside it only suites that compute.
 #   WAITS:     a clock counts, but nothing is drawn in time. Beside all but the former.
 #   neither:   computes, and takes the processor when no other process wants it.
 function(aquarama_suite name)
@@ -181,9 +188,11 @@ function(aquarama_suite name)
   if(NOT ARG_REAL_TIME AND NOT ARG_WAITS)
     set(WHEN chrt --idle 0)
   endif()
-  add_test(NAME ${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/timed.sh ${CMAKE_BINARY_DIR}/processor_time/${name} ${WHEN} ${ARG_COMMAND})
+  add_test(NAME ${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/timed.sh ${CMAKE_BINARY_DIR}/processor_time/${name}
+    ${WHEN} ${ARG_COMMAND})
+  set(FOLDERS "XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/cache;XDG_STATE_HOME=${CMAKE_BINARY_DIR}/state")
   set_tests_properties(${name} PROPERTIES WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
-    ENVIRONMENT "AQUARAMA_BIN=${CMAKE_BINARY_DIR}/bin;XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/cache;XDG_STATE_HOME=${CMAKE_BINARY_DIR}/state;LP_NUM_THREADS=1")
+    ENVIRONMENT "AQUARAMA_BIN=${CMAKE_BINARY_DIR}/bin;LP_NUM_THREADS=1;${FOLDERS}")
   if(ARG_REAL_TIME)
     set_tests_properties(${name} PROPERTIES PROCESSORS 3 RESOURCE_LOCK wall COST 2000)
   elseif(ARG_WAITS)

@@ -1,6 +1,7 @@
 # cmake -DROOT=. -DOUTPUT=source_digest.cpp -P SourceDigest.cmake
 # Writes the SHA-256 of all sources of common and render_node, by name and content, as a C++ constant.
-file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/common/*.h ${ROOT}/common/*.cpp ${ROOT}/render_node/*.h ${ROOT}/render_node/*.cpp)
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/common/*.h ${ROOT}/common/*.cpp ${ROOT}/render_node/*.h
+  ${ROOT}/render_node/*.cpp)
 list(SORT files)
 set(all "")
 foreach(file IN LISTS files)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama adjust`: edits the file of what is set by hand on top of projectors and wall files. A
-// running master sees that it has changed.
+// `aquarama adjust`: edits the file of manual adjustments on top of projectors and wall files. A
+// running master notices the change.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -26,7 +26,7 @@ namespace aquarama {
 
 namespace {
 
-// Options of all subcommands, each of which uses some. Lengths are pixels.
+// Options of all subcommands; each uses some of them. Lengths are pixels.
 struct AdjustOptions {
     std::string rig, channel, with;
     glm::dvec2 place{}, by{};
@@ -36,13 +36,13 @@ struct AdjustOptions {
     std::size_t number = 0;
 };
 
-// One entry of the file, in words.
+// One entry of the file as a text for a person.
 struct AdjustmentLine {
     config::SourcePlace place;
     std::string text;
 };
 
-// The file as it is on the disk, and the rig that it is of.
+// The file on the disk, and its rig.
 class AdjustedRig {
   public:
     explicit AdjustedRig(const std::string& path)
@@ -72,7 +72,7 @@ class AdjustedRig {
         return lines;
     }
 
-    // Checks the new text with the whole rig, and puts it in the place of the old one.
+    // Checks the new text with the whole rig, then replaces the file.
     void write(const std::string& text) {
         const auto bytes = std::as_bytes(std::span(text));
         rig_.files[rig_.adjustments] =
@@ -128,7 +128,7 @@ class AdjustedRig {
     std::string text_;
 };
 
-// Throws Error where the rig does not hold with the new entry; the file is unchanged then.
+// Throws Error where the rig is wrong with the new entry; the file is then unchanged.
 void append(const AdjustOptions& options, const std::string& entry) {
     AdjustedRig rig(options.rig);
     std::string text = rig.text();
@@ -155,7 +155,7 @@ void movePoint(const AdjustOptions& options) {
                        options.radius > 0 ? fmt::format(" radius_px: {}", options.radius) : ""));
 }
 
-// The number that begins at a place, which goes past it; nothing where there is none.
+// Reads the number at a place and moves the place past it; empty where there is none.
 std::optional<double> takeNumber(const char*& at, const char* end) {
     double value = 0;
     const auto read = std::from_chars(at, end, value);
@@ -170,7 +170,7 @@ std::optional<double> takeNumber(const char*& at, const char* end) {
                 (foreign.empty() ? "" : "; " + foreign));
 }
 
-// Reads "X,Y". Throws Error where the text is none.
+// Reads "X,Y". Throws Error for any other text.
 glm::dvec2 cornerIn(const std::string& text) {
     const char* at = text.data();
     const char* const end = at + text.size();
@@ -237,8 +237,8 @@ void describePicture(const AddedCommand<AdjustOptions>& to) {
 }
 
 void addMove(CommandLine& line, CLI::App& parent) {
-    const auto move =
-        addOne(line, parent, "move", "what a channel shows at a place, and round it", movePoint);
+    const auto move = addOne(
+        line, parent, "move", "move what a channel shows at a place, and around it", movePoint);
     move.app.add_option("CHANNEL", move.options.channel)->required();
     const CLI::Validator ofPlace = cli::number(-65536, 65536), ofMove = cli::number(-2000, 2000);
     const auto addPixels =
@@ -269,7 +269,7 @@ void addMask(CommandLine& line, CLI::App& parent) {
 void addAdjust(CommandLine& line) {
     struct Nothing {};
     const auto adjust = line.add<Nothing>(
-        "adjust", "control points, masks and limits of blends, by hand", [](const Nothing&) {
+        "adjust", "edit control points, masks and limits of blends by hand", [](const Nothing&) {
             throw CLI::RequiredError("adjust: move, mask, blend, list or remove");
         });
     addMove(line, adjust.app);

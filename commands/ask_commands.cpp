@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama status`, `set`, `pilot` and `explain`: they ask the master of a running show, or tell
-// it.
+// `aquarama status`, `set`, `pilot` and `explain`: they query or command the master of a running
+// show.
 #include <array>
 #include <chrono>
 #include <iostream>
@@ -38,7 +38,8 @@ using ask::AskedMaster;
 void describeMaster(CLI::App& command, AskedMaster& asked) {
     asked.rig = supervisor::kDefaultRig;
     command.add_option("RIG", asked.rig, "whose master is asked")->capture_default_str();
-    command.add_option("--master", asked.address, "its control address, instead of the rig's");
+    command.add_option(
+        "--master", asked.address, "control address of the master, instead of the rig's");
     command.add_option("--key", asked.key, "file of the key to show (aquarama keys bundle)");
 }
 
@@ -47,11 +48,11 @@ void showStatus(const AskedMaster& asked) {
     std::cout << conductor::statusText(master.status());
 }
 
-// So short that the submarine never takes its pilot for gone.
+// Short enough that the submarine never counts its pilot as gone.
 constexpr auto kBetweenMessages = std::chrono::milliseconds(100);
 
-// The terminal of standard input, set to give every key as it is pressed and to show none, as long
-// as this lives. Other inputs are read as they are.
+// Standard input as a terminal that reports each key at once and without echo, while this object
+// lives. Other inputs are read unchanged.
 class Keyboard {
   public:
     Keyboard() : isTerminal_(tcgetattr(STDIN_FILENO, &before_) == 0) {
@@ -66,7 +67,7 @@ class Keyboard {
     Keyboard(const Keyboard&) = delete;
     Keyboard& operator=(const Keyboard&) = delete;
 
-    // Waits no longer than `kBetweenMessages`. False: no more keys will come.
+    // Reads keys, waiting for `kBetweenMessages` at most. False: the input has ended.
     bool read(std::string& keys) {
         keys.clear();
         pollfd input{STDIN_FILENO, POLLIN, 0};
@@ -83,7 +84,7 @@ class Keyboard {
     bool isTerminal_;
 };
 
-// Tells the master what the keys say, and shows where the submarine is, until a key ends it.
+// Sends the keys to the master and shows the submarine's position, until a key ends it.
 void steer(const AskedMaster& asked) {
     ask::RequestClient master = asked.connect();
     Keyboard keyboard;
@@ -97,7 +98,7 @@ void steer(const AskedMaster& asked) {
         if (held != said || held != Steering{}) master.steer(held);
         said = held;
         const v1::StatusReply status = master.status();
-        // On a screen one line that changes, else one after the other.
+        // A terminal has one line that is rewritten; other outputs get one line after the other.
         std::cout << fmt::format("{}{}   {}{}",
                                  onScreen ? "\r\x1b[K" : "",
                                  conductor::submarineText(status),
@@ -106,11 +107,11 @@ void steer(const AskedMaster& asked) {
                   << std::flush;
     }
     master.steer({});
-    master.status();  // an answer: the master has had both
+    master.status();  // the answer proves that the master has received both
     if (onScreen) std::cout << '\n';
 }
 
-// Of explain --follow, whose help says twice a second.
+// The interval of explain --follow, whose help says twice a second.
 constexpr auto kBetweenLooks = std::chrono::milliseconds(500);
 // ANSI escapes: the cursor goes home, then the screen is erased.
 constexpr const char* kClearScreen = "\x1b[H\x1b[2J";
@@ -134,7 +135,7 @@ void print(std::uint32_t fish, std::size_t school, std::span<const std::string> 
     std::cout.flush();
 }
 
-// With --follow it goes on until somebody interrupts it.
+// Prints a mind; with --follow, again and again until it is interrupted.
 void explainLive(const ExplainOptions& options) {
     ask::RequestClient master = options.asked.connect();
     const bool onScreen = options.follow && isatty(STDOUT_FILENO) != 0;
@@ -165,7 +166,7 @@ void explainReplay(const ExplainOptions& options) {
     print(options.fish, world.world().traits().size(), world.explain(options.fish));
 }
 
-// A recording goes before a running master.
+// Uses the recording where one is given, else the running master.
 void explain(const ExplainOptions& options) {
     options.recording.empty() ? explainLive(options) : explainReplay(options);
 }
@@ -176,7 +177,7 @@ struct SetOptions {
     std::string what, value;
 };
 
-// Throws Error where it is none.
+// Throws Error for any other text.
 bool switchedOn(const SetOptions& options) {
     if (options.value == "on") return true;
     if (options.value == "off") return false;
@@ -220,7 +221,7 @@ void set(const SetOptions& options) {
 
 }  // namespace
 
-// Shows the operator's key where a folder of keys is given.
+// Uses the operator's key where a folder of keys is given.
 ask::RequestClient connectToMaster(const std::string& rigPath, const std::string& keyFolder) {
     AskedMaster asked{.rig = rigPath, .address = {}, .key = {}};
     if (!keyFolder.empty()) asked.key = config::keyFileIn(keyFolder, "operator").string();
@@ -228,8 +229,8 @@ ask::RequestClient connectToMaster(const std::string& rigPath, const std::string
 }
 
 void addSet(CommandLine& line) {
-    const auto [command, options] =
-        line.add<SetOptions>("set", "what the running wall shows: scene, pattern, black ...", set);
+    const auto [command, options] = line.add<SetOptions>(
+        "set", "set what the running wall shows: scene, pattern, black ...", set);
     describeMaster(command, options.asked);
     command.get_option("RIG")->required();
     command.add_option("WHAT", options.what, "scene, quality, pattern, black, freeze or restart")
@@ -259,7 +260,7 @@ void addPilot(CommandLine& line) {
 
 void addExplain(CommandLine& line) {
     const auto [command, options] = line.add<ExplainOptions>(
-        "explain", "what a fish sees, feels, intends and does, and why: --fish ID", explain);
+        "explain", "explain what a fish sees, feels, intends and does: --fish ID", explain);
     command.add_option("--fish", options.fish, "which, by its number")
         ->required()
         ->check(cli::wholeNumber(0, kMostFish));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama calibrations`: the calibrations that were kept of a rig, and the way back to one.
+// `aquarama calibrations`: lists the kept calibrations of a rig, and restores one.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -26,13 +26,13 @@ struct CalibrationsOptions {
     std::string use;  // number or date; empty: list them
 };
 
-// Pixels; not a number on a wall without neighbours.
+// A length in pixels as text; NaN on a wall without neighbours.
 std::string neighboursIn(double apart, double most) {
     if (std::isnan(apart)) return "";
     return fmt::format("neighbours part by {:.2f} px, at most {:.2f}; ", apart, most);
 }
 
-// What figures.json says of one, in words.
+// The contents of figures.json as a text.
 std::string figuresIn(const std::string& note) {
     const auto figures = nlohmann::json::parse(note, nullptr, false);
     if (!figures.is_object()) return "no figures";
@@ -50,7 +50,7 @@ std::string figuresIn(const std::string& note) {
                        number("absolute_rms_px"));
 }
 
-// "2026-11-24T210301" as people write it.
+// The date "2026-11-24T210301" in a form that is easy to read.
 std::string dateIn(const std::string& name) {
     constexpr std::size_t kLength = 17;
     if (name.size() < kLength) return name;
@@ -69,7 +69,7 @@ void print(const std::vector<FileVersion>& versions, const std::string& file) {
     std::cout << fmt::format("{}: {} kept\n", file, versions.size());
 }
 
-// By its number or the beginning of its date.
+// Finds a calibration by its number or the beginning of its date.
 const FileVersion& chosen(const std::vector<FileVersion>& versions, const std::string& use) {
     for (std::size_t i = 0; i < versions.size(); ++i)
         if (use == std::to_string(i + 1)) return versions[i];
@@ -82,7 +82,7 @@ const FileVersion& chosen(const std::vector<FileVersion>& versions, const std::s
                 "\" is kept; give a number of the list, or a date as in 2026-11-24T2103");
 }
 
-// Throws Error where the rig cannot be shown by it.
+// Throws Error where the rig cannot be shown with it.
 void check(config::Rig rig, const std::string& path, const FileVersion& version) {
     config::readRigFiles(rig, path);
     rig.files[rig.calibration] = std::make_shared<const std::vector<std::byte>>(
@@ -90,8 +90,8 @@ void check(config::Rig rig, const std::string& path, const FileVersion& version)
     wall::checkGeometry(rig, path);
 }
 
-// A chosen version is checked with the whole rig before it is put in place. The list is printed in
-// either case.
+// Checks a chosen version with the whole rig before it replaces the file. Prints the list in either
+// case.
 void listOrUse(const CalibrationsOptions& options) {
     const config::Rig rig = config::parseRig(config::readTextFile(options.rig), options.rig);
     if (rig.calibration.empty())
@@ -110,7 +110,7 @@ void listOrUse(const CalibrationsOptions& options) {
 
 void addCalibrations(CommandLine& line) {
     const auto [command, options] = line.add<CalibrationsOptions>(
-        "calibrations", "those that were kept of a rig, and the way back to one", listOrUse);
+        "calibrations", "list the kept calibrations of a rig, and restore one", listOrUse);
     command.add_option("RIG", options.rig, "the rig, which names its calibration")->required();
     command.add_option("--use", options.use, "show this one again: number of the list, or date");
     command.footer("A running wall shows it within a second, between two frames.");

@@ -31,19 +31,20 @@ struct AddedCommand {
 // The command line of `aquarama` while commands are added to it, and then the job that it chose.
 class CommandLine {
   public:
+    // Adds to this application, which outlives it.
     explicit CommandLine(CLI::App& app) : app_{app} {}
-    // The heading, in the program's help, of the commands that are added next.
+    // Sets the heading in the program's help of the commands that are added next.
     void startGroup(std::string heading) { heading_ = std::move(heading); }
-    // `run(options)` does what the command is for, and returns the exit status, or nothing for 0.
+    // Adds a command. `run(options)` is its job, which returns the exit status, or void for 0.
     template <class Options, class Run>
     AddedCommand<Options> add(const std::string& name, const std::string& what, Run run) {
         const auto added = addTo<Options>(app_, name, what, std::move(run));
         added.app.group(heading_);
         return added;
     }
-    // The help does not list this command.
+    // Adds a command that the help does not list.
     void hide(const std::string& name) { app_.get_subcommand(name)->group(""); }
-    // A command of the command `parent`.
+    // Adds a subcommand of the command `parent`.
     template <class Options, class Run>
     AddedCommand<Options> addTo(CLI::App& parent,
                                 const std::string& name,
@@ -64,7 +65,7 @@ class CommandLine {
         });
         return {command, *options};
     }
-    // Does what was chosen; returns the exit status. Throws CLI::RequiredError where nothing was.
+    // Runs the chosen job; returns the exit status. Throws CLI::RequiredError where nothing was.
     [[nodiscard]] int runChosen() const {
         if (!job_) throw CLI::RequiredError("a command");
         return job_();
@@ -76,7 +77,7 @@ class CommandLine {
     cli::Job job_;
 };
 
-// In the order of the program's help; what each command does its help says.
+// Each adds one command, in the order of the program's help, which says what the command does.
 void addRun(CommandLine& line);     // a show on this machine
 void addReplay(CommandLine& line);  // a recorded one
 void addMaster(CommandLine& line);  // the master alone
@@ -88,8 +89,9 @@ void addSet(CommandLine& line);
 void addPilot(CommandLine& line);
 void addExplain(CommandLine& line);
 void addNewRig(CommandLine& line);
-void addCheck(CommandLine& line);      // hands over to aquarama-compose
-void addView(CommandLine& line);       // likewise, and so does its former name "theatre"
+void addCheck(CommandLine& line);  // hands over to aquarama-compose
+void addView(
+    CommandLine& line);  // hands over to aquarama-compose, as does its former name "theatre"
 void addCalibrate(CommandLine& line);  // hands over to aquarama-calibrate
 void addCalibrations(CommandLine& line);
 void addDrift(CommandLine& line);  // hands over to aquarama-calibrate
@@ -105,22 +107,22 @@ void addControllers(CommandLine& line);
 void addFidelity(CommandLine& line);
 void addStudy(CommandLine& line);
 
-// Options of `run`, `replay` and `master`, declared once: which rig shows which world, and how.
+// Options that `run`, `replay` and `master` share: which rig shows which world, and how.
 void describeWorld(CLI::App& command, supervisor::ShowOptions& options);
 void describeWall(CLI::App& command, supervisor::ShowOptions& options);
 
-// The keys of a master that listens past its machine; nothing where the rig needs none. Throws
-// Error where there are none yet.
+// The keys of a master that listens on a network; empty where the rig needs none. Throws Error
+// where the rig has no keys yet.
 [[nodiscard]] std::optional<net::MasterKeys> masterKeysOf(const config::Rig& rig,
                                                           const supervisor::ShowOptions& show);
 
-// A connection to the master of a rig for questions, with the operator's key of this folder (empty:
-// the user's) where the rig needs one. Throws Error where it cannot be read.
+// A connection for requests to the master of a rig, with the operator's key of this folder (empty:
+// the user's) where the rig needs one. Throws Error where the key cannot be read.
 [[nodiscard]] ask::RequestClient connectToMaster(const std::string& rigPath,
                                                  const std::string& keyFolder);
 
-// Replays a recording without a wall and says whether it is the same world again. Returns the exit
-// status: 1 where it is another. Throws Error where it cannot be read.
+// Replays a recording without a wall and tells whether the world is the same. Returns the exit
+// status: 1 where it differs. Throws Error where it cannot be read.
 [[nodiscard]] int checkReplay(const std::string& path);
 
 // The option --config, and the folder that it names or that is found.

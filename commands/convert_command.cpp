@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama convert`: a wall file of any known format, or what a rig's own geometry gives, as
-// MPCDI.
+// `aquarama convert`: converts a wall file of any known format, or a rig's own geometry, to MPCDI.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -36,7 +35,7 @@ struct ConvertOptions {
     int version = 2;
 };
 
-// Reads "1920x1080". Throws Error where the text is no size that a picture may have.
+// Reads "1920x1080". Throws Error where the text is not a valid size of a picture.
 glm::ivec2 sizeIn(const std::string& text) {
     const std::size_t cross = std::min(text.find('x'), text.size());
     const std::string_view width = std::string_view(text).substr(0, cross);
@@ -70,7 +69,7 @@ formats::Mask maskOf(const wall::WarpMap& map) {
     return mask;
 }
 
-// What a rig's projectors or panels light, by its geometry: points of the screen.
+// The points of the screen that a rig's projectors or panels light, by its geometry.
 formats::WallFile wallFileOf(const config::Rig& rig) {
     const wall::Wall wall(rig);
     formats::WallFile file;
@@ -95,12 +94,13 @@ formats::WallFile wallFileOf(const config::Rig& rig) {
     return file;
 }
 
-// Whether the file is one of ours; then it is a rig, as scenes and species have no geometry.
+// Whether the file is one of our text files; then it is a rig, since scenes and species have no
+// geometry.
 bool isRig(const std::string& path) {
     return path.ends_with(".txtpb");
 }
 
-// Throws Error where the file is of no known format or the geometry of the rig does not hold.
+// Throws Error where the format is unknown or the rig's geometry is wrong.
 formats::WallFile readAny(const ConvertOptions& options) {
     if (!isRig(options.in)) return formats::readWallFile(options.in, readOptionsOf(options));
     const config::Rig rig = config::readRig(options.in);
@@ -128,7 +128,7 @@ bool isPlain(const formats::FileChannel& channel) {
                              channel.warp->size == channel.sizePixels);
 }
 
-// Other tools take every warp for samples at the centres of pixels.
+// Other tools expect the samples of a warp at the centres of pixels.
 void resample(formats::WallFile& file, const std::string& source) {
     for (formats::FileChannel& channel : file.channels) {
         requireSize(channel, source);
@@ -136,7 +136,7 @@ void resample(formats::WallFile& file, const std::string& source) {
     }
 }
 
-// What the channel has, for the terminal.
+// A summary of the channel for the terminal.
 std::string lineOf(const formats::FileChannel& channel) {
     return fmt::format("{}: {} x {} pixels, {}{}{}{}",
                        channel.name,
@@ -178,10 +178,10 @@ void addConvert(CommandLine& line) {
     command
         .add_option("--sampling",
                     options.sampling,
-                    "where the samples of a coarse grid lie, where IN leaves it open")
+                    "position of the samples of a coarse grid, if IN does not tell")
         ->check(CLI::IsMember({"centres", "nodes"}));
     command.add_flag(
-        "--upside-down", options.upsideDown, "IN's rows run the other way than its format says");
+        "--upside-down", options.upsideDown, "IN's rows are in the opposite order to its format");
     command.add_option("--mpcdi", options.version, "version to write")
         ->check(CLI::IsMember({1, 2}))
         ->capture_default_str();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama doctor`: looks over a wall before a show: the rig, its keys and ports, this machine,
-// and by the running master every node and its way to it.
+// `aquarama doctor`: checks a wall before a show: the rig, its keys and ports, this machine and,
+// through the running master, every node and its connection.
 #include <array>
 #include <filesystem>
 #include <iostream>
@@ -46,19 +46,19 @@ struct DoctorOptions {
 // Only Fail makes the exit status 1.
 enum class Verdict : std::uint8_t { Pass, Warn, Fail };
 
-// What was found about one thing, and what to do about it.
+// The finding of one check, and what to do about it.
 struct Finding {
     Verdict verdict = Verdict::Pass;
     std::string subject, what, todo;
 };
 
-// Kept in the order in which they were found.
+// All findings, in order.
 class Findings {
   public:
     void pass(std::string subject, std::string what) {
         all_.push_back({Verdict::Pass, std::move(subject), std::move(what), {}});
     }
-    // Passes where `isGood`, else it is `otherwise`, and `todo` says what to do.
+    // Adds a finding: Pass where `isGood`, else `otherwise` with the advice `todo`.
     void judge(
         bool isGood, Verdict otherwise, std::string subject, std::string what, std::string todo) {
         if (isGood) return pass(std::move(subject), std::move(what));
@@ -67,7 +67,8 @@ class Findings {
     void fail(std::string subject, std::string problem) {
         all_.push_back({Verdict::Fail, std::move(subject), std::move(problem), {}});
     }
-    // Passes where `check()`, which returns what it found, throws no Error; that says what to do.
+    // Adds a finding: Pass with the text that `check()` returns, or Fail with the Error that it
+    // throws.
     template <class Check>
     bool attempt(const std::string& subject, Check check) {
         try {
@@ -88,20 +89,20 @@ class Findings {
 constexpr std::uint64_t kLeastDiskBytes = std::uint64_t{1} << 30U;
 // An older key is still valid, and gets a warning.
 constexpr double kOldKeyDays = 365;
-constexpr float kSlowRoundTripMs = 5;  // the release of a frame is said 2 ms before it
-// Of the pings; more is a warning.
+constexpr float kSlowRoundTripMs = 5;  // a frame's release is announced 2 ms before it
+// Share of lost pings; more is a warning.
 constexpr float kMostUnansweredPercent = 1;
 
-// What to do about a clock, for this machine and for each node's.
+// Advice about a wrong clock, for this machine and for each node's.
 constexpr const char* kSynchronise =
     "install chrony or linuxptp, so that the logs of all machines agree; frames do not need it";
 
-// In units of 10^9 bytes.
+// A number of bytes in units of 10^9.
 std::string gigabytes(std::uint64_t bytes) {
     return fmt::format("{:.0f} GB free", static_cast<double>(bytes) / 1e9);
 }
 
-// By the day on which it was made, which a wrong clock may have given, or may not have reached.
+// Judges the age of a key. It is unknown where the key's date is later than the clock.
 void judgeAge(Findings& findings, const config::KeyFile& key) {
     const std::string subject = "key " + key.name;
     const double now = systemSeconds();
@@ -135,7 +136,7 @@ void lookAtKey(Findings& findings, const fs::path& folder, const std::string& na
     }
 }
 
-// Of an address in the rig, as the system has it; null where it is no number.
+// Resolves a numeric address of the rig; null where it is not numeric.
 using NumericAddress = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
 NumericAddress numericAddress(std::string host) {
     if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
@@ -170,7 +171,7 @@ bool isLoopbackAddress(std::string_view bytes) {
                                      sizeof in6addr_loopback);
 }
 
-// Whether this machine has the address of the rig: on its loopback or on an interface.
+// Whether the rig's address belongs to this machine: its loopback or an interface.
 bool isOwnAddress(const std::string& address) {
     const std::size_t begin = address.find("//") + 2;
     const std::string host = address.substr(begin, address.rfind(':') - begin);
@@ -187,7 +188,7 @@ bool isOwnAddress(const std::string& address) {
     return false;
 }
 
-// A clock before the program's own date spoils hours, certificates and logs.
+// Checks the clock: with a date before the program's own, hours, certificates and logs are wrong.
 void lookAtClock(Findings& findings, bool isAlone) {
     const double now = systemSeconds();
     const std::string doubt = clockDoubt(now, static_cast<double>(builtAt()));
@@ -204,8 +205,7 @@ void lookAtClock(Findings& findings, bool isAlone) {
                    kSynchronise);
 }
 
-// The file of a certificate, where there is one for this user to see: that of the console, or its
-// authority's.
+// Checks a certificate, of the console or of its authority, where this user can see its file.
 void lookAtCertificate(Findings& findings,
                        const fs::path& file,
                        double noticeDays,
@@ -226,8 +226,8 @@ void lookAtCertificate(Findings& findings,
     }
 }
 
-// Of this rig's console; its folder is that of console/files_of_show.h. A clock that is wrong for
-// certain tells nothing of their ends.
+// Checks the certificates of this rig's console, in the folder of console/files_of_show.h. With a
+// wrong clock their ends cannot be judged.
 void lookAtCertificates(Findings& findings, const std::string& rig) {
     if (!clockDoubt(systemSeconds(), static_cast<double>(builtAt())).empty()) return;
     const fs::path folder =
@@ -246,7 +246,7 @@ void lookAtCertificates(Findings& findings, const std::string& rig) {
                           " --certify ADDRESS --new-authority");
 }
 
-// What is needed for a show on this machine, whether one runs or not.
+// Checks what a show needs on this machine, whether one runs or not.
 void lookAtMachine(Findings& findings, const DoctorOptions& options, const config::Rig& rig) {
     findings.attempt("scene", [&] {
         const std::string path = config::scenePathOf(rig, options.rig);
@@ -276,8 +276,8 @@ void lookAtMachine(Findings& findings, const DoctorOptions& options, const confi
     for (const config::Channel& channel : rig.channels) lookAtKey(findings, folder, channel.name);
 }
 
-// The line of the monitor at this connector, or of the only one where it is empty; nothing where
-// there is none.
+// The monitor at this connector, or the only one where the name is empty; empty where there is
+// none.
 std::optional<std::string> monitorIn(const v1::NodeReport& report, const std::string& connector) {
     if (connector.empty() && report.monitors_size() != 1) return std::nullopt;
     for (const std::string& monitor : report.monitors())
@@ -285,7 +285,7 @@ std::optional<std::string> monitorIn(const v1::NodeReport& report, const std::st
     return std::nullopt;
 }
 
-// What the node's machine has, against what the rig says of its channel.
+// Compares the monitors of a node's machine with the channel of the rig.
 void lookAtMonitors(Findings& findings,
                     const std::string& subject,
                     const config::Channel& channel,
@@ -311,10 +311,10 @@ void lookAtMonitors(Findings& findings,
                    "it is at another size now: correct the channel's, or the monitor's mode");
 }
 
-// How well it keeps time with the master.
+// Checks the timing of a node: round trips, lost pings, real-time priority and clock.
 void lookAtTime(Findings& findings, const std::string& subject, const v1::NodeStatus& node) {
     const v1::NodeReport& report = node.report();
-    // Within one machine only a busy processor delays an answer.
+    // On the master's own machine only a busy processor delays an answer.
     const bool isFar = !node.machine().empty();
     findings.judge(
         !isFar || (report.round_trip_p99_ms() < kSlowRoundTripMs &&
@@ -364,7 +364,7 @@ void lookAtReport(Findings& findings, const std::string& subject, const v1::Node
                    "make room on its disk");
 }
 
-// A node that has sent no report yet is judged by what the master knows of it.
+// Checks a node. Without a report it is judged by what the master knows of it.
 void lookAtNode(Findings& findings, const config::Rig& rig, const v1::NodeStatus& node) {
     const std::string subject = "node " + node.name();
     const std::string machine =
@@ -389,7 +389,7 @@ void lookAtNode(Findings& findings, const config::Rig& rig, const v1::NodeStatus
     if (channel != rig.channels.end()) lookAtMonitors(findings, subject, *channel, node.report());
 }
 
-// What a master says: its status, or what it prepares; neither where none answers.
+// The answer of a master: its status, or what it prepares; both empty where none answers.
 struct MasterAnswer {
     std::optional<v1::StatusReply> status;
     std::string preparing;
@@ -404,7 +404,7 @@ MasterAnswer answerOf(ask::RequestClient client) {
     return answer;
 }
 
-// Asks the master of the running show; false where none runs.
+// Checks the running show through its master. False: none runs.
 bool lookAtShow(Findings& findings, const DoctorOptions& options, const config::Rig& rig) {
     MasterAnswer answer;
     try {
@@ -434,7 +434,7 @@ bool lookAtShow(Findings& findings, const DoctorOptions& options, const config::
     return true;
 }
 
-// Only where no show runs: a running master holds both ports.
+// Checks that the rig's ports are free. Only where no show runs, since a running master holds both.
 void lookAtPorts(Findings& findings, const config::Rig& rig) {
     findings.attempt("ports", [&] {
         for (const std::string& address : {rig.controlAddress, rig.stateAddress})
@@ -448,7 +448,7 @@ void lookAtPorts(Findings& findings, const config::Rig& rig) {
                    "start it (aquarama run, or the services of all machines) and ask again");
 }
 
-// A rig that cannot be read ends it, because all other checks need it.
+// Reads the rig first: all other checks need it.
 Findings lookOver(const DoctorOptions& options) {
     Findings findings;
     config::Rig rig;
@@ -466,7 +466,7 @@ Findings lookOver(const DoctorOptions& options) {
 // In the order of Verdict.
 constexpr std::array kVerdicts{"pass", "warn", "fail"};
 
-// One line for each, the verdict first.
+// Prints a line for each finding, the verdict first.
 void printTable(const Findings& findings) {
     for (const Finding& finding : findings.all())
         std::cout << fmt::format("{}  {:<14} {}{}{}\n",
@@ -488,7 +488,7 @@ void printJson(const Findings& findings) {
     std::cout << list.dump(2) << '\n';
 }
 
-// 1 where something fails.
+// Exit status 1 where a check fails.
 int doctor(const DoctorOptions& options) {
     const Findings findings = lookOver(options);
     (options.json ? printJson : printTable)(findings);
@@ -500,12 +500,13 @@ int doctor(const DoctorOptions& options) {
 
 void addDoctor(CommandLine& line) {
     const auto [command, options] = line.add<DoctorOptions>(
-        "doctor", "whether a wall is ready: rig, keys, network, machines", doctor);
+        "doctor", "check that a wall is ready: rig, keys, network, machines", doctor);
     command.add_option("RIG", options.rig, "the rig's file")->capture_default_str();
     command.add_option(
         "--keys", options.keyFolder, "folder of the rig's keys, instead of the user's");
-    command.add_flag(
-        "--json", options.json, "for programs: verdict, subject, what and todo of each");
+    command.add_flag("--json",
+                     options.json,
+                     "output for programs: verdict, subject, what and todo of each finding");
     command.footer(
         "A line for each finding: pass, warn or fail, what was found, and what to do. The exit "
         "status is 1 "

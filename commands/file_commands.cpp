@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama inspect`, for every kind of file, and whether a recording replays as the same world.
+// `aquarama inspect`, shows the contents of files of every kind; and the check of a recording by
+// replaying it.
 #include <algorithm>
 #include <iostream>
 #include <string>
@@ -26,7 +27,7 @@ namespace aquarama {
 
 namespace {
 
-// What makes a replay of this recording doubtful, a line each.
+// The reasons why a replay of this recording may differ, one line each.
 void printDoubts(const std::string& path, const wire::Recording& recording) {
     for (const std::string& doubt : wire::doubtsAbout(recording))
         std::cout << path << ": " << doubt << '\n';
@@ -54,7 +55,7 @@ std::string wordsFor(const wire::RecordedInput& input) {
                        moved.position.z);
 }
 
-// Its origin, its world and its first inputs.
+// Prints the origin of a recording, its world and its first inputs.
 void inspectRecording(const std::string& path) {
     constexpr std::size_t kMostInputsShown = 20;
     const wire::Recording recording = wire::readRecording(path);
@@ -93,7 +94,7 @@ struct InspectOptions {
     std::string report;  // folder for a page; empty: none
 };
 
-// Tests for Python before the work, since drawing is its last step.
+// Tests for Python first, since drawing is the last step.
 void inspectRepertoire(const InspectOptions& options) {
     cli::requireFolder("--report", options.report);
     if (!options.report.empty()) cli::requirePython({"matplotlib"});
@@ -106,7 +107,7 @@ void inspectRepertoire(const InspectOptions& options) {
     cli::runPython({"matplotlib"}, "capture/report/draw_report.py", {data}, options.report);
 }
 
-// By the ending of the name, or by the first bytes. Every other kind is a text, which
+// Tells the kind of file by its suffix or its first bytes. All other kinds are texts, which
 // aquarama-compose reads.
 void inspect(const InspectOptions& options) {
     const std::string& file = options.file;
@@ -157,7 +158,7 @@ int checkReplay(const std::string& path) {
 void addInspect(CommandLine& line) {
     const auto [command, options] = line.add<InspectOptions>(
         "inspect",
-        "what a file holds: a rig, a scene, a species, a repertoire or a recording",
+        "show the contents of a rig, a scene, a species, a repertoire or a recording",
         inspect);
     command
         .add_option("FILE",

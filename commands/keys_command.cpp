@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama keys`: makes, lists, revokes and replaces the keys of a rig, and writes the one file
-// that another machine needs.
+// `aquarama keys`: makes, lists, revokes and replaces the keys of a rig, and writes the key file
+// for another machine.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -44,29 +44,29 @@ struct KeyOptions {
     }
 };
 
-// Why the clock is wrong for certain; empty where it may be right.
+// Why the clock is certainly wrong; empty where it may be right.
 std::string doubtOfClock() {
     return clockDoubt(systemSeconds(), static_cast<double>(builtAt()));
 }
 
-// Throws Error where the clock is wrong: the age of a key that is made now could never be told.
+// Throws Error where the clock is wrong: a key made now would never have a known age.
 void requireClock() {
     if (const std::string doubt = doubtOfClock(); !doubt.empty())
         throw Error(doubt + ": no key is made now; " + kSetTheClock);
 }
 
-// On standard error: what has to be done now is done all the same.
+// Warns on standard error about a wrong clock, and continues: a revocation must not wait.
 void warnOfClock(const std::string& what) {
     if (const std::string doubt = doubtOfClock(); !doubt.empty())
         std::cerr << "aquarama keys: " << doubt << "; " << what << "; " << kSetTheClock << '\n';
 }
 
-// In UTC, as key files have it; not before the day on which this program was built.
+// Today in UTC, in the form of key files; never before the day on which this program was built.
 std::string today() {
     return dayOf(std::max(systemSeconds(), static_cast<double>(builtAt())));
 }
 
-// Throws Error where the rig is of one machine, which needs no keys.
+// Throws Error where the rig is on one machine and so needs no keys.
 config::Rig keyedRig(const KeyOptions& options) {
     config::Rig rig = config::readRig(options.rig);
     if (!config::needsKeys(rig))
@@ -75,7 +75,7 @@ config::Rig keyedRig(const KeyOptions& options) {
     return rig;
 }
 
-// The master, each channel, and each role of people.
+// The names of all holders: the master, each channel, and each role of users.
 std::vector<std::pair<std::string, KeyRole>> holdersOf(const config::Rig& rig) {
     std::vector<std::pair<std::string, KeyRole>> holders{{std::string(kMaster), KeyRole::Master}};
     for (const config::Channel& channel : rig.channels)
@@ -86,7 +86,8 @@ std::vector<std::pair<std::string, KeyRole>> holdersOf(const config::Rig& rig) {
     return holders;
 }
 
-// A channel and a role of one name would share a key file. Throws Error with the place in the rig.
+// Throws Error, with the place in the rig, where a channel has the name of a role: both would share
+// a key file.
 void requireOwnNames(const KeyOptions& options, const config::Rig& rig) {
     for (const config::Channel& channel : rig.channels)
         if (std::ranges::find(config::kRoleNames, channel.name) != config::kRoleNames.end())
@@ -123,7 +124,7 @@ KeyFile freshKey(const config::Rig& rig,
             .revoked = {}};
 }
 
-// Those that there are already stay as they are: a rig that got another channel gets its key.
+// Makes missing keys; existing keys stay. So a rig with a new channel gets a key for it.
 void makeKeys(const KeyOptions& options) {
     const config::Rig rig = keyedRig(options);
     requireOwnNames(options, rig);
@@ -165,7 +166,7 @@ void listKeys(const KeyOptions& options) {
                    key.publicKey);
 }
 
-// The key of options.name. Throws Error where there is none, naming those that there are.
+// The key of options.name. Throws Error, which lists the existing names, where there is none.
 KeyFile chosen(const KeyOptions& options) {
     masterOf(options);
     std::string names;
@@ -177,7 +178,7 @@ KeyFile chosen(const KeyOptions& options) {
                 "; there are " + names);
 }
 
-// A second revocation keeps the day of the first. Throws Error for the master's key.
+// Revokes a key; a second revocation keeps the first day. Throws Error for the master's key.
 void revokeKey(const KeyOptions& options) {
     KeyFile key = chosen(options);
     if (key.role == KeyRole::Master)
@@ -189,7 +190,7 @@ void revokeKey(const KeyOptions& options) {
     std::cout << key.name << " is revoked; a running master cuts it off within two seconds\n";
 }
 
-// Of the master: everybody knows its key, so every file changes.
+// Replaces the master's key. Every key file contains it, so all are rewritten.
 void rotateMaster(const KeyOptions& options, const KeyFile& fresh) {
     for (KeyFile key : config::readKeyFolder(options.keys())) {
         if (key.role == KeyRole::Master) key = fresh;
@@ -199,7 +200,7 @@ void rotateMaster(const KeyOptions& options, const KeyFile& fresh) {
     std::cout << "the master has a new key; start it again, and bundle every other key anew\n";
 }
 
-// The new key is valid, also where the old one was revoked.
+// Replaces a key. The new one is valid even if the old one was revoked.
 void rotateKey(const KeyOptions& options) {
     const config::Rig rig = keyedRig(options);
     const KeyFile old = chosen(options);
@@ -211,7 +212,7 @@ void rotateKey(const KeyOptions& options) {
     std::cout << fresh.name << " has a new key; bundle it anew\n";
 }
 
-// Throws Error for the master's key, for a revoked one, and where the file is there already.
+// Throws Error for the master's key, for a revoked one, and where the file exists.
 void bundleKey(const KeyOptions& options) {
     const config::Rig rig = keyedRig(options);
     KeyFile key = chosen(options);
@@ -234,7 +235,7 @@ void bundleKey(const KeyOptions& options) {
         std::cout << "there: aquarama-node --key " << out.filename().string() << '\n';
 }
 
-// NAME only for commands that are about one key.
+// Adds NAME only to commands about one key.
 template <class Run>
 AddedCommand<KeyOptions> addKeys(CommandLine& line,
                                  CLI::App& parent,
@@ -262,7 +263,7 @@ AddedCommand<KeyOptions> addOneKey(CommandLine& line,
 
 }  // namespace
 
-// `allowed` reads the folder at each call, so that a revocation holds for a running master.
+// `allowed` reads the folder at each call, so that a running master obeys revocations.
 std::optional<net::MasterKeys> masterKeysOf(const config::Rig& rig,
                                             const supervisor::ShowOptions& show) {
     if (!config::needsKeys(rig)) return std::nullopt;
@@ -270,7 +271,7 @@ std::optional<net::MasterKeys> masterKeysOf(const config::Rig& rig,
     options.rig = show.rigPath;
     options.folder = show.keyFolder;
     const KeyFile own = masterOf(options);
-    // A file that cannot be read for a moment locks nobody out.
+    // A file that is briefly unreadable excludes nobody.
     const auto allowed = [folder = options.keys(), last = net::Allowed{}]() mutable {
         try {
             net::Allowed now;
@@ -289,13 +290,14 @@ std::optional<net::MasterKeys> masterKeysOf(const config::Rig& rig,
 void addKeyCommands(CommandLine& line) {
     struct Nothing {};
     const auto keys = line.add<Nothing>(
-        "keys", "who may take part in a rig of several machines", [](const Nothing&) {
+        "keys", "manage the keys of a rig of several machines", [](const Nothing&) {
             throw CLI::RequiredError("keys: new, list, revoke, rotate or bundle");
         });
     addKeys(line, keys.app, "new", "make those that the rig lacks", makeKeys);
-    addKeys(line, keys.app, "list", "whose there are, how old, and which are revoked", listKeys);
+    addKeys(line, keys.app, "list", "list the keys: holder, age, and whether revoked", listKeys);
     addOneKey(line, keys.app, "revoke", "somebody may not take part any more", revokeKey);
-    addOneKey(line, keys.app, "rotate", "give somebody a new key; the old one ends", rotateKey);
+    addOneKey(
+        line, keys.app, "rotate", "replace a holder's key; the old one becomes invalid", rotateKey);
     const auto bundle =
         addOneKey(line, keys.app, "bundle", "write the one file for another machine", bundleKey);
     bundle.app.add_option("--out", bundle.options.out, "file; NAME.key here when left out");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// aquarama: runs shows and their master, asks it, and captures and studies fish.
+// aquarama: runs shows and their master, queries it, and captures and studies fish.
 #include <array>
 #include <vector>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama master`: joins a world, living or replayed, to the conductor, which shows it on the
+// `aquarama master`: connects a world, living or replayed, to the conductor, which shows it on the
 // wall.
 #include <algorithm>
 #include <array>
@@ -39,17 +39,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// `lockstep`: frame n shows tick n. `resume`: a show goes on after its master has died.
+// `lockstep`: frame n shows tick n. `resume`: the show continues after a crash of its master.
 struct MasterOptions {
     supervisor::ShowOptions show;
     bool lockstep = false;
     bool resume = false;
-    std::shared_ptr<LogFile> log;                 // of a show by the clock
-    machine::ServiceNotifier* service = nullptr;  // of a show that runs
+    std::shared_ptr<LogFile> log;                 // only of a live show
+    machine::ServiceNotifier* service = nullptr;  // null: nobody is notified
 };
 
-// None: the nodes measure which they can draw. In lockstep no clock is read, so nothing is
-// measured.
+// The quality; empty: the nodes measure which one they can draw. In lockstep no clock is read, so
+// nothing is measured.
 std::optional<config::QualityTier> qualityOf(const config::Rig& rig, const MasterOptions& options) {
     constexpr config::QualityTier kOfLockstep = config::QualityTier::Low;
     if (!options.show.quality.empty()) return config::tierNamed(options.show.quality);
@@ -57,10 +57,10 @@ std::optional<config::QualityTier> qualityOf(const config::Rig& rig, const Maste
     return rig.quality;
 }
 
-// A scene is a file where its name ends so, else a name beside the rig's scene.
+// The suffix of a scene's file. A text without it is the name of a scene beside the rig's scene.
 constexpr std::string_view kSceneEnding = ".txtpb";
 
-// Names without their ending, sorted, for the text of an error.
+// The names of scenes without suffix, sorted, for an error message.
 std::string scenesIn(const fs::path& folder) {
     std::vector<std::string> names;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
@@ -71,8 +71,8 @@ std::string scenesIn(const fs::path& folder) {
     return list;
 }
 
-// The file of a scene: a name lies beside the rig's scene. Throws Error, naming those that are
-// there.
+// The file of a scene: a name lies beside the rig's scene. Throws Error, which lists the scenes
+// that exist.
 std::string sceneFile(const config::Rig& rig, const std::string& rigPath, const std::string& name) {
     if (name.ends_with(kSceneEnding)) return name;
     const fs::path folder = fs::path(config::scenePathOf(rig, rigPath)).parent_path();
@@ -106,8 +106,8 @@ v1::WantedShow keptShow(const config::Rig& rig, const MasterOptions& options) {
     }
 }
 
-// A show by the clock begins with what was set before, under the options of its command line. A
-// master that is started again goes on with what was set.
+// The values with which the show begins. A live show begins with earlier values, overridden by the
+// options of its command line. A restarted master keeps all values that were set.
 void chooseWanted(const config::Rig& rig,
                   const MasterOptions& options,
                   conductor::ConductorOptions& conductor) {
@@ -133,8 +133,8 @@ class RigFileWatch {
     RigFileWatch(config::Rig rig, std::string path)
         : rig_{std::move(rig)}, path_{std::move(path)}, seen_{look()} {}
 
-    // Nothing where no file has changed. Throws Error where the new files are wrong, once for each
-    // change.
+    // The new rig; empty where no file has changed. Throws Error where the new files are wrong,
+    // once for each change.
     std::optional<config::Rig> operator()() {
         auto now = look();
         if (now == seen_) return std::nullopt;
@@ -145,8 +145,8 @@ class RigFileWatch {
     }
 
   private:
-    // Which file it is, its size, and when it and what is known of it changed: one that takes its
-    // place may have its size and time of writing. While one is being replaced it may be missing.
+    // Inode, size and times of change of a file: its replacement may have the same size and time of
+    // writing. A file may be missing while it is being replaced.
     using Stamp = std::array<std::int64_t, 7>;
     static Stamp stampOf(const std::string& file) {
         struct stat found {};
@@ -171,7 +171,7 @@ class RigFileWatch {
     std::vector<Stamp> seen_;
 };
 
-// How the conductor runs the frames.
+// The conductor's options for this run.
 conductor::ConductorOptions conductorOptions(const config::Rig& rig, const MasterOptions& options) {
     conductor::ConductorOptions conductor;
     conductor.pace = options.lockstep ? wire::Pace::Lockstep : wire::Pace::Live;
@@ -184,7 +184,8 @@ conductor::ConductorOptions conductorOptions(const config::Rig& rig, const Maste
     return conductor;
 }
 
-// What is shown: the living world, or `simulation` as a decorator of it, which records or replays.
+// The simulation that is shown: the living world, or `simulation`, a decorator that records or
+// replays it.
 struct Shown {
     const wire::AssetBundle& assets;
     const simulation::LivingWorld& world;
@@ -208,12 +209,12 @@ void show(const config::Rig& rig,
     conductor.run();
 }
 
-// Answers for the master while its world is made, and says the same to the service manager.
+// Answers requests while the master's world is made, and notifies the service manager.
 class WorldPreparation {
   public:
     WorldPreparation(net::MasterChannels& channels, machine::ServiceNotifier* service)
         : answers_{channels}, service_{service} {}
-    // From any thread, but never from two at once.
+    // Any thread, but never two at once.
     void tell(const std::string& what) {
         const std::string sentence = answers_.tell(what);
         if (service_ != nullptr) service_->beginLongWork(sentence);
@@ -224,7 +225,7 @@ class WorldPreparation {
     machine::ServiceNotifier* service_;
 };
 
-// A new world, recorded where that is asked for.
+// Shows a new world, and records it where that is requested.
 void showNew(const config::Rig& rig,
              const MasterOptions& options,
              std::unique_ptr<net::MasterChannels> channels) {
@@ -258,7 +259,7 @@ void showNew(const config::Rig& rig,
     file.close();
 }
 
-// A recording; the show ends with it.
+// Shows a recording; the show ends with it.
 void showAgain(const config::Rig& rig,
                const MasterOptions& options,
                std::unique_ptr<net::MasterChannels> channels) {
@@ -283,8 +284,8 @@ void showAgain(const config::Rig& rig,
     show(rig, conducting, {recording.assets, world, replayed}, std::move(channels), &running);
 }
 
-// The log of this rig's shows; the master's own lines go into it from now on. A show goes on
-// without where it cannot be written.
+// Opens the log of this rig's shows, which also gets the master's own lines. Where it cannot be
+// written, the show runs without it.
 std::shared_ptr<LogFile> openLog(const std::string& rigPath) {
     const fs::path path = userFolder("XDG_STATE_HOME", ".local/state") / "logs" /
                           (fs::path(rigPath).stem().string() + ".jsonl");
@@ -300,8 +301,8 @@ std::shared_ptr<LogFile> openLog(const std::string& rigPath) {
     }
 }
 
-// Binds the addresses before it makes the world, which takes seconds, and minutes at the first
-// start: a second master of the rig is refused at once, and who asks meanwhile is answered.
+// Binds the addresses before the world is made, which takes seconds, or minutes at the first start.
+// So a second master is refused at once, and requests are answered meanwhile.
 void runMaster(const MasterOptions& options) {
     cli::holdSignals();
     machine::ServiceNotifier service;
@@ -331,7 +332,7 @@ void addMaster(CommandLine& line) {
     command
         .add_flag("--resume",
                   options.resume,
-                  "of a show that goes on: what was set meanwhile goes before the options")
+                  "continue a show: values that were set override the options")
         ->excludes("--lockstep");
     command.add_option("--replay", options.show.replayPath, "show this recording")
         ->excludes("--record")

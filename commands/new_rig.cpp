@@ -20,10 +20,11 @@ namespace {
 
 constexpr double kDegree = kRadiansPerDegree<double>;
 constexpr double kMetresAnInch = 0.0254;
-constexpr double kOverlap = 0.2;  // of a projector's part with those beside it, together
+constexpr double kOverlap =
+    0.2;  // share of a projector's part that overlaps with its neighbours, both together
 constexpr int kWindowColumns = 640;
 
-// "left", "middle" and "right" where they say it all.
+// Names of channels: "left", "middle" and "right" where these are enough.
 std::string channelName(int index, int count) {
     if (count == 1) return "middle";
     if (index == 0) return "left";
@@ -31,14 +32,14 @@ std::string channelName(int index, int count) {
     return count == 3 ? "middle" : "from_left_" + std::to_string(index + 1);
 }
 
-// Of the picture of a television, by its diagonal and its pixels.
+// Size of a television's picture, from its diagonal and pixels.
 glm::dvec2 metresOf(double diagonalInches, glm::ivec2 pixels) {
     const glm::dvec2 size(pixels);
     return size * (diagonalInches * kMetresAnInch / glm::length(size));
 }
 
-// What a monitor says of its size, where it can be believed: projectors and cheap televisions say
-// anything.
+// The reported size of a monitor, where it is plausible: projectors and cheap televisions report
+// wrong sizes.
 std::optional<glm::dvec2> believableSize(const machine::MonitorFacts& monitor) {
     const glm::dvec2 size = monitor.sizeMetres;
     if (size.x < 0.2 || size.x > 3 || size.y <= 0) return std::nullopt;
@@ -52,7 +53,7 @@ const machine::Connector* connectorNamed(const std::vector<machine::Connector>& 
     return found == connected.end() ? nullptr : &*found;
 }
 
-// As many as were said, or as there are.
+// The wanted number, or the number of monitors.
 int countOf(const NewRigWishes& wishes, std::size_t monitors) {
     if (wishes.count) return *wishes.count;
     if (!wishes.connectors.empty()) return static_cast<int>(wishes.connectors.size());
@@ -103,7 +104,7 @@ void giveDefault(std::optional<double>& wish, double value) {
     wish = wish.value_or(value);
 }
 
-// Of what the kind needs.
+// Fills in the lengths that the kind needs.
 void fillIn(NewRigWishes& wishes) {
     switch (*wishes.kind) {
         case WallKind::Televisions:
@@ -126,7 +127,7 @@ void fillIn(NewRigWishes& wishes) {
     giveDefault(wishes.mount, *wishes.height / 2 + 0.3);
 }
 
-// Where a television stands: the middle of its picture, and which way it is turned.
+// Place of a television: the middle of its picture and its direction.
 struct StandingTelevision {
     glm::dvec2 place{};  // x and z
     double yawDegrees = 0;
@@ -168,7 +169,7 @@ struct ScreenPart {
     double halfHeight = 0;
 };
 
-// The lens that throws a picture onto a part, from a distance: all of it, and no more than it must.
+// The lens that covers a part from a distance, with the smallest picture that does.
 HungProjector lensFor(const ScreenPart& part, double distance, double mount, glm::dvec2 pixels) {
     constexpr int kSamples = 33;
     constexpr double kReserve = 0.98;  // of the picture
@@ -200,7 +201,7 @@ double distanceFor(const ScreenPart& part,
     return bounds.x;
 }
 
-// How much wider a part is than its share: not where there is one.
+// By which factor a part is wider than its share: 1 for a single projector.
 double widened(std::size_t count) {
     return count > 1 ? 1 + kOverlap : 1;
 }
@@ -221,7 +222,8 @@ HungProjector hangBeforeCylinder(const RigPlan& plan, std::size_t index) {
                               return radius * glm::dvec2(std::sin(angle), 1 - std::cos(angle));
                           },
                           *wishes.height / 2};
-    // In front of all of its part, and before what is behind it of the whole.
+    // At least in front of every point of its part, at most before the opposite side of the
+    // cylinder.
     const glm::dvec2 bounds(radius * (1.1 - std::cos(half)), 1.9 * radius);
     const double distance = distanceFor(part, wishes, pixels, bounds);
     HungProjector hung = lensFor(part, distance, *wishes.mount, pixels);
@@ -296,7 +298,7 @@ std::string screenText(const NewRigWishes& wishes) {
         *wishes.height);
 }
 
-// To what is written, and never -0.
+// Rounds to the written digits, and never gives -0.
 double rounded(double value) {
     return std::round(value * 1e4) / 1e4 + 0.0;
 }
@@ -367,7 +369,7 @@ std::string headText(const RigPlan& plan) {
                         "finds the rest by camera.\n");
 }
 
-// By the clock of a graphics card, or as slow as a processor that draws.
+// The rig's timing. Windows get long deadlines, since a processor may draw them.
 std::string timingText(bool windows) {
     return windows ? "# A machine without a graphics card takes a while for a frame: nobody is "
                      "hurried.\ntiming { refresh_hz: 60 present_deadline_s: 2 membership_s: 5 }\n"

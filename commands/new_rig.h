@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rig for the machine at hand: from what somebody measured with a tape to a commented file that
-// `aquarama check` calls good.
+// Makes a rig for this machine: from a few measured lengths to a commented file that passes
+// `aquarama check`.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@
 
 namespace aquarama {
 
-// What the world appears on.
+// The kind of display that shows the world.
 enum class WallKind { Televisions, Cylinder, Flat };
 
-// What was said of a new rig; nothing where it was not. Metres, degrees.
+// The wishes for a new rig; empty where not given. Metres, degrees.
 struct NewRigWishes {
     std::optional<WallKind> kind;
     std::optional<int> count;             // of televisions or projectors
@@ -41,32 +41,32 @@ struct PlannedChannel {
     glm::dvec2 sizeMetres{};  // of a television's picture
 };
 
-// All that a rig needs to be written.
+// All values of the rig's file.
 struct RigPlan {
     std::string name;
     NewRigWishes wishes;  // each with a value, where its kind needs it
     std::vector<PlannedChannel> channels;
 };
 
-// What is taken where nothing else is said.
+// The default values.
 inline constexpr double kDiagonalInches = 55;
 inline constexpr glm::ivec2 kSizePixels{1920, 1080};
 inline constexpr int kMostNewChannels = 16;
 
-// The monitors that a wall is made of: without a laptop's own panel, where there are others.
+// The monitors for a wall: all, but a laptop's own panel only where it is the only one.
 [[nodiscard]] std::vector<machine::Connector> wallMonitors(
     std::vector<machine::Connector> connected);
 
-// Of the picture of the first of them that tells its size; kDiagonalInches where none does.
+// Diagonal of the first monitor that reports its size; kDiagonalInches where none does.
 [[nodiscard]] double usualDiagonal(const std::vector<machine::Connector>& monitors);
 
-// Fills in what was not said, from the monitors that are connected and from habit. Throws Error
-// where there are too few monitors.
+// Fills in missing wishes, from the connected monitors and from the defaults. Throws Error where
+// there are too few monitors.
 [[nodiscard]] RigPlan planOf(NewRigWishes wishes,
                              const std::vector<machine::Connector>& connected,
                              const std::string& name);
 
-// The file.
+// The text of the rig's file.
 [[nodiscard]] std::string textOf(const RigPlan& plan);
 
 }  // namespace aquarama

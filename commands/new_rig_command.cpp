@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama new-rig`: asks about the wall, or takes options, and writes a rig.
+// `aquarama new-rig`: asks for the wall's measures, or reads options, and writes a rig.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -44,7 +44,7 @@ struct NewRigOptions {
     NewRigWishes wishes;
 };
 
-// What a number of an option or an answer may be.
+// The range of a number in an option or an answer.
 struct Range {
     double least, most;
 };
@@ -58,7 +58,7 @@ std::vector<std::string> wordsIn(const std::string& text) {
     return {std::istream_iterator<std::string>(stream), {}};
 }
 
-// "1920x1080"; nothing where it is none.
+// Parses "1920x1080"; empty for any other text.
 std::optional<glm::ivec2> sizeIn(const std::string& text) {
     glm::ivec2 size{};
     int end = 0;
@@ -69,11 +69,11 @@ std::optional<glm::ivec2> sizeIn(const std::string& text) {
     return isSize && isInBounds ? std::optional(size) : std::nullopt;
 }
 
-// A dialogue on the terminal. An empty answer takes what stands in brackets; a bad one is told in
-// one line and asked again.
+// A dialogue on the terminal. An empty answer selects the default in brackets. A wrong one gets one
+// line, and the question is repeated.
 class Dialogue {
   public:
-    // Asks until `take` finds no fault with the answer.
+    // Repeats the question until `take` accepts the answer.
     void ask(const std::string& question,
              const std::string& usual,
              const std::function<std::string(const std::string&)>& take) {
@@ -87,7 +87,7 @@ class Dialogue {
             std::cout << "  " << fault << '\n';
         }
     }
-    // A number, unless an option has said it.
+    // Asks for a number, unless an option has given it.
     void number(const std::string& question,
                 std::optional<double>& wish,
                 double usual,
@@ -191,7 +191,7 @@ void askMeasures(Dialogue& dialogue,
         "How high they hang above the eye, metres", wishes.mount, *wishes.height / 2 + 0.3, kMount);
 }
 
-// Everything that the options have not said.
+// Asks for everything that the options have not given.
 void askAll(NewRigWishes& wishes, const std::vector<machine::Connector>& connected) {
     Dialogue dialogue;
     const std::vector<machine::Connector> monitors = wallMonitors(connected);
@@ -201,7 +201,7 @@ void askAll(NewRigWishes& wishes, const std::vector<machine::Connector>& connect
     askMeasures(dialogue, wishes, monitors);
 }
 
-// Of the reef: beside the rig where it is there, else the one that comes with the programs.
+// Path of the reef's scene: beside the rig where it exists, else that of the installation.
 std::string sceneFor(const std::string& rigFile) {
     const std::string beside = "scenes/reef.txtpb";
     if (fs::exists(fs::path(rigFile).parent_path() / beside)) return beside;
@@ -233,7 +233,7 @@ void newRig(const NewRigOptions& options) {
     if (!wishes.kind) {
         if (isatty(STDIN_FILENO) == 0)
             throw Error(
-                "say what the world appears on (--screen televisions, cylinder or flat), or "
+                "choose the kind of display (--screen televisions, cylinder or flat), or "
                 "start it on a terminal to be asked");
         askAll(wishes, connected);
     }
@@ -261,7 +261,7 @@ void newRig(const NewRigOptions& options) {
                              options.file);
 }
 
-// An option for a number.
+// Adds an option with a number.
 void addNumber(CLI::App& command,
                const std::string& name,
                std::optional<double>& wish,
@@ -274,30 +274,31 @@ void describeMeasures(CLI::App& command, NewRigWishes& wishes) {
     addNumber(
         command, "--diagonal", wishes.diagonalInches, "of a television's picture, inches", kInches);
     addNumber(command, "--bezel", wishes.bezel, "width of a television's frame, metres", kFrame);
-    addNumber(command, "--angle", wishes.angle, "between neighbouring televisions, degrees", kTurn);
+    addNumber(
+        command, "--angle", wishes.angle, "angle between neighbouring televisions, degrees", kTurn);
     addNumber(command,
               "--distance",
               wishes.distance,
-              "from the eye to the middle of a flat wall or of televisions, metres",
+              "distance from the eye to the middle of a flat wall or of televisions, metres",
               kMetres);
     addNumber(command, "--radius", wishes.radius, "of a cylinder, metres", kMetres);
-    addNumber(command, "--arc", wishes.arc, "how far a cylinder reaches round, degrees", kArc);
+    addNumber(command, "--arc", wishes.arc, "angle that a cylinder covers, degrees", kArc);
     addNumber(command, "--width", wishes.width, "of a flat wall, metres", kMetres);
     addNumber(command, "--height", wishes.height, "of the screen, metres", kMetres);
     addNumber(command,
               "--throw",
               wishes.throwRatio,
-              "ratio of the projectors: distance by width",
+              "throw ratio of the projectors: distance by width",
               kThrow);
     addNumber(
-        command, "--mount", wishes.mount, "how high projectors hang above the eye, metres", kMount);
+        command, "--mount", wishes.mount, "height of projectors above the eye, metres", kMount);
 }
 
 }  // namespace
 
 void addNewRig(CommandLine& line) {
     const auto [command, options] = line.add<NewRigOptions>(
-        "new-rig", "write a rig for the wall at hand: asks, or takes options", newRig);
+        "new-rig", "write a rig for this wall, from questions or options", newRig);
     const auto isSize = [](const std::string& text) {
         return sizeIn(text) ? std::string() : text + " is no size, as 1920x1080";
     };
@@ -320,7 +321,9 @@ void addNewRig(CommandLine& line) {
                   "small windows on this desktop, not whole monitors")
         ->excludes(monitors);
     command
-        .add_option("--size", options.size, "of each picture, as 1920x1080; as the monitors say")
+        .add_option("--size",
+                    options.size,
+                    "size of each picture, as 1920x1080; by default the monitors' own")
         ->check(CLI::Validator(isSize, ""));
     command.add_option("--scene", options.wishes.scene, "what is shown, from the rig's folder");
     describeMeasures(command, options.wishes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama capture` and `export`: repertoires are made, and go to other programs.
+// `aquarama capture` and `export`: make repertoires, and convert them for other programs.
 #include <algorithm>
 #include <atomic>
 #include <cassert>
@@ -35,7 +35,7 @@ struct CaptureOptions {
     std::string config;
 };
 
-// From the cache or simulated, with a bar of progress; Ctrl-C ends it.
+// Reads repertoires from the cache or captures them, with a progress bar; Ctrl-C ends it.
 std::vector<capture::RepertoireFile> captured(const std::vector<config::Species>& species) {
     std::atomic<bool> isStopped = false;
     const cli::SignalWatch watch([&] { isStopped = true; });
@@ -46,7 +46,7 @@ std::vector<capture::RepertoireFile> captured(const std::vector<config::Species>
                                     .isStopped = [&] { return isStopped.load(); }});
 }
 
-// Writes the repertoire and, where a report is asked for, its data; returns the path of these.
+// Writes the repertoire and, where a report is requested, its data; returns the path of the data.
 fs::path write(const capture::RepertoireFile& file, const CaptureOptions& options) {
     const fs::path path = fs::path(options.out) / (file.species + ".aqrep");
     writeWhole(path, file.bytes);
@@ -56,7 +56,7 @@ fs::path write(const capture::RepertoireFile& file, const CaptureOptions& option
     return report::writeReport(repertoire, options.report);
 }
 
-// Names a species that fails, and writes the others. Returns the exit status.
+// Prints species that fail, and writes the others. Returns the exit status.
 int captureAll(const CaptureOptions& options) {
     cli::holdSignals();
     cli::requireFolder("--out", options.out);
@@ -93,7 +93,7 @@ struct ExportOptions {
     std::string file;
     std::string segment;
     int cycles = 1;
-    std::string c3d, gltf, csv;  // where to; one is asked for
+    std::string c3d, gltf, csv;  // output files; exactly one is given
     std::string config;
 };
 
@@ -106,7 +106,7 @@ std::vector<std::string> segmentNames() {
     return names;
 }
 
-// Of a name out of segmentNames().
+// The segment with a name from segmentNames().
 motion::Action actionNamed(const std::string& segment) {
     const std::vector<std::string> names = segmentNames();
     const auto found = std::ranges::find(names, segment);
@@ -114,7 +114,7 @@ motion::Action actionNamed(const std::string& segment) {
     return static_cast<motion::Action>(found - names.begin());
 }
 
-// By the ending of the name. Throws Error where it is neither .glb nor .gltf.
+// The format by the suffix. Throws Error where it is neither .glb nor .gltf.
 report::GltfContainer containerOf(const fs::path& path) {
     if (path.extension() == ".glb") return report::GltfContainer::Binary;
     if (path.extension() == ".gltf") return report::GltfContainer::Text;
@@ -128,7 +128,7 @@ body::FishBody bodyOf(const motion::Repertoire& repertoire, const ExportOptions&
         config::readSpecies(capture::speciesFiles({repertoire.species}, config).front().string()));
 }
 
-// Writes the one file that was asked for.
+// Writes the requested file.
 void exportSegment(const ExportOptions& options) {
     cli::requireFile("--c3d", options.c3d);
     cli::requireFile("--gltf", options.gltf);
@@ -158,7 +158,7 @@ void describeConfig(CLI::App& command, std::string& folder) {
     command.add_option("--config", folder, "folder that holds scenes and species");
 }
 
-// An empty name has the folder searched for.
+// An empty name: the folder is searched for.
 fs::path configFolder(const std::string& given) {
     return given.empty() ? capture::findConfigFolder() : fs::path(given);
 }

@@ -22,7 +22,7 @@ std::string clipNameProblem(const std::string& path) {
     return "\"" + path + "\" is not FILE.mp4 or FILE.webp";
 }
 
-// What only a supervisor does: windows or not, and pictures of all channels.
+// Options of the supervisor alone: windows or not, and pictures of all channels.
 void describePictures(CLI::App& command, supervisor::RunOptions& options) {
     command.add_flag("--headless", options.headless, "without a display");
     CLI::Option* snapshot = command.add_option(
@@ -40,17 +40,19 @@ void describePictures(CLI::App& command, supervisor::RunOptions& options) {
     command.add_option("--film-every", options.filmEvery, "the clip has every so many frames only")
         ->needs(clip)
         ->check(cli::wholeNumber(1, 10000));
-    command.add_flag("--live", options.live, "keep to the clock where lockstep would be implied")
+    command
+        .add_flag(
+            "--live", options.live, "follow the clock even where other options imply lockstep")
         ->excludes(clip);
     command.footer(
         "--headless, --frames, --snapshot and --clip imply lockstep: frame n shows tick n, and no "
         "clock is read.");
 }
 
-// Throws Error where the rig needs keys and has none, before a process is started.
+// Throws Error where the rig needs keys and has none, before any process starts.
 int runWith(const supervisor::RunOptions& options) {
     const config::Rig rig = config::readRig(options.show.rigPath);
-    static_cast<void>(masterKeysOf(rig, options.show));  // says at once where there are none
+    static_cast<void>(masterKeysOf(rig, options.show));  // throws where there are none
     return supervisor::runShow(options, rig);
 }
 
@@ -60,22 +62,22 @@ struct ReplayOptions {
     bool check = false;
 };
 
-// Throws Error before anything is started where the file is no recording.
+// Throws Error, before any process starts, where the file is not a recording.
 int replay(const ReplayOptions& options) {
     supervisor::requireRecording(options.run.show.replayPath);
     return options.check ? checkReplay(options.run.show.replayPath) : runWith(options.run);
 }
 
-// What another program of the installation does with the arguments after the command's name.
+// Another program of the installation that takes the arguments after the command's name.
 struct HandedOver {
     const CLI::App* command = nullptr;
     std::string program;
     std::vector<std::string> first;  // its own subcommand, before the arguments
-    std::string name;                // that its errors and its help begin with
+    std::string name;                // at the beginning of its errors and its help
     std::string notice = {};         // written to stderr before; empty: none
 };
 
-// Does not return: the other program takes the place of this process.
+// Replaces this process by the other program; does not return.
 void handOver(const HandedOver& to) {
     if (!to.notice.empty()) cli::sayError("aquarama", to.notice);
     supervisor::Command other{supervisor::siblingProgram(to.program), to.first, to.name};
@@ -83,8 +85,8 @@ void handOver(const HandedOver& to) {
     supervisor::become(other);
 }
 
-// A command that another program of the installation carries out, with all of its arguments. Where
-// it is a command of the other program as well, that adds its name by itself.
+// Adds a command that another program of the installation runs, with all arguments. Where the other
+// program has a command of that name, its errors add the name.
 HandedOver& addHandedOver(CommandLine& line,
                           const std::string& name,
                           const std::string& what,
@@ -101,25 +103,24 @@ HandedOver& addHandedOver(CommandLine& line,
 
 void describeWorld(CLI::App& command, supervisor::ShowOptions& options) {
     command.add_option("RIG", options.rigPath, "the rig's file")->capture_default_str();
-    command.add_option("--seed", options.seed, "of the world: the same seed gives the same world")
+    command
+        .add_option("--seed", options.seed, "seed of the world: the same seed gives the same world")
         ->check(cli::wholeNumber(0, cli::kMostSeed));
-    command.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
+    command.add_option("--scene", options.scenePath, "the scene to show, instead of the rig's");
     command
         .add_option(
-            "--fish", options.fish, "how many of the first species, instead of the scene's number")
+            "--fish", options.fish, "number of fish of the first species, instead of the scene's")
         ->check(cli::wholeNumber(0, kMostFish));
     command.add_option("--record", options.recordPath, "write the show to this new file");
 }
 
-// What `run`, `replay` and `master` have in common about the wall.
+// Adds the options about the wall that `run`, `replay` and `master` share.
 void describeWall(CLI::App& command, supervisor::ShowOptions& options) {
     command.add_option("--frames", options.frames, "end after so many frames")
         ->check(cli::wholeNumber(1, cli::kMostShownFrames));
     command.add_option("--pattern", options.pattern, "show this instead of the world")
         ->check(CLI::IsMember({"world", "grid", "grey"}));
-    command
-        .add_option(
-            "--quality", options.quality, "how fine the wall is drawn, instead of the rig's")
+    command.add_option("--quality", options.quality, "quality of drawing, instead of the rig's")
         ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));
     command.add_option("--keys",
                        options.keyFolder,
@@ -142,7 +143,8 @@ void addReplay(CommandLine& line) {
     command.add_option("FILE", options.run.show.replayPath, "the recording")->required();
     command.add_option("--rig", options.run.show.rigPath, "the wall that shows it")
         ->capture_default_str();
-    command.add_flag("--check", options.check, "no wall: only whether it is the same world again");
+    command.add_flag(
+        "--check", options.check, "without a wall: only check that the world is the same again");
     describeWall(command, options.run.show);
     describePictures(command, options.run);
 }
@@ -162,7 +164,7 @@ void addCheck(CommandLine& line) {
 void addView(CommandLine& line) {
     addHandedOver(line,
                   "view",
-                  "what a simulated hall makes of channel pictures: aquarama view RIG "
+                  "show channel pictures in a simulated hall: aquarama view RIG "
                   "--frame DIR --view hall --out PNG",
                   "compose",
                   {"view"});
@@ -183,7 +185,7 @@ void addCalibrate(CommandLine& line) {
 void addDrift(CommandLine& line) {
     addHandedOver(line,
                   "drift",
-                  "has a projector moved since last night: aquarama drift --rig RIG --camera DEV",
+                  "check whether a projector has moved: aquarama drift --rig RIG --camera DEV",
                   "calibrate",
                   {"drift"});
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama gaits`, `search`, `controllers` and `fidelity`: how species swim, and how closely their
-// replicas follow.
+// `aquarama gaits`, `search`, `controllers` and `fidelity`: measure how species swim, and how
+// closely their replicas follow.
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -34,7 +34,7 @@ struct GaitsOptions {
     std::string config;
 };
 
-// A line as soon as its species has swum.
+// Prints a line as soon as its species is measured.
 void printGaits(const GaitsOptions& options) {
     const fs::path config = configFolder(options.config);
     const auto files = capture::speciesFiles(options.species, config);
@@ -60,7 +60,7 @@ std::string textOf(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// The best trial so far, for the bar of progress.
+// The best trial so far, for the progress bar.
 std::string told(std::size_t trials, const capture::SearchTrial& best) {
     std::ostringstream note;
     note << std::fixed << std::setprecision(2) << "trial " << trials << ", Strouhal "
@@ -69,8 +69,8 @@ std::string told(std::size_t trials, const capture::SearchTrial& best) {
     return note.str();
 }
 
-// Goes on where its journal ends; then chooses the strength of turns, and writes the species' text
-// with what was found.
+// Continues where the journal ends; then chooses the strength of turns and writes the species' text
+// with the results.
 void searchGaitsOf(const SearchOptions& options) {
     cli::requireFile("--out", options.out);
     const fs::path file =
@@ -123,13 +123,13 @@ struct FidelityOptions {
     double seconds = 60;     // its length
 };
 
-// Names the file on stderr: stdout is for the tables.
+// Prints the file's name on stderr: stdout is for the tables.
 void writeText(const fs::path& path, const std::string& text) {
     writeWhole(path, std::as_bytes(std::span(text.data(), text.size())));
     std::cerr << path.string() << '\n';
 }
 
-// The same script to the fish and its replica, for each species; Python draws what was measured.
+// Gives the fish and its replica the same script, for each species; Python draws the results.
 void compareAll(const FidelityOptions& options) {
     cli::requireFolder("--out", options.out);
     cli::requirePython({"matplotlib"});
@@ -190,7 +190,7 @@ void addSearch(CommandLine& line) {
 void addControllers(CommandLine& line) {
     const auto [command, options] = line.add<ControllersOptions>(
         "controllers",
-        "what the biomechanical fish does under each of its motor controllers",
+        "draw the biomechanical fish under each of its motor controllers",
         drawControllers);
     command
         .add_option(
@@ -202,7 +202,7 @@ void addControllers(CommandLine& line) {
 
 void addFidelity(CommandLine& line) {
     const auto [command, options] = line.add<FidelityOptions>(
-        "fidelity", "how far replicas are from the fish that they stand for", compareAll);
+        "fidelity", "measure how closely replicas follow the fish that they stand for", compareAll);
     command.add_option("--species",
                        options.species,
                        "name of a species in the config folder, or a file; all when not given");

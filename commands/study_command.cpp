@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama study`: with and without each adaptation of the mind to its motor; and a chronicle of
-// one scene.
+// `aquarama study`: runs worlds with and without each adaptation of the mind to its motor; or a
+// chronicle of one scene.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Without a folder for the data, they go to a temporary one. `minutes` is time of the world.
+// Options of the study. Without a folder the data goes to a temporary one. `minutes` is world time.
 struct StudyOptions {
     std::string out;
     std::string config;
@@ -35,11 +35,11 @@ struct StudyOptions {
     std::uint32_t seeds = 5;
 };
 
-// Where the data are written: the folder that was asked for, or a temporary one that is removed
-// with this object.
+// The folder for the data: the requested one, or a temporary one that is removed with this object.
 class DataFolder {
   public:
-    // Before the work: throws Error where the folder cannot be written or there is no Python.
+    // Call it before the work. Throws Error where the folder cannot be written or Python is
+    // missing.
     static void require(const std::string& asked) {
         cli::requireFolder("--out", asked);
         cli::requirePython(kModules);
@@ -50,7 +50,7 @@ class DataFolder {
         path_ = made_->path();
     }
 
-    // Names the file on stderr where it is kept: stdout is for the tables.
+    // Prints the file's name on stderr where it is kept: stdout is for the tables.
     void write(const std::string& name, const std::string& text) const {
         writeWhole(path_ / name, std::as_bytes(std::span(text)));
         if (isKept_) std::cerr << (path_ / name).string() << '\n';
@@ -69,7 +69,7 @@ class DataFolder {
     std::optional<TemporaryFolder> made_;
 };
 
-// Runs the study under a bar of progress.
+// Runs the study with a progress bar.
 std::vector<study::Sample> watched(const study::StudyPlan& plan) {
     capture::ProgressBar bar("studying");
     std::mutex mutex;
@@ -129,11 +129,12 @@ void chronicle(const ChronicleOptions& options) {
 }  // namespace
 
 void addStudy(CommandLine& line) {
-    const auto [command, options] = line.add<StudyOptions>(
-        "study",
-        "with and without each adaptation of the mind to its motor; study chronicle SCENE: an hour "
-        "of a scene in figures",
-        runStudy);
+    const auto [command, options] =
+        line.add<StudyOptions>("study",
+                               "compare minds with and without each adaptation to their motor; "
+                               "study chronicle SCENE: an hour "
+                               "of a scene in figures",
+                               runStudy);
     command.require_subcommand(0, 1);
     command.footer("Prints its tables in Markdown.");
     command.add_option("--out", options.out, "folder for a table of all runs and a figure");

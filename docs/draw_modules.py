@@ -13,7 +13,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 PARTS = {  # in the order of their frames: the longest folder that fits, fill
-    "capture": "#fdebd3", "master": "#fbf6d5", "commands": "#f3efe6", "render_node": "#dcebf7", "calibration": "#eee0f5", "console": "#f7e1dd", "common": "#e2f2df"}
+    "capture": "#fdebd3", "master": "#fbf6d5", "commands": "#f3efe6", "render_node": "#dcebf7",
+         "calibration": "#eee0f5", "console": "#f7e1dd", "common": "#e2f2df"}
 ACROSS = "#00000055"  # fainter, an arrow from one part to another
 DECLARED = re.compile(r"aquarama_(library|program)\(([\w-]+)")
 EDGE = re.compile(r'" -> ".*// ([\w-]+) -> ([\w-]+)$', re.MULTILINE)
@@ -43,7 +44,8 @@ def label_of(target, folder, declared):
 
 def graph_of(declared, edges):
     lines = ['digraph modules {', 'rankdir=TB; nodesep=0.15; ranksep=0.45; fontname="Helvetica"; fontsize=15;',
-             'node [fontname="Helvetica", fontsize=13, shape=box, style="filled,rounded", fillcolor=white, height=0.32, margin="0.1,0.03"];',
+             'node [fontname="Helvetica", fontsize=13, shape=box, style="filled,rounded", fillcolor=white, '
+             'height=0.32, margin="0.1,0.03"];',
              'edge [color="#000000aa", arrowsize=0.6];']
     for number, (part, fill) in enumerate(PARTS.items()):
         lines.append(f'subgraph cluster{number} {{ label="{part}"; style="filled,rounded"; color="{fill}";')

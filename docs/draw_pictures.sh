@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Draws the pictures of the documents: docs/draw_pictures.sh [NAME...], those of docs/pictures that are named (chase.webp), or
-# all. Builds what draws them, and prints the seconds that each took; those drawn in one go share them.
+# Draws the pictures of the documents: docs/draw_pictures.sh [NAME...], those of docs/pictures that are named
+# (chase.webp), or all. Builds what draws them, and prints the seconds that each took; those drawn in one go share them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 drawn=$(mktemp -d)
@@ -56,7 +56,7 @@ declare -A way=(
 )
 
 # Each leaves its pictures in $drawn.
-# The unrolled wall of a rig after a second. For a clip that nobody keeps only its own frames are drawn: here the last one.
+# The unrolled wall of a rig after a second. For a clip that nobody keeps only its own frames are drawn: here the last.
 wall() {
     $bin/aquarama run "config/$1.txtpb" --quality medium --headless --frames 61 --film-every 60 --clip "$drawn/$1.mp4" \
         --snapshot "$drawn/$1"
@@ -79,7 +79,8 @@ sheet.save(sys.argv[2], quality=85, method=6)
 PYTHON
 }
 portraits() {
-    $bin/aquarama_draw_still --plate --fov 40 --azimuth 10 --width 1280 --height 720 --quality ultra --out "$drawn/portraits.png"
+    $bin/aquarama_draw_still --plate --fov 40 --azimuth 10 --width 1280 --height 720 --quality ultra \
+        --out "$drawn/portraits.png"
 }
 tiers() {
     local tier
@@ -176,7 +177,8 @@ done
 
 cmake --preset show-tests >"$drawn/configure.log" 2>&1 || { cat "$drawn/configure.log" >&2; exit 1; }
 if [ "${names[*]}" != modules.svg ]; then
-    cmake --build --preset show-tests --target aquarama_programs aquarama-calibrate aquarama_draw_still aquarama_draw_species aquarama_draw_sheet
+    cmake --build --preset show-tests --target aquarama_programs aquarama-calibrate aquarama_draw_still \
+        aquarama_draw_species aquarama_draw_sheet
 fi
 
 declare -A seconds=()

@@ -3,19 +3,13 @@
 
 A block is a comment with a template and the text that was made of it:
 
-    <!-- figures: amd-epyc
-    | a step of the fish | {dynamics_step us 2} µs |
-    for 60 1000: | a tick of {@} fish | {mind_tick/fish:@ p50_ms 2} ms |
-    -->
-    | a step of the fish | 6.1 µs |
-    | a tick of 60 fish | 0.013 ms |
-    | a tick of 1 000 fish | 0.19 ms |
-    <!-- end -->
+<!-- figures: amd-epyc | a step of the fish | {dynamics_step us 2} µs | for 60 1000: | a tick of {@} fish |
+{mind_tick/fish:@ p50_ms 2} ms | --> | a step of the fish | 6.1 µs | | a tick of 60 fish | 0.013 ms | | a tick of 1 000
+fish | 0.19 ms | <!-- end -->
 
-{ROW WHAT DIGITS} is a number of docs/measurements/amd-epyc.csv: ROW a benchmark without its /iterations:, /manual_time and
-the like; WHAT the column cpu_ns in a unit (ns, us, ms, s) or a counter, which may be multiplied (per_fish*1e9); DIGITS how
-many are significant. {ROW WHAT / ROW WHAT DIGITS} is a ratio.
-"""
+{ROW WHAT DIGITS} is a number of docs/measurements/amd-epyc.csv: ROW a benchmark without its /iterations:, /manual_time
+and the like; WHAT the column cpu_ns in a unit (ns, us, ms, s) or a counter, which may be multiplied (per_fish*1e9);
+DIGITS how many are significant. {ROW WHAT / ROW WHAT DIGITS} is a ratio. """
 
 import csv
 import math

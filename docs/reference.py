@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes docs/reference.md, every field of rigs, scenes and species, from common/config/*.proto; with --check says whether
-it is current.
+"""Writes docs/reference.md, every field of rigs, scenes and species, from common/config/*.proto; with --check says
+whether it is current.
 
-Reads the schemas as we write them: one field a line, its rule in [(rule)...], its comment behind it or in the lines above.
-"""
+Reads the schemas as we write them: one field a line, its rule in [(rule)...], its comment behind it or in the lines
+above. """
 
 import re
 import sys
@@ -16,12 +16,13 @@ HEAD = """# Reference: rigs, scenes and species
 
 <!-- Written by docs/reference.py from common/config/*.proto: change those. -->
 
-Every field of these kinds of files, and of the hours that the [console](console.md) keeps. `aquarama check FILE` holds a file to all of it, and says where it is wrong and what
-to do. What the fields are for: [scenes](scenes.md), [species](species.md), [stereo](stereo.md); the rigs in `config` show how
-one is written. L is the length of the fish. *Left out*: what then holds,
-`{}` a message with all of its own defaults; *required*: the file must have it.
+Every field of these kinds of files, and of the hours that the [console](console.md) keeps. `aquarama check FILE` holds
+a file to all of it, and says where it is wrong and what to do. What the fields are for: [scenes](scenes.md),
+[species](species.md), [stereo](stereo.md); the rigs in `config` show how one is written. L is the length of the fish.
+*Left out*: what then holds, `{}` a message with all of its own defaults; *required*: the file must have it.
 """
-TYPES = {"double": "number", "uint32": "whole number", "int32": "whole number", "string": "text", "bool": "`true`, `false`"}
+TYPES = {"double": "number", "uint32": "whole number", "int32": "whole number", "string": "text",
+         "bool": "`true`, `false`"}
 UNITS = {"_m_s": "m/s", "_per_s": "1/s", "_deg": "°", "_hz": "Hz", "_px": "pixels", "_bl": "L", "_m": "m", "_s": "s",
          "_c": "°C", "_particles": "particles"}
 FIELD = re.compile(r"(?:(optional|repeated) )?([\w.]+) (\w+) = \d+(?: \[(.*)\])?;")

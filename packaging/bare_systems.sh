@@ -1,7 +1,7 @@
 # Sourced by packaging/try-*.sh: minimal Debian systems in the temporary folder $work, which goes when the script ends.
 #
-# Needs root and debootstrap: without them the script ends with status 77, in CI with 1. A release is debootstrapped once
-# and then kept as an archive in the user's cache.
+# Needs root and debootstrap: without them the script ends with status 77, in CI with 1. A release is debootstrapped
+# once and then kept as an archive in the user's cache.
 
 if [ "$(id -u)" -ne 0 ] || ! command -v debootstrap >/dev/null; then
     echo "SKIPPED: a bare Debian needs root, and the packages of packaging/packages/bare.txt" >&2

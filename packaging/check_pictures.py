@@ -1,4 +1,5 @@
-"""check_pictures.py FOLDER: checks that the pictures of a snapshot of config/desk.txtpb exist, have their size and are not flat"""
+"""check_pictures.py FOLDER: checks that the pictures of a snapshot of config/desk.txtpb exist, have their size and are
+not flat"""
 
 import struct
 import sys

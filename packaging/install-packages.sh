@@ -9,7 +9,10 @@ done
 
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || { echo "these packages are missing, and there is no sudo to install them: ${missing[*]}" >&2; exit 1; }
+    if ! command -v sudo >/dev/null; then
+        echo "these packages are missing, and there is no sudo to install them: ${missing[*]}" >&2
+        exit 1
+    fi
     as_root=(sudo)
 fi
 echo "installing ${#missing[@]} Debian packages: ${missing[*]}"

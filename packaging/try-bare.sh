@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # try-bare.sh RELEASE...: what ./run does on a fresh Debian (bookworm, trixie), one release after the other.
 #
-# Makes a minimal system in a temporary folder, clones HEAD into it, runs ./run there, and checks the pictures. The first
-# release records ten seconds of the reef; every release must replay them to the same world. Prints seconds and the
-# world's hash. Needs root and debootstrap: without them it ends with status 77, in CI with 1.
+# Makes a minimal system in a temporary folder, clones HEAD into it, runs ./run there, and checks the pictures. The
+# first release records ten seconds of the reef; every release must replay them to the same world. Prints seconds and
+# the world's hash. Needs root and debootstrap: without them it ends with status 77, in CI with 1.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # try-boot.sh RELEASE: a hall of Aquarama's packages boots in an emulated machine, to a test pattern on its screen.
 #
-# Takes the packages that packaging/try-packages.sh has left in build/debs/RELEASE. Installs them on a minimal system with a
-# kernel, gives it a rig of one panel of 320 x 240 pixels, and starts it in QEMU, without KVM and with software OpenGL. The
-# screen must show what the programs draw of that channel without a display. Then the word "poweroff" must switch the machine off.
-# Leaves build/boot-RELEASE.ppm. Needs root and debootstrap, and the packages of packaging/packages/boot.txt: without them it ends with status 77, in CI
-# with 1.
+# Takes the packages that packaging/try-packages.sh has left in build/debs/RELEASE. Installs them on a minimal system
+# with a kernel, gives it a rig of one panel of 320 x 240 pixels, and starts it in QEMU, without KVM and with software
+# OpenGL. The screen must show what the programs draw of that channel without a display. Then the word "poweroff" must
+# switch the machine off. Leaves build/boot-RELEASE.ppm. Needs root and debootstrap, and the packages of
+# packaging/packages/boot.txt: without them it ends with status 77, in CI with 1.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -16,8 +16,10 @@ most_seconds=1200  # until the pattern is there
 debs=build/debs/$release/now
 root=$work/$release
 
-command -v qemu-system-x86_64 >/dev/null ||
-    { echo "SKIPPED: no QEMU; install what packaging/packages/boot.txt names" >&2; [ -z "${CI:-}" ] && exit 77 || exit 1; }
+if ! command -v qemu-system-x86_64 >/dev/null; then
+    echo "SKIPPED: no QEMU; install what packaging/packages/boot.txt names" >&2
+    [ -z "${CI:-}" ] && exit 77 || exit 1
+fi
 [ -d "$debs" ] || fail "no packages in $debs; packaging/try-packages.sh $release makes them"
 
 # The rig, and what an emulated machine needs: more time, and somebody who says the word.
@@ -72,21 +74,27 @@ time.sleep(1)' "$work/$1" "$2"
 make_system "$release" "$root"
 mkdir "$root/aquarama"
 cp -r "$debs" "$root/debs"
-logged "the packages cannot be installed" "$root" "apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y \
-    --no-install-recommends systemd-sysv udev linux-image-amd64 initramfs-tools zstd /debs/*.deb"
+logged "the packages cannot be installed" "$root" "apt-get update -qq &&
+    DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends \
+    systemd-sysv udev linux-image-amd64 initramfs-tools zstd /debs/*.deb"
 set_up
 rm -rf "$root/debs" "$root"/var/cache/apt/archives/*.deb
 mke2fs -q -t ext4 -d "$root" "$work/hall.img" 2G >/dev/null
 
 began=$SECONDS
+kernel_options="quiet loglevel=0 vt.global_cursor_default=0 consoleblank=0 systemd.show_status=false console=ttyS0"
 qemu-system-x86_64 -accel tcg,thread=multi -cpu max -smp 2 -m 1500 -no-reboot -display none -vga std -nic none \
     -kernel "$root"/boot/vmlinuz-* -initrd "$root"/boot/initrd.img-* -drive "file=$work/hall.img,format=raw,if=virtio" \
-    -append "root=/dev/vda rw quiet loglevel=0 vt.global_cursor_default=0 consoleblank=0 systemd.show_status=false console=ttyS0" \
-    -serial "file:$work/serial.log" -serial "unix:$work/word,server,nowait" -monitor "unix:$work/monitor,server,nowait" &
+    -append "root=/dev/vda rw $kernel_options" -serial "file:$work/serial.log" \
+    -serial "unix:$work/word,server,nowait" -monitor "unix:$work/monitor,server,nowait" &
 inside=$!
-until [ -f "$work/screen.ppm" ] && python3 packaging/check_screen.py "$work/screen.ppm" "$root/tmp/show/channel-only.png"; do
+until [ -f "$work/screen.ppm" ] &&
+    python3 packaging/check_screen.py "$work/screen.ppm" "$root/tmp/show/channel-only.png"; do
     kill -0 $inside 2>/dev/null || fail "the machine has ended"
-    [ $((SECONDS - began)) -lt $most_seconds ] || { tail -n 20 "$work/serial.log" >&2; fail "no pattern after $most_seconds s"; }
+    if [ $((SECONDS - began)) -ge $most_seconds ]; then
+        tail -n 20 "$work/serial.log" >&2
+        fail "no pattern after $most_seconds s"
+    fi
     sleep 10
     tell monitor "screendump $work/screen.ppm"
 done

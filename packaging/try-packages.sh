@@ -1,16 +1,21 @@
 #!/usr/bin/env bash
-# try-packages.sh [--built] RELEASE...: Aquarama's packages on a fresh Debian (bookworm, trixie), one release after the other.
+# try-packages.sh [--built] RELEASE...: Aquarama's packages on a fresh Debian (bookworm, trixie), one release after the
+# other.
 #
 # In one minimal system it builds the packages of HEAD, and once more as version 0.2.0, and asks lintian. In another it
-# installs, upgrades, downgrades, removes and purges them, and looks each time at what is kept; asks systemd-analyze about
-# the units; and has a normal user make the desk's panorama. The packages are left in build/debs/RELEASE; --built takes those that an
-# earlier run left there. Needs root and debootstrap: without them it ends with status 77, in CI with 1.
+# installs, upgrades, downgrades, removes and purges them, and looks each time at what is kept; asks systemd-analyze
+# about the units; and has a normal user make the desk's panorama. The packages are left in build/debs/RELEASE; --built
+# takes those that an earlier run left there. Needs root and debootstrap: without them it ends with status 77, in CI
+# with 1.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 built=false
 [ "${1:-}" = --built ] && { built=true; shift; }
-[ $# -gt 0 ] || { echo "usage: packaging/try-packages.sh [--built] RELEASE..., for example bookworm trixie" >&2; exit 2; }
+if [ $# -eq 0 ]; then
+    echo "usage: packaging/try-packages.sh [--built] RELEASE..., for example bookworm trixie" >&2
+    exit 2
+fi
 source packaging/bare_systems.sh
 
 version_before=0.2.0  # the same files under a lower version
@@ -75,12 +80,19 @@ kept_files() {
 
 enabled_units() { in_system "$root" "cd /etc/systemd/system && find . -name '*aquarama*' | sort"; }
 
-require_kept() { [ "$(kept_files)" = "$kept" ] || { diff <(echo "$kept") <(kept_files) >&2; fail "$1 changes the hall's own files"; }; }
+# require_same WANTED FOUND MESSAGE: fails with the difference and the message where the two differ.
+require_same() { [ "$2" = "$1" ] || { diff <(echo "$1") <(echo "$2") >&2; fail "$3"; }; }
+
+require_kept() { require_same "$kept" "$(kept_files)" "$1 changes the hall's own files"; }
+
+require_hall_conf() {
+    in_system "$root" "grep -q '^MASTER_ARGUMENTS=--quality low' /etc/aquarama/hall.conf" || fail "$1"
+}
 
 require_unchanged() {
     require_kept "$1"
-    [ "$(enabled_units)" = "$enabled" ] || { diff <(echo "$enabled") <(enabled_units) >&2; fail "$1 changes what is enabled"; }
-    in_system "$root" "grep -q '^MASTER_ARGUMENTS=--quality low' /etc/aquarama/hall.conf" || fail "$1 takes hall.conf back"
+    require_same "$enabled" "$(enabled_units)" "$1 changes what is enabled"
+    require_hall_conf "$1 takes hall.conf back"
 }
 
 # systemd-analyze verify and security, of every unit.
@@ -104,19 +116,22 @@ try_desk() {
     logged "the installed desk makes no panorama" "$root" "useradd --create-home visitor && cd /home/visitor &&
         runuser -u visitor -- aquarama run /usr/share/aquarama/config/desk.txtpb --headless --frames 3 --snapshot show"
     python3 packaging/check_pictures.py "$root/home/visitor/show"
-    say "the desk's panorama is drawn by the installed programs: $(in_system "$root" 'aquarama --version' | head -n 2 | tr -s '\n ' ' ')"
+    local version
+    version=$(in_system "$root" 'aquarama --version' | head -n 2 | tr -s '\n ' ' ')
+    say "the desk's panorama is drawn by the installed programs: $version"
     logged "a manual page cannot be read" "$root" \
-        'for page in aquarama aquarama-calibrate aquarama-compose aquarama-console aquarama-hall aquarama-node aquarama-outputs; do
+        'for page in aquarama aquarama-calibrate aquarama-compose aquarama-console aquarama-hall aquarama-node \
+             aquarama-outputs; do
              test -s /usr/share/man/man1/$page.1.gz || exit 1
          done'
 }
 
 require_left() {
     local left
-    left=$(in_system "$root" "find / -xdev \( -path /aquarama -o -path /debs -o -path /proc -o -path /sys -o -path /dev -o -path /run -o -path /home \
-        -o -path /var/cache/man \) -prune \
-        -o -path '*aquarama*' -print" | grep -Ev '^/(etc/aquarama(/(rigs|keys|nodes)(/.*)?)?|var/lib/aquarama(/.*)?)$' || true)
-    [ "$left" = "$1" ] || { diff <(echo "$1") <(echo "$left") >&2; fail "purged packages leave other files than are the hall's own"; }
+    left=$(in_system "$root" "find / -xdev \( -path /aquarama -o -path /debs -o -path /proc -o -path /sys \
+        -o -path /dev -o -path /run -o -path /home -o -path /var/cache/man \) -prune -o -path '*aquarama*' -print" |
+        grep -Ev '^/(etc/aquarama(/(rigs|keys|nodes)(/.*)?)?|var/lib/aquarama(/.*)?)$' || true)
+    require_same "$1" "$left" "purged packages leave other files than are the hall's own"
 }
 
 try() {
@@ -129,7 +144,8 @@ try() {
     # Documents and manual pages are left out by some images of Debian; here they are looked at.
     rm -f "$root"/etc/dpkg/dpkg.cfg.d/*exclude*
     logged "systemd cannot be installed" "$root" \
-        "apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends systemd systemd-sysv man-db"
+        "apt-get update -qq &&
+         DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends systemd systemd-sysv man-db"
 
     install before
     live_in
@@ -147,7 +163,7 @@ try() {
     require_kept "the removal"
     ! in_system "$root" "ls /usr/bin/aquarama* /usr/share/aquarama /usr/lib/systemd/system/aquarama*" >/dev/null 2>&1 ||
         fail "removed packages leave programs or units"
-    in_system "$root" "grep -q '^MASTER_ARGUMENTS=--quality low' /etc/aquarama/hall.conf" || fail "the removal takes hall.conf"
+    require_hall_conf "the removal takes hall.conf"
     [[ $(enabled_units) = *aquarama-node@left.service* ]] || fail "the removal forgets which channels were enabled"
     say "removal keeps rigs, keys, calibration, what was set, and hall.conf"
     logged "the packages cannot be purged" "$root" "DEBIAN_FRONTEND=noninteractive apt-get purge -y ${packages[*]}"

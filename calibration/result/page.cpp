@@ -16,55 +16,18 @@
 
 namespace aquarama::result {
 
+extern const char* const kPageStyle;  // page.css, embedded by CMake
+
 namespace {
 
-// Colours of both themes; narrow screens; paper.
+// The head of the page: {0} is the name of the rig, {1} the style.
 constexpr const char* kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
 <title>Calibration of {0}</title>
 <style>
-:root {{ --text: #1c2127; --dim: #5b6570; --page: #fff; --line: #d6dbe0; --card: #f4f6f8;
-  --pass: #1a7f45; --warn: #9a6200; --refuse: #b3261e; }}
-@media (prefers-color-scheme: dark) {{ :root {{ --text: #e6e9ec; --dim: #9aa5b1; --page: #14181c;
-  --line: #353c44; --card: #1d2329; --pass: #56c288; --warn: #e0ad4a; --refuse: #ff8a80; }} }}
-* {{ box-sizing: border-box; }}
-body {{ margin: 0 auto; max-width: 1040px; padding: 1.2rem; color: var(--text);
-  background: var(--page); font: 1rem/1.5 system-ui, sans-serif; }}
-h1 {{ font-size: 1.5rem; margin: 0 0 .8rem; }}
-h2 {{ font-size: 1.15rem; margin: 2.2rem 0 .4rem; }}
-p {{ margin: .4rem 0; max-width: 46rem; }}
-.verdict {{ border-left: .4rem solid; background: var(--card); padding: .7rem 1rem; }}
-.verdict b {{ font-size: 1.25rem; }}
-.pass, .pass b {{ border-color: var(--pass); }} .pass b {{ color: var(--pass); }}
-.warn, .warn b {{ border-color: var(--warn); }} .warn b {{ color: var(--warn); }}
-.refuse, .refuse b {{ border-color: var(--refuse); }} .refuse b {{ color: var(--refuse); }}
-.dim {{ color: var(--dim); }}
-.wide {{ overflow-x: auto; }}
-table {{ border-collapse: collapse; width: 100%; }}
-th, td {{ text-align: left; vertical-align: top; padding: .35rem .8rem .35rem 0;
-  border-bottom: 1px solid var(--line); }}
-td.number {{ white-space: nowrap; font-variant-numeric: tabular-nums; }}
-svg {{ display: block; width: 100%; height: auto; margin: .5rem 0; }}
-svg text {{ font: 15px system-ui, sans-serif; fill: var(--dim); }}
-svg polyline {{ stroke-width: 2; vector-effect: non-scaling-stroke; }}
-th {{ white-space: nowrap; }}
-svg .label {{ font-size: 20px; font-weight: 600; fill: #fff; stroke: #000; stroke-width: 3px;
-  paint-order: stroke; }}
-.tick {{ stroke: var(--line); }}
-.scale span {{ display: inline-block; width: 11rem; max-width: 40vw; height: .8rem; margin: 0 .4rem; }}
-.names span {{ margin-right: 1.2rem; white-space: nowrap; }}
-.names i {{ display: inline-block; width: 1.2rem; height: .25rem; margin-right: .4rem;
-  vertical-align: middle; }}
-@media (max-width: 600px) {{ body {{ padding: .8rem; }} svg text, svg .label {{ font-size: 30px; }}
-  .figures td:last-child {{ display: block; }}
-  .figures tr {{ display: block; border-bottom: 1px solid var(--line); padding: .3rem 0; }}
-  .figures td {{ display: inline-block; border: 0; padding: 0 .5rem 0 0; }} }}
-@media print {{ body {{ max-width: none; font-size: 10pt; }} h2 {{ break-after: avoid; }}
-  section {{ break-inside: avoid; }}
-  svg image, .scale span, .names i {{ print-color-adjust: exact; -webkit-print-color-adjust: exact; }} }}
-</style></head><body>
+{1}</style></head><body>
 <h1>Calibration of {0}</h1>
 )";
 
@@ -184,7 +147,7 @@ class Writer {
 
     // A refused calibration has no wall file: the parts that compare with one are left out.
     std::string html() {
-        std::string text = fmt::format(fmt::runtime(kHead), escaped(rig_.name));
+        std::string text = fmt::format(kHead, escaped(rig_.name), kPageStyle);
         text += verdict(page_);
         text += "<p class=\"dim\">Errors are in pixels of the panorama (px), which is " +
                 fmt::format("{} x {}", rig_.panoramaPixels.x, rig_.panoramaPixels.y) +

@@ -32,7 +32,7 @@ std::string ringOf(std::size_t node) {
     return std::to_string(1 + (node - 1) / kCorners.size());
 }
 
-// Of a node of a ring.
+// The corner of a node of a ring.
 const Corner& cornerOf(std::size_t node) {
     return kCorners.at((node - 1) % kCorners.size());
 }

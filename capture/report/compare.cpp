@@ -136,8 +136,8 @@ CommandErrors errorsOf(const ScriptCommand& command, const Passage& passage, dou
     return errors;
 }
 
-// From the index `start` to the end of the traces. The beats, in ticks, are those over which the
-// headings at the start and at the end are averaged.
+// The errors from the index `start` to the end of the traces. The beats, in ticks, are those over
+// which the headings at the start and at the end are averaged.
 OpenLoopErrors openLoopOf(
     const Trace& fish, const Trace& replica, std::size_t start, double firstBeat, double lastBeat) {
     const std::size_t end = fish.size() - 1;
@@ -151,7 +151,7 @@ OpenLoopErrors openLoopOf(
 
 // Statistics.
 
-// Of weighted values; 0 of none.
+// The root mean square of weighted values; 0 of none.
 class RootMeanSquare {
   public:
     void add(double value, double weight) {
@@ -278,7 +278,7 @@ Overlay::Overlay(const Trace& fish, const Trace& replica, std::size_t start, dou
       start_(start),
       turn_(headingAt(fish, start, beatTicks) - headingAt(replica, start, beatTicks)) {}
 
-// In the world of the fish.
+// A point of the replica in the world of the fish.
 glm::dvec3 Overlay::at(std::size_t tick) const {
     assert(tick < replica_.size());
     // Only the heading is corrected, about the vertical: climb and pitch remain errors.

@@ -16,8 +16,8 @@ from matplotlib.patches import Patch, Polygon
 from figures import (AMBER, INK, PUBLISHED, PX, QUIET, from_above, hide_axes, html_table, picture, plt, save,
                      write_page)
 
-# One colour a segment: straight on in blues, turns in warm colours for the left and greens for the right, curves in paler
-# ones of their side and width.
+# One colour a segment: straight on in blues, turns in warm colours for the left and greens for the right, curves in
+# paler ones of their side and width.
 COLOURS = dict(zip(["forward_slow", "forward_medium", "forward_fast", "turn_left_gradual", "turn_left_sharp",
                     "turn_right_gradual", "turn_right_sharp"],
                    ["#7fb2d6", "#2f77b4", "#143d6b", "#e2a33b", "#bf4a24", "#7fb069", "#2e7d4f"]))
@@ -218,7 +218,9 @@ def file_table(file):
     drag = ", ".join(f"{value:.3f}" for value in file["swim_drag"])
     control = (f" and {file['control_points']} control points" if file["control_points"]
                else "; control points are computed from them, not recorded")
-    response = (f"drag {drag} swimming, {file['retreat_drag']:.3f} retreating, {file['glide_drag']:.3f} gliding, per BL; brake {file['brake_rate']:.3f} per s"
+    response = (
+        f"drag {drag} swimming, {file['retreat_drag']:.3f} retreating, {file['glide_drag']:.3f} gliding, per BL; brake "
+        f"{file['brake_rate']:.3f} per s"
                 if file["glide_drag"] > 0 or file["brake_rate"] > 0 else "not measured")
     return html_table([], [
         ["recorded fish", f"{file['recorded_metres']:.3f} m, nose to tip of the tail"],

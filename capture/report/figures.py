@@ -114,7 +114,8 @@ def markdown_table(head, rows):
 def write_page(path, title, body):
     """Writes a page of HTML; returns its path."""
     head = f'<meta charset="utf-8"><title>{title}</title><style>{STYLE}</style>'
-    drawn(path).write_text(f'<!doctype html>\n<html lang="en"><head>{head}</head>\n<body><h1>{title}</h1>\n{body}</body>'
+    drawn(path).write_text(
+        f'<!doctype html>\n<html lang="en"><head>{head}</head>\n<body><h1>{title}</h1>\n{body}</body>'
                           "</html>\n", encoding="utf-8")
     return path
 

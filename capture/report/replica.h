@@ -10,10 +10,12 @@
 
 namespace aquarama::report {
 
-// Starts at the origin with forward_medium at phase 0, at that gait's speed. It is one metre long,
-// so that metres are body lengths. Owns a copy of the repertoire; for one thread at a time.
+// A fish that is moved by the motor. It starts at the origin with forward_medium at phase 0, at
+// that gait's speed. It is one metre long, so that metres are body lengths. Owns a copy of the
+// repertoire; for one thread at a time.
 class Replica {
   public:
+    // Plays this repertoire.
     explicit Replica(const motion::Repertoire& repertoire);
 
     // Sets segment, tempo, pitch and brake for a manoeuvre; in force from the next tick on.

@@ -14,8 +14,8 @@
 
 namespace aquarama::report {
 
-// What can be commanded. The replica swims level, climbs and dives on the captured slopes, and
-// brakes in the glide with its fins spread.
+// The manoeuvres that can be commanded. The replica swims level, climbs and dives on the captured
+// slopes, and brakes in the glide with its fins spread.
 enum class Manoeuvre : std::uint8_t {
     ForwardSlow,
     ForwardMedium,
@@ -38,12 +38,13 @@ inline constexpr int kManoeuvres = 13;
     return m >= Manoeuvre::TurnLeftGradual && m <= Manoeuvre::TurnRightSharp;
 }
 
-// What the replica plays for a manoeuvre while its pitch is the wanted one.
+// The action that the replica plays for a manoeuvre while its pitch is the wanted one.
 [[nodiscard]] motion::Action actionOf(Manoeuvre manoeuvre);
 
 // The pitch of Ascend and, downwards, of Descend: 20 degrees.
 inline constexpr double kScriptPitchRadians = 0.35;
 
+// One command to the fish and its replica.
 struct ScriptCommand {
     Manoeuvre manoeuvre = Manoeuvre::ForwardMedium;
     int ticks = 0;         // how long it lasts
@@ -63,9 +64,7 @@ using Script = std::vector<ScriptCommand>;
 // The length of the script without its run-in.
 [[nodiscard]] int ticksOf(const Script& script);
 
-// Traces: what a fish did, tick by tick, in the same form for the biomechanical fish and its
-// replica.
-
+// What a fish did at one tick, in the same form for the biomechanical fish and its replica.
 struct TracePoint {
     capture::PoseFrame frame;     // body frame in the world, body lengths
     capture::NodeVectors pose{};  // nodal points in the body frame, body lengths (eq. 8)

@@ -239,7 +239,7 @@ Trace traceWith(const Vocabulary& vocabulary,
     return trace;
 }
 
-// Of increments, nodal points and control points at all phases.
+// Memory of increments, nodal points and control points at all phases.
 constexpr std::size_t kBytesOfSegment =
     motion::kPhases *
     (sizeof(motion::FrameIncrement) + sizeof(motion::NodalPose) + sizeof(motion::ControlPointPose));

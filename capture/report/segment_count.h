@@ -19,6 +19,7 @@ namespace aquarama::report {
 struct Vocabulary {
     std::vector<double> speeds;
     std::vector<double> turns;
+    // Number of segments; each turn counts to both sides.
     [[nodiscard]] std::size_t segments() const { return speeds.size() + 2 * turns.size(); }
 };
 

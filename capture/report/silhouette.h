@@ -16,14 +16,14 @@
 
 namespace aquarama::report {
 
-// The biomechanical fish.
-
+// From where a figure shows the biomechanical fish.
 enum class ViewSide { Above, Side };
 
 // A point of the world as a point of the figure, x to the right. From above the figure's y is -z of
 // the world, the left of a fish that heads along +x; from the side it is y of the world.
 [[nodiscard]] glm::dvec2 seen(ViewSide view, const glm::dvec3& world);
 
+// The corners of a closed outline, in the figure.
 using Polygon = std::vector<glm::dvec2>;
 
 // The outline of body and tail, first; from the side also the faces of the fins on back and belly.
@@ -44,7 +44,7 @@ using Polygon = std::vector<glm::dvec2>;
 // points down on the figure.
 [[nodiscard]] glm::dvec2 fromAbove(const glm::dvec3& world);
 
-// In the coordinates of fromAbove().
+// An outline in the coordinates of fromAbove().
 struct FishOutline {
     std::vector<glm::dvec2> outline;                 // closed polygon of body and tail
     std::vector<std::vector<glm::dvec2>> pectorals;  // left and right; none without control points

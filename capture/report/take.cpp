@@ -39,7 +39,7 @@ TakeFrame frameAt(const std::vector<capture::ReplayedPhase>& phases, double at) 
         phases[before], phases[before + 1], std::min(at - static_cast<double>(before), 1.0));
 }
 
-// From body lengths to metres.
+// Converts body lengths to metres.
 void scale(TakeFrame& frame, double metres) {
     frame.origin *= metres;
     for (glm::dvec3& node : frame.nodes) node *= metres;

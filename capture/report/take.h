@@ -25,6 +25,7 @@ struct TakeFrame {
     capture::NodeVectors nodes{};          // in the world
 };
 
+// A recording of one fish, frame by frame.
 struct Take {
     std::string species;
     std::string segment;      // as motion::nameOf() names it

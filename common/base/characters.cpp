@@ -15,8 +15,8 @@ namespace aquarama {
 
 namespace {
 
-// What people meet, sorted: code~what to type for it, where there is anything~its name in Unicode.
-// Full-width forms and digits of other scripts are told by their ranges.
+// Common characters, sorted: code~what to type instead, if anything~name in Unicode. Full-width
+// forms and digits of other scripts are recognised by their ranges.
 constexpr std::string_view kTable =
     R"(
 00A0~ ~no-break space|00AB~"~left-pointing double angle quotation mark|00AD~~soft hyphen|
@@ -88,17 +88,17 @@ std::vector<NamedCharacter> parsedTable() {
     return all;
 }
 
-// Null where the table has no such character.
+// The entry of a character; null where the table has none.
 const NamedCharacter* inTable(char32_t code) {
     static const std::vector<NamedCharacter> all = parsedTable();
     const auto found = std::ranges::lower_bound(all, code, {}, &NamedCharacter::code);
     return found != all.end() && found->code == code ? &*found : nullptr;
 }
 
-// Each of ASCII has a form that is as wide as a Chinese character.
+// The ASCII character of a full-width form, which is as wide as a Chinese character.
 constexpr char32_t kFirstFullWidth = 0xFF01, kLastFullWidth = 0xFF5E, kFullWidthOffset = 0xFEE0;
 
-// As keyboards of East Asian scripts type ASCII.
+// ASCII as East Asian keyboards type it.
 bool isFullWidth(char32_t code) {
     return code >= kFirstFullWidth && code <= kLastFullWidth;
 }
@@ -115,28 +115,29 @@ constexpr DigitRange kDigits[] = {{0x0660, "Arabic-Indic"},
                                   {0x0E50, "Thai"},
                                   {0xFF10, "full-width"}};
 
-// Null where the character is no digit of these scripts.
+// The digit in ASCII; null where the character is not a digit of these scripts.
 const DigitRange* digitsWith(char32_t code) {
     const auto* found = std::ranges::find_if(
         kDigits, [&](const DigitRange& range) { return code - range.zero < 10; });
     return found == std::end(kDigits) ? nullptr : found;
 }
 
-// Bytes that follow the first of a sequence, whose leading ones count all of them; -1 where it is
-// none.
+// The number of bytes that follow the first byte of a sequence, from its leading one bits; -1 where
+// it cannot be a first byte.
 int continuationBytes(unsigned char first) {
     const int ones = std::countl_one(first);
     if (ones == 0) return 0;
     return ones > 1 && ones < 5 ? ones - 1 : -1;
 }
 
-// Neither longer than needed, nor half of a pair of UTF-16, nor beyond Unicode.
+// Whether a code point is valid: encoded as short as possible, not half of a UTF-16 pair, within
+// Unicode.
 bool isScalar(char32_t code, int following) {
     constexpr char32_t kLeast[] = {0, 0x80, 0x800, 0x10000};
     return code >= kLeast[following] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
 }
 
-// The code point must be one of Unicode.
+// Encodes a code point, which must be valid.
 void appendUtf8(std::string& text, char32_t code) {
     const auto part = [&](unsigned shift) {
         text += static_cast<char>(0x80U | ((code >> shift) & 0x3FU));
@@ -154,13 +155,13 @@ void appendUtf8(std::string& text, char32_t code) {
     }
 }
 
-// Of what cannot be shown itself; empty where it can.
+// The description of a character that cannot be shown; empty where it can be shown.
 std::string wordsForUnseen(char32_t code) {
     if (isControl(code) || code < ' ') return "a control character";
     return isInvisible(code) ? "an invisible character" : "";
 }
 
-// A name by the table or the ranges; else the character itself, where it can be shown.
+// The name from the table or the ranges; else the character itself, where it can be shown.
 std::string wordsFor(char32_t code) {
     if (const NamedCharacter* known = inTable(code)) return std::string(known->name);
     if (const DigitRange* range = digitsWith(code))
@@ -172,13 +173,80 @@ std::string wordsFor(char32_t code) {
     return words;
 }
 
-// Bits of the bytes that follow, where each of them follows; nothing where one does not.
+// Appends the bits of the following bytes to a code; empty where one is not a following byte.
 std::optional<char32_t> joined(char32_t code, std::string_view following) {
     for (const char byte : following) {
         if ((static_cast<unsigned char>(byte) & 0xC0U) != 0x80) return std::nullopt;
         code = (code << 6U) | (static_cast<unsigned char>(byte) & 0x3FU);
     }
     return code;
+}
+
+// The ASCII characters for a character of a number; an empty text for an invisible one; no value
+// where there are none.
+std::optional<std::string> typedFor(const CodePoint& point) {
+    if (!point.isUtf8) return std::nullopt;
+    if (point.code < 0x80) return std::string(1, static_cast<char>(point.code));
+    const std::string ascii = asciiFor(point.code);
+    return ascii.empty() && !isInvisible(point.code) ? std::nullopt : std::optional(ascii);
+}
+
+// The text in ASCII, without spaces around it; empty where a character has no equivalent.
+std::string inAscii(std::string_view text) {
+    std::string ascii;
+    for (std::size_t at = 0; at < text.size();) {
+        const CodePoint point = codePointAt(text, at);
+        const auto typed = typedFor(point);
+        if (!typed) return "";
+        ascii += *typed;
+        at += point.bytes;
+    }
+    const std::size_t first = std::min(ascii.find_first_not_of(' '), ascii.size());
+    return ascii.substr(first, ascii.find_last_not_of(' ') + 1 - first);
+}
+
+bool isDigitAt(std::string_view text, std::size_t at) {
+    return at < text.size() && text[at] >= '0' && text[at] <= '9';
+}
+
+// Whether the character separates thousands: a blank, apostrophe or underscore between digits.
+bool isGapAt(std::string_view text, std::size_t at) {
+    const bool isSeparator = std::string_view(" _'").find(text[at]) != std::string_view::npos;
+    return isSeparator && at > 0 && isDigitAt(text, at - 1) && isDigitAt(text, at + 1);
+}
+
+std::string withoutGroups(const std::string& text) {
+    std::string joined;
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if (!isGapAt(text, i)) joined += text[i];
+    return joined;
+}
+
+// The last comma or point is the decimal one, unless the same sign occurs more than once.
+std::string withDecimalPoint(std::string text) {
+    const std::size_t last = text.find_last_of(",.");
+    if (last == std::string::npos) return text;
+    const char decimal = text[last];
+    const bool isOnce = std::ranges::count(text, decimal) == 1;
+    if (isOnce) text[last] = '\n';
+    std::erase_if(text, [](char c) { return c == ',' || c == '.'; });
+    std::ranges::replace(text, '\n', '.');
+    return text;
+}
+
+// Whether the text is a finite number with a digit: from_chars also accepts "nan" and "inf".
+bool isDecimal(const std::string& text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size() &&
+           text.find_first_of("0123456789") != std::string::npos;
+}
+
+// The remark about a character that is not ASCII.
+std::string foreignWords(const CodePoint& point) {
+    if (!point.isUtf8) return "it has " + nameOf(point) + ", which is not UTF-8";
+    const std::string ascii = asciiFor(point.code);
+    return "it has " + nameOf(point) + (ascii.empty() || ascii == " " ? "" : ": type " + ascii);
 }
 
 }  // namespace
@@ -241,70 +309,6 @@ bool isTypographicQuote(char32_t code) {
     return ascii == "\"" || ascii == "'";
 }
 
-namespace {
-
-// What is typed for a character of a number, nothing for one that nobody sees; not a value where
-// there is no such thing.
-std::optional<std::string> typedFor(const CodePoint& point) {
-    if (!point.isUtf8) return std::nullopt;
-    if (point.code < 0x80) return std::string(1, static_cast<char>(point.code));
-    const std::string ascii = asciiFor(point.code);
-    return ascii.empty() && !isInvisible(point.code) ? std::nullopt : std::optional(ascii);
-}
-
-// With ASCII for each character, without spaces about it; empty where one has none.
-std::string inAscii(std::string_view text) {
-    std::string ascii;
-    for (std::size_t at = 0; at < text.size();) {
-        const CodePoint point = codePointAt(text, at);
-        const auto typed = typedFor(point);
-        if (!typed) return "";
-        ascii += *typed;
-        at += point.bytes;
-    }
-    const std::size_t first = std::min(ascii.find_first_not_of(' '), ascii.size());
-    return ascii.substr(first, ascii.find_last_not_of(' ') + 1 - first);
-}
-
-bool isDigitAt(std::string_view text, std::size_t at) {
-    return at < text.size() && text[at] >= '0' && text[at] <= '9';
-}
-
-// Thousands may be parted by blanks, apostrophes and low lines; only between digits.
-bool isGapAt(std::string_view text, std::size_t at) {
-    const bool isSeparator = std::string_view(" _'").find(text[at]) != std::string_view::npos;
-    return isSeparator && at > 0 && isDigitAt(text, at - 1) && isDigitAt(text, at + 1);
-}
-
-std::string withoutGroups(const std::string& text) {
-    std::string joined;
-    for (std::size_t i = 0; i < text.size(); ++i)
-        if (!isGapAt(text, i)) joined += text[i];
-    return joined;
-}
-
-// The last of commas and points is the decimal one, unless it stands there more than once.
-std::string withDecimalPoint(std::string text) {
-    const std::size_t last = text.find_last_of(",.");
-    if (last == std::string::npos) return text;
-    const char decimal = text[last];
-    const bool isOnce = std::ranges::count(text, decimal) == 1;
-    if (isOnce) text[last] = '\n';
-    std::erase_if(text, [](char c) { return c == ',' || c == '.'; });
-    std::ranges::replace(text, '\n', '.');
-    return text;
-}
-
-// Finite, with a digit: from_chars takes "nan" and "inf" too.
-bool isDecimal(const std::string& text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc{} && end == text.data() + text.size() &&
-           text.find_first_of("0123456789") != std::string::npos;
-}
-
-}  // namespace
-
 std::string plainNumber(std::string_view text) {
     constexpr std::size_t kMostBytes = 64;
     if (text.empty() || text.size() > kMostBytes) return "";
@@ -312,17 +316,6 @@ std::string plainNumber(std::string_view text) {
     if (plain.starts_with('+')) plain.erase(0, 1);
     return plain != text && isDecimal(plain) ? plain : "";
 }
-
-namespace {
-
-// What to say of a character that is no ASCII.
-std::string foreignWords(const CodePoint& point) {
-    if (!point.isUtf8) return "it has " + nameOf(point) + ", which is not UTF-8";
-    const std::string ascii = asciiFor(point.code);
-    return "it has " + nameOf(point) + (ascii.empty() || ascii == " " ? "" : ": type " + ascii);
-}
-
-}  // namespace
 
 std::string foreignCharacterIn(std::string_view text) {
     const auto* const found =

@@ -9,7 +9,7 @@
 
 namespace aquarama {
 
-// The code point at a place of a text; where the bytes are no UTF-8, the first of them alone.
+// The code point at a place of a text. Where the bytes are not valid UTF-8: the first byte alone.
 struct CodePoint {
     char32_t code = 0;
     std::size_t bytes = 1;
@@ -20,26 +20,27 @@ struct CodePoint {
 // "U+2019 (right single quotation mark)"; "byte 0xE9 (é in Latin-1)".
 [[nodiscard]] std::string nameOf(const CodePoint& point);
 
-// What an ASCII keyboard has for a character that looks or is meant like it: "-" for a minus sign,
-// "3" for a full-width three, "a" for a Cyrillic а. Empty where there is none.
+// The ASCII characters to type instead of a character that looks like them or means the same: "-"
+// for a minus sign, "3" for a full-width three, "a" for a Cyrillic а. Empty where there is none.
 [[nodiscard]] std::string asciiFor(char32_t code);
 
-// Controls other than tab and ends of lines; those of C1 too.
+// Whether it is a control character, C1 included, other than tab and line end.
 [[nodiscard]] bool isControl(char32_t code);
-// Takes no place on a screen, or only the place of a space: nobody sees it in a name.
+// Whether it is invisible in a name: it has no width on a screen, or looks like a space.
 [[nodiscard]] bool isInvisible(char32_t code);
-// Curly, angled and low quotation marks, for " or '.
+// Whether it is a curly, angled or low quotation mark, typed in place of " or '.
 [[nodiscard]] bool isTypographicQuote(char32_t code);
 
-// A text that is meant as a number, as our readers take it: "2.5" for "2,5", "-3" for "−３", "1000"
-// for "1 000". Empty where it is no such number, or is one already.
+// The number that a text means, in the form that our readers accept: "2.5" for "2,5", "-3" for
+// "−３", "1000" for "1 000". Empty where the text is not such a number, or already has that form.
 [[nodiscard]] std::string plainNumber(std::string_view text);
 
-// What to add to a message that refuses `text`: its first character that is no ASCII, and what to
-// type for it. Empty where there is none.
+// An addition to a message that refuses `text`: names its first character that is not ASCII, and
+// what to type instead. Empty where all are ASCII.
 [[nodiscard]] std::string foreignCharacterIn(std::string_view text);
 
-// A text for one line of a log or a terminal: what is no UTF-8 and controls come as \xE9 or \x1B.
+// The text, made safe for one line of a log or terminal: control characters and invalid UTF-8
+// become \xE9 or \x1B.
 [[nodiscard]] std::string legible(std::string_view text);
 
 }  // namespace aquarama

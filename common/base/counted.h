@@ -8,7 +8,7 @@
 
 namespace aquarama {
 
-// Of a noun whose plural takes an s.
+// The count and the noun, whose plural must end in s.
 [[nodiscard]] inline std::string counted(std::uint64_t count, std::string_view noun) {
     return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
 }

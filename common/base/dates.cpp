@@ -18,7 +18,7 @@ namespace aquarama {
 
 namespace {
 
-// As its timegm() has it; OpenSSL's times reach the year 9999.
+// Seconds of an OpenSSL time, whose years reach 9999, as timegm() counts them.
 double secondsOf(const ASN1_TIME* time) {
     std::tm parts{};
     if (ASN1_TIME_to_tm(time, &parts) != 1) return 0;
@@ -43,7 +43,7 @@ std::optional<double> secondsOfDay(const std::string& day) {
     return static_cast<double>(timegm(&date));
 }
 
-// A day of grace: the clock of whoever committed may have been ahead.
+// A tolerance of a day: the committer's clock may have been ahead.
 std::string clockDoubt(double now, double built) {
     if (now > built - kSecondsOfDay) return {};
     return fmt::format("the clock of this machine says {}, before this program was built ({})",

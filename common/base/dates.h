@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the clock of this machine can be believed, and until when certificates are valid. All
-// times are seconds of Unix time; days are of UTC.
+// Whether the clock of this machine is plausible, and how long certificates are valid. All times
+// are seconds of Unix time; days are of UTC.
 #pragma once
 
 #include <cstdint>
@@ -16,39 +16,40 @@ inline constexpr double kSecondsOfDay = 86400;
 // neither. Written by the build for each program, as its commit.
 [[nodiscard]] std::int64_t builtAt();
 
-// By the system's clock, which somebody may set.
+// The present time by the system clock, which a user may change.
 [[nodiscard]] double systemSeconds();
 // "2026-11-25"
 [[nodiscard]] std::string dayOf(double seconds);
-// Of "2026-11-25", its beginning; nothing where the text is no day.
+// The first second of the day "2026-11-25". Empty where the text is not a day.
 [[nodiscard]] std::optional<double> secondsOfDay(const std::string& day);
 
-// Why a clock that says `now` is wrong for certain, as a sentence: it is more than a day before the
-// program was built. Empty where that cannot be told.
+// A sentence that says why a clock at `now` is certainly wrong: it is more than a day before the
+// program was built. Empty where the clock may be right.
 [[nodiscard]] std::string clockDoubt(double now, double built);
-// What to do about it.
+// What the user should do about a wrong clock, for an error message.
 inline constexpr const char* kSetTheClock =
     "set it (timedatectl set-ntp true, or date --set), and see that its battery is good";
 
-// From when and until when a certificate holds.
+// The period in which a certificate is valid.
 struct Validity {
     double from = 0, until = 0;
 };
-// Throws Error where the file cannot be read or holds no certificate (PEM).
+// Reads the period from a PEM file. Throws Error where the file cannot be read or contains no
+// certificate.
 [[nodiscard]] Validity validityOf(const std::filesystem::path& certificate);
 
-// What is to be said of a certificate weeks before it runs out. `isUrgent`: browsers refuse it, or
-// will within a week.
+// A warning about a certificate that expires soon. `isUrgent`: browsers refuse it, or will within a
+// week.
 struct ValidityConcern {
     bool isUrgent = false;
     std::string what;  // "runs out on 2026-12-24, in 29 days"
 };
-// From `noticeDays` before its end on; nothing before.
+// The warning, from `noticeDays` before the end of the period; empty earlier.
 [[nodiscard]] std::optional<ValidityConcern> concernAbout(const Validity& validity,
                                                           double now,
                                                           double noticeDays);
-// Of the certificate of a console, and of the authority, whose successor has to be installed on
-// every tablet.
+// The values of `noticeDays`: for a console's certificate, and for its authority, whose successor
+// must be installed on every tablet.
 inline constexpr double kCertificateNoticeDays = 30;
 inline constexpr double kAuthorityNoticeDays = 90;
 

@@ -22,15 +22,16 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-// For another process that makes the same data, and between two looks at its lock.
+// The longest wait for another process that computes the same data, and the interval between two
+// tests of its lock.
 constexpr auto kLongestWait = 60s;
 constexpr auto kLook = 20ms;
 constexpr std::string_view kDataEnding = ".data";
 constexpr auto kMostAge = std::chrono::hours(24 * 365);
 
-// Held by the process that makes a piece of data; released by the system when the process dies.
-// Where no lock file can be made, and after the longest wait, the maker goes on without it: then
-// two processes make the same data, which does no harm.
+// The lock of the process that computes a piece of data; the system releases it when the process
+// dies. Without a lock file, and after the longest wait, the process continues without it: two
+// processes then compute the same data, which does no harm.
 class MakerLock {
   public:
     explicit MakerLock(const fs::path& path)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Derived data, kept on disk: the results of long computations that depend on a few inputs only, so
-// that a machine makes them once.
+// A disk cache of derived data: results of long computations that depend on few inputs.
 #pragma once
 
 #include <cstddef>
@@ -45,10 +44,11 @@ class DerivedKey {
     std::string inputs_;
 };
 
-// A folder of derived data. Any number of processes and threads may use it at a time. A failure to
-// read or write is not an error: the data is then made again, and a warning says so once.
+// A folder of derived data. Any number of processes and threads may use it at a time. A failed read
+// or write is not an error: the data is computed again, with one warning.
 class DerivedCache {
   public:
+    // The content of one piece of derived data.
     using Bytes = std::vector<std::byte>;
 
     // The folder holds at most about `mostBytes`; files that were not used for longest are removed
@@ -56,15 +56,16 @@ class DerivedCache {
     explicit DerivedCache(std::filesystem::path folder,
                           std::uintmax_t mostBytes = std::uintmax_t{512} << 20U);
 
-    // What is kept under the key, or else what `make` returns, which is then kept. While one
-    // process makes a piece of data, others that ask for it wait, for a minute at most. Data that
-    // was damaged on the disk is made again. What `make` throws goes to the caller.
+    // Returns the data stored under the key, or else calls `make` and stores the result. While one
+    // process computes, others that need the same key wait, for a minute at most. Damaged data is
+    // computed again. Exceptions of `make` are passed on.
     [[nodiscard]] Bytes find(const DerivedKey& key, const std::function<Bytes()>& make) const;
 
   private:
-    // Nothing where there is no file, or a damaged one. Marks the file as used.
+    // Empty where the file is missing or damaged. Marks the file as used.
     [[nodiscard]] std::optional<Bytes> read(const DerivedKey& key) const;
-    // And removes what was not used for longest until the folder is within its limit.
+    // Writes the data, then removes the least recently used files until the folder is within its
+    // limit.
     void write(const DerivedKey& key, const Bytes& content) const;
 
     std::filesystem::path folder_;
@@ -78,6 +79,7 @@ class DerivedCache {
 // are in memory. Only for files that this machine reads itself.
 class ArrayWriter {
   public:
+    // Appends one array.
     template <class T>
     requires std::is_trivially_copyable_v<T> ArrayWriter& add(std::span<const T> values) {
         const std::uint64_t count = values.size();
@@ -85,6 +87,7 @@ class ArrayWriter {
         append(std::as_bytes(values));
         return *this;
     }
+    // The same for a vector.
     template <class T>
     ArrayWriter& add(const std::vector<T>& values) {
         return add(std::span{values});
@@ -102,8 +105,9 @@ class ArrayWriter {
 // Reads what an ArrayWriter wrote, in the same order with the same types. Does not own the bytes.
 class ArrayReader {
   public:
+    // Begins at the first byte.
     explicit ArrayReader(std::span<const std::byte> bytes) : rest_{bytes} {}
-    // Throws Error where there are fewer bytes than the array needs.
+    // The next array. Throws Error where there are fewer bytes than it needs.
     template <class T>
     requires std::is_trivially_copyable_v<T>
     [[nodiscard]] std::vector<T> next() {
@@ -121,8 +125,8 @@ class ArrayReader {
     std::span<const std::byte> rest_;
 };
 
-// Tables from this user's cache, or else what `make` returns, which is then kept. Tables::arrays()
-// returns a std::tie of its arrays (vectors of plain values) in a fixed order.
+// Returns tables from this user's cache, or else calls `make` and stores the result.
+// Tables::arrays() returns a std::tie of its arrays (vectors of plain values) in a fixed order.
 template <class Tables, class Make>
 [[nodiscard]] Tables derivedTables(const DerivedKey& key, const Make& make) {
     const std::vector<std::byte> bytes = derivedCache().find(key, [&] {

@@ -24,13 +24,14 @@ struct Digest {
     friend auto operator<=>(const Digest&, const Digest&) = default;
 };
 
-// The largest content that is fetched by its digest: of wall files one of 4K, raw, has 100 MB.
+// The largest content that is fetched by its digest. A raw 4K wall file has 100 MB.
 inline constexpr std::size_t kMostBlobBytes = std::size_t{256} << 20U;
 
+// The SHA-256 of the content.
 [[nodiscard]] Digest digestOf(std::span<const std::byte> content);
 [[nodiscard]] Digest digestOf(std::string_view content);
 [[nodiscard]] std::string toHex(const Digest& digest);  // 64 lower-case digits
-// Its first 8 bytes: enough to tell contents apart that nobody forges.
+// The first 8 bytes of a digest: enough to distinguish contents, but not safe against forgery.
 [[nodiscard]] std::uint64_t shortHash(const Digest& digest);
 
 // Folds arrays into one number: equal states have equal hashes. Fast, and the same on every

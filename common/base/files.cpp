@@ -39,6 +39,45 @@ void put(const fs::path& path,
     file.finish();
 }
 
+// A file of a folder, for trimFolder().
+struct KeptFile {
+    fs::file_time_type used;
+    std::uintmax_t bytes = 0;
+    fs::path path;
+};
+
+// The files of a folder, least recently used first.
+std::vector<KeptFile> keptFilesIn(const fs::path& folder) {
+    std::vector<KeptFile> files;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        KeptFile file{entry.last_write_time(error), entry.file_size(error), entry.path()};
+        if (!error) files.push_back(std::move(file));  // else it has just been removed
+    }
+    std::ranges::sort(files, {}, &KeptFile::used);
+    return files;
+}
+
+constexpr std::string_view kFolderBeginning = "aquarama.";
+
+// The folder for temporary files, /tmp where TMPDIR is not usable.
+fs::path temporaryPlace() {
+    std::error_code error;
+    const fs::path place = fs::temp_directory_path(error);
+    return error ? "/tmp" : place;
+}
+
+// Opens a folder and locks it for this process; -1 where it is missing, of another user, or in use.
+int lockedFolder(const fs::path& path) {
+    const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (folder < 0) return -1;
+    struct stat status {};
+    const bool isOurs = fstat(folder, &status) == 0 && status.st_uid == geteuid();
+    if (isOurs && flock(folder, LOCK_EX | LOCK_NB) == 0) return folder;
+    close(folder);
+    return -1;
+}
+
 }  // namespace
 
 std::vector<std::byte> readWhole(const fs::path& path, std::uintmax_t mostBytes) {
@@ -85,29 +124,6 @@ void warnOnceOf(const fs::path& folder, const std::string& problem, const std::s
     logWarning("{} ({})", problem, loss);
 }
 
-namespace {
-
-// A file of a folder, for trimFolder().
-struct KeptFile {
-    fs::file_time_type used;
-    std::uintmax_t bytes = 0;
-    fs::path path;
-};
-
-// Longest unused first.
-std::vector<KeptFile> keptFilesIn(const fs::path& folder) {
-    std::vector<KeptFile> files;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
-        KeptFile file{entry.last_write_time(error), entry.file_size(error), entry.path()};
-        if (!error) files.push_back(std::move(file));  // else it has just been removed
-    }
-    std::ranges::sort(files, {}, &KeptFile::used);
-    return files;
-}
-
-}  // namespace
-
 void trimFolder(const fs::path& folder, std::uintmax_t mostBytes, std::chrono::hours mostAge) {
     const std::vector<KeptFile> files = keptFilesIn(folder);
     std::uintmax_t sum = 0;
@@ -126,31 +142,8 @@ void markUsed(const fs::path& path) {
     fs::last_write_time(path, fs::file_time_type::clock::now(), error);
 }
 
-namespace {
-
-constexpr std::string_view kFolderBeginning = "aquarama.";
-
-// The folder for temporary files, also where TMPDIR names none.
-fs::path temporaryPlace() {
-    std::error_code error;
-    const fs::path place = fs::temp_directory_path(error);
-    return error ? "/tmp" : place;
-}
-
-// Locked for this process; -1 where it is not there, another's, or in use.
-int lockedFolder(const fs::path& path) {
-    const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (folder < 0) return -1;
-    struct stat status {};
-    const bool isOurs = fstat(folder, &status) == 0 && status.st_uid == geteuid();
-    if (isOurs && flock(folder, LOCK_EX | LOCK_NB) == 0) return folder;
-    close(folder);
-    return -1;
-}
-
-}  // namespace
-
-// Between being made and locked a folder may be taken for a left one: then another is made.
+// Before a new folder is locked, another process may remove it as left over: then another one is
+// made.
 TemporaryFolder::TemporaryFolder(const std::string& purpose) {
     while (lock_ < 0) {
         std::string made =
@@ -164,7 +157,7 @@ TemporaryFolder::TemporaryFolder(const std::string& purpose) {
     }
 }
 
-// Throws nothing: what cannot be removed stays.
+// Never throws: a folder that cannot be removed stays.
 TemporaryFolder::~TemporaryFolder() {
     std::error_code none;
     fs::remove_all(path_, none);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole files: read up to a limit, written so that a reader sees the old file or the new one, never
-// a part. Folders of this user: for what is kept, and for the time of a work.
+// Reads and writes whole files: a reader sees the old file or the new one, never a part. Also names
+// the folders of this user, for caches, for state and for temporary files.
 #pragma once
 
 #include <chrono>
@@ -17,35 +17,34 @@ namespace aquarama {
 [[nodiscard]] std::vector<std::byte> readWhole(const std::filesystem::path& path,
                                                std::uintmax_t mostBytes);
 
-// By the rules of OutputFile (output_file.h). Returns when the disk has it: a power cut leaves the
-// old file or the new one. Throws Error when it cannot be written.
+// Writes a file by the rules of OutputFile (output_file.h). Returns when it is on the disk: a power
+// cut leaves the old file or the new one. Throws Error when it cannot be written.
 void writeWhole(const std::filesystem::path& path, std::span<const std::byte> content);
-// The same, and nobody but this user may read it.
+// The same, readable by this user only.
 void writePrivate(const std::filesystem::path& path, std::span<const std::byte> content);
 
-// What only saves time, or is only told: where it cannot be written, a warning says so, once for
-// each folder of a process, with what is lost ("fish are captured anew at each start"), and the
-// work goes on. Whether it was written. From any thread.
+// Writes a file that the program can do without. Where it cannot be written, the log has one
+// warning for each folder and process, which names what is lost ("fish are captured anew at each
+// start"). Returns whether it was written. Any thread.
 bool keepIfPossible(const std::filesystem::path& path,
                     std::span<const std::byte> content,
                     const std::string& loss);
-// That warning, for a file that is written otherwise.
+// Logs that warning, for a file that is written in another way.
 void warnOnceOf(const std::filesystem::path& folder,
                 const std::string& problem,
                 const std::string& loss);
 
-// Files of a folder that were not used for longest are removed until `mostBytes` are left, and
-// those older than `mostAge`. The time of last write counts as that of last use. What cannot be
-// removed stays.
+// Removes files of a folder: those older than `mostAge`, and the least recently used until
+// `mostBytes` are left. The time of the last write counts as last use. Files that cannot be removed
+// stay.
 void trimFolder(const std::filesystem::path& folder,
                 std::uintmax_t mostBytes,
                 std::chrono::hours mostAge);
 // Marks a file of such a folder as used.
 void markUsed(const std::filesystem::path& path);
 
-// A folder for the time of a work, in that for temporary files: aquarama.PURPOSE.LETTERS. It goes
-// with the object. Folders that killed processes have left are removed at the next start of any
-// program (removeLeftFolders()): the process that uses one holds a lock on it.
+// A temporary folder aquarama.PURPOSE.LETTERS, removed with the object. The process holds a lock on
+// it, so that removeLeftFolders() can tell folders in use from those of killed processes.
 class TemporaryFolder {
   public:
     // Throws Error where it cannot be made.
@@ -59,17 +58,16 @@ class TemporaryFolder {
     std::filesystem::path path_;
     int lock_ = -1;
 };
+// Removes the temporary folders that killed processes have left. Called when a program starts.
 void removeLeftFolders();
 
-// What this user may still write on the disk of a path, which need not be there yet; 0 where it
-// cannot be told.
+// Free bytes for this user on the disk of a path, which need not exist yet; 0 where unknown.
 [[nodiscard]] std::uint64_t freeBytesAt(std::filesystem::path path);
 
-// A folder of this user for our files, after the XDG base directories: the environment's `variable`
-// or else `underHome` in the home folder, and "aquarama" in that; in the folder for temporary files
-// where neither is set.
+// A folder "aquarama" of this user, by the XDG base directories: in the folder that the environment
+// `variable` names, else in `underHome` of the home folder, else in the folder for temporary files.
 [[nodiscard]] std::filesystem::path userFolder(const char* variable, const char* underHome);
-// For data that can be made again.
+// The folder for data that can be computed again.
 [[nodiscard]] std::filesystem::path cacheFolder();
 
 }  // namespace aquarama

@@ -22,19 +22,19 @@ uint hashOf(uint x) {
 #ifdef __cplusplus
 [[nodiscard]] constexpr
 #endif
-// 0 inclusive to 1 exclusive; exact, as 24 bits fit a float.
+// A number from 0 (included) to 1 (excluded); exact, since 24 bits fit a float.
 float unitOf(uint hash) {
     return float(hash >> 8U) * (1.0F / 16777216.0F);
 }
 #ifdef __cplusplus
 // clang-format on
 
-// Number `index` of the sequence of a seed; any order of calls.
+// Number `index` of the sequence of a seed, in any order of calls.
 [[nodiscard]] constexpr std::uint32_t hashOf(std::uint32_t seed, std::uint32_t index) {
     return hashOf(hashOf(seed) ^ (index * 0x9e3779b9U));
 }
 
-// -1 to 1.
+// A number from -1 to 1.
 [[nodiscard]] constexpr float signedUnitOf(std::uint32_t hash) {
     return unitOf(hash) * 2.0F - 1.0F;
 }

@@ -25,8 +25,8 @@ void tellListener(Severity severity, const std::string& line) {
     if (listener) listener(severity, line);
 }
 
-// Of names and files of others too: neither controls nor another encoding reach a terminal, the
-// log's file or a page.
+// Logs a line without control characters and invalid UTF-8. It may contain foreign names, and it
+// goes to terminals, the log file and pages.
 void write(spdlog::level::level_enum level, Severity severity, const std::string& line) {
     const std::string shown = legible(line);
     spdlog::log(level, shown);
@@ -48,12 +48,12 @@ void writeError(const std::string& line) {
 }
 
 void setLogListener(LogListener next) {
-    // The last listener goes without the lock: it may end a thread that logs.
+    // The last listener is destroyed without the lock, since that may end a thread that logs.
     const std::lock_guard lock(listenerMutex);
     listener.swap(next);
 }
 
-// The logger, and the thread that writes what it puts into a queue. The thread goes first.
+// The logger, and the thread that writes its queue. The thread is destroyed first.
 struct LogFile::Impl {
     std::shared_ptr<spdlog::async_logger> logger;
     std::shared_ptr<spdlog::details::thread_pool> thread;

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 constexpr mode_t kUsualMode = 0666, kPrivateMode = 0600, kOwnerBits = 07700;
 constexpr std::string_view kPartEnding = ".part";
 
-// For whom reads "cannot be written (...)".
+// The advice after "cannot be written (...)".
 struct Remedy {
     int error;
     const char* text;
@@ -62,8 +62,8 @@ auto uninterrupted(const Call& call) {
     return result;
 }
 
-// Holds back the signals that end a program which writes to a pipe that nobody reads, or past the
-// limit of a file's size: there are errors for both.
+// Blocks the signals for a pipe without a reader and for the limit of file size. Both are reported
+// as errors instead.
 class HeldWriteSignals {
   public:
     HeldWriteSignals() {
@@ -72,7 +72,7 @@ class HeldWriteSignals {
         sigaddset(&signals_, SIGXFSZ);
         pthread_sigmask(SIG_BLOCK, &signals_, &before_);
     }
-    // Takes what a write has raised, unless the caller held it back already.
+    // Discards signals that a write has raised, unless the caller had blocked them before.
     ~HeldWriteSignals() {
         const int error = errno;
         constexpr timespec kNow{};
@@ -89,7 +89,7 @@ class HeldWriteSignals {
     sigset_t signals_{}, before_{};
 };
 
-// How many of the bytes were written; less than all with errno set.
+// Writes bytes; returns how many were written. Fewer than all: errno is set.
 std::size_t writeAll(int file, std::span<const std::byte> bytes) {
     const HeldWriteSignals held;
     std::size_t done = 0;
@@ -102,7 +102,7 @@ std::size_t writeAll(int file, std::span<const std::byte> bytes) {
     return done;
 }
 
-// False with errno set. What has no disk (a pipe, a terminal) is always in its place.
+// Flushes to the disk; false with errno set. Pipes and terminals have no disk and always succeed.
 bool synced(int file) {
     return uninterrupted([&] { return fsync(file); }) == 0 || errno == EINVAL || errno == ENOTSUP ||
            errno == EROFS;
@@ -115,7 +115,7 @@ fs::path folderOf(const fs::path& file) {
 void syncFolderOf(const fs::path& file) {
     const int folder = open(folderOf(file).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0) return;
-    synced(folder);  // a file system without it has no more to offer
+    synced(folder);  // some file systems do not support it
     close(folder);
 }
 
@@ -125,7 +125,7 @@ bool isDescriptor(const std::string& name) {
            name.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// The number in /dev/fd/NUMBER or /proc/self/fd/NUMBER; -1 for another path.
+// The descriptor number in /dev/fd/NUMBER or /proc/self/fd/NUMBER; -1 for another path.
 int ownDescriptor(const fs::path& path) {
     const std::string name = path.filename().string();
     if (!isDescriptor(name)) return -1;
@@ -135,10 +135,10 @@ int ownDescriptor(const fs::path& path) {
     return isOurs && !there ? std::stoi(name) : -1;
 }
 
-// Where the links of a path lead, to a file that may be missing; to a descriptor of this process at
-// most.
+// Follows the links of a path, to a file that may be missing. Stops at a descriptor of this
+// process.
 fs::path followed(fs::path path) {
-    constexpr int kMostLinks = 40;  // as the system follows
+    constexpr int kMostLinks = 40;  // the limit of the system
     for (int i = 0; i < kMostLinks && ownDescriptor(path) < 0; ++i) {
         std::error_code isNoLink;
         const fs::path next = fs::read_symlink(path, isNoLink);
@@ -148,16 +148,16 @@ fs::path followed(fs::path path) {
     return path;
 }
 
-// What stands at a path.
+// The file at a path, if any.
 struct Place {
     fs::path path;  // links followed
     int descriptor = -1;
     bool isThere = false;
-    bool isRegular = true;  // or would be made so
+    bool isRegular = true;  // also where it does not exist yet
     struct stat status {};
 };
 
-// Whether something is there. Throws Error where that cannot be told, or no file can be there.
+// Whether a file exists. Throws Error where that is unknown, or where no file can exist.
 bool isThere(const fs::path& path, struct stat& status) {
     if (!path.has_filename()) refuseFile(path, EISDIR);
     if (stat(path.c_str(), &status) == 0) return true;
@@ -171,7 +171,7 @@ bool isSameFile(const fs::path& path, const struct stat& status) {
            there.st_dev == status.st_dev;
 }
 
-// A link of the system's, as /proc/PID/fd/4, leads to no path: then the path stays as it is.
+// A link such as /proc/PID/fd/4 may not lead to a path: then the path is kept.
 Place placeOf(const fs::path& path) {
     Place place{.path = followed(path)};
     place.descriptor = ownDescriptor(place.path);
@@ -184,7 +184,7 @@ Place placeOf(const fs::path& path) {
     return place;
 }
 
-// Throws Error where this user may not write what is there.
+// Throws Error where this user may not write the existing file.
 void requireAccess(const fs::path& named, const Place& place) {
     if (!place.isThere || place.descriptor >= 0) return;
     if (access(place.path.c_str(), W_OK) != 0) refuseFile(named, errno);
@@ -197,14 +197,15 @@ void makeFolder(const fs::path& path, const fs::path& folder) {
     if (failure) refuseFile(path, failure.value());
 }
 
-// "hall.mpcdi." of each part of hall.mpcdi; a long name is cut, as a part's may be no longer than a
-// file's.
+// The prefix "hall.mpcdi." of all parts of hall.mpcdi. A long name is shortened, since the name of
+// a part is limited too.
 std::string partBeginning(const fs::path& target) {
     constexpr std::size_t kMostLetters = 200;
     return target.filename().string().substr(0, kMostLetters) + ".";
 }
 
-// Process and number make it unique: threads of one process may write the same file.
+// The name of a part. Process and number make it unique, since threads of one process may write the
+// same file.
 fs::path partOf(const fs::path& target) {
     static std::atomic<unsigned> parts = 0;
     return folderOf(target) / (partBeginning(target) + std::to_string(getpid()) + "." +
@@ -218,7 +219,7 @@ bool isPartOf(const std::string& name, const std::string& beginning) {
                    .find_first_not_of("0123456789.", beginning.size()) == std::string::npos;
 }
 
-// Those whose writer has ended: a writer holds a lock on its part.
+// Removes parts whose writer has ended: a writer holds a lock on its part.
 void removeLeftParts(const fs::path& target) {
     const std::string beginning = partBeginning(target);
     std::error_code none;
@@ -231,7 +232,8 @@ void removeLeftParts(const fs::path& target) {
     }
 }
 
-// A new file, locked; -1 with errno set. Another writer may have removed it before it was locked.
+// Creates and locks a file; -1 with errno set. Another writer may have removed it before it was
+// locked.
 int openLocked(const fs::path& part, mode_t mode) {
     while (true) {
         const int file = open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
@@ -243,22 +245,22 @@ int openLocked(const fs::path& part, mode_t mode) {
     }
 }
 
-// Where a part cannot be made, a file that is there is written in its place. Not on a full disk:
+// Whether an existing file is written in place because a part cannot be made. Not on a full disk:
 // that would lose the old content.
 bool isWrittenInPlace(int error) {
     return error == EACCES || error == EPERM || error == EROFS;
 }
 
-// For writing into what is there already; -1 with errno set.
+// Opens an existing file for writing; -1 with errno set.
 int openThere(const Place& place) {
     if (place.descriptor >= 0) return fcntl(place.descriptor, F_DUPFD_CLOEXEC, 0);
     const int file = uninterrupted(
         [&] { return open(place.path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK); });
-    if (file >= 0) fcntl(file, F_SETFL, 0);  // waits from now on
+    if (file >= 0) fcntl(file, F_SETFL, 0);  // blocking from now on
     return file;
 }
 
-// The same, but a pipe may have its reader some seconds later: a script starts both at once.
+// The same, but waits some seconds for the reader of a pipe: a script may start both at once.
 int openOnceRead(const Place& place) {
     using namespace std::chrono_literals;
     constexpr auto kPatience = 10s;
@@ -273,7 +275,7 @@ int openOnceRead(const Place& place) {
     return file;
 }
 
-// Takes the blocks from the old end to the new; a disk without this call cannot tell.
+// Reserves blocks from the old end to the new one. File systems without this call are not checked.
 bool takesRoom(int file, std::uint64_t bytes) {
     struct stat status {};
     if (fstat(file, &status) != 0 || std::cmp_greater_equal(status.st_size, bytes)) return true;
@@ -287,7 +289,7 @@ bool takesRoom(int file, std::uint64_t bytes) {
     return false;
 }
 
-// A byte more is written and goes again: an empty file fits on a full disk.
+// Writes one byte more and removes it again: an empty file would fit on a full disk.
 void probeFolder(const fs::path& named, const fs::path& part) {
     const int file = openLocked(part, kPrivateMode);
     if (file < 0) refuseFile(named, errno);
@@ -298,14 +300,14 @@ void probeFolder(const fs::path& named, const fs::path& part) {
     if (!isWritten) refuseFile(named, error);
 }
 
-// False for a file with other names, or with a list of who may use it: they would stay with the old
-// content, or be lost.
+// Whether a file may be replaced. Not with several hard links, which would keep the old content,
+// nor with an access list, which would be lost.
 bool hasOnlyThisName(const fs::path& path, const struct stat& status) {
     return status.st_nlink == 1 &&
            getxattr(path.c_str(), "system.posix_acl_access", nullptr, 0) <= 0;
 }
 
-// That of another file; false where this user may not.
+// Gives a file the owner of another one; false where this user may not.
 bool giveOwner(int file, const struct stat& of) {
     struct stat made {};
     if (fstat(file, &made) != 0) return false;
@@ -313,7 +315,8 @@ bool giveOwner(int file, const struct stat& of) {
     return isSame || fchown(file, of.st_uid, of.st_gid) == 0;
 }
 
-// False with errno set.
+// Copies the first bytes of a file to another one, cuts that there and flushes it to the disk;
+// false with errno set.
 bool copied(int from, int to, std::uint64_t bytes) {
     std::array<std::byte, 1U << 16U> part{};
     for (std::uint64_t at = 0; at < bytes;) {
@@ -325,6 +328,22 @@ bool copied(int from, int to, std::uint64_t bytes) {
         at += read.size();
     }
     return ftruncate(to, static_cast<off_t>(bytes)) == 0 && synced(to);
+}
+
+// Opens the target. Without O_CREAT where it exists: the system refuses that for other users' files
+// in /tmp.
+int openToAppend(const Place& place) {
+    if (!place.isRegular) return openOnceRead(place);
+    const int flags = O_WRONLY | O_APPEND | O_CLOEXEC | (place.isThere ? 0 : O_CREAT);
+    return open(place.path.c_str(), flags, kUsualMode);
+}
+
+// A file that is not regular has no length.
+bool cutTo(int file, std::uint64_t keptBytes) {
+    struct stat status {};
+    if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) return true;
+    return std::cmp_greater_equal(keptBytes, status.st_size) ||
+           ftruncate(file, static_cast<off_t>(keptBytes)) == 0;
 }
 
 }  // namespace
@@ -367,7 +386,7 @@ OutputFile::~OutputFile() {
     if (!part_.empty()) unlink(part_.c_str());
 }
 
-// False where the file is to be written in its place.
+// Creates the part; false where the file must be written in place.
 bool OutputFile::openPart(FileAccess access) {
     removeLeftParts(target_);
     const fs::path part = partOf(target_);
@@ -382,7 +401,7 @@ bool OutputFile::openPart(FileAccess access) {
     return true;
 }
 
-// Gives the part the owner and the mode of the file that is there; false where that cannot be.
+// Gives the part the owner and mode of the existing file; false where that fails.
 bool OutputFile::keepIdentity(FileAccess access) const {
     struct stat old {};
     if (!isThere_ || stat(target_.c_str(), &old) != 0) return true;
@@ -413,13 +432,13 @@ void OutputFile::writeAt(std::uint64_t offset, std::span<const std::byte> conten
     lseek(file_, static_cast<off_t>(written_), SEEK_SET);
 }
 
-// Of a longer file that is written in its place.
+// Cuts a longer file that was written in place.
 void OutputFile::cutToLength() {
     if (!part_.empty() || !isRegular_) return;
     if (ftruncate(file_, static_cast<off_t>(written_)) != 0) refuse(errno);
 }
 
-// A disk may say only now that it was full.
+// Some disks report only now that they are full.
 void OutputFile::finish() {
     cutToLength();
     if (safety_ == FileSafety::Durable && !synced(file_)) refuse(errno);
@@ -427,7 +446,7 @@ void OutputFile::finish() {
     if (close(std::exchange(file_, -1)) != 0) refuse(errno);
 }
 
-// A file that is mounted by itself, or of another owner in /tmp, cannot be replaced.
+// A mount point, or another user's file in /tmp, cannot be replaced.
 void OutputFile::putInPlace() {
     if (isRenamed_ && rename(part_.c_str(), target_.c_str()) == 0) {
         part_.clear();
@@ -438,7 +457,7 @@ void OutputFile::putInPlace() {
     copyIntoPlace();
 }
 
-// From the part, which goes afterwards.
+// Copies the part into the target.
 void OutputFile::copyIntoPlace() {
     const int target = open(target_.c_str(), O_WRONLY | O_CLOEXEC);
     if (target < 0) refuse(errno);
@@ -447,25 +466,6 @@ void OutputFile::copyIntoPlace() {
     close(target);
     if (!isDone) refuse(error);
 }
-
-namespace {
-
-// Without O_CREAT where it is there: the system refuses that for files of others in /tmp.
-int openToAppend(const Place& place) {
-    if (!place.isRegular) return openOnceRead(place);
-    const int flags = O_WRONLY | O_APPEND | O_CLOEXEC | (place.isThere ? 0 : O_CREAT);
-    return open(place.path.c_str(), flags, kUsualMode);
-}
-
-// What is no regular file has no length.
-bool cutTo(int file, std::uint64_t keptBytes) {
-    struct stat status {};
-    if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) return true;
-    return std::cmp_greater_equal(keptBytes, status.st_size) ||
-           ftruncate(file, static_cast<off_t>(keptBytes)) == 0;
-}
-
-}  // namespace
 
 GrowingFile::GrowingFile(fs::path path, std::uint64_t keptBytes) : path_{std::move(path)} {
     const Place place = placeOf(path_);
@@ -486,7 +486,7 @@ GrowingFile& GrowingFile::operator=(GrowingFile&& other) noexcept {
     return *this;
 }
 
-// Of an entry that was not written whole nothing stays.
+// An incomplete entry is removed again.
 void GrowingFile::append(std::span<const std::byte> entry) {
     if (!isOpen()) return;
     const std::size_t count = writeAll(file_, entry);
@@ -503,7 +503,7 @@ void GrowingFile::append(std::string_view entry) {
     append(std::as_bytes(std::span(entry.data(), entry.size())));
 }
 
-// Told once: the file is closed then.
+// Logged once, since the file is closed then.
 void GrowingFile::appendOrLog(std::span<const std::byte> entry) {
     try {
         append(entry);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How every file is written. Links are followed, also one to a file that is not there yet. What is
-// no regular file (a FIFO, a device, /dev/stdout) is written straight into. A file that is there
-// keeps its mode and its owner. Whatever fails is an Error of one line: what, why, what to do.
+// The one way to write files. Links are followed, also to a file that does not exist yet. A FIFO, a
+// device or /dev/stdout is written directly. An existing file keeps its mode and owner. Failures
+// throw an Error of one line: what, why, what to do.
 #pragma once
 
 #include <cstddef>
@@ -13,50 +13,52 @@
 
 namespace aquarama {
 
-// "cannot be written (No space left on device); make room there, ...": of a number of errno.
+// The message for a value of errno: "cannot be written (No space left on device); make room there,
+// ...".
 [[nodiscard]] std::string whyNotWritten(int error);
 
-// Throws Error where OutputFile would, as far as can be told now, and changes nothing: no FIFO is
-// opened, as its reader would see an end.
+// Checks, without any change, whether a file can be written. Throws Error where OutputFile would,
+// as far as that is known now. Does not open a FIFO, since its reader would see the end.
 void requireWritable(const std::filesystem::path& file);
-// The same for a new file in a folder, which is made where it is missing.
+// The same for a new file in a folder. Creates the folder where it is missing.
 void requireWritableFolder(const std::filesystem::path& folder);
 
-// Of a new file; an old one keeps its mode, but nobody else may read what is Private.
+// Who may read a new file. An existing file keeps its mode, but Private always excludes other
+// users.
 enum class FileAccess : std::uint8_t { Usual, Private };
-// Durable: finish() returns when the disk has the file, so that a power cut leaves the old content
-// or the new. Quick: for what can be made again.
+// Durable: finish() returns when the file is on the disk, so that a power cut leaves the old
+// content or the new. Quick: for data that can be computed again.
 enum class FileSafety : std::uint8_t { Durable, Quick };
 
-// A file that appears whole or not at all: it is written beside its place as NAME.PID.NUMBER.part,
-// and renamed. Where that would change more than the content (other names of the file, its owner,
-// its access list) or cannot be (a folder that is read-only), it is written in its place. Parts
-// that ended processes have left are removed by the next writer of the file. One thread uses it.
+// A file that appears complete or not at all: it is written as NAME.PID.NUMBER.part beside its
+// target, then renamed. It is written in place where a rename would lose hard links, owner or
+// access list, or where the folder is read-only. The next writer removes parts that ended processes
+// have left. One thread uses it.
 class OutputFile {
   public:
-    // Makes the folder of the file where there is none. Waits some seconds where a
-    // FIFO has no reader yet.
+    // Creates the folder of the file where it is missing. Waits some seconds for the reader of a
+    // FIFO.
     explicit OutputFile(std::filesystem::path path,
                         FileAccess access = FileAccess::Usual,
                         FileSafety safety = FileSafety::Durable);
-    // Without finish(): the file is as it was before.
+    // Without finish(), the old file stays unchanged.
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    // Takes the room that the content needs, where the old content would else be lost before the
-    // disk is found to be full.
+    // Reserves disk space for the content. Otherwise a full disk would be found only after the old
+    // content is lost.
     void reserve(std::uint64_t bytes);
-    // At the end of what was written.
+    // Appends to what was written.
     void write(std::span<const std::byte> content);
-    // Only where canSeek().
+    // Overwrites bytes at a place. Only where canSeek().
     void writeAt(std::uint64_t offset, std::span<const std::byte> content);
     [[nodiscard]] bool canSeek() const { return isRegular_; }
-    // The file that grows: the part, or its place.
+    // The path of the file that is being written: the part, or the target.
     [[nodiscard]] const std::filesystem::path& writtenPath() const {
         return part_.empty() ? target_ : part_;
     }
-    // Once, after the last write.
+    // Completes the file. Call it once, after the last write.
     void finish();
 
   private:
@@ -78,15 +80,14 @@ class OutputFile {
     std::uint64_t written_ = 0;  // bytes
 };
 
-// A file that grows by whole entries, each of which is handed to the system at once: however the
-// program ends, and when the disk is full, the file is whole up to its last entry. One thread uses
-// it.
+// A file that grows by whole entries, each written with one system call. Whether the program is
+// killed or the disk is full, the file ends with a complete entry. One thread uses it.
 class GrowingFile {
   public:
     static constexpr std::uint64_t kAll = UINT64_MAX;
 
     GrowingFile() = default;  // writes nothing
-    // The first `keptBytes` of a file that is there stay. Makes its folder where there is none.
+    // Keeps the first `keptBytes` of an existing file. Creates the folder where it is missing.
     explicit GrowingFile(std::filesystem::path path, std::uint64_t keptBytes = 0);
     ~GrowingFile();
     GrowingFile(const GrowingFile&) = delete;
@@ -94,15 +95,16 @@ class GrowingFile {
     GrowingFile(GrowingFile&& other) noexcept { *this = std::move(other); }
     GrowingFile& operator=(GrowingFile&& other) noexcept;
 
+    // Whether entries reach a file.
     [[nodiscard]] bool isOpen() const { return file_ >= 0; }
-    // Nothing where it is not open. Where it throws, the entry is not in the file, which is closed.
+    // Appends an entry; does nothing where the file is not open. Throws Error where it cannot be
+    // written: the entry is then not in the file, which is closed.
     void append(std::span<const std::byte> entry);
     void append(std::string_view entry);
-    // The same in a loop that nothing may stop: what append() would throw is an error in the log,
-    // and thrown by close().
+    // The same for loops that must not stop: an error goes to the log, and close() throws it later.
     void appendOrLog(std::span<const std::byte> entry);
     void appendOrLog(std::string_view entry);
-    // When the disk has all of it. Throws Error where an entry is missing.
+    // Returns when all entries are on the disk. Throws Error where one is missing.
     void close();
 
   private:

@@ -42,6 +42,145 @@ std::uint16_t codeOf(double linear, double most, double noise) {
     return static_cast<std::uint16_t>(std::clamp(std::floor(code + 0.5), 0.0, most));
 }
 
+// Limits of what is read, in pixels each way and in all.
+constexpr png_uint_32 kLargest = 16384;
+// A small file could otherwise make the program allocate all memory of the machine.
+constexpr png_uint_32 kMostPixels = 1U << 26;
+// The largest file of such a picture with 16 bits, headers included.
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 29;
+// The compression level. A snapshot takes one second at this level, and five at the best one.
+constexpr int kCompression = 3;
+
+// The state of a read or write. Owned by decodePng() or encodePng(), which longjmp() does not
+// leave.
+struct Job {
+    png_structp png = nullptr;
+    png_infop info = nullptr;
+    std::span<const std::byte> file;  // what is still to be read
+    std::vector<std::byte> written;
+    std::vector<png_byte> bytes;
+    std::vector<png_bytep> rows;
+    std::string complaint;
+};
+
+// libpng's error handler: keeps the message and jumps back.
+void remember(png_structp png, png_const_charp what) {
+    static_cast<Job*>(png_get_error_ptr(png))->complaint = what;
+    std::longjmp(png_jmpbuf(png), 1);
+}
+
+void ignore(png_structp /*png*/, png_const_charp /*warning*/) {}
+
+void take(png_structp png, png_bytep into, std::size_t count) {
+    auto& file = static_cast<Job*>(png_get_io_ptr(png))->file;
+    if (count > file.size()) png_error(png, "it is cut off");
+    std::memcpy(into, file.data(), count);
+    file = file.subspan(count);
+}
+
+// No exception may pass through libpng, and no jump may leave a handler.
+bool append(std::vector<std::byte>& bytes, std::span<const png_byte> more) {
+    try {
+        const auto* first = reinterpret_cast<const std::byte*>(more.data());
+        bytes.insert(bytes.end(), first, first + more.size());
+        return true;
+    } catch (const std::bad_alloc&) {
+        return false;
+    }
+}
+
+void give(png_structp png, png_bytep from, std::size_t count) {
+    if (!append(static_cast<Job*>(png_get_io_ptr(png))->written, {from, count}))
+        png_error(png, "out of memory");
+}
+
+void keepNothing(png_structp /*png*/) {}
+
+std::size_t rowBytes(const PngPicture& picture) {
+    return static_cast<std::size_t>(picture.sizePixels.x) *
+           static_cast<std::size_t>(picture.components * picture.bits / 8);
+}
+
+// Memory for the packed picture, and pointers to its rows, as libpng wants them.
+void makeRows(Job& job, const PngPicture& picture) {
+    const auto height = static_cast<std::size_t>(picture.sizePixels.y);
+    job.bytes.resize(rowBytes(picture) * height);
+    for (std::size_t y = 0; y < height; ++y)
+        job.rows.push_back(job.bytes.data() + y * rowBytes(picture));
+}
+
+// Reads size and depth into `picture` and sets libpng's conversions. False after an error.
+bool readHeader(Job& job, PngPicture& picture) {
+    if (setjmp(png_jmpbuf(job.png)) != 0) return false;
+    png_set_read_fn(job.png, &job, take);
+    png_set_user_limits(job.png, kLargest, kLargest);
+    png_read_info(job.png, job.info);
+    if (png_get_image_width(job.png, job.info) * png_get_image_height(job.png, job.info) >
+        kMostPixels)
+        png_error(job.png, "too many pixels");
+    png_set_expand(job.png);
+    png_set_strip_alpha(job.png);
+    (void)png_set_interlace_handling(job.png);
+    png_read_update_info(job.png, job.info);
+    picture.sizePixels = {static_cast<int>(png_get_image_width(job.png, job.info)),
+                          static_cast<int>(png_get_image_height(job.png, job.info))};
+    picture.components = png_get_channels(job.png, job.info);
+    picture.bits = png_get_bit_depth(job.png, job.info);
+    return true;
+}
+
+// Read or write all rows. libpng may jump out of both. False after an error.
+bool readRows(Job& job) {
+    if (setjmp(png_jmpbuf(job.png)) != 0) return false;
+    png_read_image(job.png, job.rows.data());
+    png_read_end(job.png, nullptr);
+    return true;
+}
+
+bool writeRows(Job& job, const PngPicture& picture, PngMeaning meaning) {
+    if (setjmp(png_jmpbuf(job.png)) != 0) return false;
+    png_set_write_fn(job.png, &job, give, keepNothing);
+    png_set_compression_level(job.png, kCompression);
+    png_set_IHDR(job.png,
+                 job.info,
+                 static_cast<png_uint_32>(picture.sizePixels.x),
+                 static_cast<png_uint_32>(picture.sizePixels.y),
+                 picture.bits,
+                 picture.components == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY,
+                 PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    if (meaning == PngMeaning::Srgb) png_set_sRGB(job.png, job.info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(job.png, job.info);
+    png_write_image(job.png, job.rows.data());
+    png_write_end(job.png, nullptr);
+    return true;
+}
+
+// From packed bytes to codes and back; 16-bit PNG is big-endian.
+void unpack(const std::vector<png_byte>& bytes, PngPicture& picture) {
+    const bool deep = picture.bits == 16;
+    picture.codes.resize(deep ? bytes.size() / 2 : bytes.size());
+    for (std::size_t i = 0; i < picture.codes.size(); ++i)
+        picture.codes[i] =
+            deep ? static_cast<std::uint16_t>(bytes[2 * i] << 8 | bytes[2 * i + 1]) : bytes[i];
+}
+
+void pack(const PngPicture& picture, std::vector<png_byte>& bytes) {
+    const bool deep = picture.bits == 16;
+    for (std::size_t i = 0; i < picture.codes.size(); ++i) {
+        if (deep) bytes[2 * i] = static_cast<png_byte>(picture.codes[i] >> 8);
+        bytes[deep ? 2 * i + 1 : i] = static_cast<png_byte>(picture.codes[i] & 0xff);
+    }
+}
+
+std::vector<std::uint16_t> threeOfEach(const std::vector<std::uint16_t>& grey) {
+    std::vector<std::uint16_t> rgb;
+    rgb.reserve(3 * grey.size());
+    for (const std::uint16_t code : grey) rgb.insert(rgb.end(), 3, code);
+    return rgb;
+}
+
 }  // namespace
 
 Light darkness(glm::ivec2 sizePixels) {
@@ -115,149 +254,6 @@ glm::vec3 bilinear(const Light& light, glm::dvec2 pixel) {
 // libpng reports errors by longjmp, which runs no destructors: so the functions that it may jump
 // out of (readHeader, readRows, writeRows) own nothing, and what they fill belongs to their
 // callers.
-
-namespace {
-
-// Limits of what is read, in pixels each way and in all.
-constexpr png_uint_32 kLargest = 16384;
-// A small file could otherwise make the program allocate all memory of the machine.
-constexpr png_uint_32 kMostPixels = 1U << 26;
-// What such a picture of 16 bits has at most, with the headers.
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 29;
-// A snapshot takes a second to compress at this level, and five at the best.
-constexpr int kCompression = 3;
-
-// The state of a read or write. Owned by decodePng() or encodePng(), which longjmp() does not
-// leave.
-struct Job {
-    png_structp png = nullptr;
-    png_infop info = nullptr;
-    std::span<const std::byte> file;  // what is still to be read
-    std::vector<std::byte> written;
-    std::vector<png_byte> bytes;
-    std::vector<png_bytep> rows;
-    std::string complaint;
-};
-
-// libpng's error handler: keeps the message and jumps back.
-void remember(png_structp png, png_const_charp what) {
-    static_cast<Job*>(png_get_error_ptr(png))->complaint = what;
-    std::longjmp(png_jmpbuf(png), 1);
-}
-
-void ignore(png_structp /*png*/, png_const_charp /*warning*/) {}
-
-void take(png_structp png, png_bytep into, std::size_t count) {
-    auto& file = static_cast<Job*>(png_get_io_ptr(png))->file;
-    if (count > file.size()) png_error(png, "it is cut off");
-    std::memcpy(into, file.data(), count);
-    file = file.subspan(count);
-}
-
-// No exception may pass through libpng, and no jump may leave a handler.
-bool append(std::vector<std::byte>& bytes, std::span<const png_byte> more) {
-    try {
-        const auto* first = reinterpret_cast<const std::byte*>(more.data());
-        bytes.insert(bytes.end(), first, first + more.size());
-        return true;
-    } catch (const std::bad_alloc&) {
-        return false;
-    }
-}
-
-void give(png_structp png, png_bytep from, std::size_t count) {
-    if (!append(static_cast<Job*>(png_get_io_ptr(png))->written, {from, count}))
-        png_error(png, "out of memory");
-}
-
-void keepNothing(png_structp /*png*/) {}
-
-std::size_t rowBytes(const PngPicture& picture) {
-    return static_cast<std::size_t>(picture.sizePixels.x) *
-           static_cast<std::size_t>(picture.components * picture.bits / 8);
-}
-
-// Memory for the packed picture, and pointers to its rows, as libpng wants them.
-void makeRows(Job& job, const PngPicture& picture) {
-    const auto height = static_cast<std::size_t>(picture.sizePixels.y);
-    job.bytes.resize(rowBytes(picture) * height);
-    for (std::size_t y = 0; y < height; ++y)
-        job.rows.push_back(job.bytes.data() + y * rowBytes(picture));
-}
-
-// Size and depth into `picture`, and what libpng shall convert. False after an error.
-bool readHeader(Job& job, PngPicture& picture) {
-    if (setjmp(png_jmpbuf(job.png)) != 0) return false;
-    png_set_read_fn(job.png, &job, take);
-    png_set_user_limits(job.png, kLargest, kLargest);
-    png_read_info(job.png, job.info);
-    if (png_get_image_width(job.png, job.info) * png_get_image_height(job.png, job.info) >
-        kMostPixels)
-        png_error(job.png, "too many pixels");
-    png_set_expand(job.png);
-    png_set_strip_alpha(job.png);
-    (void)png_set_interlace_handling(job.png);
-    png_read_update_info(job.png, job.info);
-    picture.sizePixels = {static_cast<int>(png_get_image_width(job.png, job.info)),
-                          static_cast<int>(png_get_image_height(job.png, job.info))};
-    picture.components = png_get_channels(job.png, job.info);
-    picture.bits = png_get_bit_depth(job.png, job.info);
-    return true;
-}
-
-// The two below may be jumped out of. False after an error.
-bool readRows(Job& job) {
-    if (setjmp(png_jmpbuf(job.png)) != 0) return false;
-    png_read_image(job.png, job.rows.data());
-    png_read_end(job.png, nullptr);
-    return true;
-}
-
-bool writeRows(Job& job, const PngPicture& picture, PngMeaning meaning) {
-    if (setjmp(png_jmpbuf(job.png)) != 0) return false;
-    png_set_write_fn(job.png, &job, give, keepNothing);
-    png_set_compression_level(job.png, kCompression);
-    png_set_IHDR(job.png,
-                 job.info,
-                 static_cast<png_uint_32>(picture.sizePixels.x),
-                 static_cast<png_uint_32>(picture.sizePixels.y),
-                 picture.bits,
-                 picture.components == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY,
-                 PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
-    if (meaning == PngMeaning::Srgb) png_set_sRGB(job.png, job.info, PNG_sRGB_INTENT_PERCEPTUAL);
-    png_write_info(job.png, job.info);
-    png_write_image(job.png, job.rows.data());
-    png_write_end(job.png, nullptr);
-    return true;
-}
-
-// From packed bytes to codes and back; 16-bit PNG is big-endian.
-void unpack(const std::vector<png_byte>& bytes, PngPicture& picture) {
-    const bool deep = picture.bits == 16;
-    picture.codes.resize(deep ? bytes.size() / 2 : bytes.size());
-    for (std::size_t i = 0; i < picture.codes.size(); ++i)
-        picture.codes[i] =
-            deep ? static_cast<std::uint16_t>(bytes[2 * i] << 8 | bytes[2 * i + 1]) : bytes[i];
-}
-
-void pack(const PngPicture& picture, std::vector<png_byte>& bytes) {
-    const bool deep = picture.bits == 16;
-    for (std::size_t i = 0; i < picture.codes.size(); ++i) {
-        if (deep) bytes[2 * i] = static_cast<png_byte>(picture.codes[i] >> 8);
-        bytes[deep ? 2 * i + 1 : i] = static_cast<png_byte>(picture.codes[i] & 0xff);
-    }
-}
-
-std::vector<std::uint16_t> threeOfEach(const std::vector<std::uint16_t>& grey) {
-    std::vector<std::uint16_t> rgb;
-    rgb.reserve(3 * grey.size());
-    for (const std::uint16_t code : grey) rgb.insert(rgb.end(), 3, code);
-    return rgb;
-}
-
-}  // namespace
 
 PngPicture decodePng(std::span<const std::byte> bytes, const std::string& source) {
     Job job;

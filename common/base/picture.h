@@ -47,10 +47,10 @@ struct Light {
 // seed.
 [[nodiscard]] double ditherCodes(std::uint32_t x, std::uint32_t y, std::uint32_t seed);
 
-// Exact: each code has one value.
+// Codes to light. Exact: each code has one value.
 [[nodiscard]] Light lightOf(const Picture& picture);
-// bits: 8 or 16. With 8 bits the codes are dithered, with 16 only rounded. Light outside of 0 to 1
-// is clipped; black stays black.
+// Light to codes of 8 or 16 `bits`. With 8 bits the codes are dithered, with 16 only rounded. Light
+// outside of 0 to 1 is clipped; black stays black.
 [[nodiscard]] Picture pictureOf(const Light& light, int bits, std::uint32_t ditherSeed);
 
 // Bilinear interpolation between the centres of pixels, which are at +0.5; outside of them the
@@ -66,20 +66,19 @@ struct PngPicture {
     int bits = 8;        // or 16
     std::vector<std::uint16_t> codes;
 };
-// What is meant by the codes: those of sRGB, which the file then says, or something of the
-// caller's.
+// The meaning of the codes: sRGB, which the file then declares, or a meaning of the caller's.
 enum class PngMeaning : std::uint8_t { Srgb, Unsaid };
 
-// Palettes are read as red green blue, transparency is dropped; 16 bits stay 16, fewer become 8.
-// Throws Error, which names the source, where the bytes are no readable picture of at most 16384
-// pixels each way and 64 million in all.
+// Decodes a PNG. Palettes become red green blue, transparency is dropped, 16 bits stay 16, fewer
+// become 8. Throws Error, which names the source, where the bytes are not a readable picture of at
+// most 16384 pixels each way and 64 million in all.
 [[nodiscard]] PngPicture decodePng(std::span<const std::byte> bytes, const std::string& source);
-// Throws Error where memory is short.
+// Encodes a PNG. Throws Error where memory is short.
 [[nodiscard]] std::vector<std::byte> encodePng(const PngPicture& picture, PngMeaning meaning);
 
-// As decodePng(), and grey as red green blue.
+// Reads a file as decodePng() does, with grey as red green blue.
 [[nodiscard]] Picture readPng(const std::string& path);
-// 8 or 16 bits, as the picture has. Throws Error when the file cannot be written.
+// Writes a file with the 8 or 16 bits of the picture. Throws Error when it cannot be written.
 void writePng(const std::string& path, const Picture& picture);
 
 }  // namespace aquarama

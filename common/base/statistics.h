@@ -8,14 +8,14 @@
 
 namespace aquarama {
 
-// 0 where there are none, as the others.
+// The root of the mean of squares; 0 for an empty list, as the others.
 [[nodiscard]] inline double rootMeanSquare(const std::vector<double>& values) {
     double sum = 0;
     for (const double value : values) sum += value * value;
     return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-// Of values in any order; share 0.5 is the median.
+// A quantile of values in any order; share 0.5 is the median.
 [[nodiscard]] inline double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0;
     const auto at =

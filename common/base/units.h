@@ -8,7 +8,7 @@
 
 namespace aquarama {
 
-// Radians in a degree: people write degrees, code keeps radians.
+// Radians in a degree. Files and messages use degrees, code uses radians.
 template <class Real>
 inline constexpr Real kRadiansPerDegree = std::numbers::pi_v<Real> / 180;
 
@@ -37,15 +37,15 @@ struct FishId {
     friend constexpr auto operator<=>(FishId, FishId) = default;
 };
 
-// Of the simulation, on every machine.
+// Ticks of the simulation in a second, on every machine.
 inline constexpr double kTicksPerSecond = 60.0;
 
-// What a pilot's controls ask of the submarine at one moment: a state, not a change, so that the
-// next message makes good for a lost one.
+// The state of a pilot's controls at one moment. It is not a change, so the next message replaces a
+// lost one.
 
 // Full deflection of an axis, to either side.
 inline constexpr std::int8_t kFullSteering = 127;
-// After so many ticks without a message the controls count as released: a window that has died does
+// After so many ticks without a message the controls count as released, so that a dead window does
 // not leave the submarine at full speed.
 inline constexpr std::uint64_t kTicksOfAHand = 30;
 

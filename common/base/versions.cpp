@@ -40,7 +40,8 @@ bool isSame(const fs::path& one, const fs::path& other) {
                digestOf(std::span<const std::byte>(readWhole(other, kMostBlobBytes)));
 }
 
-// The time, but later than all that were kept, whatever the clock says.
+// The name of a new version: the present time, but later than all kept versions, even if the clock
+// is wrong.
 fs::path freshVersion(const fs::path& file, const std::vector<FileVersion>& versions) {
     constexpr std::size_t kTimeLength = 17;
     const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
@@ -52,7 +53,7 @@ fs::path freshVersion(const fs::path& file, const std::vector<FileVersion>& vers
     return folderOf(file) / (name + file.extension().string());
 }
 
-// The note comes first, so that no version is without one.
+// The note is written first, so that every version has one.
 void keep(const fs::path& file, const std::string& note) {
     if (!fs::is_regular_file(file)) return;
     const auto versions = versionsOf(file);

@@ -176,27 +176,6 @@ std::vector<Cell> strip(int firstRing, int lastRing, int column) {
     return cells;
 }
 
-}  // namespace
-
-CageTopology makeCageTopology() {
-    Builder cage;
-    cage.closeNose();
-    cage.closeTail();
-    cage.raise(CagePart::FirstDorsal, strip(6, 13, 0), 2);
-    cage.raise(CagePart::SecondDorsal, strip(14, 20, 0), 1);
-    cage.raise(CagePart::Anal, strip(15, 20, 6), 2);
-    cage.raise(CagePart::Pelvic, {{7, 5}}, 2);
-    cage.raise(CagePart::Pelvic, {{7, 7}}, 2);
-    cage.raise(CagePart::Pectoral, {{5, 3}, {5, 4}}, 2);
-    cage.raise(CagePart::Pectoral, {{5, 8}, {5, 9}}, 2);
-    CageTopology topology = std::move(cage).finish();
-    assert(topology.sites.size() == kControlPoints);
-    assert(topology.faces.size() == kCageFaces);
-    return topology;
-}
-
-namespace {
-
 // The shape of the cage. Lengths in body lengths.
 constexpr float kGrow = 1.045F;  // a Catmull-Clark limit surface is smaller than its cage by this
 constexpr float kRidgeHalfWidth = 0.006F;  // of the strips along back and belly that fins grow from
@@ -275,7 +254,33 @@ float pectoralRay(int column) {
     return static_cast<float>(column < 6 ? column - 3 : 10 - column) / 2;
 }
 
+// A rest position carried along by the spine: the plane across the axis is kept square to it.
+glm::vec3 place(const Spine& spine, glm::vec3 rest) {
+    const SpineSample sample = sampleAt(spine, rest.x);
+    const glm::vec3 forward = -glm::normalize(sample.tailwards);
+    const glm::vec3 right =
+        glm::normalize(sample.right - forward * glm::dot(sample.right, forward));
+    return sample.centre + rest.y * glm::cross(right, forward) + rest.z * right;
+}
+
 }  // namespace
+
+CageTopology makeCageTopology() {
+    Builder cage;
+    cage.closeNose();
+    cage.closeTail();
+    cage.raise(CagePart::FirstDorsal, strip(6, 13, 0), 2);
+    cage.raise(CagePart::SecondDorsal, strip(14, 20, 0), 1);
+    cage.raise(CagePart::Anal, strip(15, 20, 6), 2);
+    cage.raise(CagePart::Pelvic, {{7, 5}}, 2);
+    cage.raise(CagePart::Pelvic, {{7, 7}}, 2);
+    cage.raise(CagePart::Pectoral, {{5, 3}, {5, 4}}, 2);
+    cage.raise(CagePart::Pectoral, {{5, 8}, {5, 9}}, 2);
+    CageTopology topology = std::move(cage).finish();
+    assert(topology.sites.size() == kControlPoints);
+    assert(topology.faces.size() == kCageFaces);
+    return topology;
+}
 
 CageShape::CageShape(const config::Species& species)
     : dorsal_(species.profile.stations, species.profile.dorsal),
@@ -455,19 +460,6 @@ CageVertex CageShape::onPairedFin(const CageSite& site) const {
         .part = site.part,
         .fin = {p, q}};
 }
-
-namespace {
-
-// A rest position carried along by the spine: the plane across the axis is kept square to it.
-glm::vec3 place(const Spine& spine, glm::vec3 rest) {
-    const SpineSample sample = sampleAt(spine, rest.x);
-    const glm::vec3 forward = -glm::normalize(sample.tailwards);
-    const glm::vec3 right =
-        glm::normalize(sample.right - forward * glm::dot(sample.right, forward));
-    return sample.centre + rest.y * glm::cross(right, forward) + rest.z * right;
-}
-
-}  // namespace
 
 void poseCage(const FishBody& body, const NodalPoints& nodes, std::span<glm::vec3> controlPoints) {
     assert(controlPoints.size() == body.cage.vertices.size());

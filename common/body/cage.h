@@ -35,8 +35,8 @@ enum class CageSiteKind : std::uint8_t { Tube, Nose, Flap };
 struct CageSite {
     CageSiteKind kind = CageSiteKind::Tube;
     CagePart part = CagePart::Body;
-    // Of the tube vertex that it is, or that it was raised from. For the nose: row and column of
-    // the grid.
+    // Ring and column of the tube vertex that it is, or that it was raised from. For the nose: row
+    // and column of the grid.
     int ring = 0;
     int column = 0;
     // For a flap: how many levels this vertex is raised, and how many the flap has; zero elsewhere.
@@ -59,6 +59,7 @@ struct CageTopology {
 // Keeps its own copies of the curves and fins that it needs, so the species may go away. Immutable.
 class CageShape {
   public:
+    // The shape of a species at rest.
     explicit CageShape(const config::Species& species);
     // Position, part and fin coordinates of one site of makeCageTopology().
     [[nodiscard]] CageVertex place(const CageSite& site) const;

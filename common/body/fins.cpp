@@ -16,7 +16,7 @@ namespace aquarama::body {
 
 namespace {
 
-// Of each curve of a patch; even in p.
+// Samples of each curve of a patch, evenly spaced in p.
 constexpr int kSamples = 101;
 
 // Values from 0 to 1.
@@ -38,35 +38,6 @@ std::vector<float> sampled(const std::vector<glm::vec2>& points, int component) 
     for (float& sample : samples) sample = curve.at(sample);
     return samples;
 }
-
-}  // namespace
-
-FinPatch::FinPatch(const config::Fin& fin)
-    : p_(evenSteps(kSamples)),
-      baseS_(sampled(fin.base, 0)),
-      baseY_(sampled(fin.base, 1)),
-      edgeS_(sampled(fin.edge, 0)),
-      edgeY_(sampled(fin.edge, 1)),
-      angleRadians_(fin.angleRadians),
-      round_(fin.round) {}
-
-glm::vec2 FinPatch::at(float p, float q) const {
-    const glm::vec2 base{interpolate(p_, baseS_, p), interpolate(p_, baseY_, p)};
-    const glm::vec2 edge{interpolate(p_, edgeS_, p), interpolate(p_, edgeY_, p)};
-    return glm::mix(base, edge, q);
-}
-
-glm::vec2 FinPatch::paddleAt(float p, float q) const {
-    const float paddle = 1 + 0.3F * std::sin(std::numbers::pi_v<float> * q) - 0.42F * q * q;
-    const glm::vec2 middle = at(0.5F, q);
-    return middle + glm::mix(1.0F, paddle, round_) * (at(p, q) - middle);
-}
-
-float FinPatch::rayAtStation(float s) const {
-    return interpolate(baseS_, p_, s);
-}
-
-namespace {
 
 constexpr float kTurn = glm::two_pi<float>();
 // Off the flank: of a folded fin, and of one that brakes.
@@ -236,6 +207,31 @@ float rippled(const FinStyle& style, const FinPoint& point, const FinDrive& driv
 }
 
 }  // namespace
+
+FinPatch::FinPatch(const config::Fin& fin)
+    : p_(evenSteps(kSamples)),
+      baseS_(sampled(fin.base, 0)),
+      baseY_(sampled(fin.base, 1)),
+      edgeS_(sampled(fin.edge, 0)),
+      edgeY_(sampled(fin.edge, 1)),
+      angleRadians_(fin.angleRadians),
+      round_(fin.round) {}
+
+glm::vec2 FinPatch::at(float p, float q) const {
+    const glm::vec2 base{interpolate(p_, baseS_, p), interpolate(p_, baseY_, p)};
+    const glm::vec2 edge{interpolate(p_, edgeS_, p), interpolate(p_, edgeY_, p)};
+    return glm::mix(base, edge, q);
+}
+
+glm::vec2 FinPatch::paddleAt(float p, float q) const {
+    const float paddle = 1 + 0.3F * std::sin(std::numbers::pi_v<float> * q) - 0.42F * q * q;
+    const glm::vec2 middle = at(0.5F, q);
+    return middle + glm::mix(1.0F, paddle, round_) * (at(p, q) - middle);
+}
+
+float FinPatch::rayAtStation(float s) const {
+    return interpolate(baseS_, p_, s);
+}
 
 FinTable makeFinTable(const config::Species& species, const ControlCage& cage) {
     const config::Fins& fins = species.fins;

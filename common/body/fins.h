@@ -21,6 +21,7 @@ namespace aquarama::body {
 // and edge are monotone curves through the drawn points.
 class FinPatch {
   public:
+    // The fin of a species file.
     explicit FinPatch(const config::Fin& fin);
     // The point (s, y) of ray p at q; outside of [0, 1] p takes the nearest ray.
     [[nodiscard]] glm::vec2 at(float p, float q) const;
@@ -60,7 +61,7 @@ struct FinDrive {
     float tilt = 0;                  // height of its right side: sine of its roll to the left
     float spread = 0;                // 0 to 1: how far its pectoral fins brake
     std::array<float, 2> turning{};  // 0 to 1: how far it is in a turn to the left, to the right
-    // Of the fish; gives each its own phase.
+    // Id of the fish, which gives each its own phase.
     std::uint32_t id = 0;
     // Phase of its tail beat and of the beat that a motion warp leaves, in cycles; weight is the
     // share of the first, 1 when no warp is under way.

@@ -21,17 +21,6 @@ glm::vec3 colourOf(const config::Species& species,
     return paint == species.palette.end() ? otherwise : paint->linear;
 }
 
-}  // namespace
-
-FishSkin skinOf(const config::Species& species) {
-    return {.species = species.name,
-            .back = colourOf(species, "back", {0.05F, 0.08F, 0.10F}),
-            .flank = colourOf(species, "flank", {0.40F, 0.42F, 0.40F}),
-            .belly = colourOf(species, "belly", {0.70F, 0.70F, 0.68F})};
-}
-
-namespace {
-
 // The nodal points of the skeleton at rest, in the order of NodalPoints; body frame.
 NodalPoints restNodesOf(const config::Skeleton& skeleton) {
     NodalPoints nodes{};
@@ -63,6 +52,13 @@ ControlCage makeCage(const config::Species& species) {
 }
 
 }  // namespace
+
+FishSkin skinOf(const config::Species& species) {
+    return {.species = species.name,
+            .back = colourOf(species, "back", {0.05F, 0.08F, 0.10F}),
+            .flank = colourOf(species, "flank", {0.40F, 0.42F, 0.40F}),
+            .belly = colourOf(species, "belly", {0.70F, 0.70F, 0.68F})};
+}
 
 FishBody makeBody(const config::Species& species) {
     FishBody body;

@@ -36,6 +36,22 @@ float middleSlope(float h0, float h1, float rise0, float rise1) {
     return (w0 + w1) / (w0 / rise0 + w1 / rise1);
 }
 
+// How far behind the tail the axis is continued; fins may reach beyond the tail's tip.
+constexpr float kLastStation = 1.2F;
+
+// Second-order difference on uneven stations; one-sided at the ends.
+glm::vec3 slopeAt(const Spine& spine, std::size_t k) {
+    const auto& s = spine.stations;
+    const auto& c = spine.centres;
+    if (k == 0) return (c[1] - c[0]) / (s[1] - s[0]);
+    if (k == kKnots - 1) return (c[k] - c[k - 1]) / (s[k] - s[k - 1]);
+    const float before = s[k] - s[k - 1];
+    const float after = s[k + 1] - s[k];
+    return (before * before * c[k + 1] + (after * after - before * before) * c[k] -
+            after * after * c[k - 1]) /
+           (before * after * (before + after));
+}
+
 }  // namespace
 
 MonotoneCurve::MonotoneCurve(std::vector<float> x, std::vector<float> y)
@@ -80,26 +96,6 @@ float interpolate(const std::vector<float>& x, const std::vector<float>& y, floa
     const float t = (at - x[i]) / (x[i + 1] - x[i]);
     return y[i] + (y[i + 1] - y[i]) * t;
 }
-
-namespace {
-
-// How far behind the tail the axis is continued; fins may reach beyond the tail's tip.
-constexpr float kLastStation = 1.2F;
-
-// Second-order difference on uneven stations; one-sided at the ends.
-glm::vec3 slopeAt(const Spine& spine, std::size_t k) {
-    const auto& s = spine.stations;
-    const auto& c = spine.centres;
-    if (k == 0) return (c[1] - c[0]) / (s[1] - s[0]);
-    if (k == kKnots - 1) return (c[k] - c[k - 1]) / (s[k] - s[k - 1]);
-    const float before = s[k] - s[k - 1];
-    const float after = s[k + 1] - s[k];
-    return (before * before * c[k + 1] + (after * after - before * before) * c[k] -
-            after * after * c[k - 1]) /
-           (before * after * (before + after));
-}
-
-}  // namespace
 
 std::array<float, kKnots> knotStations(const FishBody& body) {
     const auto& r = body.ringStations;

@@ -18,6 +18,7 @@ namespace aquarama::body {
 // outside of the table the value of the nearest end holds.
 class MonotoneCurve {
   public:
+    // The curve through (x[i], y[i]).
     MonotoneCurve(std::vector<float> x, std::vector<float> y);
     // Cost: a binary search.
     [[nodiscard]] float at(float x) const;
@@ -55,8 +56,8 @@ struct Spine {
 // Sets the slopes from stations and centres.
 void setSlopes(Spine& spine);
 
-// Where the axis is at a station, which way it runs and which way is right; the two directions are
-// not normalised.
+// The axis at a station: its place, its direction and the direction to the right. The directions
+// are not normalised.
 struct SpineSample {
     glm::vec3 centre{};
     glm::vec3 tailwards{};

@@ -33,7 +33,7 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kUsage = 2;
 
-// With the commands that were asked for: "aquarama study chronicle".
+// The program's name with the chosen commands: "aquarama study chronicle".
 std::string commandOf(const CLI::App& app) {
     std::string name = app.get_name();
     for (const CLI::App* command : app.get_subcommands())
@@ -41,13 +41,13 @@ std::string commandOf(const CLI::App& app) {
     return name;
 }
 
-// A command that `aquarama` hands over to another program is told by argv[0] as it was typed:
-// "aquarama console". Else the program keeps its own name, whatever its path.
+// Takes over the name in argv[0] where `aquarama` has started this program, such as "aquarama
+// console". Otherwise the program keeps its own name.
 void takeTypedName(CLI::App& app, const std::string& typed) {
     if (typed == "aquarama" || typed.starts_with("aquarama ")) app.name(typed);
 }
 
-// To the program and its commands, but for those that hand their arguments to another program.
+// Adds --version to the program and its commands, except those that another program runs.
 void addVersionFlag(CLI::App& app, const std::string& program) {
     if (app.get_prefix_command()) return;
     if (!app.get_name().empty())
@@ -58,7 +58,7 @@ void addVersionFlag(CLI::App& app, const std::string& program) {
     for (CLI::App* command : app.get_subcommands({})) addVersionFlag(*command, program);
 }
 
-// False where there is no supervisor.
+// Reports an error to the supervisor; false where there is none.
 bool tellSupervisor(const std::string& line) {
     // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody changes it
     const char* pipe = std::getenv(kErrorPipeVariable);
@@ -67,14 +67,14 @@ bool tellSupervisor(const std::string& line) {
     return write(std::atoi(pipe), whole.data(), whole.size()) == static_cast<ssize_t>(whole.size());
 }
 
-// The status of a job whose standard output has arrived. One that is closed is wanted so.
+// The exit status after flushing standard output. A closed output is intended.
 int withOutput(int status) {
     errno = 0;
     if ((std::fflush(stdout) == 0 && std::ferror(stdout) == 0) || errno == EBADF) return status;
     throw Error("standard output: " + whyNotWritten(errno != 0 ? errno : EIO));
 }
 
-// What an argument is without the dashes before it, long ones too.
+// An argument without its leading dashes, which may be long ones.
 std::string_view withoutDashes(std::string_view argument) {
     while (!argument.empty()) {
         const CodePoint first = codePointAt(argument, 0);
@@ -84,8 +84,8 @@ std::string_view withoutDashes(std::string_view argument) {
     return argument;
 }
 
-// Of an argument that an office program or a web page has given a long dash: what to type instead
-// of it; empty where there is none. A number is the concern of its option.
+// What to type instead of an argument with a long dash, as office programs and web pages make it;
+// empty where it has none. Numbers are checked by their option.
 std::string longDashOf(std::string_view argument) {
     if (argument.empty() || argument[0] == '-') return "";
     const std::string_view name = withoutDashes(argument);
@@ -95,14 +95,14 @@ std::string longDashOf(std::string_view argument) {
            ": type " + (name.size() == 1 ? "-" : "--") + std::string(name);
 }
 
-// Of the first such argument; empty where there is none.
+// The advice for the first such argument; empty where there is none.
 std::string longDashIn(std::span<char* const> arguments) {
     for (const char* argument : arguments)
         if (std::string wrong = longDashOf(argument); !wrong.empty()) return wrong;
     return "";
 }
 
-// What is wrong with a command line, where a character that is no ASCII may be why.
+// The message about a wrong command line, with a remark on its first character that is not ASCII.
 int sayUsage(const CLI::App& app, const std::string& what, std::span<char* const> arguments) {
     std::string why = what;
     for (const std::string_view argument : arguments) {
@@ -143,6 +143,32 @@ CLI::Validator between(Number least, Number most, const std::string& kind) {
             range};
 }
 
+constexpr std::array kWatched{SIGINT, SIGTERM, SIGHUP};
+
+sigset_t watchedSignals() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : kWatched) sigaddset(&signals, signal);
+    return signals;
+}
+
+// Set where a thread that does not block the signals received one: libraries start some before
+// main().
+std::atomic<bool> strayed = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+// Installs handlers, since such a thread would otherwise end the program. Ignored signals stay
+// ignored (nohup).
+void catchStray(int signal) {
+    struct sigaction before {};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_DFL) return;
+    struct sigaction stray {};
+    stray.sa_handler = [](int) { strayed = true; };
+    stray.sa_flags = SA_RESTART;
+    sigaction(signal, &stray, nullptr);
+}
+
 }  // namespace
 
 int runProgram(CLI::App& app, int count, char** arguments, const Job& job) {
@@ -154,7 +180,7 @@ int runProgram(CLI::App& app, int count, char** arguments, const Job& job) {
     try {
         app.parse(count, arguments);
         if (!longDash.empty()) return sayUsage(app, longDash, {});
-        std::signal(SIGXFSZ, SIG_IGN);  // a file past its limit is an error of who writes it
+        std::signal(SIGXFSZ, SIG_IGN);  // a file beyond its size limit is an error of its writer
         removeLeftFolders();
         return withOutput(job());
     } catch (const CLI::ParseError& wrong) {
@@ -205,34 +231,6 @@ CLI::Validator plainWord() {
             },
             ""};
 }
-
-namespace {
-
-constexpr std::array kWatched{SIGINT, SIGTERM, SIGHUP};
-
-sigset_t watchedSignals() {
-    sigset_t signals;
-    sigemptyset(&signals);
-    for (const int signal : kWatched) sigaddset(&signals, signal);
-    return signals;
-}
-
-// Set where a thread that does not block the signals got one: libraries make some before main().
-std::atomic<bool> strayed = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-// Else such a thread would end the program. What is ignored stays so (nohup).
-void catchStray(int signal) {
-    struct sigaction before {};
-    sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_DFL) return;
-    struct sigaction stray {};
-    stray.sa_handler = [](int) { strayed = true; };
-    stray.sa_flags = SA_RESTART;
-    sigaction(signal, &stray, nullptr);
-}
-
-}  // namespace
 
 void holdSignals() {
     const sigset_t signals = watchedSignals();

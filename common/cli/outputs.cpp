@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 // Whether the option's path can be written; errors name the option.
 template <class Require>
 void requireFor(const std::string& option, const std::string& path, const Require& require) {
-    if (path.empty()) return;  // not asked for
+    if (path.empty()) return;  // not requested
     try {
         require(path);
     } catch (const Error& problem) {
@@ -40,17 +40,17 @@ void requireFor(const std::string& option, const std::string& path, const Requir
 
 enum class Output { Shown, Dropped };
 
-// A script that cannot write ends with the number of the system's error, added to this.
+// A script that cannot write exits with this value plus the errno.
 constexpr int kFirstErrno = 100;
 
-// As a C library takes them: the pointers before, those to the words, and null after the last.
+// An argument list for the C library: the given pointers, the words, and a null at the end.
 std::vector<char*> pointersTo(std::vector<char*> pointers, std::vector<std::string>& words) {
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
     return pointers;
 }
 
-// That of this process.
+// The environment of this process.
 std::vector<char*> environmentHere() {
     std::vector<char*> variables;
     for (char** one = environ; *one != nullptr; ++one) variables.push_back(*one);
@@ -95,7 +95,7 @@ std::vector<std::string> pythons() {
     return {"python3", "/usr/bin/python3"};
 }
 
-// Matplotlib keeps its list of fonts in this user's folder, and complains at length where it
+// Matplotlib keeps its list of fonts in this user's folder, and prints long warnings where it
 // cannot.
 bool mayKeepFonts() {
     std::error_code none;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a command writes, tested before it works for minutes: whether its files can be written, and
-// whether there is a Python for its figures; and how far it is meanwhile. Figures and pages are
-// drawn by Python scripts, which lie beside the sources that write their data.
+// Checks before long work that outputs can be written and that Python is available; and progress
+// lines. Python scripts draw figures and pages; each lies beside the sources that write its data.
 #pragma once
 
 #include <chrono>
@@ -13,10 +12,10 @@
 
 namespace aquarama::cli {
 
-// Makes the folder where it is missing. Throws Error, which names the option, where no file can be
-// written into it. An empty name asks for nothing.
+// Creates the folder where it is missing. Throws Error, which names the option, where no file can
+// be written into it. An empty name is ignored.
 void requireFolder(const std::string& option, const std::string& folder);
-// The same for a file, which stays as it is: what is no regular file is not opened.
+// The same for a file, which is not changed. A FIFO or device is not opened.
 void requireFile(const std::string& option, const std::string& file);
 
 // The path of a file that comes with the programs ("config/scenes/reef.txtpb"): that of the source
@@ -24,8 +23,8 @@ void requireFile(const std::string& option, const std::string& file);
 // Error where there is none.
 [[nodiscard]] std::string findData(const std::string& file);
 
-// Throws Error, which says what to install, where no Python has all of the modules. Tried are
-// python3 of the PATH and that of the system, or only the one that AQUARAMA_PYTHON names.
+// Throws Error, which says what to install, where no Python has all of the modules. It tries
+// python3 of the PATH and of the system, or only the one that AQUARAMA_PYTHON names.
 void requirePython(const std::vector<std::string>& modules);
 
 // Runs a script ("master/study/draw_study.py"), found as findData() does, with the first Python
@@ -36,14 +35,14 @@ void runPython(const std::vector<std::string>& modules,
                const std::vector<std::string>& arguments,
                const std::filesystem::path& folder);
 
-// Says how far a long work is on standard output: in one line of a terminal, written anew, or in a
-// line of a log every ten seconds.
+// Shows the progress of long work on standard output: in one line of a terminal that is rewritten,
+// or in a log line every ten seconds.
 class Progress {
   public:
-    // "clip: picture", and how many there will be; 0: as many as come.
+    // The name, as in "clip: picture", and the number of steps; 0: unknown.
     Progress(std::string what, std::uint64_t ofAll) : what_{std::move(what)}, ofAll_{ofAll} {}
     void show(std::uint64_t done);
-    // Takes the terminal's line away.
+    // Clears the terminal's line.
     void end() const;
 
   private:

@@ -27,7 +27,7 @@ std::string contentOf(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Of `text`, without its end.
+// The first line of `text`, without its end.
 std::string firstLine(const std::string& text) {
     return text.substr(0, text.find('\n'));
 }
@@ -42,9 +42,9 @@ class Descriptor {
     [[nodiscard]] int twelve(std::size_t low, std::size_t high, int shift) const {
         return at(low) | (((at(high) >> shift) & 0xF) << 8);
     }
-    // Of pixels; 0: it is no timing but a text.
+    // Clock of the pixels; 0: the descriptor is a text, not a timing.
     [[nodiscard]] int clockHertz() const { return 10'000 * (at(0) | (at(1) << 8)); }
-    // What is to be read of a text of 13 characters at most, which ends with a line.
+    // The text of a descriptor: at most 13 characters, ended by a line feed.
     [[nodiscard]] std::string text() const {
         std::string text;
         for (std::size_t i = 5; i < kDescriptorBytes && at(i) != '\n'; ++i)
@@ -56,7 +56,7 @@ class Descriptor {
     std::span<const std::byte> bytes_;
 };
 
-// The first timing is the one that is preferred.
+// The first timing is the preferred one.
 void takeTiming(const Descriptor& timing, MonitorFacts& facts) {
     facts.sizePixels = {timing.twelve(2, 4, 4), timing.twelve(5, 7, 4)};
     const glm::ivec2 total =
@@ -66,7 +66,7 @@ void takeTiming(const Descriptor& timing, MonitorFacts& facts) {
     facts.sizeMetres = glm::dvec2(timing.twelve(12, 14, 4), timing.twelve(13, 14, 0)) / 1000.0;
 }
 
-// Whichever it is.
+// Reads a descriptor of any kind.
 void takeDescriptor(const Descriptor& descriptor, MonitorFacts& facts) {
     constexpr int kName = 0xFC;
     const bool isTiming = descriptor.clockHertz() > 0;

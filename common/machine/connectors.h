@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The connectors of this machine's graphics cards, as its kernel tells of them without a display.
+// The connectors of this machine's graphics cards, read from the kernel without a display.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace aquarama::machine {
 
-// What a monitor says of itself (EDID); what it does not say is empty or 0.
+// The self-description of a monitor (EDID). Missing values are empty or 0.
 struct MonitorFacts {
     std::string product;      // "LG TV"
     glm::ivec2 sizePixels{};  // of the mode that it prefers
@@ -28,21 +28,21 @@ struct Connector {
     MonitorFacts monitor;
 };
 
-// Those that have a monitor, by name; none where the kernel tells of none. `folder` is other than
-// the kernel's in tests.
+// The connectors with a monitor, sorted by name; empty where the kernel lists none. Tests pass a
+// `folder` of their own.
 [[nodiscard]] std::vector<Connector> connectedMonitors(
     const std::filesystem::path& folder = "/sys/class/drm");
 
-// "HDMI-1, eDP-1", or that there are none.
+// The names as a list, "HDMI-1, eDP-1", or a text that says that there are none.
 [[nodiscard]] std::string namesOf(const std::vector<Connector>& connectors);
 
-// As X names it: the kernel's "HDMI-A-1" is X's "HDMI-1". What is neither stays.
+// The name that X uses: the kernel's "HDMI-A-1" is X's "HDMI-1". Other names stay.
 [[nodiscard]] std::string connectorName(std::string_view name);
 
-// Whether it is a panel that is part of the machine, as that of a laptop.
+// Whether the connector has a built-in panel, as in a laptop.
 [[nodiscard]] bool isBuiltIn(std::string_view connector);
 
-// Of the first block of an EDID; nothing where it is none.
+// Parses the first block of an EDID; empty where the bytes are not an EDID.
 [[nodiscard]] std::optional<MonitorFacts> factsIn(std::span<const std::byte> edid);
 
 }  // namespace aquarama::machine

@@ -16,12 +16,12 @@ std::filesystem::path powerFolder() {
     return chosen != nullptr ? chosen : "/run/aquarama/power";
 }
 
-// A service that was not given the folder has it read-only.
+// For a service without access to the folder, it is read-only.
 bool takesPowerWord(const std::filesystem::path& folder) {
     return std::filesystem::is_directory(folder) && access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
-// Whole at once: the service reads it as soon as it is there.
+// Written as a whole, since the service reads the file as soon as it exists.
 void sayPower(const std::filesystem::path& folder, const std::string& word) {
     if (word != "poweroff" && word != "reboot") throw Error("the word is poweroff or reboot");
     if (!takesPowerWord(folder))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a program has its machine powered off: it leaves a word, and a service of the machine carries
-// that out (packaging/hall/power).
+// Powering off this machine: the program leaves a word in a folder, and a service of the machine
+// acts on it (packaging/hall/power).
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,12 @@
 
 namespace aquarama::machine {
 
-// Where this machine takes the word: AQUARAMA_POWER_FOLDER of the environment, or else
-// /run/aquarama/power.
+// The folder for the word: AQUARAMA_POWER_FOLDER of the environment, or else /run/aquarama/power.
 [[nodiscard]] std::filesystem::path powerFolder();
-// Whether the folder is there, and this process may write into it.
+// Whether the folder exists and this process may write into it.
 [[nodiscard]] bool takesPowerWord(const std::filesystem::path& folder);
-// Leaves `poweroff` or `reboot` there. Throws Error for another word, and where the folder takes
-// none.
+// Writes `poweroff` or `reboot` there. Throws Error for another word, and where it cannot be
+// written.
 void sayPower(const std::filesystem::path& folder, const std::string& word);
 
 }  // namespace aquarama::machine

@@ -20,25 +20,26 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Of work that is no hang: programs for the graphics card are compiled, at worst without a card.
+// The time for long work that is not a hang, such as compiling shaders without a graphics card.
 constexpr std::chrono::microseconds kPatience = 120s;
-// More than the time between two calls of alive(), whatever the manager allows.
+// The time that each request before ready() asks for: more than the time between two calls of
+// alive().
 constexpr std::chrono::microseconds kPatienceWhileWaiting = 30s;
 
-// Empty where it is not set.
+// A variable of the environment; empty where it is not set.
 std::string variable(const char* name) {
     const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody sets them
     return value != nullptr ? value : "";
 }
 
-// 0 where the text is no number.
+// The number in a text; 0 where the text is not a number.
 std::int64_t numberIn(const std::string& text) {
     std::int64_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     return error == std::errc{} && end == text.data() + text.size() ? number : 0;
 }
 
-// What the manager allows between two signs of life; 0: nobody watches this process.
+// The interval that the manager allows between two notifications; 0: this process is not watched.
 std::chrono::microseconds allowedTime() {
     const std::string process = variable("WATCHDOG_PID");
     const bool isOfAnother = !process.empty() && numberIn(process) != getpid();
@@ -46,7 +47,7 @@ std::chrono::microseconds allowedTime() {
     return std::chrono::microseconds(std::max<std::int64_t>(allowed, 0));
 }
 
-// Of a path, or of an abstract name after its @.
+// The address of a socket: a path, or an abstract name after an @.
 bool isAddress(const std::string& text) {
     return (text.starts_with('/') || text.starts_with('@')) && text.size() > 1 &&
            text.size() < sizeof(sockaddr_un::sun_path);

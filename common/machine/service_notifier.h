@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program tells the service manager that started it (systemd): that it is ready, that its
-// loop goes round, that it ends.
+// Notifications to the service manager that started the program (systemd): ready, alive, ending.
 #pragma once
 
 #include <atomic>
@@ -11,12 +10,12 @@
 
 namespace aquarama::machine {
 
-// The protocol of sd_notify(3): datagrams to the socket that NOTIFY_SOCKET names, a path or, after
-// an @, an abstract name. Without that variable it does nothing. No function waits: what the socket
-// has no room for is lost, apart from ready(), which alive() says again.
+// The protocol of sd_notify(3): datagrams to the socket in NOTIFY_SOCKET, which is a path or, after
+// an @, an abstract name. Without that variable it does nothing. No function waits: a datagram that
+// does not fit is lost, except ready(), which alive() repeats.
 class ServiceNotifier {
   public:
-    // Of the variables of this process; a WATCHDOG_USEC for another process counts for nothing.
+    // Reads the variables of this process. A WATCHDOG_USEC for another process is ignored.
     ServiceNotifier();
     ~ServiceNotifier();
     ServiceNotifier(const ServiceNotifier&) = delete;
@@ -27,17 +26,17 @@ class ServiceNotifier {
 
     // The functions below are for the one loop that is watched.
 
-    // It serves; from now on the manager counts the time between two calls of alive().
+    // The program is ready. From now on the manager measures the time between two calls of alive().
     void ready();
-    // The loop has gone round. Call it as often as you like: it says so four times in the time that
-    // the manager allows (once a second where it allows any), with the number of frames so far in
-    // the status (0: the status stays). Before ready() it asks for patience instead.
+    // The loop has completed a round. May be called at any rate: it sends four times in the
+    // interval that the manager allows, or once a second without an interval. The status names the
+    // number of frames so far (0: no change). Before ready() it asks for more time instead.
     void alive(std::uint64_t frames);
-    // Work that takes long and is no hang: the manager waits two minutes for endLongWork(). Only
-    // between alive() and alive().
+    // Announces long work that is not a hang: the manager waits two minutes for endLongWork(). Call
+    // it only between two calls of alive().
     void beginLongWork(const std::string& what);
     void endLongWork();
-    // The process ends; alive() is silent from now on. From any thread.
+    // The process ends; alive() sends nothing from now on. Any thread.
     void stopping();
 
   private:

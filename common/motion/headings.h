@@ -11,8 +11,8 @@
 
 namespace aquarama::motion {
 
-// Where meanHeadings() writes unit vectors in the world frame; owned by the caller. Element 0 is
-// that of the first fish asked for, and each column has room for all of them.
+// The output columns of meanHeadings(), unit vectors in the world frame; owned by the caller.
+// Element 0 belongs to the first fish of the call, and each column has room for all.
 struct HeadingColumns {
     float *x, *y, *z;
 };
@@ -24,7 +24,7 @@ void meanHeadings(const MotorTables& tables,
                   std::size_t first,
                   std::size_t last,
                   const HeadingColumns& headings);
-// The same for one fish, in plain C++: what meanHeadings() is tested against.
+// The same for one fish, in plain C++: the reference for tests of meanHeadings().
 [[nodiscard]] glm::vec3 meanHeadingReference(const MotorTables& tables,
                                              const MotionStates& states,
                                              std::size_t fish);

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "common/base/digest.h"
+
 namespace aquarama::motion {
 namespace {
 
@@ -54,6 +56,29 @@ std::int32_t positionUnits(float metres) {
     return static_cast<std::int32_t>(roundToEven(bounded));
 }
 
+// Half of the height that setAway() sets: wherever the motor moves an absent fish, it stays below.
+constexpr std::int32_t kAwayBelow =
+    static_cast<std::int32_t>(kAwayHeightMetres / kPositionUnitMetres) / 2;
+
+template <class RecordAt>
+std::uint64_t foldedRecords(std::size_t count, RecordAt&& recordAt) {
+    const auto wide = [](auto field) { return static_cast<std::uint64_t>(field); };
+    std::uint64_t hash = mix(count);
+    for (std::size_t fish = 0; fish < count; ++fish) {
+        const FishRecord r = recordAt(fish);
+        // Four words that do not depend on each other, so the processor works on them side by side;
+        // only the last line waits for the fish before.
+        const std::int32_t phases = r.phase | static_cast<std::int32_t>(wide(r.fromPhase) << 16U);
+        const std::uint64_t place = mix(pair(r.x, r.y)) + 3 * mix(pair(r.z, phases));
+        const std::uint64_t turn = mix(wide(r.orientationLow) | wide(r.orientationHigh) << 32U);
+        const std::uint64_t warp = wide(r.segment) | wide(r.fromSegment) << 8U |
+                                   wide(r.warpFrame) << 16U | wide(r.warpLength) << 24U |
+                                   wide(r.speedAndSpread) << 32U;
+        hash = hash * 0x9E3779B97F4A7C15U + (place + 5 * turn + 7 * mix(warp + 1));
+    }
+    return mix(hash);
+}
+
 }  // namespace
 
 void MotionStates::resize(std::size_t fish) {
@@ -68,12 +93,21 @@ void MotionStates::resize(std::size_t fish) {
     }
 }
 
+std::size_t MotionStates::bytes() const {
+    return bytesIn(x, y, z, orientationA, orientationB, orientationC, orientationLargest, phase) +
+           bytesIn(segment, fromPhase, fromSegment, warpFrame, warpLength, speed, spread);
+}
+
 void MotorCommands::resize(std::size_t fish) {
     action.resize(fish);
     phaseRate.resize(fish);
     brake.resize(fish);
     pitch.resize(fish);
     yawRate.resize(fish);
+}
+
+std::size_t MotorCommands::bytes() const {
+    return bytesIn(action, phaseRate, brake, pitch, yawRate);
 }
 
 FishRecord recordOf(const MotionStates& states, std::size_t fish) {
@@ -150,14 +184,6 @@ void setBodyFrame(MotionStates& states, std::size_t fish, const BodyFrame& frame
     states.orientationLargest[fish] = packed.largest;
 }
 
-namespace {
-
-// Half of the height that setAway() sets: wherever the motor moves an absent fish, it stays below.
-constexpr std::int32_t kAwayBelow =
-    static_cast<std::int32_t>(kAwayHeightMetres / kPositionUnitMetres) / 2;
-
-}  // namespace
-
 bool isAway(const FishRecord& record) {
     return record.y < kAwayBelow;
 }
@@ -182,29 +208,6 @@ void setSpeedBodyLengths(MotionStates& states, std::size_t fish, float speed) {
     const float units = std::clamp(speed * kSpeedUnitsPerBodyLength, -kFastest, kFastest);
     states.speed[fish] = static_cast<std::int32_t>(roundToEven(units));
 }
-
-namespace {
-
-template <class RecordAt>
-std::uint64_t foldedRecords(std::size_t count, RecordAt&& recordAt) {
-    const auto wide = [](auto field) { return static_cast<std::uint64_t>(field); };
-    std::uint64_t hash = mix(count);
-    for (std::size_t fish = 0; fish < count; ++fish) {
-        const FishRecord r = recordAt(fish);
-        // Four words that do not depend on each other, so the processor works on them side by side;
-        // only the last line waits for the fish before.
-        const std::int32_t phases = r.phase | static_cast<std::int32_t>(wide(r.fromPhase) << 16U);
-        const std::uint64_t place = mix(pair(r.x, r.y)) + 3 * mix(pair(r.z, phases));
-        const std::uint64_t turn = mix(wide(r.orientationLow) | wide(r.orientationHigh) << 32U);
-        const std::uint64_t warp = wide(r.segment) | wide(r.fromSegment) << 8U |
-                                   wide(r.warpFrame) << 16U | wide(r.warpLength) << 24U |
-                                   wide(r.speedAndSpread) << 32U;
-        hash = hash * 0x9E3779B97F4A7C15U + (place + 5 * turn + 7 * mix(warp + 1));
-    }
-    return mix(hash);
-}
-
-}  // namespace
 
 std::uint64_t hashOf(const MotionStates& states) {
     return foldedRecords(states.size(), [&](std::size_t fish) { return recordOf(states, fish); });

@@ -126,7 +126,7 @@ inline constexpr float kOrientationLimit = 524287.0F;
 inline constexpr float kPositionUnitMetres = 1.0F / 65536.0F;
 inline constexpr float kSpeedUnitsPerBodyLength = 262144.0F;  // 2^18
 inline constexpr std::int32_t kFastestUnits = 4194303;        // 16 body lengths a second
-// Of MotionStates::spread in a tick: fins are spread within a fifth of a second.
+// Change of MotionStates::spread in a tick: fins are spread within a fifth of a second.
 inline constexpr int kSpreadStep = 21;
 
 // Structure of arrays, one element for each fish; all columns have the same length. The world owns
@@ -156,8 +156,12 @@ struct MotionStates {
     // kSpreadStep a tick.
     std::vector<std::uint8_t> spread;
 
+    // Gives each of so many fish an element of every column.
     void resize(std::size_t fish);
+    // Number of fish.
     [[nodiscard]] std::size_t size() const { return x.size(); }
+    // Memory in use.
+    [[nodiscard]] std::size_t bytes() const;
 };
 
 // What the mind asks of the body; the motor's only input. One element for each fish. It changes at
@@ -175,7 +179,10 @@ struct MotorCommands {
     // is positive.
     std::vector<std::int16_t> yawRate;
 
+    // Gives each of so many fish an element of every column.
     void resize(std::size_t fish);
+    // Memory in use.
+    [[nodiscard]] std::size_t bytes() const;
 };
 
 // What never changes about a fish, sent once to each node.
@@ -198,6 +205,7 @@ struct FishRecord {
 };
 static_assert(sizeof(FishRecord) == 32);
 
+// FishRecord::speedAndSpread of its two parts, and back.
 [[nodiscard]] inline std::uint32_t packedSpeedAndSpread(std::int32_t speed, std::uint8_t spread) {
     return (static_cast<std::uint32_t>(speed) & 0xFFFFFFU) | std::uint32_t{spread} << 24U;
 }
@@ -243,7 +251,7 @@ void setAway(MotionStates& states, std::size_t fish);
 // Folds every bit of the state into one number: equal worlds have equal hashes. Cost: four multiply
 // chains for each fish.
 [[nodiscard]] std::uint64_t hashOf(const MotionStates& states);
-// The same of the same fish.
+// The same hash, of records of the same fish.
 [[nodiscard]] std::uint64_t hashOf(std::span<const FishRecord> records);
 
 }  // namespace aquarama::motion

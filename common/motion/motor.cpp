@@ -184,6 +184,31 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
     s.orientationLargest[i] = packed.largest;
 }
 
+// Fish that swing stiffly to and fro, each action at a tempo of its own: in integers and sums, so
+// that what is tested is the motor alone.
+Repertoire selfTestRepertoire() {
+    Repertoire repertoire;
+    repertoire.recordedLengthMetres = 0.25F;
+    repertoire.response = {{0.6F, 0.5F, 0.4F}, 4.0F, 0.4F, 2.0F};
+    for (std::size_t a = 0; a < kCapturedActions; ++a) {
+        ActionSegment& segment = repertoire.segments[a];
+        segment.periodSeconds = 0.5F + static_cast<float>(a) / 64;
+        segment.playsToEnd = isTurn(static_cast<Action>(a));
+        const float yaw = static_cast<float>(a % 5) / 1024 - 0.002F;
+        for (std::size_t k = 0; k < kPhases; ++k) {
+            segment.increments[k] = {glm::normalize(glm::quat(1, 0, yaw, yaw / 4)),
+                                     {0.01F, 0.0F, 0.0F}};
+            const int swing = 64 * (static_cast<int>(k < kPhases / 2 ? k : kPhases - k) - 16);
+            for (std::size_t n = 0; n < body::kNodalPoints; ++n)
+                segment.nodes[k][n] = {static_cast<std::int16_t>(-1000 * static_cast<int>(n)),
+                                       0,
+                                       static_cast<std::int16_t>(swing * static_cast<int>(n))};
+        }
+    }
+    addGlide(repertoire);
+    return repertoire;
+}
+
 }  // namespace
 
 void MotorStep::runReference() const {
@@ -223,35 +248,6 @@ glm::vec3 meanHeadingReference(const MotorTables& tables,
             2.0F * (m.x * m.y + m.w * m.z),
             2.0F * (m.x * m.z - m.w * m.y)};
 }
-
-namespace {
-
-// Fish that swing stiffly to and fro, each action at a tempo of its own: in integers and sums, so
-// that what is tested is the motor alone.
-Repertoire selfTestRepertoire() {
-    Repertoire repertoire;
-    repertoire.recordedLengthMetres = 0.25F;
-    repertoire.response = {{0.6F, 0.5F, 0.4F}, 4.0F, 0.4F, 2.0F};
-    for (std::size_t a = 0; a < kCapturedActions; ++a) {
-        ActionSegment& segment = repertoire.segments[a];
-        segment.periodSeconds = 0.5F + static_cast<float>(a) / 64;
-        segment.playsToEnd = isTurn(static_cast<Action>(a));
-        const float yaw = static_cast<float>(a % 5) / 1024 - 0.002F;
-        for (std::size_t k = 0; k < kPhases; ++k) {
-            segment.increments[k] = {glm::normalize(glm::quat(1, 0, yaw, yaw / 4)),
-                                     {0.01F, 0.0F, 0.0F}};
-            const int swing = 64 * (static_cast<int>(k < kPhases / 2 ? k : kPhases - k) - 16);
-            for (std::size_t n = 0; n < body::kNodalPoints; ++n)
-                segment.nodes[k][n] = {static_cast<std::int16_t>(-1000 * static_cast<int>(n)),
-                                       0,
-                                       static_cast<std::int16_t>(swing * static_cast<int>(n))};
-        }
-    }
-    addGlide(repertoire);
-    return repertoire;
-}
-
-}  // namespace
 
 std::uint64_t motorSelfTest() {
     constexpr std::size_t kFish = 100;  // some of them in no whole vector

@@ -21,13 +21,13 @@ HWY_BEFORE_NAMESPACE();
 namespace aquarama::motion::HWY_NAMESPACE {
 namespace {
 
-// As many as a 64-bit set holds; enough that one vector's arithmetic hides the latency of
-// another's.
+// Fish in a block: as many as a 64-bit set holds. That is enough for one vector's arithmetic to
+// hide the latency of another's.
 constexpr std::size_t kBlockFish = 64;
 using FishSet = std::uint64_t;  // bit i: fish i of the block
 
-// What a block of fish does in this tick: phases and fractions of their cells, phase rates, and the
-// travels, four floats for each fish, stored by slotOf() to be read as columns.
+// The motion of a block of fish in this tick: phases and fractions of their cells, phase rates, and
+// the travels, four floats for each fish, stored by slotOf() to be read as columns.
 struct Block {
     HWY_ALIGN std::int32_t from[kBlockFish];
     HWY_ALIGN std::int32_t to[kBlockFish];
@@ -40,7 +40,7 @@ struct Block {
     HWY_ALIGN float left[4 * kBlockFish];  // translation and speed at the start
     HWY_ALIGN float reached[4 * kBlockFish];
     HWY_ALIGN std::int32_t lengthMillimetres[kBlockFish];
-    // From one pass to the next, as columns.
+    // Values from one pass to the next, as columns.
     HWY_ALIGN float travel[3 * kBlockFish];
     HWY_ALIGN float faster[kBlockFish];
     HWY_ALIGN float swum[3 * kBlockFish];

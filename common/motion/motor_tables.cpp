@@ -53,8 +53,8 @@ glm::dquat towards(const glm::dvec3& way) {
     return glm::normalize(glm::dquat(1 + way.x / length, 0, -way.z / length, way.y / length));
 }
 
-// That along the path at phase k. The path's direction is taken over two phases to either side, or
-// fewer near the ends.
+// The rotation along the path at phase k. The path's direction is taken over two phases to either
+// side, or fewer near the ends.
 glm::dquat alongPath(const GaitPath& path, std::size_t k) {
     const std::size_t reach = std::clamp<std::size_t>(std::min(k, kCycle - k), 1, 2);
     const std::size_t from = k < reach ? k : k - reach;
@@ -123,10 +123,6 @@ double forwardAt(const GaitPath& path, std::size_t k, bool playsToEnd) {
     return (glm::conjugate(path.bodyFromMean[k]) * inBody).x;
 }
 
-}  // namespace
-
-namespace {
-
 void setMeans(const Means& means, bool playsToEnd, GaitPath& path) {
     for (std::size_t k = 0; k < kCycleSamples; ++k) {
         path.bodyFromMean[k] = glm::conjugate(path.rotation[k]) * means[k];
@@ -139,39 +135,7 @@ void setMeans(const Means& means, bool playsToEnd, GaitPath& path) {
     }
 }
 
-}  // namespace
-
-GaitPath pathOf(const ActionSegment& segment) {
-    GaitPath path;
-    integrate(segment.increments, path);
-    Means means{};
-    if (segment.playsToEnd) {
-        means = meansOfTurn(path, std::nullopt, {1, 0, 0});
-    } else {
-        means = meansOfCycle(path);
-        lookAlongPath(path, means);
-    }
-    setMeans(means, segment.playsToEnd, path);
-    return path;
-}
-
-GaitPath pathOf(const TurnPath& turn, float periodSeconds) {
-    GaitPath path;
-    integrate(turn.increments, path);
-    setMeans(meansOfTurn(path, glm::dvec3(turn.courseBefore), turn.courseAfter), true, path);
-    // The body frame's speed at either end is that within a beat: instead the fish has its mean
-    // speed before the turn, and that with which it swims on after it.
-    const double unit = static_cast<double>(periodSeconds) / kPhases;
-    const double before = static_cast<double>(turn.speedBefore) * unit - path.mean[0].forward;
-    const double after = static_cast<double>(turn.speedAfter) * unit - path.mean[kCycle].forward;
-    for (std::size_t k = 0; k < kCycleSamples; ++k)
-        path.mean[k].forward += before * quarterShare(k) + after * quarterShare(kCycle - k);
-    return path;
-}
-
-namespace {
-
-// To floats, when all arithmetic is done.
+// Converts to floats, after all arithmetic.
 Quaternion narrow(const glm::dquat& q) {
     return {static_cast<float>(q.w),
             static_cast<float>(q.x),
@@ -314,47 +278,6 @@ void setEntryBorders(const ActionSegment& turn, MotorTables& tables) {
     }
 }
 
-}  // namespace
-
-std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire) {
-    auto tables = std::make_shared<MotorTables>();
-    std::array<std::int16_t, kActions> phaseRates{};
-    for (std::size_t i = 0; i < kActions; ++i) {
-        const ActionSegment& segment = repertoire.segments[i];
-        const std::size_t first = firstSegmentOf(static_cast<Action>(i));
-        if (segment.playsToEnd)
-            fillTurn(segment, first, *tables);
-        else
-            fill(segment, pathOf(segment), tables->segments[first]);
-        phaseRates[i] = tables->segments[first].phaseRate;
-    }
-    for (std::uint32_t segment = 0; segment < kSegments; ++segment) {
-        const SegmentTables& made = tables->segments[segment];
-        tables->action[segment] = static_cast<std::int32_t>(actionOf(segment));
-        tables->turnRate[segment] = made.playsToEnd ? made.phaseRate : 0;
-    }
-    setEntryBorders(repertoire.segments[kFirstTurn], *tables);
-    const SegmentTables& climb = tables->segments[indexOf(Action::ClimbMedium)];
-    tables->pitchRate = 2.0F * climb.meanHalfTurn[2] * static_cast<float>(climb.phaseRate);
-    tables->loss = lossOf(repertoire.response, tables->segments);
-    tables->warps = planWarps(repertoire, phaseRates);
-    return tables;
-}
-
-std::int16_t recordedPhaseRate(const MotorTables& tables, Action action) {
-    return tables.segments[firstSegmentOf(action)].phaseRate;
-}
-
-float recordedSpeedBodyLengths(const MotorTables& tables, Action action) {
-    return tables.segments[firstSegmentOf(action)].speedBodyLengths;
-}
-
-float recordedTurnRate(const MotorTables& tables, std::uint32_t segment) {
-    return tables.segments[segment].turnRate;
-}
-
-namespace {
-
 // The least step of a warp. A repertoire that hardly moves would otherwise warp for seconds; this
 // keeps K within its 8 bits.
 constexpr float kSmallestStepBodyLengths = 1.0F / 128.0F;
@@ -479,6 +402,71 @@ WarpPlan planToTurn(const Travels& travels, std::size_t cell, float step, std::i
 }
 
 }  // namespace
+
+GaitPath pathOf(const ActionSegment& segment) {
+    GaitPath path;
+    integrate(segment.increments, path);
+    Means means{};
+    if (segment.playsToEnd) {
+        means = meansOfTurn(path, std::nullopt, {1, 0, 0});
+    } else {
+        means = meansOfCycle(path);
+        lookAlongPath(path, means);
+    }
+    setMeans(means, segment.playsToEnd, path);
+    return path;
+}
+
+GaitPath pathOf(const TurnPath& turn, float periodSeconds) {
+    GaitPath path;
+    integrate(turn.increments, path);
+    setMeans(meansOfTurn(path, glm::dvec3(turn.courseBefore), turn.courseAfter), true, path);
+    // The body frame's speed at either end is that within a beat: instead the fish has its mean
+    // speed before the turn, and that with which it swims on after it.
+    const double unit = static_cast<double>(periodSeconds) / kPhases;
+    const double before = static_cast<double>(turn.speedBefore) * unit - path.mean[0].forward;
+    const double after = static_cast<double>(turn.speedAfter) * unit - path.mean[kCycle].forward;
+    for (std::size_t k = 0; k < kCycleSamples; ++k)
+        path.mean[k].forward += before * quarterShare(k) + after * quarterShare(kCycle - k);
+    return path;
+}
+
+std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire) {
+    auto tables = std::make_shared<MotorTables>();
+    std::array<std::int16_t, kActions> phaseRates{};
+    for (std::size_t i = 0; i < kActions; ++i) {
+        const ActionSegment& segment = repertoire.segments[i];
+        const std::size_t first = firstSegmentOf(static_cast<Action>(i));
+        if (segment.playsToEnd)
+            fillTurn(segment, first, *tables);
+        else
+            fill(segment, pathOf(segment), tables->segments[first]);
+        phaseRates[i] = tables->segments[first].phaseRate;
+    }
+    for (std::uint32_t segment = 0; segment < kSegments; ++segment) {
+        const SegmentTables& made = tables->segments[segment];
+        tables->action[segment] = static_cast<std::int32_t>(actionOf(segment));
+        tables->turnRate[segment] = made.playsToEnd ? made.phaseRate : 0;
+    }
+    setEntryBorders(repertoire.segments[kFirstTurn], *tables);
+    const SegmentTables& climb = tables->segments[indexOf(Action::ClimbMedium)];
+    tables->pitchRate = 2.0F * climb.meanHalfTurn[2] * static_cast<float>(climb.phaseRate);
+    tables->loss = lossOf(repertoire.response, tables->segments);
+    tables->warps = planWarps(repertoire, phaseRates);
+    return tables;
+}
+
+std::int16_t recordedPhaseRate(const MotorTables& tables, Action action) {
+    return tables.segments[firstSegmentOf(action)].phaseRate;
+}
+
+float recordedSpeedBodyLengths(const MotorTables& tables, Action action) {
+    return tables.segments[firstSegmentOf(action)].speedBodyLengths;
+}
+
+float recordedTurnRate(const MotorTables& tables, std::uint32_t segment) {
+    return tables.segments[segment].turnRate;
+}
 
 WarpPlans planWarps(const Repertoire& repertoire,
                     const std::array<std::int16_t, kActions>& phaseRates) {

@@ -43,7 +43,7 @@ struct GaitPath {
 
 // Integrates the increments of a segment and takes the mean over one cycle around each phase.
 [[nodiscard]] GaitPath pathOf(const ActionSegment& segment);
-// Of a turn begun in a tail beat. Its speeds at the ends are those of TurnPath.
+// The same of a turn begun in a tail beat. Its speeds at the ends are those of TurnPath.
 [[nodiscard]] GaitPath pathOf(const TurnPath& turn, float periodSeconds);
 
 // What the motor step reads of a species: about 1.2 MB, of which a steady school touches 36 kB.
@@ -159,6 +159,7 @@ struct MotorColumns {
     std::uint8_t *segment, *fromSegment, *warpFrame, *warpLength;
 };
 
+// Pointers to the columns, valid until one is resized.
 [[nodiscard]] inline MotorColumns columnsOf(const MotorCommands& commands, MotionStates& states) {
     return {commands.action.data(),
             commands.phaseRate.data(),
@@ -179,12 +180,12 @@ struct Travel {
     Quaternion bodyFromMean;  // at the end
     // The phase rate that the path's speeds are multiplied by.
     std::int32_t rate = 0;
-    // Of the stroke in the middle of the tick, 1/65536 of a cycle: before the segment's phase while
-    // a warp leads to it.
+    // Phase of the stroke in the middle of the tick, 1/65536 of a cycle. While a warp leads to the
+    // segment, it is before the segment's phase.
     std::int32_t strokePhase = 0;
 };
 
-// Component by component and not normalised.
+// Interpolates component by component, not normalised.
 [[nodiscard]] inline Quaternion lerp(const Quaternion& a, const Quaternion& b, float share) {
     return {a.w + share * (b.w - a.w),
             a.x + share * (b.x - a.x),
@@ -192,6 +193,7 @@ struct Travel {
             a.z + share * (b.z - a.z)};
 }
 
+// Interpolates rotation, translation and speed.
 [[nodiscard]] inline PathSample lerp(const PathSample& a, const PathSample& b, float share) {
     PathSample at{.rotation = lerp(a.rotation, b.rotation, share)};
     for (std::size_t i = 0; i < at.translationAndSpeed.size(); ++i) {
@@ -201,7 +203,7 @@ struct Travel {
     return at;
 }
 
-// Where in its cell a phase is, [0, 1).
+// The place of a phase within its cell, [0, 1).
 [[nodiscard]] inline float fractionOf(std::uint32_t phase) {
     return static_cast<float>(phase & 1023U) * kPhaseCellUnit;
 }
@@ -270,7 +272,7 @@ struct Playing {
     return {.warps = false, .from = phase, .to = phase + rate};
 }
 
-// Where SpeedLoss::drag has the drag of a segment at a phase, 1/65536 of a cycle.
+// Index into SpeedLoss::drag of a segment at a phase (1/65536 of a cycle).
 [[nodiscard]] inline std::size_t dragOf(std::uint32_t segment, std::uint32_t phase) {
     constexpr std::uint32_t kRetreat = firstSegmentOf(Action::Retreat);
     return segment == kRetreat && (phase & 0x8000U) != 0 ? kSegments : segment;
@@ -298,8 +300,7 @@ using Vector = std::array<float, 3>;
             (v[2] + q.w * z) + (q.x * y - q.y * x)};
 }
 
-// Where the mean frame gets to in a tick, as seen from where it is; body lengths and speeds as in
-// PathSample.
+// Motion of the mean frame in a tick, in its frame at the start; units as in PathSample.
 struct MeanTravel {
     Quaternion turn;
     Vector way{};
@@ -313,8 +314,8 @@ struct MeanTravel {
     return from == Action::Retreat && swims(to);
 }
 
-// In a warp to a cycle: as in the mean of one. (The paper does not say what the body frame does
-// during a warp; if it were frozen, the fish would halt.)
+// The travel in a warp to a cycle: that of its mean. (The paper does not say what the body frame
+// does during a warp; if it were frozen, the fish would halt.)
 [[nodiscard]] inline MeanTravel cyclingTravel(const SegmentTables& next,
                                               std::uint32_t phase,
                                               std::int32_t rate) {
@@ -329,8 +330,8 @@ struct MeanTravel {
             .rate = rate};
 }
 
-// In a warp to a turn: as the turn does, between two of its phases. The turn plays from the first
-// frame of the warp on, which ends at the phase that the turn then has.
+// The travel in a warp to a turn: that of the turn between two of its phases. The turn plays from
+// the first frame of the warp on, which ends at the phase that the turn then has.
 [[nodiscard]] inline MeanTravel turningTravel(const SegmentTables& turn,
                                               std::uint32_t from,
                                               std::uint32_t to) {

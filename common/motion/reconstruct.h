@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame shows of a fish between two ticks, and its nodal points (eq. 12).
+// A fish between two ticks, as a frame shows it, and its nodal points (eq. 12).
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>

@@ -58,7 +58,7 @@ void writeIncrements(ByteWriter& out, const FrameIncrements& increments) {
     }
 }
 
-// What of a TurnPath precedes its increments.
+// The numbers of a TurnPath before its increments.
 std::array<float*, 8> headOf(TurnPath& path) {
     auto& [before, speedBefore, after, speedAfter, increments] = path;
     return {
@@ -126,7 +126,7 @@ std::array<float*, kResponses> numbersOf(SpeedResponse& response) {
     return {&slow, &medium, &fast, &response.retreatDrag, &response.glideDrag, &response.brakeRate};
 }
 
-// What is wrong with a segment, or nothing.
+// The fault of a segment; empty where there is none.
 std::optional<std::string> faultOf(const ActionSegment& segment) {
     if (!(segment.periodSeconds >= kShortestPeriodSeconds &&
           segment.periodSeconds <= kLongestPeriodSeconds)) {
@@ -151,7 +151,7 @@ std::optional<std::string> faultOf(const ActionSegment& segment) {
     return std::nullopt;
 }
 
-// What is wrong with a repertoire, or nothing; names the segment.
+// The fault of a repertoire, which names the segment; empty where there is none.
 std::optional<std::string> faultOf(const Repertoire& repertoire) {
     const auto printable = [](char c) { return c > ' ' && c <= '~'; };
     if (repertoire.species.empty() || repertoire.species.size() > kLongestSpecies ||
@@ -179,7 +179,7 @@ std::optional<std::string> faultOf(const Repertoire& repertoire) {
     throw Error(source + ": repertoire " + fault + "; capture the species again");
 }
 
-// What a file has of a segment beyond its poses of nodes. Bit a of 32: segment a has control
+// The parts of a segment in a file, beside its poses of nodes. Bit a of 32: segment a has control
 // points; bit kCapturedActions + t: turn t has paths by entry.
 class Contents {
   public:
@@ -200,7 +200,7 @@ class Contents {
     [[nodiscard]] bool hasEntries(unsigned action) const {
         return action >= kFirstTurn && (bits_ >> entryBit(action) & 1U) != 0;
     }
-    // Of all segments.
+    // Memory of all segments.
     [[nodiscard]] std::size_t bytes() const {
         std::size_t bytes = 0;
         for (unsigned action = 0; action < kCapturedActions; ++action)
@@ -248,6 +248,16 @@ Repertoire readContent(ByteReader& in, const std::string& source) {
         for (ControlPointPose& pose : segment.controlPoints) readPose(in, pose);
     }
     return repertoire;
+}
+
+// The mean of two poses, point by point.
+template <class Pose>
+Pose meanOf(const Pose& a, const Pose& b) {
+    Pose mean{};
+    for (std::size_t i = 0; i < mean.size(); ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            mean[i][axis] = static_cast<std::int16_t>(roundToEven((a[i][axis] + b[i][axis]) / 2.0));
+    return mean;
 }
 
 }  // namespace
@@ -333,20 +343,6 @@ Repertoire decodeRepertoire(std::span<const std::byte> bytes, const std::string&
     addGlide(repertoire);
     return repertoire;
 }
-
-namespace {
-
-// The mean of two poses, point by point.
-template <class Pose>
-Pose meanOf(const Pose& a, const Pose& b) {
-    Pose mean{};
-    for (std::size_t i = 0; i < mean.size(); ++i)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            mean[i][axis] = static_cast<std::int16_t>(roundToEven((a[i][axis] + b[i][axis]) / 2.0));
-    return mean;
-}
-
-}  // namespace
 
 void addGlide(Repertoire& repertoire) {
     const ActionSegment& medium =

@@ -21,6 +21,7 @@ namespace aquarama::motion {
 // Appends little-endian numbers to bytes, which it owns.
 class ByteWriter {
   public:
+    // Appends a number, the lowest byte first.
     template <class Unsigned>
     void unsignedNumber(Unsigned value) {
         for (std::size_t byte = 0; byte < sizeof(Unsigned); ++byte) {
@@ -30,11 +31,12 @@ class ByteWriter {
     }
     void int16(std::int16_t value) { unsignedNumber(static_cast<std::uint16_t>(value)); }
     void float32(float value) { unsignedNumber(std::bit_cast<std::uint32_t>(value)); }
+    // Appends a byte for each character.
     template <class Container>
     void characters(const Container& text) {
         for (const auto character : text) unsignedNumber(static_cast<std::uint8_t>(character));
     }
-
+    // What was written: moved out, or as a view that is valid until the next call.
     [[nodiscard]] std::vector<std::byte> take() && { return std::move(bytes_); }
     [[nodiscard]] std::span<const std::byte> written() const { return bytes_; }
 
@@ -42,12 +44,14 @@ class ByteWriter {
     std::vector<std::byte> bytes_;
 };
 
-// Reads them back; does not own the bytes. It never reads beyond their end: after the first number
-// that is not wholly there, every number is zero and ok() is false.
+// Reads what a ByteWriter wrote; does not own the bytes. It never reads beyond their end: after the
+// first number that is not wholly there, every number is zero and ok() is false.
 class ByteReader {
   public:
+    // Begins at the first byte.
     explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
+    // The next number, the lowest byte first.
     template <class Unsigned>
     [[nodiscard]] Unsigned unsignedNumber() {
         std::uint64_t value = 0;
@@ -68,6 +72,7 @@ class ByteReader {
         return text;
     }
 
+    // Whether all that was read was there, and how many bytes are left.
     [[nodiscard]] bool ok() const { return ok_; }
     [[nodiscard]] std::size_t remaining() const { return rest_.size(); }
 
@@ -90,8 +95,8 @@ class ByteReader {
 // Samples of one cycle; phase k is at k / 64 of the period.
 inline constexpr int kPhases = 64;
 
-// What a fish can be told to do. The numbers are part of files and of the wire. Each gait swims
-// straight on, on four curves and on two slopes.
+// The actions that a fish can be told to do. Files and the wire contain the numbers. Each gait
+// swims straight on, on four curves and on two slopes.
 enum class Action : std::uint8_t {
     ForwardSlow,
     ForwardMedium,
@@ -130,6 +135,7 @@ inline constexpr int kForwardGaits = 3;
 inline constexpr int kSwimmingActions = 21;
 [[nodiscard]] const char* nameOf(Action action);  // "forward_slow", ...
 
+// The action as an index of arrays of kActions.
 [[nodiscard]] constexpr std::size_t indexOf(Action action) {
     return static_cast<std::size_t>(action);
 }
@@ -151,7 +157,7 @@ inline constexpr int kSwimmingActions = 21;
 [[nodiscard]] constexpr bool isTurn(Action action) {
     return action >= Action::TurnLeftGradual && action <= Action::TurnRightSharp;
 }
-// Of a turn.
+// Whether a turn leads to the left.
 [[nodiscard]] constexpr bool isLeft(Action turn) {
     return turn <= Action::TurnLeftSharp;
 }
@@ -215,15 +221,17 @@ using NodalPose = std::array<std::array<std::int16_t, 3>, body::kNodalPoints>;
 // Poses are 16-bit: a position in the body frame, in body lengths, is component * kPoseUnit.
 inline constexpr float kPoseUnit = 1.0F / 32767.0F;
 
+// A frame increment for each phase.
 using FrameIncrements = std::array<FrameIncrement, kPhases>;
 
 // A turn as begun in a tail beat. The courses are unit vectors in the body frame at its first and
 // at its last phase; speeds are body lengths a second.
 struct TurnPath {
-    // Of the fish before the turn.
+    // Course and speed of the fish before the turn.
     glm::vec3 courseBefore{1, 0, 0};
     float speedBefore = 0.0F;
-    // On which a fish that swims on at the medium gait arrives where the simulated one does.
+    // Course and speed after the turn: with these, a fish at the medium gait arrives where the
+    // simulated one does.
     glm::vec3 courseAfter{1, 0, 0};
     float speedAfter = 0.0F;
     FrameIncrements increments{};
@@ -231,15 +239,15 @@ struct TurnPath {
 
 // One captured cycle of an action, as recorded from a fish of Repertoire::recordedLengthMetres.
 struct ActionSegment {
-    // Of one cycle.
+    // Time of one cycle.
     float periodSeconds = 0.0F;
     // A turn is entered at phase 0 and left at its end; all other segments anywhere.
     bool playsToEnd = false;
     // From phase k to k + 1; the last leads to the end of the cycle. A turn: from the pose of a
     // glide.
     FrameIncrements increments{};
-    // Of a turn begun in a tail beat: kTurnEntries, those of the lowest speed first and each speed
-    // by the phase of the beat; or none, if they are all like `increments`.
+    // The paths of a turn begun in a tail beat: kTurnEntries, those of the lowest speed first and
+    // each speed by the phase of the beat; or none, if they are all like `increments`.
     std::vector<TurnPath> entered;
     // Deformation d at phase k (eq. 8).
     std::array<NodalPose, kPhases> nodes{};

@@ -40,36 +40,6 @@ float mixed(float a, float b, float t) {
     return a + (b - a) * t;
 }
 
-}  // namespace
-
-float valueNoise(std::uint32_t seed, glm::vec2 place) {
-    const float x = std::clamp(place.x, -kFarthestCell, kFarthestCell);
-    const float y = std::clamp(place.y, -kFarthestCell, kFarthestCell);
-    const int cellX = cellOf(x);
-    const int cellY = cellOf(y);
-    const float u = smooth(x - static_cast<float>(cellX));
-    const float v = smooth(y - static_cast<float>(cellY));
-    const float near = mixed(lattice(seed, cellX, cellY), lattice(seed, cellX + 1, cellY), u);
-    const float far =
-        mixed(lattice(seed, cellX, cellY + 1), lattice(seed, cellX + 1, cellY + 1), u);
-    return mixed(near, far, v);
-}
-
-float fractalNoise(std::uint32_t seed, glm::vec2 place, int octaves) {
-    assert(octaves >= 1);
-    float sum = 0.0F;
-    float height = 1.0F;
-    for (int octave = 0; octave < octaves; ++octave) {
-        sum += height * valueNoise(hashOf(seed, static_cast<std::uint32_t>(octave)), place);
-        // The lattices of two octaves must not meet at the origin: all would be flat there.
-        place = glm::vec2{place.x * 2.0F + 17.31F, place.y * 2.0F - 9.73F};
-        height *= 0.5F;
-    }
-    return sum;
-}
-
-namespace {
-
 // Each kind of thing draws from a random stream of its own, so that adding a rock never moves the
 // sand. The composition is planned for the wall's 120 degrees, with low rocks in front, high reefs
 // at both sides and a gap between them into the blue; a seed only moves it a little. Positions are
@@ -300,7 +270,7 @@ bool standsInRock(const std::vector<Rock>& rocks, glm::vec3 root) {
     return false;
 }
 
-// What is sown, from which seed, and the least height as a share of the stand's.
+// One kind of plant that is sown, with its seed and its least height as a share of the stand's.
 struct Sowing {
     PlantKind kind;
     std::uint32_t seed;
@@ -326,52 +296,6 @@ void sow(std::vector<Plant>& plants,
         plants.push_back({sowing.kind, root, stand.heightMetres * share, plantSeed});
     }
 }
-
-}  // namespace
-
-float floorHeight(const PlaceKey& place, glm::vec2 xz) {
-    if (place.kind == config::PlaceKind::OpenSea) return -kOpenSeaFloorDepthMetres;
-    // Two scales: long dunes of 14 m and hummocks of 3 m.
-    const glm::vec2 dunes{xz.x * 0.07F, xz.y * 0.07F};
-    const glm::vec2 hummocks{xz.x * 0.33F, xz.y * 0.33F};
-    return -kMeanFloorDepthMetres +
-           0.22F * fractalNoise(hashOf(place.seed, Stream::Dunes), dunes, 2) +
-           0.07F * fractalNoise(hashOf(place.seed, Stream::Hummocks), hummocks, 2) - dropAt(xz);
-}
-
-std::vector<Rock> rocksOf(const PlaceKey& place) {
-    std::vector<Rock> rocks;
-    if (place.kind == config::PlaceKind::OpenSea) return rocks;
-    std::uint32_t next = hashOf(place.seed, Stream::Rocks);
-    for (const RockGroup& group : kRockGroups) addGroup(rocks, place, group, next);
-    addArch(rocks, place);
-    addRing(rocks, place);
-    return rocks;
-}
-
-std::vector<Plant> plantsOf(const PlaceKey& place) {
-    std::vector<Plant> plants;
-    if (place.kind == config::PlaceKind::OpenSea) return plants;
-    const std::vector<Rock> rocks = rocksOf(place);
-    std::uint32_t stand = 0;
-    for (const Stand& kelp : kKelpStands)
-        sow(plants,
-            rocks,
-            place,
-            kelp,
-            {PlantKind::Kelp, hashOf(hashOf(place.seed, Stream::Kelp), stand++), 0.55F});
-    for (const Stand& meadow : kMeadows)
-        sow(plants,
-            rocks,
-            place,
-            meadow,
-            {PlantKind::Seagrass, hashOf(hashOf(place.seed, Stream::Meadow), stand++), 0.45F});
-    return plants;
-}
-
-// --- how much water a scene gives
-
-namespace {
 
 // Beyond this there is only bare sand.
 constexpr double kReefHalfWidthMetres = 30;
@@ -415,7 +339,7 @@ std::string wrongWith(const config::Scene& scene,
     return {};
 }
 
-// By which factors the box grows: sideways and away from the eye, and downwards.
+// The factors by which the box grows: sideways and away from the eye, and downwards.
 struct Growth {
     double wider = 1, deeper = 1;
 };
@@ -434,6 +358,74 @@ Growth growthFor(const config::Scene& scene, double more) {
 }
 
 }  // namespace
+
+float valueNoise(std::uint32_t seed, glm::vec2 place) {
+    const float x = std::clamp(place.x, -kFarthestCell, kFarthestCell);
+    const float y = std::clamp(place.y, -kFarthestCell, kFarthestCell);
+    const int cellX = cellOf(x);
+    const int cellY = cellOf(y);
+    const float u = smooth(x - static_cast<float>(cellX));
+    const float v = smooth(y - static_cast<float>(cellY));
+    const float near = mixed(lattice(seed, cellX, cellY), lattice(seed, cellX + 1, cellY), u);
+    const float far =
+        mixed(lattice(seed, cellX, cellY + 1), lattice(seed, cellX + 1, cellY + 1), u);
+    return mixed(near, far, v);
+}
+
+float fractalNoise(std::uint32_t seed, glm::vec2 place, int octaves) {
+    assert(octaves >= 1);
+    float sum = 0.0F;
+    float height = 1.0F;
+    for (int octave = 0; octave < octaves; ++octave) {
+        sum += height * valueNoise(hashOf(seed, static_cast<std::uint32_t>(octave)), place);
+        // The lattices of two octaves must not meet at the origin: all would be flat there.
+        place = glm::vec2{place.x * 2.0F + 17.31F, place.y * 2.0F - 9.73F};
+        height *= 0.5F;
+    }
+    return sum;
+}
+
+float floorHeight(const PlaceKey& place, glm::vec2 xz) {
+    if (place.kind == config::PlaceKind::OpenSea) return -kOpenSeaFloorDepthMetres;
+    // Two scales: long dunes of 14 m and hummocks of 3 m.
+    const glm::vec2 dunes{xz.x * 0.07F, xz.y * 0.07F};
+    const glm::vec2 hummocks{xz.x * 0.33F, xz.y * 0.33F};
+    return -kMeanFloorDepthMetres +
+           0.22F * fractalNoise(hashOf(place.seed, Stream::Dunes), dunes, 2) +
+           0.07F * fractalNoise(hashOf(place.seed, Stream::Hummocks), hummocks, 2) - dropAt(xz);
+}
+
+std::vector<Rock> rocksOf(const PlaceKey& place) {
+    std::vector<Rock> rocks;
+    if (place.kind == config::PlaceKind::OpenSea) return rocks;
+    std::uint32_t next = hashOf(place.seed, Stream::Rocks);
+    for (const RockGroup& group : kRockGroups) addGroup(rocks, place, group, next);
+    addArch(rocks, place);
+    addRing(rocks, place);
+    return rocks;
+}
+
+std::vector<Plant> plantsOf(const PlaceKey& place) {
+    std::vector<Plant> plants;
+    if (place.kind == config::PlaceKind::OpenSea) return plants;
+    const std::vector<Rock> rocks = rocksOf(place);
+    std::uint32_t stand = 0;
+    for (const Stand& kelp : kKelpStands)
+        sow(plants,
+            rocks,
+            place,
+            kelp,
+            {PlantKind::Kelp, hashOf(hashOf(place.seed, Stream::Kelp), stand++), 0.55F});
+    for (const Stand& meadow : kMeadows)
+        sow(plants,
+            rocks,
+            place,
+            meadow,
+            {PlantKind::Seagrass, hashOf(hashOf(place.seed, Stream::Meadow), stand++), 0.45F});
+    return plants;
+}
+
+// --- how much water a scene gives
 
 Region waterFor(const config::Scene& scene, std::size_t fish, float meanLengthMetres) {
     assert(meanLengthMetres >= 0);

@@ -35,11 +35,12 @@ inline constexpr float kPi = 3.14159265F;
     return y < 0 ? -angle : angle;
 }
 
-// As glm's, with a fixed order of additions.
+// Scalar product as of glm, with a fixed order of additions.
 [[nodiscard]] inline float dot(glm::vec3 a, glm::vec3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+// Euclidean length.
 [[nodiscard]] inline float lengthOf(glm::vec3 v) {
     return std::sqrt(dot(v, v));
 }
@@ -106,6 +107,7 @@ struct Rock {
 // Made anew at every call; none in the open sea.
 [[nodiscard]] std::vector<Rock> rocksOf(const PlaceKey& place);
 
+// What a plant looks like.
 enum class PlantKind : std::uint8_t { Kelp, Seagrass };
 
 // One plant; the seed decides its details.
@@ -132,8 +134,8 @@ struct Region {
 // open sea also downwards. The face towards the eye and the top stay.
 [[nodiscard]] Region waterFor(const config::Scene& scene, std::size_t fish, float meanLengthMetres);
 
-// Where the submarine may go: the box around the fish's water and the eye, with a margin of four
-// metres, below the surface. Takes no account of the sand.
+// The region of the submarine: the box around the fish's water and the eye, with a margin of four
+// metres, below the surface. It ignores the sand.
 [[nodiscard]] Region roamingRegion(const Region& fishWater, glm::vec3 eye);
 
 // How many fish have room: a reef is bounded by its rocks, the open sea only by kMostFish.

@@ -37,36 +37,6 @@ int ringNear(const body::ControlCage& cage, float station) {
     return nearest;
 }
 
-}  // namespace
-
-// The four points: both flanks a ring before, back and belly a ring behind. They are never in one
-// plane, so the matrix has an inverse.
-RestBinding::RestBinding(const body::ControlCage& cage, float station) {
-    assert(cage.vertices.size() == body::kControlPoints);
-    const int ring = ringNear(cage, station);
-    points_ = {tubePoint(ring - 1, 3),
-               tubePoint(ring - 1, 10),
-               tubePoint(ring + 1, 0),
-               tubePoint(ring + 1, 6)};
-    glm::mat4 restFromWeights{1.0F};
-    for (int k = 0; k < 4; ++k)
-        restFromWeights[k] =
-            glm::vec4(cage.vertices[points_.at(static_cast<std::size_t>(k))].rest, 1);
-    weightsFromRest_ = glm::inverse(restFromWeights);
-}
-
-RestBinding::Weights RestBinding::ofPlace(glm::vec3 rest) const {
-    const glm::vec4 w = weightsFromRest_ * glm::vec4(rest, 1);
-    return {w.x, w.y, w.z, w.w};
-}
-
-RestBinding::Weights RestBinding::ofDirection(glm::vec3 direction) const {
-    const glm::vec4 w = weightsFromRest_ * glm::vec4(direction, 0);
-    return {w.x, w.y, w.z, w.w};
-}
-
-namespace {
-
 // The mesh of an eye: vertices on each of its rings.
 constexpr std::size_t kSpokes = 16;
 // Radii of its rings, in radii of the eye; the last lies under the skin.
@@ -324,23 +294,6 @@ void addThread(const body::FishBody& body,
             addQuad(triangles, {on(i, k), on(i, k + 1), on(i + 1, k + 1), on(i + 1, k)});
 }
 
-}  // namespace
-
-std::size_t threadSteps(const body::BodyThread& thread) {
-    assert(thread.at.size() >= 2);
-    return 2 * (thread.at.size() - 1);
-}
-
-Attachments makeAttachments(const body::FishBody& body, std::span<const RestTriangle> head) {
-    Attachments attachments;
-    const Ball ball(body, head);
-    for (const float side : {1.0F, -1.0F}) addEye(body, ball, side, attachments);
-    for (const body::BodyThread& thread : body.threads) addThread(body, thread, attachments);
-    return attachments;
-}
-
-namespace {
-
 using Face = std::array<std::uint16_t, 4>;
 
 // Off the base of a fin; vertices of the base count as the body's.
@@ -452,6 +405,45 @@ void addTriangles(const FaceGrid& grid,
 }
 
 }  // namespace
+
+// The four points: both flanks a ring before, back and belly a ring behind. They are never in one
+// plane, so the matrix has an inverse.
+RestBinding::RestBinding(const body::ControlCage& cage, float station) {
+    assert(cage.vertices.size() == body::kControlPoints);
+    const int ring = ringNear(cage, station);
+    points_ = {tubePoint(ring - 1, 3),
+               tubePoint(ring - 1, 10),
+               tubePoint(ring + 1, 0),
+               tubePoint(ring + 1, 6)};
+    glm::mat4 restFromWeights{1.0F};
+    for (int k = 0; k < 4; ++k)
+        restFromWeights[k] =
+            glm::vec4(cage.vertices[points_.at(static_cast<std::size_t>(k))].rest, 1);
+    weightsFromRest_ = glm::inverse(restFromWeights);
+}
+
+RestBinding::Weights RestBinding::ofPlace(glm::vec3 rest) const {
+    const glm::vec4 w = weightsFromRest_ * glm::vec4(rest, 1);
+    return {w.x, w.y, w.z, w.w};
+}
+
+RestBinding::Weights RestBinding::ofDirection(glm::vec3 direction) const {
+    const glm::vec4 w = weightsFromRest_ * glm::vec4(direction, 0);
+    return {w.x, w.y, w.z, w.w};
+}
+
+std::size_t threadSteps(const body::BodyThread& thread) {
+    assert(thread.at.size() >= 2);
+    return 2 * (thread.at.size() - 1);
+}
+
+Attachments makeAttachments(const body::FishBody& body, std::span<const RestTriangle> head) {
+    Attachments attachments;
+    const Ball ball(body, head);
+    for (const float side : {1.0F, -1.0F}) addEye(body, ball, side, attachments);
+    for (const body::BodyThread& thread : body.threads) addThread(body, thread, attachments);
+    return attachments;
+}
 
 float heightOnBody(const body::FishBody& body, float s, float y) {
     const auto& halfHeight = y >= 0.0F ? body.profileDorsal : body.profileVentral;

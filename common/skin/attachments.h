@@ -23,6 +23,7 @@ class RestBinding {
     // cage: at rest. Uses the rings next to the one nearest to the station.
     RestBinding(const body::ControlCage& cage, float station);
 
+    // Four control points and their weights.
     using Points = std::array<std::uint32_t, 4>;
     using Weights = std::array<float, 4>;
     // Numbers of the control points that the weights belong to.
@@ -40,6 +41,7 @@ class RestBinding {
 // Parts that are too small for the cage, bound to it and drawn with the skin: eyes as balls that
 // are set into the head, whips, lone spines and barbels. The same at every level of detail.
 struct Attachments {
+    // A vertex of such a part.
     struct Vertex {
         std::vector<StencilEntry> entries;  // as a vertex of the surface has them
         // Without the height on the body (rest.w), which makeLimitTable() fills in.

@@ -35,61 +35,6 @@ OnEdge onEdge(const std::array<std::uint16_t, 4>& face, int i, int j, int cuts) 
     return {face[0], face[3], j};
 }
 
-}  // namespace
-
-// Runs over all faces; a vertex on an edge is found again by the edge's ends and its step, however
-// the other face is turned.
-FaceGrid::FaceGrid(const body::ControlCage& cage, int cuts) : cuts_{cuts} {
-    assert(cuts >= 1);
-    using EdgePoint = std::array<int, 3>;  // lower end, higher end, cuts from the lower
-    std::map<EdgePoint, std::uint32_t> edgePoints;
-    locations_.resize(cage.vertices.size());
-
-    const auto number = [&](std::uint32_t face, int i, int j) -> std::uint32_t {
-        const Location location{face,
-                                static_cast<float>(i) / static_cast<float>(cuts),
-                                static_cast<float>(j) / static_cast<float>(cuts)};
-        const bool atI = i == 0 || i == cuts, atJ = j == 0 || j == cuts;
-        const auto& corners = cage.faces[face];
-        if (atI && atJ) {
-            const std::uint16_t corner = j == 0 ? corners[i == 0 ? 0 : 1] : corners[i == 0 ? 3 : 2];
-            locations_[corner] = location;
-            return corner;
-        }
-        const auto fresh = static_cast<std::uint32_t>(locations_.size());
-        if (atI || atJ) {
-            auto [from, to, step] = onEdge(corners, i, j, cuts);
-            if (from > to) {
-                std::swap(from, to);
-                step = cuts - step;
-            }
-            const auto [found, isNew] = edgePoints.try_emplace({from, to, step}, fresh);
-            if (!isNew) return found->second;
-        }
-        locations_.push_back(location);
-        return fresh;
-    };
-
-    for (std::uint32_t face = 0; face < cage.faces.size(); ++face) {
-        for (int j = 0; j <= cuts; ++j) {
-            for (int i = 0; i <= cuts; ++i) numbers_.push_back(number(face, i, j));
-        }
-    }
-}
-
-std::uint32_t FaceGrid::at(std::size_t face, int i, int j) const {
-    assert(i >= 0);
-    assert(i <= cuts_);
-    assert(j >= 0);
-    assert(j <= cuts_);
-    const std::size_t side = static_cast<std::size_t>(cuts_) + 1;
-    assert((face + 1) * side * side <= numbers_.size());
-    return numbers_[face * side * side + static_cast<std::size_t>(j) * side +
-                    static_cast<std::size_t>(i)];
-}
-
-namespace {
-
 namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
 
@@ -245,7 +190,83 @@ void append(const body::FishBody& body, const Attachments& attachments, LimitTab
         for (const std::uint32_t vertex : triangle) table.indices.push_back(first + vertex);
 }
 
+using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+Pair ordered(std::uint32_t a, std::uint32_t b) {
+    return {std::min(a, b), std::max(a, b)};
+}
+
+// The edges that only the two triangles of one quad share. The two triangles of a quad follow each
+// other; those of attachments, which stand between, are skipped.
+std::set<Pair> diagonalsOf(const LimitTable& table) {
+    std::vector<std::array<std::uint32_t, 3>> skin;
+    for (std::size_t t = 0; t < table.indices.size(); t += 3) {
+        const std::array triangle{table.indices[t], table.indices[t + 1], table.indices[t + 2]};
+        if (std::ranges::max(triangle) < table.skinVertices) skin.push_back(triangle);
+    }
+    std::set<Pair> diagonals;
+    for (std::size_t t = 0; t + 1 < skin.size(); t += 2) {
+        std::vector<std::uint32_t> shared;
+        for (const std::uint32_t vertex : skin[t])
+            if (std::ranges::find(skin[t + 1], vertex) != skin[t + 1].end())
+                shared.push_back(vertex);
+        diagonals.insert(ordered(shared.at(0), shared.at(1)));
+    }
+    return diagonals;
+}
+
 }  // namespace
+
+// Runs over all faces; a vertex on an edge is found again by the edge's ends and its step, however
+// the other face is turned.
+FaceGrid::FaceGrid(const body::ControlCage& cage, int cuts) : cuts_{cuts} {
+    assert(cuts >= 1);
+    using EdgePoint = std::array<int, 3>;  // lower end, higher end, cuts from the lower
+    std::map<EdgePoint, std::uint32_t> edgePoints;
+    locations_.resize(cage.vertices.size());
+
+    const auto number = [&](std::uint32_t face, int i, int j) -> std::uint32_t {
+        const Location location{face,
+                                static_cast<float>(i) / static_cast<float>(cuts),
+                                static_cast<float>(j) / static_cast<float>(cuts)};
+        const bool atI = i == 0 || i == cuts, atJ = j == 0 || j == cuts;
+        const auto& corners = cage.faces[face];
+        if (atI && atJ) {
+            const std::uint16_t corner = j == 0 ? corners[i == 0 ? 0 : 1] : corners[i == 0 ? 3 : 2];
+            locations_[corner] = location;
+            return corner;
+        }
+        const auto fresh = static_cast<std::uint32_t>(locations_.size());
+        if (atI || atJ) {
+            auto [from, to, step] = onEdge(corners, i, j, cuts);
+            if (from > to) {
+                std::swap(from, to);
+                step = cuts - step;
+            }
+            const auto [found, isNew] = edgePoints.try_emplace({from, to, step}, fresh);
+            if (!isNew) return found->second;
+        }
+        locations_.push_back(location);
+        return fresh;
+    };
+
+    for (std::uint32_t face = 0; face < cage.faces.size(); ++face) {
+        for (int j = 0; j <= cuts; ++j) {
+            for (int i = 0; i <= cuts; ++i) numbers_.push_back(number(face, i, j));
+        }
+    }
+}
+
+std::uint32_t FaceGrid::at(std::size_t face, int i, int j) const {
+    assert(i >= 0);
+    assert(i <= cuts_);
+    assert(j >= 0);
+    assert(j <= cuts_);
+    const std::size_t side = static_cast<std::size_t>(cuts_) + 1;
+    assert((face + 1) * side * side <= numbers_.size());
+    return numbers_[face * side * side + static_cast<std::size_t>(j) * side +
+                    static_cast<std::size_t>(i)];
+}
 
 SkinPoint skinPoint(const LimitTable& table,
                     std::size_t vertex,
@@ -293,35 +314,6 @@ LimitTable makeLimitTable(const body::FishBody& body, int level) {
     append(body, makeAttachments(body, headAtRest(*refiner, body)), table);
     return table;
 }
-
-namespace {
-
-using Pair = std::pair<std::uint32_t, std::uint32_t>;
-
-Pair ordered(std::uint32_t a, std::uint32_t b) {
-    return {std::min(a, b), std::max(a, b)};
-}
-
-// The edges that only the two triangles of one quad share. The two triangles of a quad follow each
-// other; those of attachments, which stand between, are skipped.
-std::set<Pair> diagonalsOf(const LimitTable& table) {
-    std::vector<std::array<std::uint32_t, 3>> skin;
-    for (std::size_t t = 0; t < table.indices.size(); t += 3) {
-        const std::array triangle{table.indices[t], table.indices[t + 1], table.indices[t + 2]};
-        if (std::ranges::max(triangle) < table.skinVertices) skin.push_back(triangle);
-    }
-    std::set<Pair> diagonals;
-    for (std::size_t t = 0; t + 1 < skin.size(); t += 2) {
-        std::vector<std::uint32_t> shared;
-        for (const std::uint32_t vertex : skin[t])
-            if (std::ranges::find(skin[t + 1], vertex) != skin[t + 1].end())
-                shared.push_back(vertex);
-        diagonals.insert(ordered(shared.at(0), shared.at(1)));
-    }
-    return diagonals;
-}
-
-}  // namespace
 
 std::vector<std::array<std::uint32_t, 2>> coarserParents(const body::FishBody& body,
                                                          int level,

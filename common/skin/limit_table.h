@@ -31,6 +31,7 @@ class FaceGrid {
         float u = 0, v = 0;
     };
 
+    // n.
     [[nodiscard]] int cuts() const { return cuts_; }
     // The vertex of a face at column i and row j, each from 0 to n.
     [[nodiscard]] std::uint32_t at(std::size_t face, int i, int j) const;
@@ -57,7 +58,8 @@ struct StencilEntry {
 };
 static_assert(sizeof(StencilEntry) == 16);
 
-// What never changes about a vertex: its place on the fish at rest. The skin shader's coordinates.
+// The constant data of a vertex: its place on the fish at rest. These are the skin shader's
+// coordinates.
 struct SkinPlace {
     glm::vec4 rest{};        // s, y, z in body lengths; w: height v, -1 belly .. +1 back
     glm::vec2 fin{};         // p along a fin's base, q from base to edge; zero on the body
@@ -82,7 +84,7 @@ struct LimitTable {
     std::size_t skinVertices = 0;
 };
 
-// In the frame of the control points.
+// A point of the surface, in the frame of the control points.
 struct SkinPoint {
     glm::vec3 position{};
     glm::vec3 normal{};  // outward

@@ -27,7 +27,8 @@ function headline() {
 function strip() {
   if (link.isStale) {
     const seconds = Math.round(link.age / 1000);
-    return html`<p class="strip lost" role="alert">${t('strip.stale', {seconds: Number.isFinite(seconds) ? seconds : '–'})}</p>`;
+    return html`<p class="strip lost"
+      role="alert">${t('strip.stale', {seconds: Number.isFinite(seconds) ? seconds : '–'})}</p>`;
   }
   const last = [...link.commands.values()].at(-1);
   const shown = last && (last.outcome !== 'done' || performance.now() - last.at < 6000);
@@ -40,16 +41,22 @@ function strip() {
 function shell(page, content) {
   const [shape, text, kind] = headline();
   const alerts = standing(link);
-  return html`<header><div class="bar"><h1>Aquarama</h1><span class="state ${kind}"><span aria-hidden="true">${shape}</span> ${text}</span>
+  return html`<header><div class="bar"><h1>Aquarama</h1><span class="state ${kind}"><span
+    aria-hidden="true">${shape}</span> ${text}</span>
       <span class="where">${link.known.snapshot.rig} · ${t(`role.${link.role}`)}</span></div>
     ${strip()}
-    <nav aria-label=${t('nav')}>${Object.keys(pages).map(name => html`<a href="#${name}" aria-current=${name === page ? 'page' : nothing}>
-      ${t(`page.${name}`)}${name === 'events' && alerts.length ? html`&nbsp;<span class="bad">▲ ${alerts.length}</span>` : nothing}</a>`)}</nav></header>
+    <nav aria-label=${t('nav')}>${Object.keys(pages).map(name => html`<a href="#${name}"
+      aria-current=${name === page ? 'page' : nothing}>
+      ${t(`page.${name}`)}${name === 'events' && alerts.length ? html`&nbsp;<span class="bad">▲ ${alerts.length}</span>`
+      : nothing}</a>`)}</nav></header>
     <main>${content}</main>
-    <footer><span>${t('foot.build', {build: link.known.snapshot.build})}</span><span>${t('foot.watching', {n: link.wall.watching ?? 0})}</span>
+    <footer><span>${t('foot.build', {build: link.known.snapshot.build})}</span><span>${t('foot.watching',
+      {n: link.wall.watching ?? 0})}</span>
       <span>${t('foot.refused', {n: link.wall.refusedRequests ?? 0})}</span>
-      <label>${t('foot.language')} <select @change=${async event => { localStorage.setItem('language', event.target.value); await loadTexts(); draw(); }}>
-        ${Object.entries(languages).map(([code, name]) => html`<option value=${code} ?selected=${code === language()}>${name}</option>`)}</select></label></footer>`;
+      <label>${t('foot.language')} <select
+        @change=${async event => { localStorage.setItem('language', event.target.value); await loadTexts(); draw(); }}>
+        ${Object.entries(languages).map(([code, name]) => html`<option value=${code}
+        ?selected=${code === language()}>${name}</option>`)}</select></label></footer>`;
 }
 
 let pairingFailed = false;
@@ -60,9 +67,11 @@ function pairing() {
     draw();
   };
   return html`<main class="pairing"><form class="panel" @submit=${submit}><h1>Aquarama</h1><p>${t('pair.explain')}</p>
-    <label for="code">${t('pair.code')}</label><input id="code" name="code" class="code" autocomplete="off" autocapitalize="characters" maxlength="12" required>
+    <label for="code">${t('pair.code')}</label><input id="code" name="code" class="code" autocomplete="off"
+      autocapitalize="characters" maxlength="12" required>
     <label for="name">${t('pair.name')}</label><input id="name" name="name" maxlength="40" autocomplete="off">
-    <button class="primary">${t('pair.enter')}</button><p role="alert" class="bad">${pairingFailed ? t('pair.wrong') : ''}</p></form></main>`;
+    <button class="primary">${t('pair.enter')}</button><p role="alert" class="bad">${pairingFailed ? t('pair.wrong')
+      : ''}</p></form></main>`;
 }
 
 function draw() {

@@ -70,7 +70,8 @@ export class Link extends EventTarget {
 
   // Where the fish was found comes first, what goes on in it later.
   #mindOf(mind) {
-    return mind.channel ? {channel: mind.channel, frame: mind.frame, fish: mind.fish, lines: mind.fish < 0 ? [] : undefined}
+    return mind.channel ? {channel: mind.channel, frame: mind.frame, fish: mind.fish, lines: mind.fish < 0 ? []
+      : undefined}
                         : {fish: mind.fish, tick: mind.tick, lines: mind.lines};
   }
 

@@ -38,7 +38,8 @@ export class Ring {
 
 const tenths = new Ring(6000), minutes = new Ring(1440);
 const isSkew = name => name === 'skew', isTime = name => name !== 'skew';
-const plots = [[new Plot(0.1), tenths, isTime], [new Plot(0.1), tenths, isSkew], [new Plot(60), minutes, isTime], [new Plot(60), minutes, isSkew]];
+const plots = [[new Plot(0.1), tenths, isTime], [new Plot(0.1), tenths, isSkew], [new Plot(60), minutes, isTime],
+  [new Plot(60), minutes, isSkew]];
 let taken = null, drawnAt = 0;
 function drawPlots(link) {
   const {history} = link.known;
@@ -61,39 +62,47 @@ function showLog(name) {
   location.hash = 'log';
 }
 const columns = {
-  condition: (link, node) => html`${state(node.condition)}${node.cause ? html`<div class="note">${word(node.cause)}</div>` : nothing}`,
+  condition: (link, node) =>
+    html`${state(node.condition)}${node.cause ? html`<div class="note">${word(node.cause)}</div>` : nothing}`,
   picture: (link, node) => html`${ms(node.pictureMedianMs)}<div class="note">99 % ${ms(node.pictureP99Ms)}</div>`,
   late: (link, node) => node.late,
   dropped: (link, node) => node.dropped,
-  fish: (link, node) => Number(node.hashMismatches) ? html`<span class="bad">✖ ${t('nodes.differs')}</span>` : html`<span class="good">● ${t('nodes.same')}</span>`,
+  fish: (link, node) => Number(node.hashMismatches) ? html`<span class="bad">✖ ${t('nodes.differs')}</span>`
+    : html`<span class="good">● ${t('nodes.same')}</span>`,
   roundTrip: (link, node) => ms(node.roundTripMs, 2),
   celsius: (link, node) => node.celsius ? `${node.celsius.toFixed(0)} °C` : '–',
   monitors: (link, node) => (node.monitors ?? []).join(', ') || '–',
-  machine: (link, node) => html`${node.host || '–'}<div class="note" title=${node.renderer}>${node.renderer.split(' (')[0]}</div>`,
+  machine: (link, node) => html`${node.host || '–'}<div class="note"
+    title=${node.renderer}>${node.renderer.split(' (')[0]}</div>`,
   build: (link, node) => node.otherBuild ? html`<span class="warn">▲ ${node.build}</span>` : node.build || '–',
   act: (link, node) => html`<div class="row">
-    ${holdButton(t('nodes.restart'), () => link.command({restart: node.name}, t('nodes.restarting', {name: node.name})), {disabled: !link.may('OPERATOR')})}
+    ${holdButton(t('nodes.restart'), () => link.command({restart: node.name}, t('nodes.restarting', {name: node.name})),
+      {disabled: !link.may('OPERATOR')})}
     ${button(t('nodes.log'), () => showLog(node.name))}</div>`,
 };
 const numbers = ['picture', 'late', 'dropped', 'roundTrip', 'celsius'];
 const kind = name => numbers.includes(name) ? 'n' : '';
 const nodeRow = link => node => html`<tr><th scope="row">${node.name}</th>
-  ${Object.entries(columns).map(([name, cell]) => html`<td class=${kind(name)} data-head=${t(`nodes.${name}`)}>${cell(link, node)}</td>`)}</tr>`;
+  ${Object.entries(columns).map(([name, cell]) => html`<td class=${kind(name)}
+    data-head=${t(`nodes.${name}`)}>${cell(link, node)}</td>`)}</tr>`;
 
 const power = (link, word) => holdButton(t(`nodes.${word}`), () => link.command({power: word}, t(`nodes.${word}`)),
                                          {disabled: !link.may('CREW') || !link.known.snapshot.hasPower, of: word});
 // Machines beside the master's, as the rig has them: name -> the channels on it.
 function machinesOf(link) {
   const machines = new Map();
-  for (const {machine, name} of channelsOf(link)) if (machine) machines.set(machine, [...machines.get(machine) ?? [], name]);
+  for (const {machine, name} of channelsOf(link)) if (machine) machines.set(machine, [...machines.get(machine) ?? [],
+    name]);
   return machines;
 }
 // Told through any of its nodes that is there.
 function machine(link, [name, channels]) {
-  const told = (link.wall.nodes ?? []).find(node => channels.includes(node.name) && node.takesPower && node.condition !== 'absent');
+  const told = (link.wall.nodes ?? []).find(node => channels.includes(node.name) && node.takesPower
+    && node.condition !== 'absent');
   const act = word => {
     const label = t(`nodes.${word}Of`, {name});
-    return holdButton(label, () => link.command({machine: {channel: told.name, word}}, label), {disabled: !link.may('CREW') || !told, of: `${word} ${name}`});
+    return holdButton(label, () => link.command({machine: {channel: told.name, word}}, label),
+      {disabled: !link.may('CREW') || !told, of: `${word} ${name}`});
   };
   return html`<div class="row">${act('reboot')}${act('poweroff')}</div>
     <p class="note">${t(told ? 'nodes.machineNote' : 'nodes.noMachine', {name, channels: channels.join(', ')})}</p>`;
@@ -101,8 +110,10 @@ function machine(link, [name, channels]) {
 function service(link) {
   const held = link.wall.heldUntilS > 0;
   return html`<section class="panel"><h2>${t('nodes.service')}</h2>
-    <p role="status">${held ? html`<strong class="warn">▲ ${t('hours.held', {time: time(link.wall.heldUntilS)})}</strong>` : t('nodes.noService')}</p>
-    <div class="row">${held ? button(t('hours.goOn'), () => link.command({holdHours: 0}, t('hours.goOn')), {disabled: !link.may('OPERATOR')})
+    <p role="status">${held ? html`<strong
+      class="warn">▲ ${t('hours.held', {time: time(link.wall.heldUntilS)})}</strong>` : t('nodes.noService')}</p>
+    <div class="row">${held ? button(t('hours.goOn'), () => link.command({holdHours: 0}, t('hours.goOn')),
+    {disabled: !link.may('OPERATOR')})
       : button(t('hours.hold'), () => link.command({holdHours: 2}, t('hours.hold')), {disabled: !link.may('OPERATOR')})}
       <a class="button" href="/bundle.tar" download>${t('log.bundle')}</a></div>
     <p class="note">${t('nodes.serviceNote')}</p>
@@ -115,11 +126,15 @@ export const nodesPage = {
   look: () => ({topics: ['history']}),
   view: link => {
     drawPlots(link);
-    return html`<section class="panel wide"><div class="scroll" tabindex="0" role="region" aria-label=${t('page.nodes')}><table class="cards"><caption>${t('page.nodes')}</caption>
-      <thead><tr><th scope="col">${t('nodes.node')}</th>${Object.keys(columns).map(name => html`<th scope="col" class=${kind(name)}>${t(`nodes.${name}`)}</th>`)}</tr></thead>
+    return html`<section class="panel wide"><div class="scroll" tabindex="0" role="region"
+      aria-label=${t('page.nodes')}><table class="cards"><caption>${t('page.nodes')}</caption>
+      <thead><tr><th scope="col">${t('nodes.node')}</th>${Object.keys(columns).map(name => html`<th scope="col"
+      class=${kind(name)}>${t(`nodes.${name}`)}</th>`)}</tr></thead>
       <tbody>${(link.wall.nodes ?? []).map(nodeRow(link))}</tbody></table></div></section>
-      <div class="panels"><section class="panel"><h2>${t('skew.title')}</h2>${skewBars(link.wall.skewCounts)}</section>${service(link)}</div>
-      <div class="panels plots">${plots.map(([plot], i) => html`<section class="panel"><h2>${t(['nodes.tenMinutes', 'nodes.tenMinutesSkew', 'nodes.day', 'nodes.daySkew'][i])}</h2>${plot.element}
+      <div class="panels"><section
+        class="panel"><h2>${t('skew.title')}</h2>${skewBars(link.wall.skewCounts)}</section>${service(link)}</div>
+      <div class="panels plots">${plots.map(([plot], i) => html`<section class="panel"><h2>${t(['nodes.tenMinutes',
+      'nodes.tenMinutesSkew', 'nodes.day', 'nodes.daySkew'][i])}</h2>${plot.element}
         ${plot.isEmpty ? html`<p class="note">${t('nodes.noFigures')}</p>` : nothing}</section>`)}</div>`;
   },
 };

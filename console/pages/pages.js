@@ -4,7 +4,8 @@ import {html, nothing, svg} from '/vendor/lit-html.js';
 import {calibrationPage} from '/calibration.js';
 import {nodesPage} from '/nodes.js';
 import {schedulePage} from '/schedule.js';
-import {QUALITIES, button, channelsOf, chooser, dateTime, filter, holdButton, ms, namesOf, patternChooser, state, t, time, views, wholeWall, word} from '/widgets.js';
+import {QUALITIES, button, channelsOf, chooser, dateTime, filter, holdButton, ms, namesOf, patternChooser, state, t,
+  time, views, wholeWall, word} from '/widgets.js';
 
 // --- the wall
 
@@ -17,7 +18,8 @@ function light(link) {
     <div class="row">${black
       ? html`<button class="primary" ?disabled=${disabled} @click=${undo}>${t('wall.light')}</button>`
       : holdButton(t('wall.black'), () => link.command({black: true}, t('wall.black')), {disabled})}
-    ${button(t(frozen ? 'wall.move' : 'wall.freeze'), () => link.command({freeze: !frozen}, t(frozen ? 'wall.move' : 'wall.freeze')),
+    ${button(t(frozen ? 'wall.move' : 'wall.freeze'), () => link.command({freeze: !frozen},
+      t(frozen ? 'wall.move' : 'wall.freeze')),
              {disabled, pressed: frozen ? 'true' : 'false'})}</div>
     <p class="note">${t(black ? 'wall.isBlack' : 'wall.isLit', {percent: link.wall.brightnessPercent})}</p></section>`;
 }
@@ -45,14 +47,17 @@ function letGo(link) {
   steer(link);
 }
 function pad(link) {
-  const one = (name, sign) => html`<button aria-label=${t(`helm.${name}`)} title=${t(`helm.${name}`)} ?disabled=${!link.may('OPERATOR')}
+  const one = (name, sign) => html`<button aria-label=${t(`helm.${name}`)} title=${t(`helm.${name}`)}
+    ?disabled=${!link.may('OPERATOR')}
     @pointerdown=${() => holdHelm(link, name, true)} @pointerup=${() => holdHelm(link, name, false)}
     @pointerleave=${() => holdHelm(link, name, false)} @pointercancel=${() => holdHelm(link, name, false)}
     @keydown=${event => [' ', 'Enter'].includes(event.key) && !event.repeat && holdHelm(link, name, true)}
     @keyup=${() => holdHelm(link, name, false)} @blur=${() => holdHelm(link, name, false)}>${sign}</button>`;
-  const key = on => event => { const name = KEYS[event.key.toLowerCase()]; if (name && !event.repeat) holdHelm(link, name, on); };
+  const key = on => event => { const name = KEYS[event.key.toLowerCase()]; if (name && !event.repeat) holdHelm(link,
+    name, on); };
   return html`<div class="pad" @keydown=${key(true)} @keyup=${key(false)}>
-    ${one('rise', '⤒')}${one('ahead', '▲')}${one('sink', '⤓')}${one('left', '◀')}${one('back', '▼')}${one('right', '▶')}</div>
+    ${one('rise', '⤒')}${one('ahead', '▲')}${one('sink', '⤓')}${one('left', '◀')}${one('back', '▼')}${one('right',
+      '▶')}</div>
     <p class="note">${t('helm.keys')}</p>`;
 }
 function helmPanel(link) {
@@ -60,7 +65,8 @@ function helmPanel(link) {
   return html`<section class="panel" aria-labelledby="helm"><h2 id="helm">${t('helm.title')}</h2>
     <p>${link.wall.pilot ? t('helm.pilot', {pilot: link.wall.pilot}) : t('helm.nobody')} ·
        ${t('helm.place', {depth: (link.wall.depthM ?? 0).toFixed(1), speed: (link.wall.speedMS ?? 0).toFixed(1)})}</p>
-    <div class="row">${button(t(helm.taken ? 'helm.leave' : 'helm.take'), toggle, {disabled: !link.may('OPERATOR'), pressed: String(helm.taken)})}</div>
+    <div class="row">${button(t(helm.taken ? 'helm.leave' : 'helm.take'), toggle, {disabled: !link.may('OPERATOR'),
+      pressed: String(helm.taken)})}</div>
     ${helm.taken ? pad(link) : nothing}</section>`;
 }
 
@@ -71,17 +77,21 @@ function figures(wall) {
     <dt>${t('wall.frame')}</dt><dd>${wall.frame} · ${t('wall.tick')} ${wall.tick}</dd>
     <dt>${t('wall.frameTime')}</dt><dd>${ms(wall.frameMedianMs)} · 99 % ${ms(wall.frameP99Ms)}</dd>
     <dt>${t('wall.skew')}</dt><dd>${ms(wall.skewMedianMs, 2)} · 99 % ${ms(wall.skewP99Ms, 2)}</dd>
-    <dt>${t('wall.nodes')}</dt><dd>${(wall.nodes ?? []).map(node => html`<span class="whole-word">${node.name} ${state(node.condition)}</span> `)}</dd></dl></section>`;
+    <dt>${t('wall.nodes')}</dt><dd>${(wall.nodes ?? []).map(node => html`<span
+      class="whole-word">${node.name} ${state(node.condition)}</span> `)}</dd></dl></section>`;
 }
 
 const wallPage = {
   look: link => ({topics: ['panorama'], channels: namesOf(link), widthPx: 480}),
-  view: link => html`<h2 class="hidden">${t('page.wall')}</h2><div class="wall"><div class="pictures">${wholeWall(link)}${views(channelsOf(link))}
+  view: link => html`<h2 class="hidden">${t('page.wall')}</h2><div class="wall"><div
+    class="pictures">${wholeWall(link)}${views(channelsOf(link))}
       <p class="note">${t('preview.note')}</p></div>
     <div class="controls">${light(link)}
       <section class="panel" aria-labelledby="shown"><h2 id="shown">${t('wall.shown')}</h2><div class="choosers">
-        ${chooser(link, 'scene', link.known.snapshot.scenes, link.wall.scene, value => link.command({scene: value}, `${t('wall.scene')}: ${word(value)}`))}
-        ${chooser(link, 'quality', QUALITIES, link.wall.quality, value => link.command({quality: value}, `${t('wall.quality')}: ${word(value)}`))}
+        ${chooser(link, 'scene', link.known.snapshot.scenes, link.wall.scene, value => link.command({scene: value},
+          `${t('wall.scene')}: ${word(value)}`))}
+        ${chooser(link, 'quality', QUALITIES, link.wall.quality, value => link.command({quality: value},
+        `${t('wall.quality')}: ${word(value)}`))}
         ${patternChooser(link)}
         </div><p class="note">${t('wall.patternNote')}</p></section>
       ${helmPanel(link)}</div>${figures(link.wall)}</div>`,
@@ -96,29 +106,40 @@ const doctorPage = {
     const findings = report.findings ?? [];
     const count = verdict => findings.filter(finding => finding.verdict === verdict).length;
     return html`<section class="panel"><h2>${t('page.doctor')}</h2>
-      <div class="row">${button(t('doctor.run'), () => link.command({runDoctor: true}, t('doctor.run')), {disabled: !link.may('WATCHER') || report.running})}
-      <span role="status">${report.running ? t('doctor.running') : report.atS ? t('doctor.result', {time: time(report.atS), pass: count('pass'), warn: count('warn'), fail: count('fail')}) : t('doctor.never')}</span></div>
+      <div class="row">${button(t('doctor.run'), () => link.command({runDoctor: true}, t('doctor.run')),
+        {disabled: !link.may('WATCHER') || report.running})}
+      <span role="status">${report.running ? t('doctor.running') : report.atS ? t('doctor.result',
+      {time: time(report.atS), pass: count('pass'), warn: count('warn'), fail: count('fail')})
+        : t('doctor.never')}</span></div>
       ${report.problem ? html`<p class="bad">${report.problem}</p>` : nothing}
-      <div class="scroll" tabindex="0" role="region" aria-label=${t('page.doctor')}><table><thead><tr>${['verdict', 'subject', 'what', 'todo'].map(head => html`<th scope="col">${t(`doctor.${head}`)}</th>`)}</tr></thead>
-      <tbody>${[...findings].sort((a, b) => 'fwp'.indexOf(a.verdict[0]) - 'fwp'.indexOf(b.verdict[0])).map(finding => html`<tr>
-        <td>${state(finding.verdict)}</td><td>${finding.subject}</td><td>${finding.what}</td><td>${finding.todo}</td></tr>`)}</tbody></table></div></section>`;
+      <div class="scroll" tabindex="0" role="region" aria-label=${t('page.doctor')}><table><thead><tr>${['verdict',
+        'subject', 'what', 'todo'].map(head => html`<th scope="col">${t(`doctor.${head}`)}</th>`)}</tr></thead>
+      <tbody>${[...findings].sort((a, b) => 'fwp'.indexOf(a.verdict[0]) - 'fwp'.indexOf(b.verdict[0])).map(finding =>
+      html`<tr>
+        <td>${state(finding.verdict)}</td><td>${finding.subject}</td><td>${finding.what}</td><td>${
+        finding.todo}</td></tr>`)}</tbody></table></div></section>`;
   },
 };
 
 // --- events and alerts
 
 export const standing = link => (link.known.alerts?.alerts ?? []).filter(alert => alert.state !== 'acknowledged');
-const alertItem = link => alert => html`<li>${state(alert.state)}<span>${word(alert.text)}</span><span class="quiet">${t('alert.since', {time: dateTime(alert.sinceS)})}</span>
-  ${alert.state === 'acknowledged' ? nothing : button(t('alert.acknowledge'), () => link.command({acknowledge: alert.key}, t('alert.acknowledge')), {disabled: !link.may('OPERATOR')})}</li>`;
+const alertItem = link => alert => html`<li>${state(alert.state)}<span>${word(alert.text)}</span><span
+  class="quiet">${t('alert.since', {time: dateTime(alert.sinceS)})}</span>
+  ${alert.state === 'acknowledged' ? nothing : button(t('alert.acknowledge'),
+  () => link.command({acknowledge: alert.key}, t('alert.acknowledge')), {disabled: !link.may('OPERATOR')})}</li>`;
 
 const eventsPage = {
   look: () => ({}),
   view: link => {
     const alerts = link.known.alerts?.alerts ?? [];
     return html`<section class="panel"><h2>${t('alert.title')}</h2>
-      ${alerts.length ? html`<ul class="alerts">${alerts.map(alertItem(link))}</ul>` : html`<p class="good">● ${t('alert.none')}</p>`}</section>
-      <section class="panel wide"><h2>${t('page.events')}</h2><ol class="events">${(link.known.events?.events ?? []).map(event => html`
-        <li><span class="quiet">${dateTime(event.atS)}</span><strong>${word(event.who)}</strong><span>${word(event.what)}</span></li>`)}</ol></section>`;
+      ${alerts.length ? html`<ul class="alerts">${alerts.map(alertItem(link))}</ul>`
+        : html`<p class="good">● ${t('alert.none')}</p>`}</section>
+      <section class="panel wide"><h2>${t('page.events')}</h2><ol
+      class="events">${(link.known.events?.events ?? []).map(event => html`
+        <li><span class="quiet">${dateTime(event.atS)}</span><strong>${word(event.who)}</strong><span>${
+        word(event.what)}</span></li>`)}</ol></section>`;
   },
 };
 
@@ -130,27 +151,38 @@ const logPage = {
     const change = (name, value) => { filter[name] = value; link.look = logPage.look(link); link.sayLook(); };
     const log = link.known.log ?? {};
     return html`<section class="panel wide"><h2>${t('page.log')}</h2>
-      <div class="row"><label for="logNode">${t('log.node')}</label><select id="logNode" @change=${event => change('logNode', event.target.value)}>
-        <option value="">${t('log.all')}</option>${['master', ...namesOf(link)].map(name => html`<option ?selected=${name === filter.logNode}>${name}</option>`)}</select>
-      <label for="logText">${t('log.text')}</label><input id="logText" type="search" maxlength="100" .value=${filter.logText} @input=${event => change('logText', event.target.value)}>
-      ${button(t('log.problems'), () => change('logProblemsOnly', !filter.logProblemsOnly), {pressed: String(filter.logProblemsOnly)})}
+      <div class="row"><label for="logNode">${t('log.node')}</label><select id="logNode"
+        @change=${event => change('logNode', event.target.value)}>
+        <option value="">${t('log.all')}</option>${['master', ...namesOf(link)].map(name => html`<option
+        ?selected=${name === filter.logNode}>${name}</option>`)}</select>
+      <label for="logText">${t('log.text')}</label><input id="logText" type="search" maxlength="100"
+      .value=${filter.logText} @input=${event => change('logText', event.target.value)}>
+      ${button(t('log.problems'), () => change('logProblemsOnly', !filter.logProblemsOnly),
+      {pressed: String(filter.logProblemsOnly)})}
       <a class="button" href="/bundle.tar" download>${t('log.bundle')}</a></div>
       ${log.problem ? html`<p class="warn">${log.problem}</p>` : nothing}
-      <div class="scroll" tabindex="0" role="region" aria-label=${t('page.log')}><table class="log"><thead><tr>${['time', 'node', 'severity', 'frame', 'line'].map(head => html`<th scope="col">${t(`log.${head}`)}</th>`)}</tr></thead>
-      <tbody>${[...(log.rows ?? [])].reverse().map(row => html`<tr><td title=${row.time}>${new Date(row.time).toLocaleTimeString(document.documentElement.lang, {hour12: false})}</td><td>${row.node}</td><td>${state(row.severity)}</td><td class="n">${row.frame}</td><td>${row.text}</td></tr>`)}</tbody></table></div></section>`;
+      <div class="scroll" tabindex="0" role="region" aria-label=${t('page.log')}><table
+        class="log"><thead><tr>${['time', 'node', 'severity', 'frame',
+          'line'].map(head => html`<th scope="col">${t(`log.${head}`)}</th>`)}</tr></thead>
+      <tbody>${[...(log.rows ?? [])].reverse().map(row => html`<tr><td
+      title=${row.time}>${new Date(row.time).toLocaleTimeString(document.documentElement.lang,
+        {hour12: false})}</td><td>${row.node}</td><td>${state(row.severity)}</td><td
+        class="n">${row.frame}</td><td>${row.text}</td></tr>`)}</tbody></table></div></section>`;
   },
 };
 
 // --- mind, drawn from the lines that aquarama explain prints
 
-const SECTORS = {ahead: 0, 'ahead right': 45, right: 90, 'behind right': 135, behind: 180, 'behind left': 225, left: 270, 'ahead left': 315};
+const SECTORS = {ahead: 0, 'ahead right': 45, right: 90, 'behind right': 135, behind: 180, 'behind left': 225,
+  left: 270, 'ahead left': 315};
 const SEEN = {predator: '▲', food: '•', mate: '♥', prey: '◆'};
 // What it sees and where: [{kind, what, distance in body lengths, degrees to the right of its heading}].
 export function sightingsIn(lines) {
   const found = [];
   for (const kind of Object.keys(SEEN)) {
     const line = lines.find(one => new RegExp(`\\b${kind}\\s`).test(one.slice(9)));
-    const match = line?.slice(9).match(new RegExp(`${kind} +([^ -].*?), ([\\d.]+) L (ahead left|ahead right|behind left|behind right|ahead|behind|left|right)`));
+    const sectors = Object.keys(SECTORS).sort((one, other) => other.length - one.length).join('|');
+    const match = line?.slice(9).match(new RegExp(`${kind} +([^ -].*?), ([\\d.]+) L (${sectors})`));
     if (match) found.push({kind, what: match[1], distance: Number(match[2]), degrees: SECTORS[match[3]]});
   }
   return found;
@@ -161,18 +193,24 @@ function compass(lines) {
     return [100 + reach * Math.sin(turn), 100 - reach * Math.cos(turn)];
   };
   const seen = sightingsIn(lines);
-  const text = seen.map(one => `${t(`mind.${one.kind}`)}: ${one.what}, ${one.distance} L`).join('; ') || t('mind.seesNothing');
+  const text = seen.map(one => `${t(`mind.${one.kind}`)}: ${one.what}, ${one.distance} L`).join('; ')
+    || t('mind.seesNothing');
   const mark = one => { const [x, y] = place(one);
-    return svg`<text x=${x} y=${y + 5} text-anchor="middle">${SEEN[one.kind]}</text><text class="small" x=${x} y=${y + 18} text-anchor="middle">${t(`mind.${one.kind}`)}</text>`; };
-  return html`<svg class="compass" viewBox="-30 0 260 205" role="img" aria-label=${text}><circle cx="100" cy="100" r="90"></circle><circle cx="100" cy="100" r="45"></circle>
+    return svg`<text x=${x} y=${y + 5} text-anchor="middle">${SEEN[one.kind]}</text><text class="small" x=${x}
+      y=${y + 18} text-anchor="middle">${t(`mind.${one.kind}`)}</text>`; };
+  return html`<svg class="compass" viewBox="-30 0 260 205" role="img" aria-label=${text}><circle cx="100" cy="100"
+  r="90"></circle><circle cx="100" cy="100" r="45"></circle>
     <path d="M100 84 L106 112 L100 107 L94 112 Z"></path>${seen.map(mark)}</svg>`;
 }
-const feeling = (lines, name) => Number(lines.find(line => new RegExp(`${name}\\s+\\[`).test(line))?.match(/\]\s+([\d.]+)/)?.[1] ?? 0);
+const feeling = (lines, name) =>
+  Number(lines.find(line => new RegExp(`${name}\\s+\\[`).test(line))?.match(/\]\s+([\d.]+)/)?.[1] ?? 0);
 function drawnMind(lines) {
   const intends = lines.find(line => line.startsWith('INTENDS'))?.slice(9) ?? '';
   return html`<div class="drawn"><div>${compass(lines)}<p class="note">${t('mind.compass')}</p></div>
-    <div><p class="intends">${intends || t('mind.away')}</p>${['hunger', 'libido', 'fear'].map(name => html`<p class="row"><span class="name" id=${`feels-${name}`}>${t(`mind.${name}`)}</span>
-      <meter aria-labelledby=${`feels-${name}`} min="0" max="1" value=${feeling(lines, name)}></meter> ${Math.round(100 * feeling(lines, name))} %</p>`)}</div></div>`;
+    <div><p class="intends">${intends || t('mind.away')}</p>${['hunger', 'libido',
+      'fear'].map(name => html`<p class="row"><span class="name" id=${`feels-${name}`}>${t(`mind.${name}`)}</span>
+      <meter aria-labelledby=${`feels-${name}`} min="0" max="1"
+      value=${feeling(lines, name)}></meter> ${Math.round(100 * feeling(lines, name))} %</p>`)}</div></div>`;
 }
 
 
@@ -180,13 +218,17 @@ const mindPage = {
   look: link => ({topics: ['mind', 'panorama'], channels: namesOf(link), widthPx: 480}),
   view: link => {
     const mind = link.known.mind;
-    const point = (channel, {frame, x, y}) => link.command({pointAt: {channel: channel.name, frame, x, y}}, t('mind.asking'));
-    const ask = event => { event.preventDefault(); link.command({mind: Number(event.target.fish.value)}, t('mind.asking')); };
+    const point = (channel, {frame, x, y}) => link.command({pointAt: {channel: channel.name, frame, x, y}},
+      t('mind.asking'));
+    const ask = event => { event.preventDefault(); link.command({mind: Number(event.target.fish.value)},
+    t('mind.asking')); };
     return html`<div class="mind"><div>${wholeWall(link, point)}<p class="note">${t('mind.hint')}</p></div>
       <section class="panel"><h2>${mind && mind.fish >= 0 ? t('mind.of', {fish: mind.fish}) : t('page.mind')}</h2>
-      <form class="row" @submit=${ask}><label for="fish">${t('mind.number')}</label><input id="fish" name="fish" type="number" min="0" max="99999" value="0">
+      <form class="row" @submit=${ask}><label for="fish">${t('mind.number')}</label><input id="fish" name="fish"
+        type="number" min="0" max="99999" value="0">
         <button ?disabled=${!link.may('WATCHER')}>${t('mind.ask')}</button></form>
-      <div role="status">${!mind ? t('mind.none') : mind.fish < 0 ? t('mind.noFish') : html`${mind.lines?.length ? drawnMind(mind.lines) : nothing}<pre>${(mind.lines ?? []).join('\n')}</pre>`}</div></section></div>`;
+      <div role="status">${!mind ? t('mind.none') : mind.fish < 0 ? t('mind.noFish') : html`${mind.lines?.length
+        ? drawnMind(mind.lines) : nothing}<pre>${(mind.lines ?? []).join('\n')}</pre>`}</div></section></div>`;
   },
 };
 
@@ -198,16 +240,22 @@ const peoplePage = {
   view: link => {
     const people = link.known.people ?? {};
     const isCrew = link.role === 'CREW';
-    return html`<section class="panel"><h2>${t('page.people')}</h2><p>${t('people.you', {name: link.known.snapshot.name, role: t(`role.${link.role}`)})}
+    return html`<section class="panel"><h2>${t('page.people')}</h2><p>${t('people.you', {name: link.known.snapshot.name,
+      role: t(`role.${link.role}`)})}
       ${button(t('people.leave'), () => link.leave())}</p>
       ${!isCrew ? html`<p class="note">${t('people.crewOnly')}</p>` : html`
-      <table><tbody>${(people.people ?? []).map(person => html`<tr><th scope="row">${person.name}${person.self ? ` (${t('people.self')})` : ''}</th>
+      <table><tbody>${(people.people ?? []).map(person => html`<tr><th scope="row">${person.name}${person.self
+        ? ` (${t('people.self')})` : ''}</th>
         <td>${t(`role.${person.role}`)}</td><td class="quiet">${dateTime(person.sinceS)}</td>
-        <td>${holdButton(t('people.revoke'), () => link.command({revoke: person.id}, t('people.revoke')), {disabled: !link.may('CREW') || person.self})}</td></tr>`)}</tbody></table>
-      <h3>${t('people.letIn')}</h3><div class="row">${ROLES.map(role => button(t(`role.${role}`), () => link.command({newCode: role}, t('people.letIn')), {disabled: !link.may('CREW')}))}</div>
-      <p role="status">${people.code ? html`<span class="code">${people.code}</span><br>${t('people.codeNote')}` : nothing}</p>`}</section>`;
+        <td>${holdButton(t('people.revoke'), () => link.command({revoke: person.id}, t('people.revoke')),
+          {disabled: !link.may('CREW') || person.self})}</td></tr>`)}</tbody></table>
+      <h3>${t('people.letIn')}</h3><div class="row">${ROLES.map(role => button(t(`role.${role}`),
+      () => link.command({newCode: role}, t('people.letIn')), {disabled: !link.may('CREW')}))}</div>
+      <p role="status">${people.code ? html`<span class="code">${people.code}</span><br>${t('people.codeNote')}`
+      : nothing}</p>`}</section>`;
   },
 };
 
-export const pages = {wall: wallPage, nodes: nodesPage, events: eventsPage, schedule: schedulePage, calibration: calibrationPage,
+export const pages = {wall: wallPage, nodes: nodesPage, events: eventsPage, schedule: schedulePage,
+  calibration: calibrationPage,
                       doctor: doctorPage, log: logPage, mind: mindPage, people: peoplePage};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The unrolled wall, put together in the browser: each channel's picture lies where its mesh says, and light adds up where
-// pictures overlap, as on the wall. What a projector adds by itself (its black) is not in it.
+// The unrolled wall, put together in the browser: each channel's picture lies where its mesh says, and light adds up
+// where pictures overlap, as on the wall. What a projector adds by itself (its black) is not in it.
 import {t} from '/widgets.js';
 
 const BETWEEN_MS = 200;  // five a second: as many as pictures come
@@ -41,7 +41,8 @@ export function samplesOf(mesh, width, height) {
   const points = pointsOf(mesh, width, height);
   const taken = new Uint8Array(width * height);
   const places = [], across = [], down = [];
-  const shareOf = i => [mesh.eyeWidth * (i % mesh.columns) / (mesh.columns - 1), mesh.eyeHeight * Math.floor(i / mesh.columns) / (mesh.rows - 1)];
+  const shareOf = i => [mesh.eyeWidth * (i % mesh.columns) / (mesh.columns - 1),
+    mesh.eyeHeight * Math.floor(i / mesh.columns) / (mesh.rows - 1)];
   const triangle = corners => {
     const at = corners.map(i => points[i]);
     if (at.includes(null)) return;
@@ -66,12 +67,13 @@ export function samplesOf(mesh, width, height) {
   return {places: Uint32Array.from(places), across: Float32Array.from(across), down: Float32Array.from(down)};
 }
 
-// What a projector throws for the codes of its picture: of its own red, green and blue, and how much light of the wall's colours
-// (linear Rec. 709) each of these is, row by row; without rows the two are the same.
+// What a projector throws for the codes of its picture: of its own red, green and blue, and how much light of the
+// wall's colours (linear Rec. 709) each of these is, row by row; without rows the two are the same.
 function projectorOf({lightOfCodes, lightOfOwn}) {
   if (!lightOfCodes) return {own: [LIGHT, LIGHT, LIGHT], rows: null};
   const numbers = new DataView(Uint8Array.from(atob(lightOfCodes), letter => letter.charCodeAt(0)).buffer);
-  const tableOf = primary => Float32Array.from({length: 256}, (_, code) => numbers.getUint16(2 * (256 * primary + code), true) / 65535);
+  const tableOf = primary => Float32Array.from({length: 256}, (_, code) => numbers.getUint16(2 * (256 * primary + code),
+    true) / 65535);
   return {own: [0, 1, 2].map(tableOf), rows: lightOfOwn};
 }
 
@@ -90,7 +92,8 @@ function addLight(light, {places, across, down, projector: {own, rows}}, {data, 
                      below * ((1 - right) * table[data[c + colour]] + right * table[data[c + 4 + colour]]);
     }
     for (let colour = 0; colour < 3; ++colour)
-      light[out + colour] += rows ? rows[3 * colour] * seen[0] + rows[3 * colour + 1] * seen[1] + rows[3 * colour + 2] * seen[2] : seen[colour];
+      light[out + colour] += rows ? rows[3 * colour] * seen[0] + rows[3 * colour + 1] * seen[1]
+        + rows[3 * colour + 2] * seen[2] : seen[colour];
   }
 }
 
@@ -119,7 +122,8 @@ export class Panorama {
     this.#pictures.set(channel, {frame, image, at: performance.now()});
     if (this.#isDue || !this.canvas.isConnected) return;
     this.#isDue = true;
-    setTimeout(() => { this.#isDue = false; this.#draw(); }, Math.max(60, this.#drawnAt + BETWEEN_MS - performance.now()));
+    setTimeout(() => { this.#isDue = false; this.#draw(); },
+      Math.max(60, this.#drawnAt + BETWEEN_MS - performance.now()));
   }
 
   #draw() {
@@ -132,7 +136,8 @@ export class Panorama {
     });
     const drawn = new ImageData(width, height);
     for (let i = 0, to = 0; i < light.length; to += 4) {
-      for (let colour = 0; colour < 3; ++colour) drawn.data[to + colour] = CODES[Math.max(0, Math.min(STEPS, light[i++] * STEPS + 0.5 | 0))];
+      for (let colour = 0; colour < 3; ++colour) drawn.data[to + colour] = CODES[Math.max(0,
+        Math.min(STEPS, light[i++] * STEPS + 0.5 | 0))];
       drawn.data[to + 3] = 255;
     }
     this.canvas.getContext('2d').putImageData(drawn, 0, 0);
@@ -157,7 +162,8 @@ export class Panorama {
       const i = places.indexOf(place);
       if (i < 0) return;
       const pull = across[i] * (1 - across[i]) * down[i] * (1 - down[i]);
-      if (!best || pull > best.pull) best = {channel, pull, x: across[i], y: down[i], frame: this.#pictures.get(channel)?.frame};
+      if (!best || pull > best.pull) best = {channel, pull, x: across[i], y: down[i],
+        frame: this.#pictures.get(channel)?.frame};
     });
     return best;
   }

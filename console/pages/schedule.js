@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of the schedule: hours as a form. What is saved is the text of it, which the console holds to its schema; what is
-// wrong stands beside the field that it is wrong in.
+// The page of the schedule: hours as a form. What is saved is the text of it, which the console holds to its schema;
+// what is wrong stands beside the field that it is wrong in.
 import {html, nothing, svg} from '/vendor/lit-html.js';
 import {QUALITIES, button, holdButton, language, t, time, word} from '/widgets.js';
 
 const DAYS = ['MONDAY', 'TUESDAY', 'WEDNESDAY', 'THURSDAY', 'FRIDAY', 'SATURDAY', 'SUNDAY'];
-const dayName = (number, style) => new Date(Date.UTC(2024, 0, number)).toLocaleDateString(language(), {weekday: style, timeZone: 'UTC'});  // 2024 began with a Monday
+const dayName = (number, style) => new Date(Date.UTC(2024, 0, number)).toLocaleDateString(language(),
+  {weekday: style, timeZone: 'UTC'});  // 2024 began with a Monday
 
 // --- the text of a form
 
@@ -14,7 +15,8 @@ const quoted = text => `"${String(text).replace(/[\\"]/g, '\\$&').replace(/[\u00
 export function textOf(form) {
   const places = [];
   let line = '', lines = [];
-  const at = (field, piece) => { places.push({line: lines.length + 1, column: line.length + 1, field}); line += piece; };
+  const at = (field, piece) => { places.push({line: lines.length + 1, column: line.length + 1, field});
+    line += piece; };
   const end = () => { lines.push(line); line = ''; };
   const put = (prefix, object, names) => {
     for (const name of names) if (object[name]) at(`${prefix}.${name}`, ` ${name}: ${quoted(object[name])}`);
@@ -67,8 +69,10 @@ export function mistakeIn(reason, places) {
 let form = null;       // null: as it is kept
 let sent = null;       // {id, places} of the last that was saved
 let textDraft = null;  // of the text
-const formOf = hours => ({zone: hours.zone || Intl.DateTimeFormat().resolvedOptions().timeZone, spans: structuredClone(hours.spans ?? []),
-                          exceptions: structuredClone(hours.exceptions ?? []), projectors: structuredClone(hours.projectors ?? [])});
+const formOf = hours => ({zone: hours.zone || Intl.DateTimeFormat().resolvedOptions().timeZone,
+  spans: structuredClone(hours.spans ?? []),
+                          exceptions: structuredClone(hours.exceptions ?? []),
+                          projectors: structuredClone(hours.projectors ?? [])});
 const redraw = link => link.dispatchEvent(new Event('change'));
 function edit(link, change) {
   form ??= formOf(link.known.hours ?? {});
@@ -92,39 +96,49 @@ function mistake(link) {
 function field(name, label, wrong, input) {
   const isWrong = wrong?.field === name;
   const id = `h-${name.replaceAll('.', '-')}`;
-  return html`<span class="field"><label for=${id}>${label}</label>${input({id, invalid: isWrong ? 'true' : nothing, about: isWrong ? `${id}-wrong` : nothing})}
+  return html`<span class="field"><label for=${id}>${label}</label>${input({id, invalid: isWrong ? 'true' : nothing,
+    about: isWrong ? `${id}-wrong` : nothing})}
     ${isWrong ? html`<span class="bad" role="alert" id=${`${id}-wrong`}>✖ ${wrong.what}</span>` : nothing}</span>`;
 }
 function write(link, wrong, object, name, path, label, type = 'text') {
-  return field(path, label, wrong, ({id, invalid, about}) => html`<input id=${id} type=${type} .value=${object[name] ?? ''} ?disabled=${!link.may('CREW')}
-    aria-invalid=${invalid} aria-describedby=${about} autocomplete="off" @change=${event => edit(link, now => { at(now, path)[name] = event.target.value; })}>`);
+  return field(path, label, wrong, ({id, invalid, about}) => html`<input id=${id} type=${type}
+    .value=${object[name] ?? ''} ?disabled=${!link.may('CREW')}
+    aria-invalid=${invalid} aria-describedby=${about} autocomplete="off"
+    @change=${event => edit(link, now => { at(now, path)[name] = event.target.value; })}>`);
 }
 function choose(link, wrong, object, name, path, label, values) {
   const known = values.includes(object[name]) || !object[name] ? values : [...values, object[name]];
-  return field(path, label, wrong, ({id, invalid, about}) => html`<select id=${id} ?disabled=${!link.may('CREW')} aria-invalid=${invalid} aria-describedby=${about}
+  return field(path, label, wrong, ({id, invalid, about}) => html`<select id=${id} ?disabled=${!link.may('CREW')}
+    aria-invalid=${invalid} aria-describedby=${about}
     @change=${event => edit(link, now => { at(now, path)[name] = event.target.value; })}>
     <option value="" ?selected=${!object[name]}>${t('hours.asItWas')}</option>
-    ${known.map(value => html`<option value=${value} ?selected=${value === object[name]}>${word(value)}</option>`)}</select>`);
+    ${known.map(value => html`<option value=${value}
+      ?selected=${value === object[name]}>${word(value)}</option>`)}</select>`);
 }
 // The part of a form that a path such as spans.0.from is in.
 const at = (form, path) => path.split('.').slice(0, -1).reduce((part, name) => part[name], form);
 
 function spanFields(link, wrong, one, path) {
-  return html`${write(link, wrong, one, 'from', `${path}.from`, t('hours.from'), 'time')}${write(link, wrong, one, 'to', `${path}.to`, t('hours.to'), 'time')}
+  return html`${write(link, wrong, one, 'from', `${path}.from`, t('hours.from'), 'time')}${write(link, wrong, one, 'to',
+    `${path}.to`, t('hours.to'), 'time')}
     ${choose(link, wrong, one, 'scene', `${path}.scene`, t('wall.scene'), link.known.snapshot.scenes ?? [])}
     ${choose(link, wrong, one, 'quality', `${path}.quality`, t('wall.quality'), QUALITIES)}`;
 }
 function days(link, wrong, one, path) {
   const toggle = day => edit(link, now => {
     const span = at(now, `${path}.weekdays`);
-    span.weekdays = span.weekdays.includes(day) ? span.weekdays.filter(other => other !== day) : [...span.weekdays, day].sort();
+    span.weekdays = span.weekdays.includes(day) ? span.weekdays.filter(other => other !== day) : [...span.weekdays,
+      day].sort();
   });
   const isWrong = wrong?.field === `${path}.weekdays`;
-  return html`<span class="field"><span class="label">${t('hours.days')}</span><span class="days" role="group" aria-label=${t('hours.days')}>${DAYS.map((_, i) => html`<button type="button"
-    aria-pressed=${String(one.weekdays.includes(i + 1))} aria-label=${dayName(i + 1, 'long')} ?disabled=${!link.may('CREW')} @click=${() => toggle(i + 1)}>${dayName(i + 1, 'short')}</button>`)}</span>
+  return html`<span class="field"><span class="label">${t('hours.days')}</span><span class="days" role="group"
+    aria-label=${t('hours.days')}>${DAYS.map((_, i) => html`<button type="button"
+    aria-pressed=${String(one.weekdays.includes(i + 1))} aria-label=${dayName(i + 1, 'long')}
+    ?disabled=${!link.may('CREW')} @click=${() => toggle(i + 1)}>${dayName(i + 1, 'short')}</button>`)}</span>
     ${isWrong ? html`<span class="bad" role="alert">✖ ${wrong.what}</span>` : nothing}</span>`;
 }
-const remove = (link, path, what) => button(t(what === 'exception' ? 'hours.removeDay' : 'hours.remove'), () => edit(link, now => { at(now, path).splice(Number(path.split('.').at(-1)), 1); }),
+const remove = (link, path, what) => button(t(what === 'exception' ? 'hours.removeDay' : 'hours.remove'),
+  () => edit(link, now => { at(now, path).splice(Number(path.split('.').at(-1)), 1); }),
                                            {disabled: !link.may('CREW'), of: what});
 const add = (link, label, change) => button(label, () => edit(link, change), {disabled: !link.may('CREW')});
 
@@ -137,12 +151,15 @@ function week(hours) {
     bars.push([day - 1, from, Math.min(to, 1440)]);
     if (to > 1440) bars.push([day % 7, 0, to - 1440]);
   }
-  const said = hours.spans.map(span => `${span.weekdays.map(day => dayName(day, 'long')).join(', ')}: ${span.from} – ${span.to}`).join('; ');
+  const said = hours.spans.map(span =>
+    `${span.weekdays.map(day => dayName(day, 'long')).join(', ')}: ${span.from} – ${span.to}`).join('; ');
   const x = minutes => 40 + minutes / 1440 * 560;
   return html`<svg class="week" viewBox="0 0 610 150" role="img" aria-label=${said || t('hours.alwaysClosed')}>
-    ${[0, 6, 12, 18, 24].map(hour => svg`<line x1=${x(60 * hour)} x2=${x(60 * hour)} y1="4" y2="132"></line><text x=${x(60 * hour)} y="146" text-anchor="middle">${hour}</text>`)}
+    ${[0, 6, 12, 18, 24].map(hour => svg`<line x1=${x(60 * hour)} x2=${x(60 * hour)} y1="4" y2="132"></line><text
+      x=${x(60 * hour)} y="146" text-anchor="middle">${hour}</text>`)}
     ${DAYS.map((_, i) => svg`<text x="32" y=${17 + 18 * i} text-anchor="end">${dayName(i + 1, 'short')}</text>`)}
-    ${bars.map(([day, from, to]) => svg`<rect x=${x(from)} width=${x(to) - x(from)} y=${6 + 18 * day} height="13" rx="2"></rect>`)}</svg>`;
+    ${bars.map(([day, from, to]) => svg`<rect x=${x(from)} width=${x(to) - x(from)} y=${6 + 18 * day} height="13"
+      rx="2"></rect>`)}</svg>`;
 }
 
 function hoursForm(link) {
@@ -151,26 +168,35 @@ function hoursForm(link) {
   const isCrew = link.may('CREW');
   const hasComments = /^\s*#|[^"]#/m.test(link.known.hours?.text ?? '');
   return html`<section class="panel hours" aria-labelledby="week"><h2 id="week">${t('hours.week')}</h2>${week(now)}
-    <ol class="spans">${now.spans.map((one, i) => html`<li>${days(link, wrong, one, `spans.${i}`)}${spanFields(link, wrong, one, `spans.${i}`)}${remove(link, `spans.${i}`, 'span')}</li>`)}</ol>
+    <ol class="spans">${now.spans.map((one, i) => html`<li>${days(link, wrong, one, `spans.${i}`)}${spanFields(link,
+      wrong, one, `spans.${i}`)}${remove(link, `spans.${i}`, 'span')}</li>`)}</ol>
     <div class="row">${add(link, t('hours.addSpan'), form => form.spans.push(freshSpan()))}</div>
     <h2>${t('hours.exceptions')}</h2>
-    <ol class="spans">${now.exceptions.map((day, i) => html`<li>${write(link, wrong, day, 'date', `exceptions.${i}.date`, t('hours.date'), 'date')}
+    <ol class="spans">${now.exceptions.map((day, i) =>
+      html`<li>${write(link, wrong, day, 'date', `exceptions.${i}.date`, t('hours.date'), 'date')}
       ${day.spans.length ? nothing : html`<span class="note">${t('hours.closedAllDay')}</span>`}
-      ${day.spans.map((one, j) => html`<span class="inner">${spanFields(link, wrong, one, `exceptions.${i}.spans.${j}`)}${remove(link, `exceptions.${i}.spans.${j}`, 'span of a day')}</span>`)}
-      ${add(link, t('hours.addSpanOfDay'), form => form.exceptions[i].spans.push(freshSpan()))}${remove(link, `exceptions.${i}`, 'exception')}</li>`)}</ol>
+      ${day.spans.map((one, j) => html`<span class="inner">${spanFields(link, wrong, one,
+        `exceptions.${i}.spans.${j}`)}${remove(link, `exceptions.${i}.spans.${j}`, 'span of a day')}</span>`)}
+      ${add(link, t('hours.addSpanOfDay'), form => form.exceptions[i].spans.push(freshSpan()))}${remove(link,
+      `exceptions.${i}`, 'exception')}</li>`)}</ol>
     <div class="row">${add(link, t('hours.addException'), form => form.exceptions.push({date: '', spans: []}))}</div>
     <h2>${t('projector.title')}</h2><p class="note">${t('hours.projectorNote')}</p>
-    <ol class="spans">${now.projectors.map((one, i) => html`<li>${write(link, wrong, one, 'name', `projectors.${i}.name`, t('projector.name'))}
+    <ol class="spans">${now.projectors.map((one, i) =>
+      html`<li>${write(link, wrong, one, 'name', `projectors.${i}.name`, t('projector.name'))}
       ${write(link, wrong, one, 'address', `projectors.${i}.address`, t('projector.address'))}
       ${write(link, wrong, one, 'input', `projectors.${i}.input`, t('projector.inputCode'))}
-      ${isCrew ? write(link, wrong, one, 'password', `projectors.${i}.password`, t('projector.password')) : nothing}${remove(link, `projectors.${i}`, 'projector')}</li>`)}</ol>
-    <div class="row">${add(link, t('hours.addProjector'), form => form.projectors.push({name: '', address: '', password: '', input: ''}))}</div>
+      ${isCrew ? write(link, wrong, one, 'password', `projectors.${i}.password`, t('projector.password'))
+        : nothing}${remove(link, `projectors.${i}`, 'projector')}</li>`)}</ol>
+    <div class="row">${add(link, t('hours.addProjector'),
+    form => form.projectors.push({name: '', address: '', password: '', input: ''}))}</div>
     <h2>${t('hours.clock')}</h2>${write(link, wrong, now, 'zone', 'zone', t('hours.zone'))}
     ${wrong && !wrong.field ? html`<p class="bad" role="alert">✖ ${wrong.what}</p>` : nothing}
-    <div class="row save"><button class="primary" ?disabled=${!isCrew || (form === null && link.known.hours?.present)} @click=${() => save(link)}>${t('hours.save')}</button>
+    <div class="row save"><button class="primary" ?disabled=${!isCrew || (form === null && link.known.hours?.present)}
+      @click=${() => save(link)}>${t('hours.save')}</button>
       ${button(t('hours.discard'), () => { form = null; sent = null; redraw(link); }, {disabled: form === null})}
       ${form !== null ? html`<span class="warn">▲ ${t('hours.notSaved')}</span>` : nothing}
-      ${form !== null && hasComments ? html`<span class="note">${t('hours.losesComments')}</span>` : nothing}</div></section>`;
+      ${form !== null && hasComments ? html`<span class="note">${t('hours.losesComments')}</span>`
+        : nothing}</div></section>`;
 }
 
 // The same as text: for who copies it from one hall to another.
@@ -178,9 +204,12 @@ function asText(link) {
   const kept = link.known.hours?.text ?? '';
   if (textDraft === kept) textDraft = null;  // saved
   const write = event => { textDraft = event.target.value; redraw(link); };
-  return html`<section class="panel"><details ?open=${Boolean(link.known.hours?.problem)}><summary>${t('hours.text')}</summary>
-    <textarea id="hours" rows="10" spellcheck="false" aria-label=${t('hours.text')} ?readonly=${!link.may('CREW')} .value=${textDraft ?? kept} @input=${write}></textarea>
-    <div class="row">${button(t('hours.saveText'), () => link.command({hoursText: textDraft}, t('hours.saveText')), {disabled: !link.may('CREW') || textDraft === null})}</div>
+  return html`<section class="panel"><details
+    ?open=${Boolean(link.known.hours?.problem)}><summary>${t('hours.text')}</summary>
+    <textarea id="hours" rows="10" spellcheck="false" aria-label=${t('hours.text')} ?readonly=${!link.may('CREW')}
+    .value=${textDraft ?? kept} @input=${write}></textarea>
+    <div class="row">${button(t('hours.saveText'), () => link.command({hoursText: textDraft}, t('hours.saveText')),
+    {disabled: !link.may('CREW') || textDraft === null})}</div>
     <p class="note">${t('hours.textNote')}</p></details></section>`;
 }
 
@@ -189,20 +218,27 @@ function asText(link) {
 function standing(link) {
   const hours = link.known.hours ?? {};
   const held = link.wall.heldUntilS > 0;
-  const next = t(`hours.${hours.next ?? 'stays'}`, {at: hours.nextAt, scene: hours.nextScene ? word(hours.nextScene) : t('hours.sceneAsItWas')});
+  const next = t(`hours.${hours.next ?? 'stays'}`, {at: hours.nextAt, scene: hours.nextScene ? word(hours.nextScene)
+    : t('hours.sceneAsItWas')});
   return html`<section class="panel"><h2>${t('page.schedule')}</h2>
-    <p role="status">${held ? html`<strong class="warn">▲ ${t('hours.held', {time: time(link.wall.heldUntilS)})}</strong>`
+    <p role="status">${held
+      ? html`<strong class="warn">▲ ${t('hours.held', {time: time(link.wall.heldUntilS)})}</strong>`
       : hours.problem ? html`<strong class="bad">✖ ${t('hours.unreadable')}</strong> ${hours.problem}`
-      : hours.present ? html`<strong class=${hours.open ? 'good' : 'quiet'}>${hours.open ? '●' : '○'} ${t(hours.open ? 'hours.isOpen' : link.wall.black ? 'hours.isClosed' : 'hours.isLitByHand')}</strong> ${next}` : t('hours.none')}</p>
-    <div class="row">${held ? button(t('hours.goOn'), () => link.command({holdHours: 0}, t('hours.goOn')), {disabled: !link.may('OPERATOR')})
-      : button(t('hours.hold'), () => link.command({holdHours: 2}, t('hours.hold')), {disabled: !link.may('OPERATOR')})}<span class="note">${t('hours.holdNote')}</span></div></section>`;
+      : hours.present ? html`<strong class=${hours.open ? 'good' : 'quiet'}>${hours.open ? '●'
+        : '○'} ${t(hours.open ? 'hours.isOpen' : link.wall.black ? 'hours.isClosed' : 'hours.isLitByHand')}</strong> ${
+          next}` : t('hours.none')}</p>
+    <div class="row">${held ? button(t('hours.goOn'), () => link.command({holdHours: 0}, t('hours.goOn')),
+    {disabled: !link.may('OPERATOR')})
+      : button(t('hours.hold'), () => link.command({holdHours: 2}, t('hours.hold')),
+      {disabled: !link.may('OPERATOR')})}<span class="note">${t('hours.holdNote')}</span></div></section>`;
 }
 const SHAPES = {on: ['●', 'good'], off: ['○', 'quiet']};
 // What is unknown stands there as such, and both ways are offered.
 const unknown = () => html`<span class="quiet">${word('unknown')}</span>`;
 const inputOf = one => {
   if (!one.wantedInput) return '–';
-  return one.input === 'unknown' ? unknown() : one.input === one.wantedInput ? one.input : html`<span class="warn">▲ ${t('projector.otherInput', {is: one.input, wanted: one.wantedInput})}</span>`;
+  return one.input === 'unknown' ? unknown() : one.input === one.wantedInput ? one.input
+    : html`<span class="warn">▲ ${t('projector.otherInput', {is: one.input, wanted: one.wantedInput})}</span>`;
 };
 const projectorRow = link => one => {
   const state = one.reach === 'answers' ? one.power : one.reach;
@@ -210,24 +246,35 @@ const projectorRow = link => one => {
   const shutter = one.shut === undefined ? unknown() : t(one.shut ? 'projector.isShut' : 'projector.isOpen');
   const lamp = one.lampHours === undefined ? unknown() : t('projector.hours', {n: one.lampHours});
   const problems = one.problems?.length ? one.problems.join(', ') : one.tellsProblems ? '–' : unknown();
-  const command = (label, wanted) => holdButton(t(label), () => link.command({projector: {name: one.name, ...wanted}}, one.name), {disabled: !link.may('CREW')});
-  return html`<tr><th scope="row">${one.name}</th><td data-head=${t('projector.power')}><span class=${kind}>${shape} ${word(state)}</span></td>
-  <td data-head=${t('projector.shutter')}>${shutter}</td><td data-head=${t('projector.input')}>${inputOf(one)}</td><td class="n" data-head=${t('projector.lamp')}>${lamp}</td>
+  const command = (label, wanted) => holdButton(t(label), () => link.command({projector: {name: one.name, ...wanted}},
+    one.name), {disabled: !link.may('CREW')});
+  return html`<tr><th scope="row">${one.name}</th><td data-head=${t('projector.power')}><span
+  class=${kind}>${shape} ${word(state)}</span></td>
+  <td data-head=${t('projector.shutter')}>${shutter}</td><td data-head=${t('projector.input')}>${inputOf(one)}</td><td
+  class="n" data-head=${t('projector.lamp')}>${lamp}</td>
   <td data-head=${t('projector.problems')} class=${one.problems?.length ? 'bad' : ''}>${problems}</td>
-  <td data-head=""><div class="row">${one.shut !== false ? command('projector.open', {shut: false}) : nothing}${one.shut !== true ? command('projector.shut', {shut: true}) : nothing}
-    ${one.power !== 'on' ? command('projector.on', {power: true}) : nothing}${!['off', 'cooling'].includes(one.power) ? command('projector.off', {power: false}) : nothing}</div></td></tr>`;
+  <td data-head=""><div class="row">${one.shut !== false ? command('projector.open', {shut: false})
+    : nothing}${one.shut !== true ? command('projector.shut', {shut: true}) : nothing}
+    ${one.power !== 'on' ? command('projector.on', {power: true}) : nothing}${!['off', 'cooling'].includes(one.power)
+    ? command('projector.off', {power: false}) : nothing}</div></td></tr>`;
 };
 function projectors(link) {
   const list = link.known.projectors?.projectors ?? [];
   if (!list.length) return nothing;
-  const all = (label, wanted) => holdButton(label, () => link.command({projector: wanted}, label), {disabled: !link.may('CREW'), of: 'all'});
-  return html`<section class="panel"><div class="scroll" tabindex="0" role="region" aria-label=${t('projector.title')}><table class="cards"><caption>${t('projector.title')}</caption>
-    <thead><tr><th scope="col">${t('projector.name')}</th>${['power', 'shutter', 'input', 'lamp', 'problems'].map(name => html`<th scope="col" class=${name === 'lamp' ? 'n' : ''}>${t(`projector.${name}`)}</th>`)}<td></td></tr></thead>
+  const all = (label, wanted) => holdButton(label, () => link.command({projector: wanted}, label),
+    {disabled: !link.may('CREW'), of: 'all'});
+  return html`<section class="panel"><div class="scroll" tabindex="0" role="region"
+  aria-label=${t('projector.title')}><table class="cards"><caption>${t('projector.title')}</caption>
+    <thead><tr><th scope="col">${t('projector.name')}</th>${['power', 'shutter', 'input', 'lamp',
+    'problems'].map(name => html`<th scope="col"
+      class=${name === 'lamp' ? 'n' : ''}>${t(`projector.${name}`)}</th>`)}<td></td></tr></thead>
     <tbody>${list.map(projectorRow(link))}</tbody></table></div>
-    <div class="row">${all(t('projector.allOn'), {power: true})}${all(t('projector.allOff'), {power: false})}${all(t('projector.allShut'), {shut: true})}${all(t('projector.allOpen'), {shut: false})}</div></section>`;
+    <div class="row">${all(t('projector.allOn'), {power: true})}${all(t('projector.allOff'), {power: false})}${
+      all(t('projector.allShut'), {shut: true})}${all(t('projector.allOpen'), {shut: false})}</div></section>`;
 }
 
 export const schedulePage = {
   look: () => ({topics: ['hours']}),
-  view: link => html`${standing(link)}${projectors(link)}${link.known.hours?.problem ? nothing : hoursForm(link)}${link.role === 'CREW' ? asText(link) : nothing}`,
+  view: link => html`${standing(link)}${projectors(link)}${link.known.hours?.problem ? nothing
+    : hoursForm(link)}${link.role === 'CREW' ? asText(link) : nothing}`,
 };

@@ -17,7 +17,8 @@ export async function loadTexts() {
 }
 // t('nodes.late', {n: 3}); a text that is missing shows its name. Where n is one, the text NAME.one goes before.
 export const t = (name, values = {}) =>
-  ((Number(values.n) === 1 && texts[`${name}.one`]) || (texts[name] ?? name)).replace(/\{(\w+)\}/g, (_, key) => values[key] ?? '');
+  ((Number(values.n) === 1 && texts[`${name}.one`]) || (texts[name] ?? name)).replace(/\{(\w+)\}/g,
+    (_, key) => values[key] ?? '');
 // Words that the console says in English, such as "in step".
 export const word = text => texts[`word.${text}`] ?? text;
 
@@ -39,7 +40,8 @@ export function holdButton(label, act, {disabled = false, primary = false, of = 
     button.classList.remove('holding');
   };
   const end = event => stop(event.currentTarget);
-  return html`<button class="hold ${primary ? 'primary' : ''}" data-of=${of} ?disabled=${disabled} title=${t('hold.hint')} aria-description=${t('hold.hint')}
+  return html`<button class="hold ${primary ? 'primary' : ''}" data-of=${of} ?disabled=${disabled}
+    title=${t('hold.hint')} aria-description=${t('hold.hint')}
     @pointerdown=${begin} @pointerup=${end} @pointerleave=${end} @pointercancel=${end} @blur=${end}
     @keydown=${begin} @keyup=${end} @contextmenu=${event => event.preventDefault()}><span>${label}</span></button>`;
 }
@@ -63,11 +65,13 @@ export function chooser(link, what, values, shown, act) {
   const done = () => { act(chosen); delete wish[what]; };
   return html`<label for=${what}>${t(`wall.${what}`)}</label>
     <select id=${what} ?disabled=${!link.may('OPERATOR')} @change=${choose}>
-      ${values.map(value => html`<option value=${value} ?selected=${value === chosen}>${word(value)}</option>`)}</select>
+      ${values.map(value => html`<option value=${value}
+        ?selected=${value === chosen}>${word(value)}</option>`)}</select>
     ${holdButton(t('wall.apply'), done, {disabled: !link.may('OPERATOR') || chosen === shown, of: what})}`;
 }
 export const patternChooser = link =>
-  chooser(link, 'pattern', PATTERNS, link.wall.pattern, value => link.command({pattern: value}, `${t('wall.pattern')}: ${word(value)}`));
+  chooser(link, 'pattern', PATTERNS, link.wall.pattern, value => link.command({pattern: value},
+    `${t('wall.pattern')}: ${word(value)}`));
 
 // --- what is said in words
 
@@ -129,17 +133,20 @@ export function wholeWall(link, onPoint) {
   canvas.setAttribute('aria-label', t('preview.wall'));
   canvas.onclick = onPoint ? event => {
     const place = canvas.getBoundingClientRect();
-    const found = panorama.channelAt((event.clientX - place.left) / place.width, (event.clientY - place.top) / place.height);
+    const found = panorama.channelAt((event.clientX - place.left) / place.width,
+      (event.clientY - place.top) / place.height);
     if (found?.frame) onPoint(channels[found.channel], found);
   } : null;
-  return html`<figure class="whole">${canvas}<figcaption>${panorama.isPlaced ? panorama.caption : t('preview.none')}</figcaption></figure>`;
+  return html`<figure class="whole">${canvas}<figcaption>${panorama.isPlaced ? panorama.caption
+    : t('preview.none')}</figcaption></figure>`;
 }
 export const views = channels => html`<div class="views">${channels.map((channel, number) => {
   const preview = previewOf(number, channel.widthPx, channel.heightPx);
   preview.canvas.setAttribute('role', 'img');
   preview.canvas.setAttribute('aria-label', t('preview.of', {name: channel.name}));
   const old = performance.now() - preview.at;
-  const caption = preview.frame === null ? t('preview.none') : t(old > 5000 ? 'preview.old' : 'preview.frame', {frame: preview.frame});
+  const caption = preview.frame === null ? t('preview.none') : t(old > 5000 ? 'preview.old' : 'preview.frame',
+    {frame: preview.frame});
   return html`<figure>${preview.canvas}<figcaption>${channel.name} · ${caption}</figcaption></figure>`;
 })}</div>`;
 
@@ -150,7 +157,8 @@ export function skewBars(counts = []) {
   const most = Math.max(1, ...counts);
   const total = counts.reduce((sum, count) => sum + count, 0);
   const label = t('skew.label', {list: counts.map((count, i) => `≤ ${EDGES[i]} ms: ${count}`).join(', ')});
-  const bar = (count, i) => svg`<g><rect x=${i * 50 + 8} width="34" y=${110 - 90 * count / most} height=${90 * count / most}></rect>
+  const bar = (count, i) => svg`<g><rect x=${i * 50 + 8} width="34" y=${110 - 90 * count / most}
+    height=${90 * count / most}></rect>
     <text x=${i * 50 + 25} y=${104 - 90 * count / most} text-anchor="middle">${count || ''}</text>
     <text x=${i * 50 + 25} y="124" text-anchor="middle">${EDGES[i]}</text></g>`;
   return html`<svg class="bars" viewBox="0 0 450 130" role="img" aria-label=${label}>${counts.map(bar)}</svg>
@@ -178,9 +186,11 @@ export class Plot {
       this.colour = colour;
       const axis = {stroke: colour, grid: {stroke: '#8884', width: 1}, ticks: {stroke: '#8888'}};
       this.#plot = new uPlot({
-        width: wide, height: 200, scales: {x: {time: true}, y: {range: (_, low, high) => [0, Math.max(0.01, high * 1.1)]}},
+        width: wide, height: 200,
+          scales: {x: {time: true}, y: {range: (_, low, high) => [0, Math.max(0.01, high * 1.1)]}},
         axes: [axis, {...axis, values: (_, ticks) => ticks.map(tick => `${tick} ms`), size: 74}],
-        series: [{}, ...series.map((one, i) => ({label: one.name, stroke: COLOURS[i % COLOURS.length], width: 1.5, points: {show: false}}))],
+        series: [{}, ...series.map((one, i) => ({label: one.name, stroke: COLOURS[i % COLOURS.length], width: 1.5,
+          points: {show: false}}))],
       }, [[], ...series.map(() => [])], this.element);
     }
     const count = Math.max(0, ...series.map(one => one.values.length));

@@ -19,7 +19,8 @@ POSE_UNIT = 1 / 32767  # body lengths
 GAITS = ("slow", "medium", "fast")
 CURVES = [f"curve_{side}_{width}" for side in ("left", "right") for width in ("wide", "tight")]
 TURNS = [f"turn_{side}_{kind}" for side in ("left", "right") for kind in ("gradual", "sharp")]
-SEGMENTS = [f"{motion}_{gait}" for motion in ("forward", *CURVES, "climb", "dive") for gait in GAITS] + ["retreat"] + TURNS
+SEGMENTS = [f"{motion}_{gait}" for motion in ("forward", *CURVES, "climb", "dive")
+            for gait in GAITS] + ["retreat"] + TURNS
 
 
 class Bytes:
@@ -146,7 +147,8 @@ def input_of(message):
         numbers = floats(found[3], 6)
         return tick, "submarine", {"place_m": numbers[:3], "velocity_m_s": numbers[3:]}
     axes = dict(fields(found.get(4, b"")))
-    return tick, "steering", {name: signed(axes.get(i + 1, 0)) for i, name in enumerate(("ahead", "aside", "up", "turn", "tilt"))}
+    return tick, "steering", {name: signed(axes.get(i + 1, 0))
+                              for i, name in enumerate(("ahead", "aside", "up", "turn", "tilt"))}
 
 
 def read_recording(content):
@@ -186,7 +188,9 @@ def describe_repertoire(repertoire):
 
 
 def describe_recording(recording):
-    print(f"recording by {recording['build']}, seed {recording['seed']}, {'whole' if recording['is_whole'] else 'cut short'}")
+    print(
+        f"recording by {recording['build']}, seed {recording['seed']}, "
+        f"{'whole' if recording['is_whole'] else 'cut short'}")
     for species in recording["species"]:
         print(f"  {species['fish']} of {read_repertoire(species['repertoire'])['species']}")
     for tick, what, values in recording["inputs"][:20]:

@@ -23,10 +23,10 @@ constexpr float kTurnAway = 1.6F;
 constexpr float kLean = 0.25F;
 // Share by which it is slower than the fish ahead.
 constexpr float kBrake = 0.25F;
-// In body lengths: a smaller miss says nothing about the side.
+// A miss in body lengths; a smaller one does not tell the side.
 constexpr float kSureMissLengths = 0.05F;
 
-// To the right of a heading, level.
+// The level direction to the right of a heading.
 glm::vec3 rightOf(glm::vec3 heading) {
     return place::directionOf({-heading.z, 0, heading.x}, {0, 0, 1});
 }
@@ -69,6 +69,55 @@ float speedPast(const Situation& situation) {
     return sameWay ? std::min(slow, theirs * (1 - kBrake)) : slow;
 }
 
+// About the tangent of 12 degrees: a push nearer to straight back says nothing about a side.
+constexpr float kHeadOn = 0.2F;
+
+// A push of this strength straight back makes the fish want to stop, a stronger one to back out.
+constexpr float kStopsAt = 3.0F;
+
+// Side to take where the push prefers none: towards the middle of the water.
+float openSide(const Situation& situation, glm::vec3 right) {
+    const glm::vec3 middle = situation.environment.surroundings->obstacles.water.centre;
+    return place::dot(middle - situation.senses.position, right) < 0 ? -1.0F : 1.0F;
+}
+
+// Number of heights that are tried.
+constexpr int kHeights = 16;
+// Share of the half height of the water in which they lie.
+constexpr float kInside = 0.85F;
+// A degree too warm or too cold is as bad as a tenth of the light.
+constexpr float kPerCelsius = 0.1F;
+// Distance in height from which it climbs or dives fully.
+constexpr float kSlantMetres = 2.0F;
+// Decides between equally good heights for the nearer one.
+constexpr float kTiePerMetre = 1.0e-3F;
+
+// How far a value is outside a range; 0 inside.
+float beyond(const config::Span& span, float value) {
+    return std::max(
+        {0.0F, static_cast<float>(span.least) - value, value - static_cast<float>(span.most)});
+}
+
+// How badly the water at a height suits the species; 0: well.
+float illAt(const Situation& situation, float y) {
+    const surroundings::Surroundings& around = *situation.environment.surroundings;
+    const config::Habits& habits = situation.parameters.habits;
+    return beyond(habits.light, surroundings::lightAt(around.climate, around.daylight, y)) +
+           kPerCelsius * beyond(habits.waterCelsius, surroundings::celsiusAt(around.climate, y));
+}
+
+// Weight of flight against the unit vector of the present course.
+constexpr float kFlee = 2.5F;
+// Urgency from which the motor turns sharply.
+constexpr float kSharpStart = 1.0F;
+
+// How much flight outweighs the school: 0 when it has just left the school, 1 when the predator is
+// so near that only flight counts.
+float dread(const fish::SpeciesParameters& parameters, const fish::Feelings& feelings) {
+    const float more = feelings.greatestFear - parameters.habits.fearAlone;
+    return std::clamp(more / std::max(1 - parameters.habits.fearAlone, 0.01F), 0.0F, 1.0F);
+}
+
 }  // namespace
 
 fish::Course avoidFish(const Situation& situation, const fish::Mind& mind) {
@@ -86,22 +135,6 @@ fish::Course avoidFish(const Situation& situation, const fish::Mind& mind) {
     const glm::vec3 desired = senses.heading + aside * kTurnAway + roomFrom(situation);
     return heading(situation, desired, speedPast(situation));
 }
-
-namespace {
-
-// About the tangent of 12 degrees: a push nearer to straight back says nothing about a side.
-constexpr float kHeadOn = 0.2F;
-
-// A push of this strength straight back makes the fish want to stop, a stronger one to back out.
-constexpr float kStopsAt = 3.0F;
-
-// Side to take where the push prefers none: towards the middle of the water.
-float openSide(const Situation& situation, glm::vec3 right) {
-    const glm::vec3 middle = situation.environment.surroundings->obstacles.water.centre;
-    return place::dot(middle - situation.senses.position, right) < 0 ? -1.0F : 1.0F;
-}
-
-}  // namespace
 
 glm::vec3 wayRound(const Situation& situation) {
     const Senses& senses = situation.senses;
@@ -131,35 +164,6 @@ fish::Course avoidObstacle(const Situation& situation, const fish::Mind& mind) {
     return heading(situation, senses.heading + roomFrom(situation), pace);
 }
 
-namespace {
-
-// Number of heights that are tried.
-constexpr int kHeights = 16;
-// Share of the half height of the water in which they lie.
-constexpr float kInside = 0.85F;
-// A degree too warm or too cold is as bad as a tenth of the light.
-constexpr float kPerCelsius = 0.1F;
-// Distance in height from which it climbs or dives fully.
-constexpr float kSlantMetres = 2.0F;
-// Decides between equally good heights for the nearer one.
-constexpr float kTiePerMetre = 1.0e-3F;
-
-// How far a value is outside a range; 0 inside.
-float beyond(const config::Span& span, float value) {
-    return std::max(
-        {0.0F, static_cast<float>(span.least) - value, value - static_cast<float>(span.most)});
-}
-
-// How badly the water at a height suits the species; 0: well.
-float illAt(const Situation& situation, float y) {
-    const surroundings::Surroundings& around = *situation.environment.surroundings;
-    const config::Habits& habits = situation.parameters.habits;
-    return beyond(habits.light, surroundings::lightAt(around.climate, around.daylight, y)) +
-           kPerCelsius * beyond(habits.waterCelsius, surroundings::celsiusAt(around.climate, y));
-}
-
-}  // namespace
-
 float suitableHeight(const Situation& situation) {
     const place::Region& water = situation.environment.surroundings->obstacles.water;
     const float own = situation.senses.position.y;
@@ -187,22 +191,6 @@ fish::Course leave(const Situation& situation) {
                               glm::vec3{0, std::clamp(climb / kSlantMetres, -1.0F, 1.0F), 0};
     return heading(situation, desired, situation.parameters.slow);
 }
-
-namespace {
-
-// Weight of flight against the unit vector of the present course.
-constexpr float kFlee = 2.5F;
-// Urgency from which the motor turns sharply.
-constexpr float kSharpStart = 1.0F;
-
-// How much flight outweighs the school: 0 when it has just left the school, 1 when the predator is
-// so near that only flight counts.
-float dread(const fish::SpeciesParameters& parameters, const fish::Feelings& feelings) {
-    const float more = feelings.greatestFear - parameters.habits.fearAlone;
-    return std::clamp(more / std::max(1 - parameters.habits.fearAlone, 0.01F), 0.0F, 1.0F);
-}
-
-}  // namespace
 
 fish::Course escape(const Situation& situation, const fish::Mind& mind) {
     const Senses& senses = situation.senses;

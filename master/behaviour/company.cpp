@@ -75,53 +75,6 @@ std::uint32_t drawnHost(const Situation& situation, std::uint32_t hash) {
     return host.first + hashOf(hash, 1) % (host.last - host.first);
 }
 
-}  // namespace
-
-std::uint32_t partnerOf(const fish::SpeciesParameters& parameters, std::uint32_t fish) {
-    assert(fish >= parameters.first);
-    assert(fish < parameters.last);
-    const std::uint32_t partner = parameters.first + ((fish - parameters.first) ^ 1U);
-    return partner < parameters.last ? partner : fish::kNobody;
-}
-
-std::uint32_t shadowedBy(const Situation& situation) {
-    if (situation.parameters.shadows == 0) return fish::kNobody;
-    const Environment& environment = situation.environment;
-    const std::uint32_t own = hashOf(hashOf(environment.seed, Stream::Bouts), situation.fish);
-    const std::uint64_t now = environment.tick.value + own % kTicksOfBout;
-    const std::uint32_t bout = hashOf(own, static_cast<std::uint32_t>(now / kTicksOfBout));
-    if (now % kTicksOfBout > kShortestShadowing + bout % kShadowingSpread) return fish::kNobody;
-    for (std::uint32_t i = 0; i < kHostsTried; ++i) {
-        const std::uint32_t host = drawnHost(situation, hashOf(hashOf(bout, Stream::Hosts), i));
-        if (isWithin(situation, host, sightOf(situation))) return host;
-    }
-    return fish::kNobody;
-}
-
-std::optional<fish::Course> keptCompany(const Situation& situation) {
-    const fish::FishView& view = *situation.environment.view;
-    const Senses& senses = situation.senses;
-    const std::uint32_t host = shadowedBy(situation);
-    if (host != fish::kNobody) {
-        const float over = kOverBackMetres + kHalfHeight * view.fish[host].length;
-        return alongside(situation, host, view.position(host) + glm::vec3{0, over, 0});
-    }
-    const auto apart =
-        static_cast<float>(situation.parameters.habits.pairBodyLengths) * senses.length;
-    if (apart <= 0) return {};
-    const std::uint32_t partner = partnerOf(situation.parameters, situation.fish);
-    // Partners find each other as far as the water is clear, farther than they see others.
-    if (!isWithin(situation, partner, situation.environment.surroundings->clarityMetres)) return {};
-    const glm::vec3 from = senses.position - view.position(partner);
-    const bool leads = situation.fish < partner;
-    // The leading partner goes where it likes, but waits for the other.
-    if (leads && place::lengthOf(from) < kPairIsApart * apart) return {};
-    const glm::vec3 level = place::directionOf({from.x, 0.3F * from.y, from.z}, {0, 0, 1});
-    return alongside(situation, partner, view.position(partner) + level * apart);
-}
-
-namespace {
-
 // Distances in body lengths. Huth & Wissel 1992 use separate zones (repulsion to 0.5, alignment to
 // 2, attraction to 5). Here the zones overlap and fade, so that the school settles at its spacing
 // instead of switching at a border.
@@ -196,60 +149,6 @@ glm::vec3 roomFromThose(const Situation& situation, const Neighbours& those) {
     }
     return away;
 }
-
-}  // namespace
-
-Company companyOf(const fish::FishView& view,
-                  const Senses& senses,
-                  std::uint32_t fish,
-                  float alarm) {
-    assert(fish < view.size());
-    assert(alarm >= 0);
-    assert(alarm <= 1);
-    Company company;
-    const float perLength = 1 / view.fish[fish].length;
-    const float spacing = kSpacing + (kAlarmedSpacing - kSpacing) * alarm;
-    const float attract = kAttractFully + (kAttractAlarmed - kAttractFully) * alarm;
-    for (std::size_t i = 0; i < senses.others.count; ++i) {
-        // From a larger fish it keeps a distance in that fish's lengths.
-        const std::uint32_t other = senses.others.fish[i];
-        const float per = std::min(perLength, 1 / view.fish[other].length);
-        giveWay(company, neighbourOf(view, senses, other, per), senses.heading, spacing);
-    }
-    for (std::size_t i = 0; i < senses.schoolmates.count; ++i) {
-        const std::uint32_t other = senses.schoolmates.fish[i];
-        const Neighbour mate = neighbourOf(view, senses, other, perLength);
-        giveWay(company, mate, senses.heading, spacing);
-        const float tooFar =
-            std::clamp((mate.distance - spacing) / (attract - spacing), 0.0F, 1.0F);
-        const float inStep =
-            std::clamp((kAttractFully - mate.distance) / (kAttractFully - kAlignFully), 0.0F, 1.0F);
-        company.cohesion += mate.towards * tooFar;
-        company.alignment += view.heading(other) * inStep;
-        company.speed += view.fish[other].speed * perLength;
-    }
-    // Separation is limited: at a larger angle between the courses the tails would meet.
-    const float parting = place::lengthOf(company.separation) * kSeparate;
-    if (parting > kMostSeparation) company.separation *= kMostSeparation / parting;
-    if (senses.schoolmates.count == 0) return company;
-    const float share = 1 / static_cast<float>(senses.schoolmates.count);
-    company.alignment *= share;
-    company.cohesion *= share * (1 + kHuddle * alarm);
-    company.hurry = place::dot(company.cohesion, senses.heading);
-    company.speed *= share;
-    return company;
-}
-
-glm::vec3 pullOf(const Company& company) {
-    return company.separation * kSeparate + company.alignment * kAlign + company.cohesion * kCohere;
-}
-
-glm::vec3 roomFrom(const Situation& situation) {
-    return roomFromThose(situation, situation.senses.schoolmates) +
-           roomFromThose(situation, situation.senses.others);
-}
-
-namespace {
 
 // Weights of the school's steering against the unit vector of the present course.
 constexpr float kKeepCourse = 0.8F;
@@ -404,6 +303,99 @@ glm::vec3 clearing(const Situation& situation) {
 }
 
 }  // namespace
+
+std::uint32_t partnerOf(const fish::SpeciesParameters& parameters, std::uint32_t fish) {
+    assert(fish >= parameters.first);
+    assert(fish < parameters.last);
+    const std::uint32_t partner = parameters.first + ((fish - parameters.first) ^ 1U);
+    return partner < parameters.last ? partner : fish::kNobody;
+}
+
+std::uint32_t shadowedBy(const Situation& situation) {
+    if (situation.parameters.shadows == 0) return fish::kNobody;
+    const Environment& environment = situation.environment;
+    const std::uint32_t own = hashOf(hashOf(environment.seed, Stream::Bouts), situation.fish);
+    const std::uint64_t now = environment.tick.value + own % kTicksOfBout;
+    const std::uint32_t bout = hashOf(own, static_cast<std::uint32_t>(now / kTicksOfBout));
+    if (now % kTicksOfBout > kShortestShadowing + bout % kShadowingSpread) return fish::kNobody;
+    for (std::uint32_t i = 0; i < kHostsTried; ++i) {
+        const std::uint32_t host = drawnHost(situation, hashOf(hashOf(bout, Stream::Hosts), i));
+        if (isWithin(situation, host, sightOf(situation))) return host;
+    }
+    return fish::kNobody;
+}
+
+std::optional<fish::Course> keptCompany(const Situation& situation) {
+    const fish::FishView& view = *situation.environment.view;
+    const Senses& senses = situation.senses;
+    const std::uint32_t host = shadowedBy(situation);
+    if (host != fish::kNobody) {
+        const float over = kOverBackMetres + kHalfHeight * view.fish[host].length;
+        return alongside(situation, host, view.position(host) + glm::vec3{0, over, 0});
+    }
+    const auto apart =
+        static_cast<float>(situation.parameters.habits.pairBodyLengths) * senses.length;
+    if (apart <= 0) return {};
+    const std::uint32_t partner = partnerOf(situation.parameters, situation.fish);
+    // Partners find each other as far as the water is clear, farther than they see others.
+    if (!isWithin(situation, partner, situation.environment.surroundings->clarityMetres)) return {};
+    const glm::vec3 from = senses.position - view.position(partner);
+    const bool leads = situation.fish < partner;
+    // The leading partner goes where it likes, but waits for the other.
+    if (leads && place::lengthOf(from) < kPairIsApart * apart) return {};
+    const glm::vec3 level = place::directionOf({from.x, 0.3F * from.y, from.z}, {0, 0, 1});
+    return alongside(situation, partner, view.position(partner) + level * apart);
+}
+
+Company companyOf(const fish::FishView& view,
+                  const Senses& senses,
+                  std::uint32_t fish,
+                  float alarm) {
+    assert(fish < view.size());
+    assert(alarm >= 0);
+    assert(alarm <= 1);
+    Company company;
+    const float perLength = 1 / view.fish[fish].length;
+    const float spacing = kSpacing + (kAlarmedSpacing - kSpacing) * alarm;
+    const float attract = kAttractFully + (kAttractAlarmed - kAttractFully) * alarm;
+    for (std::size_t i = 0; i < senses.others.count; ++i) {
+        // From a larger fish it keeps a distance in that fish's lengths.
+        const std::uint32_t other = senses.others.fish[i];
+        const float per = std::min(perLength, 1 / view.fish[other].length);
+        giveWay(company, neighbourOf(view, senses, other, per), senses.heading, spacing);
+    }
+    for (std::size_t i = 0; i < senses.schoolmates.count; ++i) {
+        const std::uint32_t other = senses.schoolmates.fish[i];
+        const Neighbour mate = neighbourOf(view, senses, other, perLength);
+        giveWay(company, mate, senses.heading, spacing);
+        const float tooFar =
+            std::clamp((mate.distance - spacing) / (attract - spacing), 0.0F, 1.0F);
+        const float inStep =
+            std::clamp((kAttractFully - mate.distance) / (kAttractFully - kAlignFully), 0.0F, 1.0F);
+        company.cohesion += mate.towards * tooFar;
+        company.alignment += view.heading(other) * inStep;
+        company.speed += view.fish[other].speed * perLength;
+    }
+    // Separation is limited: at a larger angle between the courses the tails would meet.
+    const float parting = place::lengthOf(company.separation) * kSeparate;
+    if (parting > kMostSeparation) company.separation *= kMostSeparation / parting;
+    if (senses.schoolmates.count == 0) return company;
+    const float share = 1 / static_cast<float>(senses.schoolmates.count);
+    company.alignment *= share;
+    company.cohesion *= share * (1 + kHuddle * alarm);
+    company.hurry = place::dot(company.cohesion, senses.heading);
+    company.speed *= share;
+    return company;
+}
+
+glm::vec3 pullOf(const Company& company) {
+    return company.separation * kSeparate + company.alignment * kAlign + company.cohesion * kCohere;
+}
+
+glm::vec3 roomFrom(const Situation& situation) {
+    return roomFromThose(situation, situation.senses.schoolmates) +
+           roomFromThose(situation, situation.senses.others);
+}
 
 float levelInBall(std::uint32_t seed, std::uint32_t fish) {
     const std::uint32_t own = hashOf(hashOf(seed, Stream::SchoolLevels), fish);

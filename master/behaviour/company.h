@@ -27,8 +27,8 @@ namespace aquarama::behaviour {
 // The course that stays with the shadowed fish or the partner; none where the fish goes alone.
 [[nodiscard]] std::optional<fish::Course> keptCompany(const Situation& situation);
 
-// What neighbours ask of a fish: separation, alignment and cohesion (Reynolds 1987; Huth & Wissel
-// 1992).
+// The influence of neighbours on a fish: separation, alignment and cohesion (Reynolds 1987; Huth &
+// Wissel 1992).
 
 // Wanted distance between the middles of neighbours, in body lengths: at ease, and when a predator
 // is near.

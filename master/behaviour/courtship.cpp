@@ -119,6 +119,54 @@ fish::Course keepBelow(const Situation& situation, const Couple& couple, float b
                    std::clamp(pace, 0.5F * parameters.slow, parameters.medium));
 }
 
+Couple coupleOf(const Situation& situation, const fish::Mind& mind) {
+    const fish::FishView& view = *situation.environment.view;
+    const std::uint32_t mate = mind.target;
+    const std::uint32_t first = std::min(situation.fish, mate);
+    return {.offset = view.position(mate) - situation.senses.position,
+            .matesHeading = view.heading(mate),
+            .matesSpeed = view.fish[mate].speed,
+            .length = 0.5F * (situation.senses.length + view.fish[mate].length),
+            .isFemale = (mind.likes & fish::kIsFemale) != 0,
+            .turnsLeft = (hashOf(situation.environment.seed, first) & 1U) != 0};
+}
+
+CourtshipStage stageOf(std::uint8_t stage) {
+    return static_cast<CourtshipStage>(stage);
+}
+
+void enter(fish::Mind& mind, CourtshipStage stage) {
+    if (stageOf(mind.stage) == stage) return;
+    mind.stage = static_cast<std::uint8_t>(stage);
+    mind.sinceStage = 0;
+}
+
+// Sets the stage by what the other fish does now. Of two fish that court each other the one that is
+// behind catches up.
+void fallIn(const Situation& situation, fish::Mind& mind) {
+    const fish::FishView& view = *situation.environment.view;
+    const std::uint32_t courted = view.partner[mind.target];
+    if (courted != situation.fish)
+        return enter(mind,
+                     courted == fish::kNobody ? CourtshipStage::Follow : CourtshipStage::Impress);
+    const CourtshipStage theirs = stageOf(view.stage[mind.target]);
+    enter(mind, std::max({stageOf(mind.stage), theirs, CourtshipStage::Loop}));
+}
+
+// Enters the next stage when this one is complete. After the last the male reports the spawning.
+void goOn(fish::Mind& mind,
+          const Couple& couple,
+          const Situation& situation,
+          DeferredEvents& events) {
+    const CourtshipStage stage = stageOf(mind.stage);
+    if (!isComplete(stage, couple, situation.senses.heading, mind.sinceStage)) return;
+    if (stage != CourtshipStage::Nuzzle) {
+        enter(mind, static_cast<CourtshipStage>(mind.stage + 1));
+    } else if (!couple.isFemale) {
+        events.push_back({fish::DeferredEventKind::Spawn, situation.fish, mind.target});
+    }
+}
+
 }  // namespace
 
 bool isComplete(CourtshipStage stage,
@@ -176,58 +224,6 @@ fish::Course court(const Situation& situation,
     }
     return follow(situation, couple);
 }
-
-namespace {
-
-Couple coupleOf(const Situation& situation, const fish::Mind& mind) {
-    const fish::FishView& view = *situation.environment.view;
-    const std::uint32_t mate = mind.target;
-    const std::uint32_t first = std::min(situation.fish, mate);
-    return {.offset = view.position(mate) - situation.senses.position,
-            .matesHeading = view.heading(mate),
-            .matesSpeed = view.fish[mate].speed,
-            .length = 0.5F * (situation.senses.length + view.fish[mate].length),
-            .isFemale = (mind.likes & fish::kIsFemale) != 0,
-            .turnsLeft = (hashOf(situation.environment.seed, first) & 1U) != 0};
-}
-
-CourtshipStage stageOf(std::uint8_t stage) {
-    return static_cast<CourtshipStage>(stage);
-}
-
-void enter(fish::Mind& mind, CourtshipStage stage) {
-    if (stageOf(mind.stage) == stage) return;
-    mind.stage = static_cast<std::uint8_t>(stage);
-    mind.sinceStage = 0;
-}
-
-// Sets the stage by what the other fish does now. Of two fish that court each other the one that is
-// behind catches up.
-void fallIn(const Situation& situation, fish::Mind& mind) {
-    const fish::FishView& view = *situation.environment.view;
-    const std::uint32_t courted = view.partner[mind.target];
-    if (courted != situation.fish)
-        return enter(mind,
-                     courted == fish::kNobody ? CourtshipStage::Follow : CourtshipStage::Impress);
-    const CourtshipStage theirs = stageOf(view.stage[mind.target]);
-    enter(mind, std::max({stageOf(mind.stage), theirs, CourtshipStage::Loop}));
-}
-
-// Enters the next stage when this one is complete. After the last the male reports the spawning.
-void goOn(fish::Mind& mind,
-          const Couple& couple,
-          const Situation& situation,
-          DeferredEvents& events) {
-    const CourtshipStage stage = stageOf(mind.stage);
-    if (!isComplete(stage, couple, situation.senses.heading, mind.sinceStage)) return;
-    if (stage != CourtshipStage::Nuzzle) {
-        enter(mind, static_cast<CourtshipStage>(mind.stage + 1));
-    } else if (!couple.isFemale) {
-        events.push_back({fish::DeferredEventKind::Spawn, situation.fish, mind.target});
-    }
-}
-
-}  // namespace
 
 fish::Course mate(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
     assert(mind.target < situation.environment.view->size());

@@ -25,9 +25,9 @@ enum class CourtshipStage : std::uint8_t {
     Nuzzle,
 };
 
-// What one fish of a pair sees of both.
+// The view of one fish of a pair on both.
 struct Couple {
-    // From the fish to its mate, metres.
+    // Offset from the fish to its mate, metres.
     glm::vec3 offset{};
     glm::vec3 matesHeading{1, 0, 0};
     // Metres a second.

@@ -34,41 +34,6 @@ glm::vec3 lead(const Situation& situation, glm::vec3 towards, float speed, glm::
            velocity * std::min(kMostLeadSeconds, place::lengthOf(towards) / metresPerSecond);
 }
 
-}  // namespace
-
-fish::Course pursue(const Situation& situation,
-                    glm::vec3 towards,
-                    float speed,
-                    glm::vec3 velocity) {
-    assert(speed >= 0);
-    const Senses& senses = situation.senses;
-    const float slow = situation.parameters.slow;
-    const glm::vec3 to = lead(situation, towards, speed, velocity);
-    const glm::vec3 direction = place::directionOf(to, senses.heading);
-    const float lengths = place::lengthOf(to) / senses.length;
-    const float along = place::dot(direction, senses.heading);
-    const float careful =
-        situation.environment.adaptation.earlierPursuit ? kEarlierWithin : kCarefulWithin;
-    if (lengths >= careful)
-        return heading(situation, along > kGeneralCosine ? senses.heading : direction, speed);
-    if (lengths < kTurnsWithin && along < kAbeamCosine)
-        return heading(situation, direction, kTurningPace * slow);
-    const float least = std::min(speed, kCarefulPace * slow);
-    // A target that swims away adds its own speed.
-    const float chase = std::max(0.0F, place::dot(velocity, direction)) / senses.length;
-    const float pace = least + (speed - least) * lengths / careful;
-    return heading(situation, direction, std::min(speed, pace + chase));
-}
-
-fish::Course heading(const Situation& situation, glm::vec3 desired, float speed) {
-    const Senses& senses = situation.senses;
-    const glm::vec3 direction =
-        place::levelled(place::directionOf(desired + wayRound(situation), senses.heading));
-    return {direction, speed, senses.urgency};
-}
-
-namespace {
-
 // Weight of going aside against straight away, for a fish right before the predator.
 constexpr float kAsideOfItsWay = 1.2F;
 // Square metres: a predator nearer than 0.1 m does not count more.
@@ -82,24 +47,6 @@ glm::vec3 awayFrom(glm::vec3 offset, glm::vec3 course, glm::vec3 otherwise) {
     const glm::vec3 aside = place::directionOf(away - course * before, otherwise);
     return place::directionOf(away + aside * (kAsideOfItsWay * before), otherwise);
 }
-
-}  // namespace
-
-glm::vec3 flightFrom(const Situation& situation) {
-    const fish::FishView& view = *situation.environment.view;
-    const Senses& senses = situation.senses;
-    const glm::vec3 side = place::directionOf({-senses.heading.z, 0, senses.heading.x}, {0, 0, 1});
-    glm::vec3 flight{};
-    for (std::size_t i = 0; i < senses.predatorCount; ++i) {
-        const Sighting& predator = senses.predators[i];
-        const float squared =
-            std::max(predator.distance * predator.distance, kNearestSquaredMetres);
-        flight += awayFrom(predator.offset, view.heading(predator.object), side) / squared;
-    }
-    return place::directionOf(flight, {});
-}
-
-namespace {
 
 // Cone of suction before the mouth, in body lengths. It is as long as the way of a fish between two
 // thoughts, so that no particle in its path is missed.
@@ -132,36 +79,6 @@ bool cannotTurnTo(const Senses& senses, glm::vec3 fromMouth) {
     return place::dot(fromMouth, senses.heading) < kAsideCosine * distance ||
            std::abs(fromMouth.y) > 2 * kSteepest * distance;
 }
-
-}  // namespace
-
-bool isBeforeTheMouth(const Senses& senses, glm::vec3 offset) {
-    const glm::vec3 fromMouth = offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
-    const float distance = place::lengthOf(fromMouth) / senses.length;
-    return distance <= kAtTheLips ||
-           (distance <= kSuction &&
-            place::dot(fromMouth, senses.heading) >= kSuctionCosine * place::lengthOf(fromMouth));
-}
-
-fish::Course eat(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
-    assert(situation.senses.food.seen());
-    const Senses& senses = situation.senses;
-    const Sighting& food = senses.food;
-    const float slow = situation.parameters.slow;
-    if (isBeforeTheMouth(senses, food.offset))
-        events.push_back({fish::DeferredEventKind::EatParticle, situation.fish, food.object});
-    const glm::vec3 fromMouth =
-        food.offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
-    if (mind.stage == kApproach && cannotTurnTo(senses, fromMouth)) enter(mind, kRunUp);
-    const bool farEnough = food.distance > kRunUpLengths * senses.length;
-    if (mind.stage == kRunUp && (farEnough || mind.sinceStage > kRunUpTicks))
-        enter(mind, kApproach);
-    if (mind.stage == kRunUp)
-        return heading(situation, {senses.heading.x, 0, senses.heading.z}, slow);
-    return pursue(situation, fromMouth, situation.parameters.medium);
-}
-
-namespace {
 
 // A predator rushes from this distance, in body lengths, at prey ahead of it.
 constexpr float kRushFrom = 2.0F;
@@ -198,6 +115,77 @@ fish::Course stalk(const Situation& situation, fish::Mind& mind, const Sighting&
 }
 
 }  // namespace
+
+fish::Course pursue(const Situation& situation,
+                    glm::vec3 towards,
+                    float speed,
+                    glm::vec3 velocity) {
+    assert(speed >= 0);
+    const Senses& senses = situation.senses;
+    const float slow = situation.parameters.slow;
+    const glm::vec3 to = lead(situation, towards, speed, velocity);
+    const glm::vec3 direction = place::directionOf(to, senses.heading);
+    const float lengths = place::lengthOf(to) / senses.length;
+    const float along = place::dot(direction, senses.heading);
+    const float careful =
+        situation.environment.adaptation.earlierPursuit ? kEarlierWithin : kCarefulWithin;
+    if (lengths >= careful)
+        return heading(situation, along > kGeneralCosine ? senses.heading : direction, speed);
+    if (lengths < kTurnsWithin && along < kAbeamCosine)
+        return heading(situation, direction, kTurningPace * slow);
+    const float least = std::min(speed, kCarefulPace * slow);
+    // A target that swims away adds its own speed.
+    const float chase = std::max(0.0F, place::dot(velocity, direction)) / senses.length;
+    const float pace = least + (speed - least) * lengths / careful;
+    return heading(situation, direction, std::min(speed, pace + chase));
+}
+
+fish::Course heading(const Situation& situation, glm::vec3 desired, float speed) {
+    const Senses& senses = situation.senses;
+    const glm::vec3 direction =
+        place::levelled(place::directionOf(desired + wayRound(situation), senses.heading));
+    return {direction, speed, senses.urgency};
+}
+
+glm::vec3 flightFrom(const Situation& situation) {
+    const fish::FishView& view = *situation.environment.view;
+    const Senses& senses = situation.senses;
+    const glm::vec3 side = place::directionOf({-senses.heading.z, 0, senses.heading.x}, {0, 0, 1});
+    glm::vec3 flight{};
+    for (std::size_t i = 0; i < senses.predatorCount; ++i) {
+        const Sighting& predator = senses.predators[i];
+        const float squared =
+            std::max(predator.distance * predator.distance, kNearestSquaredMetres);
+        flight += awayFrom(predator.offset, view.heading(predator.object), side) / squared;
+    }
+    return place::directionOf(flight, {});
+}
+
+bool isBeforeTheMouth(const Senses& senses, glm::vec3 offset) {
+    const glm::vec3 fromMouth = offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
+    const float distance = place::lengthOf(fromMouth) / senses.length;
+    return distance <= kAtTheLips ||
+           (distance <= kSuction &&
+            place::dot(fromMouth, senses.heading) >= kSuctionCosine * place::lengthOf(fromMouth));
+}
+
+fish::Course eat(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
+    assert(situation.senses.food.seen());
+    const Senses& senses = situation.senses;
+    const Sighting& food = senses.food;
+    const float slow = situation.parameters.slow;
+    if (isBeforeTheMouth(senses, food.offset))
+        events.push_back({fish::DeferredEventKind::EatParticle, situation.fish, food.object});
+    const glm::vec3 fromMouth =
+        food.offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
+    if (mind.stage == kApproach && cannotTurnTo(senses, fromMouth)) enter(mind, kRunUp);
+    const bool farEnough = food.distance > kRunUpLengths * senses.length;
+    if (mind.stage == kRunUp && (farEnough || mind.sinceStage > kRunUpTicks))
+        enter(mind, kApproach);
+    if (mind.stage == kRunUp)
+        return heading(situation, {senses.heading.x, 0, senses.heading.z}, slow);
+    return pursue(situation, fromMouth, situation.parameters.medium);
+}
 
 fish::Course hunt(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
     assert(situation.senses.prey.seen());

@@ -21,11 +21,53 @@ int cellsAcross(float halfExtent, float cellMetres) {
     return std::max(1, static_cast<int>(2 * halfExtent / cellMetres) + 1);
 }
 
-std::size_t cellsIn(const SpatialGrid::Cell& cells) {
-    return std::size_t(cells.x) * std::size_t(cells.y) * std::size_t(cells.z);
+// Widths of cells of the sparse grids and of food: about how far they are searched.
+constexpr float kSparseCellMetres = 2.0F;
+constexpr float kFoodCellMetres = 0.8F;
+
+// Limit of the number of cells: a wide sea gets larger cells, as empty ones cost time and memory.
+std::size_t mostCellsFor(std::size_t points) {
+    constexpr std::size_t kFew = 4096;
+    constexpr std::size_t kToPoint = 4;
+    return std::max(kFew, points * kToPoint);
+}
+
+// A grid of points that are seen from so far that with small cells a search would pass many empty
+// ones: at most one cell for two points.
+SpatialGrid farSeen(const place::Region& water, std::size_t points) {
+    return {water, kSparseCellMetres, points, points / 2};
+}
+
+bool isPredator(const fish::FishView& view,
+                std::span<const fish::SpeciesParameters> speciesParameters,
+                std::size_t fish) {
+    return speciesParameters[view.kind[fish]].habits.role == config::Role::Predator;
+}
+
+// A block is 4 cells wide along each axis.
+constexpr int kBlockBits = 2;
+// Values of kindOfCell_ that are no kind: no fish, and fish of several kinds.
+constexpr std::uint8_t kEmpty = 0xff;
+constexpr std::uint8_t kMixed = 0xfe;
+
+int blocksAcross(int cells) {
+    return ((cells - 1) >> kBlockBits) + 1;
 }
 
 }  // namespace
+
+CellLayout::CellLayout(const place::Region& water, float cellMetres, std::size_t mostCells)
+    : origin_(water.centre - water.halfExtent), cellMetres_(cellMetres) {
+    assert(cellMetres > 0);
+    const auto cover = [&] {
+        cells_ = {cellsAcross(water.halfExtent.x, cellMetres_),
+                  cellsAcross(water.halfExtent.y, cellMetres_),
+                  cellsAcross(water.halfExtent.z, cellMetres_)};
+        return count();
+    };
+    while (cover() > std::max<std::size_t>(mostCells, 1)) cellMetres_ *= 1.25F;
+    cellsPerMetre_ = 1 / cellMetres_;
+}
 
 void SpatialGrid::Columns::resize(std::size_t points) {
     for (auto* values : {&x, &y, &z}) values->resize(points + kMostLanes);
@@ -40,24 +82,13 @@ SpatialGrid::SpatialGrid(const place::Region& water,
                          float cellMetres,
                          std::size_t most,
                          std::size_t mostCells)
-    : origin_(water.centre - water.halfExtent),
-      cellMetres_(cellMetres),
+    : layout_(water, cellMetres, mostCells),
+      starts_(layout_.count() + 1),
       cellOfPoint_(most),
       parts_(std::max<std::size_t>(1, (most + kPointsInPart - 1) / kPointsInPart)) {
-    assert(cellMetres > 0);
-    // Enlarges the cells in steps of 25 % until they are few enough.
-    const auto cover = [&] {
-        cells_ = {cellsAcross(water.halfExtent.x, cellMetres_),
-                  cellsAcross(water.halfExtent.y, cellMetres_),
-                  cellsAcross(water.halfExtent.z, cellMetres_)};
-        return cellsIn(cells_);
-    };
-    while (cover() > std::max<std::size_t>(mostCells, 1)) cellMetres_ *= 1.25F;
-    cellsPerMetre_ = 1 / cellMetres_;
-    starts_.resize(cellsIn(cells_) + 1);
     sorted_.resize(most);
     buckets_ = std::clamp<std::size_t>(most / kPointsInBucket, 1, kMostBuckets);
-    cellsInBucket_ = (cellsIn(cells_) + buckets_ - 1) / buckets_;
+    cellsInBucket_ = (layout_.count() + buckets_ - 1) / buckets_;
     bucketStarts_.resize(buckets_ + 1);
 }
 
@@ -71,7 +102,7 @@ void SpatialGrid::rebuild(const Points& points, std::span<const std::uint32_t> c
     assert(chosen.size() <= cellOfPoint_.size());
     std::fill(starts_.begin(), starts_.end(), 0U);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-        cellOfPoint_[i] = cellIndex(points[chosen[i]]);
+        cellOfPoint_[i] = layout_.indexOf(points[chosen[i]]);
         ++starts_[cellOfPoint_[i]];
     }
     // Running sums: each start becomes the end of its cell, and moves back as the cell is filled.
@@ -148,33 +179,6 @@ std::size_t SpatialGrid::bytes() const {
                                     bucketStarts_.size() + spreadCells_.size()) +
            sorted_.bytes() + spread_.bytes();
 }
-
-namespace {
-
-// Widths of cells of the sparse grids and of food: about how far they are searched.
-constexpr float kSparseCellMetres = 2.0F;
-constexpr float kFoodCellMetres = 0.8F;
-
-// Limit of the number of cells: a wide sea gets larger cells, as empty ones cost time and memory.
-std::size_t mostCellsFor(std::size_t points) {
-    constexpr std::size_t kFew = 4096;
-    constexpr std::size_t kToPoint = 4;
-    return std::max(kFew, points * kToPoint);
-}
-
-// A grid of points that are seen from so far that with small cells a search would pass many empty
-// ones: at most one cell for two points.
-SpatialGrid farSeen(const place::Region& water, std::size_t points) {
-    return {water, kSparseCellMetres, points, points / 2};
-}
-
-bool isPredator(const fish::FishView& view,
-                std::span<const fish::SpeciesParameters> speciesParameters,
-                std::size_t fish) {
-    return speciesParameters[view.kind[fish]].habits.role == config::Role::Predator;
-}
-
-}  // namespace
 
 Grids::Grids(const place::Region& water, std::size_t fishCount, std::size_t foodCount)
     : fish(water, kCellMetres, fishCount, mostCellsFor(fishCount)),
@@ -270,20 +274,6 @@ std::size_t Grids::bytes() const {
     return lists + fish.bytes() + kinds.bytes() + predators.bytes() + large.bytes() +
            mates.bytes() + food.bytes();
 }
-
-namespace {
-
-// A block is 4 cells wide along each axis.
-constexpr int kBlockBits = 2;
-// Values of kindOfCell_ that are no kind: no fish, and fish of several kinds.
-constexpr std::uint8_t kEmpty = 0xff;
-constexpr std::uint8_t kMixed = 0xfe;
-
-int blocksAcross(int cells) {
-    return ((cells - 1) >> kBlockBits) + 1;
-}
-
-}  // namespace
 
 KindsAbout::KindsAbout(const SpatialGrid& grid)
     : cells_(grid.cells()),

@@ -27,18 +27,74 @@ struct Points {
     std::size_t count = 0;
     std::size_t stride = 1;
 
+    // Position of point i.
     [[nodiscard]] glm::vec3 operator[](std::size_t i) const {
         return {x[i * stride], y[i * stride], z[i * stride]};
     }
+};
+
+// How a box of water is divided into cells, which lie row by row along x. Points outside the water
+// belong to the border cells.
+class CellLayout {
+  public:
+    // Place of a cell, or the number of cells, along each axis.
+    struct Cell {
+        int x, y, z;
+    };
+
+    // Cells are enlarged in steps of 25 % until there are at most `mostCells`.
+    CellLayout(const place::Region& water, float cellMetres, std::size_t mostCells);
+
+    // The number of cells along each axis.
+    [[nodiscard]] Cell cells() const { return cells_; }
+    // The number of all cells.
+    [[nodiscard]] std::size_t count() const { return rowOf(0, cells_.z); }
+    // Edge of a cell.
+    [[nodiscard]] float cellMetres() const { return cellMetres_; }
+    // The corner with the least coordinates, metres.
+    [[nodiscard]] glm::vec3 origin() const { return origin_; }
+    // A point in cells from the origin.
+    [[nodiscard]] glm::vec3 inCells(glm::vec3 point) const {
+        return (point - origin_) * cellsPerMetre_;
+    }
+    // A length in cells.
+    [[nodiscard]] float inCells(float metres) const { return metres * cellsPerMetre_; }
+    // The cell that a point belongs to.
+    [[nodiscard]] Cell cellOf(glm::vec3 point) const {
+        const glm::vec3 at = inCells(point);
+        return {clamped(at.x, cells_.x), clamped(at.y, cells_.y), clamped(at.z, cells_.z)};
+    }
+    // Index of the first cell of a row.
+    [[nodiscard]] std::size_t rowOf(int y, int z) const {
+        return (std::size_t(z) * std::size_t(cells_.y) + std::size_t(y)) * std::size_t(cells_.x);
+    }
+    // Index of the cell that a point belongs to.
+    [[nodiscard]] std::uint32_t indexOf(glm::vec3 point) const {
+        const Cell cell = cellOf(point);
+        return static_cast<std::uint32_t>(rowOf(cell.y, cell.z)) +
+               static_cast<std::uint32_t>(cell.x);
+    }
+    // The cell at a place along one axis of so many cells. Clamped: border cells extend outwards
+    // without end.
+    [[nodiscard]] static int clamped(float cell, int cells) {
+        return static_cast<int>(std::clamp(cell, 0.0F, static_cast<float>(cells - 1)));
+    }
+
+  private:
+    glm::vec3 origin_;
+    float cellMetres_;
+    float cellsPerMetre_ = 0;
+    Cell cells_{};
 };
 
 // The grid and a sorted copy of its points. rebuild() is one thread's work; the steps below it may
 // be shared out. While it is not rebuilt any number of threads may search it.
 class SpatialGrid {
   public:
+    using Cell = CellLayout::Cell;  // place of a cell
+
     // Room for `most` points. Points outside `water` are kept in the border cells and found all the
-    // same. Cells are enlarged until there are at most `mostCells`, so that a wide sea takes no
-    // more memory than its fish.
+    // same. The number of cells is limited, so that a wide sea takes no more memory than its fish.
     SpatialGrid(const place::Region& water,
                 float cellMetres,
                 std::size_t most,
@@ -48,12 +104,13 @@ class SpatialGrid {
     // stand in the order of their index. A counting sort: O(chosen + cells). Allocates nothing.
     void rebuild(const Points& points, std::span<const std::uint32_t> chosen);
 
-    // The same for many points, in steps: count() for every part, arrange(), spread() for every
-    // part, sort() for every bucket. The jobs of one step may run on several threads; the next step
-    // begins when all are done. A part is a run of indices, a bucket a run of cells. Both depend on
-    // `most` alone, so that any number of threads makes the same grid.
-    // Once, before the first step.
+    // Rebuilds the grid for many points, in steps: count() for every part, arrange(), spread() for
+    // every part, sort() for every bucket. The jobs of one step may run on several threads; the
+    // next step begins when all are done. A part is a run of indices, a bucket a run of cells. Both
+    // depend on `most` alone, so that any number of threads makes the same grid. Allocates what the
+    // steps need. Once, before the first step.
     void makeRoomForSteps();
+    // The number of parts and of buckets, and the first index of a part.
     [[nodiscard]] std::size_t parts() const { return parts_; }
     [[nodiscard]] std::size_t buckets() const { return buckets_; }
     [[nodiscard]] static std::size_t firstOfPart(std::size_t part) { return part * kPointsInPart; }
@@ -67,7 +124,7 @@ class SpatialGrid {
         std::fill_n(tally, buckets_, 0U);
         const std::size_t last = std::min(points.count, firstOfPart(part + 1));
         for (std::size_t i = firstOfPart(part); i < last; ++i) {
-            cellOfPoint_[i] = isThere(i) ? cellIndex(points[i]) : kNowhere;
+            cellOfPoint_[i] = isThere(i) ? layout_.indexOf(points[i]) : kNowhere;
             if (cellOfPoint_[i] != kNowhere) ++tally[cellOfPoint_[i] / cellsInBucket_];
         }
     }
@@ -88,25 +145,26 @@ class SpatialGrid {
     // reachSquared when it has found something: then the search ends sooner.
     template <class Visit>
     void visitAround(glm::vec3 point, const float& reachSquared, Visit&& visit) const {
-        const glm::vec3 at = (point - origin_) * cellsPerMetre_;  // in cells
+        const glm::vec3 at = layout_.inCells(point);
         const Cell centre = cellOf(point);
+        const Cell most = cells();
         const auto row = [&](int y, int z) {
-            if (y < 0 || y >= cells_.y || z < 0 || z >= cells_.z) return;
+            if (y < 0 || y >= most.y || z < 0 || z >= most.z) return;
             const float dy = outside(at.y, centre.y, y);
             const float dz = outside(at.z, centre.z, z);
             const float left =
-                reachSquared * kSlack - (dy * dy + dz * dz) * cellMetres_ * cellMetres_;
+                reachSquared * kSlack - (dy * dy + dz * dz) * cellMetres() * cellMetres();
             if (left < 0) return;
-            const float halfWidth = std::sqrt(left) * cellsPerMetre_;
-            const int first = clampedCell(at.x - halfWidth, cells_.x);
-            const int last = clampedCell(at.x + halfWidth, cells_.x);
+            const float halfWidth = layout_.inCells(std::sqrt(left));
+            const int first = CellLayout::clamped(at.x - halfWidth, most.x);
+            const int last = CellLayout::clamped(at.x + halfWidth, most.x);
             const Slots slots = slotsOf(first, last, y, z);
             if (slots.first < slots.last) visit(candidates(slots));
         };
         row(centre.y, centre.z);
-        const int cells = 1 + static_cast<int>(std::sqrt(reachSquared) * cellsPerMetre_);
+        const int cells = 1 + static_cast<int>(layout_.inCells(std::sqrt(reachSquared)));
         for (int ring = 1; ring <= cells; ++ring) {
-            const float nearest = static_cast<float>(ring - 1) * cellMetres_;
+            const float nearest = static_cast<float>(ring - 1) * cellMetres();
             if (nearest * nearest > reachSquared * kSlack) return;  // enough was found
             for (int i = -ring; i < ring;
                  ++i) {  // the four sides of a square, each without its end
@@ -118,36 +176,31 @@ class SpatialGrid {
         }
     }
 
+    // Memory in use.
     [[nodiscard]] std::size_t bytes() const;
 
-    // For searches that go over the cells themselves. The sorted points stand in slots; those of a
-    // row of cells along x follow one another. Behind the last slot a whole vector may be read.
-    struct Cell {
-        int x, y, z;
-    };
+    // For searches that go over the cells themselves. The sorted points stand in slots [first,
+    // last); those of a row of cells along x follow one another. Behind the last slot a whole
+    // vector may be read.
     struct Slots {
         std::uint32_t first, last;
     };
-    [[nodiscard]] Cell cellOf(glm::vec3 point) const {
-        const glm::vec3 at = (point - origin_) * cellsPerMetre_;
-        return {
-            clampedCell(at.x, cells_.x), clampedCell(at.y, cells_.y), clampedCell(at.z, cells_.z)};
-    }
-    [[nodiscard]] Cell cells() const { return cells_; }
-    [[nodiscard]] float cellMetres() const { return cellMetres_; }
-    [[nodiscard]] glm::vec3 origin() const { return origin_; }
-    // Index of the first cell of a row.
-    [[nodiscard]] std::size_t rowOf(int y, int z) const {
-        return (std::size_t(z) * std::size_t(cells_.y) + std::size_t(y)) * std::size_t(cells_.x);
-    }
+    // As in CellLayout.
+    [[nodiscard]] Cell cellOf(glm::vec3 point) const { return layout_.cellOf(point); }
+    [[nodiscard]] Cell cells() const { return layout_.cells(); }
+    [[nodiscard]] float cellMetres() const { return layout_.cellMetres(); }
+    [[nodiscard]] glm::vec3 origin() const { return layout_.origin(); }
+    [[nodiscard]] std::size_t rowOf(int y, int z) const { return layout_.rowOf(y, z); }
     // The slots of cells firstX to lastX, both included, of a row.
     [[nodiscard]] Slots slotsOf(int firstX, int lastX, int y, int z) const {
         const std::uint32_t* const starts = starts_.data() + rowOf(y, z);
         return {starts[firstX], starts[lastX + 1]};
     }
+    // Indices [first, last) of cells.
     struct CellRun {
         std::size_t first, last;
     };
+    // The cells of a bucket.
     [[nodiscard]] CellRun cellsOfBucket(std::size_t bucket) const {
         return {std::min(bucket * cellsInBucket_, starts_.size() - 1),
                 std::min((bucket + 1) * cellsInBucket_, starts_.size() - 1)};
@@ -159,6 +212,7 @@ class SpatialGrid {
     }
     // Number of points in the grid.
     [[nodiscard]] std::size_t size() const { return starts_.back(); }
+    // Columns of the sorted points, by slot.
     [[nodiscard]] const float* x() const { return sorted_.x.data(); }
     [[nodiscard]] const float* y() const { return sorted_.y.data(); }
     [[nodiscard]] const float* z() const { return sorted_.z.data(); }
@@ -185,31 +239,19 @@ class SpatialGrid {
     // Cell of a point that is not there.
     static constexpr std::uint32_t kNowhere = 0xffffffffU;
 
-    // Clamped: border cells extend outwards without end.
-    [[nodiscard]] static int clampedCell(float cell, int cells) {
-        return static_cast<int>(std::clamp(cell, 0.0F, static_cast<float>(cells - 1)));
-    }
     // Distance from a point in cell `own` to cell `other` along one axis, in cells.
     [[nodiscard]] static float outside(float at, int own, int other) {
         return other > own   ? static_cast<float>(other) - at
                : other < own ? at - static_cast<float>(other + 1)
                              : 0.0F;
     }
-    [[nodiscard]] std::uint32_t cellIndex(glm::vec3 point) const {
-        const Cell cell = cellOf(point);
-        return static_cast<std::uint32_t>(rowOf(cell.y, cell.z)) +
-               static_cast<std::uint32_t>(cell.x);
-    }
     [[nodiscard]] Candidates candidates(const Slots& slots) const;
 
-    glm::vec3 origin_{};
-    float cellMetres_;
-    float cellsPerMetre_ = 0;
-    Cell cells_{};
+    CellLayout layout_;
     std::vector<std::uint32_t> starts_;       // first slot of each cell; one more at the end
     std::vector<std::uint32_t> cellOfPoint_;  // by index; by place where the points are chosen
     Columns sorted_;
-    // Of the steps. tallies_ has for each part and bucket first the number of points, then the
+    // Data of the steps. tallies_ has for each part and bucket first the number of points, then the
     // place of the next one; bucketStarts_ the first slot of each bucket; spread_ the points by
     // bucket.
     std::size_t parts_, buckets_ = 1, cellsInBucket_ = 1;
@@ -218,15 +260,14 @@ class SpatialGrid {
     std::vector<std::uint32_t> spreadCells_;
 };
 
-// Which species are in each cell of the grid of all fish. A fish in a school of its own species, as
-// most are, then skips the search for others.
-
-// Exact for each cell; for blocks of 4 x 4 x 4 cells as a set of kinds.
+// Which species are in each cell of the grid of all fish, and in each block of 4 x 4 x 4 cells. A
+// fish in a school of its own species, as most are, then skips the search for others.
 class KindsAbout {
   public:
+    // For the cells of a grid; no kind is noted.
     explicit KindsAbout(const SpatialGrid& grid);
 
-    // Before the first note() of a tick.
+    // Forgets all kinds. Before the first note() of a tick.
     void clear();
     // Notes the kinds of the fish of a bucket, once it is sorted. `kinds` is by fish, below 64.
     // Several threads may note different buckets.
@@ -240,6 +281,7 @@ class KindsAbout {
     // The same, exact, for a run of cells [first, last] by their index in the whole grid.
     [[nodiscard]] bool rowHoldsOthers(std::size_t first, std::size_t last, std::uint8_t own) const;
 
+    // Memory in use.
     [[nodiscard]] std::size_t bytes() const;
 
   private:
@@ -251,13 +293,12 @@ class KindsAbout {
     std::vector<std::uint64_t> kindsOfBlock_;  // a bit for each kind
 };
 
-// The grids of a world: all fish in a fine grid; predators, large bodies, willing mates and food in
-// sparse grids of their own.
-
 // A fish of this length or more is a large body: it hides others and is felt from afar.
 inline constexpr float kLargeBodyMetres = 0.6F;
 
-// Owned by the world and rebuilt at each tick; constant while fish think.
+// The grids of a world: all fish in a fine grid; predators, large bodies, willing mates and food in
+// sparse grids of their own. Owned by the world and rebuilt at each tick; constant while fish
+// think.
 class Grids {
   public:
     // Room for so many fish and particles of food.
@@ -311,6 +352,7 @@ class Grids {
         });
     }
 
+    // Memory in use.
     [[nodiscard]] std::size_t bytes() const;
 
     SpatialGrid fish;

@@ -72,6 +72,43 @@ glm::vec3 passGoal(const Environment& environment, glm::vec3 position, glm::vec3
     return through ? position + course * (2 * environment.schoolRadiusMetres) : ball;
 }
 
+// A pace lasts 5 s; a turn may begin it and lasts 1 s.
+constexpr std::uint64_t kTicksOfPace = std::uint64_t{5} * 60;
+constexpr std::uint64_t kTicksOfTurn = 60;
+// Share of paces that begin with a random turn.
+constexpr float kTurns = 0.35F;
+// Share of the slow gait at which a fish hovers.
+constexpr float kHoverPace = 0.15F;
+
+// Weights against the unit vector of the present course.
+constexpr float kKeepCourse = 1.0F;
+constexpr float kGo = 0.7F;
+// Added to kGo when the fish is at its leash.
+constexpr float kGoHome = 2.0F;
+constexpr float kTurn = 1.5F;
+
+// The random number of a pace, and the ticks since it began.
+struct Spell {
+    std::uint32_t hash;
+    std::uint64_t ticks;
+};
+Spell spellOf(std::uint32_t seed, std::uint32_t fish, Tick tick) {
+    const std::uint32_t own = hashOf(hashOf(seed, Stream::Pace), fish);
+    const std::uint64_t now = tick.value + own % kTicksOfPace;
+    return {hashOf(own, static_cast<std::uint32_t>(now / kTicksOfPace)), now % kTicksOfPace};
+}
+
+// A random turn: 40 degrees if gradual, 100 if sharp, to either side. Zero where there is none now.
+glm::vec3 turnOf(const fish::SpeciesParameters& parameters, const Spell& spell, glm::vec3 course) {
+    const std::uint32_t hash = hashOf(spell.hash, Stream::WanderTurn);
+    if (spell.ticks >= kTicksOfTurn || unitOf(hash) >= kTurns) return {};
+    const bool gradual = unitOf(hashOf(spell.hash, Stream::TurnSharpness)) <
+                         static_cast<float>(parameters.habits.gradualShare);
+    const float cosine = gradual ? 0.766F : -0.174F;
+    const float sine = (gradual ? 0.643F : 0.985F) * ((hash & 1U) != 0 ? 1.0F : -1.0F);
+    return {course.x * cosine - course.z * sine, 0, course.x * sine + course.z * cosine};
+}
+
 }  // namespace
 
 glm::vec3 wanderingGoal(std::uint32_t seed,
@@ -154,47 +191,6 @@ Bound boundFor(const Environment& environment,
     const float strayed = std::clamp((away - radius) / std::max(leash - radius, 0.01F), 0.0F, 1.0F);
     return {middle + share * (0.6F * radius) - position, strayed};
 }
-
-namespace {
-
-// A pace lasts 5 s; a turn may begin it and lasts 1 s.
-constexpr std::uint64_t kTicksOfPace = std::uint64_t{5} * 60;
-constexpr std::uint64_t kTicksOfTurn = 60;
-// Share of paces that begin with a random turn.
-constexpr float kTurns = 0.35F;
-// Share of the slow gait at which a fish hovers.
-constexpr float kHoverPace = 0.15F;
-
-// Weights against the unit vector of the present course.
-constexpr float kKeepCourse = 1.0F;
-constexpr float kGo = 0.7F;
-// Added to kGo when the fish is at its leash.
-constexpr float kGoHome = 2.0F;
-constexpr float kTurn = 1.5F;
-
-// The random number of a pace, and the ticks since it began.
-struct Spell {
-    std::uint32_t hash;
-    std::uint64_t ticks;
-};
-Spell spellOf(std::uint32_t seed, std::uint32_t fish, Tick tick) {
-    const std::uint32_t own = hashOf(hashOf(seed, Stream::Pace), fish);
-    const std::uint64_t now = tick.value + own % kTicksOfPace;
-    return {hashOf(own, static_cast<std::uint32_t>(now / kTicksOfPace)), now % kTicksOfPace};
-}
-
-// A random turn: 40 degrees if gradual, 100 if sharp, to either side. Zero where there is none now.
-glm::vec3 turnOf(const fish::SpeciesParameters& parameters, const Spell& spell, glm::vec3 course) {
-    const std::uint32_t hash = hashOf(spell.hash, Stream::WanderTurn);
-    if (spell.ticks >= kTicksOfTurn || unitOf(hash) >= kTurns) return {};
-    const bool gradual = unitOf(hashOf(spell.hash, Stream::TurnSharpness)) <
-                         static_cast<float>(parameters.habits.gradualShare);
-    const float cosine = gradual ? 0.766F : -0.174F;
-    const float sine = (gradual ? 0.643F : 0.985F) * ((hash & 1U) != 0 ? 1.0F : -1.0F);
-    return {course.x * cosine - course.z * sine, 0, course.x * sine + course.z * cosine};
-}
-
-}  // namespace
 
 float paceOf(const fish::SpeciesParameters& parameters,
              std::uint32_t seed,

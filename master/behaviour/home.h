@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a fish at ease goes: around its home, along its beat, or through all its water.
+// The destinations of a fish at ease: around its home, along its beat, or in all its water.
 #pragma once
 
 #include <cstddef>
@@ -41,14 +41,15 @@ namespace aquarama::behaviour {
                                  std::uint32_t fish,
                                  glm::vec3 position);
 
-// Where a fish at ease is going.
+// The destination of a fish at ease.
 struct Bound {
-    // From the fish to the point, metres.
+    // Offset from the fish to the point, metres.
     glm::vec3 towards{};
     // 0 within the range of its home, 1 at its greatest distance (leash) and beyond.
     float strayed = 0;
 };
-// By the home or role of the species; a predator without a home patrols its beat.
+// Chooses the destination by the home or role of the species; a predator without a home patrols its
+// beat.
 [[nodiscard]] Bound boundFor(const Environment& environment,
                              const fish::SpeciesParameters& parameters,
                              std::uint32_t fish,

@@ -220,6 +220,17 @@ void applyRules(const Case& of, const IsEnough& isEnough) {
     isEnough(PriorityRule::Ease, Weighed{});
 }
 
+// Urgency up to which another pattern is allowed.
+constexpr float kCalm = 0.15F;
+// Beyond this distance a fish only swims in the direction of its food.
+constexpr float kMealIsFarBodyLengths = 6.0F;
+
+bool isFarFromMeal(const fish::SpeciesParameters& parameters, const Senses& senses) {
+    const Sighting& meal =
+        parameters.habits.role == config::Role::Predator ? senses.prey : senses.food;
+    return meal.distance > kMealIsFarBodyLengths * senses.length;
+}
+
 }  // namespace
 
 Decision decide(const fish::SpeciesParameters& parameters,
@@ -287,21 +298,6 @@ void remember(fish::Mind& mind, const Decision& decision) {
     const bool chases = after.intention == fish::Intention::Eat;
     if (chased != chases) mind.sinceChase = 0;
 }
-
-namespace {
-
-// Urgency up to which another pattern is allowed.
-constexpr float kCalm = 0.15F;
-// Beyond this distance a fish only swims in the direction of its food.
-constexpr float kMealIsFarBodyLengths = 6.0F;
-
-bool isFarFromMeal(const fish::SpeciesParameters& parameters, const Senses& senses) {
-    const Sighting& meal =
-        parameters.habits.role == config::Role::Predator ? senses.prey : senses.food;
-    return meal.distance > kMealIsFarBodyLengths * senses.length;
-}
-
-}  // namespace
 
 bool acceptsRecommendation(const fish::SpeciesParameters& parameters,
                            const fish::Mind& mind,

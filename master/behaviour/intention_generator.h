@@ -50,7 +50,7 @@ enum class PriorityRule : std::uint8_t {
 };
 inline constexpr std::size_t kPriorityRules = 9;
 
-// What became of a rule.
+// The verdict on a rule.
 enum class Verdict : std::uint8_t {
     Wins,
     Outranked,      // would have won, but a rule before it did
@@ -72,7 +72,7 @@ struct Weighed {
     fish::Intention intention = fish::Intention::Wander;
     std::uint32_t target = fish::kNobody;
     Verdict verdict = Verdict::Wins;
-    // What was compared. Obstacle: urgency. OtherFish: share of the other body in the box. Fear,
+    // The compared value. Obstacle: urgency. OtherFish: share of the other body in the box. Fear,
     // Hunger, Libido: the feeling. Memory: seconds since the interruption. Climate:
     // Senses::discomfort.
     float value = 0;

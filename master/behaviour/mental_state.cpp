@@ -44,6 +44,13 @@ float fearOf(const fish::SpeciesParameters& parameters, const Sighting& predator
     return heeded * std::min(parameters.habits.fearMetres / predator.distance, 1.0F);
 }
 
+constexpr float kTicks = static_cast<float>(kTicksPerSecond);
+
+// A number of 0 to 1 for one fish and stream.
+float share(std::uint32_t seed, std::uint32_t fish, Stream draw) {
+    return unitOf(hashOf(hashOf(hashOf(seed, draw), fish)));
+}
+
 }  // namespace
 
 fish::Feelings feel(const fish::SpeciesParameters& parameters,
@@ -59,17 +66,6 @@ fish::Feelings feel(const fish::SpeciesParameters& parameters,
     }
     return feelings;
 }
-
-namespace {
-
-constexpr float kTicks = static_cast<float>(kTicksPerSecond);
-
-// A number of 0 to 1 for one fish and stream.
-float share(std::uint32_t seed, std::uint32_t fish, Stream draw) {
-    return unitOf(hashOf(hashOf(hashOf(seed, draw), fish)));
-}
-
-}  // namespace
 
 std::uint8_t likesOf(const fish::SpeciesParameters& parameters,
                      std::uint32_t seed,

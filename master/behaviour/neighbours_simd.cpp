@@ -132,7 +132,7 @@ struct Steps {
     std::size_t count = 0;
 };
 
-// What the search for one fish compares with, in all lanes.
+// The values of the searching fish, in all lanes.
 struct Search {
     const SpatialGrid* grid;
     glm::vec3 place;
@@ -305,7 +305,8 @@ HWY_INLINE Neighbours nearestOfKind(const Search& search) {
     // Share of the wanted reach that the block must cover: half of the volume.
     constexpr float kEnough = 0.8F;
     constexpr float kFarther = 1.5F;
-    // In a dense school the reach is short, and most of the 27 cells would be tested in vain.
+    // In a dense school the reach is short, and most of the 27 cells would be tested without
+    // result.
     constexpr float kFewOfACell = 0.7F;
     const auto everyRow = [](int, int, int, int) { return true; };
     Kept kept;

@@ -22,9 +22,9 @@ constexpr float kReachSeconds = 2.2F;
 constexpr float kReachMetres = 0.4F;
 // A submarine that approaches counts as larger by its way in this time.
 constexpr float kBowWaveSeconds = 1.5F;
-// For so long the submarine is taken to go on; a fish turns aside in two to four seconds.
+// Time for which the submarine is assumed to continue; a fish turns aside in two to four seconds.
 constexpr float kSubmarineSeconds = 3.0F;
-// By the push of the submarine: half a push is enough for the greatest haste.
+// Urgency for each unit of the submarine's push: half a push gives the greatest urgency.
 constexpr float kHurry = 2.0F;
 
 // b1 and b2 of the cost of a prey: schooling and turning make it costlier (Tu & Terzopoulos 1994).
@@ -252,7 +252,7 @@ bool isWorthLeaving(const Onlooker& onlooker, std::uint32_t particle, float dist
            distance < kDartBodyLengths * onlooker.senses.length;
 }
 
-// In body lengths: added cost of a particle straight behind, for which the fish has to turn round.
+// Added cost, in body lengths, of a particle straight behind, for which the fish has to turn round.
 constexpr float kComeAboutBodyLengths = 2;
 
 // Distance, and by the angle from the mouth the cost of turning.
@@ -366,32 +366,6 @@ void feelSurroundings(const Environment& environment,
     senses.submarineMetres = place::lengthOf(submarine.position - senses.position);
 }
 
-}  // namespace
-
-Senses perceive(const Environment& environment,
-                const fish::SpeciesParameters& parameters,
-                std::uint32_t fish,
-                const fish::Mind& mind) {
-    assert(environment.view != nullptr);
-    assert(environment.grids != nullptr);
-    assert(environment.surroundings != nullptr);
-    assert(fish < environment.view->size());
-    Senses senses;
-    feelItself(*environment.view, fish, senses);
-    const Onlooker onlooker{environment, parameters, fish, mind, senses};
-    seeNeighbours(onlooker);
-    seePredators(onlooker);
-    seePrey(onlooker);
-    senseFood(onlooker);
-    seeMate(onlooker);
-    feelSurroundings(environment, parameters, senses);
-    feelClimate(*environment.surroundings, parameters, mind.likes, senses);
-    feelCollision(environment, parameters, fish, mind, senses);
-    return senses;
-}
-
-namespace {
-
 // A temperature difference that weighs as much as all the light.
 constexpr float kDegreesOfComfort = 10;
 // A smaller difference between two places moves no fish.
@@ -425,7 +399,33 @@ float lackOf(fish::Like habit, const config::Habits& habits, const Ambient& ambi
     }
 }
 
+// Factors for a mate that courts another, and for any other one when the courtship is answered.
+constexpr float kTakenDearness = 1.5F;
+constexpr float kDevotion = 3;
+
 }  // namespace
+
+Senses perceive(const Environment& environment,
+                const fish::SpeciesParameters& parameters,
+                std::uint32_t fish,
+                const fish::Mind& mind) {
+    assert(environment.view != nullptr);
+    assert(environment.grids != nullptr);
+    assert(environment.surroundings != nullptr);
+    assert(fish < environment.view->size());
+    Senses senses;
+    feelItself(*environment.view, fish, senses);
+    const Onlooker onlooker{environment, parameters, fish, mind, senses};
+    seeNeighbours(onlooker);
+    seePredators(onlooker);
+    seePrey(onlooker);
+    senseFood(onlooker);
+    seeMate(onlooker);
+    feelSurroundings(environment, parameters, senses);
+    feelClimate(*environment.surroundings, parameters, mind.likes, senses);
+    feelCollision(environment, parameters, fish, mind, senses);
+    return senses;
+}
 
 void feelClimate(const surroundings::Surroundings& around,
                  const fish::SpeciesParameters& parameters,
@@ -453,14 +453,6 @@ void feelClimate(const surroundings::Surroundings& around,
     const float best = std::min(atTop, atBottom);
     if (senses.discomfort - best > kNoticeable) senses.betterUp = atTop < atBottom ? 1.0F : -1.0F;
 }
-
-namespace {
-
-// Factors for a mate that courts another, and for any other one when the courtship is answered.
-constexpr float kTakenDearness = 1.5F;
-constexpr float kDevotion = 3;
-
-}  // namespace
 
 bool suitsAsMate(const fish::FishView& view,
                  std::uint8_t likes,

@@ -26,7 +26,7 @@ struct Environment {
     const fish::FishView* view = nullptr;
     const Grids* grids = nullptr;
     const surroundings::Surroundings* surroundings = nullptr;
-    // By FishView::kind.
+    // Parameters of species, by FishView::kind.
     std::span<const fish::SpeciesParameters> speciesParameters;
     config::Gathering gathering = config::Gathering::None;
     // Goal and radius of the school, where the scene has it gather.
@@ -68,16 +68,17 @@ inline constexpr float kLibidoStimulus = 0.5F;  // a_l
     return (1 + stimulus) / (q1 + stimulus * (2 * q2 - q1));
 }
 
-// What one fish perceives at one thought (Tu 1996, chapter 4; docs/minds.md). World frame, metres.
+// The perception of one fish at one thought (Tu 1996, chapter 4; docs/minds.md). World frame,
+// metres.
 
 // An object that a fish perceives; nothing is seen by default.
 struct Sighting {
     // A fish, or a particle of food.
     std::uint32_t object = fish::kNobody;
-    // From the origin of the body frame.
+    // Offset from the origin of the body frame.
     glm::vec3 offset{};
     float distance = std::numeric_limits<float>::infinity();
-    // Of a predator: whether it is after somebody.
+    // For a predator: whether it pursues a fish.
     bool hunting = false;
     [[nodiscard]] bool seen() const { return object != fish::kNobody; }
 };
@@ -121,7 +122,7 @@ struct Senses {
     // How far light or temperature is outside what its habits like; 1 is all the light, or ten
     // degrees. Below 0 it is at ease.
     float discomfort = -1;
-    // Where its habits are better met: 1 up, -1 down, 0 nowhere in its water.
+    // The direction in which its habits are met better: 1 up, -1 down, 0 nowhere in its water.
     float betterUp = 0;
 };
 

@@ -91,7 +91,7 @@ enum class HuntStage : std::uint8_t { Stalk, Rush };
 // middle. Without levels all would mill in one flat ring.
 [[nodiscard]] float levelInBall(std::uint32_t seed, std::uint32_t fish);
 
-// What a fish does at ease, by its Habits: its paces, home and partner, and random turns.
+// The routine of a fish at ease, by its Habits: its paces, home and partner, and random turns.
 [[nodiscard]] fish::Course wander(const Situation& situation);
 // The pace of a fish at ease, drawn by the shares of Habits::paces; a new one every five seconds.
 [[nodiscard]] float paceOf(const fish::SpeciesParameters& parameters,

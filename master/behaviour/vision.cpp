@@ -60,52 +60,6 @@ bool bodiesHide(const Environment& environment,
     return hidden;
 }
 
-}  // namespace
-
-float conspicuousness(float lengthMetres) {
-    return std::clamp(lengthMetres / kLargeBodyMetres, 1.0F, kMostConspicuous);
-}
-
-float sightMetres(const fish::SpeciesParameters& parameters,
-                  float lengthMetres,
-                  float conspicuous,
-                  float clarityMetres) {
-    return std::min(parameters.habits.visionBodyLengths * lengthMetres * conspicuous,
-                    clarityMetres);
-}
-
-bool SightLine::passes(glm::vec3 centre, float radius) const {
-    const glm::vec3 to = centre - from;
-    const float squared = std::max(place::dot(offset, offset), 1.0e-6F);
-    const float along = std::clamp(place::dot(to, offset) / squared, 0.0F, 1.0F);
-    const glm::vec3 miss = to - offset * along;
-    return place::dot(miss, miss) < radius * radius;
-}
-
-bool terrainHides(const surroundings::Obstacles& obstacles, const SightLine& ray) {
-    return rocksHide(obstacles, ray) || sandHides(obstacles, ray);
-}
-
-bool bodyHides(const fish::FishView& view, std::uint32_t body, const SightLine& ray) {
-    const glm::vec3 middle = view.position(body);
-    const float length = view.fish[body].length;
-    if (!ray.passes(middle, length)) return false;
-    for (const float place : kTrunk)
-        if (ray.passes(middle + view.heading(body) * (place * length), kTrunkRadius * length))
-            return true;
-    return false;
-}
-
-bool isHidden(const Environment& environment,
-              std::uint32_t fish,
-              std::uint32_t object,
-              const SightLine& ray) {
-    return terrainHides(environment.surroundings->obstacles, ray) ||
-           bodiesHide(environment, fish, object, ray);
-}
-
-namespace {
-
 // The body frame's origin is at this share of the length behind the nose.
 constexpr float kNoseAhead = 0.385F;
 constexpr float kTailBehind = 1 - kNoseAhead;
@@ -253,6 +207,48 @@ void heedLargeBodies(Watch& watch, std::uint32_t fish) {
 }
 
 }  // namespace
+
+float conspicuousness(float lengthMetres) {
+    return std::clamp(lengthMetres / kLargeBodyMetres, 1.0F, kMostConspicuous);
+}
+
+float sightMetres(const fish::SpeciesParameters& parameters,
+                  float lengthMetres,
+                  float conspicuous,
+                  float clarityMetres) {
+    return std::min(parameters.habits.visionBodyLengths * lengthMetres * conspicuous,
+                    clarityMetres);
+}
+
+bool SightLine::passes(glm::vec3 centre, float radius) const {
+    const glm::vec3 to = centre - from;
+    const float squared = std::max(place::dot(offset, offset), 1.0e-6F);
+    const float along = std::clamp(place::dot(to, offset) / squared, 0.0F, 1.0F);
+    const glm::vec3 miss = to - offset * along;
+    return place::dot(miss, miss) < radius * radius;
+}
+
+bool terrainHides(const surroundings::Obstacles& obstacles, const SightLine& ray) {
+    return rocksHide(obstacles, ray) || sandHides(obstacles, ray);
+}
+
+bool bodyHides(const fish::FishView& view, std::uint32_t body, const SightLine& ray) {
+    const glm::vec3 middle = view.position(body);
+    const float length = view.fish[body].length;
+    if (!ray.passes(middle, length)) return false;
+    for (const float place : kTrunk)
+        if (ray.passes(middle + view.heading(body) * (place * length), kTrunkRadius * length))
+            return true;
+    return false;
+}
+
+bool isHidden(const Environment& environment,
+              std::uint32_t fish,
+              std::uint32_t object,
+              const SightLine& ray) {
+    return terrainHides(environment.surroundings->obstacles, ray) ||
+           bodiesHide(environment, fish, object, ray);
+}
 
 float shareInside(const Box& box, glm::vec3 nose, glm::vec3 tail) {
     if (std::min(nose.x, tail.x) > box.ahead || std::max(nose.x, tail.x) < -box.behind) return 0;

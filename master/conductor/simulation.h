@@ -30,10 +30,10 @@ class Simulation {
   public:
     virtual ~Simulation() = default;
     virtual void advance() = 0;  // by one tick
-    // Between two ticks. Whatever reaches the world from outside comes this way.
+    // Applies an input between two ticks: the only way in which the world is changed from outside.
     virtual void apply(const world::WorldInput& input) = 0;
     [[nodiscard]] virtual Tick tick() const = 0;
-    // Of all that the next tick depends on.
+    // Hash of all that the next tick depends on.
     [[nodiscard]] virtual std::uint64_t hash() const = 0;
     [[nodiscard]] virtual Snapshot snapshot() const = 0;
     // What goes on in the mind of a fish, as lines of printable ASCII within the bounds of

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What fish know of one another: the parameters of a species, and the view of all fish at the start
-// of a tick. World frame, metres.
+// The knowledge of fish about one another: the parameters of a species, and the view of all fish at
+// the start of a tick. World frame, metres.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/base/digest.h"
 #include "common/base/units.h"
 #include "common/config/species.h"
 
@@ -27,13 +28,13 @@ struct SpeciesParameters {
     std::uint64_t shadows = 0;
     // Speeds of the three forward gaits of its repertoire, in body lengths a second.
     float slow = 1, medium = 2, fast = 3;
-    // In which it turns by a right angle with sharp turns.
+    // Seconds in which sharp turns add up to a right angle.
     float turnSeconds = 1;
     config::Habits habits;
 };
 
-// What fish can see of one another at the start of a tick. The world writes it before the fish
-// think; while they think it is constant, so that all threads may read it.
+// The visible data of a fish at the start of a tick. The world writes it before the fish think;
+// while they think it is constant, so that all threads may read it.
 
 // Index that stands for no fish, or no particle of food.
 inline constexpr std::uint32_t kNobody = 0xffffffffU;
@@ -80,6 +81,8 @@ struct FishView {
         partner.resize(count, kNobody);
         stage.resize(count);
     }
+    // Memory in use.
+    [[nodiscard]] std::size_t bytes() const { return bytesIn(fish, kind, signs, partner, stage); }
     [[nodiscard]] std::size_t size() const { return fish.size(); }
     [[nodiscard]] glm::vec3 position(std::size_t i) const { return fish[i].position; }
     [[nodiscard]] glm::vec3 heading(std::size_t i) const { return fish[i].heading; }

@@ -55,6 +55,19 @@ float undigested(const SpeciesParameters& parameters, const Mind& mind) {
     return std::max(0.0F, 1 - parameters.habits.digestionPerSecond * seconds(mind.sinceMeal));
 }
 
+// Whether the fish shows that it is willing: it courts already, or its inner libido is high.
+bool wouldMate(const SpeciesParameters& parameters, const Mind& mind, Intention aim) {
+    if (!mates(parameters)) return false;
+    return aim == Intention::Mate ||
+           innerLibido(parameters, mind, innerHunger(parameters, mind)) > kDesire;
+}
+
+// The signs that every species has. Prey, which neither mates nor hunts, has no others.
+unsigned moodOf(std::uint8_t likes, Intention aim) {
+    return ((likes & kIsFemale) != 0 ? unsigned{kFemale} : 0U) |
+           (aim == Intention::School ? unsigned{kSchooling} : 0U);
+}
+
 }  // namespace
 
 float innerHunger(const SpeciesParameters& parameters, const Mind& mind) {
@@ -104,23 +117,6 @@ void setMood(const SpeciesParameters& parameters, float hunger, float libido, Mi
     const float growth = parameters.habits.libidoPerSecond * std::max(1 - hunger, 0.0F);
     mind.sinceSpawning = growth > 0 ? ticksOf(libido / growth) : 0;
 }
-
-namespace {
-
-// Whether the fish shows that it is willing: it courts already, or its inner libido is high.
-bool wouldMate(const SpeciesParameters& parameters, const Mind& mind, Intention aim) {
-    if (!mates(parameters)) return false;
-    return aim == Intention::Mate ||
-           innerLibido(parameters, mind, innerHunger(parameters, mind)) > kDesire;
-}
-
-// The signs that every species has. Prey, which neither mates nor hunts, has no others.
-unsigned moodOf(std::uint8_t likes, Intention aim) {
-    return ((likes & kIsFemale) != 0 ? unsigned{kFemale} : 0U) |
-           (aim == Intention::School ? unsigned{kSchooling} : 0U);
-}
-
-}  // namespace
 
 void showMood(const SpeciesParameters& parameters,
               const Minds& minds,

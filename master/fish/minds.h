@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each fish remembers from one thought to the next, its drives, and the events by which it
+// The memory of each fish from one thought to the next, its drives, and the events by which it
 // changes other fish or the food.
 #pragma once
 
@@ -84,7 +84,7 @@ enum Like : std::uint8_t {
            (intention == Intention::School && alarm == Alarm::Together);
 }
 
-// What a fish pursues: a routine and its target.
+// The aim of a fish: a routine and its target.
 struct Aim {
     Intention intention = Intention::Wander;
     std::uint32_t target = kNobody;
@@ -101,6 +101,7 @@ struct Aim {
 // whole of one mind.
 class Minds {
   public:
+    // These work as in a vector with one mind for each fish.
     void resize(std::size_t fish) { minds_.resize(fish); }
     [[nodiscard]] std::size_t size() const { return minds_.size(); }
     [[nodiscard]] const Mind& operator[](std::size_t fish) const { return minds_[fish]; }
@@ -134,7 +135,7 @@ struct Feelings {
     float hunger = 0, libido = 0;
     // The sum over all predators in sight.
     float fear = 0;
-    // Of the most dangerous predator alone.
+    // Fear of the most dangerous predator alone.
     float greatestFear = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "common/base/digest.h"
 #include "common/base/random_streams.h"
 #include "common/base/units.h"
 #include "common/place/place.h"
@@ -134,7 +135,7 @@ motion::Action gaitFor(const Gaits& gaits, float speed, motion::Action present) 
 
 }  // namespace
 
-// What one fish wants and does at its decision.
+// The wishes and motion of one fish at its decision.
 struct SecondaryController::Moment {
     // Segment that was commanded last.
     motion::Action present;
@@ -224,8 +225,7 @@ float levelFor(float wanted, float present, float level) {
     return std::round(wanted / level) * level;
 }
 
-// What is added to the yaw that the chosen segment has by itself, in units of
-// MotorCommands::yawRate.
+// The yaw added to that of the chosen segment, in units of MotorCommands::yawRate.
 std::int16_t yawRateFor(const Gaits& gaits,
                         const Moment& moment,
                         motion::Action chosen,
@@ -272,6 +272,10 @@ void ControllerMemory::resize(std::size_t fish) {
     chosenAt.resize(fish);
     heldUntil.resize(fish);
     patience.resize(fish);
+}
+
+std::size_t ControllerMemory::bytes() const {
+    return bytesIn(chosenAt, heldUntil, patience);
 }
 
 float tempoOf(std::uint32_t seed, std::size_t fish) {

@@ -25,8 +25,8 @@ inline constexpr std::uint64_t kTicksBetweenThoughts = 8;
     return (tick.value + fish) % kTicksBetweenThoughts == 0;
 }
 
-// What a mind asks of its motor: direction, speed and urgency (the motor controller parameters of
-// the paper, section 5.1). Written at every thought, kept until the next.
+// The course that a mind asks of its motor: direction, speed and urgency (the motor controller
+// parameters of the paper, section 5.1). Written at every thought, kept until the next.
 struct Course {
     glm::vec3 direction{1, 0, 0};  // unit vector
     // Body lengths a second. Below a quarter of the slow gait's speed the fish hovers; a negative
@@ -44,7 +44,6 @@ using Courses = std::vector<Course>;
 
 // Three changes of the mind that make up for a motor weaker than the biomechanical fish (paper,
 // sections 5.1 and 5.2). All are on in a show; the study switches them off to measure their effect.
-
 struct Adaptation {
     bool recommendations = true;  // another swim pattern when one was pursued for too long
     bool enlargedRegions = true;  // collision threats are felt from farther off
@@ -68,8 +67,8 @@ struct Gaits {
 
 // The controller and its memory.
 
-// What the controller remembers of each fish from one decision to the next. Owned by the world; a
-// thread writes only the elements of the fish that it controls.
+// The controller's memory of each fish from one decision to the next. Owned by the world; a thread
+// writes only the elements of the fish that it controls.
 struct ControllerMemory {
     // Tick at which the present segment was chosen.
     std::vector<std::uint64_t> chosenAt;
@@ -78,7 +77,10 @@ struct ControllerMemory {
     // Ticks of one segment after which another is recommended.
     std::vector<std::uint16_t> patience;
 
+    // Gives each of so many fish an element of every column.
     void resize(std::size_t fish);
+    // Memory in use.
+    [[nodiscard]] std::size_t bytes() const;
 };
 
 // Initial commands of fish [first, last): medium forward gait, straight on; draws the patience of

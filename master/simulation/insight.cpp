@@ -52,14 +52,14 @@ double seconds(std::uint32_t ticks) {
     return static_cast<double>(ticks) / kTicksPerSecond;
 }
 
-// Indexed by Intention.
+// Words for intentions, indexed by Intention.
 const char* wordFor(fish::Intention intention) {
     constexpr std::array<const char*, fish::kIntentions> kWords{
         "wander", "leave", "school", "eat", "mate", "escape", "avoid fish", "avoid obstacle"};
     return kWords[static_cast<std::size_t>(intention)];
 }
 
-// Indexed by Role.
+// Words for roles, indexed by Role.
 const char* wordFor(config::Role role) {
     constexpr std::array<const char*, 3> kWords{"prey", "pacifist", "predator"};
     return kWords[static_cast<std::size_t>(role)];
@@ -272,7 +272,7 @@ class Screen {
     std::vector<std::string> lines_;
 };
 
-// Indexed by PriorityRule.
+// Words for rules, indexed by PriorityRule.
 constexpr std::array<const char*, behaviour::kPriorityRules> kPriorityRuleNames{
     "obstacle", "other fish", "fear", "memory", "hunger", "libido", "climate", "company", "ease"};
 

@@ -27,16 +27,16 @@ namespace aquarama::simulation {
 struct Insight {
     std::uint32_t fish = 0;
     Tick tick;
-    // Of its species.
+    // The parameters of its species.
     fish::SpeciesParameters parameters;
     float lengthMetres = 0;
     // Eaten, or not yet come: it does not think, and senses, feelings and reasoning are empty.
     bool away = false;
-    // As its last thought left it.
+    // The mind after its last thought.
     fish::Mind mind;
     behaviour::Senses senses;
     fish::Feelings feelings;
-    // Of a thought at this tick; the fish may not have decided so yet.
+    // The results of a thought at this tick; the fish may not have decided so yet.
     behaviour::Reasoning reasoning;
     // The course that it asks its motor for.
     fish::Course course;
@@ -47,7 +47,8 @@ struct Insight {
     float swims = 0;
 };
 
-// Empty where the world has no such fish. Call it between two ticks, from the thread of the world.
+// Looks into the mind of a fish; empty where the world has no such fish. Call it between two ticks,
+// from the thread of the world.
 [[nodiscard]] std::optional<Insight> insightInto(const world::World& world, std::uint32_t fish);
 
 // An insight as a screen of text: at most 24 lines of 78 characters, printable ASCII.
@@ -55,8 +56,8 @@ struct Insight {
 inline constexpr std::size_t kScreenLines = 24;
 inline constexpr std::size_t kScreenColumns = 78;
 
-// What the text needs of the other fish: the view, and the names of the species by FishView::kind.
-// Refers to both; used during one call only.
+// The data about other fish that the text needs: the view, and the names of the species by
+// FishView::kind. Refers to both; used during one call only.
 struct Acquaintances {
     const fish::FishView& view;
     std::span<const std::string> species;

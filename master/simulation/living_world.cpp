@@ -35,7 +35,7 @@ wire::FoodRecord::Kind kindOf(surroundings::FoodKind kind) {
     return wire::FoodRecord::Kind::None;
 }
 
-// As the nodes are told of it.
+// A particle as it is sent to the nodes.
 wire::FoodCloud foodOf(const surroundings::Surroundings& around) {
     const surroundings::Food& food = around.food;
     wire::FoodCloud cloud{around.obstacles.water.centre, {}};
@@ -50,30 +50,6 @@ wire::Eye eyeOf(const surroundings::Vessel& vessel) {
     const motion::Quaternion q = surroundings::worldFromBody(vessel.attitude);
     return {.positionMetres = vessel.position, .worldFromWall = {q.w, q.x, q.y, q.z}};
 }
-
-}  // namespace
-
-LivingWorld::LivingWorld(const world::WorldOptions& options) : world_(options) {
-    for (const world::WorldSpecies& species : options.cast) species_.push_back(species.name);
-}
-
-conductor::Snapshot LivingWorld::snapshot() const {
-    conductor::Snapshot snapshot{.tick = world_.tick(),
-                                 .hash = world_.hash(),
-                                 .eye = eyeOf(world_.pilot().vessel),
-                                 .daylight = world_.surroundings().daylight,
-                                 .fish = {},
-                                 .food = foodOf(world_.surroundings())};
-    world_.records(snapshot.fish);
-    return snapshot;
-}
-
-std::vector<std::string> LivingWorld::explain(std::uint32_t fish) const {
-    const auto insight = insightInto(world_, fish);
-    return insight ? linesOf(*insight, {world_.view(), species_}) : std::vector<std::string>{};
-}
-
-namespace {
 
 // Fish for each thread. One core moves a few thousand fish well within a tick; with more threads
 // each would mostly wait for the others.
@@ -122,6 +98,26 @@ config::Scene chosenScene(const std::string& path, const AssetChoice& choice) {
 }
 
 }  // namespace
+
+LivingWorld::LivingWorld(const world::WorldOptions& options) : world_(options) {
+    for (const world::WorldSpecies& species : options.cast) species_.push_back(species.name);
+}
+
+conductor::Snapshot LivingWorld::snapshot() const {
+    conductor::Snapshot snapshot{.tick = world_.tick(),
+                                 .hash = world_.hash(),
+                                 .eye = eyeOf(world_.pilot().vessel),
+                                 .daylight = world_.surroundings().daylight,
+                                 .fish = {},
+                                 .food = foodOf(world_.surroundings())};
+    world_.records(snapshot.fish);
+    return snapshot;
+}
+
+std::vector<std::string> LivingWorld::explain(std::uint32_t fish) const {
+    const auto insight = insightInto(world_, fish);
+    return insight ? linesOf(*insight, {world_.view(), species_}) : std::vector<std::string>{};
+}
 
 Assets readAssets(const std::string& scenePath, const AssetChoice& choice) {
     // Member by member: where an initialiser of an aggregate throws, GCC 12 destroys the members

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The living world as the conductor knows it, and how it is made from files.
+// The living world behind the conductor's interface, and its construction from files.
 #pragma once
 
 #include <cstdint>
@@ -27,6 +27,7 @@ class LivingWorld : public conductor::Simulation {
     [[nodiscard]] conductor::Snapshot snapshot() const override;
     [[nodiscard]] std::vector<std::string> explain(std::uint32_t fish) const override;
 
+    // The world itself, for measurements.
     [[nodiscard]] const world::World& world() const { return world_; }
 
   private:
@@ -35,26 +36,26 @@ class LivingWorld : public conductor::Simulation {
     std::vector<std::string> species_;
 };
 
-// From files to a world. The files are read once, as bytes; a show, its replay and a study all make
-// their world from such bytes, so that they get the same one.
+// Construction from files. The files are read once, as bytes. A show, its replay and a study make
+// the same world from the same bytes.
 
-// What a command line may choose beside the scene.
+// Choices of the command line beside the scene.
 struct AssetChoice {
     std::uint32_t seed = 1;
     // Number of fish of the first species, instead of the scene's.
     std::optional<std::uint32_t> fish;
-    // Hears what takes minutes, as "capturing 3 of 7 species, 20 %", by several threads, but never
-    // by two at once; empty: nobody does.
+    // Called with the progress of long work, as "capturing 3 of 7 species, 20 %"; by several
+    // threads, but never two at once. May be empty.
     std::function<void(const std::string&)> tell = {};
 };
 
-// A show's files, each parsed once.
+// The parsed files of a show.
 struct Assets {
-    // As they are recorded, and sent to the nodes.
+    // The files as bytes, for the recording and the nodes.
     wire::AssetBundle bytes;
-    // With as many fish as the cast of the bytes.
+    // The scene, with the numbers of fish of the cast in the bytes.
     config::Scene scene;
-    // Of the cast, in its order.
+    // The species of the cast, in its order.
     std::vector<config::Species> species;
 };
 
@@ -65,7 +66,7 @@ struct Assets {
 // Options of a world from its files. The number of threads suits the number of fish. Throws Error
 // where a repertoire is wrong.
 [[nodiscard]] world::WorldOptions worldOptionsOf(const Assets& assets);
-// Of a recording: parses its files first, and throws Error where one is wrong, too.
+// The same for a recording: parses its files first, and throws Error where one is wrong.
 [[nodiscard]] world::WorldOptions worldOptionsOf(const wire::AssetBundle& recorded);
 
 }  // namespace aquarama::simulation

@@ -17,8 +17,7 @@
 
 namespace aquarama::simulation {
 
-// Passes every question on to the simulation behind it, which it does not own and which outlives
-// it.
+// Passes every question on to another simulation, which it does not own and which outlives it.
 class SimulationDecorator : public conductor::Simulation {
   public:
     [[nodiscard]] Tick tick() const override { return world_.tick(); }
@@ -29,6 +28,7 @@ class SimulationDecorator : public conductor::Simulation {
     }
 
   protected:
+    // Stands before this simulation.
     explicit SimulationDecorator(conductor::Simulation& world) : world_(world) {}
     conductor::Simulation& world_;
 };
@@ -38,7 +38,7 @@ class SimulationDecorator : public conductor::Simulation {
 // Ticks between two recorded hashes: ten seconds.
 inline constexpr std::uint64_t kTicksBetweenCheckpoints = 600;
 
-// Throws Error where a file of this name exists; a pipe or a device may.
+// Throws Error where a regular file of this name exists. A pipe or a device may exist.
 void requireNewRecording(const std::string& path);
 
 // A recording that grows. Each entry is flushed at once: however the program ends, the file is
@@ -53,7 +53,7 @@ class RecordingFile {
     void add(const wire::Packet& entry);
     // Whether entries are still written.
     [[nodiscard]] bool recording() const { return file_.isOpen(); }
-    // After the last entry. Throws Error where one could not be written.
+    // Closes the file after the last entry. Throws Error where an entry could not be written.
     void close() { file_.close(); }
 
   private:
@@ -64,6 +64,7 @@ class RecordingFile {
 // replay, so that a snapshot between two ticks is the same in both.
 class RecordedWorld final : public SimulationDecorator {
   public:
+    // Records this world into this file; both outlive it.
     RecordedWorld(conductor::Simulation& world, RecordingFile& file);
     // Writes the end of the recording.
     ~RecordedWorld() override;
@@ -137,7 +138,6 @@ class ReplayedWorld final : public SimulationDecorator {
 };
 
 // Inputs as a recording stores them, and back.
-
 [[nodiscard]] wire::RecordedInput recorded(Tick tick, const world::WorldInput& input);
 [[nodiscard]] world::WorldInput inputOf(const wire::RecordedInput& recorded);
 

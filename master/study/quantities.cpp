@@ -29,39 +29,6 @@ glm::vec3 placeOf(const place::Region& water, std::uint32_t hash) {
     return water.centre + water.halfExtent * share * 0.6F;
 }
 
-}  // namespace
-
-void Feeding::before(world::World& world) {
-    if (between_ == 0 || world.tick().value % between_ != 0) return;
-    // The last pinch was not half eaten in time.
-    if (waits_) ticks_ += between_;
-    const place::Region& water = world.surroundings().obstacles.water;
-    world.apply(
-        world::DropFood{placeOf(water, hashOf(hashOf(seed_, kPinches), pinches_)), kPellets});
-    ++pinches_;
-    waits_ = true;
-    // From here the new pinch is timed; particles eaten before do not count.
-    thrownAt_ = world.tick().value;
-    eatenBefore_ = eaten_;
-}
-
-void Feeding::after(const world::World& world, std::uint64_t particlesEaten) {
-    assert(particlesEaten >= eaten_);
-    eaten_ = particlesEaten;
-    if (!waits_ || eaten_ - eatenBefore_ < kPellets / 2) return;
-    ticks_ += world.tick().value - thrownAt_;
-    waits_ = false;
-}
-
-double Feeding::meanSeconds() const {
-    // The last pinch does not count while it waits.
-    const std::uint32_t timed = pinches_ - (waits_ ? 1 : 0);
-    if (timed == 0) return std::numeric_limits<double>::quiet_NaN();
-    return static_cast<double>(ticks_) / timed / static_cast<double>(kTicksPerSecond);
-}
-
-namespace {
-
 constexpr double kTicksOfMinute = 60.0 * kTicksPerSecond;
 
 // Indexed by Quantity.
@@ -91,42 +58,6 @@ double share(double part, double whole) {
 double count(std::uint64_t number) {
     return static_cast<double>(number);
 }
-
-}  // namespace
-
-const char* keyOf(Quantity quantity) {
-    return kKeys.at(static_cast<std::size_t>(quantity));
-}
-
-Figures figuresOf(const Diary& diary, double pinchSeconds) {
-    const Tally& tally = diary.tally();
-    const double fishMinutes = tally.fishTicks / kTicksOfMinute;
-    const std::vector<BodyOverlap> overlaps = diary.overlaps().all();
-    const auto deep = std::ranges::count_if(
-        overlaps, [](const BodyOverlap& overlap) { return overlap.deepest > kDeepShare; });
-    Figures figures{};
-    const auto set = [&](Quantity quantity, double value) {
-        figures.at(static_cast<std::size_t>(quantity)) = value;
-    };
-    set(Quantity::Touches, share(2 * count(tally.touches), fishMinutes));
-    set(Quantity::DeepTouches, share(2 * static_cast<double>(deep), fishMinutes));
-    set(Quantity::OverlapShare, 100 * share(tally.overlapTicks, tally.fishTicks));
-    set(Quantity::Bumps, share(count(tally.bumps), fishMinutes));
-    set(Quantity::MealsPerTry, share(count(tally.particles), count(tally.tries)));
-    set(Quantity::ParticlesPerMinute, share(count(tally.particles), fishMinutes));
-    set(Quantity::PinchSeconds, pinchSeconds);
-    set(Quantity::CatchesPerRush, share(count(tally.catches), count(tally.rushes)));
-    set(Quantity::SameSegment, 100 * share(tally.sameSegment, count(tally.glances)));
-    set(Quantity::InStep, 100 * share(tally.inStep, count(tally.glances)));
-    set(Quantity::Resultant, share(tally.resultant, count(tally.glances)));
-    set(Quantity::NearestNeighbour, share(tally.nearestNeighbour, count(tally.glances)));
-    set(Quantity::Polarisation, share(tally.polarisation, count(tally.glances)));
-    set(Quantity::Rotation, share(tally.rotation, count(tally.glances)));
-    set(Quantity::Changes, share(count(tally.changes), fishMinutes));
-    return figures;
-}
-
-namespace {
 
 constexpr double kRadiansOfPhase = 2 * std::numbers::pi / 65536;
 constexpr int kInStepPhase = 65536 / 16;
@@ -159,6 +90,67 @@ float distanceToNearest(const fish::FishView& view,
 }
 
 }  // namespace
+
+void Feeding::before(world::World& world) {
+    if (between_ == 0 || world.tick().value % between_ != 0) return;
+    // The last pinch was not half eaten in time.
+    if (waits_) ticks_ += between_;
+    const place::Region& water = world.surroundings().obstacles.water;
+    world.apply(
+        world::DropFood{placeOf(water, hashOf(hashOf(seed_, kPinches), pinches_)), kPellets});
+    ++pinches_;
+    waits_ = true;
+    // From here the new pinch is timed; particles eaten before do not count.
+    thrownAt_ = world.tick().value;
+    eatenBefore_ = eaten_;
+}
+
+void Feeding::after(const world::World& world, std::uint64_t particlesEaten) {
+    assert(particlesEaten >= eaten_);
+    eaten_ = particlesEaten;
+    if (!waits_ || eaten_ - eatenBefore_ < kPellets / 2) return;
+    ticks_ += world.tick().value - thrownAt_;
+    waits_ = false;
+}
+
+double Feeding::meanSeconds() const {
+    // The last pinch does not count while it waits.
+    const std::uint32_t timed = pinches_ - (waits_ ? 1 : 0);
+    if (timed == 0) return std::numeric_limits<double>::quiet_NaN();
+    return static_cast<double>(ticks_) / timed / static_cast<double>(kTicksPerSecond);
+}
+
+const char* keyOf(Quantity quantity) {
+    return kKeys.at(static_cast<std::size_t>(quantity));
+}
+
+Figures figuresOf(const Diary& diary, double pinchSeconds) {
+    const Tally& tally = diary.tally();
+    const double fishMinutes = tally.fishTicks / kTicksOfMinute;
+    const std::vector<BodyOverlap> overlaps = diary.overlaps().all();
+    const auto deep = std::ranges::count_if(
+        overlaps, [](const BodyOverlap& overlap) { return overlap.deepest > kDeepShare; });
+    Figures figures{};
+    const auto set = [&](Quantity quantity, double value) {
+        figures.at(static_cast<std::size_t>(quantity)) = value;
+    };
+    set(Quantity::Touches, share(2 * count(tally.touches), fishMinutes));
+    set(Quantity::DeepTouches, share(2 * static_cast<double>(deep), fishMinutes));
+    set(Quantity::OverlapShare, 100 * share(tally.overlapTicks, tally.fishTicks));
+    set(Quantity::Bumps, share(count(tally.bumps), fishMinutes));
+    set(Quantity::MealsPerTry, share(count(tally.particles), count(tally.tries)));
+    set(Quantity::ParticlesPerMinute, share(count(tally.particles), fishMinutes));
+    set(Quantity::PinchSeconds, pinchSeconds);
+    set(Quantity::CatchesPerRush, share(count(tally.catches), count(tally.rushes)));
+    set(Quantity::SameSegment, 100 * share(tally.sameSegment, count(tally.glances)));
+    set(Quantity::InStep, 100 * share(tally.inStep, count(tally.glances)));
+    set(Quantity::Resultant, share(tally.resultant, count(tally.glances)));
+    set(Quantity::NearestNeighbour, share(tally.nearestNeighbour, count(tally.glances)));
+    set(Quantity::Polarisation, share(tally.polarisation, count(tally.glances)));
+    set(Quantity::Rotation, share(tally.rotation, count(tally.glances)));
+    set(Quantity::Changes, share(count(tally.changes), fishMinutes));
+    return figures;
+}
 
 SchoolFigures schoolFigures(const fish::FishView& view, std::size_t first, std::size_t last) {
     assert(first <= last);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the study measures of a run: a simulated visitor who feeds, the quantities and their names,
-// and the figures of a school.
+// The measures of a run in the study: a simulated visitor who feeds, the quantities and their
+// names, and the figures of a school.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "common/motion/motion_state.h"
 #include "master/fish/fish_view.h"
-#include "master/study/chronicle.h"
+#include "master/study/diary.h"
 #include "master/world/world.h"
 
 namespace aquarama::study {
@@ -39,7 +39,6 @@ class Feeding {
 
 // The quantities of a run. Those that are rates are for each fish and minute; overlaps count for
 // both fish.
-
 enum class Quantity : std::uint8_t {
     Touches,
     DeepTouches,
@@ -98,7 +97,7 @@ struct Synchrony {
     // Share of pairs that are in step.
     double inStep = 0;
 };
-// Of all fish [first, last), whether away or not. O(fish^2).
+// The figures of all fish [first, last), whether away or not. O(fish^2).
 [[nodiscard]] Synchrony synchronyOf(const motion::MotionStates& states,
                                     std::size_t first,
                                     std::size_t last);

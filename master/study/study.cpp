@@ -41,6 +41,27 @@ std::vector<Task> tasksOf(const StudyPlan& plan) {
     return tasks;
 }
 
+constexpr std::uint64_t kTicksBetweenPinches = static_cast<std::uint64_t>(30 * kTicksPerSecond);
+
+// Indexed by Intention.
+constexpr std::array<const char*, fish::kIntentions> kRoutines{
+    "wander", "leave", "school", "eat", "mate", "escape", "avoid fish", "avoid obstacle"};
+
+double secondsOf(std::uint64_t ticks) {
+    return static_cast<double>(ticks) / kTicksPerSecond;
+}
+
+void addSpecies(std::ostream& text, const std::string& name, const SpeciesTally& tally) {
+    const auto slip = [&](const auto& angles) {
+        text << " | " << quantileDegrees(angles, 0.5) << " / " << quantileDegrees(angles, 0.99);
+    };
+    text << "| " << name << " | " << tally.capturedPercent();
+    slip(tally.meanSlip);
+    slip(tally.bodySlip);
+    text << " | " << static_cast<double>(tally.changes) / tally.fishSeconds << " | " << tally.meals
+         << " | " << tally.flights << " | " << tally.courtships << " |\n";
+}
+
 }  // namespace
 
 Figures runOnce(const Scenario& scenario,
@@ -86,12 +107,6 @@ std::vector<Sample> runStudy(const StudyPlan& plan, const std::function<void(dou
     return samples;
 }
 
-namespace {
-
-constexpr std::uint64_t kTicksBetweenPinches = static_cast<std::uint64_t>(30 * kTicksPerSecond);
-
-}  // namespace
-
 Scenario readScenario(const std::filesystem::path& scene) {
     const simulation::Assets assets = simulation::readAssets(scene.string(), {});
     Scenario scenario;
@@ -114,18 +129,6 @@ std::vector<Scenario> scenariosOf(const std::filesystem::path& configFolder) {
     scenarios.back().ticksBetweenPinches = kTicksBetweenPinches;
     return scenarios;
 }
-
-namespace {
-
-// Indexed by Intention.
-constexpr std::array<const char*, fish::kIntentions> kRoutines{
-    "wander", "leave", "school", "eat", "mate", "escape", "avoid fish", "avoid obstacle"};
-
-double secondsOf(std::uint64_t ticks) {
-    return static_cast<double>(ticks) / kTicksPerSecond;
-}
-
-}  // namespace
 
 std::string runsCsv(const StudyPlan& plan, const std::vector<Sample>& samples) {
     assert(samples.size() == plan.scenarios.size());
@@ -173,21 +176,6 @@ std::string hoursCsv(std::span<const Hour> hours) {
     }
     return csv.str();
 }
-
-namespace {
-
-void addSpecies(std::ostream& text, const std::string& name, const SpeciesTally& tally) {
-    const auto slip = [&](const auto& angles) {
-        text << " | " << quantileDegrees(angles, 0.5) << " / " << quantileDegrees(angles, 0.99);
-    };
-    text << "| " << name << " | " << tally.capturedPercent();
-    slip(tally.meanSlip);
-    slip(tally.bodySlip);
-    text << " | " << static_cast<double>(tally.changes) / tally.fishSeconds << " | " << tally.meals
-         << " | " << tally.flights << " | " << tally.courtships << " |\n";
-}
-
-}  // namespace
 
 std::string speciesText(const SpeciesLog& log, std::span<const world::WorldSpecies> cast) {
     assert(log.byKind().size() == cast.size());

@@ -13,7 +13,9 @@
 
 #include "master/fish/secondary_controller.h"
 #include "master/study/chronicle.h"
+#include "master/study/overlaps.h"
 #include "master/study/quantities.h"
+#include "master/study/species_log.h"
 #include "master/world/world.h"
 
 namespace aquarama::study {
@@ -47,7 +49,7 @@ struct Scenario {
 // Figures of one scenario, by condition and by seed less 1.
 using Sample = std::array<std::vector<Figures>, kConditions.size()>;
 
-// What a study runs: every scenario under every condition with seeds 1 to `seeds`.
+// The plan of a study: every scenario under every condition with seeds 1 to `seeds`.
 struct StudyPlan {
     std::vector<Scenario> scenarios;
     // Simulated time of each run, after 30 s of settling.

@@ -29,7 +29,7 @@ sigset_t heardSignals() {
     return signals;
 }
 
-// For execv(); points into the command.
+// The argument list for execv(); points into the command.
 std::vector<char*> argumentVector(const Command& command) {
     const char* name = command.name.empty() ? command.program.c_str() : command.name.c_str();
     std::vector<char*> vector{const_cast<char*>(name)};
@@ -135,7 +135,7 @@ ErrorPipe::~ErrorPipe() {
     close(writing_);
 }
 
-// What follows the last line end counts as a line.
+// Text after the last line end counts as a line.
 std::vector<std::string> ErrorPipe::heard() const {
     std::string text;
     std::array<char, 4096> bytes{};

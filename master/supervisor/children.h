@@ -17,11 +17,11 @@ namespace aquarama::supervisor {
 // The program `aquarama-NAME` beside it. Throws Error where it is missing.
 [[nodiscard]] std::filesystem::path siblingProgram(const std::string& name);
 
-// An absolute path, and the arguments without the program's own name.
+// A command: an absolute path, and the arguments without the program's own name.
 struct Command {
     std::filesystem::path program;
     std::vector<std::string> arguments;
-    std::string name = {};  // by which it is told its own (cli::runProgram); empty: its path
+    std::string name = {};  // its argv[0] (cli::runProgram); empty: its path
 };
 
 // How a child ended: by itself with a code, or by a signal.
@@ -29,6 +29,7 @@ struct Ending {
     pid_t child = 0;
     int exitCode = 0;
     int signal = 0;  // 0 where it ended by itself
+    // Whether it ended by itself without an error.
     [[nodiscard]] bool clean() const { return signal == 0 && exitCode == 0; }
 };
 
@@ -38,14 +39,14 @@ struct Heard {
     std::vector<Ending> endings;
 };
 
-// Holds back the signals that waitForChildren() listens to; call once, before the first start().
+// Blocks the signals that waitForChildren() receives; call once, before the first start().
 void listenForSignals();
 
 // Starts a child in a process group of its own; it gets SIGTERM when we die. Throws Error where it
 // cannot.
 [[nodiscard]] pid_t start(const Command& command);
 
-// Returns at the first signal or death, or after this time.
+// Waits for the first signal or ended child, at most this long.
 [[nodiscard]] Heard waitForChildren(std::chrono::milliseconds atMost);
 
 // Replaces this process by the command. Throws Error where it cannot.
@@ -56,7 +57,8 @@ void listenForSignals();
 // reports to it; whatever else a child writes goes to stderr. One at a time.
 class ErrorPipe {
   public:
-    ErrorPipe();  // throws Error where there can be no pipe
+    // Opens the pipe and closes it. Throws Error where there can be none.
+    ErrorPipe();
     ~ErrorPipe();
     ErrorPipe(const ErrorPipe&) = delete;
     ErrorPipe& operator=(const ErrorPipe&) = delete;

@@ -29,7 +29,7 @@ bool isSet(const char* variable) {
     return value != nullptr && *value != '\0';
 }
 
-// As many as tell the kind of a file; fewer where it is shorter.
+// The first bytes of a file, enough to tell its kind; fewer where it is shorter.
 std::string firstBytesOf(const std::string& path) {
     std::array<char, 21> bytes{};
     std::ifstream file(path, std::ios::binary);
@@ -50,7 +50,7 @@ bool isTaken(const addrinfo& place) {
 
 }  // namespace
 
-// Of X11 or of Wayland. Only the environment is looked at.
+// Tests for a display of X11 or Wayland, by the environment alone.
 void requireDisplay() {
     if (!isSet("DISPLAY") && !isSet("WAYLAND_DISPLAY"))
         throw Error(

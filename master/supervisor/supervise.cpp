@@ -28,12 +28,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto kTimeToEnd = 5s;         // of a process that was asked to end,
-constexpr auto kTimeToEndClip = 60s;    // and of a clip, which ends after the nodes
-constexpr auto kTimeForPictures = 30s;  // of the nodes, after the master has ended
+constexpr auto kTimeToEnd = 5s;         // for a process that was asked to end,
+constexpr auto kTimeToEndClip = 60s;    // and for the clip, which ends after the nodes
+constexpr auto kTimeForPictures = 30s;  // for the nodes' pictures, after the master has ended
 constexpr int kInterrupted = 130;       // the exit status after Ctrl-C, as shells have it
-constexpr auto kShortestLife = 5s;  // a process that dies sooner at its first start would die again
-constexpr auto kPauseBeforeRestart = 1s;  // of a process that keeps dying
+constexpr auto kShortestLife =
+    5s;  // a process that ends sooner at its first start is not restarted
+constexpr auto kPauseBeforeRestart = 1s;  // for a process that ends repeatedly
 
 // Names of processes.
 constexpr const char* kMaster = "master";
@@ -48,7 +49,7 @@ struct Process {
     std::vector<std::string> laterOnly{};      // and of all others
     pid_t child = 0;
     Clock::time_point started;
-    bool proven = false;  // has lived long enough once
+    bool proven = false;  // has once run for kShortestLife
 
     // Arguments for the first start only are replaced by those for later ones.
     void launch() {
@@ -58,7 +59,7 @@ struct Process {
         child = start(now);
         started = Clock::now();
     }
-    // Until deaths() has seen its end.
+    // Whether it runs: until deaths() has seen its end.
     [[nodiscard]] bool running() const { return child != 0; }
 };
 
@@ -71,7 +72,7 @@ void append(std::vector<std::string>& arguments,
     arguments.push_back(value);
 }
 
-// The program is this one, with its command `master`.
+// Command line of the master: this program with the command `master`.
 Process masterProcess(const RunOptions& options) {
     const ShowOptions& show = options.show;
     std::vector<std::string> arguments{"master", show.rigPath};
@@ -86,18 +87,19 @@ Process masterProcess(const RunOptions& options) {
     append(arguments, "--keys", show.keyFolder);
     append(arguments, "--trace", show.traceFolder);
     Process master{.name = kMaster, .command = {ownProgram(), arguments}, .started = {}};
-    // A master that is started again begins another world, which does not belong into this file.
+    // A restarted master begins another world, which must not go into this file.
     append(master.firstTimeOnly, "--record", show.recordPath);
     if (!options.lockstep()) master.laterOnly.emplace_back("--resume");
     return master;
 }
 
-// What the user typed: errors of programs that help with it begin so ("aquarama run clip: ...").
+// The command that the user typed: errors of helper programs begin with it ("aquarama run clip:
+// ...").
 std::string typedCommand(const RunOptions& options) {
     return options.show.replayPath.empty() ? "aquarama run" : "aquarama replay";
 }
 
-// Composes and encodes the clip while the nodes draw.
+// Command line of the program that composes and encodes the clip while the nodes draw.
 Process clipProcess(const RunOptions& options, const std::string& pipes) {
     std::vector<std::string> arguments{"clip", options.show.rigPath, options.clipPath};
     append(arguments, "--pipes", pipes);
@@ -110,7 +112,7 @@ Process clipProcess(const RunOptions& options, const std::string& pipes) {
             .started = {}};
 }
 
-// Where the rig needs keys, the node gets its key file instead of a name and an address.
+// Command line of a node. Where the rig needs keys, it gets a key file instead of name and address.
 Process nodeProcess(const RunOptions& options,
                     const config::Rig& rig,
                     const config::Channel& channel,
@@ -133,7 +135,7 @@ Process nodeProcess(const RunOptions& options,
             .started = {}};
 }
 
-// Of a show by the clock whose rig has one, where it is installed.
+// Command line of the console, for a live show whose rig has one, where it is installed.
 std::optional<Process> consoleProcess(const RunOptions& options, const config::Rig& rig) {
     const std::filesystem::path program = ownProgram().parent_path() / "aquarama-console";
     if (rig.consolePort == 0 || options.lockstep() || !std::filesystem::exists(program))
@@ -143,12 +145,13 @@ std::optional<Process> consoleProcess(const RunOptions& options, const config::R
     return Process{.name = kConsole, .command = {program, arguments}, .started = {}};
 }
 
-// Of the master's machine; the others are started on their own.
+// The channels of the master's machine; nodes of other machines are started there.
 bool isLocal(const config::Channel& channel) {
     return channel.machine.empty();
 }
 
-// Pictures are composed of what all nodes leave on this machine.
+// Throws Error where pictures are wanted and a channel is on another machine: composing needs the
+// pictures of all nodes here.
 void requireLocalChannels(const RunOptions& options, const config::Rig& rig) {
     if (options.snapshotFolder.empty() && options.clipPath.empty()) return;
     const auto remote = std::ranges::find_if_not(rig.channels, isLocal);
@@ -205,8 +208,8 @@ std::vector<std::pair<Process*, Ending>> deaths(std::vector<Process>& processes,
     return dead;
 }
 
-// Asks all processes to end, and kills those that take too long, or all where somebody interrupts
-// again. The clip ends after the nodes: the pictures until then are kept.
+// Asks all processes to end, and kills those that take too long, or all at a second interrupt. The
+// clip ends after the nodes and keeps all pictures until then.
 void endAll(std::vector<Process>& processes) {
     signalAll(processes, SIGTERM);
     const auto asked = Clock::now();
@@ -240,7 +243,8 @@ std::string causeOf(const ErrorPipe& errors, const Process& process, const Endin
     return ofClip != said.end() ? *ofClip : said.front();
 }
 
-// The show goes on without its console; one that has lived is started again.
+// Handles the end of the console: the show continues, and a console that has run for a while is
+// restarted.
 void renewConsole(const ErrorPipe& errors, Process& console, const Ending& ending) {
     for (const std::string& line : errors.heard()) std::cerr << line << '\n';
     if (ending.clean() || !console.proven) {
@@ -251,10 +255,10 @@ void renewConsole(const ErrorPipe& errors, Process& console, const Ending& endin
     console.launch();
 }
 
-// What the death of one process means for the show.
+// Decides what the end of one process means for the show.
 enum class Verdict { GoesOn, Over, Failed };
 
-// Starts the process again where the show can go on.
+// Restarts the process where the show can continue.
 Verdict judge(const RunOptions& options,
               const ErrorPipe& errors,
               Process& process,
@@ -281,17 +285,16 @@ Verdict judge(const RunOptions& options,
     return Verdict::GoesOn;
 }
 
-// Nothing is left for it to show.
+// The node has nothing left to show.
 void endConsole(const std::vector<Process>& processes) {
     const auto console = std::ranges::find(processes, kConsole, &Process::name);
     if (console != processes.end() && console->running()) kill(console->child, SIGTERM);
 }
 
-// How the watch over a show has ended.
+// The result of supervising a show.
 enum class Outcome { Finished, Interrupted, Failed };
 
-// Watches until the master has ended and every node with it, or something failed, or we are asked
-// to stop.
+// Supervises until the master and all nodes have ended, or one failed, or an interrupt arrives.
 Outcome watch(const RunOptions& options, const ErrorPipe& errors, std::vector<Process>& processes) {
     auto lastMoment = Clock::time_point::max();
     while (anyRunning(processes)) {
@@ -339,7 +342,7 @@ bool compose(const RunOptions& options, const ErrorPipe& errors) {
     }
 }
 
-// Names the pictures on standard output; says nothing where none were asked for.
+// Prints the paths of the pictures; nothing where none were requested.
 void sayWhatWasMade(const RunOptions& options, const config::Rig& rig) {
     if (options.snapshotFolder.empty()) return;
     std::cout << "pictures in " << options.snapshotFolder << ": panorama.png, hall.png";
@@ -370,7 +373,7 @@ std::vector<Process> processesOf(const RunOptions& options,
 
 }  // namespace
 
-// All that can be checked is checked first, so that a mistake leaves no process behind.
+// Checks everything first, so that a mistake leaves no process behind.
 int runShow(const RunOptions& options, const config::Rig& rig) {
     assert(!rig.channels.empty());
     if (!options.headless) requireDisplay();
@@ -393,8 +396,7 @@ int runShow(const RunOptions& options, const config::Rig& rig) {
 
     const Outcome outcome = watch(options, errors, processes);
     if (outcome == Outcome::Failed) return 1;
-    // A live show runs until somebody ends it; one that was to finish by itself has not done its
-    // work.
+    // A live show ends by an interrupt. A show that should finish by itself has failed.
     if (outcome == Outcome::Interrupted) return options.lockstep() ? kInterrupted : 0;
     if (!options.snapshotFolder.empty() && !compose(options, errors)) return 1;
     sayWhatWasMade(options, rig);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a show on this machine: starts the master and all nodes of a rig as processes of their own
-// and watches over them.
+// Runs a show on this machine: starts the master and all nodes of a rig as processes, and
+// supervises them.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,13 @@ namespace aquarama::supervisor {
 
 inline constexpr const char* kDefaultRig = "config/desk.txtpb";  // where no rig is named
 
-// What a show is of and how the wall draws it: what a master has to know. An empty string is an
-// option that was not given.
+// The options of a show that its master needs. An empty string is an option that was not given.
 struct ShowOptions {
     std::string rigPath = kDefaultRig;
     std::string scenePath;  // empty: the rig's
     std::uint32_t seed = 1;
-    std::optional<std::uint32_t> fish;    // of the first species; none: as many as the scene has
-    std::optional<std::uint64_t> frames;  // after which the show ends; none: somebody ends it
+    std::optional<std::uint32_t> fish;    // of the first species; empty: as many as the scene has
+    std::optional<std::uint64_t> frames;  // after which the show ends; empty: a user ends it
     std::string pattern;                  // empty: the world
     std::string quality;                  // empty: the rig's
     std::string keyFolder;                // empty: config::keyFolderOf()
@@ -29,11 +28,11 @@ struct ShowOptions {
     std::string replayPath;  // the recording that is shown; empty: a new world
 };
 
-// And what its supervisor does with it.
+// The options of a show that its supervisor needs.
 struct RunOptions {
     ShowOptions show;
     bool headless = false;
-    bool live = false;  // keeps to the clock where other options imply lockstep
+    bool live = false;  // follows the clock even where other options imply lockstep
     std::string snapshotFolder;
     bool deep = false;                // pictures of 16 bits
     std::string clipPath;             // .mp4 or .webp; empty: no clip

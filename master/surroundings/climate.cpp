@@ -24,6 +24,10 @@ float squaredDistanceToCell(glm::vec2 point, glm::vec2 least) {
     return dx * dx + dz * dz;
 }
 
+// Share of the surface light that a metre of water takes away. A straight line in place of the
+// exponential law, because the master uses no libm.
+constexpr float kLostPerMetre = 0.02F;
+
 }  // namespace
 
 Chart::Chart(const place::PlaceKey& place,
@@ -95,14 +99,6 @@ std::span<const std::uint32_t> Chart::near(glm::vec2 xz) const {
         static_cast<std::size_t>(static_cast<int>(at.y) * cells_ + static_cast<int>(at.x));
     return std::span(listed_).subspan(starts_[cell], starts_[cell + 1] - starts_[cell]);
 }
-
-namespace {
-
-// Share of the surface light that a metre of water takes away. A straight line in place of the
-// exponential law, because the master uses no libm.
-constexpr float kLostPerMetre = 0.02F;
-
-}  // namespace
 
 Climate climateOf(const config::Scene& scene) {
     return {scene.day,

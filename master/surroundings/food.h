@@ -36,6 +36,7 @@ struct Food {
     // Number of pellets in the water.
     std::uint32_t pellets = 0;
 
+    // Number of particles, and the position and presence of particle i.
     [[nodiscard]] std::size_t size() const { return x.size(); }
     [[nodiscard]] glm::vec3 position(std::size_t i) const { return {x[i], y[i], z[i]}; }
     [[nodiscard]] bool isThere(std::size_t i) const { return kind[i] != FoodKind::None; }

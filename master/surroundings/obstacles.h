@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a fish must not swim into: sand, rocks, kelp, the borders of its water and the surface.
-// World frame, metres.
+// The obstacles of fish: sand, rocks, kelp, the borders of their water and the surface. World
+// frame, metres.
 #pragma once
 
 #include <vector>
@@ -34,8 +34,9 @@ struct Obstacles {
                                   glm::vec3 heading,
                                   float reachMetres);
 
-// The same by testing every obstacle. It differs by at most 0.1, where the sand pushes hardest, and
-// not at all away from the sand. The reference for tests, and used off the chart.
+// The same push, computed by testing every obstacle. It differs by at most 0.1, where the sand
+// pushes hardest, and not at all away from the sand. The reference for tests, and used off the
+// chart.
 [[nodiscard]] glm::vec3 plainAvoidance(const Obstacles& obstacles,
                                        glm::vec3 position,
                                        glm::vec3 heading,

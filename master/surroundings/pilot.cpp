@@ -36,7 +36,7 @@ void steer(Pilot& pilot, const Voyage& voyage, const Steering& steering, Tick no
 
 void advancePilot(Pilot& pilot, const Voyage& voyage, glm::vec3 school, Tick now) {
     const bool steered = now < pilot.heldUntil;
-    // No hand steers, and none has for the idle time.
+    // No visitor steers, and none has for the idle time.
     const bool alone = !steered && now >= pilot.autopilotFrom;
     // A submarine that nobody ever steered and that has no tour stays exactly at its eye, even
     // where moveHull() would push it out of an obstacle.

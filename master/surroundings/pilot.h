@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who steers the submarine: the autopilot, which follows a smooth closed path, or a visitor's hand.
-// World frame, metres. Every function here is pure and exact: equal inputs give equal bits on every
+// Who steers the submarine: the autopilot, which follows a smooth closed path, or a visitor. World
+// frame, metres. Every function here is pure and exact: equal inputs give equal bits on every
 // machine.
 #pragma once
 
@@ -20,6 +20,7 @@ namespace aquarama::surroundings {
 // A closed path through stops in order; the last leads to the first. With one stop the submarine
 // stays there.
 struct Tour {
+    // A stop on the path.
     struct Stop {
         glm::vec3 at{};
         // Point to look at; without one the submarine looks at the school.
@@ -57,8 +58,8 @@ inline constexpr float kAutopilotSlew = 0.25F;
                               glm::vec3 school,
                               float& along);
 
-// The last hand steers while it holds; when none has steered for a while, the autopilot takes over.
-// One step a tick.
+// The last visitor who steered keeps the helm for a while; without steering the autopilot takes
+// over. One step a tick.
 
 // The constant part: where the submarine may go and what its tour is. Read by any thread.
 struct Voyage {
@@ -66,7 +67,7 @@ struct Voyage {
     Tour tour;
     // The scene has no tour: it stays at the eye until somebody steers.
     bool stays = true;
-    // Ticks without a hand until the autopilot takes over.
+    // Ticks without steering until the autopilot takes over.
     std::uint64_t idleTicks = 0;
 };
 // `fishWater` is the water of the fish; the submarine may go somewhat farther.
@@ -77,22 +78,22 @@ struct Voyage {
 // The state of the submarine and its steering. Owned by the world; part of its hash.
 struct Pilot {
     Vessel vessel;
-    // What the last hand asked for, and the tick until which it holds.
+    // The steering of the last visitor, and the tick until which it holds.
     Steering steering;
     Tick heldUntil;
-    // Tick from which the autopilot steers if no hand does before.
+    // Tick from which the autopilot steers if no visitor does before.
     Tick autopilotFrom;
     // Parameter of the point of the tour that the autopilot makes for.
     float along = 0;
     // Whether the autopilot steers now.
     bool touring = false;
-    // Whether a hand ever steered.
+    // Whether a visitor ever steered.
     bool everSteered = false;
 };
 // At rest at the eye.
 [[nodiscard]] Pilot pilotOf(const Voyage& voyage, glm::vec3 eye);
 
-// Takes a hand's steering, between two ticks. A steering of zeros lets go.
+// Takes a visitor's steering, between two ticks. A steering of zeros releases the helm.
 void steer(Pilot& pilot, const Voyage& voyage, const Steering& steering, Tick now);
 // Advances the submarine by one tick. `school` is where the autopilot looks if its tour names no
 // other point.

@@ -29,43 +29,6 @@ void dropWhatIsDue(Surroundings& surroundings, Tick tick) {
     }
 }
 
-}  // namespace
-
-Surroundings makeSurroundings(const config::Scene& scene,
-                              std::uint32_t seed,
-                              std::size_t fish,
-                              float meanLengthMetres) {
-    const Obstacles obstacles =
-        obstaclesOf({seed, scene.place}, place::waterFor(scene, fish, meanLengthMetres));
-    return {.seed = seed,
-            .obstacles = obstacles,
-            .climate = climateOf(scene),
-            .food = makeFood(seed, obstacles, scene.plankton),
-            .submarine = {.position = scene.eye},
-            .clarityMetres = static_cast<float>(scene.water.clarityMetres),
-            .daylight = daylight(scene.day, {}),
-            .drops = scene.drops};
-}
-
-void advanceSurroundings(Surroundings& surroundings, Tick tick) {
-    surroundings.daylight = daylight(surroundings.climate.day, tick);
-    dropWhatIsDue(surroundings, tick);
-    driftFood(surroundings.food, surroundings.seed, surroundings.obstacles, tick);
-}
-
-std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroundings) {
-    const Food& food = surroundings.food;
-    for (const auto* values : {&food.x, &food.y, &food.z, &food.lowest})
-        hash = folded(hash, *values);
-    hash = folded(hash, food.kind);
-    hash = folded(hash, food.taken);
-    hash = folded(hash, food.generation);
-    hash = folded(hash, food.absentUntil);
-    return hash;
-}
-
-namespace {
-
 // A point of the round that the school passes.
 struct Station {
     // Metres, before the shift.
@@ -127,7 +90,63 @@ glm::vec3 velocityAt(std::uint32_t seed, std::uint64_t index) {
     return (stationAt(seed, index + 1) - stationAt(seed, index - 1)) / seconds;
 }
 
+// Greatest share of the half height of the water that the ball takes.
+constexpr float kHeightOfMill = 0.75F;
+// Period of rising and sinking.
+constexpr std::uint64_t kTicksOfMill = std::uint64_t{20} * 60;
+// Above and below the middle.
+constexpr float kRiseMetres = 0.5F;
+// Radius of a ball of one fish, in body lengths: 0.36 in a dense ball, times 1.6, because a living
+// ball is stirred and takes more room.
+constexpr float kRoomOfMill = 0.36F * 1.6F;
+
+// Cube root by Newton's method with a fixed number of steps: libm differs between machines. 60
+// steps reach float precision for up to kMostFish.
+float cubeRoot(float x) {
+    float root = std::max(1.0F, x);
+    for (int i = 0; i < 60; ++i) root -= (root - x / (root * root)) / 3;
+    return root;
+}
+
+// Radius of a round ball; its volume grows with the number of fish.
+float ballRadius(std::size_t fish, float lengthMetres) {
+    return kRoomOfMill * lengthMetres * cubeRoot(static_cast<float>(fish));
+}
+
 }  // namespace
+
+Surroundings makeSurroundings(const config::Scene& scene,
+                              std::uint32_t seed,
+                              std::size_t fish,
+                              float meanLengthMetres) {
+    const Obstacles obstacles =
+        obstaclesOf({seed, scene.place}, place::waterFor(scene, fish, meanLengthMetres));
+    return {.seed = seed,
+            .obstacles = obstacles,
+            .climate = climateOf(scene),
+            .food = makeFood(seed, obstacles, scene.plankton),
+            .submarine = {.position = scene.eye},
+            .clarityMetres = static_cast<float>(scene.water.clarityMetres),
+            .daylight = daylight(scene.day, {}),
+            .drops = scene.drops};
+}
+
+void advanceSurroundings(Surroundings& surroundings, Tick tick) {
+    surroundings.daylight = daylight(surroundings.climate.day, tick);
+    dropWhatIsDue(surroundings, tick);
+    driftFood(surroundings.food, surroundings.seed, surroundings.obstacles, tick);
+}
+
+std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroundings) {
+    const Food& food = surroundings.food;
+    for (const auto* values : {&food.x, &food.y, &food.z, &food.lowest})
+        hash = folded(hash, *values);
+    hash = folded(hash, food.kind);
+    hash = folded(hash, food.taken);
+    hash = folded(hash, food.generation);
+    hash = folded(hash, food.absentUntil);
+    return hash;
+}
 
 Goal journeyGoal(std::uint32_t seed, Tick tick) {
     // Rounds count from 1, so that there is always a station before.
@@ -156,33 +175,6 @@ Goal journeyGoal(std::uint32_t seed, Tick tick) {
             (leaving + (square * 2.0F + cube * (3.0F * u)) * u) / seconds,
             mill};
 }
-
-namespace {
-
-// Greatest share of the half height of the water that the ball takes.
-constexpr float kHeightOfMill = 0.75F;
-// Period of rising and sinking.
-constexpr std::uint64_t kTicksOfMill = std::uint64_t{20} * 60;
-// Above and below the middle.
-constexpr float kRiseMetres = 0.5F;
-// Radius of a ball of one fish, in body lengths: 0.36 in a dense ball, times 1.6, because a living
-// ball is stirred and takes more room.
-constexpr float kRoomOfMill = 0.36F * 1.6F;
-
-// Cube root by Newton's method with a fixed number of steps: libm differs between machines. 60
-// steps reach float precision for up to kMostFish.
-float cubeRoot(float x) {
-    float root = std::max(1.0F, x);
-    for (int i = 0; i < 60; ++i) root -= (root - x / (root * root)) / 3;
-    return root;
-}
-
-// Of a round ball; its volume grows with the number of fish.
-float ballRadius(std::size_t fish, float lengthMetres) {
-    return kRoomOfMill * lengthMetres * cubeRoot(static_cast<float>(fish));
-}
-
-}  // namespace
 
 float millRadiusMetres(const place::Region& water, std::size_t fish, float lengthMetres) {
     assert(lengthMetres > 0);

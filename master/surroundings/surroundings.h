@@ -20,7 +20,7 @@ namespace aquarama::surroundings {
 
 // The submarine as fish perceive it.
 struct Submarine {
-    // Of the eye, metres, world frame.
+    // Position of the eye, metres, world frame.
     glm::vec3 position{};
     glm::vec3 velocityMetresPerSecond{};
     // No fish comes nearer: it would fill the wall.
@@ -58,7 +58,6 @@ void advanceSurroundings(Surroundings& surroundings, Tick tick);
 
 // The goal that draws the school: a function of seed and tick alone. Either a slow path through
 // what the wall shows, or the middle of a bait ball.
-
 struct Goal {
     glm::vec3 position{};  // metres
     // Velocity of the goal itself.

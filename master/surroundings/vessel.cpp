@@ -50,47 +50,6 @@ void turn(Vessel& vessel) {
     settle(bank, kRollFrequency, is.roll, rate.roll);
 }
 
-}  // namespace
-
-Push pushOf(const Steering& steering) {
-    return {shareOf(steering.ahead),
-            shareOf(steering.aside),
-            shareOf(steering.up),
-            shareOf(steering.turn),
-            shareOf(steering.tilt)};
-}
-
-void pushVessel(Vessel& vessel, const Push& wanted, float slew) {
-    assert(slew > 0);
-    Push& push = vessel.push;
-    const float most = slew * kTickSeconds;
-    push = {towards(push.ahead, wanted.ahead, most),
-            towards(push.aside, wanted.aside, most),
-            towards(push.up, wanted.up, most),
-            towards(push.turn, wanted.turn, most),
-            towards(push.tilt, wanted.tilt, most)};
-    turn(vessel);
-    const glm::vec3 newtons = noseOf(vessel.attitude) * (kThrustNewtons * push.ahead) +
-                              rightOf(vessel.attitude) * (kSideThrustNewtons * push.aside) +
-                              glm::vec3{0, kSideThrustNewtons * push.up, 0};
-    // Drag is integrated implicitly: at any speed it brakes and never reverses the motion.
-    const float drag =
-        kDragNewtonsPerSpeed + kDragNewtonsPerSpeedSquared * place::lengthOf(vessel.velocity);
-    constexpr float kSecondsPerKilogram = kTickSeconds / kVesselKilograms;
-    vessel.velocity =
-        (vessel.velocity + newtons * kSecondsPerKilogram) / (1 + drag * kSecondsPerKilogram);
-}
-
-// The speed at which the drag, kSquared v^2 + kLinear v, equals the thrust.
-float terminalSpeed(float newtons) {
-    assert(newtons >= 0);
-    constexpr float kLinear = kDragNewtonsPerSpeed;
-    constexpr float kSquared = kDragNewtonsPerSpeedSquared;
-    return (std::sqrt(kLinear * kLinear + 4 * kSquared * newtons) - kLinear) / (2 * kSquared);
-}
-
-namespace {
-
 // Radius of a kelp plant with its fronds, as for fish.
 constexpr float kStemRadiusMetres = 0.15F;
 // Obstacles farther from the hull than this are not considered.
@@ -198,6 +157,43 @@ glm::vec3 ledAway(const Face& face, glm::vec3 velocity) {
 }
 
 }  // namespace
+
+Push pushOf(const Steering& steering) {
+    return {shareOf(steering.ahead),
+            shareOf(steering.aside),
+            shareOf(steering.up),
+            shareOf(steering.turn),
+            shareOf(steering.tilt)};
+}
+
+void pushVessel(Vessel& vessel, const Push& wanted, float slew) {
+    assert(slew > 0);
+    Push& push = vessel.push;
+    const float most = slew * kTickSeconds;
+    push = {towards(push.ahead, wanted.ahead, most),
+            towards(push.aside, wanted.aside, most),
+            towards(push.up, wanted.up, most),
+            towards(push.turn, wanted.turn, most),
+            towards(push.tilt, wanted.tilt, most)};
+    turn(vessel);
+    const glm::vec3 newtons = noseOf(vessel.attitude) * (kThrustNewtons * push.ahead) +
+                              rightOf(vessel.attitude) * (kSideThrustNewtons * push.aside) +
+                              glm::vec3{0, kSideThrustNewtons * push.up, 0};
+    // Drag is integrated implicitly: at any speed it brakes and never reverses the motion.
+    const float drag =
+        kDragNewtonsPerSpeed + kDragNewtonsPerSpeedSquared * place::lengthOf(vessel.velocity);
+    constexpr float kSecondsPerKilogram = kTickSeconds / kVesselKilograms;
+    vessel.velocity =
+        (vessel.velocity + newtons * kSecondsPerKilogram) / (1 + drag * kSecondsPerKilogram);
+}
+
+// The speed at which the drag, kSquared v^2 + kLinear v, equals the thrust.
+float terminalSpeed(float newtons) {
+    assert(newtons >= 0);
+    constexpr float kLinear = kDragNewtonsPerSpeed;
+    constexpr float kSquared = kDragNewtonsPerSpeedSquared;
+    return (std::sqrt(kLinear * kLinear + 4 * kSquared * newtons) - kLinear) / (2 * kSquared);
+}
 
 Waters watersOf(const place::PlaceKey& place, const place::Region& fishWater, glm::vec3 eye) {
     Waters waters{place, place::roamingRegion(fishWater, eye), place::rocksOf(place), {}};

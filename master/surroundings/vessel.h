@@ -51,13 +51,13 @@ struct SineCosine {
 struct Attitude {
     // About the world's up, to the left.
     float yaw = 0;
-    // Nose up.
+    // Pitch, nose up.
     float pitch = 0;
-    // Right side up.
+    // Roll, right side up.
     float roll = 0;
 };
 
-// From half angles.
+// The rotation, computed from half angles.
 [[nodiscard]] inline motion::Quaternion worldFromBody(const Attitude& attitude) {
     const auto [ys, yc] = sineAndCosine(attitude.yaw / 2);
     const auto [ps, pc] = sineAndCosine(attitude.pitch / 2);
@@ -92,25 +92,25 @@ inline constexpr float kDragNewtonsPerSpeed = 720;
 inline constexpr float kDragNewtonsPerSpeedSquared = 400;
 // Radians a second at full turn.
 inline constexpr float kFastestTurn = 0.35F;
-// A second: how fast the rate of turn follows the push.
+// Rate at which the turn follows the push, a second.
 inline constexpr float kTurnDamping = 2;
 inline constexpr float kSteepestPitch = 0.436F;  // 25 degrees
 inline constexpr float kStrongestBank = 0.087F;  // 5 degrees
-// Fastest change of a push that a hand asks for, a second.
+// Fastest change of a push that a visitor asks for, a second.
 inline constexpr float kHandsSlew = 2.5F;
 
 // Pushes of thrusters and rudders, each -1 to 1; axes and signs as in Steering.
 struct Push {
     float ahead = 0, aside = 0, up = 0, turn = 0, tilt = 0;
 };
-// From whole numbers of the wire to shares of full push.
+// Converts whole numbers of the wire to shares of full push.
 [[nodiscard]] Push pushOf(const Steering& steering);
 
 // State of the submarine's body.
 struct Vessel {
-    // Of the eye.
+    // Position of the eye, metres.
     glm::vec3 position{};
-    // Metres a second.
+    // Velocity, metres a second.
     glm::vec3 velocity{};
     Attitude attitude;
     // Rate of the attitude, radians a second.
@@ -120,8 +120,8 @@ struct Vessel {
 };
 
 // Applies thrusters, rudders and drag for one tick: changes velocity, attitude and its rate. The
-// pushes follow the wanted ones by at most `slew` (above 0) a second, so that no hand jerks. The
-// position stays: moveHull() changes it.
+// pushes follow the wanted ones by at most `slew` (above 0) a second, so that no steering jerks.
+// The position stays: moveHull() changes it.
 void pushVessel(Vessel& vessel, const Push& wanted, float slew);
 
 // Speed at which the drag equals this thrust, metres a second.
@@ -137,7 +137,7 @@ inline constexpr float kStandOffMetres = 0.25F;
 // Braking before an obstacle, metres a second squared.
 inline constexpr float kBrakingMetres = 1.1F;
 
-// Where the submarine may go. Made once per scene, constant.
+// The limits of the submarine. Made once for a scene, constant.
 struct Waters {
     place::PlaceKey place;
     place::Region region;

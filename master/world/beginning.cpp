@@ -153,8 +153,8 @@ void placeBall(std::uint32_t seed,
     }
 }
 
-// Where a fish that does not school begins: near its home, or at the first place that it would go
-// to.
+// The first place of a fish that does not school: near its home, or at the first place that it
+// would go to.
 glm::vec3 restingPlace(std::uint32_t seed,
                        const config::Habits& habits,
                        const surroundings::Obstacles& obstacles,
@@ -211,6 +211,27 @@ void placeAbout(std::uint32_t seed,
     }
 }
 
+bool names(const std::vector<std::string>& list, const std::string& name) {
+    return std::ranges::find(list, name) != list.end();
+}
+
+// Bits of the species of the cast that the list names.
+std::uint64_t kindsNamed(const std::vector<WorldSpecies>& cast,
+                         const std::vector<std::string>& list) {
+    std::uint64_t kinds = 0;
+    for (std::size_t i = 0; i < cast.size(); ++i)
+        if (names(list, cast[i].name)) kinds |= std::uint64_t{1} << i;
+    return kinds;
+}
+
+// Bits of the species of the cast that hunt this one.
+std::uint64_t huntersOf(const std::vector<WorldSpecies>& cast, const std::string& name) {
+    std::uint64_t kinds = 0;
+    for (std::size_t i = 0; i < cast.size(); ++i)
+        if (names(cast[i].habits.hunts, name)) kinds |= std::uint64_t{1} << i;
+    return kinds;
+}
+
 }  // namespace
 
 std::vector<motion::FishTraits> traitsOf(const WorldOptions& options) {
@@ -261,31 +282,6 @@ void placeFishAt(motion::MotionStates& states,
     assert(fish < states.size());
     motion::setBodyFrame(states, fish, {place, facing(course)});
 }
-
-namespace {
-
-bool names(const std::vector<std::string>& list, const std::string& name) {
-    return std::ranges::find(list, name) != list.end();
-}
-
-// Bits of the species of the cast that the list names.
-std::uint64_t kindsNamed(const std::vector<WorldSpecies>& cast,
-                         const std::vector<std::string>& list) {
-    std::uint64_t kinds = 0;
-    for (std::size_t i = 0; i < cast.size(); ++i)
-        if (names(list, cast[i].name)) kinds |= std::uint64_t{1} << i;
-    return kinds;
-}
-
-// Bits of the species of the cast that hunt this one.
-std::uint64_t huntersOf(const std::vector<WorldSpecies>& cast, const std::string& name) {
-    std::uint64_t kinds = 0;
-    for (std::size_t i = 0; i < cast.size(); ++i)
-        if (names(cast[i].habits.hunts, name)) kinds |= std::uint64_t{1} << i;
-    return kinds;
-}
-
-}  // namespace
 
 fish::SpeciesParameters makeSpeciesParameters(const std::vector<WorldSpecies>& cast,
                                               std::size_t kind,

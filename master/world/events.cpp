@@ -63,7 +63,7 @@ void advanceMeals(Meals& meals, const fish::FishView& view, surroundings::Food& 
 // the first in order gets it; the event of the other has no effect.
 
 void World::perform(const fish::DeferredEvent& event) {
-    assert(event.fish < traits_.size());
+    assert(event.fish < columns_.traits.size());
     switch (event.kind) {
         case fish::DeferredEventKind::EatParticle:
             if (!surroundings::takeFood(surroundings_.food, event.object)) return;
@@ -72,21 +72,22 @@ void World::perform(const fish::DeferredEvent& event) {
             ++counts_.meals;
             return;
         case fish::DeferredEventKind::EatFish:
-            if (motion::isAway(states_, event.object)) return;
-            motion::setAway(states_, event.object);
-            view_.signs[event.object] = fish::kAway;
+            if (motion::isAway(columns_.states, event.object)) return;
+            motion::setAway(columns_.states, event.object);
+            columns_.view.signs[event.object] = fish::kAway;
             absences_.push_back(absenceFrom(seed_, event.object, tick_));
             feed(event.fish);
             // A chase ends with one catch.
-            minds_[event.fish].sinceChase = fish::kLongAgo;
+            columns_.minds[event.fish].sinceChase = fish::kLongAgo;
             ++counts_.catches;
             return;
         case fish::DeferredEventKind::Spawn:
             // A fish spawns once a tick at most: 0 ticks since spawning means that it just did.
-            if (minds_[event.fish].sinceSpawning == 0 || minds_[event.object].sinceSpawning == 0)
+            if (columns_.minds[event.fish].sinceSpawning == 0 ||
+                columns_.minds[event.object].sinceSpawning == 0)
                 return;
-            minds_[event.fish].sinceSpawning = 0;
-            minds_[event.object].sinceSpawning = 0;
+            columns_.minds[event.fish].sinceSpawning = 0;
+            columns_.minds[event.object].sinceSpawning = 0;
             ++counts_.spawnings;
             return;
     }
@@ -94,8 +95,8 @@ void World::perform(const fish::DeferredEvent& event) {
 
 // Adds one particle or prey to the stomach; the counter saturates.
 void World::feed(std::uint32_t fish) {
-    if (minds_[fish].eaten < 0xffffU) ++minds_[fish].eaten;
-    minds_[fish].sinceMeal = 0;
+    if (columns_.minds[fish].eaten < 0xffffU) ++columns_.minds[fish].eaten;
+    columns_.minds[fish].sinceMeal = 0;
 }
 
 // Lets fish return whose absence is over, each with a new mind and new habits.
@@ -110,16 +111,16 @@ void World::receive() {
 // The place of an eaten fish is taken by a new one of its species: it swims in from afar at medium
 // speed, towards the middle.
 void World::arrive(std::uint32_t fish) {
-    const fish::SpeciesParameters& parameters = speciesParameters_[view_.kind[fish]];
+    const fish::SpeciesParameters& parameters = speciesParameters_[columns_.view.kind[fish]];
     const glm::vec3 place = arrivalPlace(surroundings_, fish, tick_);
     const glm::vec3 inwards =
         place::directionOf(surroundings_.obstacles.water.centre - place, glm::vec3{1, 0, 0});
-    placeFishAt(states_, fish, place, inwards);
-    motion::setSpeedBodyLengths(states_, fish, parameters.medium);
+    placeFishAt(columns_.states, fish, place, inwards);
+    motion::setSpeedBodyLengths(columns_.states, fish, parameters.medium);
     const auto drawn = hashOf(seed_, static_cast<std::uint32_t>(tick_.value));
-    minds_[fish] = behaviour::freshMind(parameters, drawn, fish);
-    courses_[fish] = {place::levelled(inwards), parameters.medium, 0};
-    view_.signs[fish] = 0;
+    columns_.minds[fish] = behaviour::freshMind(parameters, drawn, fish);
+    columns_.courses[fish] = {place::levelled(inwards), parameters.medium, 0};
+    columns_.view.signs[fish] = 0;
     ++counts_.returns;
 }
 

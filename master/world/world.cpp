@@ -50,6 +50,41 @@ bool isClear(const surroundings::Obstacles& obstacles, glm::vec3 place) {
     });
 }
 
+// Sizes of the parts of a tick's work. They depend on the number of fish alone, never on the number
+// of threads, so that the order of events is always the same.
+constexpr std::size_t kFishInChunk = 512;
+constexpr std::size_t kSlotsInSlice = 1024;
+// A thinker is prefetched this many thoughts ahead.
+constexpr std::size_t kFetchedAhead = 3;
+
+// Mean length of the school's fish; of a scad where there is no cast.
+float meanLengthMetres(const WorldOptions& options) {
+    return options.cast.empty() ? 0.24F : options.cast.front().size.meanMetres;
+}
+
+// Prefetches the data of a fish that will think soon. The rest of what it needs it shares with the
+// fish of its cell, which are in the cache already.
+void fetch(const fish::Minds& minds,
+           const fish::FishView& view,
+           const fish::Courses& courses,
+           std::uint32_t fish) {
+    __builtin_prefetch(&minds[fish]);
+    view.fetch(fish);
+    __builtin_prefetch(&courses[fish]);
+}
+
+// A fresh mind, in the mood that the scene asks for.
+fish::Mind beginningMind(const fish::SpeciesParameters& parameters,
+                         const std::optional<config::Start>& start,
+                         std::uint32_t seed,
+                         std::uint32_t fish) {
+    fish::Mind mind = behaviour::freshMind(parameters, seed, fish);
+    if (start)
+        fish::setMood(
+            parameters, static_cast<float>(start->hunger), static_cast<float>(start->libido), mind);
+    return mind;
+}
+
 }  // namespace
 
 std::vector<Absence> makeAbsences(std::span<const fish::SpeciesParameters> speciesParameters) {
@@ -86,75 +121,46 @@ glm::vec3 arrivalPlace(const surroundings::Surroundings& surroundings,
     return best;
 }
 
-namespace {
-
-// Sizes of the parts of a tick's work. They depend on the number of fish alone, never on the number
-// of threads, so that the order of events is always the same.
-constexpr std::size_t kFishInChunk = 512;
-constexpr std::size_t kSlotsInSlice = 1024;
-// A thinker is prefetched this many thoughts ahead.
-constexpr std::size_t kFetchedAhead = 3;
-
-// Of the school; of a scad where there is no cast.
-float meanLengthMetres(const WorldOptions& options) {
-    return options.cast.empty() ? 0.24F : options.cast.front().size.meanMetres;
+SchoolGoal::SchoolGoal(const WorldOptions& options,
+                       const place::Region& water,
+                       std::size_t fish,
+                       float lengthMetres)
+    : gathering_(options.scene.gathering),
+      seed_(options.seed),
+      middle_(options.scene.water.centre),
+      water_(water),
+      radiusMetres_(gathering_ == config::Gathering::Mill
+                        ? surroundings::millRadiusMetres(water, fish, lengthMetres)
+                        : behaviour::schoolRadiusMetres(fish)) {
+    moveTo({0});
 }
 
-// Prefetches the data of a fish that will think soon. The rest of what it needs it shares with the
-// fish of its cell, which are in the cache already.
-void fetch(const fish::Minds& minds,
-           const fish::FishView& view,
-           const fish::Courses& courses,
-           std::uint32_t fish) {
-    __builtin_prefetch(&minds[fish]);
-    view.fetch(fish);
-    __builtin_prefetch(&courses[fish]);
+void SchoolGoal::moveTo(Tick tick) {
+    goal_ = gathering_ == config::Gathering::None ? surroundings::Goal{.position = middle_}
+            : gathering_ == config::Gathering::Mill
+                ? surroundings::millGoal(seed_, water_, radiusMetres_, tick)
+                : surroundings::journeyGoal(seed_, tick);
 }
-
-// A fresh mind, in the mood that the scene asks for.
-fish::Mind beginningMind(const fish::SpeciesParameters& parameters,
-                         const std::optional<config::Start>& start,
-                         std::uint32_t seed,
-                         std::uint32_t fish) {
-    fish::Mind mind = behaviour::freshMind(parameters, seed, fish);
-    if (start)
-        fish::setMood(
-            parameters, static_cast<float>(start->hunger), static_cast<float>(start->libido), mind);
-    return mind;
-}
-
-}  // namespace
 
 World::World(const WorldOptions& options)
     : seed_(options.seed),
-      gathering_(options.scene.gathering),
-      middle_(options.scene.water.centre),
       adaptation_(options.adaptation),
-      traits_(traitsOf(options)),
+      columns_(traitsOf(options)),
       surroundings_(surroundings::makeSurroundings(
-          options.scene, options.seed, traits_.size(), meanLengthMetres(options))),
+          options.scene, options.seed, columns_.traits.size(), meanLengthMetres(options))),
       voyage_(surroundings::voyageOf(options.scene, options.seed, surroundings_.obstacles.water)),
       pilot_(surroundings::pilotOf(voyage_, options.scene.eye)),
-      grids_(surroundings_.obstacles.water, traits_.size(), surroundings_.food.size()),
+      grids_(surroundings_.obstacles.water, columns_.traits.size(), surroundings_.food.size()),
+      school_(options,
+              surroundings_.obstacles.water,
+              options.cast.empty() ? 0 : options.cast.front().fish,
+              meanLengthMetres(options)),
       pool_(options.threads) {
     if (options.cast.size() > kMostSpecies)
         throw Error("a cast of " + std::to_string(options.cast.size()) +
                     " species: there is room for " + std::to_string(kMostSpecies));
     for (const WorldSpecies& species : options.cast) addKind(species, options.cast);
-    if (!kinds_.empty())
-        schoolRadius_ =
-            gathering_ == config::Gathering::Mill
-                ? surroundings::millRadiusMetres(
-                      surroundings_.obstacles.water, kinds_.front().last, meanLengthMetres(options))
-                : behaviour::schoolRadiusMetres(kinds_.front().last);
-    goal_ = goal();
-    states_.resize(traits_.size());
-    commands_.resize(traits_.size());
-    minds_.resize(traits_.size());
-    courses_.resize(traits_.size());
-    memory_.resize(traits_.size());
-    view_.resize(traits_.size());
-    meals_ = makeMeals(traits_.size());
+    meals_ = makeMeals(columns_.traits.size());
     absences_ = makeAbsences(speciesParameters_);
     makeRoomForEvents();
     begin(options);
@@ -174,31 +180,32 @@ void World::addKind(const WorldSpecies& species, const std::vector<WorldSpecies>
 
 // Places all fish and gives them commands, minds and a first view, so that tick 0 can be shown.
 void World::begin(const WorldOptions& options) {
-    placeFish(options, goal_, surroundings_, states_);
+    placeFish(options, school_.goal(), surroundings_, columns_.states);
     for (const fish::SpeciesParameters& parameters : speciesParameters_) {
         const Kind& kind = kinds_[parameters.kind];
-        fish::startCommands(kind.gaits, seed_, kind.first, kind.last, commands_, memory_);
+        fish::startCommands(
+            kind.gaits, seed_, kind.first, kind.last, columns_.commands, columns_.memory);
         for (std::uint32_t fish = parameters.first; fish < parameters.last; ++fish) {
-            motion::setSpeedBodyLengths(states_, fish, parameters.medium);
-            minds_[fish] =
+            motion::setSpeedBodyLengths(columns_.states, fish, parameters.medium);
+            columns_.minds[fish] =
                 beginningMind(parameters, options.cast[parameters.kind].start, seed_, fish);
-            view_.kind[fish] = parameters.kind;
+            columns_.view.kind[fish] = parameters.kind;
         }
         look(kind, kind.first, kind.last);
     }
-    grids_.expect(view_, speciesParameters_);
-    for (std::size_t fish = 0; fish < traits_.size(); ++fish)
-        courses_[fish] = {view_.heading(fish), 1, 0};
+    grids_.expect(columns_.view, speciesParameters_);
+    for (std::size_t fish = 0; fish < columns_.traits.size(); ++fish)
+        columns_.courses[fish] = {columns_.view.heading(fish), 1, 0};
 }
 
 // Reserves room for the events of a tick, so that thoughts allocate nothing: an eighth of the fish
 // think at a tick, and each reports one event at most.
 void World::makeRoomForEvents() {
     constexpr std::size_t kSlack = 32;
-    slices_.resize((traits_.size() + kSlotsInSlice - 1) / kSlotsInSlice);
-    for (Slice& slice : slices_)
-        slice.events.reserve(kSlotsInSlice / fish::kTicksBetweenThoughts * 2);
-    events_.reserve(traits_.size() / fish::kTicksBetweenThoughts + kSlack);
+    slices_.resize((columns_.traits.size() + kSlotsInSlice - 1) / kSlotsInSlice);
+    for (behaviour::DeferredEvents& slice : slices_)
+        slice.reserve(kSlotsInSlice / fish::kTicksBetweenThoughts * 2);
+    events_.reserve(columns_.traits.size() / fish::kTicksBetweenThoughts + kSlack);
 }
 
 void World::apply(const WorldInput& input) {
@@ -219,7 +226,7 @@ void World::apply(const WorldInput& input) {
 }
 
 void World::moveSubmarine() {
-    surroundings::advancePilot(pilot_, voyage_, goal_.position, tick_);
+    surroundings::advancePilot(pilot_, voyage_, school_.goal().position, tick_);
     showSubmarine();
 }
 
@@ -229,20 +236,12 @@ void World::showSubmarine() {
     surroundings_.submarine.velocityMetresPerSecond = pilot_.vessel.velocity;
 }
 
-// The goal of the school at this tick.
-surroundings::Goal World::goal() const {
-    if (gathering_ == config::Gathering::None) return {.position = middle_};
-    return gathering_ == config::Gathering::Mill
-               ? surroundings::millGoal(seed_, surroundings_.obstacles.water, schoolRadius_, tick_)
-               : surroundings::journeyGoal(seed_, tick_);
-}
-
 void World::advance() {
-    goal_ = goal();
+    school_.moveTo(tick_);
     receive();
     moveSubmarine();
     beginTick();
-    advanceMeals(meals_, view_, surroundings_.food, tick_);
+    advanceMeals(meals_, columns_.view, surroundings_.food, tick_);
     thinkAll();
     pool_.run(chunks_.size(), [this](std::size_t i) { swim(chunks_[i]); });
     performEvents();
@@ -254,7 +253,7 @@ void World::advance() {
 // other writes.
 void World::beginTick() {
     grids_.rebuild(
-        view_,
+        columns_.view,
         surroundings_.food,
         speciesParameters_,
         [this](std::size_t jobs, const auto& job) { pool_.run(jobs, job); },
@@ -274,32 +273,36 @@ void World::look(const Kind& kind, std::size_t first, std::size_t last) {
     std::array<float, kAtATime> z;
     for (std::size_t from = first; from < last; from += kAtATime) {
         const std::size_t to = std::min(last, from + kAtATime);
-        motion::meanHeadings(*kind.tables, states_, from, to, {x.data(), y.data(), z.data()});
-        const fish::SpeciesParameters& parameters = speciesParameters_[view_.kind[from]];
+        motion::meanHeadings(
+            *kind.tables, columns_.states, from, to, {x.data(), y.data(), z.data()});
+        const fish::SpeciesParameters& parameters = speciesParameters_[columns_.view.kind[from]];
         for (std::size_t fish = from; fish < to; ++fish) {
             const std::size_t i = fish - from;
-            const float length = static_cast<float>(traits_[fish].lengthMillimetres) * 0.001F;
+            const float length =
+                static_cast<float>(columns_.traits[fish].lengthMillimetres) * 0.001F;
             const float lengthsASecond =
-                static_cast<float>(states_.speed[fish]) / motion::kSpeedUnitsPerBodyLength;
-            view_.fish[fish] = {{static_cast<float>(states_.x[fish]) * motion::kPositionUnitMetres,
-                                 static_cast<float>(states_.y[fish]) * motion::kPositionUnitMetres,
-                                 static_cast<float>(states_.z[fish]) * motion::kPositionUnitMetres},
-                                {x[i], y[i], z[i]},
-                                lengthsASecond * length,
-                                length};
-            fish::showMood(parameters, minds_, static_cast<std::uint32_t>(fish), view_);
+                static_cast<float>(columns_.states.speed[fish]) / motion::kSpeedUnitsPerBodyLength;
+            columns_.view.fish[fish] = {
+                {static_cast<float>(columns_.states.x[fish]) * motion::kPositionUnitMetres,
+                 static_cast<float>(columns_.states.y[fish]) * motion::kPositionUnitMetres,
+                 static_cast<float>(columns_.states.z[fish]) * motion::kPositionUnitMetres},
+                {x[i], y[i], z[i]},
+                lengthsASecond * length,
+                length};
+            fish::showMood(
+                parameters, columns_.minds, static_cast<std::uint32_t>(fish), columns_.view);
         }
     }
 }
 
 behaviour::Environment World::environment() const {
-    return {.view = &view_,
+    return {.view = &columns_.view,
             .grids = &grids_,
             .surroundings = &surroundings_,
             .speciesParameters = speciesParameters_,
-            .gathering = gathering_,
-            .goal = goal_,
-            .schoolRadiusMetres = schoolRadius_,
+            .gathering = school_.gathering(),
+            .goal = school_.goal(),
+            .schoolRadiusMetres = school_.radiusMetres(),
             .seed = seed_,
             .tick = tick_,
             .adaptation = adaptation_};
@@ -321,12 +324,12 @@ void World::thinkAll() {
             thinkers[count] = grid.index()[slot];
             count += fish::thinksAt(tick_, thinkers[count]) ? 1 : 0;
         }
-        behaviour::DeferredEvents& events = slices_[i].events;
+        behaviour::DeferredEvents& events = slices_[i];
         events.clear();
         for (std::size_t t = 0; t < count; ++t) {
             if (t + kFetchedAhead < count)
-                fetch(minds_, view_, courses_, thinkers[t + kFetchedAhead]);
-            behaviour::think(around, thinkers[t], minds_, courses_, events);
+                fetch(columns_.minds, columns_.view, columns_.courses, thinkers[t + kFetchedAhead]);
+            behaviour::think(around, thinkers[t], columns_.minds, columns_.courses, events);
         }
     });
 }
@@ -334,10 +337,21 @@ void World::thinkAll() {
 // Commands and moves the fish of one chunk; chunks are independent.
 void World::swim(const Chunk& chunk) {
     const Kind& own = kinds_[chunk.kind];
-    fish::SecondaryController{
-        &own.gaits, &view_, &courses_, &states_, seed_, tick_, &commands_, &memory_}
+    fish::SecondaryController{&own.gaits,
+                              &columns_.view,
+                              &columns_.courses,
+                              &columns_.states,
+                              seed_,
+                              tick_,
+                              &columns_.commands,
+                              &columns_.memory}
         .run(chunk.first, chunk.last);
-    motion::MotorStep{own.tables.get(), traits_, &commands_, &states_, chunk.first, chunk.last}
+    motion::MotorStep{own.tables.get(),
+                      columns_.traits,
+                      &columns_.commands,
+                      &columns_.states,
+                      chunk.first,
+                      chunk.last}
         .run();
 }
 
@@ -345,33 +359,16 @@ void World::swim(const Chunk& chunk) {
 // of the grid.
 void World::performEvents() {
     events_.clear();
-    for (const Slice& slice : slices_)
-        events_.insert(events_.end(), slice.events.begin(), slice.events.end());
-    assert(events_.size() <= traits_.size() / fish::kTicksBetweenThoughts + 1);
+    for (const behaviour::DeferredEvents& slice : slices_)
+        events_.insert(events_.end(), slice.begin(), slice.end());
+    assert(events_.size() <= columns_.traits.size() / fish::kTicksBetweenThoughts + 1);
     std::ranges::sort(events_, {}, &fish::DeferredEvent::fish);
     for (const fish::DeferredEvent& event : events_) perform(event);
 }
 
 // Folds in all that decides how the world goes on and is no function of seed, scene and tick.
 std::uint64_t World::hash() const {
-    std::uint64_t hash = foldedOne(motion::hashOf(states_) ^ minds_.hash(), tick_.value);
-    hash = folded(hash, commands_.action);
-    hash = folded(hash, commands_.phaseRate);
-    hash = folded(hash, commands_.pitch);
-    hash = folded(hash, commands_.yawRate);
-    hash = folded(hash, commands_.brake);
-    const auto fold = [&](auto member) { hash = folded(hash, courses_, member); };
-    fold([](const fish::Course& course) { return course.direction.x; });
-    fold([](const fish::Course& course) { return course.direction.y; });
-    fold([](const fish::Course& course) { return course.direction.z; });
-    fold(&fish::Course::speed);
-    fold(&fish::Course::urgency);
-    fold(&fish::Course::openToChange);
-    hash = folded(hash, memory_.chosenAt);
-    hash = folded(hash, memory_.heldUntil);
-    hash = folded(hash, memory_.patience);
-    // The only place where kAway is kept as a sign.
-    hash = folded(hash, view_.signs);
+    std::uint64_t hash = columns_.hash(tick_);
     for (const Absence& absence : absences_)
         hash = foldedOne(foldedOne(hash, absence.fish), absence.until.value);
     for (const Meals::Swallow& swallow : meals_.swallows)
@@ -381,24 +378,14 @@ std::uint64_t World::hash() const {
 }
 
 std::size_t World::bytes() const {
-    const motion::MotionStates& s = states_;
-    const motion::MotorCommands& c = commands_;
-    const fish::FishView& v = view_;
-    return grids_.bytes() + minds_.bytes() +
-           bytesIn(traits_, memory_.chosenAt, memory_.heldUntil, memory_.patience) +
-           bytesIn(s.x, s.y, s.z, s.orientationA, s.orientationB, s.orientationC) +
-           bytesIn(s.orientationLargest, s.phase, s.segment, s.fromPhase, s.fromSegment) +
-           bytesIn(s.warpFrame, s.warpLength, s.speed, s.spread) +
-           bytesIn(c.action, c.phaseRate, c.pitch, c.yawRate, c.brake) +
-           bytesIn(courses_, v.fish, v.kind, v.signs, v.partner, v.stage) +
-           meals_.swallows.capacity() * sizeof(Meals::Swallow) +
+    return grids_.bytes() + columns_.bytes() + meals_.swallows.capacity() * sizeof(Meals::Swallow) +
            absences_.capacity() * sizeof(Absence);
 }
 
 void World::records(std::vector<motion::FishRecord>& records) const {
-    records.resize(states_.size());
-    for (std::size_t fish = 0; fish < states_.size(); ++fish)
-        records[fish] = motion::recordOf(states_, fish);
+    records.resize(columns_.states.size());
+    for (std::size_t fish = 0; fish < columns_.states.size(); ++fish)
+        records[fish] = motion::recordOf(columns_.states, fish);
 }
 
 }  // namespace aquarama::world

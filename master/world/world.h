@@ -29,6 +29,7 @@
 #include "master/surroundings/pilot.h"
 #include "master/surroundings/surroundings.h"
 #include "master/world/events.h"
+#include "master/world/fish_columns.h"
 
 namespace aquarama::world {
 
@@ -57,7 +58,7 @@ struct Absence {
 // An absence that ends 20 to 60 seconds from now, drawn by the seed.
 [[nodiscard]] Absence absenceFrom(std::uint32_t seed, std::uint32_t fish, Tick now);
 
-// Where a new fish begins: a place in the water, clear of rocks and sand; of several drawn the one
+// The first place of a new fish: in the water, clear of rocks and sand; of several drawn the one
 // farthest from the eye, where all beyond 12 m count as hidden by haze.
 [[nodiscard]] glm::vec3 arrivalPlace(const surroundings::Surroundings& surroundings,
                                      std::uint32_t fish,
@@ -73,7 +74,7 @@ struct WorldSpecies {
     // The name by which Habits::hunts and shadows refer to it.
     std::string name = {};
     config::Habits habits = {};
-    // Where its fish begin, and in which mood, if the scene says so.
+    // The place and mood in which its fish begin, if the scene sets them.
     std::optional<config::Start> start = {};
 };
 
@@ -86,6 +87,33 @@ struct WorldOptions {
     // The first species is the school; it may have no fish.
     std::vector<WorldSpecies> cast;
     fish::Adaptation adaptation;
+};
+
+// Where the school swims: the goal of each tick, by the way in which the scene gathers it.
+class SchoolGoal {
+  public:
+    // For so many fish of a mean length, in metres, in the water of a world.
+    SchoolGoal(const WorldOptions& options,
+               const place::Region& water,
+               std::size_t fish,
+               float lengthMetres);
+
+    // Sets the goal to that of a tick.
+    void moveTo(Tick tick);
+    // The goal of the last moveTo(); of tick 0 before.
+    [[nodiscard]] const surroundings::Goal& goal() const { return goal_; }
+    // How the scene gathers the school.
+    [[nodiscard]] config::Gathering gathering() const { return gathering_; }
+    // Radius that the school fills around its goal.
+    [[nodiscard]] float radiusMetres() const { return radiusMetres_; }
+
+  private:
+    config::Gathering gathering_;
+    std::uint32_t seed_;
+    glm::vec3 middle_;  // of the scene's own water, before it grew with the fish
+    place::Region water_;
+    float radiusMetres_;
+    surroundings::Goal goal_;
 };
 
 // Owns everything that a tick changes. Called from one thread; its pool shares out the work of a
@@ -101,28 +129,29 @@ class World {
     // world.
     void advance();
 
+    // The state after the last tick.
     [[nodiscard]] Tick tick() const { return tick_; }
-    [[nodiscard]] const motion::MotionStates& states() const { return states_; }
-    [[nodiscard]] const motion::MotorCommands& commands() const { return commands_; }
-    [[nodiscard]] const fish::Minds& minds() const { return minds_; }
-    [[nodiscard]] const fish::Courses& courses() const { return courses_; }
+    [[nodiscard]] const motion::MotionStates& states() const { return columns_.states; }
+    [[nodiscard]] const motion::MotorCommands& commands() const { return columns_.commands; }
+    [[nodiscard]] const fish::Minds& minds() const { return columns_.minds; }
+    [[nodiscard]] const fish::Courses& courses() const { return columns_.courses; }
     [[nodiscard]] const surroundings::Surroundings& surroundings() const { return surroundings_; }
     [[nodiscard]] const surroundings::Pilot& pilot() const { return pilot_; }
     [[nodiscard]] std::span<const fish::SpeciesParameters> speciesParameters() const {
         return speciesParameters_;
     }
-    // As it was when the last tick began.
-    [[nodiscard]] const fish::FishView& view() const { return view_; }
-    // What the fish that thought in the last tick saw. Points into this world.
+    // The view of all fish when the last tick began.
+    [[nodiscard]] const fish::FishView& view() const { return columns_.view; }
+    // The environment that fish saw in the last tick. Points into this world.
     [[nodiscard]] behaviour::Environment environment() const;
-    [[nodiscard]] std::span<const motion::FishTraits> traits() const { return traits_; }
+    [[nodiscard]] std::span<const motion::FishTraits> traits() const { return columns_.traits; }
     [[nodiscard]] const WorldCounts& counts() const { return counts_; }
     // Memory of all that grows with the number of fish.
     [[nodiscard]] std::size_t bytes() const;
 
     // Hash of all state that decides how the world goes on: equal worlds have equal hashes.
     [[nodiscard]] std::uint64_t hash() const;
-    // What is published of every fish, by index.
+    // Writes the published record of every fish, by index.
     void records(std::vector<motion::FishRecord>& records) const;
 
   private:
@@ -137,10 +166,6 @@ class World {
         std::size_t kind = 0;
         std::size_t first = 0, last = 0;
     };
-    // Events of one part of the fish, in the order of the grid.
-    struct Slice {
-        behaviour::DeferredEvents events;
-    };
     void addKind(const WorldSpecies& species, const std::vector<WorldSpecies>& cast);
     // Steps of construction and of a tick; each says at its definition what it does.
     void begin(const WorldOptions& options);
@@ -154,38 +179,26 @@ class World {
     void feed(std::uint32_t fish);
     void receive();
     void arrive(std::uint32_t fish);
-    [[nodiscard]] surroundings::Goal goal() const;
     void moveSubmarine();
     void showSubmarine();
 
     std::uint32_t seed_;
     Tick tick_;
-    config::Gathering gathering_;
-    // Middle of the scene's own water, before it grew with the fish.
-    glm::vec3 middle_;
     fish::Adaptation adaptation_;
     std::vector<Kind> kinds_;
     std::vector<fish::SpeciesParameters> speciesParameters_;  // one for each kind
     std::vector<Chunk> chunks_;
-    std::vector<Slice> slices_;
-    // Events of all slices together.
-    behaviour::DeferredEvents events_;
-    std::vector<motion::FishTraits> traits_;
+    std::vector<behaviour::DeferredEvents> slices_;  // events of parts of the fish, in grid order
+    behaviour::DeferredEvents events_;               // of all slices together
+    FishColumns columns_;
     surroundings::Surroundings surroundings_;
     surroundings::Voyage voyage_;
     surroundings::Pilot pilot_;
-    motion::MotionStates states_;
-    motion::MotorCommands commands_;
-    fish::Minds minds_;
-    fish::Courses courses_;
-    fish::ControllerMemory memory_;
-    fish::FishView view_;
     Meals meals_;
     std::vector<Absence> absences_;
     WorldCounts counts_;
     behaviour::Grids grids_;
-    surroundings::Goal goal_;
-    float schoolRadius_ = 0;
+    SchoolGoal school_;
     WorkerPool pool_;
 };
 

@@ -1,1 +1,2 @@
-aquarama_bench(SOURCES cluster_bench.cpp LINK aquarama_memory_channels aquarama_conductor aquarama_session aquarama_wire)
+aquarama_bench(SOURCES cluster_bench.cpp LINK aquarama_memory_channels aquarama_conductor aquarama_session
+  aquarama_wire)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds the measure of graphics cards, makes build/gpu-bench.tar.gz of it, and runs it here; arguments go to it (--help lists
-# them). The bundle runs on any x86-64 Linux with a driver, without packages or a network: unpack it and run gpu-bench/measure.
-# Figures and pictures are written to build/gpu. Without a graphics card: "no GPU here", status 77.
+# Builds the measure of graphics cards, makes build/gpu-bench.tar.gz of it, and runs it here; arguments go to it (--help
+# lists them). The bundle runs on any x86-64 Linux with a driver, without packages or a network: unpack it and run
+# gpu-bench/measure. Figures and pictures are written to build/gpu. Without a graphics card: "no GPU here", status 77.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -37,6 +37,9 @@ tar -C build -czf $bundle.tar.gz gpu-bench
 
 bytes=$(du -sb $bundle | cut -f1)
 printf '%s.tar.gz: %d MB, unpacked %d MB\n' $bundle $(($(stat -c %s $bundle.tar.gz) / 1000000)) $((bytes / 1000000))
-[ "$bytes" -le $mostBytes ] || { echo "$bundle: more than $((mostBytes / 1000000)) MB; see what is large in it" >&2; exit 1; }
+if [ "$bytes" -gt $mostBytes ]; then
+    echo "$bundle: more than $((mostBytes / 1000000)) MB; see what is large in it" >&2
+    exit 1
+fi
 
 exec $bundle/measure "$@"

@@ -21,8 +21,8 @@ from show import BIN, CHANNELS, ROOT, end, temporary_folder, trace, wait_until  
 
 ADDRESS = {"master": "10.77.0.1", "left": "10.77.0.11", "middle": "10.77.0.12", "right": "10.77.0.13"}
 PATIENCE = 20  # seconds: only a hang meets it
-# What is promised, times three: a picture is back in two seconds, and nobody stalls for longer than a node may be silent and
-# a deadline.
+# What is promised, times three: a picture is back in two seconds, and nobody stalls for longer than a node may be
+# silent and a deadline.
 BACK, GAP_MS = 6, 3 * (250 + 17)
 
 
@@ -44,13 +44,15 @@ class Wall:
         text = re.sub(r"timing \{.*?\}", "timing { refresh_hz: 60 }", text, flags=re.S)
         for side in CHANNELS:  # small pictures: the wall is to be busy with its network
             text = text.replace(f'name: "{side}"', f'name: "{side}"\n  machine: "{side}-pc"')
-        for whole, part in (("480", "96"), ("360", "72"), ("1113.6", "222.72"), ("652.1", "130.42"), ("-12.34", "-2.468")):
+        for whole, part in (("480", "96"), ("360", "72"), ("1113.6", "222.72"), ("652.1", "130.42"),
+                            ("-12.34", "-2.468")):
             text = text.replace(f"px: {whole}\n", f"px: {part}\n")
         self.rig.write_text(text)
         self.keys = self.folder / "keys"
         self.aquarama("master", "keys", "new", self.rig, "--keys", self.keys)
         for name in [*CHANNELS, "operator", "visitor", "watcher"]:
-            self.aquarama("master", "keys", "bundle", self.rig, name, "--keys", self.keys, "--out", self.folder / f"{name}.key")
+            self.aquarama("master", "keys", "bundle", self.rig, name, "--keys", self.keys, "--out",
+                          self.folder / f"{name}.key")
 
     def build_network(self):
         sh("mount", "-t", "tmpfs", "none", "/run")
@@ -70,7 +72,8 @@ class Wall:
 
     def run(self, machine, *command):
         environment = os.environ | {"XDG_STATE_HOME": str(self.folder / "state")}
-        return subprocess.run(["ip", "netns", "exec", machine, *map(str, command)], capture_output=True, text=True, timeout=60, env=environment)
+        return subprocess.run(["ip", "netns", "exec", machine, *map(str, command)], capture_output=True, text=True,
+                              timeout=60, env=environment)
 
     def aquarama(self, machine, *arguments):
         return self.run(machine, BIN / "aquarama", *arguments)
@@ -90,11 +93,13 @@ class Wall:
 
     def start_master(self):
         (self.folder / "master.csv").unlink(missing_ok=True)
-        self.start("master", BIN / "aquarama", "master", self.rig, "--keys", self.keys, "--pattern", "grid", "--quality", "low", "--trace", self.folder)
+        self.start("master", BIN / "aquarama", "master", self.rig, "--keys", self.keys, "--pattern", "grid",
+                   "--quality", "low", "--trace", self.folder)
 
     def start_node(self, name, key=None):
         (self.folder / f"{name}.csv").unlink(missing_ok=True)
-        self.start(name, BIN / "aquarama-node", "--key", key or self.folder / f"{name}.key", "--headless", "--trace", self.folder)
+        self.start(name, BIN / "aquarama-node", "--key", key or self.folder / f"{name}.key", "--headless", "--trace",
+                   self.folder)
 
     def kill(self, machine):
         self.processes[machine].send_signal(signal.SIGKILL)
@@ -144,7 +149,8 @@ class Wall:
         return sorted(gaps)
 
     def tally(self):
-        """While nobody is hurt: notes the frames that all presented, and those that one presented before all were ready."""
+        """While nobody is hurt: notes the frames that all presented, and those that one presented before all were
+        ready."""
         since = time.monotonic_ns()
         time.sleep(0.4)
         rows = [trace(self.folder, name) for name in CHANNELS]
@@ -192,11 +198,13 @@ class SlowCable(threading.Thread):
             for end in select.select(self.ends, [], [], max(patience, 0))[0]:
                 packet, number = os.read(end, 65536), number + 1
                 other = self.ends[1 - self.ends.index(end)]
-                heapq.heappush(self.waiting, (time.monotonic() + random.uniform(self.least, self.most), number, other, packet))
+                heapq.heappush(self.waiting,
+                               (time.monotonic() + random.uniform(self.least, self.most), number, other, packet))
 
 
 def report(case, **figures):
-    print(f"{case:<34}" + "   ".join(f"{name.replace('_', ' ')} {value}" for name, value in figures.items()), flush=True)
+    print(f"{case:<34}" + "   ".join(f"{name.replace('_', ' ')} {value}" for name, value in figures.items()),
+          flush=True)
 
 
 def any_order(wall, options):
@@ -253,7 +261,8 @@ def quantiles(gaps):
 
 def loss(wall, options):
     for machine in ADDRESS:
-        wall.on(machine, "iptables", "-A", "INPUT", "-m", "statistic", "--mode", "random", "--probability", "0.01", "-j", "DROP")
+        wall.on(machine, "iptables", "-A", "INPUT", "-m", "statistic", "--mode", "random", "--probability", "0.01",
+                "-j", "DROP")
     since = time.monotonic_ns()
     time.sleep(options.cut + 2)
     gaps = wall.intervals_ms(CHANNELS, since)
@@ -265,7 +274,8 @@ def loss(wall, options):
 
 def slow_cable(wall, options):
     cable = SlowCable(wall, "right", 20, 30)
-    wall.seconds_until(lambda: wall.states().get("right") in ("in step", "late") and wall.all_in_step(["left", "middle"]),
+    wall.seconds_until(lambda: wall.states().get("right") in ("in step", "late")
+                       and wall.all_in_step(["left", "middle"]),
                        "all there again")
     time.sleep(1)
     since = time.monotonic_ns()
@@ -316,8 +326,8 @@ def random_starts(wall, options):
     assert lost == 0
 
 
-# Run on the master's machine, whose loopback the console listens at: which channels' pictures come; then what becomes of the word
-# to two machines, of which the first takes it.
+# Run on the master's machine, whose loopback the console listens at: which channels' pictures come; then what becomes
+# of the word to two machines, of which the first takes it.
 LOOK = """
 import sys
 from types import SimpleNamespace
@@ -339,8 +349,8 @@ for name in ("left", "right"):
 
 
 def console(wall, _):
-    """Pictures of nodes on other machines, over the watch socket with keys, and the word that switches one of these; and what it costs the
-    wall to lose its console."""
+    """Pictures of nodes on other machines, over the watch socket with keys, and the word that switches one of these;
+    and what it costs the wall to lose its console."""
     program = BIN / "aquarama-console"
     if not program.exists():
         print("SKIPPED: the console is not built")
@@ -370,7 +380,8 @@ def keys(wall, _):
     allowed = wall.aquarama("left", "status", "--key", wall.folder / "watcher.key").returncode == 0
     since = time.monotonic_ns()
     wall.aquarama("master", "keys", "revoke", wall.rig, "right", "--keys", wall.keys)
-    seconds = wall.seconds_until(lambda: wall.states().get("right") == "absent" and wall.all_in_step(["left", "middle"]),
+    seconds = wall.seconds_until(lambda: wall.states().get("right") == "absent"
+                                 and wall.all_in_step(["left", "middle"]),
                                  "right cut off and the others in step")
     gap = wall.longest_gap_ms(["left", "middle"], since)
     wall.kill("right")
@@ -379,7 +390,8 @@ def keys(wall, _):
     stays_out = wall.states().get("right") == "absent"
     wall.aquarama("master", "keys", "rotate", wall.rig, "right", "--keys", wall.keys)
     (wall.folder / "right.key").unlink()
-    wall.aquarama("master", "keys", "bundle", wall.rig, "right", "--keys", wall.keys, "--out", wall.folder / "right.key")
+    wall.aquarama("master", "keys", "bundle", wall.rig, "right", "--keys", wall.keys, "--out",
+                  wall.folder / "right.key")
     wall.kill("right")
     wall.start_node("right")
     again = wall.seconds_until(wall.all_in_step, "right in step with its new key")

@@ -32,7 +32,8 @@ class Alone(unittest.TestCase):
         """Its log's path, as soon as it listens."""
         log = Path(self.folder.name) / f"log-{len(self.processes)}"
         with open(log, "w") as output:
-            self.processes.append(subprocess.Popen([BIN / "aquarama-console", self.rig, "--port", "0", *arguments], stdout=output, stderr=output,
+            self.processes.append(subprocess.Popen([BIN / "aquarama-console", self.rig, "--port", "0", *arguments],
+                                                   stdout=output, stderr=output,
                                                    env=os.environ | (environment or {})))
         wait_until(lambda: "console at" in log.read_text(), 20, "the console")
         self.address = re.search(r"console at https?://(\S+)", log.read_text())[1]
@@ -64,7 +65,8 @@ class Alone(unittest.TestCase):
 
 class FirstStart(Alone):
     def test_pages_say_what_the_master_prepares(self):
-        master = subprocess.Popen([BIN / "aquarama", "master", self.rig], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=ROOT,
+        master = subprocess.Popen([BIN / "aquarama", "master", self.rig], stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.DEVNULL, cwd=ROOT,
                                   env=os.environ | {"XDG_CACHE_HOME": self.folder.name + "/none"})
         try:
             self.start()
@@ -97,11 +99,15 @@ class Certificates(Alone):
         then = time.strftime("%Y-%m-%d 12:00:00", time.gmtime(time.time() + (397 - 20) * 86400))
         log = self.start("--listen", "127.0.0.2", environment=at_time(then))
         wait_until(lambda: "runs out on" in log.read_text(), 20, "a line of the log")
-        self.assertRegex(log.read_text(), r"\[warning\] the console's certificate runs out on \d{4}-\d\d-\d\d, in (19|20) days; it cannot be renewed: "
-                                          r"\S+authority\.key: the authority's key is not there; put it back, or make another authority")
+        self.assertRegex(log.read_text(),
+                         r"\[warning\] the console's certificate runs out on \d{4}-\d\d-\d\d, in (19|20) days; it "
+                         r"cannot be renewed: "
+                                          r"\S+authority\.key: the authority's key is not there; put it back, or make "
+                                          r"another authority")
         with self.over_tls() as connection:
             self.assertRegex(" ".join(self.alerts(connection)), r"certificate runs out on .* in (19|20) days")
-        self.assertRegex(aquarama("doctor", self.rig, environment=at_time(then)).stdout, r"(?m)^warn  certificate +runs out on \S+, in (19|20) days: ")
+        self.assertRegex(aquarama("doctor", self.rig, environment=at_time(then)).stdout,
+                         r"(?m)^warn  certificate +runs out on \S+, in (19|20) days: ")
 
     def test_another_one_is_taken_live_and_who_is_connected_stays(self):
         folder = self.certify("127.0.0.2")
@@ -136,12 +142,16 @@ class WrongClock(Alone):
     def test_it_is_named_and_nothing_is_made(self):
         refused = aquarama("console", self.rig, "--certify", "127.0.0.2", environment=at_time("1970-01-01 00:10:00"))
         self.assertEqual(refused.returncode, 1)
-        self.assertRegex(refused.stderr, r"\Aaquarama console: the clock of this machine says 1970-01-01, before this program was built "
+        self.assertRegex(refused.stderr,
+                         r"\Aaquarama console: the clock of this machine says 1970-01-01, before this program was "
+                         r"built "
                                          r"\(20\d\d-\d\d-\d\d\): no certificate is made now; set it .*\n\Z")
         self.assertFalse((self.state / "tls/certificate.pem").exists())
         log = self.start(environment=at_time("1970-01-01 00:10:00"))
-        wait_until(lambda: "[warning] the clock of this machine says 1970-01-01" in log.read_text(), 20, "a line of the log")
-        self.assertRegex(" ".join(self.alerts()), "the clock of this machine says 1970-01-01.*hours and certificates rest")
+        wait_until(lambda: "[warning] the clock of this machine says 1970-01-01" in log.read_text(), 20,
+                   "a line of the log")
+        self.assertRegex(" ".join(self.alerts()),
+                         "the clock of this machine says 1970-01-01.*hours and certificates rest")
 
     def test_hours_switch_nothing_by_it(self):
         for clock, wanted in ((None, True), ("1970-01-01 12:00:00", False)):
@@ -150,7 +160,8 @@ class WrongClock(Alone):
                 port = self.projector(heard)
                 self.state.mkdir(parents=True, exist_ok=True)
                 days = "MONDAY, TUESDAY, WEDNESDAY, THURSDAY, FRIDAY, SATURDAY, SUNDAY"
-                (self.state / "hours.txtpb").write_text(f'zone: "UTC"\nopen {{ days: [{days}] from: "00:00" to: "24:00" }}\n'
+                (self.state / "hours.txtpb").write_text(
+                    f'zone: "UTC"\nopen {{ days: [{days}] from: "00:00" to: "24:00" }}\n'
                                                         f'projectors {{ name: "left" address: "127.0.0.1:{port}" }}\n')
                 log = self.start(environment=at_time(clock) if clock else None)
                 self.assertNotIn("there are no hours", log.read_text())
@@ -196,9 +207,12 @@ class Proxy(Alone):
 
     def snippet(self):
         """The settings of docs/console.md, with files and ports of this test."""
-        text = re.search(r"(?ms)^    map \$http_upgrade.*?^    }\n    server \{.*?^    }\n", (ROOT / "docs/console.md").read_text())[0]
-        for old, new in (("443 ssl", f"127.0.0.1:{self.port} ssl"), ("/etc/ssl/certs/wall.example.pem", str(self.tls / "certificate.pem")),
-                         ("/etc/ssl/private/wall.example.key", str(self.tls / "certificate.key")), ("127.0.0.1:7480", self.address)):
+        text = re.search(r"(?ms)^    map \$http_upgrade.*?^    }\n    server \{.*?^    }\n",
+                         (ROOT / "docs/console.md").read_text())[0]
+        for old, new in (("443 ssl", f"127.0.0.1:{self.port} ssl"),
+                         ("/etc/ssl/certs/wall.example.pem", str(self.tls / "certificate.pem")),
+                         ("/etc/ssl/private/wall.example.key", str(self.tls / "certificate.key")),
+                         ("127.0.0.1:7480", self.address)):
             assert text.count(old) == 1, old
             text = text.replace(old, new)
         return text
@@ -206,7 +220,8 @@ class Proxy(Alone):
     def start_proxy(self):
         folder = Path(self.folder.name) / "nginx"
         folder.mkdir()
-        paths = "".join(f"{kind}_temp_path {folder}/{kind};" for kind in ("client_body", "proxy", "fastcgi", "uwsgi", "scgi"))
+        paths = "".join(f"{kind}_temp_path {folder}/{kind};"
+                        for kind in ("client_body", "proxy", "fastcgi", "uwsgi", "scgi"))
         user = "user root;" if os.geteuid() == 0 else ""
         (folder / "conf").write_text(f"{user} pid {folder}/pid; error_log {folder}/error; daemon off; events {{}}\n"
                                      f"http {{ access_log off; {paths}\n{self.snippet()} }}\n")
@@ -224,13 +239,15 @@ class Proxy(Alone):
     def connect(self, source="127.0.0.1"):
         """To nginx, from an address of this machine."""
         raw = socket.create_connection(("127.0.0.1", self.port), timeout=10, source_address=(source, 0))
-        return ssl.create_default_context(cafile=self.tls / "authority.pem").wrap_socket(raw, server_hostname="wall.example")
+        return ssl.create_default_context(cafile=self.tls / "authority.pem").wrap_socket(
+            raw, server_hostname="wall.example")
 
     def ask(self, method, target, body=None, source="127.0.0.1", direct=False, **headers):
         """Status, headers and text, through the proxy or past it."""
         host, port = self.address.split(":")
         connection = http.client.HTTPConnection("wall.example")
-        connection.sock = (socket.create_connection((host, int(port)), timeout=10, source_address=(source, 0)) if direct else self.connect(source))
+        connection.sock = (socket.create_connection((host, int(port)), timeout=10, source_address=(source, 0)) if direct
+                           else self.connect(source))
         given = {"Host": self.name} | {name.replace("_", "-"): value for name, value in headers.items()}
         if body is not None:
             given["Content-Type"] = "application/json"
@@ -241,7 +258,8 @@ class Proxy(Alone):
         return answer.status, dict(answer.getheaders()), text
 
     def pair(self, code, source="127.0.0.1", origin=None):
-        return self.ask("POST", "/pair", {"code": code, "name": "tablet"}, source, Origin=origin or f"https://{self.name}")
+        return self.ask("POST", "/pair", {"code": code, "name": "tablet"}, source,
+                        Origin=origin or f"https://{self.name}")
 
     def test_it_is_refused_by_name_without_the_option(self):
         self.start()
@@ -271,7 +289,8 @@ class Proxy(Alone):
             self.assertEqual(self.pair(code, origin=origin)[0], 403, origin)
         status, headers, text = self.pair(code)
         self.assertEqual(status, 200, text)
-        self.assertRegex(headers["Set-Cookie"], r"\A__Host-aquarama=\w+; Path=/; HttpOnly; SameSite=Strict; Max-Age=\d+; Secure\Z")
+        self.assertRegex(headers["Set-Cookie"],
+                         r"\A__Host-aquarama=\w+; Path=/; HttpOnly; SameSite=Strict; Max-Age=\d+; Secure\Z")
         cookie = headers["Set-Cookie"].split(";")[0]
         self.assertEqual(self.ask("GET", "/metrics", Cookie=cookie)[0], 200)
         self.assertEqual(self.ask("GET", "/metrics", direct=True, Host=self.address, Cookie=cookie)[0], 401)
@@ -279,7 +298,8 @@ class Proxy(Alone):
 
     def speak(self, cookie):
         """The same over a WebSocket."""
-        for origin, expected in ((f"https://{self.name}", 101), ("https://evil.example", 403), (f"http://{self.name}", 403)):
+        for origin, expected in ((f"https://{self.name}", 101), ("https://evil.example", 403),
+                                 (f"http://{self.name}", 403)):
             client = Socket(self, Host=self.name, Origin=origin, Cookie=cookie, raw=self.connect())
             self.assertEqual(client.status, expected, origin)
             if expected == 101:
@@ -296,15 +316,19 @@ class Proxy(Alone):
         self.assertEqual(self.pair(code, source="127.0.0.5")[0], 403)
         status, headers, text = self.pair(code, source="127.0.0.6")
         self.assertEqual(status, 200, text)
-        client = Socket(self, Host=self.name, Origin=f"https://{self.name}", Cookie=headers["Set-Cookie"].split(";")[0], raw=self.connect())
+        client = Socket(self, Host=self.name, Origin=f"https://{self.name}", Cookie=headers["Set-Cookie"].split(";")[0],
+                        raw=self.connect())
         events = [event["what"] for event in client.hear()["snapshot"]["events"]["events"]]
         self.assertIn("five wrong pairing codes, from 127.0.0.5: the code has ended", events)
         client.close()
 
     def test_an_option_that_is_wrong_says_so(self):
-        for arguments, line in ((("--public", "https://wall.example"), r"aquarama console: --public requires --proxy; see .*"),
-                                (("--public", "http://wall.example", "--proxy", "127.0.0.1"), r"aquarama console: --public http://wall\.example: .*https://NAME.*"),
-                                (("--public", "https://wall.example", "--proxy", "nginx"), r"aquarama console: --proxy nginx: is no address .*")):
+        for arguments, line in ((("--public", "https://wall.example"),
+                                 r"aquarama console: --public requires --proxy; see .*"),
+                                (("--public", "http://wall.example", "--proxy", "127.0.0.1"),
+                                 r"aquarama console: --public http://wall\.example: .*https://NAME.*"),
+                                (("--public", "https://wall.example", "--proxy", "nginx"),
+                                 r"aquarama console: --proxy nginx: is no address .*")):
             run = aquarama("console", self.rig, "--port", "0", *arguments)
             self.assertNotEqual(run.returncode, 0)
             self.assertRegex(run.stderr, rf"\A{line}\n\Z")

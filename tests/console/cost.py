@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""cost.py [PAIRS]: what operators cost the wall, paired: phases of 22 seconds with five who look at everything, and without.
+"""cost.py [PAIRS]: what operators cost the wall, paired: phases of 22 seconds with five who look at everything, and
+without.
 
-The wall and its console have one core, the load the other; a light pattern, so that frames keep to 60 Hz. Figures are those of the last 600
-frames, by aquarama status. Prints a line for each phase, and the means.
-"""
+The wall and its console have one core, the load the other; a light pattern, so that frames keep to 60 Hz. Figures are
+those of the last 600 frames, by aquarama status. Prints a line for each phase, and the means. """
 
 import os
 import re
@@ -18,12 +18,14 @@ from desk import Desk, Socket, aquarama
 def figures(desk):
     """Frame time median and 99 %, release skew median and 99 %, ms."""
     text = aquarama("status", desk.rig).stdout
-    return [float(value) for line in re.findall(r"(?:frame time|release skew).*", text) for value in re.findall(r"([\d.]+) ms", line)]
+    return [float(value) for line in re.findall(r"(?:frame time|release skew).*", text)
+            for value in re.findall(r"([\d.]+) ms", line)]
 
 
 def look(desk, cookie, ended):
     client = Socket(desk, Cookie=cookie)
-    client.say({"look": {"topics": ["log", "doctor", "history", "hours", "people", "panorama", "calibrations"], "channels": ["left", "middle", "right"], "widthPx": 480}})
+    client.say({"look": {"topics": ["log", "doctor", "history", "hours", "people", "panorama", "calibrations"],
+                         "channels": ["left", "middle", "right"], "widthPx": 480}})
     said = time.monotonic()
     while not ended.is_set():
         message = client.hear()
@@ -31,7 +33,8 @@ def look(desk, cookie, ended):
             client.say({"seen": {"channel": int.from_bytes(message[:2], "little")}})
         if time.monotonic() - said > 1:
             said = time.monotonic()
-            client.say({"look": {"topics": ["log", "history", "panorama", "calibrations"], "channels": ["left", "middle", "right"], "widthPx": 480}})
+            client.say({"look": {"topics": ["log", "history", "panorama", "calibrations"],
+                                 "channels": ["left", "middle", "right"], "widthPx": 480}})
     client.close()
 
 
@@ -56,7 +59,8 @@ def main():
             ended.set()
             for thread in threads:
                 thread.join()
-            print("with five operators" if looked else "without            ", *(f"{value:8.3f}" for value in found[looked][-1]), flush=True)
+            print("with five operators" if looked else "without            ",
+                  *(f"{value:8.3f}" for value in found[looked][-1]), flush=True)
         for looked, name in ((False, "mean without"), (True, "mean with   ")):
             print(name, *(f"{statistics.mean(column):8.3f}" for column in zip(*found[looked])))
         print("late", desk.status()["late"], "dropped", desk.status()["dropped"])

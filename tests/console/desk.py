@@ -15,7 +15,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "end_to_end"))
 
-from show import BIN, aquarama, children_of, control_address, end, give_colours, rig_on_free_ports, start, temporary_folder, wait_until  # noqa: E402,F401
+from show import (BIN, aquarama, children_of, control_address, end, give_colours, rig_on_free_ports,  # noqa: E402,F401
+                  start, temporary_folder, wait_until)
 
 
 class Desk:
@@ -25,22 +26,26 @@ class Desk:
     # `machines`: channel -> name of the machine that shows it, whose nodes a test starts (start_node).
     def __init__(self, *arguments, refresh_hz=15, calibrated=False, machines=None):
         self.folder = temporary_folder()
-        elsewhere = [(f'name: "{channel}"', f'name: "{channel}" machine: "{machine}"') for channel, machine in (machines or {}).items()]
-        self.rig = rig_on_free_ports(self.folder.name, replace=((r"refresh_hz: 60", f"refresh_hz: {refresh_hz}"), *elsewhere))
+        elsewhere = [(f'name: "{channel}"', f'name: "{channel}" machine: "{machine}"')
+                     for channel, machine in (machines or {}).items()]
+        self.rig = rig_on_free_ports(self.folder.name,
+                                     replace=((r"refresh_hz: 60", f"refresh_hz: {refresh_hz}"), *elsewhere))
         self.nodes = []
         if calibrated:
             self.calibrate()
         self.log = Path(self.folder.name) / "log"
         self.show = start("run", self.rig, "--headless", "--live", *arguments, log=self.log)
         try:
-            wait_until(lambda: "showing" in self.said() and "console at" in self.said(), 90, "the first frame and the console")
+            wait_until(lambda: "showing" in self.said() and "console at" in self.said(), 90,
+                       "the first frame and the console")
         except AssertionError:
             self.close()
             raise
 
     def calibrate(self):
-        """The rig names a wall file from now on: its own geometry, with colours of its projectors. An earlier one, of a projector that hung a little otherwise,
-        one that no rig can be shown by, and a look at the dots are kept beside it."""
+        """The rig names a wall file from now on: its own geometry, with colours of its projectors. An earlier one, of a
+        projector that hung a little otherwise, one that no rig can be shown by, and a look at the dots are kept beside
+        it."""
         folder = Path(self.folder.name)
         history = folder / "hall.history"
         history.mkdir()
@@ -51,20 +56,25 @@ class Desk:
             done = aquarama("convert", rig, history / f"{name}.mpcdi")
             assert done.returncode == 0, done.stderr
             give_colours(history / f"{name}.mpcdi")
-            figures = {"verdict": verdict, "cause": "" if verdict == "pass" else "a bright window", "overlap_rms_px": 0.031, "overlap_max_px": 0.4, "absolute_rms_px": 0.52}
+            figures = {"verdict": verdict, "cause": "" if verdict == "pass" else "a bright window",
+                       "overlap_rms_px": 0.031, "overlap_max_px": 0.4, "absolute_rms_px": 0.52}
             (history / f"{name}.json").write_text(json.dumps(figures))
         (history / "2026-01-20T101500.mpcdi").write_text("no wall file")
         (folder / "hall.mpcdi").write_bytes((history / "2026-02-24T210301.mpcdi").read_bytes())
-        channels = [{"name": name, "verdict": verdict, "shift_px": shift} for name, verdict, shift in (("left", "in place", 0.12), ("middle", "in place", 0.08), ("right", "moved", 1.81))]
+        channels = [{"name": name, "verdict": verdict, "shift_px": shift}
+                    for name, verdict, shift in (("left", "in place", 0.12), ("middle", "in place", 0.08),
+                                                 ("right", "moved", 1.81))]
         (folder / "hall.drift.last.json").write_text(json.dumps(
-            {"looked": "2026-03-01T05:00:20Z", "learned": "2026-02-24T21:03:01Z", "camera_moved_px": 0.31, "camera_lost": False, "channels": channels}))
+            {"looked": "2026-03-01T05:00:20Z", "learned": "2026-02-24T21:03:01Z", "camera_moved_px": 0.31,
+             "camera_lost": False, "channels": channels}))
         self.rig.write_text(text + 'calibration: "hall.mpcdi"\n')
 
     def start_node(self, channel, **environment):
         """As the service of another machine does, with variables of its own."""
         command = [BIN / "aquarama-node", channel, "--master", control_address(self.rig), "--headless"]
         with open(self.log, "a") as output:
-            self.nodes.append(subprocess.Popen(command, stdout=output, stderr=output, env=os.environ | {"LP_NUM_THREADS": "1"} | environment))
+            self.nodes.append(subprocess.Popen(command, stdout=output, stderr=output,
+                                               env=os.environ | {"LP_NUM_THREADS": "1"} | environment))
 
     def close(self):
         end([*self.nodes, self.show])
@@ -122,7 +132,8 @@ class Desk:
 
     def pair(self, code, name="test"):
         """The cookie of a new session."""
-        status, headers, text = self.request("POST", "/pair", {"code": code, "name": name}, Origin=f"http://{self.address}")
+        status, headers, text = self.request("POST", "/pair", {"code": code, "name": name},
+                                             Origin=f"http://{self.address}")
         assert status == 200, text
         return headers["Set-Cookie"].split(";")[0]
 
@@ -135,8 +146,10 @@ class Socket:
         host, port = desk.address.split(":")
         self.socket = raw or socket.create_connection((host, int(port)), timeout=10)
         key = base64.b64encode(secrets.token_bytes(16)).decode()
-        given = {"Host": desk.address, "Origin": f"http://{desk.address}", "Upgrade": "websocket", "Connection": "Upgrade",
-                 "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": key} | {n.replace("_", "-"): v for n, v in headers.items()}
+        given = {"Host": desk.address, "Origin": f"http://{desk.address}", "Upgrade": "websocket",
+                 "Connection": "Upgrade",
+                 "Sec-WebSocket-Version": "13",
+                 "Sec-WebSocket-Key": key} | {n.replace("_", "-"): v for n, v in headers.items()}
         lines = [f"GET {target} HTTP/1.1"] + [f"{name}: {value}" for name, value in given.items() if value is not None]
         self.socket.sendall(("\r\n".join(lines) + "\r\n\r\n").encode())
         self.buffer = b""
@@ -193,7 +206,8 @@ class Socket:
         """Says it, and waits until it is done or refused."""
         identity = str(identity or secrets.randbits(63) | 1)
         self.say({"command": {"id": identity, "run": run, **what}})
-        ended = self.hear_until(lambda m: isinstance(m, dict) and m.get("done", {}).get("id") == identity and m["done"]["outcome"] != "waiting")
+        ended = self.hear_until(lambda m: isinstance(m, dict) and m.get("done", {}).get("id") == identity
+                                and m["done"]["outcome"] != "waiting")
         return ended["done"]
 
 
@@ -201,5 +215,6 @@ def frame(content, opcode=1, mask=b"\0\0\0\0"):
     """One whole frame of a client."""
     size = len(content)
     head = bytes([0x80 | opcode])
-    head += bytes([0x80 | size]) if size < 126 else bytes([0x80 | 126]) + struct.pack(">H", size) if size < 65536 else bytes([0x80 | 127]) + struct.pack(">Q", size)
+    head += bytes([0x80 | size]) if size < 126 else bytes([0x80 | 126]) + struct.pack(
+        ">H", size) if size < 65536 else bytes([0x80 | 127]) + struct.pack(">Q", size)
     return head + mask + content

@@ -35,7 +35,8 @@ class PretendedProjector:
                     pass
 
     def say(self, client, text):
-        client.sendall(((text.lower() if "lower" in self.manners else text) + ("\r\n" if "slow" in self.manners else "\r")).encode())
+        client.sendall(((text.lower() if "lower" in self.manners else text)
+                        + ("\r\n" if "slow" in self.manners else "\r")).encode())
 
     def talk(self, client):
         salt = secrets.token_hex(4)
@@ -105,10 +106,14 @@ class Doors(unittest.TestCase):
                 (401, "POST", "/command", command, own),
                 (400, "POST", "/command", {"command": 7}, {"Cookie": self.cookie, **own}),
                 (400, "POST", "/command", {"nothing": 7}, self.bearer(self.operator)),
-                (403, "POST", "/command", {"command": {"id": "2", "run": "1", "black": True}}, self.bearer(self.watcher)),
-                (403, "POST", "/command", {"command": {"id": "3", "run": "1", "revoke": "x"}}, self.bearer(self.operator)),
-                (403, "POST", "/command", {"command": {"id": "4", "run": "1", "black": True}}, self.bearer(self.operator)),  # another show
-                (403, "POST", "/command", {"command": {"id": "0", "run": "1", "black": True}}, self.bearer(self.operator)),
+                (403, "POST", "/command", {"command": {"id": "2", "run": "1", "black": True}},
+                 self.bearer(self.watcher)),
+                (403, "POST", "/command", {"command": {"id": "3", "run": "1", "revoke": "x"}},
+                 self.bearer(self.operator)),
+                (403, "POST", "/command", {"command": {"id": "4", "run": "1", "black": True}},
+                 self.bearer(self.operator)),  # another show
+                (403, "POST", "/command", {"command": {"id": "0", "run": "1", "black": True}},
+                 self.bearer(self.operator)),
                 (400, "POST", "/pair", {"nothing": 1}, own),
                 (403, "POST", "/pair", {"code": "00000000"}, own),
                 (403, "POST", "/pair", {"code": "00000000"}, {"Origin": other}),
@@ -138,12 +143,15 @@ class Doors(unittest.TestCase):
 
     def test_roles_are_held_to_where_a_command_is_carried_out(self):
         before = self.desk.status()
-        for token, allowed in ((self.watcher, {"pointAt"}), (self.operator, {"pointAt", "black", "freeze", "pattern", "scan"}),
+        for token, allowed in ((self.watcher, {"pointAt"}),
+                               (self.operator, {"pointAt", "black", "freeze", "pattern", "scan"}),
                                (self.crew, {"pointAt", "black", "freeze", "pattern", "scan", "newCode"})):
             client = Socket(self.desk, Origin=None, **self.bearer(token))
             run = client.hear()["snapshot"]["wall"]["run"]
-            for what, value in (("black", False), ("freeze", False), ("pattern", "grid"), ("newCode", "WATCHER"), ("scan", {}),
-                                ("useCalibration", "--help"), ("power", "nonsense"), ("pointAt", {"channel": "left", "x": 0.5, "y": 0.5})):
+            for what, value in (("black", False), ("freeze", False), ("pattern", "grid"), ("newCode", "WATCHER"),
+                                ("scan", {}),
+                                ("useCalibration", "--help"), ("power", "nonsense"),
+                                ("pointAt", {"channel": "left", "x": 0.5, "y": 0.5})):
                 done = client.command(run, **{what: value})
                 self.assertEqual(done["outcome"], "done" if what in allowed else "refused", (what, done))
             client.say({"helm": {"ahead": 127}})
@@ -161,7 +169,8 @@ class Doors(unittest.TestCase):
                 client = Socket(self.desk, Origin=None, **self.bearer(token))
                 told = [client.hear()["snapshot"]["hours"]]
                 client.say({"look": {"topics": ["hours"]}})
-                told.append(client.hear_until(lambda message: isinstance(message, dict) and "hours" in message)["hours"])
+                told.append(client.hear_until(lambda message: isinstance(message, dict)
+                                              and "hours" in message)["hours"])
                 for hours in told:
                     self.assertEqual(hours["projectors"][0].get("password", ""), secret)
                     self.assertEqual(hours.get("text", ""), text if secret else "")
@@ -172,9 +181,10 @@ class Doors(unittest.TestCase):
             crew.close()
 
     def test_projectors_of_a_hall_are_switched_whatever_their_manners(self):
-        """One in lower case that closes after each answer and is asked for its password each time; one that is slow, with ERR3 in standby and a shutter
-        that cannot be asked."""
-        polite, odd = (PretendedProjector(*manners) for manners in (("lower", "closes", "password"), ("slow", "err3", "deaf shutter")))
+        """One in lower case that closes after each answer and is asked for its password each time; one that is slow,
+        with ERR3 in standby and a shutter that cannot be asked."""
+        polite, odd = (PretendedProjector(*manners)
+                       for manners in (("lower", "closes", "password"), ("slow", "err3", "deaf shutter")))
         crew = Socket(self.desk, Origin=None, Authorization=f"Bearer {self.crew}")
         every_day = "MONDAY, TUESDAY, WEDNESDAY, THURSDAY, FRIDAY, SATURDAY, SUNDAY"
         text = f'''zone: "UTC" open {{ days: [{every_day}] from: "00:00" to: "24:00" }}
@@ -189,8 +199,10 @@ class Doors(unittest.TestCase):
             return {one["name"]: state(one) for one in message["projectors"]["projectors"]}
         wanted = {"polite": ("answers", "on", False, "31"), "odd": ("answers", "on", None, "32")}
         wait_until(lambda: projectors() == wanted, 60, "both on and open, as far as they tell")
-        self.assertEqual([(one.power, one.shut, one.input) for one in (polite, odd)], [("1", False, "31"), ("1", False, "32")])
-        self.assertNotIn("shut{projector=\"odd\"}", metrics := self.desk.request("GET", "/metrics", **self.bearer(self.watcher))[2])
+        self.assertEqual([(one.power, one.shut, one.input) for one in (polite, odd)],
+                         [("1", False, "31"), ("1", False, "32")])
+        self.assertNotIn("shut{projector=\"odd\"}",
+                         metrics := self.desk.request("GET", "/metrics", **self.bearer(self.watcher))[2])
         self.assertIn("aquarama_console_projector_shut{projector=\"polite\"} 0", metrics)
         self.assertEqual(crew.command(0, hoursText="")["outcome"], "done")
         crew.close()
@@ -228,10 +240,12 @@ class Doors(unittest.TestCase):
         identity = secrets.randbits(62) | 1
         self.assertEqual(client.command(run, identity, black=False)["outcome"], "done")
         self.assertEqual(client.command(run, black=True)["outcome"], "done")
-        self.assertEqual(client.command(run, identity, black=False)["outcome"], "done")  # said again: answered, not done
+        self.assertEqual(client.command(run, identity, black=False)["outcome"],
+                         "done")  # said again: answered, not done
         self.assertEqual(self.desk.status()["black"], "on")
         self.assertEqual(client.command(run, black=False)["outcome"], "done")
-        for what in ({"scene": "none/such"}, {"scene": ""}, {"quality": "best"}, {"pattern": "scan"}, {"pattern": "x\ny"},
+        for what in ({"scene": "none/such"}, {"scene": ""}, {"quality": "best"}, {"pattern": "scan"},
+                     {"pattern": "x\ny"},
                      {"restart": "nobody"}, {"scene": "x" * 500}, {"acknowledge": "nothing"}):
             done = client.command(run, **what)
             self.assertEqual(done["outcome"], "refused", what)
@@ -255,13 +269,15 @@ class Doors(unittest.TestCase):
         slow = [socket.create_connection(address) for _ in range(100)]
         for client in slow:
             client.sendall(b"GET / HTTP/1.1\r\nHost: ")
-        begun = time.monotonic()
         self.assertEqual(self.desk.request("GET", "/")[0], 200)
-        self.assertLess(time.monotonic() - begun, 2, f"an honest request beside {count} idle sockets")
+        # The answer does not wait until the others are cut off: the last of them is still connected.
+        with self.assertRaises(BlockingIOError):
+            slow[-1].recv(1, socket.MSG_DONTWAIT)
         for client in idle:
             client.close()
         giant = {"a header of 20 kB": b"GET / HTTP/1.1\r\nHost: x\r\nX: " + b"y" * 20_000,
-                 "a body of 1 MB": b"POST /pair HTTP/1.1\r\nHost: x\r\nContent-Length: 1000000\r\n\r\n" + b"y" * 100_000,
+                 "a body of 1 MB": b"POST /pair HTTP/1.1\r\nHost: x\r\nContent-Length: 1000000\r\n\r\n"
+                 + b"y" * 100_000,
                  "no HTTP": secrets.token_bytes(3000)}
         for what, content in giant.items():
             client = socket.create_connection(address, timeout=8)
@@ -314,7 +330,8 @@ class Doors(unittest.TestCase):
             client.hear()
             client.say({"look": {"channels": ["left"], "widthPx": 240}})
             picture = client.hear_until(lambda message: isinstance(message, bytes))
-            channel, _, width, height, number = (int.from_bytes(picture[a:b], "little") for a, b in ((0, 2), (2, 4), (4, 6), (6, 8), (8, 16)))
+            channel, _, width, height, number = (int.from_bytes(picture[a:b], "little")
+                                                 for a, b in ((0, 2), (2, 4), (4, 6), (6, 8), (8, 16)))
             self.assertEqual((channel, width, height), (0, 240, 180))
             self.assertEqual(picture[16:18], b"\xff\xd8")
             frames[client] = number
@@ -339,7 +356,8 @@ class Doors(unittest.TestCase):
             started = self.desk.said().count("console at")
             os.kill(process, signal.SIGKILL)
             wait_until(lambda: self.desk.said().count("console at") > started, 20, "the console to be started again")
-            wait_until(lambda: self.desk.request("GET", "/me", Cookie=self.cookie)[2].find("crew") > 0, 10, "the session")
+            wait_until(lambda: self.desk.request("GET", "/me", Cookie=self.cookie)[2].find("crew") > 0, 10,
+                       "the session")
         after = self.desk.status()
         self.assertEqual((after["late"], after["dropped"]), (before["late"], before["dropped"]))
         self.assertGreater(after["frame"], before["frame"])
@@ -363,13 +381,15 @@ class Doors(unittest.TestCase):
         rig = other / "desk.txtpb"
         rig.write_text("\n".join(line for line in text.splitlines() if "watch:" not in line))
         with open(other / "log", "w") as log:
-            console = subprocess.Popen([BIN / "aquarama-console", rig, "--listen", "127.0.0.2", "--port", "0"], stdout=log, stderr=log)
+            console = subprocess.Popen([BIN / "aquarama-console", rig, "--listen", "127.0.0.2", "--port", "0"],
+                                       stdout=log, stderr=log)
         try:
             wait_until(lambda: "console at https://" in (other / "log").read_text(), 10, "the console over TLS")
             port = int((other / "log").read_text().split("https://127.0.0.2:")[1].split()[0])
             context = ssl.create_default_context(cafile=authority)
             for name in ("127.0.0.2", "master.local"):
-                with socket.create_connection(("127.0.0.2", port)) as raw, context.wrap_socket(raw, server_hostname=name) as tls:
+                with socket.create_connection(("127.0.0.2",
+                                               port)) as raw, context.wrap_socket(raw, server_hostname=name) as tls:
                     tls.sendall(f"GET /me HTTP/1.1\r\nHost: 127.0.0.2:{port}\r\nConnection: close\r\n\r\n".encode())
                     self.assertIn(b"200 OK", tls.recv(1000))
             with socket.create_connection(("127.0.0.2", port)) as raw, self.assertRaises(ssl.SSLError):
@@ -398,17 +418,20 @@ class OtherMachines(unittest.TestCase):
     def wall(cls, wanted):
         """The nodes by name, as soon as they are as they should be."""
         nodes = lambda message: {node["name"]: node for node in message["wall"]["nodes"]}
-        return nodes(cls.crew.hear_until(lambda message: isinstance(message, dict) and "wall" in message and wanted(nodes(message)), 60))
+        return nodes(cls.crew.hear_until(lambda message: isinstance(message, dict) and "wall" in message
+                                         and wanted(nodes(message)), 60))
 
     def switch(self, channel, word, identity=None, run=None):
         return self.crew.command(run or self.run_number, identity, machine={"channel": channel, "word": word})
 
     def events(self):
-        return [event["what"] for event in self.crew.hear_until(lambda message: isinstance(message, dict) and "events" in message)["events"]["events"]]
+        return [event["what"] for event in self.crew.hear_until(lambda message: isinstance(message, dict)
+                                                                and "events" in message)["events"]["events"]]
 
     def test_the_word_goes_to_the_machine_of_the_node_once(self):
         word, identity = self.pit / "word", secrets.randbits(62) | 1
-        self.assertEqual(self.switch("left", "reboot", identity), {"id": str(identity), "outcome": "done", "reason": ""})
+        self.assertEqual(self.switch("left", "reboot", identity),
+                         {"id": str(identity), "outcome": "done", "reason": ""})
         self.assertIn("reboot of the machine of left", self.events())
         self.assertEqual(word.read_text(), "reboot\n")
         word.unlink()  # as its service does
@@ -421,9 +444,11 @@ class OtherMachines(unittest.TestCase):
 
     def test_only_the_crew_and_only_one_of_two_words_of_this_show(self):
         operator = Socket(self.desk, Origin=None, Authorization=f"Bearer {self.desk.token('operator')}")
-        self.assertEqual(operator.command(self.run_number, machine={"channel": "left", "word": "poweroff"})["reason"], "only crew may do this")
+        self.assertEqual(operator.command(self.run_number, machine={"channel": "left", "word": "poweroff"})["reason"],
+                         "only crew may do this")
         operator.close()
-        for channel, word, run in (("left", "halt", None), ("left", "", None), ("", "reboot", None), ("nobody", "reboot", None),
+        for channel, word, run in (("left", "halt", None), ("left", "", None), ("", "reboot", None),
+                                   ("nobody", "reboot", None),
                                    ("left", "poweroff", str(int(self.run_number) ^ 1))):
             self.assertEqual(self.switch(channel, word, run=run)["outcome"], "refused", (channel, word, run))
         self.assertEqual(list(self.pit.iterdir()), [])

@@ -27,7 +27,8 @@ from desk import Desk, aquarama, rig_on_free_ports, wait_until
 
 DRIVER = Path("/usr/bin/chromedriver")
 if webdriver is None or not DRIVER.exists():
-    missing = "chromium-driver and python3-selenium are needed to test the console's pages (packaging/packages/console-test.txt)"
+    missing = ("chromium-driver and python3-selenium are needed to test the console's pages "
+               "(packaging/packages/console-test.txt)")
     if os.environ.get("CI"):
         sys.exit(missing)
     print("SKIPPED:", missing)
@@ -49,7 +50,8 @@ exceptions { date: "2026-12-24" }
 
 
 def similarity(a, b):
-    """Structural similarity (Wang et al. 2004) of two grey pictures with codes 0 to 255, in the mean: 1 where they are equal."""
+    """Structural similarity (Wang et al. 2004) of two grey pictures with codes 0 to 255, in the mean: 1 where they are
+    equal."""
     mean = lambda picture: gaussian_filter(picture, 1.5)
     ma, mb = mean(a), mean(b)
     va, vb, both = mean(a * a) - ma * ma, mean(b * b) - mb * mb, mean(a * b) - ma * mb
@@ -64,12 +66,14 @@ def grey(picture, size=None):
 
 def browser(width=1280, height=900, language="en"):
     options = webdriver.ChromeOptions()
-    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking", f"--window-size={width},{height}"):
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking",
+                     f"--window-size={width},{height}"):
         options.add_argument(argument)
     options.add_experimental_option("prefs", {"intl.accept_languages": language})
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     driver = webdriver.Chrome(service=Service(str(DRIVER)), options=options)
-    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 700})
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                           {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 700})
     return driver
 
 
@@ -77,7 +81,8 @@ class Pages(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         # Four frames a second of a pattern: the nodes leave the processor to the browser.
-        cls.desk = Desk(*(() if SHOTS else ("--pattern", "grid")), refresh_hz=15 if SHOTS else 4, calibrated=True, machines={"left": "pit"})
+        cls.desk = Desk(*(() if SHOTS else ("--pattern", "grid")), refresh_hz=15 if SHOTS else 4, calibrated=True,
+                        machines={"left": "pit"})
         cls.addClassCleanup(cls.desk.close)
         cls.pit = Path(cls.desk.folder.name) / "pit"
         cls.pit.mkdir()
@@ -108,16 +113,19 @@ class Pages(unittest.TestCase):
         self.open("wall")
 
     def tearDown(self):
-        said = [entry for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE" and "WebSocket" not in entry["message"]]
+        said = [entry for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"
+                and "WebSocket" not in entry["message"]]
         self.assertEqual(said, [], "errors, or violations of the policy")
 
     def open(self, page, driver=None):
         driver = driver or self.driver
         driver.get(f"http://{self.desk.address}/#{page}")
-        wait_until(lambda: driver.execute_script("return document.querySelector('nav a[aria-current]')?.hash") == f"#{page}", 10, page)
+        wait_until(lambda: driver.execute_script(
+            "return document.querySelector('nav a[aria-current]')?.hash") == f"#{page}", 10, page)
 
     def text(self, selector="body", driver=None):
-        return (driver or self.driver).execute_script("return document.querySelector(arguments[0])?.innerText ?? ''", selector)
+        return (driver or self.driver).execute_script("return document.querySelector(arguments[0])?.innerText ?? ''",
+                                                      selector)
 
     def button(self, label, driver=None):
         """Found and brought to the middle at once: pages are drawn again all the time, and their head stays."""
@@ -141,13 +149,17 @@ class Pages(unittest.TestCase):
             const canvas = document.querySelectorAll('.views canvas')[arguments[0]];
             const codes = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
             let most = 0, drawn = false;
-            for (let i = 0; i < codes.length; i += 4) { most = Math.max(most, codes[i], codes[i+1], codes[i+2]); drawn ||= codes[i+3] > 0; }
+            for (let i = 0; i < codes.length; i += 4) {
+                most = Math.max(most, codes[i], codes[i+1], codes[i+2]);
+                drawn ||= codes[i+3] > 0;
+            }
             return drawn ? most < 12 : null;""", channel)
 
     def test_the_page_shows_what_status_says(self):
         self.open("nodes")
         wait_until(lambda: self.text("tbody").count("in step") == 3, 10, "three nodes in step")
-        rows = [row.split()[0] for row in self.text("tbody").splitlines() if row.split() and row.split()[0] in ("left", "middle", "right")]
+        rows = [row.split()[0] for row in self.text("tbody").splitlines() if row.split()
+                and row.split()[0] in ("left", "middle", "right")]
         self.assertEqual(rows, ["left", "middle", "right"])
         self.open("wall")
         shown = self.desk.status()
@@ -163,7 +175,8 @@ class Pages(unittest.TestCase):
 
     def test_black_is_held_shown_in_the_preview_and_undone_by_one_tap(self):
         wait_until(lambda: self.is_drawn_black(0) is False, 15, "a picture with light in it")
-        wait_until(lambda: re.search(r"^frames? \d+( to \d+)?$", self.text("figure.whole figcaption")), 15, "pictures of all channels")
+        wait_until(lambda: re.search(r"^frames? \d+( to \d+)?$", self.text("figure.whole figcaption")), 15,
+                   "pictures of all channels")
         self.shot("wall")
         self.hold("Black", 0.4)
         time.sleep(0.5)
@@ -189,7 +202,8 @@ class Pages(unittest.TestCase):
 
     @unittest.skipIf(SHOTS, "pictures for the guide are of the reef")
     def test_the_previews_and_the_panorama_are_the_wall(self):
-        """Against the pictures that a show of its own leaves with --snapshot: of the grid, which is the same in each frame."""
+        """Against the pictures that a show of its own leaves with --snapshot: of the grid, which is the same in each
+        frame."""
         folder = Path(self.desk.folder.name) / "still"
         folder.mkdir()
         rig = rig_on_free_ports(folder)
@@ -197,15 +211,18 @@ class Pages(unittest.TestCase):
         shutil.copy(Path(self.desk.folder.name) / "hall.mpcdi", folder)
         still = aquarama("run", rig, "--headless", "--pattern", "grid", "--frames", "2", "--snapshot", folder)
         self.assertEqual(still.returncode, 0, still.stderr)
-        wait_until(lambda: re.search(r"^frames? \d+( to \d+)?$", self.text("figure.whole figcaption")), 15, "a panorama of all channels")
+        wait_until(lambda: re.search(r"^frames? \d+( to \d+)?$", self.text("figure.whole figcaption")), 15,
+                   "a panorama of all channels")
         time.sleep(0.3)
         for number, name in enumerate(("left", "middle", "right"), 1):
             preview = grey(self.drawn(f".views figure:nth-child({number}) canvas"))
-            self.assertGreater(similarity(preview, grey(Image.open(folder / f"channel-{name}.png"), preview.shape[::-1])), 0.95, name)
+            self.assertGreater(similarity(preview, grey(Image.open(folder / f"channel-{name}.png"),
+                                                        preview.shape[::-1])), 0.95, name)
         drawn, wall = self.drawn("figure.whole canvas"), Image.open(folder / "panorama.png")
         of_wall = grey(wall, drawn.size)
         self.assertGreater(similarity(grey(drawn), of_wall), 0.97)
-        self.assertLess(similarity(np.roll(grey(drawn), 2, axis=1), of_wall), 0.8, "two pixels beside it is another wall")
+        self.assertLess(similarity(np.roll(grey(drawn), 2, axis=1), of_wall), 0.8,
+                        "two pixels beside it is another wall")
         # Its colours too: those of the projectors, which the previews have, are undone.
         parts = lambda picture: np.asarray(picture.convert("RGB").resize(drawn.size, Image.BOX), float).reshape(-1, 3)
         apart = parts(drawn) - parts(wall)
@@ -217,15 +234,20 @@ class Pages(unittest.TestCase):
         reached = set()
         for _ in range(60):
             ActionChains(self.driver).send_keys(Keys.TAB).perform()
-            reached.add(self.driver.execute_script("return document.activeElement.id || document.activeElement.innerText.split('\\u00a0')[0]"))
-        self.assertLessEqual({"Wall", "Nodes", "Events", "Schedule", "Calibration", "Doctor", "Log", "Mind", "People", "Black", "Freeze", "scene", "quality", "pattern", "Take the helm"}, reached)
-        self.driver.execute_script("[...document.querySelectorAll('button')].find(b => b.innerText === 'Black').focus()")
+            reached.add(self.driver.execute_script(
+                "return document.activeElement.id || document.activeElement.innerText.split('\\u00a0')[0]"))
+        self.assertLessEqual({"Wall", "Nodes", "Events", "Schedule", "Calibration", "Doctor", "Log", "Mind", "People",
+                              "Black", "Freeze", "scene", "quality", "pattern", "Take the helm"}, reached)
+        self.driver.execute_script(
+            "[...document.querySelectorAll('button')].find(b => b.innerText === 'Black').focus()")
         ActionChains(self.driver).key_down(Keys.ENTER).pause(1.3).key_up(Keys.ENTER).perform()
         wait_until(lambda: self.desk.status()["black"] == "on", 5, "black by keyboard")
-        self.driver.execute_script("[...document.querySelectorAll('button')].find(b => b.innerText === 'Light again').focus()")
+        self.driver.execute_script(
+            "[...document.querySelectorAll('button')].find(b => b.innerText === 'Light again').focus()")
         ActionChains(self.driver).send_keys(Keys.ENTER).perform()
         wait_until(lambda: self.desk.status()["black"] == "off", 5, "light by keyboard")
-        self.driver.execute_script("[...document.querySelectorAll('button')].find(b => b.innerText === 'Freeze').focus()")
+        self.driver.execute_script(
+            "[...document.querySelectorAll('button')].find(b => b.innerText === 'Freeze').focus()")
         ActionChains(self.driver).send_keys(" ").perform()
         wait_until(lambda: self.desk.status()["freeze"] == "on", 5, "frozen by keyboard")
         wait_until(lambda: "Let it move" in self.text(), 5, "the page to show it")
@@ -234,7 +256,8 @@ class Pages(unittest.TestCase):
 
     def test_hours_are_written_by_keyboard_alone(self):
         self.open("schedule")
-        focused = lambda: self.driver.execute_script("return document.activeElement.id || document.activeElement.innerText.trim()")
+        focused = lambda: self.driver.execute_script(
+            "return document.activeElement.id || document.activeElement.innerText.trim()")
         def go_to(name):
             for _ in range(80):
                 if focused() == name:
@@ -250,13 +273,15 @@ class Pages(unittest.TestCase):
         go_to("Sat")
         ActionChains(self.driver).send_keys(" ").perform()
         go_to("h-zone")
-        ActionChains(self.driver).key_down(Keys.CONTROL).send_keys("a").key_up(Keys.CONTROL).send_keys("UTC" + Keys.TAB).perform()
+        ActionChains(self.driver).key_down(Keys.CONTROL).send_keys("a").key_up(Keys.CONTROL).send_keys(
+            "UTC" + Keys.TAB).perform()
         go_to("Save")
         ActionChains(self.driver).send_keys(Keys.ENTER).perform()
         wait_until(lambda: "not saved yet" not in self.text("main"), 5, "saved hours")
         self.assertIn("Saturday", self.find(self.driver, "svg.week").get_attribute("aria-label"))
         self.save_text("")
-        wait_until(lambda: self.find(self.driver, "svg.week").get_attribute("aria-label") == "never open", 5, "no hours")
+        wait_until(lambda: self.find(self.driver, "svg.week").get_attribute("aria-label") == "never open", 5,
+                   "no hours")
         self.button("Let the schedule go on").click()
         wait_until(lambda: "No hours are set" in self.text("main"), 5, "no hold")
 
@@ -282,20 +307,24 @@ class Pages(unittest.TestCase):
     @unittest.skipIf(SHOTS, "the reef takes a minute to build without a graphics card")
     def test_a_pattern_a_scene_and_a_quality_are_chosen_and_shown(self):
         before = self.desk.status()
-        for what, other in (("pattern", "grey" if not SHOTS else "grid"), ("scene", "empty_sea"), ("quality", "medium")):
+        for what, other in (("pattern", "grey" if not SHOTS else "grid"), ("scene", "empty_sea"),
+                            ("quality", "medium")):
             self.choose(what, other)
             self.choose(what, before[what])
         self.driver.refresh()
-        wait_until(lambda: re.search(r"^frames? \d+( to \d+)?$", self.text("figure.whole figcaption")), 15, "pictures of all channels")
+        wait_until(lambda: re.search(r"^frames? \d+( to \d+)?$", self.text("figure.whole figcaption")), 15,
+                   "pictures of all channels")
 
     def test_a_stale_page_dims_and_holds_commands_back_until_it_hears_again(self):
         console = self.desk.console_process()
-        places = lambda: [(e.location, e.size) for e in self.driver.find_elements(By.CSS_SELECTOR, "nav a, main button")]
+        places = lambda: [(e.location, e.size)
+                          for e in self.driver.find_elements(By.CSS_SELECTOR, "nav a, main button")]
         before = places()
         os.kill(console, signal.SIGSTOP)
         try:
             begun = time.monotonic()
-            wait_until(lambda: "stale" in self.driver.find_element(By.TAG_NAME, "html").get_attribute("class"), 5, "a stale page")
+            wait_until(lambda: "stale" in self.driver.find_element(By.TAG_NAME, "html").get_attribute("class"), 5,
+                       "a stale page")
             self.assertLessEqual(time.monotonic() - begun, 2.6)
             self.assertFalse(any(b.is_enabled() for b in self.driver.find_elements(By.CSS_SELECTOR, "main button")))
             self.assertIn("Nothing heard from the console", self.text("header"))
@@ -319,7 +348,8 @@ class Pages(unittest.TestCase):
                 const done = arguments[0], socket = new WebSocket(`ws://${location.host}/ws`);
                 socket.onmessage = event => {
                   const message = JSON.parse(event.data);
-                  if (message.snapshot) socket.send(JSON.stringify({command: {id: '99', run: message.snapshot.wall.run, black: true}}));
+                  const run = message.snapshot?.wall.run;
+                  if (run) socket.send(JSON.stringify({command: {id: '99', run, black: true}}));
                   if (message.done) { window.refusal = message.done.reason; socket.close(); done(); }
                 };""")
             self.assertEqual(driver.execute_script("return window.refusal"), "only operator may do this")
@@ -332,7 +362,8 @@ class Pages(unittest.TestCase):
         time.sleep(5)  # a process that ends sooner than that after its start is taken for broken
         before = self.desk.said().count("showing")
         row = self.driver.find_element(By.XPATH, "//tr[th='right']")
-        ActionChains(self.driver).click_and_hold(row.find_element(By.CSS_SELECTOR, "button")).pause(1.3).release().perform()
+        ActionChains(self.driver).click_and_hold(row.find_element(By.CSS_SELECTOR,
+                                                                  "button")).pause(1.3).release().perform()
         wait_until(lambda: self.desk.said().count("showing") > before, 60, "the node to show again")
         wait_until(lambda: self.text("tbody").count("in step") == 3, 30, "all in step")
         self.open("events")
@@ -363,8 +394,11 @@ class Pages(unittest.TestCase):
         self.shot("doctor")
 
     def save_text(self, text):
-        self.driver.execute_script("""document.querySelector('details').open = true; const text = document.querySelector('#hours'); text.value = arguments[0];
-                                      text.dispatchEvent(new Event('input'));""", text)
+        self.driver.execute_script(
+            """document.querySelector('details').open = true;
+               const text = document.querySelector('#hours');
+               text.value = arguments[0];
+               text.dispatchEvent(new Event('input'));""", text)
         self.button("Save the text").click()
         self.driver.execute_script("document.querySelector('details').open = false; scrollTo(0, 0);")
 
@@ -380,18 +414,23 @@ class Pages(unittest.TestCase):
         wait_until(lambda: "service" in self.text("header"), 5, "a hold that is seen")
         self.button("Add hours").click()
         self.button("Sun").click()
-        for field, value in (("spans-0-from", "19:00"), ("spans-0-to", "01:30"), ("spans-0-scene", "reef"), ("spans-0-quality", "low"), ("zone", "Europe/Berlin")):
+        for field, value in (("spans-0-from", "19:00"), ("spans-0-to", "01:30"), ("spans-0-scene", "reef"),
+                             ("spans-0-quality", "low"), ("zone", "Europe/Berlin")):
             self.set_field(field, value)
         for _ in range(2):
             self.button("Add a day").click()
         self.button("Add a projector").click()
-        for field, value in (("exceptions-0-date", "2026-12-24"), ("exceptions-1-date", "2026-12-24"), ("projectors-0-name", "left"), ("projectors-0-address", "beamer")):
+        for field, value in (("exceptions-0-date", "2026-12-24"), ("exceptions-1-date", "2026-12-24"),
+                             ("projectors-0-name", "left"), ("projectors-0-address", "beamer")):
             self.set_field(field, value)
         # One mistake after the other, each where it is.
-        for field, words, value in (("exceptions-1-date", "is there already", "2026-12-31"), ("projectors-0-address", "is a number", "127.0.0.1:1")):
+        for field, words, value in (("exceptions-1-date", "is there already", "2026-12-31"),
+                                    ("projectors-0-address", "is a number", "127.0.0.1:1")):
             self.button("Save").click()
             wait_until(lambda: words in self.text(f"#h-{field}-wrong"), 5, f"what is wrong, at {field}")
-            self.assertEqual([one.get_attribute("id") for one in self.driver.find_elements(By.CSS_SELECTOR, "[aria-invalid=true]")], [f"h-{field}"])
+            self.assertEqual([one.get_attribute("id")
+                              for one in self.driver.find_elements(By.CSS_SELECTOR, "[aria-invalid=true]")],
+                             [f"h-{field}"])
             self.set_field(field, value)
         self.assertIn("not saved yet", self.text("main"))
         self.button("Save").click()
@@ -401,7 +440,8 @@ class Pages(unittest.TestCase):
         text = self.find(self.driver, "#hours")
         self.assertEqual(text.get_property("value").splitlines(), [
             'zone: "Europe/Berlin"',
-            'open { days: [TUESDAY, WEDNESDAY, THURSDAY, FRIDAY, SUNDAY] from: "19:00" to: "01:30" scene: "reef" quality: "low" }',
+            'open { days: [TUESDAY, WEDNESDAY, THURSDAY, FRIDAY, SUNDAY] from: "19:00" to: "01:30" scene: "reef" '
+            'quality: "low" }',
             'exceptions { date: "2026-12-24" }', 'exceptions { date: "2026-12-31" }',
             'projectors { name: "left" address: "127.0.0.1:1" }'])
         wait_until(lambda: "no answer" in self.text("main"), 10, "a projector that does not answer")
@@ -449,14 +489,16 @@ class Pages(unittest.TestCase):
         self.assertIn("a bright window", self.row_of("1/24/2026").text)
         self.assertRegex(self.text("section[aria-labelledby=drift]"), r"(?s)right\s+✖ moved · 1.81 px.*calibrate again")
         self.shot("calibration")
-        use = lambda date: ActionChains(self.driver).click_and_hold(self.row_of(date).find_element(By.CSS_SELECTOR, "button")).pause(1.3).release().perform()
+        use = lambda date: ActionChains(self.driver).click_and_hold(
+            self.row_of(date).find_element(By.CSS_SELECTOR, "button")).pause(1.3).release().perform()
         # What no wall can be shown by is refused, and says why.
         use("1/20/2026")
         wait_until(lambda: "refused" in self.text("header"), 20, "a refusal")
         self.assertIn("hall.mpcdi", self.text("header"))
         for date, name in (("1/24/2026", "2026-01-24T210301"), ("2/24/2026", "2026-02-24T210301")):
             use(date)
-            wait_until(lambda: file.read_bytes() == (history / f"{name}.mpcdi").read_bytes(), 20, "the file in its place")
+            wait_until(lambda: file.read_bytes() == (history / f"{name}.mpcdi").read_bytes(), 20,
+                       "the file in its place")
             wait_until(lambda: "in use" in self.row_of(date).text, 10, "the list to say so")
         self.open("events")
         self.assertRegex(self.text("ol.events"), r"Anna\s+calibration 2026-01-24T210301")
@@ -469,7 +511,8 @@ class Pages(unittest.TestCase):
         wait_until(show.is_enabled, 5, "the button")
         ActionChains(self.driver).click_and_hold(show).pause(1.3).release().perform()
         wait_until(lambda: self.desk.status()["pattern"] == "scan", 10, "the pattern")
-        wait_until(lambda: "is held for the pattern" in self.text("section[aria-labelledby=scan]"), 5, "the page to say so")
+        wait_until(lambda: "is held for the pattern" in self.text("section[aria-labelledby=scan]"), 5,
+                   "the page to say so")
         self.button("End it").click()
         wait_until(lambda: self.desk.status()["pattern"] == before, 10, "what was shown before")
         ActionChains(self.driver).click_and_hold(show).pause(1.3).release().perform()
@@ -503,20 +546,27 @@ class Pages(unittest.TestCase):
         self.shot("mind")
 
     def test_axe_finds_nothing_on_any_page_on_desk_tablet_and_phone_light_and_dark(self):
-        self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.setDeviceMetricsOverride", {"width": 1280, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+        self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.setDeviceMetricsOverride",
+                        {"width": 1280, "height": 900, "deviceScaleFactor": 1, "mobile": False})
         self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.setEmulatedMedia", {"features": []})
         self.driver.execute_script(AXE)  # the pages are one document
         for width, height in ((1280, 900), (820, 1180), (390, 844)):
-            self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 700})
+            self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                        {"width": width, "height": height, "deviceScaleFactor": 1,
+                                         "mobile": width < 700})
             for page in PAGES:
                 self.driver.execute_script("location.hash = arguments[0]", page)
-                wait_until(lambda: self.driver.execute_script("return document.querySelector('nav a[aria-current]').hash") == f"#{page}", 5, page)
+                wait_until(lambda: self.driver.execute_script(
+                    "return document.querySelector('nav a[aria-current]').hash") == f"#{page}", 5, page)
                 for scheme in ("dark", "light"):
-                    self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+                    self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
+                                                {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
                     found = self.driver.execute_async_script("""const [done] = arguments;
-                        axe.run(document, {resultTypes: ['violations']}).then(result => done(result.violations.map(v => [v.id, v.nodes[0].html, v.nodes[0].failureSummary])));""")
+                        axe.run(document, {resultTypes: ['violations']}).then(result => done(result.violations.map(
+                            v => [v.id, v.nodes[0].html, v.nodes[0].failureSummary])));""")
                     self.assertEqual(found, [], (page, width, scheme))
-                self.assertLessEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), width, f"{page} at {width} px")
+                self.assertLessEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), width,
+                                     f"{page} at {width} px")
                 if page == "wall" and width < 700:
                     time.sleep(3 if SHOTS else 0)
                     self.shot("phone")
@@ -535,10 +585,12 @@ class Pages(unittest.TestCase):
         for _ in range(3):
             self.driver.refresh()
             self.find(self.driver, "header h1")
-            painted = lambda: self.driver.execute_script("return performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? null")
+            painted = lambda: self.driver.execute_script(
+                "return performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? null")
             wait_until(lambda: painted() is not None, 10, "what is there to be painted")
             paints.append(painted())
-            asked = self.driver.execute_script("return performance.getEntriesByType('resource').map(entry => new URL(entry.name).host)")
+            asked = self.driver.execute_script(
+                "return performance.getEntriesByType('resource').map(entry => new URL(entry.name).host)")
             self.assertEqual(set(asked), {self.desk.address})
         self.assertLess(min(paints), 1000)
 

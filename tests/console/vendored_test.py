@@ -1,4 +1,5 @@
-"""The pages are small and whole: files of others are unchanged, texts are complete in each language, nothing is fetched from elsewhere."""
+"""The pages are small and whole: files of others are unchanged, texts are complete in each language, nothing is fetched
+from elsewhere."""
 
 import gzip
 import hashlib
@@ -22,7 +23,8 @@ class Vendored(unittest.TestCase):
                 self.assertEqual(hashlib.sha256((listing.parent / name).read_bytes()).hexdigest(), digest, name)
 
     def test_a_page_is_at_most_150_kilobytes_compressed(self):
-        total = sum(len(gzip.compress(path.read_bytes())) for path in PAGES.rglob("*") if path.is_file() and path.suffix != ".txt")
+        total = sum(len(gzip.compress(path.read_bytes())) for path in PAGES.rglob("*") if path.is_file()
+                    and path.suffix != ".txt")
         self.assertLess(total, 150_000)
 
     def test_nothing_is_asked_of_anywhere_else_and_no_style_is_inline(self):
@@ -47,7 +49,8 @@ class Vendored(unittest.TestCase):
             self.assertEqual(used - set(own), set(), language)
             self.assertEqual(names - set(own), set(), language)
             for name in names:
-                self.assertEqual(set(re.findall(r"\{\w+\}", own[name])), set(re.findall(r"\{\w+\}", texts["en"][name])), name)
+                self.assertEqual(set(re.findall(r"\{\w+\}", own[name])), set(re.findall(r"\{\w+\}", texts["en"][name])),
+                                 name)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""Bad input gets one line on stderr that says what, where and what to do, and status 2 for usage, 1 for everything else."""
+"""Bad input gets one line on stderr that says what, where and what to do, and status 2 for usage, 1 for everything
+else."""
 
 import re
 import socket
@@ -9,7 +10,8 @@ from pathlib import Path
 from show import BIN, ROOT, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, wait_until
 
 PROGRAMS = ["aquarama", "aquarama-node", "aquarama-compose"]
-COMMANDS = ["new-rig", "run", "replay", "master", "node", "capture", "export", "gaits", "search", "fidelity", "controllers", "study", "check",
+COMMANDS = ["new-rig", "run", "replay", "master", "node", "capture", "export", "gaits", "search", "fidelity",
+            "controllers", "study", "check",
             "inspect", "status", "pilot", "explain"]
 STARTED = r"starting the master and 3 nodes of \S+\n(\[.*\n)*"
 
@@ -37,7 +39,8 @@ class Case(unittest.TestCase):
         self.refuses(line, "run", *arguments, "--headless", "--frames", 1, stdout=STARTED, **options)
 
     def misused(self, line, *arguments, program="aquarama"):
-        run = subprocess.run([BIN / program, *map(str, arguments)], capture_output=True, text=True, timeout=60, cwd=ROOT)
+        run = subprocess.run([BIN / program, *map(str, arguments)], capture_output=True, text=True, timeout=60,
+                             cwd=ROOT)
         self.said(run, 2, "", rf"{line}; see (aquarama[ \w-]*) --help\n")
 
     def edited(self, *replace):
@@ -51,7 +54,8 @@ class Usage(Case):
         self.misused("aquarama: a command is required")
         for command in COMMANDS:
             with self.subTest(command):
-                self.misused(r"aquarama[\w -]*: The following arguments? (was|were) not expected: (\S+ )*--warp-nine( \S+)*|"
+                self.misused(
+                    r"aquarama[\w -]*: The following arguments? (was|were) not expected: (\S+ )*--warp-nine( \S+)*|"
                              r"aquarama[\w -]*: .* is required", command, "--warp-nine")
         for program in PROGRAMS:
             with self.subTest(program):
@@ -71,7 +75,8 @@ class Usage(Case):
             ("master RIG", "aquarama master", "--fish", f"{whole} 0 to 1000000"),
             ("explain", "aquarama explain", "--fish", f"{whole} 0 to 1000000"),
             ("explain --fish 1 --replay FILE", "aquarama explain", "--tick", f"{whole} 0 to 1000000000"),
-            ("node NAME --master tcp://127.0.0.1:1 --film PIPE", "aquarama node", "--film-every", f"{whole} 1 to 10000"),
+            ("node NAME --master tcp://127.0.0.1:1 --film PIPE", "aquarama node", "--film-every",
+             f"{whole} 1 to 10000"),
             ("study", "aquarama study", "--seeds", f"{whole} 1 to 100"),
             ("study", "aquarama study", "--minutes", "a number from 0.1 to 1440"),
             ("study chronicle SCENE", "aquarama study chronicle", "--hours", "a number from 0.01 to 1000"),
@@ -81,9 +86,11 @@ class Usage(Case):
             ("fidelity --out DIR", "aquarama fidelity", "--seconds", "a number from 1 to 3600"),
             ("search SPECIES --out FILE", "aquarama search", "--trials", f"{whole} 1 to 1000000"),
         ]:
-            for value in ["-1", "99999999999999999999", "many", "3x", "nan"] + (["0"] if "from 0 " not in allowed else []):
+            for value in ["-1", "99999999999999999999", "many", "3x",
+                          "nan"] + (["0"] if "from 0 " not in allowed else []):
                 with self.subTest(command, option=option, value=value):
-                    self.misused(f'{program}: {option}: "{value}" is not {allowed}', *command.split(), f"{option}={value}")
+                    self.misused(f'{program}: {option}: "{value}" is not {allowed}', *command.split(),
+                                 f"{option}={value}")
         self.misused(f'aquarama run: --frames: "-1" is not {whole} {count}', "run", "--frames", -1)
 
     def test_numbers_as_people_write_them_are_refused_with_what_to_type(self):
@@ -105,23 +112,30 @@ class Usage(Case):
                 with self.subTest(command, value=value):
                     what = said if said.startswith(".*") else rf'"{re.escape(value)}" is not {said}'
                     self.misused(rf"aquarama {command.split()[0]}: {option}: {what}", *command.split(), *arguments)
-        for place, value, said in [(0, "10,5", "X.*type 10.5"), (1, "２０", "Y.*type 20"), (2, "nan", "RIGHT.*"), (3, "1e9", "DOWN.*")]:
+        for place, value, said in [(0, "10,5", "X.*type 10.5"), (1, "２０", "Y.*type 20"), (2, "nan", "RIGHT.*"),
+                                   (3, "1e9", "DOWN.*")]:
             numbers = ["1", "2", "3", "4"]
             numbers[place] = value
             self.misused(f"aquarama adjust move: {said}", "adjust", "move", self.edited(), "left", *numbers)
-        self.refuses(r'aquarama adjust mask: CORNERS "1,5,2,5" is no corner: write X,Y as in 10,20\.5, .*', "adjust", "mask",
+        self.refuses(r'aquarama adjust mask: CORNERS "1,5,2,5" is no corner: write X,Y as in 10,20\.5, .*', "adjust",
+                     "mask",
                      self.edited((r"scene:", 'adjustments: "a.txtpb" scene:')), "1,5,2,5", "3,4", "5,6")
 
     def test_dashes_and_quotes_of_office_programs_are_named(self):
         for argument, typed in [("–frames", "--frames"), ("—frames", "--frames"), ("−-headless", "--headless")]:
-            self.misused(rf'aquarama run: "{argument}" begins with U\+\w+ \([\w ]+\): type {typed}', "run", "--headless", argument, 1)
-        self.misused(r'aquarama run: --quality: .*U\+201C \(left double quotation mark\): type "', "run", "--quality", "“high”")
+            self.misused(rf'aquarama run: "{argument}" begins with U\+\w+ \([\w ]+\): type {typed}', "run",
+                         "--headless", argument, 1)
+        self.misused(r'aquarama run: --quality: .*U\+201C \(left double quotation mark\): type "', "run", "--quality",
+                     "“high”")
 
     def test_bytes_that_are_no_text_are_shown_as_such(self):
-        run = subprocess.run([BIN / "aquarama", "set", "config/desk.txtpb", "scene", b"b\xfchne"], capture_output=True, timeout=60, cwd=ROOT)
+        run = subprocess.run([BIN / "aquarama", "set", "config/desk.txtpb", "scene", b"b\xfchne"], capture_output=True,
+                             timeout=60, cwd=ROOT)
         self.assertEqual((run.returncode, run.stdout), (2, b""))
-        self.assertIn(b"aquarama set: VALUE: \"b\\xFChne\" has byte 0xFC (\xc3\xbc in Latin-1): type it without", run.stderr)
-        run = subprocess.run([BIN / "aquarama", "run", b"b\xfchne\x1b[2J.txtpb"], capture_output=True, timeout=60, cwd=ROOT)
+        self.assertIn(b"aquarama set: VALUE: \"b\\xFChne\" has byte 0xFC (\xc3\xbc in Latin-1): type it without",
+                      run.stderr)
+        run = subprocess.run([BIN / "aquarama", "run", b"b\xfchne\x1b[2J.txtpb"], capture_output=True, timeout=60,
+                             cwd=ROOT)
         self.assertEqual((run.returncode, run.stdout), (1, b""))
         self.assertRegex(run.stderr, rb"\Aaquarama run: b\\xFChne\\x1B\[2J\.txtpb: cannot be read.*\n\Z")
 
@@ -131,7 +145,8 @@ class Usage(Case):
         self.misused("aquarama run: --clip-of requires --clip", "run", "--clip-of", "hall")
         self.misused("aquarama run: --(live|clip) excludes --(live|clip)", "run", "--live", "--clip", "a.mp4")
         self.misused('aquarama run: --clip: "a.avi" is not FILE.mp4 or FILE.webp', "run", "--clip", "a.avi")
-        self.misused("aquarama node: --deep requires --snapshot", "node", "left", "--master", "tcp://127.0.0.1:1", "--deep")
+        self.misused("aquarama node: --deep requires --snapshot", "node", "left", "--master", "tcp://127.0.0.1:1",
+                     "--deep")
 
     def test_a_malformed_address(self):
         self.misused(r'aquarama node: --master: "somewhere" is not an address; write it as tcp://HOST:PORT',
@@ -147,7 +162,8 @@ class Usage(Case):
             self.assertTrue(aquarama(command, "--version").stdout.startswith("aquarama"), command)
         self.refuses(r"aquarama console: nowhere\.txtpb: .*", "console", "nowhere.txtpb")
         self.refuses(r"aquarama inspect: nowhere\.txtpb: .*", "inspect", "nowhere.txtpb")
-        direct = subprocess.run([BIN / "aquarama-compose", "check", "nowhere.txtpb"], capture_output=True, text=True, timeout=60, cwd=ROOT)
+        direct = subprocess.run([BIN / "aquarama-compose", "check", "nowhere.txtpb"], capture_output=True, text=True,
+                                timeout=60, cwd=ROOT)
         self.assertRegex(direct.stderr, r"\Aaquarama-compose check: nowhere\.txtpb: .*\n\Z")
 
     def test_help_is_for_every_command_and_says_what_inspect_takes(self):
@@ -160,7 +176,8 @@ class Usage(Case):
             self.assertIn(word, inspect)
 
     def test_version_names_commit_build_and_the_libraries_that_the_program_links(self):
-        links = {"aquarama": ["ZeroMQ", "Protobuf", "Eigen", "NLopt"], "aquarama-node": ["GLFW", "OpenSubdiv", "ZeroMQ"],
+        links = {"aquarama": ["ZeroMQ", "Protobuf", "Eigen", "NLopt"],
+                 "aquarama-node": ["GLFW", "OpenSubdiv", "ZeroMQ"],
                  "aquarama-compose": ["FFmpeg-libavcodec"]}
         for program in PROGRAMS:
             run = subprocess.run([BIN / program, "--version"], capture_output=True, text=True, timeout=60)
@@ -180,7 +197,9 @@ class Usage(Case):
 class Files(Case):
     def test_an_unknown_field_is_named_with_its_place_in_plain_words(self):
         rig = self.edited((r"screen \{", "screen { curvature: 3"))
-        self.refuses(r'aquarama check: \S+/desk\.txtpb:\d+:\d+: screen has no field named "curvature"; correct its name or remove it',
+        self.refuses(
+            r'aquarama check: \S+/desk\.txtpb:\d+:\d+: screen has no field named "curvature"; correct its name or '
+            r'remove it',
                      "check", rig)
 
     def test_files_as_editors_save_them(self):
@@ -203,16 +222,20 @@ class Files(Case):
             marked.write_bytes(edited)
             self.refuses(rf"aquarama(?:-calibrate)? check: \S+/marked\.txtpb:\d+:\d+: {said}", "check", marked)
         marked.write_bytes(b"\xff\xfe" + text.decode().encode("utf-16-le"))
-        self.refuses(r"aquarama(?:-calibrate)? check: \S+/marked\.txtpb:1:1: the file is saved as UTF-16: save it as UTF-8", "check", marked)
+        self.refuses(
+            r"aquarama(?:-calibrate)? check: \S+/marked\.txtpb:1:1: the file is saved as UTF-16: save it as UTF-8",
+            "check", marked)
 
     def test_what_a_wall_file_asks_for_and_is_not_done_is_said_once(self):
         mesh = self.path / "left.ol"
         mesh.write_text("OPENMESH Version 1.1\nVERTICES 4\nFACES 2\nMAPPING NORMALIZED\nNATIVEXRES 64\nNATIVEYRES 48\n"
-                        "APPLY_MASK 1\nDO_NO_WARP 1\nAPPLY_COLOR 0\n0 0 255 0 0\n64 0 255 1 0\n0 48 255 0 1\n64 48 255 1 1\n"
+                        "APPLY_MASK 1\nDO_NO_WARP 1\nAPPLY_COLOR 0\n0 0 255 0 0\n64 0 255 1 0\n0 48 255 0 1\n64 48 255 "
+                        "1 1\n"
                         "[ 0 1 2 ]\n[ 1 3 2 ]\n")
         run = aquarama("convert", mesh, self.path / "left.mpcdi")
         self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertEqual(re.findall(r"left\.ol:(\d+): (\w+) 1: ", run.stdout), [("7", "APPLY_MASK"), ("8", "DO_NO_WARP")])
+        self.assertEqual(re.findall(r"left\.ol:(\d+): (\w+) 1: ", run.stdout),
+                         [("7", "APPLY_MASK"), ("8", "DO_NO_WARP")])
 
     def test_overlapping_ids(self):
         rig = self.edited((r"\bid: 2\b", "id: 1"))
@@ -241,7 +264,8 @@ class Files(Case):
 
     def test_a_rig_that_is_not_there(self):
         self.refuses(r"aquarama check: nowhere\.txtpb: cannot be read.*", "check", "nowhere.txtpb")
-        self.refuses(r"aquarama run: nowhere\.txtpb: cannot be read.*", "run", "nowhere.txtpb", "--headless", "--frames", 1)
+        self.refuses(r"aquarama run: nowhere\.txtpb: cannot be read.*", "run", "nowhere.txtpb", "--headless",
+                     "--frames", 1)
 
     def test_a_scene_that_is_not_there(self):
         self.ends(r"aquarama master: nowhere\.txtpb: cannot be read.*", self.edited(), "--scene", "nowhere.txtpb")
@@ -301,18 +325,21 @@ class Files(Case):
             self.refuses(f"aquarama run: {wrong_file}", "run", rig, "--headless", "--frames", 1, option, inside)
         self.refuses(f"aquarama master: {wrong_file}", "master", rig, "--record", inside)
         for command in [("fidelity", "--out"), ("controllers", "--out"), ("capture", "--out"),
-                        ("capture", "--out", self.folder.name, "--report"), ("inspect", self.path / "a.aqrep", "--report")]:
+                        ("capture", "--out", self.folder.name, "--report"),
+                        ("inspect", self.path / "a.aqrep", "--report")]:
             with self.subTest(command):
                 self.refuses(f"aquarama {command[0]}: {wrong}", *command, blocked / "inside")
         self.refuses(f"aquarama study: {wrong}", "study", "--out", blocked / "inside")
         self.refuses(f"aquarama search: {wrong_file}", "search", "bigeye_scad", "--out", inside)
-        self.refuses(f"aquarama export: {wrong_file}", "export", "a.aqrep", "--segment", "forward_slow", "--c3d", inside)
+        self.refuses(f"aquarama export: {wrong_file}", "export", "a.aqrep", "--segment", "forward_slow", "--c3d",
+                     inside)
 
 
 class Shows(Case):
     def test_binding_past_the_loopback_is_refused(self):
         rig = self.edited((r"tcp://127\.0\.0\.1:", "tcp://0.0.0.0:"))
-        self.refuses(r"aquarama run: \S+/desk\.txtpb:\d+:\d+: .*one network card.*", "run", rig, "--headless", "--frames", 1)
+        self.refuses(r"aquarama run: \S+/desk\.txtpb:\d+:\d+: .*one network card.*", "run", rig, "--headless",
+                     "--frames", 1)
         rig = self.edited((r"tcp://127\.0\.0\.1:", "tcp://192.0.2.1:"))
         keys = Path(self.folder.name) / "no keys"
         self.refuses(r"aquarama run: .*/master\.key: is not there.*aquarama keys new.*", "run", rig, "--keys", keys)
@@ -332,12 +359,15 @@ class Shows(Case):
         self.assertEqual({path.name: path.read_text() for path in keys.iterdir()}, before)
         self.refuses(r"aquarama keys revoke: no key is named \"up\".*crew, left, master.*",
                      "keys", "revoke", rig, "up", "--keys", keys)
-        self.refuses(r"aquarama keys revoke: the master's key cannot.*", "keys", "revoke", rig, "master", "--keys", keys)
+        self.refuses(r"aquarama keys revoke: the master's key cannot.*", "keys", "revoke", rig, "master", "--keys",
+                     keys)
         self.refuses(r"aquarama keys bundle: the master's key stays.*", "keys", "bundle", rig, "master", "--keys", keys)
         self.assertEqual(aquarama("keys", "revoke", rig, "left", "--keys", keys).returncode, 0)
-        self.assertRegex(aquarama("keys", "list", rig, "--keys", keys).stdout, r"left +node +\S+ +revoked \d{4}-\d\d-\d\d")
+        self.assertRegex(aquarama("keys", "list", rig, "--keys", keys).stdout,
+                         r"left +node +\S+ +revoked \d{4}-\d\d-\d\d")
         out = Path(self.folder.name) / "left.key"
-        self.refuses(r"aquarama keys bundle: left was revoked.*", "keys", "bundle", rig, "left", "--keys", keys, "--out", out)
+        self.refuses(r"aquarama keys bundle: left was revoked.*", "keys", "bundle", rig, "left", "--keys", keys,
+                     "--out", out)
         self.assertEqual(aquarama("keys", "rotate", rig, "left", "--keys", keys).returncode, 0)
         self.assertEqual(aquarama("keys", "bundle", rig, "left", "--keys", keys, "--out", out).returncode, 0)
         self.assertEqual(out.stat().st_mode & 0o777, 0o600)
@@ -348,20 +378,24 @@ class Shows(Case):
 
     def test_an_occupied_port(self):
         rig = self.edited()
-        ports = [int(port) for port in re.findall(r"tcp://127\.0\.0\.1:(\d+)", Path(rig).read_text())][:2]  # control, state
+        ports = [int(port)
+                 for port in re.findall(r"tcp://127\.0\.0\.1:(\d+)", Path(rig).read_text())][:2]  # control, state
         for port in ports:
             with socket.socket() as other:
                 other.bind(("127.0.0.1", port))
                 other.listen()
-                self.refuses(rf"aquarama run: cannot listen at tcp://127\.0\.0\.1:{port}: .*", "run", rig, "--headless", "--frames", 1)
-                self.refuses(rf"aquarama master: cannot listen at tcp://127\.0\.0\.1:{port}: .*", "master", rig, "--pattern", "grid")
+                self.refuses(rf"aquarama run: cannot listen at tcp://127\.0\.0\.1:{port}: .*", "run", rig, "--headless",
+                             "--frames", 1)
+                self.refuses(rf"aquarama master: cannot listen at tcp://127\.0\.0\.1:{port}: .*", "master", rig,
+                             "--pattern", "grid")
 
     def test_a_channel_that_the_rig_does_not_have(self):
         rig = self.edited()
         master = start("master", rig, "--pattern", "grid")
         try:
             wait_until(lambda: aquarama("status", rig).returncode == 0, 30, "the master")
-            self.refuses("aquarama node ceiling: .*ceiling.*", "node", "ceiling", "--master", control_address(rig), "--headless")
+            self.refuses("aquarama node ceiling: .*ceiling.*", "node", "ceiling", "--master", control_address(rig),
+                         "--headless")
         finally:
             end([master])
 
@@ -372,13 +406,15 @@ class Shows(Case):
 
     def test_a_window_without_a_display(self):
         environment = {"DISPLAY": "", "WAYLAND_DISPLAY": ""}
-        line = "aquarama run: there is no display to open windows on: set DISPLAY, or draw without windows by --headless"
+        line = ("aquarama run: there is no display to open windows on: set DISPLAY, "
+                "or draw without windows by --headless")
         self.refuses(line, "run", self.edited(), "--frames", 1, environment=environment)
         self.refuses(line, "run", self.edited(), environment=environment)
 
     def test_a_display_that_is_not_there(self):
         environment = {"DISPLAY": ":77", "WAYLAND_DISPLAY": ""}
-        self.refuses(r"aquarama-node \w+: no window can be opened .*", "run", self.edited(), stdout=STARTED, environment=environment)
+        self.refuses(r"aquarama-node \w+: no window can be opened .*", "run", self.edited(), stdout=STARTED,
+                     environment=environment)
 
     def test_a_device_that_is_not_there(self):
         rig = self.edited((r'device: *"\w+"', 'device: "device:77"'))

@@ -8,7 +8,8 @@ import socket
 import unittest
 from pathlib import Path
 
-from show import FAKE_TIME, aquarama, at_time, control_address, end, lacks, rig_on_free_ports, start, temporary_folder, wait_until
+from show import (FAKE_TIME, aquarama, at_time, control_address, end, lacks, rig_on_free_ports, start, temporary_folder,
+                  wait_until)
 
 
 class Doctor(unittest.TestCase):
@@ -113,14 +114,16 @@ class Doctor(unittest.TestCase):
             key(name).write_text(key(name).read_text().replace(f'made: "{made}"', f'made: "{day}"'))
         found = self.findings("--keys", folder)[1]
         self.assertEqual(found["key master"][0][:2], ("pass", "0 days old"))
-        for name, what in (("left", r"^\d\d\d+ days old$"), ("middle", "^made on 2999-01-01, and the clock"), ("right", "^made on long ago, ")):
+        for name, what in (("left", r"^\d\d\d+ days old$"), ("middle", "^made on 2999-01-01, and the clock"),
+                           ("right", "^made on long ago, ")):
             self.assertEqual(found[f"key {name}"][0][0], "warn", name)
             self.assertRegex(found[f"key {name}"][0][1], what)
         self.assertEqual(aquarama("keys", "revoke", self.rig, "left", "--keys", folder).returncode, 0)
         key("middle").chmod(0o644)
         key("right").unlink()
         found = self.findings("--keys", folder)[1]
-        for name, what in (("left", "was revoked on"), ("middle", "others than its owner may read this key"), ("right", r"right\.key")):
+        for name, what in (("left", "was revoked on"), ("middle", "others than its owner may read this key"),
+                           ("right", r"right\.key")):
             self.assertEqual(found[f"key {name}"][0][0], "fail", name)
             self.assertRegex(found[f"key {name}"][0][1], what)
 
@@ -131,18 +134,24 @@ class Doctor(unittest.TestCase):
         status, found = self.findings("--keys", folder, **in_1970)
         self.assertEqual(status, 1)
         self.assertEqual(found["clock"][0][0], "fail")
-        self.assertRegex(found["clock"][0][1], r"^the clock of this machine says 1970-01-01, before this program was built \(20\d\d-\d\d-\d\d\)$")
+        self.assertRegex(found["clock"][0][1],
+                         r"^the clock of this machine says 1970-01-01, before this program was built "
+                         r"\(20\d\d-\d\d-\d\d\)$")
         self.assertEqual(found["key left"][0][0], "warn")
-        self.assertRegex(found["key left"][0][1], r"^made on 20\d\d-\d\d-\d\d, and the clock of this machine says 1970-01-01$")
+        self.assertRegex(found["key left"][0][1],
+                         r"^made on 20\d\d-\d\d-\d\d, and the clock of this machine says 1970-01-01$")
         before = {path: path.read_text() for path in folder.iterdir()}
         for command in (("new", self.rig), ("rotate", self.rig, "left"), ("rotate", self.rig, "master")):
             run = aquarama("keys", *command, "--keys", folder, environment=in_1970)
             self.assertEqual(run.returncode, 1)
-            self.assertRegex(run.stderr, r"\Aaquarama keys \w+: the clock of this machine says 1970-01-01, .*: no key is made now; set it .*\n\Z")
+            self.assertRegex(run.stderr,
+                             r"\Aaquarama keys \w+: the clock of this machine says 1970-01-01, .*: no key is made now; "
+                             r"set it .*\n\Z")
         self.assertEqual({path: path.read_text() for path in folder.iterdir()}, before)
         self.assertIn("1970-01-01", aquarama("keys", "list", self.rig, "--keys", folder, environment=in_1970).stderr)
         # Who is to be kept out is kept out at once, whatever the clock says.
-        self.assertEqual(aquarama("keys", "revoke", self.rig, "left", "--keys", folder, environment=in_1970).returncode, 0)
+        self.assertEqual(aquarama("keys", "revoke", self.rig, "left", "--keys", folder, environment=in_1970).returncode,
+                         0)
         self.assertRegex((folder / "left.key").read_text(), r'revoked: "20\d\d-')
 
     @unittest.skipIf(*lacks(FAKE_TIME, "libfaketime"))
@@ -150,9 +159,12 @@ class Doctor(unittest.TestCase):
         self.assertNotIn("certificate", self.findings()[1], "there is none")
         made = aquarama("console", self.rig, "--certify", "127.0.0.2", environment=at_time("2030-01-01 12:00:00"))
         self.assertEqual(made.returncode, 0, made.stderr)
-        for time, verdicts, what in (("2030-02-01 11:00:00", "pass pass", "valid until 2031-02-02"), ("2031-01-10 11:00:00", "warn pass", "in 23 days"),
-                                     ("2031-01-30 11:00:00", "fail pass", "in 3 days"), ("2039-11-01 11:00:00", "fail warn", "ran out on 2031-02-02"),
-                                     ("2039-12-29 11:00:00", "fail fail", "ran out on"), ("2029-06-01 11:00:00", "fail fail", "is not valid before 2029-12-31")):
+        for time, verdicts, what in (("2030-02-01 11:00:00", "pass pass", "valid until 2031-02-02"),
+                                     ("2031-01-10 11:00:00", "warn pass", "in 23 days"),
+                                     ("2031-01-30 11:00:00", "fail pass", "in 3 days"),
+                                     ("2039-11-01 11:00:00", "fail warn", "ran out on 2031-02-02"),
+                                     ("2039-12-29 11:00:00", "fail fail", "ran out on"),
+                                     ("2029-06-01 11:00:00", "fail fail", "is not valid before 2029-12-31")):
             found = self.findings(**at_time(time))[1]
             self.assertEqual(" ".join(found[subject][0][0] for subject in ("certificate", "authority")), verdicts, time)
             self.assertIn(what, found["certificate"][0][1])
@@ -166,7 +178,8 @@ class Doctor(unittest.TestCase):
         self.processes = [start("master", self.rig, "--pattern", "grid")]
         for name in ("left", "middle"):
             self.processes.append(start("node", name, "--master", control_address(self.rig), "--headless"))
-        wait_until(lambda: len(self.findings()[1].get("node left", [])) > 3 and len(self.findings()[1].get("node middle", [])) > 3,
+        wait_until(lambda: len(self.findings()[1].get("node left", [])) > 3
+                   and len(self.findings()[1].get("node middle", [])) > 3,
                    60, "the reports of two nodes")
         status, found = self.findings()
         self.assertEqual(status, 1, "right is missing")

@@ -7,10 +7,12 @@ import time
 import unittest
 from pathlib import Path
 
-from show import BIN, CHANNELS, ROOT, aquarama, children_of, control_address, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
+from show import (BIN, CHANNELS, ROOT, aquarama, children_of, control_address, end, rig_on_free_ports, start,
+                  temporary_folder, trace, wait_until)
 
 
-# A node is passed over within a quarter of a second, and back with a picture in two; a busy machine has three times as long.
+# A node is passed over within a quarter of a second, and back with a picture in two; a busy machine has three times as
+# long.
 SECONDS_TO_BE_PASSED_OVER = 3 * 0.25
 SECONDS_TO_BE_BACK = 3 * 2
 DEADLINE_NS = 1e9 / 60  # of the theatre: one refresh
@@ -48,8 +50,8 @@ class LiveShow:
                        f"{name} to show {frames} more frames\n{Path(self.log).read_text()[-2000:]}")
 
     def in_step_since(self, names, frame):
-        """The frames after `frame` that all of `names` presented; and those of them that one presented before all were ready,
-        though all were so within the deadline for which the first is to wait: who is later is not waited for."""
+        """The frames after `frame` that all of `names` presented; and those of them that one presented before all were
+        ready, though all were so within the deadline for which the first is to wait: who is later is not waited for."""
         traces = [trace(self.folder, name) for name in names]
         shared = sorted(set.intersection(*(set(rows) for rows in traces)) - set(range(frame + 1)))
         mixed = []
@@ -80,7 +82,8 @@ class Faults(unittest.TestCase):
         wait_until(lambda: "in step" in self.status()[name], SECONDS_TO_BE_BACK, f"{name} to be waited for again")
         self.show.wait_for_progress(CHANNELS)
         joined = max(self.show.last_frame(name) for name in CHANNELS)
-        wait_until(lambda: len(self.show.in_step_since(CHANNELS, joined)[0]) >= 3, SECONDS_TO_BE_BACK, "frames that all three show")
+        wait_until(lambda: len(self.show.in_step_since(CHANNELS, joined)[0]) >= 3, SECONDS_TO_BE_BACK,
+                   "frames that all three show")
         self.assertEqual(self.show.in_step_since(CHANNELS, joined)[1], [], "presented before all were ready")
 
     def test_status_tells_who_is_there_and_who_is_not(self):
@@ -129,10 +132,12 @@ class Faults(unittest.TestCase):
 class Lockstep(unittest.TestCase):
     def test_a_node_that_is_killed_ends_the_show_with_one_line(self):
         with temporary_folder() as folder:
-            run = subprocess.Popen([BIN / "aquarama", "run", rig_on_free_ports(folder), "--headless", "--frames", "100000"],
+            run = subprocess.Popen([BIN / "aquarama", "run", rig_on_free_ports(folder), "--headless", "--frames",
+                                    "100000"],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, cwd=ROOT)
             wait_until(lambda: "aquarama-node right" in " ".join(children_of(run)), 30, "the nodes")
-            os.kill(next(pid for command, pid in children_of(run).items() if "aquarama-node left" in command), signal.SIGKILL)
+            os.kill(next(pid for command, pid in children_of(run).items() if "aquarama-node left" in command),
+                    signal.SIGKILL)
             _, said = run.communicate(timeout=60)
             self.assertEqual((run.returncode, said), (1, "aquarama: node left was killed by signal 9; the show ends\n"))
 
@@ -144,8 +149,10 @@ class Run(unittest.TestCase):
         self.folder = temporary_folder()
         rig = rig_on_free_ports(self.folder.name)
         with open(f"{self.folder.name}/log", "w") as log:
-            self.run_process = subprocess.Popen([BIN / "aquarama", "run", rig, "--headless", "--live", "--trace", self.folder.name],
-                                                stderr=log, stdout=log, cwd=ROOT, env=os.environ | {"LP_NUM_THREADS": "1"})
+            self.run_process = subprocess.Popen([BIN / "aquarama", "run", rig, "--headless", "--live", "--trace",
+                                                 self.folder.name],
+                                                stderr=log, stdout=log, cwd=ROOT,
+                                                env=os.environ | {"LP_NUM_THREADS": "1"})
         wait_until(lambda: all(max(trace(self.folder.name, name), default=-1) >= 3 for name in CHANNELS), 60, "a show")
 
     def tearDown(self):
@@ -167,7 +174,8 @@ class Run(unittest.TestCase):
         time.sleep(5)  # one that dies sooner than this is a fault of the set-up, not of the day
         victim = next(pid for command, pid in self.children().items() if "aquarama-node left" in command)
         os.kill(victim, signal.SIGKILL)
-        wait_until(lambda: len(self.children()) == 5 and victim not in self.children().values(), 20, "another left node")
+        wait_until(lambda: len(self.children()) == 5 and victim not in self.children().values(), 20,
+                   "another left node")
 
     def test_a_run_that_is_killed_takes_its_processes_along(self):
         children = self.children()

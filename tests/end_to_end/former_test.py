@@ -1,5 +1,5 @@
-"""Files of the version before are read, or refused by name with what to do; those of a later one are refused by their version. And all
-repertoires and recordings are read from Python (docs/files.md)."""
+"""Files of the version before are read, or refused by name with what to do; those of a later one are refused by their
+version. And all repertoires and recordings are read from Python (docs/files.md)."""
 
 import csv
 import json
@@ -51,38 +51,47 @@ class Case(unittest.TestCase):
 
 class Former(Case):
     def test_what_the_version_before_has_written_is_read(self):
-        for said, arguments in (("good", ("check", self.files / "desk.txtpb")), ("3 clownfish", ("inspect", self.files / "scenes/sea.txtpb")),
+        for said, arguments in (("good", ("check", self.files / "desk.txtpb")),
+                                ("3 clownfish", ("inspect", self.files / "scenes/sea.txtpb")),
                                 ("clownfish", ("inspect", self.files / "species/clownfish.txtpb")),
                                 ("26 segments of 64 phases", ("inspect", self.repertoire)),
                                 ("written by   0.1.0", ("inspect", self.recording)),
                                 ("763 ticks, 99 inputs", ("replay", self.recording, "--check")),
-                                ("middle: 48 x 36 pixels, warp, blend", ("convert", self.files / "desk.mpcdi", self.folder / "again.mpcdi"))):
+                                ("middle: 48 x 36 pixels, warp, blend",
+                                 ("convert", self.files / "desk.mpcdi", self.folder / "again.mpcdi"))):
             with self.subTest(arguments[1].name):
                 done = aquarama(*arguments)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertIn(said, done.stdout)
 
     def test_a_rig_that_counts_monitors_is_refused_with_what_to_write(self):
-        self.refused(r'theatre.txtpb:62:\d+: monitor: 0 counts monitors.*name the connector, as connector: "HDMI-1"; this machine has ',
+        self.refused(
+            r'theatre.txtpb:62:\d+: monitor: 0 counts monitors.*name the connector, as connector: "HDMI-1"; this '
+            r'machine has ',
                      "check", self.files / "theatre.txtpb")
 
     def test_a_later_version_is_refused_by_its_number(self):
-        for kind, name in (("rig", "desk.txtpb"), ("scene", "scenes/sea.txtpb"), ("species", "species/clownfish.txtpb")):
+        for kind, name in (("rig", "desk.txtpb"), ("scene", "scenes/sea.txtpb"),
+                           ("species", "species/clownfish.txtpb")):
             path = self.files / name
             path.write_text("version: 9\nunheard_of { of: 1 }\n" + path.read_text())
-            self.refused(rf"{path.name}:1:\d+: version 9 of a {kind} is of a later release; this one reads up to version \d: update", "inspect", path)
+            self.refused(
+                rf"{path.name}:1:\d+: version 9 of a {kind} is of a later release; this one reads up to version \d: "
+                rf"update", "inspect", path)
         content = bytearray(self.repertoire.read_bytes())
         content[5] += 1
         self.repertoire.write_bytes(content)
         self.refused(r"is of version 6, written by a newer Aquarama; update this one", "inspect", self.repertoire)
         content = self.recording.read_bytes()
         self.recording.write_bytes(content.replace(b"AQREC\x10\x02", b"AQREC\x10\x03", 1))
-        self.refused(r"is a recording of version 3, written by 0.1.0; this program reads version 2: use the program", "inspect", self.recording)
+        self.refused(r"is a recording of version 3, written by 0.1.0; this program reads version 2: use the program",
+                     "inspect", self.recording)
         wall, later = self.files / "desk.mpcdi", self.folder / "later.mpcdi"
         with zipfile.ZipFile(wall) as old, zipfile.ZipFile(later, "w") as new:
             for name in old.namelist():
                 text = old.read(name)
-                new.writestr(name, re.sub(rb'(<MPCDI[^>]*version=")2', rb"\g<1>3", text) if name.endswith(".xml") else text)
+                new.writestr(name, re.sub(rb'(<MPCDI[^>]*version=")2', rb"\g<1>3", text) if name.endswith(".xml")
+                             else text)
         self.refused(r'is of version "3.0", not 1 or 2', "convert", later, self.folder / "again.mpcdi")
 
 
@@ -96,7 +105,8 @@ class FromPython(Case):
 
     def test_a_repertoire_is_what_the_programs_say_it_is(self):
         inspected = aquarama("inspect", self.repertoire).stdout
-        said = {row[0]: [float(number) for number in row[1:4]] for row in re.findall(r"^ +(forward_\w+) +(\S+) +(\S+) +(\S+)", inspected, re.MULTILINE)}
+        said = {row[0]: [float(number) for number in row[1:4]]
+                for row in re.findall(r"^ +(forward_\w+) +(\S+) +(\S+) +(\S+)", inspected, re.MULTILINE)}
         found = self.read(f"""
 repertoire = read_repertoire({str(self.repertoire)!r})
 def figures(segment):
@@ -129,10 +139,12 @@ print(json.dumps({{"species": repertoire["species"], "length": repertoire["lengt
     def test_a_recording_is_what_the_programs_say_it_is(self):
         found = self.read(f"""
 recording = read_recording({str(self.recording)!r})
-print(json.dumps({{"build": recording["build"], "whole": recording["is_whole"], "inputs": [input[:2] for input in recording["inputs"]],
+cut = read_recording(open({str(self.recording)!r}, "rb").read()[:-5])
+species = [(one["fish"], read_repertoire(one["repertoire"])["species"]) for one in recording["species"]]
+print(json.dumps({{"build": recording["build"], "whole": recording["is_whole"], "species": species,
+                  "inputs": [input[:2] for input in recording["inputs"]],
                   "steering": recording["inputs"][9][2], "hashes": recording["hashes"],
-                  "species": [(one["fish"], read_repertoire(one["repertoire"])["species"]) for one in recording["species"]],
-                  "cut": [read_recording(open({str(self.recording)!r}, "rb").read()[:-5])[name] for name in ("is_whole", "seed")]}}))
+                  "cut": [cut[name] for name in ("is_whole", "seed")]}}))
 """)
         self.assertEqual((found["build"], found["whole"], len(found["inputs"])), ("0.1.0", True, 99))
         self.assertEqual(found["species"], [[3, "clownfish"]])
@@ -145,12 +157,14 @@ print(json.dumps({{"build": recording["build"], "whole": recording["is_whole"], 
 
     def test_the_script_says_what_a_file_holds_and_refuses_what_it_cannot_read(self):
         python = python_with_numpy()
-        for path, said in ((self.repertoire, "repertoire of clownfish, recorded at 0.085 m"), (self.recording, "recording by 0.1.0, seed 1, whole")):
+        for path, said in ((self.repertoire, "repertoire of clownfish, recorded at 0.085 m"),
+                           (self.recording, "recording by 0.1.0, seed 1, whole")):
             done = subprocess.run([python, "-B", READER, path], capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stdout.splitlines()[0]), (0, said))
         spoilt = self.folder / "spoilt.aqrep"
         content = self.repertoire.read_bytes()
-        for bad, said in ((content[:-1], "altered or cut off"), (content[:5] + b"\x06" + content[6:], "of version 6"), (b"", "no recording")):
+        for bad, said in ((content[:-1], "altered or cut off"), (content[:5] + b"\x06" + content[6:], "of version 6"),
+                          (b"", "no recording")):
             spoilt.write_bytes(bad)
             done = subprocess.run([python, "-B", READER, spoilt], capture_output=True, text=True)
             self.assertEqual(done.returncode, 1)

@@ -23,7 +23,8 @@ def figures(port):
             lines = reply.read().decode().splitlines()
     except OSError:
         return {}
-    return {line.rsplit(" ", 1)[0]: float(line.rsplit(" ", 1)[1]) for line in lines if line and not line.startswith("#")}
+    return {line.rsplit(" ", 1)[0]: float(line.rsplit(" ", 1)[1]) for line in lines if line
+            and not line.startswith("#")}
 
 
 class Metrics(unittest.TestCase):
@@ -34,7 +35,8 @@ class Metrics(unittest.TestCase):
         self.processes = [start("master", self.rig, "--pattern", "grid")]
         for name in CHANNELS:
             self.start_node(name)
-        wait_until(lambda: all(self.master(f'aquarama_node_condition{{node="{name}"}}') == 3 for name in CHANNELS), PATIENCE, "all in step")
+        wait_until(lambda: all(self.master(f'aquarama_node_condition{{node="{name}"}}') == 3 for name in CHANNELS),
+                   PATIENCE, "all in step")
 
     def tearDown(self):
         end(self.processes)
@@ -48,11 +50,13 @@ class Metrics(unittest.TestCase):
 
     def log(self):
         path = Path(self.folder.name) / "state/aquarama/logs/desk.jsonl"
-        return [json.loads(line) for line in path.read_text().splitlines() if line.endswith("}")] if path.exists() else []
+        return [json.loads(line) for line in path.read_text().splitlines()
+                if line.endswith("}")] if path.exists() else []
 
     def test_the_figures_go_on_with_the_show(self):
         before = figures(self.port)
-        wait_until(lambda: self.master("aquarama_frames_total") > before["aquarama_frames_total"] + 30, PATIENCE, "30 frames")
+        wait_until(lambda: self.master("aquarama_frames_total") > before["aquarama_frames_total"] + 30, PATIENCE,
+                   "30 frames")
         wait_until(lambda: self.master("aquarama_release_skew_seconds_count") > 0, PATIENCE, "a skew of all three")
         self.assertEqual(before["aquarama_fish"], 60)
         self.assertEqual(before["aquarama_black"], 0)
@@ -67,7 +71,8 @@ class Metrics(unittest.TestCase):
 
     def test_nobody_but_this_machine_is_served(self):
         listening = subprocess.run(["ss", "-tln"], capture_output=True, text=True, check=True).stdout
-        addresses = [line.split()[3] for line in listening.splitlines()[1:] if line.split()[3].endswith(f":{self.port}")]
+        addresses = [line.split()[3] for line in listening.splitlines()[1:]
+                     if line.split()[3].endswith(f":{self.port}")]
         self.assertEqual(addresses, [f"127.0.0.1:{self.port}"])
 
     def test_the_dashboard_draws_figures_that_there_are(self):

@@ -1,4 +1,5 @@
-"""Three monitors of one machine: channels go by the names of connectors, and a monitor that goes and comes back has its picture."""
+"""Three monitors of one machine: channels go by the names of connectors, and a monitor that goes and comes back has its
+picture."""
 
 import os
 import re
@@ -8,12 +9,14 @@ import time
 import unittest
 from pathlib import Path
 
-from show import BIN, CHANNELS, ROOT, aquarama, control_address, end, free_ports, rig_on_free_ports, start, temporary_folder, trace, wait_until
+from show import (BIN, CHANNELS, ROOT, aquarama, control_address, end, free_ports, rig_on_free_ports, start,
+                  temporary_folder, trace, wait_until)
 from windows_test import Display
 
 SIZE = 480, 360         # of each monitor, as the desk's channels
 TELEVISION = 640, 360   # wider
-MODES = {SIZE: "13.32 480 488 528 592 360 361 364 375", TELEVISION: "17.75 640 664 720 800 360 363 368 374"}  # clock in MHz and timing
+MODES = {SIZE: "13.32 480 488 528 592 360 361 364 375",
+         TELEVISION: "17.75 640 664 720 800 360 363 368 374"}  # clock in MHz and timing
 CONFIGURATION = """
 Section "ServerFlags"
   Option "AutoAddDevices" "false"
@@ -50,11 +53,13 @@ class Monitors(Display):
     def __init__(self, folder, size=SIZE):
         self.size, self.mode = size, f"{size[0]}x{size[1]}"
         configuration = Path(folder, "xorg.conf")
-        configuration.write_text(CONFIGURATION.replace("MODE", self.mode).replace("TIMING", MODES[size]).replace("ALL", f"{3 * size[0]} {size[1]}"))
+        configuration.write_text(CONFIGURATION.replace("MODE", self.mode).replace("TIMING", MODES[size]).replace(
+            "ALL", f"{3 * size[0]} {size[1]}"))
         read, write = os.pipe()
         # -sharevts and -novtswitch: it takes no terminal of the machine that runs the tests.
         self.server = subprocess.Popen(
-            ["Xorg", "-displayfd", str(write), "-config", configuration, "-logfile", Path(folder, "xorg.log"), "-nocursor", "-s", "0",
+            ["Xorg", "-displayfd", str(write), "-config", configuration, "-logfile", Path(folder, "xorg.log"),
+             "-nocursor", "-s", "0",
              "-dpms", "-background", "none", "-nolisten", "tcp", "-noreset", "-sharevts", "-novtswitch"],
             pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write)
@@ -81,8 +86,10 @@ class Monitors(Display):
 
     def place_of(self, place):
         """Of a monitor on the desktop, as a window's."""
-        listing = subprocess.run(["xrandr", "--query"], env=self.environment, capture_output=True, text=True, timeout=20).stdout
-        width, height, x, y = map(int, re.search(rf"DUMMY{place} connected[a-z ]* (\d+)x(\d+)\+(\d+)\+(\d+)", listing).groups())
+        listing = subprocess.run(["xrandr", "--query"], env=self.environment, capture_output=True, text=True,
+                                 timeout=20).stdout
+        width, height, x, y = map(int, re.search(rf"DUMMY{place} connected[a-z ]* (\d+)x(\d+)\+(\d+)\+(\d+)",
+                                                 listing).groups())
         return x, y, width, height
 
     def window_of(self, channel):
@@ -94,7 +101,8 @@ class Monitors(Display):
         """How many colours the monitor shows in a grid of places."""
         _, _, pixel = self.screenshot()
         width, height = self.size
-        return len({pixel(width * place + i * width // 24, j * height // 18) for i in range(1, 24) for j in range(1, 18)})
+        return len({pixel(width * place + i * width // 24, j * height // 18) for i in range(1, 24)
+                    for j in range(1, 18)})
 
     def save(self, path):
         """All monitors as they are now, as a picture."""
@@ -111,7 +119,9 @@ def takes_outputs():
     return driver and all(map(shutil.which, ("Xorg", "xrandr", "xwininfo", "xwd")))
 
 
-@unittest.skipUnless(takes_outputs(), "xserver-xorg-core, xserver-xorg-video-dummy, x11-xserver-utils and x11-apps are needed for three monitors")
+@unittest.skipUnless(takes_outputs(),
+                     "xserver-xorg-core, xserver-xorg-video-dummy, x11-xserver-utils and x11-apps are needed for three "
+                     "monitors")
 class ThreeMonitors(unittest.TestCase):
     def setUp(self):
         self.folder = temporary_folder()
@@ -133,7 +143,8 @@ class ThreeMonitors(unittest.TestCase):
     def start_node(self, channel, rig, log=None):
         command = [BIN / "aquarama-node", channel, "--master", control_address(rig), "--trace", self.folder.name]
         with open(log or os.devnull, "w") as output:
-            self.processes.append(subprocess.Popen(command, env=self.display.environment, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=output))
+            self.processes.append(subprocess.Popen(command, env=self.display.environment, cwd=ROOT,
+                                                   stdout=subprocess.DEVNULL, stderr=output))
         return self.processes[-1]
 
     def frames(self, channel):
@@ -153,11 +164,13 @@ class ThreeMonitors(unittest.TestCase):
             self.assertGreater(self.display.colours_at(place), 1, "no grid is shown")
 
         self.display.unplug(places["middle"])
-        wait_until(lambda: self.display.window_of("middle")[0] < 0, 10, "the window whose monitor is gone to be out of the way")
+        wait_until(lambda: self.display.window_of("middle")[0] < 0, 10,
+                   "the window whose monitor is gone to be out of the way")
         for channel in ("left", "right"):
             self.assertEqual(self.display.window_of(channel), where[channel])
         frames = {channel: self.frames(channel) for channel in CHANNELS}
-        wait_until(lambda: all(self.frames(channel) > frames[channel] + 10 for channel in CHANNELS), 60, "all nodes to draw on")
+        wait_until(lambda: all(self.frames(channel) > frames[channel] + 10 for channel in CHANNELS), 60,
+                   "all nodes to draw on")
 
         self.display.plug(places["middle"])
         back = time.monotonic()
@@ -165,7 +178,8 @@ class ThreeMonitors(unittest.TestCase):
         wait_until(lambda: self.display.colours_at(places["middle"]) > 1, 10, "its picture to be back")
         self.assertLess(time.monotonic() - back, 1, "from the monitor's return to its picture, seconds")
         frames = {channel: self.frames(channel) for channel in CHANNELS}
-        wait_until(lambda: all(self.frames(channel) > frames[channel] + 10 for channel in CHANNELS), 60, "all nodes to draw on")
+        wait_until(lambda: all(self.frames(channel) > frames[channel] + 10 for channel in CHANNELS), 60,
+                   "all nodes to draw on")
 
         # Monitors that move on the desktop, as the others do where the first one goes, take their windows with them.
         self.display.unplug(0)
@@ -178,8 +192,11 @@ class ThreeMonitors(unittest.TestCase):
         rig = self.rig(["connector: \"HDMI-7\"", "", "connector: \"DUMMY1\""])
         self.processes.append(start("master", rig, "--pattern", "grid"))
         log = Path(self.folder.name, "log")
-        for channel, said in (("left", "there is no monitor HDMI-7; this machine has DUMMY0, DUMMY1, DUMMY2: correct the channel's connector"),
-                              ("middle", "this machine has several monitors (DUMMY0, DUMMY1, DUMMY2); name the channel's")):
+        for channel, said in (("left",
+                               "there is no monitor HDMI-7; this machine has DUMMY0, DUMMY1, DUMMY2: correct the "
+                               "channel's connector"),
+                              ("middle",
+                               "this machine has several monitors (DUMMY0, DUMMY1, DUMMY2); name the channel's")):
             self.assertEqual(self.start_node(channel, rig, log).wait(60), 1)
             self.assertIn(said, log.read_text())
 
@@ -192,7 +209,8 @@ class ThreeMonitors(unittest.TestCase):
         wait_until(lambda: self.display.window_of("left") == (0, 0, *SIZE), 60, "the window")
         wait_until(lambda: self.display.screenshot()[2](240, 180) == (0, 0, 0), 20, "black")
         self.assertEqual(self.display.colours_at(0), 1)
-        self.assertEqual(self.display.screenshot()[2](SIZE[0] + 240, 180), (255, 255, 255), "the screen itself is black")
+        self.assertEqual(self.display.screenshot()[2](SIZE[0] + 240, 180), (255, 255, 255),
+                         "the screen itself is black")
         self.assertEqual(self.frames("left"), -1)
 
 
@@ -218,20 +236,23 @@ class ThreeTelevisions(unittest.TestCase):
     def start_show(self, *arguments):
         for channel in CHANNELS:
             Path(self.folder.name, f"{channel}.csv").unlink(missing_ok=True)
-        self.show = subprocess.Popen([BIN / "aquarama", "run", self.rig, "--trace", self.folder.name, *arguments], env=self.display.environment,
+        self.show = subprocess.Popen([BIN / "aquarama", "run", self.rig, "--trace", self.folder.name, *arguments],
+                                     env=self.display.environment,
                                      cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         wait_until(lambda: self.frames() >= 5 or self.show.poll() is not None, 120, "five frames of each")
         self.assertIsNone(self.show.poll())
 
     def end_show(self):
         """By q in the middle window, as the guide says."""
-        window = next(place[4] for title, place in self.display.windows().items() if title.startswith("Aquarama middle"))
+        window = next(place[4] for title, place in self.display.windows().items()
+                      if title.startswith("Aquarama middle"))
         self.display.press(window, "q")
         self.assertEqual(self.show.wait(30), 0)
 
     def test_from_a_new_rig_to_a_picture_on_all_three(self):
         self.rig = Path(self.folder.name, "school.txtpb")
-        made = aquarama("new-rig", self.rig, "--screen", "televisions", "--monitors", "DUMMY0,DUMMY1,DUMMY2", "--size", self.display.mode,
+        made = aquarama("new-rig", self.rig, "--screen", "televisions", "--monitors", "DUMMY0,DUMMY1,DUMMY2", "--size",
+                        self.display.mode,
                         "--diagonal", 55, "--angle", 50, "--distance", 1.2)
         self.assertEqual(made.returncode, 0, made.stderr)
         self.assertEqual(aquarama("check", self.rig).returncode, 0)
@@ -244,7 +265,8 @@ class ThreeTelevisions(unittest.TestCase):
         self.rig.write_text(text.replace("membership_s: 1", "present_deadline_s: 2 membership_s: 5"))
 
         self.start_show("--pattern", "grid")
-        self.assertEqual([self.display.window_of(channel) for channel in CHANNELS], [(TELEVISION[0] * i, 0, *TELEVISION) for i in range(3)])
+        self.assertEqual([self.display.window_of(channel) for channel in CHANNELS],
+                         [(TELEVISION[0] * i, 0, *TELEVISION) for i in range(3)])
         self.assertTrue(all(self.display.colours_at(place) > 1 for place in range(3)))
         if self.shots:
             self.display.save(Path(self.shots, "televisions_grid.png"))
@@ -254,7 +276,8 @@ class ThreeTelevisions(unittest.TestCase):
             wait_until(lambda: self.frames() >= 60, 300, "a second of the reef")
             self.display.save(Path(self.shots, "televisions_reef.png"))
             self.end_show()
-            aquarama("run", self.rig, "--headless", "--quality", "medium", "--frames", 61, "--snapshot", self.shots, timeout=600)
+            aquarama("run", self.rig, "--headless", "--quality", "medium", "--frames", 61, "--snapshot", self.shots,
+                     timeout=600)
 
 
 class Outputs(unittest.TestCase):
@@ -263,7 +286,8 @@ class Outputs(unittest.TestCase):
     def setUp(self):
         self.folder = temporary_folder()
         self.root = Path(self.folder.name)
-        for name, modes, edid in (("card0-HDMI-A-1", "1920x1080\n1280x720\n", b"television"), ("card0-HDMI-A-2", "", b""),
+        for name, modes, edid in (("card0-HDMI-A-1", "1920x1080\n1280x720\n", b"television"),
+                                  ("card0-HDMI-A-2", "", b""),
                                   ("card1-DP-1", "1400x1050\n", b"projector")):
             connector = self.root / "sys/class/drm" / name
             connector.mkdir(parents=True)
@@ -275,7 +299,8 @@ class Outputs(unittest.TestCase):
         self.folder.cleanup()
 
     def outputs(self, *words):
-        return subprocess.run([ROOT / "packaging/kiosk/aquarama-outputs", "--root", self.root, *words], capture_output=True, text=True)
+        return subprocess.run([ROOT / "packaging/kiosk/aquarama-outputs", "--root", self.root, *words],
+                              capture_output=True, text=True)
 
     def test_they_are_pinned_by_connector_and_stored_edid_and_freed_again(self):
         before = {path for path in self.root.rglob("*") if path.is_file()}
@@ -286,7 +311,8 @@ class Outputs(unittest.TestCase):
         line = subprocess.run(["sh", "-c", boot + "echo $GRUB_CMDLINE_LINUX_DEFAULT"], capture_output=True, text=True,
                               env={"GRUB_CMDLINE_LINUX_DEFAULT": "splash"}).stdout.split()
         self.assertEqual(line[0], "splash", "what was there is lost")
-        for word in ("consoleblank=0", "vt.global_cursor_default=0", "video=DP-1:1400x1050e", "video=HDMI-A-1:1920x1080e",
+        for word in ("consoleblank=0", "vt.global_cursor_default=0", "video=DP-1:1400x1050e",
+                     "video=HDMI-A-1:1920x1080e",
                      "drm.edid_firmware=DP-1:edid/aquarama-DP-1.bin,HDMI-A-1:edid/aquarama-HDMI-A-1.bin"):
             self.assertIn(word, line)
         self.assertEqual((self.root / "usr/lib/firmware/edid/aquarama-HDMI-A-1.bin").read_bytes(), b"television")
@@ -297,7 +323,8 @@ class Outputs(unittest.TestCase):
 
     def test_what_cannot_be_pinned_is_refused_and_nothing_is_written(self):
         before = {path for path in self.root.rglob("*")}
-        for words, said in ((("pin",), "connected are: HDMI-1 DP-1"), (("pin", "HDMI-7"), "there is no connector HDMI-7; connected are: HDMI-1 DP-1"),
+        for words, said in ((("pin",), "connected are: HDMI-1 DP-1"),
+                            (("pin", "HDMI-7"), "there is no connector HDMI-7; connected are: HDMI-1 DP-1"),
                             (("pin", "DP-1", "HDMI-2"), "switch it on"), (("grow",), "show, pin or free")):
             done = self.outputs(*words)
             self.assertEqual(done.returncode, 1)

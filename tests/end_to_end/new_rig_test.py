@@ -55,7 +55,8 @@ class NewRig(unittest.TestCase):
         return status, said
 
     def test_options_alone_write_a_commented_rig_that_is_good(self):
-        done = self.write("--screen", "televisions", "--monitors", "HDMI-1,HDMI-A-2,DP-1", "--diagonal", 55, "--angle", 50, "--distance", 1.2)
+        done = self.write("--screen", "televisions", "--monitors", "HDMI-1,HDMI-A-2,DP-1", "--diagonal", 55, "--angle",
+                          50, "--distance", 1.2)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"left +HDMI-1 .*\n +middle +HDMI-2 .*\n +right +DP-1 .*\nnext: aquarama run")
         self.is_good()
@@ -71,21 +72,27 @@ class NewRig(unittest.TestCase):
         self.assertEqual(self.rig.read_text(), "mine")
 
     def test_what_makes_no_wall_is_refused_and_not_written(self):
-        for said, options in ((r"these measures make no wall, and nothing is written: \S+:\d+:\d+: ", ("--screen", "cylinder", "--count", 1, "--arc", 200, "--windows")),
-                              (r"monitors are needed, this machine has .*--windows", ("--screen", "flat", "--count", 3, "--monitors", "HDMI-1")),
-                              (r"say what the world appears on", ())):
+        for said, options in ((r"these measures make no wall, and nothing is written: \S+:\d+:\d+: ",
+                               ("--screen", "cylinder", "--count", 1, "--arc", 200, "--windows")),
+                              (r"monitors are needed, this machine has .*--windows",
+                               ("--screen", "flat", "--count", 3, "--monitors", "HDMI-1")),
+                              (r"choose the kind of display", ())):
             self.refuses(said, *options)
         for said, options in ((r"--size.*12 is no size, as 1920x1080", ("--screen", "flat", "--size", "12")),
-                              (r"--count", ("--screen", "flat", "--count", 17)), (r"--arc", ("--screen", "cylinder", "--arc", "round")),
+                              (r"--count", ("--screen", "flat", "--count", 17)),
+                              (r"--arc", ("--screen", "cylinder", "--arc", "round")),
                               (r"--screen.*not in \{televisions,cylinder,flat\}", ("--screen", "sphere"))):
             self.refuses(said, *options, status=2)
         self.assertFalse(self.rig.exists())
 
     def test_it_asks_on_a_terminal_and_asks_again_after_a_bad_answer(self):
-        status, said = self.talk([("appears on", "balloon"), ("appears on", "televisions"), ("left to right", "windows"), ("How many", "many"),
-                                  ("How many", "3"), ("Diagonal", "55"), ("frame", ""), ("Angle", "95"), ("Angle", "50"), ("eye", "1.2")])
+        status, said = self.talk([("appears on", "balloon"), ("appears on", "televisions"),
+                                  ("left to right", "windows"), ("How many", "many"),
+                                  ("How many", "3"), ("Diagonal", "55"), ("frame", ""), ("Angle", "95"),
+                                  ("Angle", "50"), ("eye", "1.2")])
         self.assertEqual(status, 0, said)
-        for fault in ("one of televisions, cylinder, flat, please", "a number from 1 to 16, please", "a number from 0 to 90, please"):
+        for fault in ("one of televisions, cylinder, flat, please", "a number from 1 to 16, please",
+                      "a number from 0 to 90, please"):
             self.assertIn(fault, said)
         self.is_good()
         # As config/televisions_3.txtpb was measured.
@@ -94,8 +101,10 @@ class NewRig(unittest.TestCase):
         self.assertAlmostEqual(places[2], 1.0103, delta=0.01)
 
     def test_a_wall_of_projectors_is_asked_for_as_well(self):
-        for kind, answers in (("cylinder", [("Radius", "2.62"), ("round", "120"), ("Height", "2.4384"), ("Throw", "2"), ("hang", "1.55")]),
-                              ("flat", [("Width", "9"), ("eye", "3.6"), ("Height", "2"), ("Throw", "1.2"), ("hang", "")])):
+        for kind, answers in (("cylinder", [("Radius", "2.62"), ("round", "120"), ("Height", "2.4384"), ("Throw", "2"),
+                                            ("hang", "1.55")]),
+                              ("flat",
+                               [("Width", "9"), ("eye", "3.6"), ("Height", "2"), ("Throw", "1.2"), ("hang", "")])):
             status, said = self.talk([("appears on", kind), ("left to right", "DP-1 DP-2 DP-3"), *answers])
             self.assertEqual(status, 0, said)
             self.is_good()

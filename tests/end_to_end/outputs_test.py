@@ -253,11 +253,13 @@ class Shows(Case):
         for pipe in ["show.aqrec", "show.webp", "right.csv"]:
             os.mkfifo(folder / pipe)
         read = {}
-        readers = [threading.Thread(target=lambda pipe=pipe: read.update({pipe: (folder / pipe).read_bytes()}), daemon=True)
+        readers = [threading.Thread(target=lambda pipe=pipe: read.update({pipe: (folder / pipe).read_bytes()}),
+                                    daemon=True)
                    for pipe in ["show.aqrec", "show.webp", "right.csv"]]
         for reader in readers:
             reader.start()
-        run = aquarama("run", self.rig(), "--headless", "--frames", 2, "--pattern", "grid", "--record", folder / "show.aqrec",
+        run = aquarama("run", self.rig(), "--headless", "--frames", 2, "--pattern", "grid", "--record",
+                       folder / "show.aqrec",
                        "--clip", folder / "show.webp", "--snapshot", folder / "frames", "--trace", folder)
         self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
         for reader in readers:
@@ -274,7 +276,8 @@ class Shows(Case):
         for option, name in [("--record", "show.aqrec"), ("--trace", "")]:
             with self.subTest(option):
                 folder = self.fresh("full")
-                run = aquarama("run", self.rig(), "--headless", "--frames", 12, "--pattern", "grid", option, folder / name,
+                run = aquarama("run", self.rig(), "--headless", "--frames", 12, "--pattern", "grid", option,
+                               folder / name,
                                preexec_fn=on_a_full_disk)
                 self.said_in_one_line(run, "File too large", folder)
                 self.assertEqual([*folder.glob("*.part")], [])
@@ -287,12 +290,15 @@ class Conveniences(Case):
 
     def test_without_a_home(self):
         require_nobody(self)
-        run = aquarama("run", rig_on_free_ports(self.folder), "--headless", "--live", "--frames", 2, "--pattern", "grid",
+        run = aquarama("run", rig_on_free_ports(self.folder), "--headless", "--live", "--frames", 2, "--pattern",
+                       "grid",
                        "--scene", ROOT / "config/scenes/empty_sea.txtpb", preexec_fn=as_nobody,
-                       environment={"HOME": "/nonexistent", "XDG_CACHE_HOME": "", "XDG_STATE_HOME": "", "XDG_CONFIG_HOME": ""})
+                       environment={"HOME": "/nonexistent", "XDG_CACHE_HOME": "", "XDG_STATE_HOME": "",
+                                    "XDG_CONFIG_HOME": ""})
         said = run.stdout + run.stderr
         self.assertEqual(run.returncode, 0, said)
-        self.assertRegex(said, r"/nonexistent/\S+: cannot be written \(Permission denied\); .*\(the fish are captured anew")
+        self.assertRegex(said,
+                         r"/nonexistent/\S+: cannot be written \(Permission denied\); .*\(the fish are captured anew")
         self.assertRegex(said, r"the log of the show cannot be written")
         self.assertEqual(said.count("captured anew"), 1, said)
 
@@ -316,7 +322,8 @@ class LeftByKilledPrograms(Case):
             except ProcessLookupError:
                 pass
         self.assertEqual(len([*place.iterdir()]), 1)
-        wait_until(lambda: not any(Path(f"/proc/{child}").exists() for child in children), 30, "the end of the programs")
+        wait_until(lambda: not any(Path(f"/proc/{child}").exists() for child in children), 30,
+                   "the end of the programs")
         aquarama("inspect", ROOT / "config/desk.txtpb", environment=environment)
         self.assertEqual([*place.iterdir()], [])
 
@@ -325,7 +332,8 @@ class StandardOutput(unittest.TestCase):
     def test_that_is_full_is_an_error(self):
         for program, command in [("aquarama-compose", "inspect"), ("aquarama", "inspect")]:
             with open("/dev/full", "w") as full:
-                run = subprocess.run([BIN / program, command, ROOT / "config/desk.txtpb"], stdout=full, stderr=subprocess.PIPE,
+                run = subprocess.run([BIN / program, command, ROOT / "config/desk.txtpb"], stdout=full,
+                                     stderr=subprocess.PIPE,
                                      text=True, cwd=ROOT)
             self.assertEqual((run.returncode, run.stderr.count("\n")), (1, 1), run.stderr)
             self.assertIn("No space left", run.stderr)

@@ -29,14 +29,17 @@ class Pilot(unittest.TestCase):
         master = start("master", self.rig, "--pattern", "grey", "--record", self.recording)
         node = start("node", "middle", "--master", control_address(self.rig), "--headless")
         self.processes = [master, node]
-        wait_until(lambda: (self.submarine() or [0, 0, 0, ""])[1:] == (0.0, 0.0, "nobody steers"), 60, "the eye at its place")
+        wait_until(lambda: (self.submarine() or [0, 0, 0, ""])[1:] == (0.0, 0.0, "nobody steers"), 60,
+                   "the eye at its place")
         pilot = subprocess.Popen([BIN / "aquarama", "pilot", self.rig], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                  text=True, cwd=ROOT)
         self.processes.append(pilot)
         pilot.stdin.write("wwwd")
         pilot.stdin.flush()
-        wait_until(lambda: self.submarine()[3] == "pilot steers" and self.submarine()[2] > 0.3, 30, "the submarine to move")
-        wait_until(lambda: self.submarine()[0] > 0.05 and self.submarine()[1] < -0.2, 30, "the submarine to get ahead and to the right")
+        wait_until(lambda: self.submarine()[3] == "pilot steers" and self.submarine()[2] > 0.3, 30,
+                   "the submarine to move")
+        wait_until(lambda: self.submarine()[0] > 0.05 and self.submarine()[1] < -0.2, 30,
+                   "the submarine to get ahead and to the right")
         pilot.stdin.write(" ")
         pilot.stdin.flush()
         wait_until(lambda: self.submarine()[3] == "nobody steers", 30, "the hand to let go")

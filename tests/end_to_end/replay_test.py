@@ -17,7 +17,8 @@ class Replay(unittest.TestCase):
         self.folder.cleanup()
 
     def record(self, frames):
-        run = aquarama("run", self.rig, "--headless", "--pattern", "grey", "--frames", frames, "--record", self.recording)
+        run = aquarama("run", self.rig, "--headless", "--pattern", "grey", "--frames", frames, "--record",
+                       self.recording)
         self.assertEqual(run.returncode, 0, run.stderr)
 
     def test_a_recorded_show_replays_without_a_wall_and_on_it(self):

@@ -162,12 +162,14 @@ class WithoutMatplotlib(Case):
 
     def test_every_report_is_refused_in_one_line_before_anything_is_simulated(self):
         out = self.folder / "out"
-        for command, arguments in [("capture", ["--out", out, "--report", out]), ("inspect", ["a.aqrep", "--report", out]),
+        for command, arguments in [("capture", ["--out", out, "--report", out]),
+                                   ("inspect", ["a.aqrep", "--report", out]),
                                    ("controllers", ["--out", out]), ("fidelity", ["--out", out]),
                                    ("study", ["--out", out]), ("study", []), ("study chronicle", [REEF])]:
             for python in [self.fake_python(), self.folder / "none"]:
                 with self.subTest(command, python=python):
-                    run = aquarama(*command.split(), *arguments, environment={"AQUARAMA_PYTHON": str(python)}, timeout=10)
+                    run = aquarama(*command.split(), *arguments, environment={"AQUARAMA_PYTHON": str(python)},
+                                   timeout=10)
                     self.assertEqual(run.returncode, 1)
                     self.assertRegex(run.stderr, rf"\Aaquarama {command}: .*install .*python3-matplotlib.*\n\Z")
                     self.assertEqual(run.stdout, "")

@@ -22,7 +22,8 @@ class Held:
     def __init__(self, process, thread):
         self.libc = ctypes.CDLL(None, use_errno=True)
         # Threads that it starts have its name: the eldest is meant. None: the main thread.
-        named = [int(path.name) for path in Path(f"/proc/{process.pid}/task").iterdir() if Path(path, "comm").read_text().strip() == thread]
+        named = [int(path.name) for path in Path(f"/proc/{process.pid}/task").iterdir()
+                 if Path(path, "comm").read_text().strip() == thread]
         self.thread = min(named) if thread else process.pid
         for request in 0x4206, 0x4207:  # PTRACE_SEIZE, PTRACE_INTERRUPT
             self.ask(request)
@@ -46,7 +47,8 @@ class Manager:
         environment = os.environ | {"LP_NUM_THREADS": "1", "WATCHDOG_USEC": str(ALLOWED * 1_000_000),
                                     "NOTIFY_SOCKET": "@" + address if abstract else f"{folder}/{address}"}
         environment.pop("WATCHDOG_PID", None)
-        self.process = subprocess.Popen([str(word) for word in command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        self.process = subprocess.Popen([str(word) for word in command], stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.DEVNULL,
                                         env=environment, cwd=ROOT)
 
     def close(self):
@@ -73,18 +75,21 @@ class Manager:
         return messages
 
     def is_alive(self, seconds=2 * ALLOWED):
-        """Whether signs of life come often enough for all of this time; whatever has arrived before counts for nothing."""
+        """Whether signs of life come often enough for all of this time; whatever has arrived before counts for
+        nothing."""
         self.within(0.05)
         times = [time.monotonic()]
         deadline = times[0] + seconds
         while time.monotonic() < deadline:
-            if not any("WATCHDOG=1" in message for message in self.within(ALLOWED, lambda message: "WATCHDOG=1" in message)):
+            if not any("WATCHDOG=1" in message
+                       for message in self.within(ALLOWED, lambda message: "WATCHDOG=1" in message)):
                 return False
             times.append(time.monotonic())
         return all(later - earlier < ALLOWED for earlier, later in zip(times, times[1:]))
 
     def is_silent(self, seconds=2 * ALLOWED):
-        """Whether none comes. What is under way when a thread is held may still arrive, and a master waits 2 s for a tick."""
+        """Whether none comes. What is under way when a thread is held may still arrive, and a master waits 2 s for a
+        tick."""
         self.within(2.3)
         return not any("WATCHDOG=1" in message for message in self.within(seconds))
 
@@ -112,7 +117,8 @@ class Services(unittest.TestCase):
 
     def condition(self):
         """Of the node, as the master says it."""
-        found = re.search(r"^middle +(absent|preparing|in step|late)", aquarama("status", self.rig).stdout, re.MULTILINE)
+        found = re.search(r"^middle +(absent|preparing|in step|late)", aquarama("status", self.rig).stdout,
+                          re.MULTILINE)
         return found[1] if found else "unknown"
 
     def held(self, service, thread):
@@ -130,13 +136,15 @@ class Services(unittest.TestCase):
         node = self.node()
         waiting = node.within(3)
         self.assertIn(f"STATUS=waiting for the master at {control_address(self.rig)}", waiting)
-        self.assertGreater(waiting.count("EXTEND_TIMEOUT_USEC=30000000"), 1, "it does not ask for patience without a master")
+        self.assertGreater(waiting.count("EXTEND_TIMEOUT_USEC=30000000"), 1,
+                           "it does not ask for patience without a master")
         self.assertFalse([message for message in waiting if "READY" in message or "WATCHDOG" in message])
         master = self.master()
         before = node.await_ready()
         self.assertFalse([message for message in before if "WATCHDOG=1" in message])
         wait_until(lambda: self.condition() == "in step", 5, "the node that said it is ready to be in step")
-        self.assertTrue(any(message.startswith("STATUS=frame ") for message in node.within(PATIENCE, lambda m: m.startswith("STATUS=frame"))))
+        self.assertTrue(any(message.startswith("STATUS=frame ")
+                            for message in node.within(PATIENCE, lambda m: m.startswith("STATUS=frame"))))
         self.held(node, "frames")
         # Its other threads were not held: the master has heard of it all the time.
         self.assertIn(self.condition(), ("in step", "late"))
@@ -179,7 +187,8 @@ class Services(unittest.TestCase):
             os.waitpid(held.thread, WALL)  # a debugger buries what it held, or the process stays
             node.process.wait(10)
         self.node().await_ready()
-        wait_until(lambda: self.condition() == "in step", PATIENCE, "the node that was started in its place to be in step")
+        wait_until(lambda: self.condition() == "in step", PATIENCE,
+                   "the node that was started in its place to be in step")
 
     @unittest.skipUnless((BIN / "aquarama-console").exists(), "the console is not built")
     def test_a_console_is_ready_when_it_listens(self):

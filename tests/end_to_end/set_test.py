@@ -55,9 +55,11 @@ class Set(unittest.TestCase):
         self.assertEqual(self.shown()["scene"], "empty_sea")
         wait_until(lambda: "through black in" in self.log.read_text(), 20, "light again")
 
-        for what, value, why in (("scene", "lagoon", "bait_ball, empty_sea, reef"), ("scene", "../desk", "without folder"),
+        for what, value, why in (("scene", "lagoon", "bait_ball, empty_sea, reef"),
+                                 ("scene", "../desk", "without folder"),
                                  ("scene", "reef.txtpb", "without folder"),
-                                 ("quality", "best", "not best"), ("black", "maybe", "on or off"), ("pattern", "dots", "grid")):
+                                 ("quality", "best", "not best"), ("black", "maybe", "on or off"),
+                                 ("pattern", "dots", "grid")):
             refused = self.set(what, value)
             self.assertEqual(refused.returncode, 1, what)
             self.assertIn(why, refused.stderr)

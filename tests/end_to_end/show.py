@@ -48,7 +48,8 @@ def give_colours(file):
         entries = {name: archive.read(name) for name in archive.namelist()}
     curve = " ".join(str((i / 255) ** 2) for i in range(256))
     response = "".join(f"<{primary}>{curve}</{primary}>" for primary in ("red", "green", "blue"))
-    colours = "".join(f'<colour region="{name}"><mix>.8 .1 0 .05 .9 0 0 0 .7</mix>{response}</colour>' for name in CHANNELS)
+    colours = "".join(f'<colour region="{name}"><mix>.8 .1 0 .05 .9 0 0 0 .7</mix>{response}</colour>'
+                      for name in CHANNELS)
     entries["mpcdi.xml"] = entries["mpcdi.xml"].replace(
         b"</MPCDI>", f'<extensionSet><extension Name="Aquarama">{colours}</extension></extensionSet></MPCDI>'.encode())
     with zipfile.ZipFile(file, "w") as archive:
@@ -78,7 +79,8 @@ def start(command, *arguments, log=None):
 
 def children_of(process):
     """command line -> process id of what it has started."""
-    listing = subprocess.run(["ps", "-o", "pid=,args=", "--ppid", str(process.pid)], capture_output=True, text=True).stdout
+    listing = subprocess.run(["ps", "-o", "pid=,args=", "--ppid", str(process.pid)], capture_output=True,
+                             text=True).stdout
     return {line.split(None, 1)[1]: int(line.split()[0]) for line in listing.splitlines()}
 
 

@@ -1,4 +1,5 @@
-"""How a show begins and how a clip ends: the first picture comes at once, the cache changes no picture, Ctrl-C keeps a clip."""
+"""How a show begins and how a clip ends: the first picture comes at once, the cache changes no picture, Ctrl-C keeps a
+clip."""
 
 import json
 import os
@@ -36,7 +37,8 @@ class Start(unittest.TestCase):
         self.temporary.cleanup()
 
     def pictures_with(self, cache, name):
-        run = aquarama("run", self.rig, "--headless", "--frames", 2, "--quality", "low", "--snapshot", self.folder / name,
+        run = aquarama("run", self.rig, "--headless", "--frames", 2, "--quality", "low", "--snapshot",
+                       self.folder / name,
                        environment={"XDG_CACHE_HOME": str(cache)})
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertFalse(list((self.folder / name).glob("*.mp4")), "a snapshot alone makes no clip")
@@ -62,11 +64,14 @@ class Start(unittest.TestCase):
         prepares = r"the master prepares: (capturing 7 of 7 species, \d+ %|making the world)"
         environment = os.environ | {"LP_NUM_THREADS": "1", "XDG_CACHE_HOME": str(cache)}
         with log.open("w") as output:
-            master, node = (subprocess.Popen([BIN / program, *arguments], stdout=output, stderr=output, cwd=ROOT, env=environment)
+            master, node = (subprocess.Popen([BIN / program, *arguments], stdout=output, stderr=output, cwd=ROOT,
+                                             env=environment)
                             for program, arguments in (("aquarama", ["master", self.rig]),
-                                                       ("aquarama-node", ["left", "--master", control_address(self.rig), "--headless"])))
+                                                       ("aquarama-node",
+                                                        ["left", "--master", control_address(self.rig), "--headless"])))
         try:
-            wait_until(lambda: "capturing 7 of 7 species: once on this machine" in log.read_text(), 30, "a line of the master")
+            wait_until(lambda: "capturing 7 of 7 species: once on this machine" in log.read_text(), 30,
+                       "a line of the master")
             status = aquarama("status", self.rig)
             self.assertEqual(status.returncode, 1)
             self.assertRegex(status.stderr, rf"\Aaquarama status: {prepares}; ask again in a while\n\Z")
@@ -85,13 +90,15 @@ class Start(unittest.TestCase):
     def test_the_first_picture_comes_at_once_and_an_interrupted_clip_is_kept(self):
         show, log = self.folder / "show", self.folder / "log"
         with log.open("w") as output:
-            run = subprocess.Popen([BIN / "aquarama", "run", self.rig, "--headless", "--frames", "100000", "--film-every", "2",
+            run = subprocess.Popen([BIN / "aquarama", "run", self.rig, "--headless", "--frames", "100000",
+                                    "--film-every", "2",
                                     "--quality", "low", "--snapshot", show, "--clip", show / "clip.mp4"],
                                    stdout=output, stderr=output, cwd=ROOT, env=os.environ | {"LP_NUM_THREADS": "1"})
         try:
             wait_until(lambda: "clip: picture" in log.read_text(), 90, "a line that says how far the clip is")
             said = log.read_text()
-            self.assertLess(said.index(f"first picture: {show}/panorama.png, {show}/hall.png"), said.index("clip: picture"))
+            self.assertLess(said.index(f"first picture: {show}/panorama.png, {show}/hall.png"),
+                            said.index("clip: picture"))
             self.assertRegex(said, r"clip: picture \d+ of 50000, [\d.]+ a second, \d+ s left\n")
             for name in ["panorama.png", "hall.png"]:
                 self.assertTrue((show / name).is_file(), name)

@@ -1,4 +1,5 @@
-"""Real processes: a rig whose channels have a wall file shows what the projectors did, and takes another file while it runs."""
+"""Real processes: a rig whose channels have a wall file shows what the projectors did, and takes another file while it
+runs."""
 
 import math
 import os
@@ -10,14 +11,16 @@ import unittest
 from array import array
 from pathlib import Path
 
-from show import CHANNELS, ROOT, aquarama, end, give_colours, rig_on_free_ports, start, temporary_folder, trace, wait_until
+from show import (CHANNELS, ROOT, aquarama, end, give_colours, rig_on_free_ports, start, temporary_folder, trace,
+                  wait_until)
 
 sys.path.insert(0, str(ROOT / "packaging"))
 from check_pictures import read_png  # noqa: E402
 
 
 def displacement(one, other):
-    """By how many pixels one picture must be moved, right and down, to lie on the other: a step of least squares each way."""
+    """By how many pixels one picture must be moved, right and down, to lie on the other: a step of least squares each
+    way."""
     (size, before), (same, after) = read_png(one), read_png(other)
     assert size == same
     (width, height), ways = size, []
@@ -33,7 +36,8 @@ def displacement(one, other):
 
 
 def write_map_of_4k(path, turned_degrees):
-    """A raw float map: of each pixel of a 4K projector its point on the desk's screen, from left of its edge to beyond its middle."""
+    """A raw float map: of each pixel of a 4K projector its point on the desk's screen, from left of its edge to beyond
+    its middle."""
     width, height, radius = 3840, 2160, 2.62
     row = array("f", bytes(12 * width))
     azimuths = [math.radians(-61 + 56 * column / width + turned_degrees) for column in range(width)]
@@ -53,7 +57,8 @@ class WallFile(unittest.TestCase):
         self.file = Path(self.folder.name) / "hall.mpcdi"
         made = aquarama("convert", self.desk, self.file)
         self.assertEqual(made.returncode, 0, made.stderr)
-        text = re.sub(r"  projector \{.*?\n  \}\n", '  wall_file { file: "hall.mpcdi" }\n', self.desk.read_text(), flags=re.S)
+        text = re.sub(r"  projector \{.*?\n  \}\n", '  wall_file { file: "hall.mpcdi" }\n', self.desk.read_text(),
+                      flags=re.S)
         self.rig = Path(self.folder.name) / "hall.txtpb"
         self.rig.write_text(text)
         self.log = Path(self.folder.name) / "log"
@@ -91,7 +96,8 @@ class WallFile(unittest.TestCase):
 
     def start_show(self):
         """Returns the digest of its calibration."""
-        show = start("run", self.rig, "--headless", "--live", "--pattern", "grid", "--trace", self.folder.name, log=self.log)
+        show = start("run", self.rig, "--headless", "--live", "--pattern", "grid", "--trace", self.folder.name,
+                     log=self.log)
         self.processes = [show]
         wait_until(lambda: self.log.read_text().count("showing") >= 3, 60, "the first frame of every node")
         first = self.calibration()

@@ -9,7 +9,8 @@ import time
 import unittest
 from pathlib import Path
 
-from show import BIN, CHANNELS, ROOT, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
+from show import (BIN, CHANNELS, ROOT, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder,
+                  trace, wait_until)
 
 
 class Display:
@@ -18,7 +19,8 @@ class Display:
     def __init__(self):
         read, write = os.pipe()
         # Without -noreset the server starts anew when its last client leaves, and refuses whoever connects meanwhile.
-        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1600x700x24", "-nolisten", "tcp",
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1600x700x24", "-nolisten",
+                                        "tcp",
                                         "-noreset"], pass_fds=[write], stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as number:
@@ -34,7 +36,8 @@ class Display:
 
     def windows(self):
         """title -> (x, y, width, height) of every Aquarama window on it."""
-        tree = subprocess.run(["xwininfo", "-root", "-tree"], env=self.environment, capture_output=True, text=True).stdout
+        tree = subprocess.run(["xwininfo", "-root", "-tree"], env=self.environment, capture_output=True,
+                              text=True).stdout
         found = re.findall(r'(0x[0-9a-f]+) "(.*[Aa]quarama.*)".*?(\d+)x(\d+)\+-?\d+\+-?\d+ +\+(-?\d+)\+(-?\d+)', tree)
         return {title: (int(x), int(y), int(w), int(h), window) for window, title, w, h, x, y in found}
 
@@ -44,7 +47,8 @@ class Display:
 
     def hold(self, window, *words):
         """xdotool's keydown and keyup, with the keyboard in the window."""
-        subprocess.run(["xdotool", "windowfocus", "--sync", window, *words], env=self.environment, check=True, timeout=20)
+        subprocess.run(["xdotool", "windowfocus", "--sync", window, *words], env=self.environment, check=True,
+                       timeout=20)
 
     def screenshot(self):
         """The root window as rows of (r, g, b)."""
@@ -77,7 +81,8 @@ class Windows(unittest.TestCase):
     def run_show(self, *arguments):
         self.log = Path(self.folder.name, "log")
         with open(self.log, "w") as log:
-            self.show = subprocess.Popen([BIN / "aquarama", "run", self.rig, "--trace", self.folder.name, *map(str, arguments)],
+            self.show = subprocess.Popen([BIN / "aquarama", "run", self.rig, "--trace", self.folder.name,
+                                          *map(str, arguments)],
                                          env=self.display.environment, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=log)
         wait_until(lambda: len(self.display.windows()) == 3 or self.show.poll() is not None, 60, "three windows")
         self.assertIsNone(self.show.poll(), self.log.read_text())

@@ -1,20 +1,22 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Holds the size of the product's code to limits: files, folders, functions, comments, repeated lines.
+"""Holds the code and the documents to limits (docs/decisions/0068-limits-that-guide.md) and lists what exceeds them.
 
-Product code is what stands in common, capture, master, commands, render_node, calibration and console. Functions are measured by lizard, which
-tests/support/get_tools.sh fetches. Usage: measures.py ROOT
+Here: the size of functions, repeated lines and knots. declarations.py: the size of classes and doc lines. texts.py: the
+width of lines and the length of sentences. Except for texts, only the product is measured: the folders of PARTS.
+lizard measures functions; tests/support/get_tools.sh fetches it. Usage: measures.py ROOT
 """
 import os
 import pathlib
+import re
 import sys
 
-MOST_FILES = 597            # .h .cpp .proto .py and shaders
-MOST_FOLDERS = 39           # that hold such files
+import declarations
+import texts
+
 MOST_LINES_P95 = 26         # of a function
 MOST_LINES = 60
 MOST_COMPLEXITY_P95 = 6     # cyclomatic
-LEAST_COMMENT_SHARE = 0.12  # comment lines / (comment + code lines)
 REPEATED_LINES = 10         # so many equal lines of code, one after another, are a repetition
 TABLES = ("water_lobes_table.cpp",)  # data
 
@@ -27,28 +29,11 @@ def product_files(root):
                   if path.suffix in SUFFIXES and "__pycache__" not in path.parts)
 
 
-def is_comment(line, suffix):
-    return line.startswith("#" if suffix == ".py" else "//")
-
-
-def comment_share(files):
-    """Whole lines of comment, without the line of the licence, against lines that are not blank."""
-    comments = code = 0
-    for path in files:
-        for line in map(str.strip, path.read_text().splitlines()):
-            if not line or "SPDX" in line:
-                continue
-            if is_comment(line, path.suffix):
-                comments += 1
-            else:
-                code += 1
-    return comments / (comments + code)
-
-
 def code_lines(path):
-    """(line number, text) of what is neither blank, comment, include nor a lone bracket."""
+    """(line number, text) of each line except blank lines, comments, includes and brackets that stand alone."""
+    comment = "#" if path.suffix == ".py" else "//"
     for number, line in enumerate(map(str.strip, path.read_text().splitlines()), 1):
-        if len(line) > 3 and not is_comment(line, path.suffix) and not line.startswith("#include"):
+        if len(line) > 3 and not line.startswith((comment, "#include")):
             yield number, line
 
 
@@ -69,21 +54,50 @@ def repetitions(files):
             yield f"{path}:{lines[i][0]} repeats {first[0]}:{first[1]}"
 
 
+def inclusions(root, files):
+    """File -> files that it includes, as paths from the root."""
+    include = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
+    return {str(path.relative_to(root)): set(include.findall(path.read_text()))
+            for path in files if path.suffix in {".h", ".cpp"}}
+
+
+def of_folders(edges):
+    """The same inclusions between folders."""
+    folders = {}
+    for path, included in edges.items():
+        home = os.path.dirname(path)
+        folders.setdefault(home, set()).update(set(map(os.path.dirname, included & edges.keys())) - {home})
+    return folders
+
+
+def cycle(edges):
+    """One cycle as a list whose last is its first, or an empty list."""
+    done = set()
+
+    def visit(place, way):
+        if place in way:
+            return way[way.index(place):] + [place]
+        if place in done or place not in edges:
+            return []
+        found = next(filter(None, (visit(there, way + [place]) for there in sorted(edges[place]))), [])
+        done.add(place)
+        return found
+
+    return next(filter(None, (visit(place, []) for place in sorted(edges))), [])
+
+
+def knots(edges):
+    for one in cycle(edges), cycle(of_folders(edges)):
+        if one:
+            yield "a knot: " + " includes ".join(one)
+
+
 def percentile_95(values):
     return sorted(values)[int(0.95 * (len(values) - 1))]
 
 
-def function_problems(files):
-    try:
-        import lizard
-    except ImportError:
-        missing = "no lizard (tests/support/get_tools.sh fetches it): the sizes of functions are not measured"
-        if os.environ.get("CI"):
-            yield missing
-        print("SKIPPED:", missing, file=sys.stderr)
-        return
-    functions = [function for path in files if path.suffix in {".h", ".cpp"}
-                 for function in lizard.analyze_file(str(path)).function_list]
+def function_problems(functions):
+    """`functions` as lizard lists them."""
     for function in functions:
         if function.length > MOST_LINES:
             yield (f"{function.filename}:{function.start_line} {function.name} has {function.length} lines, "
@@ -97,19 +111,29 @@ def function_problems(files):
         yield f"95 % of the functions have a complexity up to {complexity}, more than {MOST_COMPLEXITY_P95}"
 
 
+def measured_functions(files):
+    """What lizard finds; None where it is not installed."""
+    try:
+        import lizard
+    except ImportError:
+        print("SKIPPED: no lizard (tests/support/get_tools.sh fetches it): functions are not measured", file=sys.stderr)
+        return None
+    return [function for path in files if path.suffix in {".h", ".cpp"}
+            for function in lizard.analyze_file(str(path)).function_list]
+
+
 def problems(root):
     files = product_files(root)
-    folders = {path.parent for path in files}
-    share = comment_share(files)
-    print(f"{len(files)} files in {len(folders)} folders, {share:.1%} comment")
-    if len(files) > MOST_FILES:
-        yield f"{len(files)} files, more than {MOST_FILES}: merge what is read together"
-    if len(folders) > MOST_FOLDERS:
-        yield f"{len(folders)} folders with code, more than {MOST_FOLDERS}: merge neighbours"
-    if share < LEAST_COMMENT_SHARE:
-        yield f"{share:.1%} of the lines are comment, fewer than {LEAST_COMMENT_SHARE:.0%}"
+    print(f"{len(files)} files in {len({path.parent for path in files})} folders")
     yield from repetitions(files)
-    yield from function_problems(files)
+    yield from knots(inclusions(root, files))
+    functions = measured_functions(files)
+    if functions is not None:
+        yield from function_problems(functions)
+    elif os.environ.get("CI"):
+        yield "no lizard"
+    yield from declarations.problems(files)
+    yield from texts.problems(root)
 
 
 def main():

@@ -49,7 +49,8 @@ class Installed(unittest.TestCase):
         if done.returncode != 0:
             raise RuntimeError(done.stdout + done.stderr)
         cls.files = {str(path.relative_to(cls.root)) for path in cls.root.rglob("*") if path.is_file()}
-        cls.programs = [path for path in sorted((cls.root / "usr/bin").iterdir()) if path.name not in ("aquarama-hall", "aquarama-outputs", "aquarama-solve")]
+        cls.programs = [path for path in sorted((cls.root / "usr/bin").iterdir())
+                        if path.name not in ("aquarama-hall", "aquarama-outputs", "aquarama-solve")]
         cls.alone = {"HOME": str(cls.root / "nobody"), "PATH": "/usr/bin:/bin"}
 
     @classmethod
@@ -58,7 +59,8 @@ class Installed(unittest.TestCase):
 
     def test_each_file_is_in_a_package_and_each_packaged_file_is_there(self):
         named = [source for source, _ in lines_of("install")]
-        homeless = {file for file in self.files if not any(file == name or file.startswith(name + "/") for name in named)}
+        homeless = {file for file in self.files
+                    if not any(file == name or file.startswith(name + "/") for name in named)}
         self.assertEqual(homeless, set())
         for name in named:
             self.assertTrue((self.root / name).exists() or (ROOT / name).exists(), name)
@@ -68,7 +70,8 @@ class Installed(unittest.TestCase):
                          ["aquarama", "aquarama-calibrate", "aquarama-compose", "aquarama-console", "aquarama-node"])
         for program in self.programs:
             said = called(program, "--version", cwd="/", env=self.alone)
-            self.assertEqual((said.returncode, said.stdout.split("\n")[0].split()[-1]), (0, VERSION), program.name + said.stderr)
+            self.assertEqual((said.returncode, said.stdout.split("\n")[0].split()[-1]), (0, VERSION),
+                             program.name + said.stderr)
 
     def test_former_names_of_programs_work_and_name_the_new_one(self):
         solver = self.root / "usr/bin/aquarama-solve"
@@ -92,7 +95,8 @@ class Installed(unittest.TestCase):
         of_source = {path.relative_to(ROOT / "config") for path in (ROOT / "config").rglob("*") if path.is_file()}
         self.assertEqual({path.relative_to(config) for path in config.rglob("*") if path.is_file()}, of_source)
         rigs = sorted(config.glob("*.txtpb"))
-        said = called(self.root / "usr/bin/aquarama", "check", *rigs, *sorted(config.glob("s*/*.txtpb")), cwd="/", env=self.alone)
+        said = called(self.root / "usr/bin/aquarama", "check", *rigs, *sorted(config.glob("s*/*.txtpb")), cwd="/",
+                      env=self.alone)
         self.assertEqual(said.returncode, 0, said.stderr)
         self.assertGreater(len(rigs), 5)
 
@@ -156,19 +160,23 @@ class Units(unittest.TestCase):
 
     def test_systemd_finds_nothing(self):
         units = [name.replace("@", "@left") for name in self.units]
-        self.assertEqual(sorted(units), ["aquarama-console.service", "aquarama-master.service", "aquarama-node@left.service",
-                                         "aquarama-power.path", "aquarama-power.service", "aquarama-x@left.service", "aquarama.target"])
+        self.assertEqual(sorted(units),
+                         ["aquarama-console.service", "aquarama-master.service", "aquarama-node@left.service",
+                                         "aquarama-power.path", "aquarama-power.service", "aquarama-x@left.service",
+                          "aquarama.target"])
         self.assertEqual(self.verified(*units), "")
 
     def test_a_key_in_the_wrong_section_is_found(self):
         text = (DEBIAN / "aquarama-master.service").read_text().replace("StartLimitIntervalSec=0\n", "")
-        (self.root / UNITS / "aquarama-wrong.service").write_text(text.replace("[Service]\n", "[Service]\nStartLimitIntervalSec=0\n"))
+        (self.root / UNITS / "aquarama-wrong.service").write_text(
+            text.replace("[Service]\n", "[Service]\nStartLimitIntervalSec=0\n"))
         self.assertIn("StartLimitIntervalSec", self.verified("aquarama-wrong.service"))
 
     def test_services_are_little_exposed(self):
         services = [name for name in self.units if name.endswith(".service")]
         for name in services:
-            said = called("systemd-analyze", "security", "--offline=true", "--no-pager", self.root / UNITS / name).stdout
+            said = called("systemd-analyze", "security", "--offline=true", "--no-pager",
+                          self.root / UNITS / name).stdout
             exposed = float(re.search(r"exposure level for \S+: ([\d.]+)", said).group(1))
             self.assertLessEqual(exposed, MOST_EXPOSED, name)
 
@@ -178,7 +186,8 @@ class Units(unittest.TestCase):
                 unit, service = path.read_text().split("[Service]")
                 self.assertIn("StartLimitIntervalSec=0", unit, name)
                 self.assertIn("Restart=always", service, name)
-                self.assertEqual("WatchdogSec=10" in service, name.startswith(("aquarama-master", "aquarama-node")), name)
+                self.assertEqual("WatchdogSec=10" in service, name.startswith(("aquarama-master", "aquarama-node")),
+                                 name)
 
 
 class Power(unittest.TestCase):
@@ -224,7 +233,8 @@ class Mirror(unittest.TestCase):
             done = called(ROOT / "packaging/take-over-mirror.sh", root / "system/etc/apt",
                           env={**os.environ, "APT_CONFIG": str(root / "apt.conf"), **environment})
             self.assertEqual((done.returncode, done.stderr), (0, ""))
-            written = {path.name: path.read_text().replace(folder, "{root}") for path in (root / "system/etc/apt/apt.conf.d").iterdir()}
+            written = {path.name: path.read_text().replace(folder, "{root}")
+                       for path in (root / "system/etc/apt/apt.conf.d").iterdir()}
             self.assertEqual([*written], ["99mirror"])
             return written["99mirror"], Path(f"{root}/system{folder}/hall.pem").exists()
 

@@ -31,7 +31,8 @@ def read_times(folder):
 
 def slowness(taken, budgets):
     """How much longer than its budget the median suite takes, at least 1."""
-    ratios = [taken[suite] / budgets[suite] for suite in taken.keys() & budgets.keys() if budgets[suite] > LEAST_SECONDS]
+    ratios = [taken[suite] / budgets[suite] for suite in taken.keys() & budgets.keys()
+              if budgets[suite] > LEAST_SECONDS]
     return max(1.0, statistics.median(ratios)) if ratios else 1.0
 
 
@@ -46,7 +47,8 @@ def complaints(taken, budgets):
         else:
             budget = factor * max(budgets[suite], LEAST_SECONDS)
             if taken[suite] > GROWTH * budget:
-                lines.append(f"the suite {suite} took {taken[suite]:.0f} s of processor time, its budget is {budget:.0f} s: "
+                lines.append(
+                    f"the suite {suite} took {taken[suite]:.0f} s of processor time, its budget is {budget:.0f} s: "
                              f"make it cheaper, or raise its line in {FILE} and say why")
     return lines
 

@@ -16,7 +16,8 @@
 namespace aquarama::config {
 namespace {
 
-const std::string kRig = R"(# A small rig.
+const std::string kRig =
+    R"(# A small rig.
 name: "small"
 screen { radius_m: 2 arc_deg: 90 height_m: 1 }
 panorama { width_px: 640 height_px: 200 }
@@ -31,7 +32,8 @@ channels {
   name: "left"
   width_px: 320
   height_px: 240
-  projector { position { x_m: 0.5 y_m: 1 z_m: 0.25 } yaw_deg: 20 pitch_deg: -3 roll_deg: 1.5 focal_x_px: 300 focal_y_px: 310 principal_x_px: 150 principal_y_px: -20 }
+  projector { position { x_m: 0.5 y_m: 1 z_m: 0.25 } yaw_deg: 20 pitch_deg: -3 roll_deg: 1.5)"
+    R"( focal_x_px: 300 focal_y_px: 310 principal_x_px: 150 principal_y_px: -20 }
   display { mode: FULLSCREEN connector: "HDMI-A-2" device: "device:2" refresh_hz: 50 }
 }
 channels {

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <mutex>
 #include <random>
 #include <thread>
@@ -27,6 +28,7 @@
 #include <zmq.hpp>
 
 #include "common/base/log.h"
+#include "tests/support/await.h"
 #include "tests/support/memory_channels.h"
 
 namespace aquarama::net {
@@ -127,15 +129,13 @@ TEST_P(BothChannels, aReplyToNobodyIsHarmless) {
 }
 
 TEST_P(BothChannels, anotherThreadEndsTheWait) {
-    const Pair pair = GetParam()();
-    const auto& master = pair.master;
-    const auto& node = pair.node;
-    std::thread other([&, &m = *master, &n = *node] {
-        m.wake();
-        n.wake();
+    const auto pair = std::make_shared<Pair>(GetParam()());
+    std::thread other([pair] {
+        pair->master->wake();
+        pair->node->wake();
     });
-    master->wait(seconds(3600));  // the suite's budget would stop it
-    node->wait(seconds(3600));
+    EXPECT_TRUE(test::ends([pair] { pair->master->wait(seconds(3600)); }));
+    EXPECT_TRUE(test::ends([pair] { pair->node->wait(seconds(3600)); }));
     other.join();
 }
 

@@ -3,22 +3,26 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "common/ask/request_client.h"
 #include "master/conductor/status_text.h"
+#include "tests/support/await.h"
 #include "tests/support/stage.h"
 
 namespace aquarama::conductor {
 namespace {
 
+// The next snapshot. Throws std::bad_optional_access where none comes.
 Snapshot next(SimulationThread& simulationThread) {
-    while (true) {  // the suite's budget would stop it
-        if (auto snapshot = simulationThread.take()) return *snapshot;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    std::optional<Snapshot> snapshot;
+    EXPECT_TRUE(test::comesTrue([&] { return (snapshot = simulationThread.take()).has_value(); }));
+    return snapshot.value();
 }
 
 TEST(SimulationThread, lockstepGivesEveryTickOnceAndStopsAtTheLast) {
@@ -31,7 +35,7 @@ TEST(SimulationThread, lockstepGivesEveryTickOnceAndStopsAtTheLast) {
         EXPECT_EQ(snapshot.hash, test::CountingWorld::hashAt({tick}));
         EXPECT_EQ(snapshot.fish.at(0).x, static_cast<int>(tick));
     }
-    while (calls < 31) std::this_thread::yield();
+    EXPECT_TRUE(test::comesTrue([&] { return calls >= 31; }));
     EXPECT_FALSE(simulationThread.take());
     EXPECT_EQ(world.tick(), Tick{30});
 }
@@ -41,7 +45,7 @@ TEST(SimulationThread, lockstepRunsNoFurtherAheadThanAFewTicks) {
     std::atomic<int> calls = 0;
     {
         const SimulationThread simulationThread(world, wire::Pace::Lockstep, {}, [&] { ++calls; });
-        while (calls < 4) std::this_thread::yield();
+        EXPECT_TRUE(test::comesTrue([&] { return calls >= 4; }));
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     EXPECT_LE(world.tick().value, SnapshotBuffer::kKept);
@@ -84,7 +88,7 @@ void askAndExpectAnAnswer(SimulationThread& simulationThread) {
         EXPECT_EQ(world.hash(), test::CountingWorld::hashAt(world.tick()));
         answered = true;
     }));
-    while (!answered) std::this_thread::yield();  // the suite's budget would stop it
+    EXPECT_TRUE(test::comesTrue([&] { return answered.load(); }));
 }
 
 TEST(SimulationThread, doesJobsWhileItRunsWhileItIsFrozenAndWhileNobodyTakesItsTicks) {
@@ -97,7 +101,7 @@ TEST(SimulationThread, doesJobsWhileItRunsWhileItIsFrozenAndWhileNobodyTakesItsT
     test::CountingWorld other;
     std::atomic<std::size_t> ticks = 0;
     SimulationThread lockstep(other, wire::Pace::Lockstep, {}, [&] { ++ticks; });
-    while (ticks < SnapshotBuffer::kKept / 2) std::this_thread::yield();
+    EXPECT_TRUE(test::comesTrue([&] { return ticks >= SnapshotBuffer::kKept / 2; }));
     askAndExpectAnAnswer(lockstep);
 }
 
@@ -120,7 +124,7 @@ TEST(SimulationThread, doesJobsInTheOrderGivenAndNoMoreThanItCan) {
         holding = true;
         while (held) std::this_thread::yield();
     }));
-    while (!holding) std::this_thread::yield();
+    ASSERT_TRUE(test::comesTrue([&] { return holding.load(); }));
     int accepted = 0;
     while (simulationThread.betweenTicks([&, job = accepted](Simulation&) {
         order.push_back(job);
@@ -129,15 +133,21 @@ TEST(SimulationThread, doesJobsInTheOrderGivenAndNoMoreThanItCan) {
         ++accepted;
     EXPECT_GE(accepted, 16);
     held = false;
-    while (done < accepted) std::this_thread::yield();
+    EXPECT_TRUE(test::comesTrue([&] { return done >= accepted; }));
     EXPECT_TRUE(std::ranges::is_sorted(order));
 }
 
 TEST(SimulationThread, endsWhileItWaits) {
-    test::CountingWorld world;
     for (const wire::Pace pace : {wire::Pace::Live, wire::Pace::Lockstep}) {
-        SimulationThread simulationThread(world, pace, {}, [] {});
-        if (pace == wire::Pace::Live) simulationThread.freeze(true);
+        const auto world = std::make_shared<test::CountingWorld>();
+        const auto ticks = std::make_shared<std::atomic<std::size_t>>();
+        auto thread =
+            std::make_unique<SimulationThread>(*world, pace, std::nullopt, [ticks] { ++*ticks; });
+        // Live it waits because it is frozen, in lockstep because nobody takes its ticks.
+        if (pace == wire::Pace::Live) thread->freeze(true);
+        const std::size_t last = pace == wire::Pace::Live ? 1 : SnapshotBuffer::kKept / 2;
+        ASSERT_TRUE(test::comesTrue([&] { return *ticks >= last; }));
+        EXPECT_TRUE(test::ends([world, thread = std::move(thread)]() mutable { thread.reset(); }));
     }
 }
 

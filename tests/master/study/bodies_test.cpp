@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "master/study/chronicle.h"
+#include "master/study/overlaps.h"
 
 namespace aquarama::study {
 namespace {

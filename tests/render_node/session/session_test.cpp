@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "common/net/blob.h"
+#include "tests/support/await.h"
 #include "tests/support/stage.h"
 #include "tests/support/state_packet.h"
 
@@ -461,7 +462,7 @@ TEST_F(SessionTest, asksForAMindAndKeepsTheLatestAnswer) {
         const auto mind = session_->latestMind();
         return mind && mind->lines == std::vector<std::string>{"sated"};
     };
-    while (!isLatest()) std::this_thread::yield();  // the suite's budget would stop it
+    ASSERT_TRUE(test::comesTrue(isLatest));
     EXPECT_EQ(session_->latestMind()->fish, 7U);
 }
 

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/study/species_log.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include <glm/geometric.hpp>
+
+#include "common/motion/motion_state.h"
+#include "common/place/place.h"
+
+namespace aquarama::study {
+
+namespace {
+
+constexpr std::uint64_t kTicksOfSlip = 30;
+
+// The columns of a command in one number.
+std::uint64_t packed(const motion::MotorCommands& commands, std::size_t fish) {
+    const auto bits = [](std::int16_t value) {
+        return std::uint64_t{static_cast<std::uint16_t>(value)};
+    };
+    return std::uint64_t{commands.action[fish]} | std::uint64_t{commands.brake[fish]} << 8U |
+           bits(commands.phaseRate[fish]) << 16U | bits(commands.pitch[fish]) << 32U |
+           bits(commands.yawRate[fish]) << 48U;
+}
+
+// Degrees between two directions, which need not be of unit length, rounded up.
+std::size_t degreesBetween(glm::vec3 a, glm::vec3 b) {
+    const float cosine = glm::dot(glm::normalize(a), glm::normalize(b));
+    const float degrees = std::acos(std::clamp(cosine, -1.0F, 1.0F)) / kRadiansPerDegree<float>;
+    return static_cast<std::size_t>(std::min(std::ceil(degrees), 90.0F));
+}
+
+}  // namespace
+
+int quantileDegrees(const std::array<std::uint64_t, 91>& slip, double share) {
+    const auto all = std::accumulate(slip.begin(), slip.end(), std::uint64_t{0});
+    std::uint64_t within = 0;
+    for (std::size_t degrees = 0; degrees < slip.size(); ++degrees) {
+        within += slip.at(degrees);
+        if (static_cast<double>(within) >= share * static_cast<double>(all))
+            return static_cast<int>(degrees);
+    }
+    return 0;
+}
+
+SpeciesLog::SpeciesLog(const world::World& world)
+    : tallies_(world.speciesParameters().size()), fish_(world.view().size()) {}
+
+void SpeciesLog::note(const world::World& world) {
+    assert(world.view().size() == fish_.size());
+    const bool glances = world.tick().value % kTicksOfSlip == 0;
+    for (std::size_t fish = 0; fish < fish_.size(); ++fish) noteFish(world, fish, glances);
+}
+
+// The view shows the world before the tick, so it shows what the commands of the tick before did.
+void SpeciesLog::noteFish(const world::World& world, std::size_t fish, bool glances) {
+    constexpr float kRadiansOfUnit = 1.0F / (1 << 20);  // of MotorCommands::yawRate
+    Fish& seen = fish_[fish];
+    SpeciesTally& tally = tallies_[world.view().kind[fish]];
+    if (world.view().shows(fish, fish::kAway)) {
+        seen.isNew = true;
+        return;
+    }
+    const fish::VisibleFish& now = world.view().fish[fish];
+    const std::uint64_t command = packed(world.commands(), fish);
+    if (!seen.isNew) {
+        const float turned = place::yawBetween(seen.heading, now.heading);
+        tally.captured += static_cast<double>(std::abs(turned - seen.addedYaw));
+        tally.added += static_cast<double>(std::abs(seen.addedYaw));
+        tally.changes += command != seen.command ? 1 : 0;
+        tally.fishSeconds += 1.0 / kTicksPerSecond;
+        if (command != seen.command) commands_.insert(command);
+        noteLife(world.minds()[fish], seen, tally);
+    }
+    seen.faces += now.heading;
+    seen.bodies += motion::bodyFrameOf(world.states(), fish).rotation * glm::vec3(1, 0, 0);
+    if (glances && !seen.isNew) noteSlip(now, seen, tally);
+    if (glances || seen.isNew) {
+        seen.from = now.position;
+        seen.faces = seen.bodies = glm::vec3{};
+    }
+    seen.heading = now.heading;
+    seen.addedYaw = kRadiansOfUnit * static_cast<float>(world.commands().yawRate[fish]);
+    seen.command = command;
+    seen.intention = world.minds()[fish].intention;
+    seen.eaten = world.minds()[fish].eaten;
+    seen.sinceMeal = world.minds()[fish].sinceMeal;
+    seen.isNew = false;
+}
+
+void SpeciesLog::noteLife(const fish::Mind& mind, const Fish& fish, SpeciesTally& tally) {
+    const auto begins = [&](fish::Intention intention) {
+        return mind.intention == intention && fish.intention != intention ? 1U : 0U;
+    };
+    // What was eaten since the last thought; time passes in thoughts. After a digested meal the
+    // next one has its number again.
+    const bool isAnother = mind.eaten != fish.eaten || fish.sinceMeal != 0;
+    tally.meals += mind.sinceMeal == 0 && isAnother ? 1 : 0;
+    tally.flights += begins(fish::Intention::Escape);
+    tally.courtships += begins(fish::Intention::Mate);
+}
+
+void SpeciesLog::noteSlip(const fish::VisibleFish& now, const Fish& fish, SpeciesTally& tally) {
+    const glm::vec3 path = now.position - fish.from;
+    constexpr float kSeconds =
+        static_cast<float>(kTicksOfSlip) / static_cast<float>(kTicksPerSecond);
+    if (now.speed < 0 || glm::length(path) < kSlowestPath * now.length * kSeconds) return;
+    ++tally.meanSlip.at(degreesBetween(path, fish.faces));
+    ++tally.bodySlip.at(degreesBetween(path, fish.bodies));
+}
+
+SpeciesTally SpeciesLog::all() const {
+    SpeciesTally sum;
+    for (const SpeciesTally& tally : tallies_) {
+        sum.captured += tally.captured;
+        sum.added += tally.added;
+        sum.changes += tally.changes;
+        sum.fishSeconds += tally.fishSeconds;
+        sum.meals += tally.meals;
+        sum.flights += tally.flights;
+        sum.courtships += tally.courtships;
+        for (std::size_t i = 0; i < sum.meanSlip.size(); ++i) {
+            sum.meanSlip.at(i) += tally.meanSlip.at(i);
+            sum.bodySlip.at(i) += tally.bodySlip.at(i);
+        }
+    }
+    return sum;
+}
+
+}  // namespace aquarama::study

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/world/fish_columns.h"
+
+#include <utility>
+
+#include "common/base/digest.h"
+
+namespace aquarama::world {
+
+FishColumns::FishColumns(std::vector<motion::FishTraits> ofFish) : traits(std::move(ofFish)) {
+    states.resize(traits.size());
+    commands.resize(traits.size());
+    minds.resize(traits.size());
+    courses.resize(traits.size());
+    memory.resize(traits.size());
+    view.resize(traits.size());
+}
+
+std::uint64_t FishColumns::hash(Tick tick) const {
+    std::uint64_t hash = foldedOne(motion::hashOf(states) ^ minds.hash(), tick.value);
+    hash = folded(hash, commands.action);
+    hash = folded(hash, commands.phaseRate);
+    hash = folded(hash, commands.pitch);
+    hash = folded(hash, commands.yawRate);
+    hash = folded(hash, commands.brake);
+    const auto fold = [&](auto member) { hash = folded(hash, courses, member); };
+    fold([](const fish::Course& course) { return course.direction.x; });
+    fold([](const fish::Course& course) { return course.direction.y; });
+    fold([](const fish::Course& course) { return course.direction.z; });
+    fold(&fish::Course::speed);
+    fold(&fish::Course::urgency);
+    fold(&fish::Course::openToChange);
+    hash = folded(hash, memory.chosenAt);
+    hash = folded(hash, memory.heldUntil);
+    hash = folded(hash, memory.patience);
+    // The only place where kAway is kept as a sign.
+    return folded(hash, view.signs);
+}
+
+std::size_t FishColumns::bytes() const {
+    return states.bytes() + commands.bytes() + minds.bytes() + memory.bytes() + view.bytes() +
+           bytesIn(traits, courses);
+}
+
+}  // namespace aquarama::world

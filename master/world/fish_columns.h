@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// All that a world keeps of each fish, as columns with one element for each fish of the cast.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "common/base/units.h"
+#include "common/motion/motion_state.h"
+#include "master/fish/fish_view.h"
+#include "master/fish/minds.h"
+#include "master/fish/secondary_controller.h"
+
+namespace aquarama::world {
+
+// The columns of a world. Owned by the world; in a tick each thread writes the fish of its chunk.
+struct FishColumns {
+    // Makes an element in each column for each of these fish.
+    explicit FishColumns(std::vector<motion::FishTraits> ofFish);
+
+    std::vector<motion::FishTraits> traits;
+    motion::MotionStates states;
+    motion::MotorCommands commands;
+    fish::Minds minds;
+    fish::Courses courses;
+    fish::ControllerMemory memory;
+    // What others see of the fish, as it was when the last tick began.
+    fish::FishView view;
+
+    // Hash of all that decides how the fish go on, and of the tick.
+    [[nodiscard]] std::uint64_t hash(Tick tick) const;
+    // Memory in use.
+    [[nodiscard]] std::size_t bytes() const;
+};
+
+}  // namespace aquarama::world
