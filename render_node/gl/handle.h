@@ -148,4 +148,7 @@ class Target {
 template <class Sample>  // std::uint8_t, std::uint16_t or float
 [[nodiscard]] std::vector<Sample> readRgb(const Target& target);
 
+// Returns when the GPU has finished all that was submitted in the current context.
+void waitForGpu();
+
 }  // namespace aquarama::gl

@@ -12,7 +12,6 @@
 
 #include <glm/vec2.hpp>
 
-#include "common/base/picture.h"
 #include "common/motion/reconstruct.h"
 #include "common/wire/state_codec.h"
 #include "render_node/gl/handle.h"
@@ -126,44 +125,5 @@ class ChannelPicture {
     Frame frame_;
     float brightness_ = 1.0F;
 };
-
-// Pictures of what a channel projects, read back from the GPU.
-
-// Bits of a sample: 8 as the projector gets them, dithered, or 16 without dither.
-enum class PictureBits : std::uint8_t { Dithered8, Deep16 };
-
-// Projects and reads back the frame that was drawn last, without overlays of the channel. Waits for
-// the GPU.
-[[nodiscard]] Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown);
-
-// The picture to show to somebody without stereo glasses: one eye's picture where the display
-// separates the eyes in space or time, else the display's own.
-[[nodiscard]] Shown flat(const ChannelPicture& picture);
-
-// Writes folder/channel-NAME.png, the picture of the display, and in stereo
-// channel-NAME.left_eye.png and .right_eye.png beside it; creates the folder. Throws Error where
-// they cannot be written.
-void writeSnapshot(const std::string& folder,
-                   const std::string& channel,
-                   ChannelPicture& picture,
-                   PictureBits bits);
-
-// A channel's picture in a window of another size: the whole picture, enlarged or reduced, in the
-// middle.
-
-// A rectangle in pixels of the window.
-struct WindowFit {
-    // The lower left corner, from the window's lower left corner.
-    glm::ivec2 corner{};
-    glm::ivec2 size{};
-};
-// The largest rectangle with the picture's proportions that fits into the window.
-[[nodiscard]] WindowFit fitInto(glm::ivec2 windowPixels, glm::ivec2 picturePixels);
-
-// Converts a place of the window to a place of the picture, both in pixels from the top left
-// corner; empty on the dark margins.
-[[nodiscard]] std::optional<glm::vec2> picturePlace(glm::ivec2 windowPixels,
-                                                    glm::ivec2 picturePixels,
-                                                    glm::vec2 windowPlace);
 
 }  // namespace aquarama::show
