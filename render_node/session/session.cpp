@@ -8,6 +8,7 @@
 #include "common/base/log.h"
 #include "common/net/channels.h"
 #include "common/net/metrics.h"
+#include "render_node/session/mailbox.h"
 #include "render_node/session/master_link.h"
 
 namespace aquarama::session {
@@ -78,7 +79,7 @@ class NodeFigures {
     void begin() { begun_ = net::monotonicNow(); }  // of a frame
     void finish() { picture_(net::secondsIn(net::monotonicNow() - begun_)); }
     // A frame was released, or passed over.
-    void release(Release release, const MasterLink::Traffic& traffic) {
+    void release(Release release, const LinkFigures& link) {
         const net::Instant now = net::monotonicNow();
         if (release == Release::Present) {
             if (presented_ > 0) frame_(net::secondsIn(now - lastPresent_));
@@ -86,10 +87,10 @@ class NodeFigures {
             frames_(static_cast<double>(++presented_));
         }
         if (release == Release::Skip) skips_(static_cast<double>(++skipped_));
-        offset_(traffic.clockOffsetSeconds);
-        bytes_(static_cast<double>(traffic.receivedBytes));
-        mismatches_(static_cast<double>(traffic.mismatches));
-        celsius_(static_cast<double>(traffic.gpuCelsius));
+        offset_(link.clockOffsetSeconds);
+        bytes_(static_cast<double>(link.receivedBytes));
+        mismatches_(static_cast<double>(link.mismatches));
+        celsius_(static_cast<double>(link.gpuCelsius));
     }
 
   private:
@@ -181,15 +182,16 @@ class LinkSession final : public Session {
         // draws as well, the net threads would wait.
         net::runInRealTime();
         const Release release = awaitRelease(frame);
-        if (figures_) figures_->release(release, link_.traffic());
+        if (figures_) figures_->release(release, link_.figures());
         return release;
     }
 
     Release awaitRelease(Frame frame) {
-        link_.post(MasterLink::Finished{frame,
-                                        std::exchange(released_, {}),
-                                        blanks_.blanks(),
-                                        net::monotonicNow() - stateArrival_});
+        mailbox_.finish({frame,
+                         std::exchange(released_, {}),
+                         blanks_.blanks(),
+                         net::monotonicNow() - stateArrival_});
+        link_.wake();
         const auto order = mailbox_.awaitRelease(frame);
         if (!order) return mailbox_.interruption();
         if (order->frame != frame && !std::exchange(skipped_, true)) return Release::Skip;
@@ -205,29 +207,34 @@ class LinkSession final : public Session {
     }
 
     void quit() override {
-        v1::Input message;
-        message.set_kind(v1::INPUT_QUIT);
+        v1::Envelope message;
+        message.mutable_input()->set_kind(v1::INPUT_QUIT);
         link_.post(message);
     }
     // Said once: a hand that sees no effect presses again.
     void freeze(bool frozen) override {
-        v1::Set message;
-        message.set_request(static_cast<std::uint64_t>(net::monotonicNow().count()));
-        message.set_freeze(frozen);
+        v1::Envelope message;
+        message.mutable_set()->set_request(static_cast<std::uint64_t>(net::monotonicNow().count()));
+        message.mutable_set()->set_freeze(frozen);
         link_.post(message);
     }
     void dropFood(glm::vec3 positionMetres) override {
-        v1::Input message;
-        message.set_kind(v1::INPUT_DROP_FOOD);
-        for (const int axis : {0, 1, 2}) message.add_position(positionMetres[axis]);
+        v1::Envelope message;
+        message.mutable_input()->set_kind(v1::INPUT_DROP_FOOD);
+        for (const int axis : {0, 1, 2})
+            message.mutable_input()->add_position(positionMetres[axis]);
         link_.post(message);
     }
-    void steer(const Steering& steering) override { link_.post(wire::steeringInput(steering)); }
+    void steer(const Steering& steering) override {
+        v1::Envelope message;
+        *message.mutable_input() = wire::steeringInput(steering);
+        link_.post(message);
+    }
     void describe(const NodeFacts& facts) override { link_.post(facts); }
     void askMind(std::uint32_t fish) override {
-        v1::ExplainRequest question;
-        question.set_fish(fish);
-        link_.post(question);
+        v1::Envelope message;
+        message.mutable_explain_request()->set_fish(fish);
+        link_.post(message);
     }
     std::optional<ExplainedMind> latestMind() const override { return mailbox_.latestMind(); }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "render_node/session/mailbox.h"
+
 #include <chrono>
 #include <future>
 #include <thread>
 
 #include <gtest/gtest.h>
-
-#include "render_node/session/master_link.h"
 
 namespace aquarama::session {
 namespace {
