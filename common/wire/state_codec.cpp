@@ -86,19 +86,19 @@ FoodRecord foodRecord(FoodRecord::Kind kind, glm::vec3 offsetMetres, unsigned ge
 }
 
 StateView viewOf(const StateFrame& state) {
-    return {state.frame,
-            state.tick,
-            state.fraction,
-            state.eye,
-            state.worldHash,
-            state.motionHash,
-            state.before,
-            state.after,
-            state.foodOriginMetres,
-            state.foodBefore,
-            state.foodAfter,
-            state.daylight,
-            state.show};
+    return {.frame = state.frame,
+            .tick = state.tick,
+            .fraction = state.fraction,
+            .eye = state.eye,
+            .worldHash = state.worldHash,
+            .motionHash = state.motionHash,
+            .before = state.before,
+            .after = state.after,
+            .foodOriginMetres = state.foodOriginMetres,
+            .foodBefore = state.foodBefore,
+            .foodAfter = state.foodAfter,
+            .daylight = state.daylight,
+            .show = state.show};
 }
 
 Packet encodeState(std::uint64_t session, const StateView& state) {
@@ -139,19 +139,19 @@ std::optional<StateFrame> readState(const v1::State& message) {
     if (origin.size() != kPlaceNumbers || !areFinite(origin)) return std::nullopt;
     if (!arePaired(*before, *after, fraction) || !arePaired(*foodBefore, *foodAfter, fraction))
         return std::nullopt;
-    return StateFrame{{message.frame()},
-                      {message.tick()},
-                      fraction,
-                      *eye,
-                      message.world_hash(),
-                      message.motion_hash(),
-                      std::move(*before),
-                      std::move(*after),
-                      {origin[0], origin[1], origin[2]},
-                      std::move(*foodBefore),
-                      std::move(*foodAfter),
-                      daylight,
-                      *std::move(show)};
+    return StateFrame{.frame = {message.frame()},
+                      .tick = {message.tick()},
+                      .fraction = fraction,
+                      .eye = *eye,
+                      .worldHash = message.world_hash(),
+                      .motionHash = message.motion_hash(),
+                      .before = std::move(*before),
+                      .after = std::move(*after),
+                      .foodOriginMetres = {origin[0], origin[1], origin[2]},
+                      .foodBefore = std::move(*foodBefore),
+                      .foodAfter = std::move(*foodAfter),
+                      .daylight = daylight,
+                      .show = *std::move(show)};
 }
 
 }  // namespace aquarama::wire

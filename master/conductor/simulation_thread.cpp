@@ -22,19 +22,19 @@ constexpr std::size_t kMostJobs = 64;
 
 // The tick itself: nothing before it is needed.
 wire::StateView showingOne(Frame frame, const Snapshot& snapshot) {
-    return {frame,
-            snapshot.tick,
-            1.0F,
-            snapshot.eye,
-            snapshot.hash,
-            /*motionHash=*/0,  // of what is sent
-            {},
-            snapshot.fish,
-            snapshot.food.originMetres,
-            {},
-            snapshot.food.particles,
-            snapshot.daylight,
-            /*show=*/{}};
+    return {.frame = frame,
+            .tick = snapshot.tick,
+            .fraction = 1.0F,
+            .eye = snapshot.eye,
+            .worldHash = snapshot.hash,
+            .motionHash = 0,  // of what is sent
+            .before = {},
+            .after = snapshot.fish,
+            .foodOriginMetres = snapshot.food.originMetres,
+            .foodBefore = {},
+            .foodAfter = snapshot.food.particles,
+            .daylight = snapshot.daylight,
+            .show = {}};
 }
 
 // Where the eye is at a fraction of the way between two ticks.
@@ -73,19 +73,13 @@ std::optional<wire::StateView> SnapshotBuffer::showing(Frame frame, net::Instant
     const float fraction = static_cast<float>(sinceBefore.count()) / float{kTickPeriod.count()};
     if (fraction <= 0.0F) return showingOne(frame, before);
     if (fraction >= 1.0F) return showingOne(frame, *after);
-    return wire::StateView{frame,
-                           after->tick,
-                           fraction,
-                           between(before.eye, after->eye, fraction),
-                           after->hash,
-                           /*motionHash=*/0,  // of what is sent
-                           before.fish,
-                           after->fish,
-                           after->food.originMetres,
-                           before.food.particles,
-                           after->food.particles,
-                           glm::mix(before.daylight, after->daylight, fraction),
-                           /*show=*/{}};
+    wire::StateView view = showingOne(frame, *after);
+    view.fraction = fraction;
+    view.eye = between(before.eye, after->eye, fraction);
+    view.before = before.fish;
+    view.foodBefore = before.food.particles;
+    view.daylight = glm::mix(before.daylight, after->daylight, fraction);
+    return view;
 }
 
 SimulationThread::SimulationThread(Simulation& simulation,
