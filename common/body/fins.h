@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/body/fin_motion.h"
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 
@@ -48,9 +49,6 @@ class FinPatch {
 
 // The constants of the motion of a species' fins. cage: of this species at rest.
 [[nodiscard]] FinTable makeFinTable(const config::Species& species, const ControlCage& cage);
-
-// The period of all fin motion that depends on the time: all rates are whole tenths of a hertz.
-inline constexpr float kFinSeconds = 10;
 
 // What drives the fins of one fish at one moment.
 struct FinDrive {

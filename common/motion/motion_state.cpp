@@ -150,13 +150,7 @@ void setBodyFrame(MotionStates& states, std::size_t fish, const BodyFrame& frame
     states.orientationLargest[fish] = packed.largest;
 }
 
-namespace {
-
-// Half of the height that setAway() sets: wherever the motor moves an absent fish, it stays below.
-constexpr std::int32_t kAwayBelow =
-    static_cast<std::int32_t>(kAwayHeightMetres / kPositionUnitMetres) / 2;
-
-}  // namespace
+static_assert(kAwayBelow == static_cast<int>(kAwayHeightMetres / kPositionUnitMetres) / 2);
 
 bool isAway(const FishRecord& record) {
     return record.y < kAwayBelow;

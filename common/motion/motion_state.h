@@ -13,6 +13,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/motion/record_units.h"
 #include "common/motion/repertoire.h"
 
 namespace aquarama::motion {
@@ -31,9 +32,6 @@ struct PackedOrientation {
     std::uint8_t largest = 0;
 };
 
-// No component but the largest exceeds 1 / sqrt(2), which is 2^19 units.
-inline constexpr float kOrientationUnitsPerOne = 741455.2F;  // 2^19 * sqrt(2)
-inline constexpr float kOrientationUnit = 1.0F / kOrientationUnitsPerOne;
 // 2^19 - 1: fits 20 bits with either sign.
 inline constexpr float kOrientationLimit = 524287.0F;
 
@@ -122,10 +120,8 @@ inline constexpr float kOrientationLimit = 524287.0F;
 // The state of a school's motion: integers only, so that every machine agrees to the bit
 // (docs/architecture.md).
 
-// Units of position and speed.
-inline constexpr float kPositionUnitMetres = 1.0F / 65536.0F;
-inline constexpr float kSpeedUnitsPerBodyLength = 262144.0F;  // 2^18
-inline constexpr std::int32_t kFastestUnits = 4194303;        // 16 body lengths a second
+inline constexpr std::int32_t kFastestUnits = 4194303;  // of speed: 16 body lengths a second
+inline constexpr float kYawUnit = 1.0F / 1048576.0F;    // of MotorCommands::yawRate, radians a tick
 // Of MotionStates::spread in a tick: fins are spread within a fifth of a second.
 inline constexpr int kSpreadStep = 21;
 
@@ -233,9 +229,7 @@ void setBodyFrame(MotionStates& states, std::size_t fish, const BodyFrame& frame
 [[nodiscard]] float speedBodyLengths(const MotionStates& states, std::size_t fish);
 void setSpeedBodyLengths(MotionStates& states, std::size_t fish, float speed);
 
-// A fish that is not in the water: it was eaten, and no other has come in its place yet. It keeps
-// its index; its body frame is so far below every sea floor that no wall ever shows it.
-inline constexpr float kAwayHeightMetres = -16384.0F;
+// A fish that is not in the water: see kAwayHeightMetres.
 [[nodiscard]] bool isAway(const FishRecord& record);
 [[nodiscard]] bool isAway(const MotionStates& states, std::size_t fish);
 void setAway(MotionStates& states, std::size_t fish);

@@ -129,7 +129,6 @@ inline constexpr float kRollGain = 0.05F;
 inline constexpr float kRollRate = 0.013089969F;        // 45 degrees a second
 inline constexpr float kNoseVerticalSquared = 0.0025F;  // sine of 3 degrees: no roll to measure
 inline constexpr float kPitchUnit = 1.0F / 32768.0F;    // of MotorCommands::pitch
-inline constexpr float kYawUnit = 1.0F / 1048576.0F;    // of MotorCommands::yawRate, radians
 inline constexpr float kUnitsPerMillimetre = 65.536F;   // position
 inline constexpr float kLongestStepUnits = 4194304.0F;  // 2^22, 64 m: rounds exactly up to there
 // 2^-10, added to the level axis: a fish whose nose is exactly vertical has none of its own, and

@@ -136,7 +136,7 @@ bool cannotTurnTo(const Senses& senses, glm::vec3 fromMouth) {
 }  // namespace
 
 bool isBeforeTheMouth(const Senses& senses, glm::vec3 offset) {
-    const glm::vec3 fromMouth = offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
+    const glm::vec3 fromMouth = offset - senses.heading * (fish::kNoseBodyLengths * senses.length);
     const float distance = place::lengthOf(fromMouth) / senses.length;
     return distance <= kAtTheLips ||
            (distance <= kSuction &&
@@ -151,7 +151,7 @@ fish::Course eat(const Situation& situation, fish::Mind& mind, DeferredEvents& e
     if (isBeforeTheMouth(senses, food.offset))
         events.push_back({fish::DeferredEventKind::EatParticle, situation.fish, food.object});
     const glm::vec3 fromMouth =
-        food.offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
+        food.offset - senses.heading * (fish::kNoseBodyLengths * senses.length);
     if (mind.stage == kApproach && cannotTurnTo(senses, fromMouth)) enter(mind, kRunUp);
     const bool farEnough = food.distance > kRunUpLengths * senses.length;
     if (mind.stage == kRunUp && (farEnough || mind.sinceStage > kRunUpTicks))
@@ -205,7 +205,7 @@ fish::Course hunt(const Situation& situation, fish::Mind& mind, DeferredEvents& 
     const fish::FishView& view = *situation.environment.view;
     const Sighting& prey = senses.prey;
     const glm::vec3 fromMouth =
-        prey.offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
+        prey.offset - senses.heading * (fish::kNoseBodyLengths * senses.length);
     if (isInTheMouth(senses, fromMouth))
         events.push_back({fish::DeferredEventKind::EatFish, situation.fish, prey.object});
     if (mind.stage == static_cast<std::uint8_t>(HuntStage::Stalk))

@@ -23,9 +23,6 @@ layout(location = 6) flat out vec3 dorsal;  // the fish's own up, in the world
 layout(location = 7) out float opacity;     // 1 but where a level of detail fades
 layout(location = 8) flat out float nearness;  // of the skin's details, which come with the mesh
 
-// Of DetailLevel, and of CagePart.
-const uint kControlMesh = 3u, kMesh = 4u, kPelvic = 5u, kPectoral = 6u;
-
 void main() {
     uvec4 vertex = surface[fish[slot].firstVertex + uint(gl_VertexID)];
     place = uintBitsToFloat(vertex.xyz);

@@ -5,8 +5,7 @@
 #define FISH_DETAIL_GLSL
 #include "shader_interface.h"
 
-const uint kPoint = 0u, kFading = 1u, kFewTriangles = 2u, kControlMesh = 3u, kHero = 5u, kDetails = 7u,
-           kUnseen = 15u;
+const uint kUnseen = 15u;  // in place of a level of detail
 
 layout(location = kPlanesLocation) uniform vec4 planes[6];       // of the view's frustum, inward
 layout(location = kSharedEyeLocation) uniform vec4 sharedEye;       // world, metres; w: the wall's finest pixel, radians

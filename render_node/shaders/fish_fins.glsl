@@ -3,6 +3,8 @@
 // Lengths in body lengths, angles in radians, times in seconds; axes tailwards, up, right.
 #ifndef FISH_FINS_GLSL
 #define FISH_FINS_GLSL
+#include "fin_motion.h"
+#include "shader_interface.h"
 
 // FinStyle and FinPoint of common/body/fish_body.h. Tailwards, up, away from the body; the left side
 // is the mirror image of the right.
@@ -24,15 +26,6 @@ struct FinPoint {
     float p, q, sway;
     uint part;
 };
-
-// CagePart of common/body/fish_body.h
-const uint kBodyPart = 0u, kCaudalPart = 1u, kAnalPart = 4u, kPelvicPart = 5u, kPectoralPart = 6u;
-
-const float kWholeTurn = 6.2831853;
-const float kFinSeconds = 10.0;
-const float kMarginLag = kWholeTurn / 6.0, kTipLag = 0.12;
-const float kStands = 0.2, kSwims = 0.6, kFolded = 1.5;  // body lengths a second
-const float kFoldBand = 0.2, kTrimGain = 3.0;
 
 // What drives the fins of one fish.
 struct FinDrive {
@@ -81,7 +74,7 @@ float finWave(FinPoint point, float cycles, float waves) {
 float rippledFin(FinStyle style, FinPoint point, FinDrive drive) {
     float swimming = mix(finWave(point, drive.fromPhase, style.swimWaves),
                          finWave(point, drive.phase, style.swimWaves), drive.weight);
-    float opposed = point.part == kAnalPart ? style.opposed / kWholeTurn : 0.0;
+    float opposed = point.part == kAnal ? style.opposed / kWholeTurn : 0.0;
     float hovering = finWave(point, style.hoverHertz * drive.seconds + drive.own + opposed,
                              style.hoverWaves);
     return point.sway * mix(style.hoverRipple * hovering, style.swimRipple * swimming,
@@ -92,13 +85,13 @@ float rippledFin(FinStyle style, FinPoint point, FinDrive drive) {
 vec3 finOffset(FinStyle style, FinPoint point, FinDrive drive, float drift) {
     vec3 mirror = vec3(1.0, 1.0, point.side);
     switch (point.part) {
-        case kBodyPart: return vec3(0.0);
-        case kPectoralPart: return rowedFin(style, point, drive) * mirror;
-        case kPelvicPart: {
+        case kBody: return vec3(0.0);
+        case kPectoral: return rowedFin(style, point, drive) * mirror;
+        case kPelvic: {
             float angle = style.pelvicFold * (1.0 - drive.spread) * smoothstep(kStands, kFolded, abs(drive.speed));
             return (rotatedAbout(vec3(0.0, 0.0, 1.0), angle, point.arm) - point.arm) * mirror;
         }
-        case kCaudalPart: {
+        case kCaudal: {
             float lobe = 2.0 * point.p - 1.0;
             return vec3(0.0, 0.0, drift * style.cupping * (lobe * lobe - 0.5) * pow(point.q, 1.5));
         }

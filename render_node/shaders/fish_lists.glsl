@@ -5,7 +5,6 @@
 #define FISH_LISTS_GLSL
 #include "shader_interface.h"
 
-const uint kMeshes = 5u;   // few triangles, then the surfaces from coarse to fine
 
 struct Mesh {
     uint vertexCount;

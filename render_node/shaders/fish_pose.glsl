@@ -84,7 +84,7 @@ vec3 controlPointOf(Fish self, uint i) {
         pose.drift = mix(from.drift, pose.drift, self.warpWeight);
     }
     FinPoint point = finPointOf(self.species, i);
-    if (point.part == kBodyPart) return pose.place;
+    if (point.part == kBody) return pose.place;
     vec3 offset = finOffset(finStyleOf(self.species), point, finDriveOf(self), pose.drift);
     return pose.place + turnedBy(pose.heading, offset);
 }

@@ -5,10 +5,8 @@
 // -1 to back +1. Colours are linear Rec. 709 albedos.
 #ifndef SKIN_GLSL
 #define SKIN_GLSL
+#include "shader_interface.h"
 
-// CagePart of common/body/fish_body.h
-const uint kCaudal = 1u, kFirstDorsal = 2u, kSecondDorsal = 3u, kAnal = 4u, kPelvic = 5u,
-           kPectoral = 6u, kEye = 7u;
 const vec3 kInk = vec3(0.006, 0.007, 0.009);
 
 uniform vec3 eyeOfSpecies;  // s, y and radius, body lengths

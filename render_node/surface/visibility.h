@@ -27,7 +27,7 @@ struct FrustumPlanes {
 [[nodiscard]] FrustumPlanes frustumOf(const glm::mat4& clipFromWorld);
 
 // Levels of detail, from coarse to fine. From ControlMesh on a fish has a surface, which is refined
-// 0 to 3 times. The numbers are those of fish_detail.glsl.
+// 0 to 3 times. The numbers are those of shader_interface.h.
 enum class DetailLevel : std::uint32_t {
     // A sprite with the area and the mean colour of the fish.
     Point,
