@@ -18,9 +18,9 @@ Instant monotonicNow() {
 }
 
 bool runInRealTime(bool wanted) {
-    // By the kernel's call, of which the C library keeps no note: pthread_setschedparam's would
-    // pass on to new threads, whose priority the kernel has reset, and libzmq 4.3.5 ends on that
-    // conflict.
+    // Calls the kernel directly. With pthread_setschedparam the C library would remember the
+    // priority and pass it on to new threads, but the kernel resets theirs. On this conflict libzmq
+    // 4.3.5 ends the process.
     const sched_param priority{.sched_priority = wanted ? 10 : 0};
     const int policy = wanted ? SCHED_RR : SCHED_OTHER;
     return sched_setscheduler(0, policy | SCHED_RESET_ON_FORK, &priority) == 0;
@@ -32,7 +32,7 @@ bool isClockSynchronised() {
 }
 
 void ClockOffset::add(Instant sent, Instant master, Instant received) {
-    if (received < sent) return;  // an echo of something that this clock never said
+    if (received < sent) return;  // not the echo of a ping of this clock
     const Instant roundTrip = received - sent;
     const Instant middle = sent + roundTrip / 2;
     samples_.push_back({middle, master - middle, roundTrip});
@@ -40,7 +40,7 @@ void ClockOffset::add(Instant sent, Instant master, Instant received) {
     if (++sinceWindow_ == kWindow) closeWindow();
 }
 
-// The sample with the shortest round trip; null where there is none yet.
+// The sample with the shortest round trip; null before the first one.
 const ClockOffset::Sample* ClockOffset::best() const {
     const auto shortest = std::ranges::min_element(samples_, {}, &Sample::roundTrip);
     return shortest == samples_.end() ? nullptr : &*shortest;
@@ -57,8 +57,8 @@ void ClockOffset::closeWindow() {
     fit();
 }
 
-// Least squares, each sample with the inverse square of its round trip as weight: what it may be
-// wrong by.
+// Least squares. The weight of a sample is the inverse square of its round trip, which is its
+// possible error.
 void ClockOffset::fit() {
     line_ = {};
     if (windows_.size() < kLeastWindows) return;
@@ -98,7 +98,7 @@ std::optional<Instant> ClockOffset::roundTrip() const {
 
 namespace {
 
-// Between two blanks; any display's refresh rate is well within.
+// Limits of the time between two blanks; the refresh rate of any display is well within.
 constexpr Instant kShortestPeriod = std::chrono::milliseconds(2);
 constexpr Instant kLongestPeriod = std::chrono::milliseconds(100);
 
@@ -112,7 +112,7 @@ void BlankMeter::add(std::uint64_t count, Instant at) {
     constexpr Instant kKept = std::chrono::seconds(5);
     const Blank blank{count, at};
     if (!seen_.empty() && count == seen_.back().count) return;
-    // Another mode, another display, or a driver that dates by another clock.
+    // The mode or the display has changed, or the driver uses another clock.
     if (!seen_.empty() && (count < seen_.back().count || at <= seen_.back().at ||
                            periodBetween(seen_.back(), blank) < kShortestPeriod ||
                            periodBetween(seen_.back(), blank) > kLongestPeriod))

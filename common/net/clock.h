@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Instants of this machine's monotonic clock, threads that wake on time, and how a node learns
-// where the master's stands.
+// This machine's monotonic clock, real-time priority of threads, and the offset of the master's
+// clock.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@ namespace aquarama::net {
 // A moment or a duration of the monotonic clock.
 using Instant = std::chrono::nanoseconds;  // since the epoch of CLOCK_MONOTONIC
 
-// For figures.
+// A duration in seconds, for figures.
 [[nodiscard]] inline double secondsIn(Instant duration) {
     return std::chrono::duration<double>(duration).count();
 }
@@ -24,25 +24,26 @@ using Instant = std::chrono::nanoseconds;  // since the epoch of CLOCK_MONOTONIC
 // Now, on CLOCK_MONOTONIC of this machine.
 [[nodiscard]] Instant monotonicNow();
 
-// Asks the kernel to run the calling thread as soon as it wakes, before all that has no such
-// priority; threads that it starts later have none. Or ends that. False where this user may not.
+// Gives the calling thread real-time priority, or takes it away. The kernel then runs it as soon as
+// it wakes, before threads without it. Threads that it starts later do not inherit it. False where
+// the user lacks the permission.
 bool runInRealTime(bool wanted = true);
 
-// Whether the kernel holds this machine's clock to others', by chrony, ntpd or PTP.
+// Whether this machine's clock is synchronised with other clocks, by chrony, ntpd or PTP.
 [[nodiscard]] bool isClockSynchronised();
 
-// The master's clock minus the node's, from round trips. A reply tells the offset to within half
-// its round trip, and queues only ever add to one: so the shortest of every second or so is
-// believed. Clocks of two machines also run at different rates, some 10 to 100 ppm apart: after six
-// seconds a line is laid through what was believed, and followed. Of the net thread.
+// The master's clock minus the node's, from round trips. A reply gives the offset to within half
+// its round trip, and queues only make round trips longer. So it uses the shortest round trip of
+// about each second. The clocks of two machines also run at different rates, 10 to 100 ppm apart.
+// So after six seconds it fits a line through the offsets and follows that. Used by the net thread.
 class ClockOffset {
   public:
     // A ping left at `sent`, was answered at `master` (master's clock) and came back at `received`.
     void add(Instant sent, Instant master, Instant received);
-    // At a moment of the node's clock; empty before the first round trip.
+    // The offset at a moment of the node's clock; empty before the first round trip.
     [[nodiscard]] std::optional<Instant> offset(Instant now) const;
     [[nodiscard]] std::optional<Instant> roundTrip() const;  // the shortest of the last seconds
-    // By how much the master's clock runs faster, parts per million; 0 while it is not known.
+    // How much faster the master's clock runs, parts per million; 0 while it is unknown.
     [[nodiscard]] double driftPpm() const { return line_.slope * 1e6; }
 
   private:
@@ -57,7 +58,7 @@ class ClockOffset {
         bool isKnown = false;
     };
     [[nodiscard]] const Sample* best() const;
-    // Keeps the best of the samples that make a window, and fits the line again.
+    // Keeps the best sample of the window, and fits the line again.
     void closeWindow();
     void fit();
 
@@ -65,22 +66,22 @@ class ClockOffset {
     static constexpr std::size_t kWindow = 16;
     static constexpr std::size_t kWindows = 32;      // 26 s
     static constexpr std::size_t kLeastWindows = 8;  // for a line
-    static constexpr double kMostDrift = 500e-6;     // more is no clock's drift, but noise
+    static constexpr double kMostDrift = 500e-6;     // a larger value is noise, not drift
     std::deque<Sample> samples_, windows_;
     std::size_t sinceWindow_ = 0;
     Line line_;
 };
 
-// The vertical blanks of a display: at `last`, and at every `period` before and after it.
+// The vertical blanks of a display: one at `last`, and one at every `period` before and after it.
 struct Blanks {
     Instant last{}, period{};
 };
 
-// Finds the period of a display from blanks that its driver counts and dates.
+// Finds the period of a display from blanks that its driver counts and time-stamps.
 class BlankMeter {
   public:
     void add(std::uint64_t count, Instant at);
-    // Empty until a second has been seen without a jump.
+    // Empty until a second has passed without a jump.
     [[nodiscard]] std::optional<Blanks> blanks() const;
 
   private:
@@ -97,8 +98,8 @@ class RecentTimes {
     void add(Instant time);
     [[nodiscard]] float quantileMs(
         double quantile) const;  // quantile 0 to 1; 0 where there is nothing yet
-    // How many are up to each of these edges, which ascend, and above the one before; last those
-    // above all.
+    // A histogram: for each edge the durations up to it and above the edge before; last those above
+    // all edges. Edges ascend.
     [[nodiscard]] std::vector<std::uint32_t> countsUpTo(std::span<const Instant> edges) const;
 
   private:
@@ -106,8 +107,8 @@ class RecentTimes {
     std::deque<Instant> times_;
 };
 
-// The longest of a few recent durations: of this tenth of a second and of the one before in which
-// there were any. So whoever asks ten times a second misses none.
+// The longest recent duration: of this tenth of a second, and of the last tenth before it that had
+// any. A reader that asks ten times a second misses none.
 class RecentPeak {
   public:
     void add(Instant now, Instant time);

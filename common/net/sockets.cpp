@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kReconnectMs = 50;  // a master that restarts is found at once
 constexpr int kReconnectMaxMs = 500;
-constexpr int kHandshakeMs = 2000;  // after which a connection that says nothing is closed
+constexpr int kHandshakeMs = 2000;  // after which a silent connection is closed
 constexpr std::string_view kTcp = "tcp://";
 
 // An address "tcp://HOST:PORT" in its parts.
@@ -49,7 +49,7 @@ std::optional<std::string> ipv6In(const std::string& host) {
     return inner;
 }
 
-// Throws Error where it has no such parts; the port is left to the caller.
+// Throws Error where it has no such parts; the port is checked by the caller.
 Endpoint split(const std::string& address) {
     const std::size_t colon = address.rfind(':');
     if (!address.starts_with(kTcp) || colon == std::string::npos || colon < kTcp.size()) {
@@ -78,7 +78,7 @@ ByteVector bytesOf(const zmq::message_t& message) {
     return {first, first + message.size()};
 }
 
-// Only where it is asked for: else the address that was bound is reported in IPv6 form.
+// IPv6 only where the address has it: otherwise the bound address would be reported in IPv6 form.
 void allowIpv6(zmq::socket_t& socket, const std::string& address) {
     socket.set(zmq::sockopt::ipv6, address.find('[') != std::string::npos);
 }
@@ -111,7 +111,8 @@ WakeEvent::~WakeEvent() {
     close(descriptor_);
 }
 
-// A full counter cannot be raised further and an empty one not be read: both mean what is wanted.
+// A full counter cannot be raised and an empty one cannot be read; in both cases the state is
+// already the wanted one.
 void WakeEvent::set() const {
     const std::uint64_t one = 1;
     [[maybe_unused]] const auto written = write(descriptor_, &one, sizeof one);
@@ -169,7 +170,7 @@ void setKeys(zmq::socket_t& socket, const KeyPair& own) {
 }
 
 [[noreturn]] void refuseKeys() {
-    throw Error("a key is none of CurveZMQ; make new ones (aquarama keys new)");
+    throw Error("a key is not a valid CurveZMQ key; make new ones (aquarama keys new)");
 }
 
 }  // namespace
@@ -178,7 +179,7 @@ KeyPair makeKeyPair() {
     std::array<char, 41> publicKey{};
     std::array<char, 41> secretKey{};
     if (zmq_curve_keypair(publicKey.data(), secretKey.data()) != 0)
-        throw Error("this libzmq makes no keys; install one with libsodium");
+        throw Error("this libzmq cannot make keys; install one with libsodium");
     return {publicKey.data(), secretKey.data()};
 }
 
@@ -234,7 +235,7 @@ void Doorkeeper::serve() {
     }
 }
 
-// A connection costs memory: who shows the same key again and again is not let in for a while.
+// A connection costs memory: a user that connects too often is refused for a while.
 std::string Doorkeeper::userOf(const std::string& binaryKey) {
     constexpr int kMostHandshakes = 100;
     constexpr Instant kWithin = std::chrono::seconds(10);
@@ -272,7 +273,7 @@ void Doorkeeper::answer(zmq::socket_t& requests) {
         for (std::size_t i = 0; i < reply.size(); ++i)
             requests.send(zmq::buffer(reply[i]),
                           i + 1 < reply.size() ? zmq::send_flags::sndmore : zmq::send_flags::none);
-    } catch (const zmq::error_t&) {  // whoever asked is gone
+    } catch (const zmq::error_t&) {  // the peer that asked has gone
     }
 }
 
@@ -326,7 +327,7 @@ void pollSockets(std::initializer_list<zmq::socket_t*> sockets,
     const auto ms = std::chrono::ceil<std::chrono::milliseconds>(std::max(atMost, Instant{0}));
     try {
         zmq::poll(items.data(), count, ms);
-    } catch (const zmq::error_t&) {  // a signal: the caller looks around and waits again
+    } catch (const zmq::error_t&) {  // a signal: the caller checks its state and waits again
     }
     if ((items[count - 1].revents & ZMQ_POLLIN) != 0) wake.clear();
 }

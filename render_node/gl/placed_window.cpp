@@ -105,7 +105,8 @@ void PlacedWindow::keepInPlace() {
 }
 
 void PlacedWindow::stayOn(GLFWmonitor* monitor) {
-    constexpr int kMostAttempts = 8;  // then the node gives in to a window manager that overrides the position
+    constexpr int kMostAttempts =
+        8;  // then the node gives in to a window manager that overrides the position
     if (!isAside_ && isOn(monitor))
         attempts_ = 0;
     else if (attempts_++ < kMostAttempts)

@@ -35,7 +35,7 @@ void Mailbox::start(wire::Pace pace, Frame first) {
 void Mailbox::put(ArrivedState arrived) {
     const std::lock_guard lock(mutex_);
     const auto isSame = [&](const ArrivedState& s) { return s.state.frame == arrived.state.frame; };
-    if (std::ranges::any_of(states_, isSame)) return;  // sent again for somebody else
+    if (std::ranges::any_of(states_, isSame)) return;  // sent again for another node
     if (states_.size() == kStates) states_.pop_front();
     states_.push_back(std::move(arrived));
     changed_.notify_all();
@@ -82,7 +82,7 @@ void Mailbox::expectJoin() {
     join_.reset();
     interruption_.reset();
     pace_.reset();
-    next_ = {};  // of another run of the master: its frames may come before start()
+    next_ = {};  // frames of another run of the master may come before start()
     states_.clear();
     finished_.clear();
     release_.reset();

@@ -75,19 +75,19 @@ class Mailbox {
     [[nodiscard]] std::optional<FinishedFrame> takeFinished();
     void interrupt(Release why);  // Rejoin or Quit; nothing comes back after Quit
 
-    // The render thread's side. Each blocks until there is an answer.
-    // Called while one of them waits, without the lock.
+    // The render thread's side. Each blocks until there is an answer. `call` runs while one of them
+    // waits, without the lock.
     void whileWaiting(std::function<void()> call) { whileWaiting_ = std::move(call); }
-    void expectJoin();  // forgets everything that came before
+    void expectJoin();  // forgets everything of the join before
     [[nodiscard]] JoinOutcome awaitJoin();
     [[nodiscard]] std::optional<ArrivedState> takeState();  // empty: interrupted
     void finish(const FinishedFrame& finished);             // the net thread is to be woken
     // The newest release, of this frame or a later one; empty: interrupted.
     [[nodiscard]] std::optional<ReleaseOrder> awaitRelease(Frame frame);
     [[nodiscard]] Release interruption() const;
-    // The next look that all blobs are there for, once; does not block.
+    // The next look, once, when all of its blobs are there; does not block.
     [[nodiscard]] std::optional<Admitted> takeNextLook();
-    // The last that was told in this run of the master; does not block.
+    // The last explanation of this run of the master; does not block.
     [[nodiscard]] std::optional<ExplainedMind> latestMind() const;
 
   private:

@@ -38,7 +38,7 @@ std::vector<motion::FishTraits> schoolOf(const v1::Look& look) {
     return school;
 }
 
-// Of what stays the same when a show goes on after an interruption.
+// A digest of what stays the same when a show continues after an interruption.
 Digest showOf(v1::Welcome welcome) {
     welcome.clear_state_address();
     welcome.clear_pace();
@@ -47,7 +47,7 @@ Digest showOf(v1::Welcome welcome) {
     return digestOf(welcome.SerializeAsString());
 }
 
-// With the files that it names, which were fetched.
+// The rig, with the files that it names, which were fetched.
 config::Rig rigOf(const Admitted& admitted) {
     config::Rig rig = config::parseRig(admitted.welcome.rig_text(), "the master's rig");
     for (const v1::RigFile& file : admitted.welcome.look().rig_files())
@@ -70,15 +70,15 @@ Admission admissionOf(const Admitted& admitted) {
             .cast = castOf(admitted)};
 }
 
-// What a node counts for Prometheus.
+// A node's figures for Prometheus.
 class NodeFigures {
   public:
-    // Of the node of this channel of the rig.
+    // For the node of this channel of the rig.
     NodeFigures(const config::Rig& rig, const std::string& name) : metrics_(portOf(rig, name)) {}
 
     void begin() { begun_ = net::monotonicNow(); }  // of a frame
     void finish() { picture_(net::secondsIn(net::monotonicNow() - begun_)); }
-    // A frame was released, or passed over.
+    // A frame was released or skipped.
     void release(Release release, const LinkFigures& link) {
         const net::Instant now = net::monotonicNow();
         if (release == Release::Present) {
@@ -94,7 +94,7 @@ class NodeFigures {
     }
 
   private:
-    // 0 where the rig names none.
+    // The node's port; 0 where the rig names none.
     static std::uint16_t portOf(const config::Rig& rig, const std::string& name) {
         const auto channel = std::ranges::find(rig.channels, name, &config::Channel::name);
         if (rig.metricsPort == 0 || channel == rig.channels.end()) return 0;
@@ -178,8 +178,8 @@ class LinkSession final : public Session {
 
     Release readyThenWait(Frame frame) override {
         if (figures_) figures_->finish();
-        // From here to the swap every microsecond is skew. Not while it draws: on a processor that
-        // draws as well, the net threads would wait.
+        // From here to the swap every microsecond is skew. While the thread draws it has no such
+        // priority: on a software renderer the net threads would have to wait.
         net::runInRealTime();
         const Release release = awaitRelease(frame);
         if (figures_) figures_->release(release, link_.figures());
@@ -195,7 +195,7 @@ class LinkSession final : public Session {
         const auto order = mailbox_.awaitRelease(frame);
         if (!order) return mailbox_.interruption();
         if (order->frame != frame && !std::exchange(skipped_, true)) return Release::Skip;
-        // A node that is always late shows its late pictures: better than none.
+        // A node that is always late shows late pictures, which is better than none.
         skipped_ = false;
         std::this_thread::sleep_until(std::chrono::steady_clock::time_point(order->at));
         released_ = ReleaseReport{frame, net::monotonicNow()};
@@ -211,7 +211,7 @@ class LinkSession final : public Session {
         message.mutable_input()->set_kind(v1::INPUT_QUIT);
         link_.post(message);
     }
-    // Said once: a hand that sees no effect presses again.
+    // Sent once: a visitor who sees no effect presses the key again.
     void freeze(bool frozen) override {
         v1::Envelope message;
         message.mutable_set()->set_request(static_cast<std::uint64_t>(net::monotonicNow().count()));

@@ -22,21 +22,21 @@ namespace aquarama::show {
 class BuiltLook {
   public:
     // Builds it on the calling thread and leaves its workspace current there. Without a prescribed
-    // quality it measures with which the node keeps up. Throws Error: a channel that the rig does
-    // not have or another size than the context's, a driver that cannot draw what is needed.
+    // quality it measures which tier the node keeps up with. Throws Error: a channel that the rig
+    // does not have or another size than the context's, a driver that cannot draw what is needed.
     BuiltLook(gl::Context& context, const std::string& channel, session::Admission admission);
-    // May be on another thread, while no thread has the workspace current.
+    // May be destroyed on another thread, while no thread has the workspace current.
     ~BuiltLook();
     BuiltLook(const BuiltLook&) = delete;
     BuiltLook& operator=(const BuiltLook&) = delete;
 
     [[nodiscard]] const session::Admission& admission() const { return admission_; }
-    // The same look under another number: the master was started again.
+    // Gives the same look another number, after the master was started again.
     void renumber(std::uint32_t look) { admission_.look = look; }
     [[nodiscard]] gl::Workspace& workspace() { return *workspace_; }
     [[nodiscard]] ChannelPicture& picture() { return *picture_; }
     [[nodiscard]] const std::shared_ptr<const wall::Wall>& wall() const { return wall_; }
-    // What is shown, of one eye where the window shows both.
+    // The picture that is shown; that of one eye where the window shows both.
     [[nodiscard]] const gl::Target& target(Shown shown = Shown::Display) const {
         return shown == Shown::RightEye ? targets_.back() : targets_.front();
     }
@@ -44,10 +44,10 @@ class BuiltLook {
     [[nodiscard]] PictureReader& reader() { return *reader_; }
     // The finest tier that this node keeps up with.
     [[nodiscard]] config::QualityTier bears() const { return bears_; }
-    // Of OpenGL, for people.
+    // The renderer of OpenGL, for messages.
     [[nodiscard]] const std::string& renderer() const { return renderer_; }
     [[nodiscard]] config::QualityTier quality() const { return quality_; }  // of the picture
-    // Makes the picture anew where it is of another tier. The workspace is current.
+    // Builds the picture again where it is of another tier. The workspace is current.
     void bringTo(config::QualityTier quality);
 
   private:
@@ -79,7 +79,7 @@ using FrameCost = std::function<double(config::QualityTier)>;
 [[nodiscard]] config::QualityTier finestWithin(double budgetSeconds, const FrameCost& cost);
 
 // The share of the time between two refreshes that a frame without fish may take. The rest is for
-// fish, for the events of a show, and reserve.
+// fish and events of a show, and a reserve.
 inline constexpr double kBudgetShare = 0.5;
 
 }  // namespace aquarama::show

@@ -76,7 +76,7 @@ std::vector<surface::SchoolSpecies> castOf(const session::Admission& admission) 
     return cast;
 }
 
-// From the world straight to clip space.
+// Converts from the world to clip space.
 glm::mat4 clipOf(const scene::View& view) {
     return view.clipFromCamera * view.cameraFromWorld;
 }
@@ -143,7 +143,7 @@ void ChannelPicture::drawScene(const wire::StateFrame& frame,
     frame_ = frame.frame;
     brightness_ = frame.show.brightness;
     scan_ = frame.show.scan;
-    if (scan_ && frame.show.black) scan_->lit = 0;  // at once
+    if (scan_ && frame.show.black) scan_->lit = 0;  // black takes effect at once
     if (scan_) return;
     const bool isWorld = scene_ && frame.show.pattern == wire::Pattern::World;
     sceneSize_ = isWorld ? worldSize_ : patternSize_;

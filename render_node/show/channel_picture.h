@@ -65,7 +65,7 @@ class ChannelPicture {
     [[nodiscard]] const config::Stereo& stereo() const { return stereo_; }
 
   private:
-    // What is needed for one of the viewer's eyes, or for the point between them where one picture
+    // The picture of one of the viewer's eyes, or of the point between them where one picture
     // serves both.
     struct Viewing {
         Viewing(const wall::ChannelFrustum& from,
@@ -105,7 +105,7 @@ class ChannelPicture {
     std::vector<motion::FishTraits> school_;
     // The map for the point between the eyes.
     ProjectionMap map_;
-    // Of the world's picture, of a pattern's, and of the one that was drawn last.
+    // Sizes of the world's picture, of a pattern's, and of the picture that was drawn last.
     glm::ivec2 worldSize_{}, patternSize_{}, sceneSize_{};
     // One, or left and right.
     std::deque<Viewing> eyes_;
@@ -116,12 +116,13 @@ class ChannelPicture {
     // Set where the world can be shown, not test patterns alone.
     std::optional<scene::SceneRenderer> scene_;
     TextOverlay text_;
-    // What the frame shows where it is of a scan, and what draws it; made when one is first shown.
+    // The pattern of a scan that the frame shows, and its pass, which is made when one is first
+    // shown.
     std::optional<config::ScanPattern> scan_;
     std::optional<ScanPass> scanPass_;
     std::size_t channel_;
     std::vector<scene::FoodParticle> food_;
-    // Number of the frame that was drawn last: its parity seeds the dither. And its light.
+    // Number of the frame that was drawn last, whose parity seeds the dither; and its brightness.
     Frame frame_;
     float brightness_ = 1.0F;
 };

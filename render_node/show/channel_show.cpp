@@ -59,7 +59,7 @@ ChannelShow::ChannelShow(session::Session& session,
     if (!options.filmPipe.empty()) film_ = net::connectFrames(options.filmPipe);
 }
 
-// A stage that is still being built is waited for: it uses the context.
+// Waits for a look that is still being built: it uses the context.
 ChannelShow::~ChannelShow() {
     if (stage_) stage_->workspace().release();
 }
@@ -95,7 +95,8 @@ void ChannelShow::writePicture() {
 void ChannelShow::build(session::Admission admission) {
     const std::uint32_t look = admission.look;
     next_.reset();
-    isStale_ = building_.valid();  // of another run of the master: its numbers mean nothing now
+    isStale_ =
+        building_.valid();  // a look of another run of the master: its number is not valid now
     if (stage_ && stage_->admission().show == admission.show) return stage_->renumber(look);
     const std::size_t channel = channelIndex(admission.rig, options_.channel);
     if (stage_ && stage_->picture().sizePixels() != admission.rig.channels[channel].sizePixels)
@@ -159,8 +160,8 @@ void ChannelShow::bringTo(config::QualityTier quality) {
 }
 
 session::Release ChannelShow::play() {
-    // On the target, for the operator's console. Looked at after nextFrame(): until then this
-    // thread has real-time priority, and would keep other nodes of its machine from their release.
+    // The frame on the target, for the operator's console. It is read after nextFrame(): until then
+    // this thread has real-time priority and would delay other nodes of its machine.
     std::optional<wire::StateFrame> presented;
     while (std::optional<wire::StateFrame> state = session_.nextFrame()) {
         if (presented) showOperator(*std::exchange(presented, {}));
@@ -220,7 +221,7 @@ void ChannelShow::nameFish() {
     }
 }
 
-// Not after every frame: it asks the display server.
+// Not after every frame, as it queries the display server.
 void ChannelShow::watchBlanks(Frame frame) {
     constexpr std::uint64_t kEvery = 16;
     if (frame.value % kEvery != 0) return;
@@ -235,7 +236,7 @@ void ChannelShow::watchBlanks(Frame frame) {
 void ChannelShow::refuseLoss() const {
     if (const auto loss = context_.loss())
         throw Error("the graphics driver took its context away (" + *loss +
-                    "); this node ends, and is to be started again");
+                    "); this node ends; start it again");
 }
 
 void ChannelShow::draw(const wire::StateFrame& frame) {
@@ -254,8 +255,8 @@ void ChannelShow::draw(const wire::StateFrame& frame) {
     refuseLoss();
 }
 
-// Into the back buffer, so that a swap shows it at once. The window's context is current
-// afterwards.
+// Copies the picture into the back buffer, so that a swap shows it at once. The window's context is
+// current afterwards.
 void ChannelShow::fillWindow() {
     if (!context_.hasWindow()) return;
     stage_->workspace().release();

@@ -46,15 +46,15 @@ class ChannelShow {
   private:
     // Draws the last state and writes the picture of it.
     void writePicture();
-    // Prepares for a show; keeps everything where it is the same look as before.
+    // Prepares for a show. Where the look is the same as before, nothing is built again.
     void build(session::Admission admission);
     // Begins to build the look that the master announces, and reports it when it is built.
     void buildNext();
-    // Brings the stage of this look on; false where there is none. What was shown before ends on a
-    // thread of its own.
+    // Shows this look from now on; false where it is not built. The look before is destroyed on
+    // another thread.
     [[nodiscard]] bool bringOn(std::uint32_t look);
     void enter(std::unique_ptr<BuiltLook> stage);
-    // Makes the picture anew where the wall is to be of another tier.
+    // Builds the picture again where the wall changes to another tier.
     void bringTo(config::QualityTier quality);
     // Draws and presents frames until the master is lost (Rejoin) or the show ends (Quit).
     [[nodiscard]] session::Release play();
@@ -65,15 +65,15 @@ class ChannelShow {
     // Throws Error where the context is lost.
     void film(Frame frame);
     void watchBlanks(Frame frame);
-    // Gives the operator's console a picture of this frame, begun now and taken after a later one,
-    // and says which fish is where it asks.
+    // Gives the operator's console a picture of this frame and answers its questions about fish.
+    // The picture is started now, and read after a later frame.
     void showOperator(const wire::StateFrame& frame);
     void nameFish();
     void refuseLoss() const;
     // Sends the food that a visitor has dropped, as places of the world.
     void feed(const wire::Eye& eye);
-    // Converts a place of the window to a pixel of the picture. No place means the middle of the
-    // picture; empty where the place is beside the picture.
+    // Converts a place of the window to a pixel of the picture; empty where it is outside the
+    // picture. Without a place it is the middle of the picture.
     [[nodiscard]] std::optional<glm::vec2> pixelAt(const WindowPlace& place) const;
     // The fish nearest to the pointer and what the master last said of it.
     [[nodiscard]] std::optional<WatchedMind> watchMind(const wire::StateFrame& frame);
@@ -85,29 +85,30 @@ class ChannelShow {
     session::Session& session_;
     gl::Context& context_;
     Controls& controls_;
-    machine::ServiceNotifier& service_;  // hears of every frame that was presented
+    machine::ServiceNotifier& service_;  // is told of every frame that was presented
     NodeOptions options_;
     Trace trace_;
     // Sends frames to the program that encodes a clip; null: none.
     std::unique_ptr<net::FrameSender> film_;
-    // What is drawn; its workspace is current. And the next look, while it is built and after.
+    // The look that is drawn; its workspace is current. Then the next look, while it is built and
+    // until it is shown.
     std::unique_ptr<BuiltLook> stage_;
     std::future<std::unique_ptr<BuiltLook>> building_;
     std::unique_ptr<BuiltLook> next_;
-    bool isStale_ = false;  // what is being built
+    bool isStale_ = false;  // the look that is being built
     std::future<void> retiring_;
     std::optional<Pointing> pointing_;
-    // Where the rig has a console; and the last frames that it was shown, the newest last.
+    // The console, where the rig has one, and the last frames that it was shown, the newest last.
     std::optional<ConsoleLink> console_;
     std::deque<wire::StateFrame> lookedAt_;
     // The fish whose mind is shown, as its index in the school.
     std::optional<std::uint32_t> watched_;
     // When the fish was last chosen and the master asked.
     std::chrono::nanoseconds askedAt_{};
-    // Whether a frame of this show has been presented, and how many were since the node began.
+    // Whether a frame of this show has been presented, and how many since the node started.
     bool shown_ = false;
     std::uint64_t framesShown_ = 0;
-    // The last frame, where it was not drawn because nobody saw it.
+    // The last frame, where it was not drawn because it was neither shown nor filmed.
     std::optional<wire::StateFrame> undrawn_;
 };
 

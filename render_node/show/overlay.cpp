@@ -101,7 +101,7 @@ std::vector<Glyph> glyphsOf(std::span<const Label> labels, float dotPixels) {
     std::vector<Glyph> glyphs;
     for (const Label& label : labels) {
         glm::vec2 place = label.topLeft;
-        // The blank at the end closes the box on the right.
+        // The blank at the end draws the right edge of the box.
         for (const char character : label.text + ' ') {
             const GlyphBits bits = glyphOf(character);
             glyphs.push_back({place, glm::uvec2(bits, bits >> 32U)});
