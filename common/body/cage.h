@@ -87,7 +87,7 @@ class CageShape {
 
     MonotoneCurve dorsal_, ventral_, halfWidth_, fullnessUp_, fullnessDown_;
     FinPatch firstDorsal_, secondDorsal_, anal_, caudal_, pelvic_, pectoral_;
-    // The species has one dorsal fin along the whole back: it takes the strips of both.
+    // Whether the species has one dorsal fin along the whole back, which takes the strips of both.
     bool isOneDorsal_;
     // Rings slant, so that the base of every fin lies on them: a ring has one station on the back,
     // one on the flank and one on the belly; between them they blend.

@@ -15,7 +15,7 @@ namespace aquarama::body {
 
 namespace {
 
-// Of each curve of a patch; even in p.
+// Number of samples of each curve of a patch; they are evenly spaced in p.
 constexpr int kSamples = 101;
 
 // Values from 0 to 1.
@@ -67,7 +67,7 @@ float FinPatch::rayAtStation(float s) const {
 
 namespace {
 
-// Off the flank: of a folded fin, and of one that brakes.
+// Angle off the flank of a folded fin, and of a fin that brakes.
 constexpr float kFlatRadians = 5.0F * kWholeTurn / 360;
 constexpr float kSpreadRadians = 75.0F * kWholeTurn / 360;
 
@@ -192,7 +192,7 @@ glm::vec3 rowed(const FinStyle& style, const FinPoint& point, const FinDrive& dr
     const bool isRight = point.side > 0;
     const float apart = isRight ? 0.0F : 0.5F * (1 - beyond(drive.speed, style.alternateBelow));
     const float beat = style.rowHertz * drive.seconds + ownCycles(drive.id) + apart;
-    // On the outer side of a turn the fin is laid to the flank.
+    // On the outer side of a turn the fin lies on the flank.
     const float outer = drive.turning[isRight ? 0 : 1];
     const float opens = (1 - beyond(drive.speed, style.foldAbove)) * (1 - outer);
     const float rows = opens * (1 - drive.spread);

@@ -50,7 +50,7 @@ class FinPatch {
 // The constants of the motion of a species' fins. cage: of this species at rest.
 [[nodiscard]] FinTable makeFinTable(const config::Species& species, const ControlCage& cage);
 
-// What drives the fins of one fish at one moment.
+// The inputs of the motion of one fish's fins at one moment.
 struct FinDrive {
     float seconds = 0;               // of the show, modulo kFinSeconds
     float speed = 0;                 // body lengths a second; backwards is negative

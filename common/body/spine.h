@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Curves through tables, and the bent axis of a fish. The curves do not overshoot their tables, so
-// a body that is drawn by a few stations gets no bulges between them.
+// a body that is drawn with a few stations has no bulges between them.
 #pragma once
 
 #include <array>
@@ -55,8 +55,8 @@ struct Spine {
 // Sets the slopes from stations and centres.
 void setSlopes(Spine& spine);
 
-// Where the axis is at a station, which way it runs and which way is right; the two directions are
-// not normalised.
+// The axis at a station: its position, its direction and the direction to the right. The two
+// directions are not normalised.
 struct SpineSample {
     glm::vec3 centre{};
     glm::vec3 tailwards{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The direction of travel of many fish at a time, for the behaviour, which reads it at every tick.
+// The directions of travel of many fish, which the behaviour reads at every tick.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ void meanHeadings(const MotorTables& tables,
                   std::size_t first,
                   std::size_t last,
                   const HeadingColumns& headings);
-// The same for one fish, in plain C++: what meanHeadings() is tested against.
+// The same for one fish, in plain C++; the reference for meanHeadings().
 [[nodiscard]] glm::vec3 meanHeadingReference(const MotorTables& tables,
                                              const MotionStates& states,
                                              std::size_t fish);

@@ -20,14 +20,14 @@ std::int32_t signed20(std::uint64_t bits) {
     return value >= 0x80000 ? value - 0x100000 : value;
 }
 
-// The finaliser of MurmurHash3: every bit in changes half the bits out.
+// The finaliser of MurmurHash3: each input bit changes half of the output bits.
 std::uint64_t mix(std::uint64_t h) {
     h = (h ^ h >> 33U) * 0xFF51AFD7ED558CCDU;
     h = (h ^ h >> 33U) * 0xC4CEB9FE1A85EC53U;
     return h ^ h >> 33U;
 }
 
-// Two numbers side by side in one word.
+// Two numbers in one word.
 std::uint64_t pair(std::int32_t low, std::int32_t high) {
     return static_cast<std::uint32_t>(low) |
            static_cast<std::uint64_t>(static_cast<std::uint32_t>(high)) << 32U;
@@ -185,8 +185,8 @@ std::uint64_t foldedRecords(std::size_t count, RecordAt&& recordAt) {
     std::uint64_t hash = mix(count);
     for (std::size_t fish = 0; fish < count; ++fish) {
         const FishRecord r = recordAt(fish);
-        // Four words that do not depend on each other, so the processor works on them side by side;
-        // only the last line waits for the fish before.
+        // Four words that do not depend on each other, so the processor computes them in parallel;
+        // only the last line depends on the fish before.
         const std::int32_t phases = r.phase | static_cast<std::int32_t>(wide(r.fromPhase) << 16U);
         const std::uint64_t place = mix(pair(r.x, r.y)) + 3 * mix(pair(r.z, phases));
         const std::uint64_t turn = mix(wide(r.orientationLow) | wide(r.orientationHigh) << 32U);

@@ -148,7 +148,7 @@ struct MotionStates {
     // Along the mean frame's x axis, in units of 2^-18 body lengths a second; backwards is
     // negative.
     std::vector<std::int32_t> speed;
-    // How far the pectoral fins are seen to be spread, in 1/255: follows MotorCommands::brake by
+    // How far the pectoral fins are spread, in 1/255: it follows MotorCommands::brake by
     // kSpreadStep a tick.
     std::vector<std::uint8_t> spread;
 
@@ -156,8 +156,8 @@ struct MotionStates {
     [[nodiscard]] std::size_t size() const { return x.size(); }
 };
 
-// What the mind asks of the body; the motor's only input. One element for each fish. It changes at
-// decision instants, not every tick.
+// The commands of the mind to the body; the motor's only input. One element for each fish. They
+// change when a fish decides, not at every tick.
 struct MotorCommands {
     std::vector<std::uint8_t> action;  // to play next
     // How fast to play that action, in 1/65536 of a cycle in a tick, not negative; a turn that has
@@ -174,7 +174,7 @@ struct MotorCommands {
     void resize(std::size_t fish);
 };
 
-// What never changes about a fish, sent once to each node.
+// The constant properties of a fish, which are sent once to each node.
 struct FishTraits {
     std::uint32_t id = 0;
     // The alpha of eq. 12: the recorded data are in body lengths.
@@ -204,7 +204,7 @@ static_assert(sizeof(FishRecord) == 32);
     return static_cast<std::uint8_t>(record.speedAndSpread >> 24U);
 }
 
-// One fish of the columns as a record and back, without loss.
+// Convert one fish of the columns to a record and back, without loss.
 [[nodiscard]] FishRecord recordOf(const MotionStates& states, std::size_t fish);
 void setFromRecord(MotionStates& states, std::size_t fish, const FishRecord& record);
 
@@ -224,8 +224,8 @@ struct BodyFrame {
 // Rounds to the integers; the rotation need not be of unit length.
 void setBodyFrame(MotionStates& states, std::size_t fish, const BodyFrame& frame);
 
-// Body lengths a second. Setting rounds to the integers and limits to kFastestUnits; the speed must
-// be finite.
+// Speed in body lengths a second. Setting it rounds to integers and limits it to kFastestUnits; the
+// speed must be finite.
 [[nodiscard]] float speedBodyLengths(const MotionStates& states, std::size_t fish);
 void setSpeedBodyLengths(MotionStates& states, std::size_t fish, float speed);
 
@@ -237,7 +237,7 @@ void setAway(MotionStates& states, std::size_t fish);
 // Folds every bit of the state into one number: equal worlds have equal hashes. Cost: four multiply
 // chains for each fish.
 [[nodiscard]] std::uint64_t hashOf(const MotionStates& states);
-// The same of the same fish.
+// The same hash from records of the same fish.
 [[nodiscard]] std::uint64_t hashOf(std::span<const FishRecord> records);
 
 }  // namespace aquarama::motion

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vectorised step: what motor.cpp does to one fish, on as many fish at a time as the processor
-// has lanes. Blocks of 64 fish go through it in passes: first the phases and the tables, where each
-// fish reads its own segment, then the arithmetic, which is the same for all.
+// The vectorised step: motor.cpp's step on as many fish at a time as the processor has lanes.
+// Blocks of 64 fish go through it in passes: first the phases and the tables, where each fish reads
+// its own segment, then the arithmetic, which is the same for all.
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -26,8 +26,9 @@ namespace {
 constexpr std::size_t kBlockFish = 64;
 using FishSet = std::uint64_t;  // bit i: fish i of the block
 
-// What a block of fish does in this tick: phases and fractions of their cells, phase rates, and the
-// travels, four floats for each fish, stored by slotOf() to be read as columns.
+// The motion of a block of fish in this tick: phases and fractions of their cells, phase rates, and
+// travels. A travel has four floats for each fish, stored by slotOf() so that they can be read as
+// columns.
 struct Block {
     HWY_ALIGN std::int32_t from[kBlockFish];
     HWY_ALIGN std::int32_t to[kBlockFish];
@@ -40,7 +41,7 @@ struct Block {
     HWY_ALIGN float left[4 * kBlockFish];  // translation and speed at the start
     HWY_ALIGN float reached[4 * kBlockFish];
     HWY_ALIGN std::int32_t lengthMillimetres[kBlockFish];
-    // From one pass to the next, as columns.
+    // Results of one pass for the next, as columns.
     HWY_ALIGN float travel[3 * kBlockFish];
     HWY_ALIGN float faster[kBlockFish];
     HWY_ALIGN float swum[3 * kBlockFish];
@@ -181,7 +182,7 @@ HWY_INLINE void storeBetween(
     Tag tag, const PathSample* path, float share, float* rotation, float* place) {
     const float* const a = &path[0].rotation.w;
     const float* const b = &path[1].rotation.w;
-#if HWY_TARGET != HWY_SCALAR  // which has no halves
+#if HWY_TARGET != HWY_SCALAR  // vectors of this target have no halves
     if constexpr (hn::MaxLanes(Tag()) == 8) {
         const hn::Half<Tag> half;
         const auto at = between(tag, a, b, share);

@@ -53,8 +53,8 @@ glm::dquat towards(const glm::dvec3& way) {
     return glm::normalize(glm::dquat(1 + way.x / length, 0, -way.z / length, way.y / length));
 }
 
-// That along the path at phase k. The path's direction is taken over two phases to either side, or
-// fewer near the ends.
+// The least rotation to the direction of the path at phase k. The direction is taken over two
+// phases to either side, or fewer near the ends.
 glm::dquat alongPath(const GaitPath& path, std::size_t k) {
     const std::size_t reach = std::clamp<std::size_t>(std::min(k, kCycle - k), 1, 2);
     const std::size_t from = k < reach ? k : k - reach;
@@ -78,10 +78,10 @@ Means meansOfCycle(const GaitPath& path) {
     return means;
 }
 
-// A turn is no cycle and has no mean over one. Its mean frame looks along its path, from which the
-// bent body deviates; over the last quarter it changes to the direction `after`, in which the fish
-// swims on, and over the first quarter from `before` where the turn begins in a tail beat. Both in
-// the body frame.
+// A turn is not a cycle and has no mean over one. Its mean frame looks along its path, from which
+// the bent body deviates; over the last quarter it changes to the direction `after`, in which the
+// fish swims on, and over the first quarter from `before` where the turn begins in a tail beat.
+// Both in the body frame.
 Means meansOfTurn(const GaitPath& path,
                   const std::optional<glm::dvec3>& before,
                   const glm::dvec3& after) {
@@ -300,8 +300,8 @@ void fillTurn(const ActionSegment& turn, std::size_t first, MotorTables& tables)
     }
 }
 
-// Half-way between the speeds at which a turn was entered; speeds that do not rise give no border
-// that a fish reaches.
+// Borders half-way between the speeds at which a turn was entered. Where the speeds do not rise, no
+// fish reaches the border.
 void setEntryBorders(const ActionSegment& turn, MotorTables& tables) {
     if (turn.entered.empty()) return;
     for (std::size_t border = 0; border < tables.entryBorders.size(); ++border) {

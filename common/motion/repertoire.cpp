@@ -26,7 +26,7 @@ constexpr float kShortestPeriodSeconds = 0.02F;  // a beat of 50 Hz; no fish is 
 constexpr float kLongestPeriodSeconds = 60.0F;
 constexpr float kLongestStepBodyLengths = 1.0F;  // in 1/64 of a cycle; a burst is near 0.02
 constexpr float kMostDrag = 1000.0F;  // 1 / body length, or 1 / s: stops within a thousandth of one
-// Numbers of a SpeedResponse.
+// How many numbers a SpeedResponse has.
 constexpr std::size_t kResponses = kForwardGaits + 3;
 
 template <class Pose>
@@ -58,7 +58,7 @@ void writeIncrements(ByteWriter& out, const FrameIncrements& increments) {
     }
 }
 
-// What of a TurnPath precedes its increments.
+// The part of a TurnPath before its increments.
 std::array<float*, 8> headOf(TurnPath& path) {
     auto& [before, speedBefore, after, speedAfter, increments] = path;
     return {
@@ -126,7 +126,7 @@ std::array<float*, kResponses> numbersOf(SpeedResponse& response) {
     return {&slow, &medium, &fast, &response.retreatDrag, &response.glideDrag, &response.brakeRate};
 }
 
-// What is wrong with a segment, or nothing.
+// The fault of a segment; empty where it is valid.
 std::optional<std::string> faultOf(const ActionSegment& segment) {
     if (!(segment.periodSeconds >= kShortestPeriodSeconds &&
           segment.periodSeconds <= kLongestPeriodSeconds)) {
@@ -151,7 +151,7 @@ std::optional<std::string> faultOf(const ActionSegment& segment) {
     return std::nullopt;
 }
 
-// What is wrong with a repertoire, or nothing; names the segment.
+// The fault of a repertoire, with the segment's name; empty where it is valid.
 std::optional<std::string> faultOf(const Repertoire& repertoire) {
     const auto printable = [](char c) { return c > ' ' && c <= '~'; };
     if (repertoire.species.empty() || repertoire.species.size() > kLongestSpecies ||
@@ -179,8 +179,8 @@ std::optional<std::string> faultOf(const Repertoire& repertoire) {
     throw Error(source + ": repertoire " + fault + "; capture the species again");
 }
 
-// What a file has of a segment beyond its poses of nodes. Bit a of 32: segment a has control
-// points; bit kCapturedActions + t: turn t has paths by entry.
+// The parts of a segment that a file has besides its poses of nodes. Bit a of 32: segment a has
+// control points; bit kCapturedActions + t: turn t has paths by entry.
 class Contents {
   public:
     explicit Contents(std::uint32_t bits) : bits_(bits) {}
@@ -220,8 +220,8 @@ void readIncrements(ByteReader& in, FrameIncrements& increments) {
     for (FrameIncrement& step : increments) step = readIncrement(in);
 }
 
-// Reads the content between length and digest, whose digest is known to match: what is wrong now
-// was written wrong.
+// Reads the content between length and digest, whose digest matches: a fault now was made when the
+// file was written.
 Repertoire readContent(ByteReader& in, const std::string& source) {
     Repertoire repertoire;
     repertoire.species = in.characters(in.unsignedNumber<std::uint8_t>());

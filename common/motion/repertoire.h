@@ -90,7 +90,7 @@ class ByteReader {
 // Samples of one cycle; phase k is at k / 64 of the period.
 inline constexpr int kPhases = 64;
 
-// What a fish can be told to do. The numbers are part of files and of the wire. Each gait swims
+// The actions of a fish. The numbers are part of files and of the wire format. Each gait swims
 // straight on, on four curves and on two slopes.
 enum class Action : std::uint8_t {
     ForwardSlow,
@@ -151,7 +151,7 @@ inline constexpr int kSwimmingActions = 21;
 [[nodiscard]] constexpr bool isTurn(Action action) {
     return action >= Action::TurnLeftGradual && action <= Action::TurnRightSharp;
 }
-// Of a turn.
+// The direction of a turn.
 [[nodiscard]] constexpr bool isLeft(Action turn) {
     return turn <= Action::TurnLeftSharp;
 }
@@ -177,10 +177,10 @@ inline constexpr int kSwimmingActions = 21;
     return static_cast<Action>(indexOf(slow) + indexOf(gait));
 }
 
-// What a fish plays is a segment. An action has one, but a turn has kTurnSegments: the first begins
-// in the pose of a glide, the others in a tail beat, speed by speed and phase by phase. Their poses
-// are the same, their paths differ. The numbers are part of the wire: those of the first actions,
-// then those of the turns, and last that of the glide.
+// A fish plays segments. An action has one, but a turn has kTurnSegments: the first begins in the
+// pose of a glide, the others in a tail beat, speed by speed and phase by phase. Their poses are
+// the same, their paths differ. The numbers are part of the wire: those of the first actions, then
+// those of the turns, and last that of the glide.
 inline constexpr int kEntrySpeeds = 5;  // of the gaits, and half-way between them
 inline constexpr int kEntryPhases = 8;  // of the beat, from 0 on, evenly spaced
 inline constexpr int kTurnEntries = kEntrySpeeds * kEntryPhases;

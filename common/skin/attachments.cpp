@@ -343,7 +343,7 @@ namespace {
 
 using Face = std::array<std::uint16_t, 4>;
 
-// Off the base of a fin; vertices of the base count as the body's.
+// Whether a vertex lies off the base of a fin; vertices of the base count as the body's.
 bool onFin(const body::CageVertex& vertex) {
     return vertex.fin.y > 0.0F;
 }

@@ -21,7 +21,7 @@ namespace aquarama::scene {
 // and z. A rim hangs down around it, so that no gap shows where two levels meet.
 [[nodiscard]] Mesh layPatch(std::uint32_t seed, glm::vec2 corner, float sideMetres, int cells);
 
-// What the GPU keeps of the sand, before it is uploaded.
+// The tables of the sand for the GPU, before they are uploaded.
 struct GroundTables {
     // A patch: its middle on the sand, world metres, and for each level the index of its first
     // vertex.

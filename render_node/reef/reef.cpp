@@ -29,9 +29,9 @@ constexpr std::size_t kWakeBytes = sizeof(std::int32_t) * 3 * shaders::kWakeCell
 // Prototypes that are not rock.
 constexpr unsigned kGrowths = kPrototypes - kRockShapes;
 
-// Index of the command of a prototype at a level. Rock has one run of commands, all that grows
-// another; in each run fine levels, which are near, come before coarse ones. One call can therefore
-// draw a range of levels.
+// Index of the command of a prototype at a level. Rock has one run of commands, all else another;
+// in each run fine levels, which are near, come before coarse ones. One call can therefore draw a
+// range of levels.
 std::uint32_t commandOf(std::size_t prototype, std::size_t level) {
     if (prototype < kRockShapes) return static_cast<std::uint32_t>(level * kRockShapes + prototype);
     return static_cast<std::uint32_t>(kLevels * kRockShapes + level * kGrowths + prototype -
@@ -88,7 +88,7 @@ std::vector<glm::vec4> groupBalls(std::span<const Instance> instances,
         float reach = 0.0F;
         for (const Instance& one : group) {
             const Prototype& prototype = prototypes[one.prototype];
-            // As in place_cull.comp: what bends reaches further.
+            // As in place_cull.comp: plants that bend reach further.
             const float own = one.placeAndScale.w * (std::abs(prototype.middle) + prototype.reach +
                                                      1.5F * one.tintAndSway.w);
             reach = std::max(reach, glm::distance(middle, glm::vec3(one.placeAndScale)) + own);
@@ -300,7 +300,7 @@ void Reef::draw() const {
     glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
     glUniform1i(shaders::kStirredLocation, 0);
     drawFrom(commandOf(kRockShapes, firstFar), commandCount(kGrowths, kLevels - firstFar));
-    // Rock comes last: what grows on it is cheaper and hides much of it.
+    // Rock comes last: the corals and plants on it are cheaper and hide much of it.
     glEnable(GL_CULL_FACE);
     glUseProgram(stone_.name());
     glUniform1f(shaders::kDetailLocation, quality_.placeDetail);

@@ -17,7 +17,7 @@
 
 namespace aquarama::scene {
 
-// What the light is computed for; fixed for the life of a SeaLight.
+// The options of the light; fixed for the life of a SeaLight.
 struct SeaLightOptions {
     std::uint32_t seed = 1;
     config::WaterType water = config::WaterType::IB;

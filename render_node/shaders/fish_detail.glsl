@@ -19,7 +19,7 @@ struct Detail {
     float blend;
 };
 
-// Of a fish that fills so many pixels of the wall from nose to tail.
+// The detail of a fish that fills so many pixels of the wall from nose to tail.
 Detail detailOf(float pixels) {
     if (!choosesDetail) return Detail(kHero, 1.0);
     uint level = 0u;
@@ -36,7 +36,7 @@ Detail detailAt(vec3 place, float lengthMetres) {
     return detailOf(lengthMetres / (distance(sharedEye.xyz, place) * sharedEye.w));
 }
 
-// A single point against the enlarged frustum.
+// Tests a single point against the enlarged frustum.
 bool reaches(vec3 place, float marginMetres) {
     for (int i = 0; i < 6; ++i)
         if (dot(planes[i].xyz, place) + planes[i].w < -marginMetres) return false;

@@ -1,6 +1,6 @@
-// Fins that row, flutter, ripple and fold beside the body that bears them: a pure function of time and
-// of what a node knows of a fish. common/body/fins.h is the reference.
-// Lengths in body lengths, angles in radians, times in seconds; axes tailwards, up, right.
+// Fins that row, flutter, ripple and fold beside the body: a pure function of time and of a fish's
+// record. common/body/fins.h is the reference. Lengths in body lengths, angles in radians, times in
+// seconds; axes tailwards, up, right.
 #ifndef FISH_FINS_GLSL
 #define FISH_FINS_GLSL
 #include "fin_motion.h"
@@ -27,12 +27,12 @@ struct FinPoint {
     uint part;
 };
 
-// What drives the fins of one fish.
+// The inputs of the motion of one fish's fins.
 struct FinDrive {
     float seconds, speed, climb;
     float tilt, spread;
     vec2 turning;  // how far it is in a turn to the left, to the right
-    float own;     // cycles by which it differs from others
+    float own;     // the fish's phase offset, cycles
     float phase, fromPhase, weight;
 };
 
@@ -47,8 +47,8 @@ float beyondSpeed(float speed, float limit) {
     return smoothstep(limit - band, limit + band, abs(speed) + 1.0e-3);
 }
 
-// A pectoral fin rows with its stroke and feathers its blade; fast fish fold it, one that brakes holds
-// it across the water, and its twist gives the lift of a slope and of balancing. Below the speed
+// A pectoral fin rows with its stroke and feathers its blade. Fast fish fold it, and a fish that brakes
+// holds it across the water. Its twist gives lift, for a slope and for balance. Below the speed
 // `alternateBelow` the left fin is half a cycle behind the right one.
 vec3 rowedFin(FinStyle style, FinPoint point, FinDrive drive) {
     bool isRight = point.side > 0.0;
@@ -81,7 +81,8 @@ float rippledFin(FinStyle style, FinPoint point, FinDrive drive) {
                             smoothstep(kStands, kSwims, abs(drive.speed)));
 }
 
-// How far a control point is from where the body alone would have it: tailwards, up, to the right.
+// The displacement of a control point from where the body alone would place it: tailwards, up, to the
+// right.
 vec3 finOffset(FinStyle style, FinPoint point, FinDrive drive, float drift) {
     vec3 mirror = vec3(1.0, 1.0, point.side);
     switch (point.part) {
@@ -99,7 +100,7 @@ vec3 finOffset(FinStyle style, FinPoint point, FinDrive drive, float drift) {
     }
 }
 
-// tailwards, up, right to the body frame, in which right is turned from z towards x.
+// Converts (tailwards, up, right) to the body frame, in which right is turned from z towards x.
 vec3 turnedBy(float heading, vec3 offset) {
     float c = cos(heading), s = sin(heading);
     return vec3(s * offset.z - c * offset.x, offset.y, c * offset.z + s * offset.x);

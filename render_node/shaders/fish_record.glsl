@@ -1,8 +1,7 @@
 // The school as the wire has it (FishRecord of common/motion/motion_state.h, 32 bytes): before and
 // after a tick, and where each fish is between them. present() of common/motion/reconstruct.h is the
-// reference of all this.
-// Gives place in world metres, length in metres, rotation as a quaternion from body to world,
-// phases in cycles.
+// reference. Gives place in world metres, length in metres, rotation as a quaternion from body to
+// world, phases in cycles.
 #ifndef FISH_RECORD_GLSL
 #define FISH_RECORD_GLSL
 #include "record_units.h"
@@ -29,7 +28,7 @@ float spreadOf(uint i) {
     return mix(float(spread.x), float(spread.y), fraction) / kMostSpread;
 }
 
-// Not in the water at one of the ticks: nobody draws it.
+// Whether the fish is away at one of the ticks, and so not drawn.
 bool isAway(uint i) {
     return int(before[2u * i].y) < kAwayBelow || int(after[2u * i].y) < kAwayBelow;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame's uniform block, included by C++ and by GLSL: one truth for both. std140, so only vec4
-// and mat4 members.
+// The frame's uniform block, included by C++ and by GLSL. std140, so only vec4 and mat4 members.
 #ifndef AQUARAMA_FRAME_UNIFORMS_H
 #define AQUARAMA_FRAME_UNIFORMS_H
 #ifdef __cplusplus

@@ -33,7 +33,8 @@ float gridLight(vec3 direction) {
     return max(majorAndMinor(azimuth, scale), majorAndMinor(elevation, 1.0));
 }
 
-// The way along a ray from the eye to the ground, in lengths of the ray; the eye is inside of it.
+// The distance along a ray from the eye to the ground, in lengths of the ray; the eye is inside the
+// ground.
 float wayToRound(float rayRay, float eyeRay, float eyeEye) {
     float c = eyeEye - eyeAndSize.w * eyeAndSize.w;
     return (sqrt(max(eyeRay * eyeRay - rayRay * c, 0.0)) - eyeRay) / rayRay;

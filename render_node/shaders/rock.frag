@@ -1,7 +1,6 @@
-// Rock: grit, pits and knobs at two or three scales, laid on from three sides; turf on what looks
-// up, pink crusts of algae in the shade, sponges in patches.
-// In: world place and normal, colours and occlusion from rock.vert; the rock tile. Out: scene
-// radiance, opaque.
+// Rock: grit, pits and knobs at two or three scales, mapped from three sides; turf on faces that look
+// up, pink crusts of algae in the shade, sponges in patches. In: world place and normal, colours and
+// occlusion from rock.vert; the rock tile. Out: scene radiance, opaque.
 #include "shader_interface.h"
 #include "light.glsl"
 // Interpolated at centroids: outside a thin shape the values would be extrapolated.

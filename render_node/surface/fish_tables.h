@@ -48,7 +48,7 @@ struct FishPlan {
     struct Command {
         std::uint32_t count, instances, firstIndex, firstVertex, firstInstance;
     };
-    // Fish of one species and level whose surfaces a turn holds.
+    // Fish of one species and level whose surfaces are made in one turn.
     struct Piece {
         std::uint32_t firstFish, fish, firstVertex;
     };

@@ -327,7 +327,7 @@ void SchoolSurface::Parts::evaluate(std::size_t turn, std::size_t groupsOffset) 
     glUseProgram(programs->surface.name());
     glUniform1ui(shaders::kTurnLocation, static_cast<GLuint>(turn));
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, plan.name());
-    // Earlier draws have read what is now overwritten.
+    // Earlier draws have read the buffer that is overwritten now.
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glDispatchComputeIndirect(static_cast<GLintptr>(offsetof(FishPlan, turns) +
                                                     turn * sizeof(FishPlan::Turn) + groupsOffset));
@@ -406,7 +406,7 @@ void SchoolSurface::Parts::drawFew() const {
     glBindVertexArray(fewArray.name());
     glEnable(GL_CULL_FACE);
     drawTails(0, kMeshes, &SkinShader::fewBody);
-    glDisable(GL_CULL_FACE);  // a sheet has two sides
+    glDisable(GL_CULL_FACE);  // a fin is visible from both sides
     drawTails(kMeshes, kMeshes, &SkinShader::fewFins);
 }
 

@@ -21,8 +21,8 @@
 
 namespace aquarama::surface {
 
-// The program that makes surfaces, which all species share, and the includes of a tier. May be
-// shared by several schools of one context.
+// The program that makes surfaces, which all species share, and the includes of a tier. Several
+// schools of one context may share it.
 struct SkinPrograms {
     // fish.comp
     gl::ProgramHandle surface;
@@ -49,9 +49,9 @@ struct SkinShader {
     }
 };
 
-// From the wire's records to the surfaces that a view draws. Culling, level of detail, control
+// Makes the surfaces that a view draws from the wire's records. Culling, level of detail, control
 // points and limit surface (eq. 13, paper sections 4.3 and 6) are compute shaders, and the GPU
-// draws what they found. The processor's cost of a frame does not depend on the number of fish,
+// draws their results. The processor's cost of a frame does not depend on the number of fish,
 // except for copying their records.
 
 // Fixed for the life of a SchoolSurface.
