@@ -73,7 +73,7 @@ class ZmqMasterChannels final : public MasterChannels {
         return std::exchange(noise_, 0);
     }
 
-    void wait(Instant atMost) override {
+    void wait(Duration atMost) override {
         if (door_ && door_->hasRevoked()) {
             openSockets();
             isBound_ = false;
@@ -134,7 +134,7 @@ class ZmqMasterChannels final : public MasterChannels {
         }
     }
 
-    static constexpr Instant kRetry = std::chrono::milliseconds(10);
+    static constexpr Duration kRetry = std::chrono::milliseconds(10);
     PacketLimits limits_;
     KeyPair own_;
     WakeEvent wake_;
@@ -179,7 +179,7 @@ class ZmqNodeChannels final : public NodeChannels {
         return state_ ? receiveSingle(*state_) : std::nullopt;
     }
 
-    void wait(Instant atMost) override {
+    void wait(Duration atMost) override {
         if (state_) {
             pollSockets({&control_, &*state_}, wake_, atMost);
         } else {

@@ -78,7 +78,7 @@ class MasterChannels {
     // are discarded.
     [[nodiscard]] virtual std::size_t discardNoise() = 0;
     // Returns when something has arrived, after wake(), or after `atMost`.
-    virtual void wait(Instant atMost) = 0;
+    virtual void wait(Duration atMost) = 0;
     virtual void wake() = 0;
     // The addresses as bound, with the ports that were chosen.
     [[nodiscard]] virtual std::string controlAddress() const = 0;
@@ -94,7 +94,7 @@ class NodeChannels {
     [[nodiscard]] virtual std::optional<ByteVector> receiveControl() = 0;
     virtual void subscribeState(const std::string& address) = 0;
     [[nodiscard]] virtual std::optional<ByteVector> receiveState() = 0;
-    virtual void wait(Instant atMost) = 0;
+    virtual void wait(Duration atMost) = 0;
     virtual void wake() = 0;
 };
 

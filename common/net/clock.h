@@ -13,16 +13,21 @@
 
 namespace aquarama::net {
 
-// A moment or a duration of the monotonic clock.
-using Instant = std::chrono::nanoseconds;  // since the epoch of CLOCK_MONOTONIC
+// A point in time, since the epoch of CLOCK_MONOTONIC of this machine, or of the master's where the
+// name says so.
+using Moment = std::chrono::nanoseconds;
+// The time between two moments.
+using Duration = std::chrono::nanoseconds;
+// One of the two, in code that does not tell them apart.
+using Instant = std::chrono::nanoseconds;
 
 // A duration in seconds, for figures.
-[[nodiscard]] inline double secondsIn(Instant duration) {
+[[nodiscard]] inline double secondsIn(Duration duration) {
     return std::chrono::duration<double>(duration).count();
 }
 
 // Now, on CLOCK_MONOTONIC of this machine.
-[[nodiscard]] Instant monotonicNow();
+[[nodiscard]] Moment monotonicNow();
 
 // Gives the calling thread real-time priority, or takes it away. The kernel then runs it as soon as
 // it wakes, before threads without it. Threads that it starts later do not inherit it. False where
@@ -39,21 +44,22 @@ bool runInRealTime(bool wanted = true);
 class ClockOffset {
   public:
     // A ping left at `sent`, was answered at `master` (master's clock) and came back at `received`.
-    void add(Instant sent, Instant master, Instant received);
+    void add(Moment sent, Moment master, Moment received);
     // The offset at a moment of the node's clock; empty before the first round trip.
-    [[nodiscard]] std::optional<Instant> offset(Instant now) const;
-    [[nodiscard]] std::optional<Instant> roundTrip() const;  // the shortest of the last seconds
+    [[nodiscard]] std::optional<Duration> offset(Moment now) const;
+    [[nodiscard]] std::optional<Duration> roundTrip() const;  // the shortest of the last seconds
     // How much faster the master's clock runs, parts per million; 0 while it is unknown.
     [[nodiscard]] double driftPpm() const { return line_.slope * 1e6; }
 
   private:
     struct Sample {
-        Instant at;  // of the node's clock, half-way
-        Instant offset, roundTrip;
+        Moment at;  // of the node's clock, half-way
+        Duration offset, roundTrip;
     };
     // offset = base + slope (now - at)
     struct Line {
-        Instant at{}, base{};
+        Moment at{};
+        Duration base{};
         double slope = 0;
         bool isKnown = false;
     };
@@ -74,20 +80,21 @@ class ClockOffset {
 
 // The vertical blanks of a display: one at `last`, and one at every `period` before and after it.
 struct Blanks {
-    Instant last{}, period{};
+    Moment last{};
+    Duration period{};
 };
 
 // Finds the period of a display from blanks that its driver counts and time-stamps.
 class BlankMeter {
   public:
-    void add(std::uint64_t count, Instant at);
+    void add(std::uint64_t count, Moment at);
     // Empty until a second has passed without a jump.
     [[nodiscard]] std::optional<Blanks> blanks() const;
 
   private:
     struct Blank {
         std::uint64_t count;
-        Instant at;
+        Moment at;
     };
     std::deque<Blank> seen_;  // of the last five seconds
 };
@@ -95,27 +102,28 @@ class BlankMeter {
 // The last 600 durations: of frames, ten seconds at 60 Hz.
 class RecentTimes {
   public:
-    void add(Instant time);
+    void add(Duration time);
     [[nodiscard]] float quantileMs(
         double quantile) const;  // quantile 0 to 1; 0 where there is nothing yet
     // A histogram: for each edge the durations up to it and above the edge before; last those above
     // all edges. Edges ascend.
-    [[nodiscard]] std::vector<std::uint32_t> countsUpTo(std::span<const Instant> edges) const;
+    [[nodiscard]] std::vector<std::uint32_t> countsUpTo(std::span<const Duration> edges) const;
 
   private:
     static constexpr std::size_t kKept = 600;
-    std::deque<Instant> times_;
+    std::deque<Duration> times_;
 };
 
 // The longest recent duration: of this tenth of a second, and of the last tenth before it that had
 // any. A reader that asks ten times a second misses none.
 class RecentPeak {
   public:
-    void add(Instant now, Instant time);
+    void add(Moment now, Duration time);
     [[nodiscard]] float ms() const;  // 0 where there is nothing yet
 
   private:
-    Instant begun_{}, before_{}, largest_{};
+    Moment begun_{};  // this tenth of a second
+    Duration before_{}, largest_{};
 };
 
 }  // namespace aquarama::net

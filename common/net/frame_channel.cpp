@@ -97,7 +97,7 @@ class ZmqFrameSender final : public FrameSender {
         } catch (const zmq::error_t& error) {
             refuse(path, error.what());
         }
-        const Instant giveUp = monotonicNow() + kPatience;
+        const Moment giveUp = monotonicNow() + kPatience;
         while (!receiver_.hasCome()) {
             if (monotonicNow() > giveUp) refuse(path, "nobody receives them");
             std::array items{zmq::pollitem_t{receiver_.handle(), 0, ZMQ_POLLIN, 0}};
@@ -105,7 +105,7 @@ class ZmqFrameSender final : public FrameSender {
         }
     }
     ~ZmqFrameSender() override {
-        const Instant giveUp = monotonicNow() + kLastFrames;
+        const Moment giveUp = monotonicNow() + kLastFrames;
         zmq::message_t end;
         bool said = false;
         while (!receiver_.hasGone() && monotonicNow() < giveUp) {

@@ -221,7 +221,7 @@ bool Doorkeeper::isAllowed(const std::string& user) const {
 
 void Doorkeeper::serve() {
     constexpr std::chrono::milliseconds kBetweenLooks{100};
-    Instant lastRead = monotonicNow();
+    Moment lastRead = monotonicNow();
     while (!ended_) {
         std::array items{zmq::pollitem_t{requests_.handle(), 0, ZMQ_POLLIN, 0}};
         try {
@@ -238,14 +238,14 @@ void Doorkeeper::serve() {
 // A connection costs memory: a user that connects too often is refused for a while.
 std::string Doorkeeper::userOf(const std::string& binaryKey) {
     constexpr int kMostHandshakes = 100;
-    constexpr Instant kWithin = std::chrono::seconds(10);
+    constexpr Duration kWithin = std::chrono::seconds(10);
     std::array<char, 41> key{};
     zmq_z85_encode(key.data(), reinterpret_cast<const std::uint8_t*>(binaryKey.data()), 32);
     const std::lock_guard lock(mutex_);
     const auto known = allowed_.find(key.data());
     if (known == allowed_.end()) return {};
     Handshakes& handshakes = handshakes_[known->second];
-    const Instant now = monotonicNow();
+    const Moment now = monotonicNow();
     if (now - handshakes.since > kWithin) handshakes = {now, 0};
     if (++handshakes.count <= kMostHandshakes) return known->second;
     if (handshakes.count == kMostHandshakes + 1)
@@ -317,14 +317,14 @@ std::optional<ByteVector> receiveSingle(zmq::socket_t& socket, zmq::message_t& f
 
 void pollSockets(std::initializer_list<zmq::socket_t*> sockets,
                  const WakeEvent& wake,
-                 Instant atMost) {
+                 Duration atMost) {
     std::array<zmq::pollitem_t, 3> items{};
     std::size_t count = 0;
     for (zmq::socket_t* socket : sockets) {
         items[count++] = {socket->handle(), 0, ZMQ_POLLIN, 0};
     }
     items[count++] = {nullptr, wake.descriptor(), ZMQ_POLLIN, 0};
-    const auto ms = std::chrono::ceil<std::chrono::milliseconds>(std::max(atMost, Instant{0}));
+    const auto ms = std::chrono::ceil<std::chrono::milliseconds>(std::max(atMost, Duration{0}));
     try {
         zmq::poll(items.data(), count, ms);
     } catch (const zmq::error_t&) {  // a signal: the caller checks its state and waits again

@@ -68,7 +68,7 @@ class Doorkeeper {
   private:
     // Handshakes of a user in the last ten seconds.
     struct Handshakes {
-        Instant since{};
+        Moment since{};
         int count = 0;
     };
     void serve();
@@ -101,6 +101,6 @@ void sendOrDrop(zmq::socket_t& socket, ByteView bytes);
 // come, or `atMost` is over.
 void pollSockets(std::initializer_list<zmq::socket_t*> sockets,
                  const WakeEvent& wake,
-                 Instant atMost);
+                 Duration atMost);
 
 }  // namespace aquarama::net

@@ -13,7 +13,7 @@
 namespace aquarama::session {
 namespace {
 
-constexpr net::Instant kRepeat = std::chrono::seconds(1);  // of a request without an answer
+constexpr net::Duration kRepeat = std::chrono::seconds(1);  // of a request without an answer
 constexpr int kMostSpoiltBlobs = 3;
 
 }  // namespace
@@ -32,7 +32,7 @@ void BlobFetch::begin(std::vector<Digest> wanted) {
     isFetching_ = true;
 }
 
-bool BlobFetch::turn(net::Instant now) {
+bool BlobFetch::turn(net::Moment now) {
     if (const auto obtained = takeObtained()) keep(*obtained);
     if (!isFetching_ || isObtaining_) return false;
     if (assembly_) {

@@ -34,7 +34,7 @@ class BlobFetch {
     void take(const v1::BlobChunk& chunk);
     // Goes on with what has come. True once for each begin(): all blobs are there. Throws Error
     // where the master has sent wrong bytes three times, after which it has stopped.
-    [[nodiscard]] bool turn(net::Instant now);
+    [[nodiscard]] bool turn(net::Moment now);
     [[nodiscard]] const std::map<Digest, net::Blob>& blobs() const { return blobs_; }
     // On the cache's disk; 0 where it cannot be told.
     [[nodiscard]] std::uint64_t freeBytes() const { return cache_.freeBytes(); }
@@ -61,7 +61,7 @@ class BlobFetch {
     std::map<Digest, net::Blob> blobs_;
     bool isFetching_ = false, isObtaining_ = false;
     std::optional<net::BlobAssembly> assembly_;  // of the blob that the master sends
-    net::Instant lastRequest_{};
+    net::Moment lastRequest_{};
     int spoiltBlobs_ = 0;  // that were sent, and had other bytes
     std::mutex mutex_;     // guards obtained_
     std::optional<Obtained> obtained_;

@@ -10,8 +10,8 @@
 namespace aquarama::session {
 namespace {
 
-constexpr net::Instant kHello = std::chrono::milliseconds(100);
-constexpr net::Instant kComplaint = std::chrono::seconds(3);
+constexpr net::Duration kHello = std::chrono::milliseconds(100);
+constexpr net::Duration kComplaint = std::chrono::seconds(3);
 
 // Computed once, as it takes a moment and never changes.
 std::uint64_t ownMotorHash() {
@@ -35,7 +35,7 @@ void Connection::renew() {
     lastComplaint_ = net::monotonicNow();
 }
 
-void Connection::greet(net::Instant now) {
+void Connection::greet(net::Moment now) {
     if (now - lastHello_ >= kHello) {
         v1::Envelope message;
         v1::Hello& hello = *message.mutable_hello();

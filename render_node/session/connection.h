@@ -25,7 +25,7 @@ class Connection {
     void renew();
     // Hello ten times a second. Every three seconds without a welcome it logs why, and connects
     // anew: ZeroMQ gives up a connection for good whose key was refused once.
-    void greet(net::Instant now);
+    void greet(net::Moment now);
     // The master does not let the node in yet; greet() logs this reason.
     void notYet(const std::string& reason) { lastDismissal_ = reason; }
     // The run of the master that all further messages go to.
@@ -46,7 +46,7 @@ class Connection {
     // Throws Error where the address is malformed.
     void subscribeState(const std::string& address) { channels_->subscribeState(address); }
     // Returns when something has arrived, after wake(), or after `atMost`.
-    void wait(net::Instant atMost) { channels_->wait(atMost); }
+    void wait(net::Duration atMost) { channels_->wait(atMost); }
     void wake();
 
   private:
@@ -57,7 +57,7 @@ class Connection {
     bool isUsed_ = false;  // by an attempt to join
     std::uint64_t session_ = 0;
     std::string lastDismissal_;
-    net::Instant lastHello_{}, lastComplaint_{};
+    net::Moment lastHello_{}, lastComplaint_{};
 };
 
 }  // namespace aquarama::session

@@ -6,12 +6,12 @@
 namespace aquarama::session {
 namespace {
 
-constexpr net::Instant kRepeat = std::chrono::seconds(1);
-constexpr net::Instant kBetweenChecks = std::chrono::seconds(1);
+constexpr net::Duration kRepeat = std::chrono::seconds(1);
+constexpr net::Duration kBetweenChecks = std::chrono::seconds(1);
 
 }  // namespace
 
-bool FrameReports::check(const wire::StateFrame& state, net::Instant arrival) {
+bool FrameReports::check(const wire::StateFrame& state, net::Moment arrival) {
     if (arrival - lastCheck_ < kBetweenChecks) return true;
     lastCheck_ = arrival;
     const bool isSame = motion::hashOf(state.after) == state.motionHash;
@@ -30,7 +30,7 @@ void FrameReports::release(Frame frame) {
     if (finished_ && finished_->frame <= frame) finished_.reset();
 }
 
-std::optional<v1::Envelope> FrameReports::due(const Pings& clock, net::Instant now) {
+std::optional<v1::Envelope> FrameReports::due(const Pings& clock, net::Moment now) {
     if (!finished_ || (said_ && now - *said_ <= kRepeat)) return std::nullopt;
     said_ = now;
     v1::Envelope message;
@@ -39,8 +39,8 @@ std::optional<v1::Envelope> FrameReports::due(const Pings& clock, net::Instant n
     ready.set_hash_mismatches(mismatches_);
     ready.set_picture_us(
         static_cast<std::uint32_t>(finished_->took / std::chrono::microseconds(1)));
-    const auto masters = [&](net::Instant own) {
-        return (own + clock.offset(own).value_or(net::Instant{})).count();
+    const auto masters = [&](net::Moment own) {
+        return (own + clock.offset(own).value_or(net::Duration{})).count();
     };
     if (const auto& released = finished_->released) {
         ready.set_released_frame(released->frame.value);

@@ -18,7 +18,7 @@ class FrameReports {
   public:
     // Compares the hash of the fish with the one that the master sent: once a second, which costs a
     // large school little. False: they differ.
-    bool check(const wire::StateFrame& state, net::Instant arrival);
+    bool check(const wire::StateFrame& state, net::Moment arrival);
     [[nodiscard]] std::uint64_t mismatches() const { return mismatches_; }
 
     void finish(const FinishedFrame& finished);
@@ -27,17 +27,17 @@ class FrameReports {
     void forget() { finished_.reset(); }
     // Ready: after finish(), and again after a second without a release. Empty while none is due.
     // Moments are converted to the master's clock.
-    [[nodiscard]] std::optional<v1::Envelope> due(const Pings& clock, net::Instant now);
+    [[nodiscard]] std::optional<v1::Envelope> due(const Pings& clock, net::Moment now);
     [[nodiscard]] Frame lastFinished() const { return lastFinished_; }
     // How long the last 600 pictures took.
     void report(v1::NodeReport& report) const;
 
   private:
     std::optional<FinishedFrame> finished_;  // not released yet, as far as the node knows
-    std::optional<net::Instant> said_;       // when it was last reported
+    std::optional<net::Moment> said_;        // when it was last reported
     Frame lastFinished_;
     net::RecentTimes pictures_;
-    net::Instant lastCheck_{};
+    net::Moment lastCheck_{};
     std::uint64_t mismatches_ = 0;
 };
 

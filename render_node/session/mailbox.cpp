@@ -9,7 +9,7 @@ namespace aquarama::session {
 
 namespace {
 
-constexpr net::Instant kBetweenCalls = std::chrono::milliseconds(250);  // of whileWaiting()
+constexpr net::Duration kBetweenCalls = std::chrono::milliseconds(250);  // of whileWaiting()
 
 }  // namespace
 

@@ -23,19 +23,19 @@ namespace aquarama::session {
 // A state, and when it arrived.
 struct ArrivedState {
     wire::StateFrame state;
-    net::Instant arrival{};
+    net::Moment arrival{};
 };
 
 // The master releases a frame, for all nodes at the same instant.
 struct ReleaseOrder {
     Frame frame;
-    net::Instant at{};  // on this machine's clock; past instants mean at once
+    net::Moment at{};  // on this machine's clock; a past moment means at once
 };
 
 // When a node let go of a frame, in this machine's clock.
 struct ReleaseReport {
     Frame frame;
-    net::Instant at{};
+    net::Moment at{};
 };
 
 // A frame whose picture is finished.
@@ -43,7 +43,7 @@ struct FinishedFrame {
     Frame frame;
     std::optional<ReleaseReport> released;  // of an earlier frame
     std::optional<net::Blanks> blanks;      // of the node's display, in this machine's clock
-    net::Instant took{};                    // from the frame's state to its finished picture
+    net::Duration took{};                   // from the frame's state to its finished picture
 };
 
 // What the master gave to a node that it welcomed.

@@ -13,10 +13,10 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr net::Instant kMasterSilence = seconds(2);    // after which the master counts as lost
-constexpr net::Instant kFarthest = milliseconds(250);  // a later release means a wrong clock
-constexpr net::Instant kReport = seconds(5);
-constexpr net::Instant kLongestTurn = seconds(2);  // of a net thread that is at work
+constexpr net::Duration kMasterSilence = seconds(2);    // after which the master counts as lost
+constexpr net::Duration kFarthest = milliseconds(250);  // a later release means a wrong clock
+constexpr net::Duration kReport = seconds(5);
+constexpr net::Duration kLongestTurn = seconds(2);  // of a net thread that is at work
 
 // All that a node fetches for a look.
 std::vector<Digest> blobsIn(const v1::Look& look) {
@@ -220,9 +220,9 @@ void MasterLink::takeWelcome(const v1::Envelope& message) {
 }
 
 void MasterLink::takePong(const v1::Pong& pong) {
-    const net::Instant now = net::monotonicNow();
+    const net::Moment now = net::monotonicNow();
     pings_.hear(pong, now);
-    figures_.clockOffsetSeconds = net::secondsIn(pings_.offset(now).value_or(net::Instant{}));
+    figures_.clockOffsetSeconds = net::secondsIn(pings_.offset(now).value_or(net::Duration{}));
 }
 
 void MasterLink::takeDismissal(const std::string& reason) {
@@ -234,10 +234,10 @@ void MasterLink::takeDismissal(const std::string& reason) {
 
 void MasterLink::takeRelease(const v1::Present& present) {
     const Frame frame{present.frame()};
-    const net::Instant now = net::monotonicNow();
-    net::Instant at = now;
+    const net::Moment now = net::monotonicNow();
+    net::Moment at = now;
     const auto ahead = pings_.offset(now);
-    if (present.at_ns() != 0 && ahead) at = net::Instant{present.at_ns()} - *ahead;
+    if (present.at_ns() != 0 && ahead) at = net::Moment{present.at_ns()} - *ahead;
     if (at > now + kFarthest) at = now;
     frames_.release(frame);
     mailbox_.release({frame, at});
@@ -279,7 +279,7 @@ void MasterLink::lose(const std::string& why) {
 
 // --- what is due
 
-void MasterLink::doWhatIsDue(net::Instant now) {
+void MasterLink::doWhatIsDue(net::Moment now) {
     if (phase_ == Phase::Outside) return;
     if (phase_ == Phase::Greeting) return connection_.greet(now);
     if (now - lastHeard_ > kMasterSilence) return lose("the master has fallen silent");
@@ -305,7 +305,7 @@ void MasterLink::sayPrepared() {
     connection_.say(std::move(message));
 }
 
-void MasterLink::sayReport(net::Instant now) {
+void MasterLink::sayReport(net::Moment now) {
     v1::Envelope message;
     v1::NodeReport& report = *message.mutable_node_report();
     reportMachine(facts_, report);

@@ -95,17 +95,17 @@ class MasterLink {
     // All blobs are there.
     void admit();
     void sayPrepared();
-    void sayReport(net::Instant now);
+    void sayReport(net::Moment now);
     void sayLog();
     // The master is lost or another: joins again.
     void lose(const std::string& why);
-    void doWhatIsDue(net::Instant now);
+    void doWhatIsDue(net::Moment now);
 
     Mailbox& mailbox_;
     Connection connection_;
     net::BoundedQueue<Request> requests_{64};
     std::atomic<bool> isStopped_ = false, isToRestart_ = false;
-    std::atomic<net::Instant> lastTurn_{net::monotonicNow()};
+    std::atomic<net::Moment> lastTurn_{net::monotonicNow()};
     LinkFigures figures_;
 
     Phase phase_ = Phase::Outside;
@@ -119,7 +119,7 @@ class MasterLink {
     NodeFacts facts_;
     bool isInRealTime_ = false;       // the net thread
     std::deque<v1::LogLine> unsaid_;  // lines of the log for the master
-    net::Instant lastHeard_{}, lastReport_{};
+    net::Moment lastHeard_{}, lastReport_{};
 };
 
 }  // namespace aquarama::session

@@ -9,12 +9,12 @@
 namespace aquarama::session {
 namespace {
 
-constexpr net::Instant kPatience = std::chrono::seconds(1);  // before a ping counts as unanswered
-constexpr std::size_t kKept = 200;                           // of ten seconds
+constexpr net::Duration kPatience = std::chrono::seconds(1);  // before a ping counts as unanswered
+constexpr std::size_t kKept = 200;                            // of ten seconds
 
 }  // namespace
 
-std::optional<v1::Envelope> Pings::due(net::Instant now) {
+std::optional<v1::Envelope> Pings::due(net::Moment now) {
     if (now - last_ < kInterval) return std::nullopt;
     v1::Envelope message;
     message.mutable_ping()->set_sent_ns(now.count());
@@ -24,17 +24,17 @@ std::optional<v1::Envelope> Pings::due(net::Instant now) {
     return message;
 }
 
-void Pings::hear(const v1::Pong& pong, net::Instant now) {
-    const net::Instant sent{pong.sent_ns()};
-    clock_.add(sent, net::Instant{pong.master_ns()}, now);
+void Pings::hear(const v1::Pong& pong, net::Moment now) {
+    const net::Moment sent{pong.sent_ns()};
+    clock_.add(sent, net::Moment{pong.master_ns()}, now);
     const auto ping = std::ranges::find(sent_, sent, [](const auto& p) { return p.first; });
     if (ping != sent_.end()) ping->second = now - sent;
 }
 
-void Pings::report(v1::NodeReport& report, net::Instant now) const {
+void Pings::report(v1::NodeReport& report, net::Moment now) const {
     net::RecentTimes roundTrips;
     std::size_t unanswered = 0;
-    std::optional<net::Instant> before;
+    std::optional<net::Duration> before;
     double jitter = 0;
     int answered = 0;
     for (const auto& [sent, roundTrip] : sent_) {

@@ -80,7 +80,7 @@ class NodeFigures {
     void finish() { picture_(net::secondsIn(net::monotonicNow() - begun_)); }
     // A frame was released or skipped.
     void release(Release release, const LinkFigures& link) {
-        const net::Instant now = net::monotonicNow();
+        const net::Moment now = net::monotonicNow();
         if (release == Release::Present) {
             if (presented_ > 0) frame_(net::secondsIn(now - lastPresent_));
             lastPresent_ = now;
@@ -117,7 +117,7 @@ class NodeFigures {
                                                "States that it decoded to another hash");
     net::Record celsius_ = metrics_.gauge("aquarama_gpu_celsius",
                                           "Temperature of the graphics card; 0 where none is told");
-    net::Instant begun_{}, lastPresent_{};
+    net::Moment begun_{}, lastPresent_{};
     std::uint64_t presented_ = 0, skipped_ = 0;
 };
 
@@ -174,7 +174,7 @@ class LinkSession final : public Session {
     }
 
     Release interruption() const override { return mailbox_.interruption(); }
-    std::chrono::nanoseconds stateArrival() const override { return stateArrival_; }
+    net::Moment stateArrival() const override { return stateArrival_; }
 
     Release readyThenWait(Frame frame) override {
         if (figures_) figures_->finish();
@@ -202,9 +202,7 @@ class LinkSession final : public Session {
         return Release::Present;
     }
 
-    void sawBlank(std::uint64_t count, std::chrono::nanoseconds at) override {
-        blanks_.add(count, at);
-    }
+    void sawBlank(std::uint64_t count, net::Moment at) override { blanks_.add(count, at); }
 
     void quit() override {
         v1::Envelope message;
@@ -254,7 +252,7 @@ class LinkSession final : public Session {
     std::optional<ReleaseReport> released_;
     net::BlankMeter blanks_;
     bool skipped_ = false;
-    std::chrono::nanoseconds stateArrival_{};
+    net::Moment stateArrival_{};
     std::thread netThread_;  // last: it uses all of the above
 };
 

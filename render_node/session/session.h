@@ -3,7 +3,6 @@
 // of its own.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -18,6 +17,7 @@
 #include "common/motion/motion_state.h"
 #include "common/net/blob.h"
 #include "common/net/channels.h"
+#include "common/net/clock.h"
 #include "common/wire/recording.h"
 
 namespace aquarama::session {
@@ -77,14 +77,14 @@ class Session {
     // `interruption`.
     virtual std::optional<wire::StateFrame> nextFrame() = 0;
     // When the state of the frame that nextFrame() gave had arrived, on CLOCK_MONOTONIC.
-    [[nodiscard]] virtual std::chrono::nanoseconds stateArrival() const = 0;
+    [[nodiscard]] virtual net::Moment stateArrival() const = 0;
     // Why nextFrame() was empty.
     [[nodiscard]] virtual Release interruption() const = 0;
     // The picture of this frame is finished (its fence has signalled). Blocks until it is released
     // or overtaken.
     virtual Release readyThenWait(Frame frame) = 0;
     // A vertical blank of the node's display, as its driver counts and dates it (CLOCK_MONOTONIC).
-    virtual void sawBlank(std::uint64_t count, std::chrono::nanoseconds at) = 0;
+    virtual void sawBlank(std::uint64_t count, net::Moment at) = 0;
     // Requests of a window's keys: end the show, or freeze the world.
     virtual void quit() = 0;
     virtual void freeze(bool frozen) = 0;

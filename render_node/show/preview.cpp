@@ -17,10 +17,10 @@ namespace aquarama::show {
 
 namespace {
 
-constexpr net::Instant kBetweenPictures = std::chrono::milliseconds(200);
+constexpr net::Duration kBetweenPictures = std::chrono::milliseconds(200);
 // An older request is dropped: its console has stopped looking.
-constexpr net::Instant kPatience = std::chrono::seconds(1);
-constexpr net::Instant kBetweenHellos = std::chrono::seconds(1);
+constexpr net::Duration kPatience = std::chrono::seconds(1);
+constexpr net::Duration kBetweenHellos = std::chrono::seconds(1);
 constexpr std::size_t kMostQuestions = 4;
 
 // Bytes of a picture of four codes a pixel.
@@ -121,7 +121,7 @@ ConsoleLink::~ConsoleLink() {
 // A picture that was being made when its look was replaced is lost, so the wait for it has a limit.
 std::optional<int> ConsoleLink::wantedWidth() {
     const std::lock_guard lock(mutex_);
-    const net::Instant now = net::monotonicNow();
+    const net::Moment now = net::monotonicNow();
     const bool isMaking = beingMade_ != 0 && now - lastPicture_ < kPatience;
     if (!request_ || isMaking || now - lastPicture_ < kBetweenPictures) return std::nullopt;
     const auto [number, width] = *std::exchange(request_, {});
@@ -170,10 +170,10 @@ void ConsoleLink::answer(const FishQuestion& question,
 void ConsoleLink::run() {
     constexpr int kLowest = 19;
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);  // of this thread alone
-    net::Instant lastHello{};
+    net::Moment lastHello{};
     while (!ended_) {
         while (const auto bytes = channels_->receiveControl()) hear(*bytes);
-        const net::Instant now = net::monotonicNow();
+        const net::Moment now = net::monotonicNow();
         if (now - lastHello >= kBetweenHellos) {
             lastHello = now;
             v1::Envelope hello;

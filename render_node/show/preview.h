@@ -96,7 +96,7 @@ class ConsoleLink {
     std::atomic<bool> ended_ = false;
     std::mutex mutex_;  // guards all members below, except the thread
     std::optional<std::pair<std::uint64_t, int>> request_;  // number, width
-    net::Instant requestedAt_{}, lastPicture_{};
+    net::Moment requestedAt_{}, lastPicture_{};
     std::uint64_t beingMade_ = 0;  // number of the picture; 0: none
     std::optional<Taken> taken_;
     std::deque<FishQuestion> questions_;

@@ -111,7 +111,7 @@ TEST_F(BlobFetchTest, asksAgainAfterASecond) {
     fetch_.begin({offer(blobOf(9, 6))});
     while (!request_) EXPECT_FALSE(fetch_.turn(net::monotonicNow()));
     request_.reset();
-    const net::Instant asked = net::monotonicNow();
+    const net::Moment asked = net::monotonicNow();
     EXPECT_FALSE(fetch_.turn(asked));
     EXPECT_FALSE(request_);
     EXPECT_FALSE(fetch_.turn(asked + std::chrono::milliseconds(1100)));

@@ -12,9 +12,9 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr net::Instant kNow = seconds(100);
+constexpr net::Moment kNow = seconds(100);
 
-FinishedFrame finished(std::uint64_t frame, net::Instant took = milliseconds(3)) {
+FinishedFrame finished(std::uint64_t frame, net::Duration took = milliseconds(3)) {
     return {.frame = {frame}, .released = {}, .blanks = {}, .took = took};
 }
 
@@ -64,8 +64,8 @@ TEST(FrameReports, momentsAreOfTheMastersClock) {
     reports.finish(frame);
     const v1::Ready ready = reports.due(aMinuteAhead(), kNow).value().ready();
     EXPECT_EQ(ready.released_frame(), 7U);
-    EXPECT_EQ(net::Instant{ready.released_ns()}, kNow + seconds(60) - milliseconds(9));
-    EXPECT_EQ(net::Instant{ready.blank_ns()}, kNow + seconds(60) - milliseconds(2));
+    EXPECT_EQ(net::Moment{ready.released_ns()}, kNow + seconds(60) - milliseconds(9));
+    EXPECT_EQ(net::Moment{ready.blank_ns()}, kNow + seconds(60) - milliseconds(2));
     EXPECT_EQ(ready.blank_period_ns(), 16'000'000U);
 }
 

@@ -11,7 +11,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-v1::Pong pongTo(net::Instant sent, net::Instant master) {
+v1::Pong pongTo(net::Moment sent, net::Moment master) {
     v1::Pong pong;
     pong.set_sent_ns(sent.count());
     pong.set_master_ns(master.count());
@@ -21,7 +21,7 @@ v1::Pong pongTo(net::Instant sent, net::Instant master) {
 TEST(Pings, areSentTwentyTimesASecond) {
     Pings pings;
     int sent = 0;
-    for (net::Instant now = seconds(10); now < seconds(11); now += milliseconds(1))
+    for (net::Moment now = seconds(10); now < seconds(11); now += milliseconds(1))
         if (pings.due(now)) ++sent;
     EXPECT_EQ(sent, 20);
 }
@@ -31,17 +31,17 @@ TEST(Pings, tellTheMastersClockFromHalfTheRoundTrip) {
     EXPECT_FALSE(pings.offset(seconds(10)));
     ASSERT_TRUE(pings.due(seconds(10)));
     pings.hear(pongTo(seconds(10), seconds(70) + milliseconds(4)), seconds(10) + milliseconds(8));
-    EXPECT_EQ(pings.offset(seconds(10) + milliseconds(8)), net::Instant{seconds(60)});
+    EXPECT_EQ(pings.offset(seconds(10) + milliseconds(8)), net::Duration{seconds(60)});
 }
 
 // Four pings of which three are answered, after 2, 2 and 8 ms.
 TEST(Pings, reportRoundTripsJitterAndWhatWasNotAnswered) {
     Pings pings;
-    net::Instant now = seconds(1);
+    net::Moment now = seconds(1);
     for (const int answer : {2, 2, 8, 0}) {
         const auto ping = pings.due(now);
         ASSERT_TRUE(ping);
-        const net::Instant sent{ping->ping().sent_ns()};
+        const net::Moment sent{ping->ping().sent_ns()};
         if (answer > 0) pings.hear(pongTo(sent, sent), sent + milliseconds(answer));
         now += milliseconds(50);
     }
