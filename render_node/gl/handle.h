@@ -126,6 +126,11 @@ template <class T>
     return makeBuffer(std::span<const T>{values}, label, flags);
 }
 
+// Binds a buffer as shader storage, for the kernels and draws that follow.
+inline void bindStorage(int binding, const Buffer& buffer) {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(binding), buffer.name());
+}
+
 // A colour texture with a framebuffer.
 
 // A picture that can be drawn into, used as a texture and read back. Throws Error where the driver

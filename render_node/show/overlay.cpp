@@ -141,7 +141,7 @@ void TextOverlay::draw(std::span<const Label> labels,
                 static_cast<float>(sizePixels.x),
                 static_cast<float>(sizePixels.y));
     glUniform1f(shaders::kDotPixelsLocation, dotPixels);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kGlyphsStorage, glyphs_.name());
+    gl::bindStorage(shaders::kGlyphsStorage, glyphs_);
     glBindVertexArray(noVertices_.name());
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(glyphs.size()));
     glDisable(GL_BLEND);

@@ -17,6 +17,7 @@
 #include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
 #include "render_node/surface/fish_tables.h"
+#include "render_node/surface/school_records.h"
 #include "render_node/surface/visibility.h"
 
 namespace aquarama::surface {
@@ -66,13 +67,6 @@ struct SurfaceOptions {
     // Size of the surface buffer, bytes. Half of the smallest limit for a block that OpenGL drivers
     // have in practice (128 MiB on software Mesa).
     std::size_t surfaceBytes = std::size_t{64} << 20U;
-};
-
-// The school between two ticks, as the wire brings it: at `fraction` (0 to 1) of the way from
-// `before` to `after`. Where `before` has another size, the school is shown at `after`.
-struct SchoolMoment {
-    std::span<const motion::FishRecord> before, after;
-    float fraction = 1.0F;
 };
 
 // Layout of Fish in fish_data.glsl, std430: one fish that a view draws.
