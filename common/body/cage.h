@@ -52,7 +52,7 @@ struct CageTopology {
     std::vector<CageCrease> creases;
 };
 
-// Builds the topology anew at every call, always the same; callers that need it often keep it.
+// Builds the topology at every call, always the same; callers that need it often keep it.
 [[nodiscard]] CageTopology makeCageTopology();
 
 // Where the vertices of the control cage are on a species at rest: cage vertex from cage site.

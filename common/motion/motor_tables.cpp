@@ -398,8 +398,8 @@ Pose poseAt(const Cycle& cycle, unsigned phase) {
     return pose;
 }
 
-// The longest way that any nodal point moves in a tick of any segment: a warp of such steps is no
-// faster than what the fish does anyway.
+// The longest distance that any nodal point moves in a tick of any segment: a warp of such steps is
+// no faster than the fish's other motion.
 float largestStep(const std::vector<Cycle>& cycles,
                   const std::array<std::int16_t, kActions>& phaseRates) {
     float most = kSmallestStepBodyLengths * kSmallestStepBodyLengths;
@@ -434,8 +434,8 @@ float travelFromCell(const Travels& travels, std::size_t cell, std::size_t to) {
     return std::max(travels[cell][to], travels[cell + 1][to]);
 }
 
-// A tail that begins to beat moves the fish after so many beats only: its wave has to grow. By the
-// way of fish that swim on after a retreat (docs/motion.md).
+// A tail that begins to beat moves the fish only after this many beats, as its wave has to grow.
+// From the path of fish that swim on after a retreat (docs/motion.md).
 constexpr double kBeatsToBegin = 0.35;
 
 // The entry phase whose pose is nearest, and as many frames as keep each step within `step`

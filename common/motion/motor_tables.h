@@ -31,8 +31,8 @@ struct MeanMotion {
 
 // The path of the body frame over a segment.
 struct GaitPath {
-    // The body frame at phase k as seen from phase 0, over two cycles: a tick that runs over the
-    // end of a cycle then needs no case of its own.
+    // The body frame at phase k as seen from phase 0, over two cycles: a tick across the end of a
+    // cycle then needs no special case.
     std::array<glm::dquat, kPathSamples> rotation{};
     std::array<glm::dvec3, kPathSamples> translation{};  // body lengths
     // Rotation from the cycle-mean frame to body axes. The tail beat does not sway the mean frame:
@@ -43,7 +43,7 @@ struct GaitPath {
 
 // Integrates the increments of a segment and takes the mean over one cycle around each phase.
 [[nodiscard]] GaitPath pathOf(const ActionSegment& segment);
-// Of a turn begun in a tail beat. Its speeds at the ends are those of TurnPath.
+// The path of a turn that begins in a tail beat. Its speeds at the ends are those of TurnPath.
 [[nodiscard]] GaitPath pathOf(const TurnPath& turn, float periodSeconds);
 
 // The motor step's tables of a species: about 1.2 MB, of which a steady school reads 36 kB. So the

@@ -168,7 +168,8 @@ inline constexpr int kSwimmingActions = 21;
 [[nodiscard]] constexpr bool breaksOff(Action turn, Action wanted) {
     return isSharp(turn) && isSharp(wanted) && isLeft(wanted) != isLeft(turn);
 }
-// The gait of an action that swims, on whatever way; every other action itself.
+// The gait of an action that swims, straight on, on a curve or on a slope; every other action
+// itself.
 [[nodiscard]] constexpr Action patternOf(Action action) {
     return swims(action) ? gaitOf(action) : action;
 }
@@ -238,8 +239,8 @@ struct ActionSegment {
     // From phase k to k + 1; the last leads to the end of the cycle. A turn: from the pose of a
     // glide.
     FrameIncrements increments{};
-    // Of a turn begun in a tail beat: kTurnEntries, those of the lowest speed first and each speed
-    // by the phase of the beat; or none, if they are all like `increments`.
+    // The paths of a turn that begins in a tail beat: kTurnEntries, ordered by speed and then by
+    // the phase of the beat; or none, if they are all like `increments`.
     std::vector<TurnPath> entered;
     // Deformation d at phase k (eq. 8).
     std::array<NodalPose, kPhases> nodes{};

@@ -17,7 +17,7 @@
 namespace aquarama::net {
 namespace {
 
-constexpr int kReconnectMs = 50;  // a master that restarts is found at once
+constexpr int kReconnectMs = 50;  // a restarted master is found within this time
 constexpr int kReconnectMaxMs = 500;
 constexpr int kHandshakeMs = 2000;  // after which a silent connection is closed
 constexpr std::string_view kTcp = "tcp://";

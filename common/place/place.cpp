@@ -70,10 +70,10 @@ float fractalNoise(std::uint32_t seed, glm::vec2 place, int octaves) {
 
 namespace {
 
-// Each kind of thing draws from a random stream of its own, so that adding a rock never moves the
-// sand. The composition is planned for the wall's 120 degrees, with low rocks in front, high reefs
-// at both sides and a gap between them into the blue; a seed only moves it a little. Positions are
-// (x, z) in metres.
+// Each kind of thing has its own random stream, so that adding a rock never moves the sand. The
+// composition is planned for the wall's 120 degrees, with low rocks in front, high reefs at both
+// sides and a gap between them into the blue; a seed only moves it a little. Positions are (x, z)
+// in metres.
 struct RockGroup {
     glm::vec2 xz;
     float radiusMetres;

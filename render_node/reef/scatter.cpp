@@ -118,8 +118,8 @@ bool isCrowded(std::span<const Planted> planted, glm::vec3 place, float size) {
     });
 }
 
-// A number for the patch that holds a place. Patches are cells of so many metres with bent borders;
-// in each, two forms and one palette dominate.
+// A number for the patch that contains a place. Patches are cells of this many metres with bent
+// borders; in each, two forms and one palette dominate.
 std::uint32_t patchAt(const place::PlaceKey& place, glm::vec3 at, float metres) {
     const glm::vec3 bent =
         at / metres + 0.45F * glm::vec3{solidNoise(place.seed, at / metres * 1.9F),

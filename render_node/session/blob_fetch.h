@@ -17,8 +17,8 @@
 
 namespace aquarama::session {
 
-// One blob at a time. Reading, checking and writing a large blob takes a second, so a thread of its
-// own does it: the net thread must not fall silent. Used by the net thread.
+// One blob at a time. Reading, checking and writing a large blob takes a second, so another thread
+// does it: the net thread must not fall silent. Used by the net thread.
 class BlobFetch {
   public:
     // `say` sends a message to the master. `wake` makes the net thread call turn() soon; it is
@@ -27,7 +27,7 @@ class BlobFetch {
               std::function<void(v1::Envelope)> say,
               std::function<void()> wake);
 
-    // Fetches these. Keeps those of the fetch before that are wanted again.
+    // Starts to fetch these blobs. Keeps blobs of the previous fetch that are wanted again.
     void begin(std::vector<Digest> wanted);
     // Keeps what was fetched.
     void stop() { isFetching_ = false; }

@@ -23,8 +23,8 @@ class Connection {
     [[nodiscard]] const std::string& name() const { return name_; }  // of the channel
     // Starts an attempt to join with fresh channels, as old ones may be dead without notice.
     void renew();
-    // Hello ten times a second. Every three seconds without a welcome it logs why, and connects
-    // anew: ZeroMQ gives up a connection for good whose key was refused once.
+    // Hello ten times a second. Every three seconds without a welcome it logs why and makes a new
+    // connection, as ZeroMQ never retries one whose key was refused.
     void greet(net::Moment now);
     // The master does not let the node in yet; greet() logs this reason.
     void notYet(const std::string& reason) { lastDismissal_ = reason; }

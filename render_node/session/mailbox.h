@@ -32,7 +32,7 @@ struct ReleaseOrder {
     net::Moment at{};  // on this machine's clock; a past moment means at once
 };
 
-// When a node let go of a frame, in this machine's clock.
+// The moment, on this machine's clock, at which the node let a released frame be shown.
 struct ReleaseReport {
     Frame frame;
     net::Moment at{};

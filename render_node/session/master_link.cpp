@@ -277,7 +277,7 @@ void MasterLink::lose(const std::string& why) {
     mailbox_.interrupt(Release::Rejoin);
 }
 
-// --- what is due
+// --- tasks that are due
 
 void MasterLink::doWhatIsDue(net::Moment now) {
     if (phase_ == Phase::Outside) return;

@@ -71,7 +71,7 @@ class MasterLink {
     // waits for the first state. The wall waits for the frames of a member.
     enum class Phase : std::uint8_t { Outside, Greeting, Fetching, Building, Listening, Member };
 
-    // Handles all requests, frames and messages that are there, then whatever is due.
+    // Handles all requests, frames and messages that have come, then the tasks that are due.
     void turn();
     void handle(const Join& join);
     void handle(const Built& built);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A node's side of the cluster: hello, welcome, blobs, frames, ready and present, on a net thread
-// of its own.
+// A node's side of the cluster: hello, welcome, blobs, frames, ready and present, on a separate net
+// thread.
 #pragma once
 
 #include <filesystem>

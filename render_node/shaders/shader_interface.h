@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What C++ and GLSL agree on, included by both: bindings of uniform blocks, shader storage and
-// textures, locations of uniforms, and the sizes of what they share. OpenGL promises eight storage
-// blocks in a stage: what is never bound at the same time may share a number.
+// The constants that C++ and GLSL share: bindings of uniform blocks, shader storage and textures,
+// locations of uniforms, and sizes. OpenGL guarantees eight storage blocks in a stage: blocks that
+// are never bound at the same time may share a number.
 #ifndef AQUARAMA_SHADER_INTERFACE_H
 #define AQUARAMA_SHADER_INTERFACE_H
 #ifdef __cplusplus
@@ -223,7 +223,7 @@ AQUARAMA_CONSTANT float kPelletMetres = 16.0F;
 // Water scatters by sigma = 0.0016 sqrt(r) rad over r metres; taps go to two sigma.
 AQUARAMA_CONSTANT float kScatterSigma = 0.0016F;
 AQUARAMA_CONSTANT float kScatterMostSigma = 0.0080F;
-// The glow about what is bright: rings of taps of so wide a mean.
+// Bloom around bright places: the radii of its rings of taps.
 AQUARAMA_CONSTANT float kBloomNear = 0.0035F;
 AQUARAMA_CONSTANT float kBloomFar = 0.0095F;
 AQUARAMA_CONSTANT float kPostReach = 0.0170F;

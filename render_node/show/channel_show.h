@@ -24,8 +24,8 @@
 
 namespace aquarama::show {
 
-// Runs on the drawing thread; construct, use and destroy it there. The next look is built on a
-// thread of its own. Session, context, controls and service must outlive it.
+// Runs on the drawing thread; construct, use and destroy it there. The next look is built on
+// another thread. Session, context, controls and service must outlive it.
 class ChannelShow {
   public:
     ChannelShow(session::Session& session,

@@ -107,7 +107,7 @@ class PairProjection {
     // and bottom an even height.
     PairProjection(glm::ivec2 sizePixels, std::uint32_t channelId, config::StereoMode mode);
 
-    // GL name of the picture of one eye, and what projects it. A wall file's masks are of the
+    // GL name of the picture of one eye, and its projection. A wall file's masks are of the
     // display: those of the left eye are taken.
     struct Eye {
         unsigned sceneTexture = 0;

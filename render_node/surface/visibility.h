@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which fish a channel draws, and how finely (paper, section 6). This is the reference on the CPU
-// for fish_cull.comp; tests compare the two.
+// The choice of the fish that a channel draws, and of their level of detail (paper, section 6).
+// This is the reference on the CPU for fish_cull.comp; tests compare the two.
 #pragma once
 
 #include <array>
