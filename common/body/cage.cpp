@@ -165,7 +165,7 @@ class Builder {
 
     std::vector<CageSite> sites_;
     std::vector<Face> faces_;
-    std::map<Cell, Face> tube_;  // what is not yet raised
+    std::map<Cell, Face> tube_;  // the faces that are not raised yet
     std::vector<CageCrease> creases_;
 };
 
@@ -180,7 +180,8 @@ std::vector<Cell> strip(int firstRing, int lastRing, int column) {
 constexpr float kGrow = 1.045F;  // a Catmull-Clark limit surface is smaller than its cage by this
 constexpr float kRidgeHalfWidth = 0.006F;  // of the strips along back and belly that fins grow from
 constexpr float kNoseStation = 0.004F;     // of ring 0
-// A lone dorsal fin takes both strips: the first one this share of it, with hardly a gap between.
+// A lone dorsal fin takes both strips, with hardly a gap between them; this is the share of the
+// first.
 constexpr float kFirstStripShare = 0.54F;
 constexpr float kStripGap = 0.001F;
 constexpr float kStripOverlap = 0.02F;  // of the rays, above the gap, which therefore does not show
@@ -217,7 +218,7 @@ bool isRidge(int column) {
     return column <= 1 || column == 6 || column == 7;
 }
 
-// Half the thickness of a fin, in body lengths: a membrane thins from root to edge.
+// Half the thickness of a fin, in body lengths: a membrane is thinner at its edge than at its root.
 float finHalfThickness(float q) {
     return 0.0045F * (1 - q) + 0.0008F;
 }
@@ -243,7 +244,7 @@ bool isPectoralRoot(int ring, int column) {
     return isPectoralRing(ring) && !isRidge(column) && column != 2 && column != 11;
 }
 
-// The unit vector square to a fin's base on the side that its rays run to.
+// The unit vector perpendicular to a fin's base, on the side of its rays.
 glm::vec2 awayFrom(glm::vec2 base, const FinPatch& fin) {
     const glm::vec2 square{-base.y, base.x};
     return glm::dot(fin.at(0.5F, 1) - fin.at(0.5F, 0), square) < 0 ? -square : square;
@@ -314,7 +315,7 @@ void CageShape::slantRings(const config::Species& species) {
     fill(back_, 6, 13, first, isOneDorsal_ ? cut - kStripGap / 2 : firstDorsal_.baseRear().x);
     fill(back_, 14, 20, isOneDorsal_ ? cut + kStripGap / 2 : secondDorsal_.baseFront().x, last);
 
-    float root = 0;  // mean station of the pectoral's root, which rings 5 and 6 embrace
+    float root = 0;  // mean station of the pectoral's root, between rings 5 and 6
     for (const glm::vec2& point : species.fins.pectoral.base)
         root += point.x / static_cast<float>(species.fins.pectoral.base.size());
     belly_[7] = pelvic_.baseFront().x;
@@ -376,7 +377,8 @@ glm::vec3 CageShape::onBody(int ring, int column) const {
     const Section section = sectionAt(s);
     const float height = at.down < 1 ? section.dorsal : section.ventral;
     const float fullness = at.down < 1 ? section.fullnessUp : section.fullnessDown;
-    // No fin grows from the belly there: it rounds off what the pectoral root takes from the flank.
+    // No fin grows from the belly there; the belly makes up for what the pectoral root takes from
+    // the flank.
     if (isPectoralRing(ring) && isRidge(column) && at.down > 1)
         return {s, -0.98F * section.ventral, at.side * 0.3F * section.halfWidth};
     if (isRidge(column))
@@ -445,8 +447,8 @@ CageVertex CageShape::onPairedFin(const CageSite& site) const {
     const glm::vec2 drawn = fin.paddleAt(p, q) - fin.baseFront();
     const float reach = glm::dot(drawn, outwards);
     const float root = (isPelvic ? 0.35F : 0.97F) * sectionAt(fin.at(0.5F, 0).x).halfWidth;
-    // Its root twists by a quarter, so that the front of the root of a fin that points back becomes
-    // its outer side, but that of a fin which points down its inner.
+    // Its root is twisted by a quarter turn. On a fin that points back, the front of the root
+    // becomes the outer side; on a fin that points down, the inner side.
     const bool pointsDown = hinge.x * outwards.y < hinge.y * outwards.x;
     const bool isOuter =
         isPelvic ? site.column == 5 || site.column == 8 : (site.ring == 5) != pointsDown;

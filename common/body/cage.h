@@ -52,7 +52,7 @@ struct CageTopology {
     std::vector<CageCrease> creases;
 };
 
-// Builds the topology anew at every call, always the same; callers that need it often keep it.
+// Builds the topology at every call, always the same; callers that need it often keep it.
 [[nodiscard]] CageTopology makeCageTopology();
 
 // Where the vertices of the control cage are on a species at rest: cage vertex from cage site.
@@ -88,7 +88,7 @@ class CageShape {
 
     MonotoneCurve dorsal_, ventral_, halfWidth_, fullnessUp_, fullnessDown_;
     FinPatch firstDorsal_, secondDorsal_, anal_, caudal_, pelvic_, pectoral_;
-    // The species has one dorsal fin along the whole back: it takes the strips of both.
+    // Whether the species has one dorsal fin along the whole back, which takes the strips of both.
     bool isOneDorsal_;
     // Rings slant, so that the base of every fin lies on them: a ring has one station on the back,
     // one on the flank and one on the belly; between them they blend.

@@ -8,7 +8,6 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 
 #include "common/body/spine.h"
 
@@ -39,19 +38,9 @@ std::vector<float> sampled(const std::vector<glm::vec2>& points, int component) 
     return samples;
 }
 
-constexpr float kTurn = glm::two_pi<float>();
-// Off the flank: of a folded fin, and of one that brakes.
-constexpr float kFlatRadians = 5.0F * kTurn / 360;
-constexpr float kSpreadRadians = 75.0F * kTurn / 360;
-// Phase lags, in radians and in cycles: the margin of a membrane follows its root by a sixth of a
-// beat, the tip of a rowing fin follows its root by an eighth.
-constexpr float kMarginLag = kTurn / 6;
-constexpr float kTipLag = 0.12F;
-// Below the first speed a fish stands, above the second it swims. Body lengths a second.
-constexpr float kStands = 0.2F, kSwims = 0.6F;
-constexpr float kFolded = 1.5F;    // above it pelvic fins lie as near to the belly as they go
-constexpr float kFoldBand = 0.2F;  // of the speed at which fins fold, to either side
-constexpr float kTrimGain = 3;     // a slope of a third is steep
+// Angle off the flank of a folded fin, and of a fin that brakes.
+constexpr float kFlatRadians = 5.0F * kWholeTurn / 360;
+constexpr float kSpreadRadians = 75.0F * kWholeTurn / 360;
 
 // About a unit axis (Rodrigues).
 glm::vec3 rotated(glm::vec3 axis, float angle, glm::vec3 v) {
@@ -129,7 +118,7 @@ FinStyle styleOf(const config::Species& species, const Hinge& hinge) {
     style.hoverRipple = motion.hovering.amplitude;
     style.hoverWaves = motion.hovering.waves;
     style.hoverHertz = tenths(motion.hovering.beatHertz);
-    style.opposed = motion.hovering.isOpposed ? kTurn / 2 : 0;
+    style.opposed = motion.hovering.isOpposed ? kWholeTurn / 2 : 0;
     style.cupping = motion.cuppingRadians;
     return style;
 }
@@ -174,15 +163,16 @@ glm::vec3 rowed(const FinStyle& style, const FinPoint& point, const FinDrive& dr
     const bool isRight = point.side > 0;
     const float apart = isRight ? 0.0F : 0.5F * (1 - beyond(drive.speed, style.alternateBelow));
     const float beat = style.rowHertz * drive.seconds + ownCycles(drive.id) + apart;
-    // On the outer side of a turn the fin is laid to the flank.
+    // On the outer side of a turn the fin lies on the flank.
     const float outer = drive.turning[isRight ? 0 : 1];
     const float opens = (1 - beyond(drive.speed, style.foldAbove)) * (1 - outer);
     const float rows = opens * (1 - drive.spread);
     // Lift on both sides of a fish that climbs, and on the lower side of one that balances.
     const float lift = drive.climb - (isRight ? drive.tilt : -drive.tilt);
-    const float twist = rows * style.featherAngle * std::cos(kTurn * beat) +
+    const float twist = rows * style.featherAngle * std::cos(kWholeTurn * beat) +
                         style.trimAngle * std::clamp(kTrimGain * lift, -1.0F, 1.0F);
-    const float angle = rows * style.strokeAngle * std::sin(kTurn * (beat - kTipLag * point.q));
+    const float angle =
+        rows * style.strokeAngle * std::sin(kWholeTurn * (beat - kTipLag * point.q));
     glm::vec3 arm = rotated(style.ray, twist * point.q, point.arm);
     const float opened = glm::mix(style.fold, style.open, opens);
     arm = rotated(style.hinge, glm::mix(opened, style.spread, drive.spread), arm);
@@ -193,13 +183,13 @@ glm::vec3 rowed(const FinStyle& style, const FinPoint& point, const FinDrive& dr
 // tail beat, and that of hovering, by the clock, mixed by speed.
 float rippled(const FinStyle& style, const FinPoint& point, const FinDrive& drive) {
     const auto wave = [&](float cycles, float waves) {
-        return std::sin(kTurn * (waves * point.p - cycles) - kMarginLag * point.q);
+        return std::sin(kWholeTurn * (waves * point.p - cycles) - kMarginLag * point.q);
     };
     const float swimming = glm::mix(
         wave(drive.fromPhase, style.swimWaves), wave(drive.phase, style.swimWaves), drive.weight);
     const bool isAnal = point.part == static_cast<std::uint32_t>(CagePart::Anal);
     const float hovering = wave(style.hoverHertz * drive.seconds + ownCycles(drive.id) +
-                                    (isAnal ? style.opposed / kTurn : 0),
+                                    (isAnal ? style.opposed / kWholeTurn : 0),
                                 style.hoverWaves);
     return point.sway * glm::mix(style.hoverRipple * hovering,
                                  style.swimRipple * swimming,

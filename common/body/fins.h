@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/body/fin_motion.h"
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 
@@ -50,10 +51,7 @@ class FinPatch {
 // The constants of the motion of a species' fins. cage: of this species at rest.
 [[nodiscard]] FinTable makeFinTable(const config::Species& species, const ControlCage& cage);
 
-// The period of all fin motion that depends on the time: all rates are whole tenths of a hertz.
-inline constexpr float kFinSeconds = 10;
-
-// What drives the fins of one fish at one moment.
+// The inputs of the motion of one fish's fins at one moment.
 struct FinDrive {
     float seconds = 0;               // of the show, modulo kFinSeconds
     float speed = 0;                 // body lengths a second; backwards is negative

@@ -51,11 +51,11 @@ struct FinPoint {
     float side = 0;          // right 1, left -1
     float p = 0, q = 0;      // along the fin's base, and from base to edge
     float sway = 0;          // on a median fin: ray length * flex * q^1.5, body lengths
-    std::uint32_t part = 0;  // CagePart; the body's and those of a fin's root stay where they are
+    std::uint32_t part = 0;  // CagePart; points of the body and of a fin's root do not move
 };
 static_assert(sizeof(FinPoint) == 32);
 
-// All that moves the fins of one species.
+// The constants of the fins of one species.
 struct FinTable {
     FinStyle style;
     // One for each vertex of the cage, in its order.
@@ -125,7 +125,8 @@ struct BodyThread {
     bool isOfFirstDorsal = false;
 };
 
-// All that drawing and posing a species needs of its file. Made once by makeBody(), then read only.
+// The data of a species' file that drawing and posing need. Made once by makeBody(), then read
+// only.
 struct FishBody {
     std::string species;
     float typicalLengthMetres = 0.0F;

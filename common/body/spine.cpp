@@ -107,7 +107,7 @@ void setSlopes(Spine& spine) {
 }
 
 // The right of a ring: from its left to its right nodes. The tail has only two nodes: its right is
-// square to them and to the axis, on the side of the last ring's.
+// perpendicular to them and to the axis, on the side of the last ring's.
 Spine spineOf(const std::array<float, kKnots>& stations, const NodalPoints& n) {
     Spine spine{.stations = stations};
     spine.centres[0] = n[0];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Curves through tables, and the bent axis of a fish. The curves do not overshoot their tables, so
-// a body that is drawn by a few stations gets no bulges between them.
+// a body that is drawn with a few stations has no bulges between them.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The direction of travel of many fish at a time, for the behaviour, which reads it at every tick.
+// The directions of travel of many fish, which the behaviour reads at every tick.
 #pragma once
 
 #include <cstddef>

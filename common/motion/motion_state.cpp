@@ -22,14 +22,14 @@ std::int32_t signed20(std::uint64_t bits) {
     return value >= 0x80000 ? value - 0x100000 : value;
 }
 
-// The finaliser of MurmurHash3: every bit in changes half the bits out.
+// The finaliser of MurmurHash3: each input bit changes half of the output bits.
 std::uint64_t mix(std::uint64_t h) {
     h = (h ^ h >> 33U) * 0xFF51AFD7ED558CCDU;
     h = (h ^ h >> 33U) * 0xC4CEB9FE1A85EC53U;
     return h ^ h >> 33U;
 }
 
-// Two numbers side by side in one word.
+// Two numbers in one word.
 std::uint64_t pair(std::int32_t low, std::int32_t high) {
     return static_cast<std::uint32_t>(low) |
            static_cast<std::uint64_t>(static_cast<std::uint32_t>(high)) << 32U;

@@ -13,6 +13,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/motion/record_units.h"
 #include "common/motion/repertoire.h"
 
 namespace aquarama::motion {
@@ -31,9 +32,6 @@ struct PackedOrientation {
     std::uint8_t largest = 0;
 };
 
-// No component but the largest exceeds 1 / sqrt(2), which is 2^19 units.
-inline constexpr float kOrientationUnitsPerOne = 741455.2F;  // 2^19 * sqrt(2)
-inline constexpr float kOrientationUnit = 1.0F / kOrientationUnitsPerOne;
 // 2^19 - 1: fits 20 bits with either sign.
 inline constexpr float kOrientationLimit = 524287.0F;
 
@@ -122,11 +120,9 @@ inline constexpr float kOrientationLimit = 524287.0F;
 // The state of a school's motion: integers only, so that every machine agrees to the bit
 // (docs/architecture.md).
 
-// Units of position and speed.
-inline constexpr float kPositionUnitMetres = 1.0F / 65536.0F;
-inline constexpr float kSpeedUnitsPerBodyLength = 262144.0F;  // 2^18
-inline constexpr std::int32_t kFastestUnits = 4194303;        // 16 body lengths a second
-// Change of MotionStates::spread in a tick: fins are spread within a fifth of a second.
+inline constexpr std::int32_t kFastestUnits = 4194303;  // of speed: 16 body lengths a second
+inline constexpr float kYawUnit = 1.0F / 1048576.0F;    // of MotorCommands::yawRate, radians a tick
+// Of MotionStates::spread in a tick: fins are spread within a fifth of a second.
 inline constexpr int kSpreadStep = 21;
 
 // Structure of arrays, one element for each fish; all columns have the same length. The world owns
@@ -152,7 +148,7 @@ struct MotionStates {
     // Along the mean frame's x axis, in units of 2^-18 body lengths a second; backwards is
     // negative.
     std::vector<std::int32_t> speed;
-    // How far the pectoral fins are seen to be spread, in 1/255: follows MotorCommands::brake by
+    // How far the pectoral fins are spread, in 1/255: it follows MotorCommands::brake by
     // kSpreadStep a tick.
     std::vector<std::uint8_t> spread;
 
@@ -164,8 +160,8 @@ struct MotionStates {
     [[nodiscard]] std::size_t bytes() const;
 };
 
-// What the mind asks of the body; the motor's only input. One element for each fish. It changes at
-// decision instants, not every tick.
+// The commands of the mind to the body; the motor's only input. One element for each fish. They
+// change when a fish decides, not at every tick.
 struct MotorCommands {
     std::vector<std::uint8_t> action;  // to play next
     // How fast to play that action, in 1/65536 of a cycle in a tick, not negative; a turn that has
@@ -185,7 +181,7 @@ struct MotorCommands {
     [[nodiscard]] std::size_t bytes() const;
 };
 
-// What never changes about a fish, sent once to each node.
+// The constant properties of a fish, which are sent once to each node.
 struct FishTraits {
     std::uint32_t id = 0;
     // The alpha of eq. 12: the recorded data are in body lengths.
@@ -216,7 +212,7 @@ static_assert(sizeof(FishRecord) == 32);
     return static_cast<std::uint8_t>(record.speedAndSpread >> 24U);
 }
 
-// One fish of the columns as a record and back, without loss.
+// Convert one fish of the columns to a record and back, without loss.
 [[nodiscard]] FishRecord recordOf(const MotionStates& states, std::size_t fish);
 void setFromRecord(MotionStates& states, std::size_t fish, const FishRecord& record);
 
@@ -236,14 +232,12 @@ struct BodyFrame {
 // Rounds to the integers; the rotation need not be of unit length.
 void setBodyFrame(MotionStates& states, std::size_t fish, const BodyFrame& frame);
 
-// Body lengths a second. Setting rounds to the integers and limits to kFastestUnits; the speed must
-// be finite.
+// Speed in body lengths a second. Setting it rounds to integers and limits it to kFastestUnits; the
+// speed must be finite.
 [[nodiscard]] float speedBodyLengths(const MotionStates& states, std::size_t fish);
 void setSpeedBodyLengths(MotionStates& states, std::size_t fish, float speed);
 
-// A fish that is not in the water: it was eaten, and no other has come in its place yet. It keeps
-// its index; its body frame is so far below every sea floor that no wall ever shows it.
-inline constexpr float kAwayHeightMetres = -16384.0F;
+// A fish that is not in the water: see kAwayHeightMetres.
 [[nodiscard]] bool isAway(const FishRecord& record);
 [[nodiscard]] bool isAway(const MotionStates& states, std::size_t fish);
 void setAway(MotionStates& states, std::size_t fish);
@@ -251,7 +245,7 @@ void setAway(MotionStates& states, std::size_t fish);
 // Folds every bit of the state into one number: equal worlds have equal hashes. Cost: four multiply
 // chains for each fish.
 [[nodiscard]] std::uint64_t hashOf(const MotionStates& states);
-// The same hash, of records of the same fish.
+// The same hash from records of the same fish.
 [[nodiscard]] std::uint64_t hashOf(std::span<const FishRecord> records);
 
 }  // namespace aquarama::motion

@@ -42,7 +42,7 @@ float levellingRoll(float up, float right) {
     return bounded(kRollGain * right, kRollRate);
 }
 
-// Where the mean frame looks, in world axes, and the heights of its up and right.
+// The direction of the mean frame's x axis in the world, and the heights of its up and right.
 struct Attitude {
     Vector forward;
     float up, right;
@@ -68,8 +68,8 @@ float inverseRoot(float value) {
 }
 
 // Half the turn (radians, about world axes) that the fish adds in this tick: commanded yaw about
-// up, pitch about the level axis to its right, roll about its nose. Measured on the mean frame;
-// otherwise the fish would steer against its own tail beat.
+// up, pitch about the level axis to its right, roll about its nose. It is measured on the mean
+// frame; otherwise the fish would steer against its own tail beat.
 Vector halfSteering(const Attitude& attitude, float pitchSine, float pitchRate, float yaw) {
     const auto& [forwardX, forwardY, forwardZ] = attitude.forward;
     const float wanted = bounded(pitchSine, kSteepestPitch);
@@ -250,7 +250,7 @@ glm::vec3 meanHeadingReference(const MotorTables& tables,
 }
 
 std::uint64_t motorSelfTest() {
-    constexpr std::size_t kFish = 100;  // some of them in no whole vector
+    constexpr std::size_t kFish = 100;  // not a whole number of vectors
     constexpr int kTicks = 120;
     const auto tables = makeMotorTables(selfTestRepertoire());
     MotionStates states;

@@ -62,8 +62,8 @@ struct MotorStep {
 // Mean rate of turn of a segment as recorded, radians a second, left positive.
 [[nodiscard]] float recordedTurnRate(const MotorTables& tables, std::uint32_t segment);
 
-// A hash of what the motor computes on this machine, of a small school that plays every action of a
-// repertoire of its own: the same wherever the motor is the same. Takes some 0.1 s.
+// A hash of the motor's results on this machine, for a small built-in school that plays every
+// action. Equal hashes mean equal motors. Takes some 0.1 s.
 [[nodiscard]] std::uint64_t motorSelfTest();
 
 // Sine of the pitch by which a fish must be off to begin a slope, and to go on with it. Less is

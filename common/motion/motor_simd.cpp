@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vectorised step: what motor.cpp does to one fish, on as many fish at a time as the processor
-// has lanes. Blocks of 64 fish go through it in passes: first the phases and the tables, where each
-// fish reads its own segment, then the arithmetic, which is the same for all.
+// The vectorised step: motor.cpp's step on as many fish at a time as the processor has lanes.
+// Blocks of 64 fish go through it in passes: first the phases and the tables, where each fish reads
+// its own segment, then the arithmetic, which is the same for all.
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -181,7 +181,7 @@ HWY_INLINE void storeBetween(
     Tag tag, const PathSample* path, float share, float* rotation, float* place) {
     const float* const a = &path[0].rotation.w;
     const float* const b = &path[1].rotation.w;
-#if HWY_TARGET != HWY_SCALAR  // which has no halves
+#if HWY_TARGET != HWY_SCALAR  // vectors of this target have no halves
     if constexpr (hn::MaxLanes(Tag()) == 8) {
         const hn::Half<Tag> half;
         const auto at = between(tag, a, b, share);

@@ -78,10 +78,10 @@ Means meansOfCycle(const GaitPath& path) {
     return means;
 }
 
-// A turn is no cycle and has no mean over one. Its mean frame looks along its path, from which the
-// bent body deviates; over the last quarter it changes to the direction `after`, in which the fish
-// swims on, and over the first quarter from `before` where the turn begins in a tail beat. Both in
-// the body frame.
+// A turn is not a cycle and has no mean over one. Its mean frame looks along its path, from which
+// the bent body deviates; over the last quarter it changes to the direction `after`, in which the
+// fish swims on, and over the first quarter from `before` where the turn begins in a tail beat.
+// Both in the body frame.
 Means meansOfTurn(const GaitPath& path,
                   const std::optional<glm::dvec3>& before,
                   const glm::dvec3& after) {
@@ -264,8 +264,8 @@ void fillTurn(const ActionSegment& turn, std::size_t first, MotorTables& tables)
     }
 }
 
-// Half-way between the speeds at which a turn was entered; speeds that do not rise give no border
-// that a fish reaches.
+// Borders half-way between the speeds at which a turn was entered. Where the speeds do not rise, no
+// fish reaches the border.
 void setEntryBorders(const ActionSegment& turn, MotorTables& tables) {
     if (turn.entered.empty()) return;
     for (std::size_t border = 0; border < tables.entryBorders.size(); ++border) {
@@ -321,8 +321,8 @@ Pose poseAt(const Cycle& cycle, unsigned phase) {
     return pose;
 }
 
-// The longest way that any nodal point moves in a tick of any segment: a warp of such steps is no
-// faster than what the fish does anyway.
+// The longest distance that any nodal point moves in a tick of any segment: a warp of such steps is
+// no faster than the fish's other motion.
 float largestStep(const std::vector<Cycle>& cycles,
                   const std::array<std::int16_t, kActions>& phaseRates) {
     float most = kSmallestStepBodyLengths * kSmallestStepBodyLengths;
@@ -357,8 +357,8 @@ float travelFromCell(const Travels& travels, std::size_t cell, std::size_t to) {
     return std::max(travels[cell][to], travels[cell + 1][to]);
 }
 
-// A tail that begins to beat moves the fish after so many beats only: its wave has to grow. By the
-// way of fish that swim on after a retreat (docs/motion.md).
+// A tail that begins to beat moves the fish only after this many beats, as its wave has to grow.
+// From the path of fish that swim on after a retreat (docs/motion.md).
 constexpr double kBeatsToBegin = 0.35;
 
 // The entry phase whose pose is nearest, and as many frames as keep each step within `step`

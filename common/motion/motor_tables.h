@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the motor step reads, how it is made from a repertoire, and the part of the step that both
-// its versions share. Tables are made in doubles and without libm, so they are the same on every
-// machine.
+// The tables that the motor step reads, how they are made from a repertoire, and the part of the
+// step that both versions share. Tables are computed in doubles and without libm, so they are the
+// same on every machine.
 #pragma once
 
 #include <algorithm>
@@ -31,8 +31,8 @@ struct MeanMotion {
 
 // The path of the body frame over a segment.
 struct GaitPath {
-    // The body frame at phase k as seen from phase 0, over two cycles: a tick that runs over the
-    // end of a cycle then needs no case of its own.
+    // The body frame at phase k as seen from phase 0, over two cycles: a tick across the end of a
+    // cycle then needs no special case.
     std::array<glm::dquat, kPathSamples> rotation{};
     std::array<glm::dvec3, kPathSamples> translation{};  // body lengths
     // Rotation from the cycle-mean frame to body axes. The tail beat does not sway the mean frame:
@@ -46,8 +46,8 @@ struct GaitPath {
 // The same of a turn begun in a tail beat. Its speeds at the ends are those of TurnPath.
 [[nodiscard]] GaitPath pathOf(const TurnPath& turn, float periodSeconds);
 
-// What the motor step reads of a species: about 1.2 MB, of which a steady school touches 36 kB.
-// What is played stays in the processor's cache.
+// The motor step's tables of a species: about 1.2 MB, of which a steady school reads 36 kB. So the
+// segments that are played stay in the processor's cache.
 
 inline constexpr unsigned kPhaseCellBits = 10;  // a phase of 16 bits is 6 of cell, 10 of fraction
 inline constexpr float kPhaseCellUnit = 1.0F / 1024.0F;
@@ -60,7 +60,7 @@ struct alignas(32) PathSample {
     std::array<float, 4> translationAndSpeed{};
 };
 
-// How to go from one segment, within a cell of its phases, to another.
+// The plan of a motion warp from one segment, in a cell of its phases, to another.
 struct WarpPlan {
     std::uint16_t entryPhase = 0;
     std::uint8_t frames = 0;  // K, interpolated frames between the last pose and the first
@@ -118,18 +118,18 @@ class MotorTables {
     float pitchRate = 0.0F;
 };
 
-// What a tick does to one fish before it steers: which segment plays, and where that takes the body
-// frame. Shared by the plain and the vectorised step; compiled once for each instruction set.
+// The first part of a tick of one fish, before it steers: the segment that plays, and the travel of
+// the body frame. Shared by the plain and the vectorised step; compiled once for each instruction
+// set.
 
-// Limits of what a fish adds to the recorded motion, per tick of 1/60 s. The gains let it settle
-// without a jerk; the rates keep it within what a fish does.
+// Limits of a fish's own steering on top of the recorded motion, per tick of 1/60 s. With these
+// gains it settles without a jerk; the rates are those of a real fish.
 inline constexpr float kPitchGain = 0.05F;
 inline constexpr float kSteepestPitch = 0.86602540F;  // sine of 60 degrees
 inline constexpr float kRollGain = 0.05F;
 inline constexpr float kRollRate = 0.013089969F;        // 45 degrees a second
 inline constexpr float kNoseVerticalSquared = 0.0025F;  // sine of 3 degrees: no roll to measure
 inline constexpr float kPitchUnit = 1.0F / 32768.0F;    // of MotorCommands::pitch
-inline constexpr float kYawUnit = 1.0F / 1048576.0F;    // of MotorCommands::yawRate, radians
 inline constexpr float kUnitsPerMillimetre = 65.536F;   // position
 inline constexpr float kLongestStepUnits = 4194304.0F;  // 2^22, 64 m: rounds exactly up to there
 // 2^-10, added to the level axis: a fish whose nose is exactly vertical has none of its own, and
@@ -238,8 +238,8 @@ inline void startWarp(const MotorTables& tables, const MotorColumns& fish, std::
     fish.warpLength[i] = plan.frames;
 }
 
-// What a fish does in a tick: it warps, or plays its segment between two phases of the two-cycle
-// path (1/65536 of a cycle).
+// The motion of a fish in a tick: it warps, or plays its segment between two phases of the
+// two-cycle path (1/65536 of a cycle).
 struct Playing {
     bool warps = true;
     std::int32_t from = 0, to = 0;

@@ -7,7 +7,6 @@ namespace aquarama::motion {
 namespace {
 
 // Cycles in a unit of a recorded phase.
-constexpr float kPhaseUnit = 1.0F / 65536.0F;
 
 // A point of a pose in body lengths.
 glm::vec3 lengthsOf(const std::array<std::int16_t, 3>& point) {

@@ -37,7 +37,7 @@ static_assert(sizeof(PresentedFish) == 64);
                                     float fraction,
                                     const FishTraits& traits);
 
-// Not in the water: not drawn. The limit is half of the height of setAway().
+// Whether the fish is away (see kAwayHeightMetres) and so not drawn.
 [[nodiscard]] inline bool isAway(const PresentedFish& fish) {
     return fish.positionMetres.y < 0.5F * kAwayHeightMetres;
 }

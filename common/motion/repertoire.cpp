@@ -26,7 +26,7 @@ constexpr float kShortestPeriodSeconds = 0.02F;  // a beat of 50 Hz; no fish is 
 constexpr float kLongestPeriodSeconds = 60.0F;
 constexpr float kLongestStepBodyLengths = 1.0F;  // in 1/64 of a cycle; a burst is near 0.02
 constexpr float kMostDrag = 1000.0F;  // 1 / body length, or 1 / s: stops within a thousandth of one
-// Numbers of a SpeedResponse.
+// How many numbers a SpeedResponse has.
 constexpr std::size_t kResponses = kForwardGaits + 3;
 
 template <class Pose>
@@ -220,8 +220,8 @@ void readIncrements(ByteReader& in, FrameIncrements& increments) {
     for (FrameIncrement& step : increments) step = readIncrement(in);
 }
 
-// Reads the content between length and digest, whose digest is known to match: what is wrong now
-// was written wrong.
+// Reads the content between length and digest, whose digest matches: a fault now was made when the
+// file was written.
 Repertoire readContent(ByteReader& in, const std::string& source) {
     Repertoire repertoire;
     repertoire.species = in.characters(in.unsignedNumber<std::uint8_t>());

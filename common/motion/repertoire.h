@@ -174,7 +174,8 @@ inline constexpr int kSwimmingActions = 21;
 [[nodiscard]] constexpr bool breaksOff(Action turn, Action wanted) {
     return isSharp(turn) && isSharp(wanted) && isLeft(wanted) != isLeft(turn);
 }
-// The gait of an action that swims, on whatever way; every other action itself.
+// The gait of an action that swims, straight on, on a curve or on a slope; every other action
+// itself.
 [[nodiscard]] constexpr Action patternOf(Action action) {
     return swims(action) ? gaitOf(action) : action;
 }
@@ -183,10 +184,10 @@ inline constexpr int kSwimmingActions = 21;
     return static_cast<Action>(indexOf(slow) + indexOf(gait));
 }
 
-// What a fish plays is a segment. An action has one, but a turn has kTurnSegments: the first begins
-// in the pose of a glide, the others in a tail beat, speed by speed and phase by phase. Their poses
-// are the same, their paths differ. The numbers are part of the wire: those of the first actions,
-// then those of the turns, and last that of the glide.
+// A fish plays segments. An action has one, but a turn has kTurnSegments: the first begins in the
+// pose of a glide, the others in a tail beat, speed by speed and phase by phase. Their poses are
+// the same, their paths differ. The numbers are part of the wire: those of the first actions, then
+// those of the turns, and last that of the glide.
 inline constexpr int kEntrySpeeds = 5;  // of the gaits, and half-way between them
 inline constexpr int kEntryPhases = 8;  // of the beat, from 0 on, evenly spaced
 inline constexpr int kTurnEntries = kEntrySpeeds * kEntryPhases;

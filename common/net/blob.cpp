@@ -23,7 +23,8 @@ std::span<const std::byte> chunkAt(std::span<const std::byte> blob,
     return blob.subspan(start, std::min(chunkBytes, blob.size() - start));
 }
 
-// An empty chunk is only taken of an empty blob: else a peer could keep us asking for ever.
+// An empty chunk is valid only for an empty blob. Otherwise a peer could make the node ask for
+// ever.
 bool BlobAssembly::take(std::uint64_t offset,
                         std::uint64_t total,
                         std::span<const std::byte> content) {
@@ -37,7 +38,7 @@ bool BlobAssembly::take(std::uint64_t offset,
     return true;
 }
 
-// Each part is let go as soon as it is copied, so that there is little more than one blob.
+// Each part is freed as soon as it is copied, so that memory holds little more than one blob.
 std::vector<std::byte> BlobAssembly::joined() {
     std::vector<std::byte> bytes;
     bytes.reserve(std::exchange(size_, 0));
@@ -49,7 +50,7 @@ std::vector<std::byte> BlobAssembly::joined() {
     return bytes;
 }
 
-// The bytes are given away, whether they are good or not: what is spoilt is fetched again.
+// The bytes are released in either case: a spoilt blob is fetched again.
 std::optional<std::vector<std::byte>> BlobAssembly::checked() {
     if (!whole()) return std::nullopt;
     total_.reset();
@@ -75,7 +76,7 @@ std::optional<std::vector<std::byte>> BlobCache::find(const Digest& digest) cons
         if (digestOf(bytes) != digest) return std::nullopt;
         markUsed(pathOf(digest));
         return bytes;
-    } catch (const Error&) {  // no more than a cache: the blob is fetched again
+    } catch (const Error&) {  // it is only a cache: the blob is fetched again
     }
     return std::nullopt;
 }

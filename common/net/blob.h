@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blobs named by their SHA-256: cut into chunks, put together again, checked and kept on disk.
+// Blobs that are named by their SHA-256: split into chunks, joined again, checked and cached on
+// disk.
 #pragma once
 
 #include <chrono>
@@ -15,7 +16,7 @@
 
 namespace aquarama::net {
 
-// Shared: it may be large.
+// The bytes of a blob; shared, as they may be many.
 using Blob = std::shared_ptr<const std::vector<std::byte>>;
 
 // The part of a blob that starts at `offset`, at most `chunkBytes` of it; empty past its end.
@@ -23,19 +24,20 @@ using Blob = std::shared_ptr<const std::vector<std::byte>>;
                                                  std::uint64_t offset,
                                                  std::size_t chunkBytes);
 
-// Takes chunks in order until the blob is whole. Memory grows with what has arrived, not with what
-// was announced.
+// Takes chunks in order until the blob is complete. Memory grows with the bytes that have arrived,
+// not with the announced size.
 class BlobAssembly {
   public:
     explicit BlobAssembly(const Digest& digest) : digest_(digest) {}
 
-    // False: not the chunk that comes next, or another total than before; it is not taken.
+    // Takes the next chunk. False, and nothing is taken: it is not the next one, or has another
+    // total than before.
     bool take(std::uint64_t offset, std::uint64_t total, std::span<const std::byte> content);
     [[nodiscard]] const Digest& digest() const { return digest_; }
     [[nodiscard]] std::uint64_t nextOffset() const { return size_; }
     [[nodiscard]] bool whole() const { return total_ && size_ == *total_; }
-    // The blob, where it is whole and has the digest that was asked for; starts afresh. Takes a
-    // second for a large one.
+    // The blob, where it is complete and has the requested digest. The assembly is empty
+    // afterwards. Takes a second for a large blob.
     [[nodiscard]] std::optional<std::vector<std::byte>> checked();
 
   private:
@@ -44,27 +46,28 @@ class BlobAssembly {
     [[nodiscard]] std::vector<std::byte> joined();
 
     std::uint64_t size_ = 0;
-    // Parts, so that a chunk never moves what came before it.
+    // Parts, so that a new chunk never moves the older ones.
     std::vector<std::vector<std::byte>> parts_;
 };
 
-// A directory of blobs. What it cannot write it does without, and warns once: a cache only saves
-// time. Blobs that were not used for kMostAge are removed, and those that were not used for longest
-// until there are at most `mostBytes`: when it is opened, and with each blob that is kept.
+// A directory of blobs. Where it cannot write it warns once and goes on: a cache only saves time.
+// When it is opened, and with each new blob, it removes blobs that were not used for kMostAge. If
+// the others have more than `mostBytes`, it removes those that were not used for longest.
 class BlobCache {
   public:
-    // Many times what a wall needs: a repertoire takes 5 MB, a wall file some tens.
+    // Many times what a wall needs: a repertoire takes 5 MB, a wall file some tens of MB.
     static constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 30U;
     static constexpr std::chrono::hours kMostAge{24 * 90};
 
     explicit BlobCache(std::filesystem::path directory, std::uintmax_t mostBytes = kMostBytes);
 
-    // Empty where there is none, or what is there is not what its name says.
+    // The blob of this digest; empty where there is none, or its content has another digest.
     [[nodiscard]] std::optional<std::vector<std::byte>> find(const Digest& digest) const;
-    // Appears under its name whole or not at all, whoever else writes the same.
+    // Stores a blob. Its file appears complete or not at all, also where another process writes the
+    // same.
     void keep(const Digest& digest, std::span<const std::byte> blob) const;
 
-    // On its disk, for this user; 0 where it cannot be told.
+    // Free bytes of its disk, for this user; 0 where they are unknown.
     [[nodiscard]] std::uint64_t freeBytes() const;
 
   private:

@@ -14,10 +14,11 @@ namespace {
 
 constexpr int kStateQueue = 8;         // states in flight to one node, each way
 constexpr int kControlQueue = 64;      // small messages
-constexpr int kMasterLingerMs = 1000;  // how long a farewell may take to leave
+constexpr int kMasterLingerMs = 1000;  // longest time to send a farewell
 constexpr int kNodeLingerMs = 200;
-constexpr int kMostRequests = 256;  // to the state channel in one turn: a flood stops no frame
-// The longest that the state channel listens to; a handshake with keys takes some 300.
+constexpr int kMostRequests =
+    256;  // to the state channel in one turn, so that a flood delays no frame
+// Largest message to the state channel; a handshake with keys takes some 300 bytes.
 constexpr std::size_t kSubscriptionBytes = 1024;
 
 // Control on a ROUTER, which names its peers; states on an XPUB, which shows us subscriptions.
@@ -72,7 +73,7 @@ class ZmqMasterChannels final : public MasterChannels {
         return std::exchange(noise_, 0);
     }
 
-    void wait(Instant atMost) override {
+    void wait(Duration atMost) override {
         if (door_ && door_->hasRevoked()) {
             openSockets();
             isBound_ = false;
@@ -85,11 +86,11 @@ class ZmqMasterChannels final : public MasterChannels {
     [[nodiscard]] std::string stateAddress() const override { return stateAddress_; }
 
   private:
-    // Fresh ones in place of those that there are, whose connections end.
+    // Replaces the sockets by new ones; the old connections end.
     void openSockets() {
         control_ = openSocket(context_, zmq::socket_type::router, kControlQueue, limits_.toMaster);
-        // Manual: a subscription counts only when we say so, so strangers cannot fill our memory
-        // with topics.
+        // Manual mode: a subscription counts only when it is confirmed, so unknown peers cannot
+        // fill the memory with topics.
         state_ = openSocket(context_, zmq::socket_type::xpub, kStateQueue, kSubscriptionBytes);
         control_.set(zmq::sockopt::linger, kMasterLingerMs);
         state_.set(zmq::sockopt::linger, 0);
@@ -99,7 +100,7 @@ class ZmqMasterChannels final : public MasterChannels {
         requireKeys(state_, own_);
     }
 
-    // ZeroMQ frees an address a moment after its socket was closed.
+    // ZeroMQ frees an address some time after its socket was closed.
     void bindAgain() {
         try {
             if (control_.get(zmq::sockopt::last_endpoint).empty())
@@ -117,7 +118,7 @@ class ZmqMasterChannels final : public MasterChannels {
         return user == nullptr ? "" : user;
     }
 
-    // "\x01" is a subscription to everything, the only one that we know; "\x00" ends it.
+    // "\x01" is a subscription to everything, the only one that is used; "\x00" ends it.
     void admitSubscribers() {
         for (int request = 0; request < kMostRequests; ++request) {
             const auto topic = receiveSingle(state_);
@@ -133,7 +134,7 @@ class ZmqMasterChannels final : public MasterChannels {
         }
     }
 
-    static constexpr Instant kRetry = std::chrono::milliseconds(10);
+    static constexpr Duration kRetry = std::chrono::milliseconds(10);
     PacketLimits limits_;
     KeyPair own_;
     WakeEvent wake_;
@@ -142,7 +143,7 @@ class ZmqMasterChannels final : public MasterChannels {
     zmq::socket_t control_;
     zmq::socket_t state_;
     std::string controlAddress_, stateAddress_;  // as bound
-    bool isBound_ = true;                        // not for a moment after a key was revoked
+    bool isBound_ = true;                        // false for a moment after a key was revoked
     std::size_t noise_ = 0;
 };
 
@@ -156,8 +157,8 @@ class ZmqNodeChannels final : public NodeChannels {
           maxBytes_(limits.toNode),
           control_(openSocket(context_, zmq::socket_type::dealer, kControlQueue, maxBytes_)) {
         control_.set(zmq::sockopt::linger, kNodeLingerMs);
-        // What is said while nobody listens is dropped: a master that starts late is not greeted
-        // by a heap of old hellos.
+        // Messages without a connection are dropped: a master that starts late does not receive
+        // many old hellos.
         control_.set(zmq::sockopt::immediate, true);
         if (keys_) showKeys(control_, *keys_);
         connectSocket(control_, controlAddress);
@@ -178,7 +179,7 @@ class ZmqNodeChannels final : public NodeChannels {
         return state_ ? receiveSingle(*state_) : std::nullopt;
     }
 
-    void wait(Instant atMost) override {
+    void wait(Duration atMost) override {
         if (state_) {
             pollSockets({&control_, &*state_}, wake_, atMost);
         } else {

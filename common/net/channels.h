@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The channels of a show, as bytes: control in both directions and states one way between master
-// and nodes, over ZeroMQ or in memory in tests; frames one way from a node to the program that
+// The channels of a show, as bytes. Control goes both ways between master and nodes, states go one
+// way; over ZeroMQ, or in memory in tests. Frames go one way from a node to the program that
 // encodes a clip.
 #pragma once
 
@@ -26,11 +26,12 @@ namespace aquarama::net {
 using ByteView = std::span<const std::byte>;
 using ByteVector = std::vector<std::byte>;
 
-// A connection to the master, named by the master's socket; a new connection has a new name.
+// The name of a connection to the master, given by the master's socket; each new connection has a
+// new name.
 using PeerId = std::string;
 
-// A packet that the master received. `user`: whose key the connection has shown; empty without
-// keys.
+// A packet that the master received. `user`: the owner of the key that the connection has shown;
+// empty without keys.
 struct FromPeer {
     PeerId peer;
     ByteVector bytes;
@@ -41,49 +42,51 @@ struct FromPeer {
 struct KeyPair {
     std::string publicKey, secretKey;
 };
-// Of the system's random numbers.
+// A new pair, from the system's random numbers.
 [[nodiscard]] KeyPair makeKeyPair();
 
-// By public key: the user of each that may connect.
+// The users that may connect, by public key.
 using Allowed = std::map<std::string, std::string>;
-// Of a master past the loopback. `allowed` is asked again once a second, on a thread of its own, so
-// that a key can be revoked while a show runs; a user that is no longer in it is cut off. It must
-// not throw.
+// The keys of a master that other machines can reach. `allowed` is called once a second, on a
+// separate thread, so that a key can be revoked while a show runs: a user that is no longer in it
+// is disconnected. It must not throw.
 struct MasterKeys {
     KeyPair own;
     std::function<Allowed()> allowed;
 };
-// Of whoever connects to it.
+// The keys of a peer that connects to it.
 struct PeerKeys {
-    std::string master;  // public
+    std::string master;  // its public key
     KeyPair own;
 };
 
-// Largest packets that are accepted; a peer that sends a larger one is cut off.
+// Largest packets that are accepted; a peer that sends a larger one is disconnected.
 struct PacketLimits {
     std::size_t toMaster = std::size_t{64} << 10U;
     std::size_t toNode = std::size_t{64} << 20U;
 };
 
-// The master's end. One thread uses it; only wake() may be called from others. Nothing blocks but
-// wait(): a peer that does not read loses messages.
+// The master's end. One thread uses it; only wake() may be called from others. Only wait() blocks:
+// a peer that does not read loses messages.
 class MasterChannels {
   public:
     virtual ~MasterChannels() = default;
     virtual void sendControl(const PeerId& peer, ByteView bytes) = 0;
     [[nodiscard]] virtual std::optional<FromPeer> receiveControl() = 0;
     virtual void publishState(ByteView bytes) = 0;
-    // What strangers sent to the state channel since the last call: counted and thrown away.
+    // The number of messages that unknown peers sent to the state channel since the last call. They
+    // are discarded.
     [[nodiscard]] virtual std::size_t discardNoise() = 0;
     // Returns when something has arrived, after wake(), or after `atMost`.
-    virtual void wait(Instant atMost) = 0;
+    virtual void wait(Duration atMost) = 0;
     virtual void wake() = 0;
-    // As bound, with the port that was chosen.
+    // The addresses as bound, with the ports that were chosen.
     [[nodiscard]] virtual std::string controlAddress() const = 0;
     [[nodiscard]] virtual std::string stateAddress() const = 0;
 };
 
-// A node's end; as above. What is said before the connection stands is lost.
+// A node's end, with the same rules. Messages that are sent before the connection is established
+// are lost.
 class NodeChannels {
   public:
     virtual ~NodeChannels() = default;
@@ -91,7 +94,7 @@ class NodeChannels {
     [[nodiscard]] virtual std::optional<ByteVector> receiveControl() = 0;
     virtual void subscribeState(const std::string& address) = 0;
     [[nodiscard]] virtual std::optional<ByteVector> receiveState() = 0;
-    virtual void wait(Instant atMost) = 0;
+    virtual void wait(Duration atMost) = 0;
     virtual void wake() = 0;
 };
 
@@ -101,13 +104,14 @@ using Connect = std::function<std::unique_ptr<NodeChannels>()>;
 // Throws Error where an address such as "tcp://127.0.0.1:7400" is malformed, before a socket sees
 // it.
 void requireConnectAddress(const std::string& address);
-// The address to bind: port "*" is any free one, and "localhost", which may mean anything to a
-// resolver, is 127.0.0.1. Throws Error where it is malformed, or where it reaches past this machine
-// and there are no keys: everything past it is encrypted and authenticated.
+// The address to bind: port "*" is any free one; "localhost" is 127.0.0.1, as a resolver may return
+// another address. Throws Error where it is malformed, or where it is open to other machines and
+// there are no keys: such traffic must be encrypted and authenticated.
 [[nodiscard]] std::string bindAddress(const std::string& address, bool hasKeys = false);
 
-// Over ZeroMQ, with keys by CURVE alone: who shows none that is allowed is not heard. Throws Error:
-// malformed address, occupied port, an address past the loopback without keys, keys that are none.
+// The channels over ZeroMQ. With keys they accept CURVE only, and ignore peers without an allowed
+// key. Throws Error: malformed address, occupied port, an address that is open to other machines
+// without keys, invalid keys.
 [[nodiscard]] std::unique_ptr<MasterChannels> bindMaster(
     const std::string& controlAddress,
     const std::string& stateAddress,
@@ -124,17 +128,16 @@ struct RawFrame {
     std::vector<std::uint16_t> rgb;      // codes of 8 bits, red green blue, top row first
 };
 
-// The file of the socket through which the frames of a channel pass, in a private folder of the
-// run.
+// The path of the socket for the frames of a channel, in a private folder of the run.
 [[nodiscard]] std::filesystem::path frameSocket(const std::filesystem::path& folder,
                                                 const std::string& channel);
 
-// A node's end. Nothing waits on the disk: whoever draws waits for whoever encodes.
+// A node's end. Nothing is stored on disk: the node waits for the encoder.
 class FrameSender {
   public:
     // Waits until the receiver has taken all frames or has gone, a minute at most.
     virtual ~FrameSender() = default;
-    // Waits while two frames are on their way. Throws Error when the receiver has gone.
+    // Waits while two frames are in flight. Throws Error when the receiver has gone.
     virtual void send(const RawFrame& frame) = 0;
 };
 
@@ -143,8 +146,8 @@ class FrameReceiver {
   public:
     virtual ~FrameReceiver() = default;
     // Waits for the next frame. Empty when the sender has ended and all its frames were received,
-    // or when it has died; the last frames of one that died may be lost. Throws Error where
-    // something that is no frame has come.
+    // or when it has died; its last frames may then be lost. Throws Error where a message is not a
+    // frame.
     [[nodiscard]] virtual std::optional<RawFrame> receive() = 0;
 };
 
@@ -156,8 +159,8 @@ class FrameReceiver {
 
 // A queue between two threads, of bounded length.
 
-// One thread puts, one takes; a queue that is full holds up or refuses whoever puts. The lock is
-// held for a move only, never across a call into a socket or a driver.
+// One thread puts, one takes. A full queue blocks the thread that puts, or refuses the item. The
+// lock is held for a move only, never during a call into a socket or a driver.
 template <class T>
 class BoundedQueue {
   public:
@@ -172,7 +175,7 @@ class BoundedQueue {
         return true;
     }
 
-    // False: full or closed.
+    // Puts without waiting. False: full or closed.
     bool tryPut(T item) {
         const std::lock_guard lock(mutex_);
         if (closed_ || items_.size() >= capacity_) return false;
@@ -180,13 +183,14 @@ class BoundedQueue {
         return true;
     }
 
-    // For the thread that puts: once false, it stays false until that thread puts again.
+    // For the thread that puts: once it is false, it stays false until that thread puts again.
     [[nodiscard]] bool full() const {
         const std::lock_guard lock(mutex_);
         return items_.size() >= capacity_;
     }
 
-    // The oldest; empty where there is none. Also after close(), until nothing is left.
+    // Takes the oldest item; empty where there is none. After close() the remaining items can still
+    // be taken.
     std::optional<T> tryTake() {
         const std::lock_guard lock(mutex_);
         if (items_.empty()) return std::nullopt;
@@ -196,7 +200,7 @@ class BoundedQueue {
         return first;
     }
 
-    // Ends every wait; nothing is put from now on.
+    // Ends every wait; nothing can be put from now on.
     void close() {
         const std::lock_guard lock(mutex_);
         closed_ = true;

@@ -13,14 +13,14 @@
 
 namespace aquarama::net {
 
-Instant monotonicNow() {
-    return std::chrono::duration_cast<Instant>(std::chrono::steady_clock::now().time_since_epoch());
+Moment monotonicNow() {
+    return std::chrono::steady_clock::now().time_since_epoch();
 }
 
 bool runInRealTime(bool wanted) {
-    // By the kernel's call, of which the C library keeps no note: pthread_setschedparam's would
-    // pass on to new threads, whose priority the kernel has reset, and libzmq 4.3.5 ends on that
-    // conflict.
+    // Calls the kernel directly. With pthread_setschedparam the C library would remember the
+    // priority and pass it on to new threads, but the kernel resets theirs. On this conflict libzmq
+    // 4.3.5 ends the process.
     const sched_param priority{.sched_priority = wanted ? 10 : 0};
     const int policy = wanted ? SCHED_RR : SCHED_OTHER;
     return sched_setscheduler(0, policy | SCHED_RESET_ON_FORK, &priority) == 0;
@@ -31,16 +31,16 @@ bool isClockSynchronised() {
     return adjtimex(&asked) != TIME_ERROR && (asked.status & STA_UNSYNC) == 0;
 }
 
-void ClockOffset::add(Instant sent, Instant master, Instant received) {
-    if (received < sent) return;  // an echo of something that this clock never said
-    const Instant roundTrip = received - sent;
-    const Instant middle = sent + roundTrip / 2;
+void ClockOffset::add(Moment sent, Moment master, Moment received) {
+    if (received < sent) return;  // not the echo of a ping of this clock
+    const Duration roundTrip = received - sent;
+    const Moment middle = sent + roundTrip / 2;
     samples_.push_back({middle, master - middle, roundTrip});
     if (samples_.size() > kSamples) samples_.pop_front();
     if (++sinceWindow_ == kWindow) closeWindow();
 }
 
-// The sample with the shortest round trip; null where there is none yet.
+// The sample with the shortest round trip; null before the first one.
 const ClockOffset::Sample* ClockOffset::best() const {
     const auto shortest = std::ranges::min_element(samples_, {}, &Sample::roundTrip);
     return shortest == samples_.end() ? nullptr : &*shortest;
@@ -57,12 +57,13 @@ void ClockOffset::closeWindow() {
     fit();
 }
 
-// Least squares, each sample with the inverse square of its round trip as weight: what it may be
-// wrong by.
+// Least squares. The weight of a sample is the inverse square of its round trip, which is its
+// possible error.
 void ClockOffset::fit() {
     line_ = {};
     if (windows_.size() < kLeastWindows) return;
-    const Instant at = windows_.front().at, base = windows_.front().offset;
+    const Moment at = windows_.front().at;
+    const Duration base = windows_.front().offset;
     double sum = 0, t = 0, o = 0, tt = 0, to = 0;
     for (const Sample& sample : windows_) {
         const double error = static_cast<double>(sample.roundTrip.count()) + 1000;
@@ -80,39 +81,39 @@ void ClockOffset::fit() {
     const double slope = (sum * to - t * o) / spread;
     if (std::abs(slope) > kMostDrift) return;
     const auto atZero = static_cast<std::int64_t>((o - slope * t) / sum);
-    line_ = {at, base + Instant{atZero}, slope, true};
+    line_ = {at, base + Duration{atZero}, slope, true};
 }
 
-std::optional<Instant> ClockOffset::offset(Instant now) const {
+std::optional<Duration> ClockOffset::offset(Moment now) const {
     const Sample* sample = best();
     if (sample == nullptr) return std::nullopt;
     if (!line_.isKnown) return sample->offset;
     const double drifted = line_.slope * static_cast<double>((now - line_.at).count());
-    return line_.base + Instant{static_cast<std::int64_t>(drifted)};
+    return line_.base + Duration{static_cast<std::int64_t>(drifted)};
 }
 
-std::optional<Instant> ClockOffset::roundTrip() const {
+std::optional<Duration> ClockOffset::roundTrip() const {
     const Sample* sample = best();
     return sample != nullptr ? std::optional{sample->roundTrip} : std::nullopt;
 }
 
 namespace {
 
-// Between two blanks; any display's refresh rate is well within.
-constexpr Instant kShortestPeriod = std::chrono::milliseconds(2);
-constexpr Instant kLongestPeriod = std::chrono::milliseconds(100);
+// Limits of the time between two blanks; the refresh rate of any display is well within.
+constexpr Duration kShortestPeriod = std::chrono::milliseconds(2);
+constexpr Duration kLongestPeriod = std::chrono::milliseconds(100);
 
-Instant periodBetween(const auto& first, const auto& last) {
+Duration periodBetween(const auto& first, const auto& last) {
     return (last.at - first.at) / static_cast<std::int64_t>(last.count - first.count);
 }
 
 }  // namespace
 
-void BlankMeter::add(std::uint64_t count, Instant at) {
-    constexpr Instant kKept = std::chrono::seconds(5);
+void BlankMeter::add(std::uint64_t count, Moment at) {
+    constexpr Duration kKept = std::chrono::seconds(5);
     const Blank blank{count, at};
     if (!seen_.empty() && count == seen_.back().count) return;
-    // Another mode, another display, or a driver that dates by another clock.
+    // The mode or the display has changed, or the driver uses another clock.
     if (!seen_.empty() && (count < seen_.back().count || at <= seen_.back().at ||
                            periodBetween(seen_.back(), blank) < kShortestPeriod ||
                            periodBetween(seen_.back(), blank) > kLongestPeriod))
@@ -122,27 +123,27 @@ void BlankMeter::add(std::uint64_t count, Instant at) {
 }
 
 std::optional<Blanks> BlankMeter::blanks() const {
-    constexpr Instant kLeast = std::chrono::seconds(1);
+    constexpr Duration kLeast = std::chrono::seconds(1);
     if (seen_.empty() || seen_.back().at - seen_.front().at < kLeast) return std::nullopt;
     return Blanks{seen_.back().at, periodBetween(seen_.front(), seen_.back())};
 }
 
-void RecentTimes::add(Instant time) {
+void RecentTimes::add(Duration time) {
     times_.push_back(time);
     if (times_.size() > kKept) times_.pop_front();
 }
 
-std::vector<std::uint32_t> RecentTimes::countsUpTo(std::span<const Instant> edges) const {
+std::vector<std::uint32_t> RecentTimes::countsUpTo(std::span<const Duration> edges) const {
     std::vector<std::uint32_t> counts(edges.size() + 1, 0);
-    for (const Instant time : times_)
+    for (const Duration time : times_)
         ++counts[static_cast<std::size_t>(std::ranges::lower_bound(edges, time) - edges.begin())];
     return counts;
 }
 
-void RecentPeak::add(Instant now, Instant time) {
-    constexpr Instant kTenth = std::chrono::milliseconds(100);
+void RecentPeak::add(Moment now, Duration time) {
+    constexpr Duration kTenth = std::chrono::milliseconds(100);
     if (now - begun_ >= kTenth) {
-        before_ = std::exchange(largest_, Instant{});
+        before_ = std::exchange(largest_, Duration{});
         begun_ = now;
     }
     largest_ = std::max(largest_, time);
@@ -154,7 +155,7 @@ float RecentTimes::quantileMs(double quantile) const {
     assert(quantile >= 0);
     assert(quantile <= 1);
     if (times_.empty()) return 0.0F;
-    std::vector<Instant> sorted(times_.begin(), times_.end());
+    std::vector<Duration> sorted(times_.begin(), times_.end());
     const auto rank =
         static_cast<std::ptrdiff_t>(quantile * static_cast<double>(sorted.size() - 1));
     std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Instants of this machine's monotonic clock, threads that wake on time, and how a node learns
-// where the master's stands.
+// This machine's monotonic clock, real-time priority of threads, and the offset of the master's
+// clock.
 #pragma once
 
 #include <chrono>
@@ -13,51 +13,58 @@
 
 namespace aquarama::net {
 
-// A moment or a duration of the monotonic clock.
-using Instant = std::chrono::nanoseconds;  // since the epoch of CLOCK_MONOTONIC
+// A point in time, since the epoch of CLOCK_MONOTONIC of this machine, or of the master's where the
+// name says so.
+using Moment = std::chrono::nanoseconds;
+// The time between two moments.
+using Duration = std::chrono::nanoseconds;
+// One of the two, in code that does not tell them apart.
+using Instant = std::chrono::nanoseconds;
 
-// For figures.
-[[nodiscard]] inline double secondsIn(Instant duration) {
+// A duration in seconds, for figures.
+[[nodiscard]] inline double secondsIn(Duration duration) {
     return std::chrono::duration<double>(duration).count();
 }
 
 // Now, on CLOCK_MONOTONIC of this machine.
-[[nodiscard]] Instant monotonicNow();
+[[nodiscard]] Moment monotonicNow();
 
-// Asks the kernel to run the calling thread as soon as it wakes, before all that has no such
-// priority; threads that it starts later have none. Or ends that. False where this user may not.
+// Gives the calling thread real-time priority, or takes it away. The kernel then runs it as soon as
+// it wakes, before threads without it. Threads that it starts later do not inherit it. False where
+// the user lacks the permission.
 bool runInRealTime(bool wanted = true);
 
-// Whether the kernel holds this machine's clock to others', by chrony, ntpd or PTP.
+// Whether this machine's clock is synchronised with other clocks, by chrony, ntpd or PTP.
 [[nodiscard]] bool isClockSynchronised();
 
-// The master's clock minus the node's, from round trips. A reply tells the offset to within half
-// its round trip, and queues only ever add to one: so the shortest of every second or so is
-// believed. Clocks of two machines also run at different rates, some 10 to 100 ppm apart: after six
-// seconds a line is laid through what was believed, and followed. Of the net thread.
+// The master's clock minus the node's, from round trips. A reply gives the offset to within half
+// its round trip, and queues only make round trips longer. So it uses the shortest round trip of
+// about each second. The clocks of two machines also run at different rates, 10 to 100 ppm apart.
+// So after six seconds it fits a line through the offsets and follows that. Used by the net thread.
 class ClockOffset {
   public:
     // A ping left at `sent`, was answered at `master` (master's clock) and came back at `received`.
-    void add(Instant sent, Instant master, Instant received);
-    // At a moment of the node's clock; empty before the first round trip.
-    [[nodiscard]] std::optional<Instant> offset(Instant now) const;
-    [[nodiscard]] std::optional<Instant> roundTrip() const;  // the shortest of the last seconds
-    // By how much the master's clock runs faster, parts per million; 0 while it is not known.
+    void add(Moment sent, Moment master, Moment received);
+    // The offset at a moment of the node's clock; empty before the first round trip.
+    [[nodiscard]] std::optional<Duration> offset(Moment now) const;
+    [[nodiscard]] std::optional<Duration> roundTrip() const;  // the shortest of the last seconds
+    // How much faster the master's clock runs, parts per million; 0 while it is unknown.
     [[nodiscard]] double driftPpm() const { return line_.slope * 1e6; }
 
   private:
     struct Sample {
-        Instant at;  // of the node's clock, half-way
-        Instant offset, roundTrip;
+        Moment at;  // of the node's clock, half-way
+        Duration offset, roundTrip;
     };
     // offset = base + slope (now - at)
     struct Line {
-        Instant at{}, base{};
+        Moment at{};
+        Duration base{};
         double slope = 0;
         bool isKnown = false;
     };
     [[nodiscard]] const Sample* best() const;
-    // Keeps the best of the samples that make a window, and fits the line again.
+    // Keeps the best sample of the window, and fits the line again.
     void closeWindow();
     void fit();
 
@@ -65,28 +72,29 @@ class ClockOffset {
     static constexpr std::size_t kWindow = 16;
     static constexpr std::size_t kWindows = 32;      // 26 s
     static constexpr std::size_t kLeastWindows = 8;  // for a line
-    static constexpr double kMostDrift = 500e-6;     // more is no clock's drift, but noise
+    static constexpr double kMostDrift = 500e-6;     // a larger value is noise, not drift
     std::deque<Sample> samples_, windows_;
     std::size_t sinceWindow_ = 0;
     Line line_;
 };
 
-// The vertical blanks of a display: at `last`, and at every `period` before and after it.
+// The vertical blanks of a display: one at `last`, and one at every `period` before and after it.
 struct Blanks {
-    Instant last{}, period{};
+    Moment last{};
+    Duration period{};
 };
 
-// Finds the period of a display from blanks that its driver counts and dates.
+// Finds the period of a display from blanks that its driver counts and time-stamps.
 class BlankMeter {
   public:
-    void add(std::uint64_t count, Instant at);
-    // Empty until a second has been seen without a jump.
+    void add(std::uint64_t count, Moment at);
+    // Empty until a second has passed without a jump.
     [[nodiscard]] std::optional<Blanks> blanks() const;
 
   private:
     struct Blank {
         std::uint64_t count;
-        Instant at;
+        Moment at;
     };
     std::deque<Blank> seen_;  // of the last five seconds
 };
@@ -94,27 +102,28 @@ class BlankMeter {
 // The last 600 durations: of frames, ten seconds at 60 Hz.
 class RecentTimes {
   public:
-    void add(Instant time);
+    void add(Duration time);
     [[nodiscard]] float quantileMs(
         double quantile) const;  // quantile 0 to 1; 0 where there is nothing yet
-    // How many are up to each of these edges, which ascend, and above the one before; last those
-    // above all.
-    [[nodiscard]] std::vector<std::uint32_t> countsUpTo(std::span<const Instant> edges) const;
+    // A histogram: for each edge the durations up to it and above the edge before; last those above
+    // all edges. Edges ascend.
+    [[nodiscard]] std::vector<std::uint32_t> countsUpTo(std::span<const Duration> edges) const;
 
   private:
     static constexpr std::size_t kKept = 600;
-    std::deque<Instant> times_;
+    std::deque<Duration> times_;
 };
 
-// The longest of a few recent durations: of this tenth of a second and of the one before in which
-// there were any. So whoever asks ten times a second misses none.
+// The longest recent duration: of this tenth of a second, and of the last tenth before it that had
+// any. A reader that asks ten times a second misses none.
 class RecentPeak {
   public:
-    void add(Instant now, Instant time);
+    void add(Moment now, Duration time);
     [[nodiscard]] float ms() const;  // 0 where there is nothing yet
 
   private:
-    Instant begun_{}, before_{}, largest_{};
+    Moment begun_{};  // this tenth of a second
+    Duration before_{}, largest_{};
 };
 
 }  // namespace aquarama::net

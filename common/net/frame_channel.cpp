@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames of a channel on their way to a clip: PUSH and PULL over a socket of the file system. Each
-// end watches the connection, so that one that ends in whatever way never holds up the other. The
-// last message is empty; it is the receiver that closes the connection then, since ZeroMQ drops
-// what it has not read of one that the sender closes.
+// end watches the connection, so that an end that dies never blocks the other. The last message is
+// empty. The receiver then closes the connection: if the sender did, ZeroMQ would drop messages
+// that the receiver has not read.
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -18,7 +18,7 @@ namespace {
 constexpr int kFrameQueue = 2;  // frames that wait at either end
 constexpr std::size_t kMostFrameBytes = std::size_t{256} << 20U;
 constexpr auto kPatience = std::chrono::seconds(30);    // for a receiver to come
-constexpr auto kLastFrames = std::chrono::seconds(60);  // for it to take what is on its way
+constexpr auto kLastFrames = std::chrono::seconds(60);  // for it to take the frames in flight
 constexpr std::chrono::milliseconds kBetweenLooks{100};
 
 // Before the codes of each frame; both ends are on one machine.
@@ -63,7 +63,7 @@ class PeerWatch {
         readEvents();
         return gone_;
     }
-    // To be polled beside the watched socket.
+    // The socket to poll together with the watched one.
     [[nodiscard]] void* handle() { return events_.handle(); }
 
   private:
@@ -90,13 +90,14 @@ class ZmqFrameSender final : public FrameSender {
         : socket_(openSocket(context_, zmq::socket_type::push, kFrameQueue, kMostFrameBytes)),
           receiver_(context_, socket_) {
         socket_.set(zmq::sockopt::linger, 0);
-        socket_.set(zmq::sockopt::immediate, true);  // frames queue for a receiver that is there
+        socket_.set(zmq::sockopt::immediate,
+                    true);  // frames are queued only for a connected receiver
         try {
             socket_.connect(addressOf(path));
         } catch (const zmq::error_t& error) {
             refuse(path, error.what());
         }
-        const Instant giveUp = monotonicNow() + kPatience;
+        const Moment giveUp = monotonicNow() + kPatience;
         while (!receiver_.hasCome()) {
             if (monotonicNow() > giveUp) refuse(path, "nobody receives them");
             std::array items{zmq::pollitem_t{receiver_.handle(), 0, ZMQ_POLLIN, 0}};
@@ -104,7 +105,7 @@ class ZmqFrameSender final : public FrameSender {
         }
     }
     ~ZmqFrameSender() override {
-        const Instant giveUp = monotonicNow() + kLastFrames;
+        const Moment giveUp = monotonicNow() + kLastFrames;
         zmq::message_t end;
         bool said = false;
         while (!receiver_.hasGone() && monotonicNow() < giveUp) {
@@ -128,7 +129,7 @@ class ZmqFrameSender final : public FrameSender {
                                [](std::uint16_t code) { return static_cast<std::uint8_t>(code); });
         while (receiver_.hasGone() || !trySend(message)) {
             if (receiver_.hasGone())
-                throw Error("the clip's frames are received no longer; see what its encoder said");
+                throw Error("the encoder of the clip has ended; see its message");
             std::array items{zmq::pollitem_t{socket_.handle(), 0, ZMQ_POLLOUT, 0},
                              zmq::pollitem_t{receiver_.handle(), 0, ZMQ_POLLIN, 0}};
             pollItems(items, std::chrono::milliseconds(-1));
@@ -172,7 +173,7 @@ class ZmqFrameReceiver final : public FrameReceiver {
         if (ended_) return std::nullopt;
         zmq::message_t message;
         while (!net::receive(socket_, message)) {
-            if (sender_.hasGone()) {  // without an end: it has died
+            if (sender_.hasGone()) {  // no end was sent: the sender has died
                 if (net::receive(socket_, message)) break;
                 return end();
             }
@@ -197,7 +198,7 @@ class ZmqFrameReceiver final : public FrameReceiver {
         std::memcpy(&header, message.data(), std::min(message.size(), sizeof header));
         if (header.width < 0 || header.height < 0 ||
             message.size() != sizeof header + codesIn(header))
-            throw Error(name_ + ": something that is no frame has come; use nodes of this version");
+            throw Error(name_ + ": a message is not a frame; use nodes of this version");
         const auto* codes = message.data<std::uint8_t>() + sizeof header;
         return {header.frame, header.width, header.height, {codes, codes + codesIn(header)}};
     }

@@ -21,7 +21,7 @@
 namespace aquarama::net {
 namespace {
 
-// Upper ends, seconds: fine where a release or a refresh of 60 Hz lies, coarse beyond.
+// Upper limits of the buckets, seconds: fine near a release and a refresh of 60 Hz, coarse above.
 const prometheus::Histogram::BucketBoundaries& buckets() {
     static const prometheus::Histogram::BucketBoundaries ends{0.0001,
                                                               0.0002,
@@ -52,7 +52,7 @@ void knockAt(std::uint16_t port) {
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    // Whether it is taken does not matter.
+    // A failed attempt does not matter.
     static_cast<void>(
         connect(connection, reinterpret_cast<const sockaddr*>(&address), sizeof address));
     close(connection);
@@ -82,8 +82,7 @@ Metrics::Metrics(std::uint16_t port) : impl_(std::make_unique<Impl>()) {
     }
 }
 
-// civetweb, which serves, looks every two seconds whether it shall end, and whenever somebody
-// comes.
+// The server, civetweb, checks whether it shall end every two seconds and with each connection.
 Metrics::~Metrics() {
     if (!impl_->exposer) return;
     const std::jthread knocking([port = impl_->port](const std::stop_token& ended) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures of a process, served as text for Prometheus.
+// Figures of a process, served to Prometheus as text.
 #pragma once
 
 #include <cstdint>
@@ -10,36 +10,37 @@
 
 namespace aquarama::net {
 
-// Sets or adds to one series; from any thread, without waiting for a reader.
+// Sets one series or adds to it; from any thread, without waiting for a reader.
 using Record = std::function<void(double)>;
-// What tells the series of one name apart: {"node", "left"}.
+// The labels that distinguish the series of one name: {"node", "left"}.
 using Labels = std::map<std::string, std::string>;
 
 // The figures of one process. Names and units follow Prometheus: aquarama_frame_seconds,
-// aquarama_late_total. A name has one kind and one help text; made again with other labels it is
-// another series of it.
+// aquarama_late_total. A name has one kind and one help text; with other labels it is another
+// series.
 class Metrics {
   public:
-    // Served at http://127.0.0.1:PORT/metrics, by threads of its own, to this machine only. Port 0:
-    // nowhere. Where the port is taken the log says so, and the figures are served nowhere.
+    // Serves the figures at http://127.0.0.1:PORT/metrics, on its own threads, to this machine
+    // only. Port 0: not served. Where the port is taken it logs that, and the figures are not
+    // served.
     explicit Metrics(std::uint16_t port);
     ~Metrics();
     Metrics(const Metrics&) = delete;
     Metrics& operator=(const Metrics&) = delete;
 
-    // The value now.
+    // A series that is set to its present value.
     [[nodiscard]] Record gauge(const std::string& name,
                                const std::string& help,
                                const Labels& labels = {});
-    // The total so far; a smaller one than before is ignored.
+    // A series of totals; a smaller total than before is ignored.
     [[nodiscard]] Record counter(const std::string& name,
                                  const std::string& help,
                                  const Labels& labels = {});
-    // One duration in seconds, counted into buckets from 0.1 ms to 1 s.
+    // A series of durations in seconds, counted in buckets from 0.1 ms to 1 s.
     [[nodiscard]] Record histogram(const std::string& name,
                                    const std::string& help,
                                    const Labels& labels = {});
-    // All of it, in Prometheus' text format.
+    // All figures, in Prometheus' text format.
     [[nodiscard]] std::string text() const;
 
   private:

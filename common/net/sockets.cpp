@@ -17,9 +17,9 @@
 namespace aquarama::net {
 namespace {
 
-constexpr int kReconnectMs = 50;  // a master that restarts is found at once
+constexpr int kReconnectMs = 50;  // a restarted master is found within this time
 constexpr int kReconnectMaxMs = 500;
-constexpr int kHandshakeMs = 2000;  // after which a connection that says nothing is closed
+constexpr int kHandshakeMs = 2000;  // after which a silent connection is closed
 constexpr std::string_view kTcp = "tcp://";
 
 // An address "tcp://HOST:PORT" in its parts.
@@ -49,7 +49,7 @@ std::optional<std::string> ipv6In(const std::string& host) {
     return inner;
 }
 
-// Throws Error where it has no such parts; the port is left to the caller.
+// Throws Error where it has no such parts; the port is checked by the caller.
 Endpoint split(const std::string& address) {
     const std::size_t colon = address.rfind(':');
     if (!address.starts_with(kTcp) || colon == std::string::npos || colon < kTcp.size()) {
@@ -78,7 +78,7 @@ ByteVector bytesOf(const zmq::message_t& message) {
     return {first, first + message.size()};
 }
 
-// Only where it is asked for: else the address that was bound is reported in IPv6 form.
+// IPv6 only where the address has it: otherwise the bound address would be reported in IPv6 form.
 void allowIpv6(zmq::socket_t& socket, const std::string& address) {
     socket.set(zmq::sockopt::ipv6, address.find('[') != std::string::npos);
 }
@@ -111,7 +111,8 @@ WakeEvent::~WakeEvent() {
     close(descriptor_);
 }
 
-// A full counter cannot be raised further and an empty one not be read: both mean what is wanted.
+// A full counter cannot be raised and an empty one cannot be read; in both cases the state is
+// already the wanted one.
 void WakeEvent::set() const {
     const std::uint64_t one = 1;
     [[maybe_unused]] const auto written = write(descriptor_, &one, sizeof one);
@@ -169,7 +170,7 @@ void setKeys(zmq::socket_t& socket, const KeyPair& own) {
 }
 
 [[noreturn]] void refuseKeys() {
-    throw Error("a key is none of CurveZMQ; make new ones (aquarama keys new)");
+    throw Error("a key is not a valid CurveZMQ key; make new ones (aquarama keys new)");
 }
 
 }  // namespace
@@ -178,7 +179,7 @@ KeyPair makeKeyPair() {
     std::array<char, 41> publicKey{};
     std::array<char, 41> secretKey{};
     if (zmq_curve_keypair(publicKey.data(), secretKey.data()) != 0)
-        throw Error("this libzmq makes no keys; install one with libsodium");
+        throw Error("this libzmq cannot make keys; install one with libsodium");
     return {publicKey.data(), secretKey.data()};
 }
 
@@ -220,7 +221,7 @@ bool Doorkeeper::isAllowed(const std::string& user) const {
 
 void Doorkeeper::serve() {
     constexpr std::chrono::milliseconds kBetweenLooks{100};
-    Instant lastRead = monotonicNow();
+    Moment lastRead = monotonicNow();
     while (!ended_) {
         std::array items{zmq::pollitem_t{requests_.handle(), 0, ZMQ_POLLIN, 0}};
         try {
@@ -234,17 +235,17 @@ void Doorkeeper::serve() {
     }
 }
 
-// A connection costs memory: who shows the same key again and again is not let in for a while.
+// A connection costs memory: a user that connects too often is refused for a while.
 std::string Doorkeeper::userOf(const std::string& binaryKey) {
     constexpr int kMostHandshakes = 100;
-    constexpr Instant kWithin = std::chrono::seconds(10);
+    constexpr Duration kWithin = std::chrono::seconds(10);
     std::array<char, 41> key{};
     zmq_z85_encode(key.data(), reinterpret_cast<const std::uint8_t*>(binaryKey.data()), 32);
     const std::lock_guard lock(mutex_);
     const auto known = allowed_.find(key.data());
     if (known == allowed_.end()) return {};
     Handshakes& handshakes = handshakes_[known->second];
-    const Instant now = monotonicNow();
+    const Moment now = monotonicNow();
     if (now - handshakes.since > kWithin) handshakes = {now, 0};
     if (++handshakes.count <= kMostHandshakes) return known->second;
     if (handshakes.count == kMostHandshakes + 1)
@@ -272,7 +273,7 @@ void Doorkeeper::answer(zmq::socket_t& requests) {
         for (std::size_t i = 0; i < reply.size(); ++i)
             requests.send(zmq::buffer(reply[i]),
                           i + 1 < reply.size() ? zmq::send_flags::sndmore : zmq::send_flags::none);
-    } catch (const zmq::error_t&) {  // whoever asked is gone
+    } catch (const zmq::error_t&) {  // the peer that asked has gone
     }
 }
 
@@ -316,17 +317,17 @@ std::optional<ByteVector> receiveSingle(zmq::socket_t& socket, zmq::message_t& f
 
 void pollSockets(std::initializer_list<zmq::socket_t*> sockets,
                  const WakeEvent& wake,
-                 Instant atMost) {
+                 Duration atMost) {
     std::array<zmq::pollitem_t, 3> items{};
     std::size_t count = 0;
     for (zmq::socket_t* socket : sockets) {
         items[count++] = {socket->handle(), 0, ZMQ_POLLIN, 0};
     }
     items[count++] = {nullptr, wake.descriptor(), ZMQ_POLLIN, 0};
-    const auto ms = std::chrono::ceil<std::chrono::milliseconds>(std::max(atMost, Instant{0}));
+    const auto ms = std::chrono::ceil<std::chrono::milliseconds>(std::max(atMost, Duration{0}));
     try {
         zmq::poll(items.data(), count, ms);
-    } catch (const zmq::error_t&) {  // a signal: the caller looks around and waits again
+    } catch (const zmq::error_t&) {  // a signal: the caller checks its state and waits again
     }
     if ((items[count - 1].revents & ZMQ_POLLIN) != 0) wake.clear();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all channels over ZeroMQ have in common; included by the sources of this folder only.
-// Messages are single-part (the ROUTER's address part aside), queues are short: a peer that stalls
-// costs a few frames of memory and nobody else's time.
+// Sockets of ZeroMQ, as all channels use them; included by the sources of this folder only. A
+// message has a single part, besides the address of a ROUTER. Queues are short: a stalled peer
+// costs memory for a few frames, and no time of others.
 #pragma once
 
 #include <atomic>
@@ -35,24 +35,25 @@ class WakeEvent {
     int descriptor_;
 };
 
-// A socket that queues so many messages each way, and cuts off a peer that sends a larger one.
+// A socket with queues of this length in each direction. It disconnects a peer that sends a larger
+// message.
 [[nodiscard]] zmq::socket_t openSocket(zmq::context_t& context,
                                        zmq::socket_type type,
                                        int queue,
                                        std::size_t maxBytes);
 
-// Over TCP. Throw Error: a malformed address, one past the loopback without keys, an occupied port.
+// Bind and connect over TCP. Throw Error: a malformed address, one that is open to other machines
+// without keys, an occupied port.
 void bindSocket(zmq::socket_t& socket, const std::string& address, bool hasKeys);
 void connectSocket(zmq::socket_t& socket, const std::string& address);
 
-// Before the socket is bound or connected: it speaks CURVE from now on. Throw Error where a key is
-// none.
+// Switch the socket to CURVE, before it is bound or connected. Throw Error where a key is invalid.
 void requireKeys(zmq::socket_t& socket, const KeyPair& own);
 void showKeys(zmq::socket_t& socket, const PeerKeys& keys);
 
-// Says who may connect to the sockets of a context that require keys (ZAP, ZeroMQ's RFC 27), on a
-// thread of its own: a flood of strangers takes no time from the frames. Made before the sockets,
-// ended after them.
+// Decides which peers may connect to the sockets of a context that require keys (ZAP, ZeroMQ's RFC
+// 27). It runs on its own thread, so that a flood of unknown peers takes no time from the frames.
+// Construct it before the sockets, and destroy it after them.
 class Doorkeeper {
   public:
     Doorkeeper(zmq::context_t& context, std::function<Allowed()> allowed);
@@ -65,14 +66,14 @@ class Doorkeeper {
     [[nodiscard]] bool hasRevoked() { return revoked_.exchange(false); }
 
   private:
-    // Of a user, in the last ten seconds.
+    // Handshakes of a user in the last ten seconds.
     struct Handshakes {
-        Instant since{};
+        Moment since{};
         int count = 0;
     };
     void serve();
     void answer(zmq::socket_t& requests);
-    // Empty where this key is not to be let in.
+    // The user of this key; empty where it may not connect.
     [[nodiscard]] std::string userOf(const std::string& binaryKey);
     void readAgain();
 
@@ -86,20 +87,20 @@ class Doorkeeper {
     std::thread thread_;
 };
 
-// Where no space is left the message is dropped: the protocol repeats what matters.
+// Sends a message, or drops it where the queue is full: the protocol repeats important messages.
 void sendOrDrop(zmq::socket_t& socket, ByteView bytes);
 
-// Never wait. False or empty: nothing has arrived. A message of several parts reads as empty bytes
-// where one part is expected.
+// Receive without waiting. False or empty: nothing has arrived. A message of several parts reads as
+// empty bytes where one part is expected.
 [[nodiscard]] bool receive(zmq::socket_t& socket, zmq::message_t& message);
 [[nodiscard]] std::optional<ByteVector> receiveSingle(zmq::socket_t& socket);
-// `first`: its first part, for what ZeroMQ knows of the sender.
+// `first`: the first part, which has ZeroMQ's properties of the sender.
 [[nodiscard]] std::optional<ByteVector> receiveSingle(zmq::socket_t& socket, zmq::message_t& first);
 
 // Waits until one of these sockets has a message, `wake` was set (it is cleared), a signal has
 // come, or `atMost` is over.
 void pollSockets(std::initializer_list<zmq::socket_t*> sockets,
                  const WakeEvent& wake,
-                 Instant atMost);
+                 Duration atMost);
 
 }  // namespace aquarama::net

@@ -48,7 +48,7 @@ struct RockGroup {
     glm::vec2 xz;
     float radiusMetres;
     int satellites;
-    // How many boulders are piled upon the first.
+    // How many boulders are piled on the first.
     int storeys = 0;
 };
 constexpr std::array kRockGroups{
@@ -67,7 +67,7 @@ constexpr std::array kRockGroups{
     RockGroup{{10.2F, -6.0F}, 1.9F, 4, 2},
     RockGroup{{14.4F, -11.0F}, 2.9F, 4, 3},
     RockGroup{{16.5F, -8.0F}, 2.6F, 3, 2},
-    // More of the left and of the middle.
+    // More rocks of the left and of the middle.
     RockGroup{{-9.6F, -7.7F}, 2.2F, 3, 3},
     RockGroup{{-9.2F, -12.6F}, 1.5F, 4, 1},
     RockGroup{{-14.6F, -7.0F}, 2.6F, 3, 2},
@@ -82,7 +82,7 @@ constexpr std::array kRockGroups{
     RockGroup{{25.0F, -5.0F}, 3.6F, 3, 2},
 };
 
-// An arch beyond the great head, its stones by their place and height above the sand.
+// An arch beyond the great head; each stone with its place and height above the sand.
 struct ArchStone {
     glm::vec2 offset;
     float heightMetres;

@@ -78,8 +78,8 @@ inline constexpr float kPi = 3.14159265F;
 // valueNoise() for each octave.
 [[nodiscard]] float fractalNoise(std::uint32_t seed, glm::vec2 place, int octaves);
 
-// The place: sea floor, rocks and plants as functions of its kind and a seed, the same in the
-// master (avoidance) and the nodes (drawing).
+// The place: sea floor, rocks and plants as functions of its kind and a seed, equal in the master,
+// for avoidance, and in the nodes, for drawing.
 
 // World frame: metres, Y up. The surface of the sea is the plane y = 0; the reef's eye is at
 // kEyePosition, looking along -Z.
@@ -87,7 +87,7 @@ inline constexpr glm::vec3 kEyePosition{0.0F, -6.0F, 0.0F};
 inline constexpr float kMeanFloorDepthMetres = 8.6F;  // of the reef
 inline constexpr float kOpenSeaFloorDepthMetres = 60.0F;
 
-// All that a place follows from: equal keys have equal places on every machine.
+// The parameters of a place: equal keys have equal places on every machine.
 struct PlaceKey {
     std::uint32_t seed = 0;
     config::PlaceKind kind = config::PlaceKind::Reef;
@@ -104,7 +104,7 @@ struct Rock {
     float radiusMetres = 0.0F;
     std::uint32_t seed = 0;
 };
-// Made anew at every call; none in the open sea.
+// All rocks, computed at every call; none in the open sea.
 [[nodiscard]] std::vector<Rock> rocksOf(const PlaceKey& place);
 
 // What a plant looks like.
@@ -117,7 +117,7 @@ struct Plant {
     float heightMetres = 0.0F;
     std::uint32_t seed = 0;
 };
-// Made anew at every call, rocks included; none in the open sea.
+// All plants, computed at every call with the rocks; none in the open sea.
 [[nodiscard]] std::vector<Plant> plantsOf(const PlaceKey& place);
 
 // The water in which the school lives, as a box in the world frame (metres): fish keep inside it.
@@ -127,7 +127,7 @@ struct Region {
     glm::vec3 halfExtent{};
 };
 
-// How much water a scene gives to how many fish.
+// The water that a scene has for a number of fish.
 
 // The water of a scene for so many fish of a mean length: the scene's own box, or a larger one with
 // SceneWater::leastLengthsCubed for each fish. It grows to both sides and away from the eye; in the
@@ -138,12 +138,13 @@ struct Region {
 // metres, below the surface. It ignores the sand.
 [[nodiscard]] Region roamingRegion(const Region& fishWater, glm::vec3 eye);
 
-// How many fish have room: a reef is bounded by its rocks, the open sea only by kMostFish.
+// How many fish have room: a reef is limited by its rocks, the open sea only by kMostFish.
 [[nodiscard]] std::uint32_t mostFishIn(const config::Scene& scene, float meanLengthMetres);
 
-// Throws Error at the first member's place in the scene's file where `fish`, of all members, are
-// more than have room; and at the place of the box, the eye or a stop of the tour where it is below
-// the floor, or where a stop is outside of roamingRegion(). The scene has at least one member.
+// Throws Error where `fish`, the number of all members, is more than there is room for; it names
+// the place of the first member in the scene's file. Also throws Error, naming its place, where the
+// box, the eye or a stop of the tour is below the floor, or a stop is outside of roamingRegion().
+// The scene has at least one member.
 void checkRoom(const config::Scene& scene,
                const std::string& scenePath,
                std::size_t fish,

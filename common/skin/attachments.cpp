@@ -296,7 +296,7 @@ void addThread(const body::FishBody& body,
 
 using Face = std::array<std::uint16_t, 4>;
 
-// Off the base of a fin; vertices of the base count as the body's.
+// Whether a vertex lies off the base of a fin; vertices of the base count as the body's.
 bool onFin(const body::CageVertex& vertex) {
     return vertex.fin.y > 0.0F;
 }

@@ -38,12 +38,13 @@ class RestBinding {
     glm::mat4 weightsFromRest_{1.0F};
 };
 
-// Parts that are too small for the cage, bound to it and drawn with the skin: eyes as balls that
-// are set into the head, whips, lone spines and barbels. The same at every level of detail.
+// Parts that are too small for the cage: eyes, as balls that are set into the head, whips, lone
+// spines and barbels. They are bound to the cage, drawn with the skin, and the same at every level
+// of detail.
 struct Attachments {
     // A vertex of such a part.
     struct Vertex {
-        std::vector<StencilEntry> entries;  // as a vertex of the surface has them
+        std::vector<StencilEntry> entries;  // in the form of a surface's vertex
         // Without the height on the body (rest.w), which makeLimitTable() fills in.
         SkinPlace place;
     };

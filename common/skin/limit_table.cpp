@@ -64,7 +64,7 @@ std::unique_ptr<Far::TopologyRefiner> refine(const body::ControlCage& cage) {
     using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
     std::unique_ptr<Far::TopologyRefiner> refiner{
         Factory::Create(descriptor, Factory::Options(Sdc::SCHEME_CATMARK, Sdc::Options()))};
-    if (!refiner) throw Error("the control cage is no surface that OpenSubdiv accepts");
+    if (!refiner) throw Error("OpenSubdiv does not accept the control cage as a surface");
     refiner->RefineAdaptive(Far::TopologyRefiner::AdaptiveOptions(kIsolationLevel));
     return refiner;
 }
@@ -99,7 +99,7 @@ std::unique_ptr<const Far::LimitStencilTable> limitStencils(
         Far::LimitStencilTableFactory::Create(refiner, arrays, nullptr, nullptr, options)};
 }
 
-// One stencil as entries, without those that are all zero.
+// One stencil as entries, without entries that are all zero.
 std::vector<StencilEntry> entriesOf(const Far::LimitStencilTable& stencils, std::size_t stencil) {
     const auto first = static_cast<std::size_t>(stencils.GetOffsets()[stencil]);
     const auto size = static_cast<std::size_t>(stencils.GetSizes()[stencil]);

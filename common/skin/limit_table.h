@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of a species at each level of detail, as tables that the compute shaders read. Made
-// once at the start or read from the cache of derived data; never changed afterwards.
+// The surface of a species at each level of detail, as tables for the compute shaders. They are
+// made once at the start, or read from the cache of derived data, and never change.
 #pragma once
 
 #include <array>
@@ -97,10 +97,11 @@ struct SkinPoint {
 // level: 0 to kSurfaceLevels - 1. Takes 5 to 50 ms. Throws Error where OpenSubdiv refuses the cage.
 [[nodiscard]] LimitTable makeLimitTable(const body::FishBody& body, int level);
 
-// How a level of detail refines the next coarser one, so that a mesh can change between them
-// without a jump. For each vertex of makeLimitTable(body, level) two vertices of the same table:
-// the triangles of the coarser level have it in the middle between them. Twice itself for vertices
-// that the coarser level has too. level is at least 1; coarser is makeLimitTable(body, level - 1).
+// How a level of detail refines the next coarser one, so that a mesh changes between them without a
+// jump. For each vertex of makeLimitTable(body, level) it has two vertices of the same table; on
+// the triangles of the coarser level the vertex lies in the middle between them. Both are the
+// vertex itself where the coarser level has it too. level is at least 1; coarser is
+// makeLimitTable(body, level - 1).
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> coarserParents(const body::FishBody& body,
                                                                        int level,
                                                                        const LimitTable& coarser);

@@ -193,7 +193,7 @@ fish::Course hunt(const Situation& situation, fish::Mind& mind, DeferredEvents& 
     const fish::FishView& view = *situation.environment.view;
     const Sighting& prey = senses.prey;
     const glm::vec3 fromMouth =
-        prey.offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
+        prey.offset - senses.heading * (fish::kNoseBodyLengths * senses.length);
     if (isInTheMouth(senses, fromMouth))
         events.push_back({fish::DeferredEventKind::EatFish, situation.fish, prey.object});
     if (mind.stage == static_cast<std::uint8_t>(HuntStage::Stalk))

@@ -257,7 +257,7 @@ constexpr float kComeAboutBodyLengths = 2;
 
 // Distance, and by the angle from the mouth the cost of turning.
 float costOfFood(const Senses& senses, glm::vec3 offset, float distance) {
-    const glm::vec3 fromMouth = offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
+    const glm::vec3 fromMouth = offset - senses.heading * (fish::kNoseBodyLengths * senses.length);
     const float cosine = place::dot(place::directionOf(fromMouth, senses.heading), senses.heading);
     return distance + 0.5F * kComeAboutBodyLengths * senses.length * (1 - cosine);
 }

@@ -60,9 +60,7 @@ bool bodiesHide(const Environment& environment,
     return hidden;
 }
 
-// The body frame's origin is at this share of the length behind the nose.
-constexpr float kNoseAhead = 0.385F;
-constexpr float kTailBehind = 1 - kNoseAhead;
+constexpr float kTailBehind = 1 - fish::kNoseBodyLengths;
 
 // In body lengths; the other sides come from the habits of the species.
 constexpr float kBoxBehind = 0.5F;
@@ -99,7 +97,7 @@ Box scaled(const Box& box, float scale) {
 
 // Whether a middle line meets the slab between two planes; all along one axis, from the origin.
 bool reaches(float at, float extent, float least, float most) {
-    const float nose = at + extent * kNoseAhead;
+    const float nose = at + extent * fish::kNoseBodyLengths;
     const float tail = at - extent * kTailBehind;
     return (std::max(nose, tail) >= least) & (std::min(nose, tail) <= most);
 }
@@ -181,7 +179,7 @@ struct Watch {
     [[nodiscard]] float shareOf(glm::vec3 along, const Box& within, glm::vec3 offset) const {
         const glm::vec3 at = axes.of(offset);
         const glm::vec3 extent = axes.of(along);
-        return shareInside(within, at + extent * kNoseAhead, at - extent * kTailBehind);
+        return shareInside(within, at + extent * fish::kNoseBodyLengths, at - extent * kTailBehind);
     }
 
     // Keeps the fish with the largest share; of equal ones the lower index.

@@ -91,15 +91,13 @@ struct FishView {
     [[nodiscard]] bool shows(std::size_t i, Sign sign) const { return (signs[i] & sign) != 0; }
 };
 
-// Position of the mouth.
+// Distance from the origin of the body frame forward to the nose, where the mouth is, in body
+// lengths: nodal point 0 of every rest shape.
+inline constexpr float kNoseBodyLengths = 0.385F;
 
-// Distance from the origin of the body frame forward to the mouth, in body lengths: nodal point 0
-// of every rest shape.
-inline constexpr float kMouthBodyLengths = 0.385F;
-
-// World frame, metres.
+// Position of the mouth: world frame, metres.
 [[nodiscard]] inline glm::vec3 mouthOf(const FishView& view, std::uint32_t fish) {
-    return view.position(fish) + view.heading(fish) * (kMouthBodyLengths * view.fish[fish].length);
+    return view.position(fish) + view.heading(fish) * (kNoseBodyLengths * view.fish[fish].length);
 }
 
 }  // namespace aquarama::fish

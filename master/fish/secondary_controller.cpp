@@ -63,8 +63,7 @@ constexpr float kHoverYawLevel = 2.5F * kRadiansPerDegree<float>;
 constexpr float kPitchLevel = 1.0F / 32.0F;  // of the sine
 constexpr float kBrakeLevel = 1.0F / 8.0F;   // of full braking
 
-constexpr float kRadiansOfYawUnit = 1.0F / (1 << 20);  // MotorCommands::yawRate
-constexpr float kUnitsOfPitchSine = 32768.0F;          // MotorCommands::pitch
+constexpr float kUnitsOfPitchSine = 32768.0F;  // MotorCommands::pitch
 // Limits of the phase rate: as shares of the recorded rate, and about the tempo of the fish.
 constexpr float kRateMargin = 0.15F;
 constexpr float kTempoMargin = 0.08F;
@@ -230,7 +229,7 @@ std::int16_t yawRateFor(const Gaits& gaits,
                         const Moment& moment,
                         motion::Action chosen,
                         std::int16_t present) {
-    constexpr float kUnit = kRadiansOfYawUnit * static_cast<float>(kTicksPerSecond);
+    constexpr float kUnit = motion::kYawUnit * static_cast<float>(kTicksPerSecond);
     const bool hovers = chosen == motion::Action::Glide;
     const float most = hovers ? kMostHoverYaw : kAdded * tightRateOf(gaits, chosen);
     const float lacks = wantedYaw(moment) - gaits.yawRate[indexOf(chosen)];

@@ -15,20 +15,20 @@ constexpr int kSamples = 32;
 
 // A point of the middle line; `behindNose` is a share of the length.
 glm::vec3 pointOf(const Rod& rod, float behindNose) {
-    return rod.origin + rod.heading * (rod.length * (kNoseAhead - behindNose));
+    return rod.origin + rod.heading * (rod.length * (fish::kNoseBodyLengths - behindNose));
 }
 
 // Distance from a point to the middle line of a rod.
 float distanceTo(const Rod& rod, glm::vec3 point) {
     const float along = glm::dot(point - rod.origin, rod.heading);
-    const float nearest = std::clamp(along, (kNoseAhead - 1) * rod.length, kNoseAhead * rod.length);
+    const float nearest = std::clamp(along, (fish::kNoseBodyLengths - 1) * rod.length, fish::kNoseBodyLengths * rod.length);
     return glm::distance(point, rod.origin + rod.heading * nearest);
 }
 
 // Quick test by the distance of the origins. The tail is the longer part behind the origin, so that
 // nothing of a body is farther away than it.
 bool mayTouch(const Rod& a, const Rod& b, float room) {
-    const float reach = (1 - kNoseAhead) * (a.length + b.length) + room;
+    const float reach = (1 - fish::kNoseBodyLengths) * (a.length + b.length) + room;
     const glm::vec3 apart = b.origin - a.origin;
     return glm::dot(apart, apart) < reach * reach;
 }

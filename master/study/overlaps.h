@@ -17,9 +17,6 @@
 
 namespace aquarama::study {
 
-// The origin of the body frame is this share of the length behind the nose.
-inline constexpr float kNoseAhead = 0.385F;
-
 // A body as a straight line with a half-width around it. A fish that is away has length 0.
 struct Rod {
     // Origin of the body frame, metres.

@@ -76,11 +76,11 @@ class Workspace {
     virtual ~Workspace() = default;
     // Makes it current on the calling thread. Throws Error where the driver refuses.
     virtual void makeCurrent() = 0;
-    // Ends that; it is then current on no thread.
+    // Releases it; it is then current on no thread.
     virtual void release() = 0;
 };
 
-// The context: a GLFW window, or EGL without a display, behind one interface.
+// An OpenGL context: a GLFW window, or EGL without a display.
 
 // Thread rules: the main thread creates the context, calls pumpEvents() and the functions for
 // input, and destroys it. The drawing thread makes it or one of its workspaces current, draws, and
@@ -92,13 +92,13 @@ class Context {
     [[nodiscard]] virtual std::unique_ptr<Workspace> makeWorkspace() = 0;
     // Makes the context current on the calling thread. Throws Error where the driver refuses.
     virtual void makeCurrent() = 0;
-    // Ends that; the context is then current on no thread.
+    // Releases it; the context is then current on no thread.
     virtual void release() = 0;
     // Shows the finished default framebuffer on the display; does nothing without one. A window
     // swaps at the vertical blank.
     virtual void swap() = 0;
-    // The last vertical blank of the window's display; empty where the driver tells of none. On the
-    // drawing thread, with the context current.
+    // The last vertical blank of the window's display; empty where the driver does not report it.
+    // On the drawing thread, with the context current.
     struct VerticalBlank {
         std::uint64_t count;
         std::chrono::nanoseconds at;  // CLOCK_MONOTONIC

@@ -10,8 +10,8 @@ namespace aquarama::gl {
 
 namespace {
 
-template <class Sample>
 // The GL type of a sample, for glReadPixels.
+template <class Sample>
 constexpr GLenum kTypeOf = GL_NONE;
 template <>
 constexpr GLenum kTypeOf<std::uint8_t> = GL_UNSIGNED_BYTE;
@@ -58,5 +58,13 @@ std::vector<Sample> readRgb(const Target& target) {
 template std::vector<std::uint8_t> readRgb(const Target&);
 template std::vector<std::uint16_t> readRgb(const Target&);
 template std::vector<float> readRgb(const Target&);
+
+void waitForGpu() {
+    constexpr GLuint64 kASecond = 1'000'000'000;
+    const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    while (glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kASecond) == GL_TIMEOUT_EXPIRED) {
+    }
+    glDeleteSync(fence);
+}
 
 }  // namespace aquarama::gl

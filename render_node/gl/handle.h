@@ -126,6 +126,11 @@ template <class T>
     return makeBuffer(std::span<const T>{values}, label, flags);
 }
 
+// Binds a buffer as shader storage, for the kernels and draws that follow.
+inline void bindStorage(int binding, const Buffer& buffer) {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(binding), buffer.name());
+}
+
 // A colour texture with a framebuffer.
 
 // A picture that can be drawn into, used as a texture and read back. Throws Error where the driver
@@ -147,5 +152,8 @@ class Target {
 // to 255, 0 to 65535, or as stored. Waits for the GPU.
 template <class Sample>  // std::uint8_t, std::uint16_t or float
 [[nodiscard]] std::vector<Sample> readRgb(const Target& target);
+
+// Returns when the GPU has finished all that was submitted in the current context.
+void waitForGpu();
 
 }  // namespace aquarama::gl

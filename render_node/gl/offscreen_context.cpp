@@ -85,7 +85,8 @@ std::optional<EGLDeviceEXT> choose(std::span<EGLDeviceEXT> all, const std::strin
         throw Error("device \"" + wanted + "\": EGL offers " + std::to_string(all.size()) +
                     " devices, numbered from 0");
     }
-    throw Error("device \"" + wanted + "\" is none of auto, nvidia, mesa, surfaceless, device:N");
+    throw Error("device \"" + wanted +
+                "\" is unknown; use auto, nvidia, mesa, surfaceless or device:N");
 }
 
 // Throws Error unless EGL has one of the two platforms that need no display.

@@ -231,7 +231,7 @@ std::optional<ProgramHandle> loaded(std::span<const std::byte> bytes) {
 }
 
 // Takes the program from the cache of derived data. Where the cache had to make it, the program is
-// already linked; where a cached binary is rejected, it is linked anew and not cached again.
+// already linked; where a cached binary is rejected, it is linked again and not cached.
 ProgramHandle linkedOrLoaded(std::span<const ShaderStage> stages) {
     if (!driverHasBinaries()) return linked(stages);
     std::optional<ProgramHandle> program;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each tier of quality draws, all in one place, and from where and how finely a frame is
-// drawn.
+// The tiers of quality, and the viewpoint from which the detail of a frame follows.
 #pragma once
 
 #include <array>
@@ -45,7 +44,7 @@ struct LightQuality {
 // nothing even where a driver executes both sides of a branch.
 [[nodiscard]] gl::Replacements replacementsOf(const LightQuality& light);
 
-// All that a tier of quality decides.
+// The settings of a tier of quality.
 struct Quality {
     // Pixels of the scene's picture relative to the projector's, along either axis.
     float pictureShare = 1.0F;
@@ -73,7 +72,7 @@ struct Quality {
 
 [[nodiscard]] Quality qualityOf(config::QualityTier tier);
 
-// From where a frame is drawn, and how finely.
+// The viewpoint of a frame, and its detail.
 
 // The index of the first limit that is greater than the range; the number of limits where none is.
 // Limits must ascend.

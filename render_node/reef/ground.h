@@ -17,11 +17,11 @@
 
 namespace aquarama::scene {
 
-// A square patch of sand with so many cells along a side, in world metres; `corner` is its least x
-// and z. A rim hangs down around it, so that no gap shows where two levels meet.
+// A square patch of sand with this number of cells along a side, in world metres; `corner` is its
+// least x and z. A rim hangs down around it, so that no gap shows where two levels meet.
 [[nodiscard]] Mesh layPatch(std::uint32_t seed, glm::vec2 corner, float sideMetres, int cells);
 
-// What the GPU keeps of the sand, before it is uploaded.
+// The tables of the sand for the GPU, before they are uploaded.
 struct GroundTables {
     // A patch: its middle on the sand, world metres, and for each level the index of its first
     // vertex.

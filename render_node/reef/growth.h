@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The forms of what grows on a reef: hard and soft corals, sponges, plants. Each form has a few
-// shapes, and each shape four levels of detail.
+// The forms of corals, sponges and plants on a reef. Each form has a few shapes, and each shape
+// four levels of detail.
 #pragma once
 
 #include <array>

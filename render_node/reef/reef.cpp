@@ -29,9 +29,9 @@ constexpr std::size_t kWakeBytes = sizeof(std::int32_t) * 3 * shaders::kWakeCell
 // Prototypes that are not rock.
 constexpr unsigned kGrowths = kPrototypes - kRockShapes;
 
-// Index of the command of a prototype at a level. Rock has one run of commands, all that grows
-// another; in each run fine levels, which are near, come before coarse ones. One call can therefore
-// draw a range of levels.
+// Index of the command of a prototype at a level. Rock has one run of commands, all else another;
+// in each run fine levels, which are near, come before coarse ones. One call can therefore draw a
+// range of levels.
 std::uint32_t commandOf(std::size_t prototype, std::size_t level) {
     if (prototype < kRockShapes) return static_cast<std::uint32_t>(level * kRockShapes + prototype);
     return static_cast<std::uint32_t>(kLevels * kRockShapes + level * kGrowths + prototype -
@@ -88,7 +88,7 @@ std::vector<glm::vec4> groupBalls(std::span<const Instance> instances,
         float reach = 0.0F;
         for (const Instance& one : group) {
             const Prototype& prototype = prototypes[one.prototype];
-            // As in place_cull.comp: what bends reaches further.
+            // As in place_cull.comp: plants that bend reach further.
             const float own = one.placeAndScale.w * (std::abs(prototype.middle) + prototype.reach +
                                                      1.5F * one.tintAndSway.w);
             reach = std::max(reach, glm::distance(middle, glm::vec3(one.placeAndScale)) + own);
@@ -221,7 +221,7 @@ void Reef::stir(std::size_t fish, float fraction) const {
     if (!quality_.plantsGiveWay) return;
     constexpr std::int32_t kStill = 0;
     glClearNamedBufferData(wake_.name(), GL_R32I, GL_RED_INTEGER, GL_INT, &kStill);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kWakeStorage, wake_.name());
+    gl::bindStorage(shaders::kWakeStorage, wake_);
     const auto count = static_cast<unsigned>(fish);
     if (count == 0) return;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
@@ -246,8 +246,8 @@ void Reef::cullGroups(const ReefRule& rule) const {
     glUseProgram(group_.name());
     glUniform1ui(shaders::kGroupCountLocation, groupCount_);
     glUniform1i(shaders::kCullingLocation, rule.culling ? 1 : 0);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kGroupsStorage, groups_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kSeenGroupsStorage, seenGroups_.name());
+    gl::bindStorage(shaders::kGroupsStorage, groups_);
+    gl::bindStorage(shaders::kSeenGroupsStorage, seenGroups_);
     glDispatchCompute((groupCount_ + shaders::kGroupSize - 1) / shaders::kGroupSize, 1, 1);
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -266,10 +266,10 @@ void Reef::cull(const ReefRule& rule) const {
     glUniform1ui(shaders::kInstanceCountLocation, instanceCount_);
     glUniform1i(shaders::kCullingLocation, rule.culling ? 1 : 0);
     glUniform1f(shaders::kCullDetailLocation, rule.levelsOfDetail ? quality_.placeDetail : 1.0e6F);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kInstancesStorage, instances_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kPrototypesStorage, prototypes_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kCommandsStorage, commands_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kChosenStorage, chosen_.name());
+    gl::bindStorage(shaders::kInstancesStorage, instances_);
+    gl::bindStorage(shaders::kPrototypesStorage, prototypes_);
+    gl::bindStorage(shaders::kCommandsStorage, commands_);
+    gl::bindStorage(shaders::kChosenStorage, chosen_);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, seenGroups_.name());
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
@@ -277,8 +277,8 @@ void Reef::cull(const ReefRule& rule) const {
 
 void Reef::bind() const {
     glBindVertexArray(array_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kInstancesStorage, instances_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kWakeStorage, wake_.name());
+    gl::bindStorage(shaders::kInstancesStorage, instances_);
+    gl::bindStorage(shaders::kWakeStorage, wake_);
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
 }
 
@@ -300,7 +300,7 @@ void Reef::draw() const {
     glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
     glUniform1i(shaders::kStirredLocation, 0);
     drawFrom(commandOf(kRockShapes, firstFar), commandCount(kGrowths, kLevels - firstFar));
-    // Rock comes last: what grows on it is cheaper and hides much of it.
+    // Rock comes last: the corals and plants on it are cheaper and hide much of it.
     glEnable(GL_CULL_FACE);
     glUseProgram(stone_.name());
     glUniform1f(shaders::kDetailLocation, quality_.placeDetail);

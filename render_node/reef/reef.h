@@ -47,7 +47,7 @@ struct Prototype {
 };
 static_assert(sizeof(Prototype) == 32);
 
-// What the GPU keeps of a reef, before it is uploaded.
+// The tables of a reef for the GPU, before they are uploaded.
 struct ReefTables {
     // Vertices of all prototypes at all levels.
     std::vector<SolidVertex> vertices;
@@ -83,7 +83,8 @@ class Reef {
     void stir(std::size_t fish, float fraction) const;
     // Selects instances and levels for the view in the frame's uniform block, which must be bound.
     void cull(const ReefRule& rule) const;
-    // Draws what the last cull() has selected; what fills most of the view comes first.
+    // Draws the instances that the last cull() selected; those that fill most of the view come
+    // first.
     void draw() const;
     // Programs that write depth only, for shadow maps, and the draw with them.
     struct DepthPrograms {

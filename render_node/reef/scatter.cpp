@@ -51,7 +51,7 @@ constexpr std::array kWays{
     Way{Form::Anemone, 0.30F, 0.10F, 0.0F, 0.20F, 0.40F, 0.4F, 0.16F},
     Way{Form::Feathers, 0.35F, 0.3F, 0.0F, 0.16F, 0.30F, 0.5F, 0.10F},
 };
-// Turf fills what is left of the rock.
+// Turf fills the rest of the rock.
 constexpr Way kTurfPatch{Form::Turf, 1.0F, 1.0F, 1.0F, 0.06F, 0.17F, 0.3F, 0.16F};
 
 // A place on a rock or on the sand, world frame, with its unit normal.
@@ -118,8 +118,8 @@ bool isCrowded(std::span<const Planted> planted, glm::vec3 place, float size) {
     });
 }
 
-// A number for the patch that holds a place. Patches are cells of so many metres with bent borders;
-// in each, two forms and one palette dominate.
+// A number for the patch that contains a place. Patches are cells of this many metres with bent
+// borders; in each, two forms and one palette dominate.
 std::uint32_t patchAt(const place::PlaceKey& place, glm::vec3 at, float metres) {
     const glm::vec3 bent =
         at / metres + 0.45F * glm::vec3{solidNoise(place.seed, at / metres * 1.9F),
@@ -171,7 +171,8 @@ glm::quat stance(const Way& way, glm::vec3 normal, Dice& dice) {
     return glm::quat_cast(glm::mat3{x, up, glm::cross(x, up)});
 }
 
-// All of an instance but its spot. size: scale, metres; turn: from its own frame to the world.
+// An instance without its spot. size: scale, metres; turn: rotation from its own frame to the
+// world.
 struct Placement {
     Form form;
     float size;
@@ -364,7 +365,7 @@ void sow(std::vector<Instance>& all,
         const float lean = kelp ? 0.07F : 0.15F;
         const glm::vec3 up =
             glm::normalize(glm::vec3{dice.between(-lean, lean), 1.0F, dice.between(-lean, lean)});
-        // Kelp leans with the drift, grass anyhow.
+        // Kelp leans with the drift, grass in any direction.
         const float about = kelp ? dice.between(-0.7F, 0.7F) : kTwoPi * dice.unit();
         const glm::quat turn = glm::quat_cast(frameAbout(up, about));
         const glm::vec4 tint{tintOf(form, 0, dice), kelp ? 0.12F : 0.45F};

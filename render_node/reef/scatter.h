@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The instances of a reef: what stands where.
+// The instances of a reef: which rocks, corals and plants stand where.
 #pragma once
 
 #include <array>

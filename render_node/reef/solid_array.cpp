@@ -180,7 +180,7 @@ glm::u8 packed(float x) {
 // Evaluates the relief at each texel, then its slopes by central differences across the edges.
 template <class ReliefAt>
 Tile tileOf(float sideMetres, ReliefAt reliefAt) {
-    constexpr int kTexels = kDetailTexels;
+    constexpr int kTexels = shaders::kDetailTexels;
     const auto side = static_cast<std::size_t>(kTexels);
     std::vector<Relief> reliefs;
     reliefs.reserve(side * side);
@@ -253,13 +253,14 @@ void setSolids(const gl::VertexArray& array,
 }
 
 gl::Texture makeTexture(const Tile& tile) {
-    gl::Texture texture = makeTexture(GL_RGBA8, glm::ivec2{kDetailTexels}, 8, Edge::Repeat);
+    gl::Texture texture =
+        makeTexture(GL_RGBA8, glm::ivec2{shaders::kDetailTexels}, 8, Edge::Repeat);
     glTextureSubImage2D(texture.name(),
                         0,
                         0,
                         0,
-                        kDetailTexels,
-                        kDetailTexels,
+                        shaders::kDetailTexels,
+                        shaders::kDetailTexels,
                         GL_RGBA,
                         GL_UNSIGNED_BYTE,
                         tile.values.data());

@@ -34,9 +34,6 @@ void refill(const gl::Texture& texture, const Table& table);
 
 // Fine relief of sand and rock on tiles that repeat.
 
-// Side of a tile, texels.
-inline constexpr int kDetailTexels = 512;
-
 // One tile, row by row.
 struct Tile {
     // In 255ths: slope along x and z (0.5 is level, 0 and 1 are -1 and 1), albedo (0.5 is the

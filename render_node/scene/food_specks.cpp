@@ -55,7 +55,7 @@ void FoodSpecks::draw() const {
     const gl::Stage stage{"food"};
     if (seen_.empty()) return;
     glBindVertexArray(empty_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kSpecksStorage, specks_.name());
+    gl::bindStorage(shaders::kSpecksStorage, specks_);
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     if (pelletCount_ > 0) drawPellets();

@@ -47,7 +47,7 @@ class FoodSpecks {
     gl::ProgramHandle plankton_, pellets_;
     gl::Buffer specks_;
     gl::VertexArray empty_;
-    // What the last update() selected: pellets first, then plankton.
+    // The particles that the last update() selected: pellets first, then plankton.
     std::vector<Speck> seen_;
     int pelletCount_ = 0;
 };

@@ -68,7 +68,8 @@ shaders::FrameUniforms frameUniforms(const SceneFrame& frame,
     return uniforms;
 }
 
-// Fills in what depends on the view: matrices, the position of this eye, the size of the picture.
+// Fills in the members that depend on the view: matrices, the position of this eye, the size of the
+// picture.
 void setView(shaders::FrameUniforms& uniforms, const View& view) {
     uniforms.clipFromWorld = view.clipFromCamera * view.cameraFromWorld;
     uniforms.worldFromClip = glm::inverse(uniforms.clipFromWorld);
@@ -78,8 +79,7 @@ void setView(shaders::FrameUniforms& uniforms, const View& view) {
     uniforms.viewport = glm::vec4(size, 1.0F / size);
 }
 
-// The sea floor and what stands on it. In the open sea there is none: the floor is too deep to be
-// seen.
+// The sea floor with rocks and plants. The open sea has none: its floor is too deep to be seen.
 struct Bottom {
     Ground ground;
     Reef reef;

@@ -39,7 +39,7 @@ struct SceneFrame {
     float daylight = 1.0F;
 };
 
-// What a scene is made for. A change needs a new SceneRenderer.
+// The options of a scene. A change needs a new SceneRenderer.
 struct SceneOptions {
     std::uint32_t seed = 1;
     config::PlaceKind place = config::PlaceKind::Reef;

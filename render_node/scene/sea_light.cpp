@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/gtc/type_precision.hpp>
 #include <glm/vec2.hpp>
 
@@ -105,44 +104,6 @@ gl::Texture makeClouds(std::uint32_t seed) {
     return texture;
 }
 
-// The texel of the octahedral map that holds a direction: the inverse of directionOf() in
-// shaft.frag, with its border of one texel.
-glm::vec2 shaftTexel(glm::vec3 direction, float texels) {
-    const glm::vec3 size = glm::abs(direction);
-    glm::vec2 p = glm::vec2(direction.x, direction.z) / (size.x + size.y + size.z);
-    if (direction.y < 0.0F)
-        p = (1.0F - glm::abs(glm::vec2(p.y, p.x))) *
-            glm::vec2(p.x < 0.0F ? -1.0F : 1.0F, p.y < 0.0F ? -1.0F : 1.0F);
-    return 0.5F * (texels + p * (texels - 2.0F));
-}
-
-// A rectangle of texels, high excluded.
-struct Box {
-    glm::ivec2 low{}, high{};
-};
-
-// The texels of the shaft map that a view reads. The rays of the picture are sampled on a grid of
-// 25 x 25; a margin of a twentieth of the map covers what lies between the samples and the filter.
-Box texelsInView(glm::vec3 eye, const glm::mat4& worldFromClip, int texels) {
-    constexpr int kProbes = 24;
-    glm::vec2 low{1.0e9F};
-    glm::vec2 high{-1.0e9F};
-    for (int y = 0; y <= kProbes; ++y)
-        for (int x = 0; x <= kProbes; ++x) {
-            const glm::vec4 near =
-                worldFromClip * glm::vec4(2.0F * static_cast<float>(x) / kProbes - 1.0F,
-                                          2.0F * static_cast<float>(y) / kProbes - 1.0F,
-                                          1.0F,
-                                          1.0F);
-            const glm::vec2 texel = shaftTexel(glm::normalize(glm::vec3(near) / near.w - eye),
-                                               static_cast<float>(texels));
-            low = glm::min(low, texel);
-            high = glm::max(high, texel);
-        }
-    const float margin = static_cast<float>(texels) / 20.0F;
-    return {glm::max(glm::ivec2(low - margin), 0), glm::min(glm::ivec2(high + margin), texels)};
-}
-
 }  // namespace
 
 SeaLight::SeaLight(const SeaLightOptions& options, WaterTables tables)
@@ -161,13 +122,11 @@ SeaLight::SeaLight(const SeaLightOptions& options, WaterTables tables)
       rippleTile_{
           makeTexture(GL_RGBA16F, glm::ivec2{quality_.rippleTexels}, kTileLevels, Edge::Repeat)},
       causticLayers_{makeLayers(quality_.causticTexels, quality_.causticLayers)},
-      shaftMap_{makeTexture(GL_RGBA16F, glm::ivec2{quality_.shaftTexels}, 1, Edge::Clamp)},
       waveTarget_{makeTarget(waveTile_)},
       rippleTarget_{makeTarget(rippleTile_)},
-      shaftTarget_{makeTarget(shaftMap_)},
       waveProgram_{gl::makeProgram({"quad.vert", "waves.frag"}, replacementsOf(quality_))},
       causticProgram_{gl::makeProgram({"caustic.vert", "caustic.frag"})},
-      shaftProgram_{gl::makeProgram({"quad.vert", "shaft.frag"}, replacementsOf(quality_))},
+      shafts_{quality_},
       shade_{options.quality} {
     const SeaNow start = seaAt(sea_, 0.0);
     seaBlock_ = gl::makeBuffer(std::span{&start, 1}, "sea now", GL_DYNAMIC_STORAGE_BIT);
@@ -178,7 +137,7 @@ SeaLight::SeaLight(const SeaLightOptions& options, WaterTables tables)
 }
 
 void SeaLight::update(double timeSeconds, glm::vec3 sharedEyeMetres) {
-    // Mixed and uploaded anew only when the eye has moved up or down.
+    // The table is mixed and uploaded only when the eye has moved up or down.
     if (tableDepthMetres_ != -sharedEyeMetres.y) {
         tableDepthMetres_ = -sharedEyeMetres.y;
         inscatter_.mixAtDepth(double{tableDepthMetres_}, atEye_);
@@ -250,31 +209,13 @@ void SeaLight::drawCaustics() {
     glGenerateTextureMipmap(causticLayers_.name());
 }
 
-void SeaLight::drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip) {
-    const gl::Stage stage{"shafts"};
-    const Box box = texelsInView(eyeMetres, worldFromClip, quality_.shaftTexels);
-    glDisable(GL_DEPTH_TEST);
-    glBindFramebuffer(GL_FRAMEBUFFER, shaftTarget_.name());
-    glViewport(0, 0, quality_.shaftTexels, quality_.shaftTexels);
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(box.low.x, box.low.y, box.high.x - box.low.x, box.high.y - box.low.y);
-    glUseProgram(shaftProgram_.name());
-    glUniform1i(shaders::kTexelsLocation, quality_.shaftTexels);
-    glUniform1i(shaders::kStepsLocation, quality_.shaftSteps);
-    glBindTextureUnit(shaders::kCausticLayersUnit, causticLayers_.name());
-    shade_.bind();
-    glBindVertexArray(empty_.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDisable(GL_SCISSOR_TEST);
-}
-
 void SeaLight::bind() const {
     glBindBufferBase(GL_UNIFORM_BUFFER, shaders::kSeaBlock, seaBlock_.name());
     glBindTextureUnit(shaders::kDirectTableUnit, direct_.name());
     glBindTextureUnit(shaders::kInscatterTableUnit, inscatterTable_.name());
     glBindTextureUnit(shaders::kOpenWaterTableUnit, openWater_.name());
     glBindTextureUnit(shaders::kCausticLayersUnit, causticLayers_.name());
-    glBindTextureUnit(shaders::kShaftMapUnit, shaftMap_.name());
+    glBindTextureUnit(shaders::kShaftMapUnit, shafts_.texture().name());
     glBindTextureUnit(shaders::kWaveTileUnit, waveTile_.name());
     glBindTextureUnit(shaders::kRippleTileUnit, rippleTile_.name());
     glBindTextureUnit(shaders::kCloudTileUnit, cloudTile_.name());

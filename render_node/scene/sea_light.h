@@ -12,12 +12,13 @@
 #include "render_node/gl/handle.h"
 #include "render_node/quality/quality.h"
 #include "render_node/scene/sea_shade.h"
+#include "render_node/scene/shaft_map.h"
 #include "render_node/water/water_tables.h"
 #include "render_node/water/waves.h"
 
 namespace aquarama::scene {
 
-// What the light is computed for; fixed for the life of a SeaLight.
+// The options of the light; fixed for the life of a SeaLight.
 struct SeaLightOptions {
     std::uint32_t seed = 1;
     config::WaterType water = config::WaterType::IB;
@@ -44,14 +45,16 @@ class SeaLight {
     void update(double timeSeconds, glm::vec3 sharedEyeMetres);
     // Draws the map of shafts, but only the directions that this view reads. Expects the sea's
     // light to be updated.
-    void drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip);
+    void drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip) {
+        shafts_.draw(eyeMetres, worldFromClip, causticLayers_, shade_);
+    }
     // Binds block and textures to the units that water.glsl and what it includes name.
     void bind() const;
 
     [[nodiscard]] SeaShade& shade() { return shade_; }
     // For tests: sunlight by depth (array layers) and by direction.
     [[nodiscard]] const gl::Texture& causticLayers() const { return causticLayers_; }
-    [[nodiscard]] const gl::Texture& shaftMap() const { return shaftMap_; }
+    [[nodiscard]] const gl::Texture& shaftMap() const { return shafts_.texture(); }
 
   private:
     void drawWaves();
@@ -65,9 +68,10 @@ class SeaLight {
     Table atEye_;
     glm::vec3 primariesKd_;
     gl::Texture direct_, inscatterTable_, openWater_, cloudTile_;
-    gl::Texture waveTile_, rippleTile_, causticLayers_, shaftMap_;
-    gl::Framebuffer waveTarget_, rippleTarget_, causticTarget_, shaftTarget_;
-    gl::ProgramHandle waveProgram_, causticProgram_, shaftProgram_;
+    gl::Texture waveTile_, rippleTile_, causticLayers_;
+    gl::Framebuffer waveTarget_, rippleTarget_, causticTarget_;
+    gl::ProgramHandle waveProgram_, causticProgram_;
+    ShaftMap shafts_;
     gl::Buffer seaBlock_, causticIndices_;
     gl::VertexArray empty_, causticGrid_;
     int causticIndexCount_ = 0;

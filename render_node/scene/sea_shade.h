@@ -35,7 +35,7 @@ class SeaShade {
     void bind() const;
 
   private:
-    // Fills the maps with what they hold where nothing throws a shadow.
+    // Fills the maps with their values where nothing throws a shadow.
     void clear();
     // Turns a depth map into heights and their squares (moments.frag).
     void takeMoments(const gl::Texture& depth, const gl::Framebuffer& heights);

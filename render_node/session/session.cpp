@@ -8,6 +8,7 @@
 #include "common/base/log.h"
 #include "common/net/channels.h"
 #include "common/net/metrics.h"
+#include "render_node/session/mailbox.h"
 #include "render_node/session/master_link.h"
 
 namespace aquarama::session {
@@ -37,7 +38,7 @@ std::vector<motion::FishTraits> schoolOf(const v1::Look& look) {
     return school;
 }
 
-// Of what stays the same when a show goes on after an interruption.
+// A digest of what stays the same when a show continues after an interruption.
 Digest showOf(v1::Welcome welcome) {
     welcome.clear_state_address();
     welcome.clear_pace();
@@ -46,7 +47,7 @@ Digest showOf(v1::Welcome welcome) {
     return digestOf(welcome.SerializeAsString());
 }
 
-// With the files that it names, which were fetched.
+// The rig, with the files that it names, which were fetched.
 config::Rig rigOf(const Admitted& admitted) {
     config::Rig rig = config::parseRig(admitted.welcome.rig_text(), "the master's rig");
     for (const v1::RigFile& file : admitted.welcome.look().rig_files())
@@ -69,31 +70,31 @@ Admission admissionOf(const Admitted& admitted) {
             .cast = castOf(admitted)};
 }
 
-// What a node counts for Prometheus.
+// A node's figures for Prometheus.
 class NodeFigures {
   public:
-    // Of the node of this channel of the rig.
+    // For the node of this channel of the rig.
     NodeFigures(const config::Rig& rig, const std::string& name) : metrics_(portOf(rig, name)) {}
 
     void begin() { begun_ = net::monotonicNow(); }  // of a frame
     void finish() { picture_(net::secondsIn(net::monotonicNow() - begun_)); }
-    // A frame was released, or passed over.
-    void release(Release release, const MasterLink::Traffic& traffic) {
-        const net::Instant now = net::monotonicNow();
+    // A frame was released or skipped.
+    void release(Release release, const LinkFigures& link) {
+        const net::Moment now = net::monotonicNow();
         if (release == Release::Present) {
             if (presented_ > 0) frame_(net::secondsIn(now - lastPresent_));
             lastPresent_ = now;
             frames_(static_cast<double>(++presented_));
         }
         if (release == Release::Skip) skips_(static_cast<double>(++skipped_));
-        offset_(traffic.clockOffsetSeconds);
-        bytes_(static_cast<double>(traffic.receivedBytes));
-        mismatches_(static_cast<double>(traffic.mismatches));
-        celsius_(static_cast<double>(traffic.gpuCelsius));
+        offset_(link.clockOffsetSeconds);
+        bytes_(static_cast<double>(link.receivedBytes));
+        mismatches_(static_cast<double>(link.mismatches));
+        celsius_(static_cast<double>(link.gpuCelsius));
     }
 
   private:
-    // 0 where the rig names none.
+    // The node's port; 0 where the rig names none.
     static std::uint16_t portOf(const config::Rig& rig, const std::string& name) {
         const auto channel = std::ranges::find(rig.channels, name, &config::Channel::name);
         if (rig.metricsPort == 0 || channel == rig.channels.end()) return 0;
@@ -116,7 +117,7 @@ class NodeFigures {
                                                "States that it decoded to another hash");
     net::Record celsius_ = metrics_.gauge("aquarama_gpu_celsius",
                                           "Temperature of the graphics card; 0 where none is told");
-    net::Instant begun_{}, lastPresent_{};
+    net::Moment begun_{}, lastPresent_{};
     std::uint64_t presented_ = 0, skipped_ = 0;
 };
 
@@ -173,61 +174,66 @@ class LinkSession final : public Session {
     }
 
     Release interruption() const override { return mailbox_.interruption(); }
-    std::chrono::nanoseconds stateArrival() const override { return stateArrival_; }
+    net::Moment stateArrival() const override { return stateArrival_; }
 
     Release readyThenWait(Frame frame) override {
         if (figures_) figures_->finish();
-        // From here to the swap every microsecond is skew. Not while it draws: on a processor that
-        // draws as well, the net threads would wait.
+        // From here to the swap every microsecond is skew. While the thread draws it has no such
+        // priority: on a software renderer the net threads would have to wait.
         net::runInRealTime();
         const Release release = awaitRelease(frame);
-        if (figures_) figures_->release(release, link_.traffic());
+        if (figures_) figures_->release(release, link_.figures());
         return release;
     }
 
     Release awaitRelease(Frame frame) {
-        link_.post(MasterLink::Finished{frame,
-                                        std::exchange(released_, {}),
-                                        blanks_.blanks(),
-                                        net::monotonicNow() - stateArrival_});
+        mailbox_.finish({frame,
+                         std::exchange(released_, {}),
+                         blanks_.blanks(),
+                         net::monotonicNow() - stateArrival_});
+        link_.wake();
         const auto order = mailbox_.awaitRelease(frame);
         if (!order) return mailbox_.interruption();
         if (order->frame != frame && !std::exchange(skipped_, true)) return Release::Skip;
-        // A node that is always late shows its late pictures: better than none.
+        // A node that is always late shows late pictures, which is better than none.
         skipped_ = false;
         std::this_thread::sleep_until(std::chrono::steady_clock::time_point(order->at));
         released_ = ReleaseReport{frame, net::monotonicNow()};
         return Release::Present;
     }
 
-    void sawBlank(std::uint64_t count, std::chrono::nanoseconds at) override {
-        blanks_.add(count, at);
-    }
+    void sawBlank(std::uint64_t count, net::Moment at) override { blanks_.add(count, at); }
 
     void quit() override {
-        v1::Input message;
-        message.set_kind(v1::INPUT_QUIT);
+        v1::Envelope message;
+        message.mutable_input()->set_kind(v1::INPUT_QUIT);
         link_.post(message);
     }
-    // Said once: a hand that sees no effect presses again.
+    // Sent once: a visitor who sees no effect presses the key again.
     void freeze(bool frozen) override {
-        v1::Order order;
+        v1::Envelope message;
+        v1::Order& order = *message.mutable_order();
         order.set_request(static_cast<std::uint64_t>(net::monotonicNow().count()));
         order.mutable_show()->set_freeze(frozen);
-        link_.post(order);
-    }
-    void dropFood(glm::vec3 positionMetres) override {
-        v1::Input message;
-        message.set_kind(v1::INPUT_DROP_FOOD);
-        for (const int axis : {0, 1, 2}) message.add_position(positionMetres[axis]);
         link_.post(message);
     }
-    void steer(const Steering& steering) override { link_.post(wire::steeringInput(steering)); }
+    void dropFood(glm::vec3 positionMetres) override {
+        v1::Envelope message;
+        message.mutable_input()->set_kind(v1::INPUT_DROP_FOOD);
+        for (const int axis : {0, 1, 2})
+            message.mutable_input()->add_position(positionMetres[axis]);
+        link_.post(message);
+    }
+    void steer(const Steering& steering) override {
+        v1::Envelope message;
+        *message.mutable_input() = wire::steeringInput(steering);
+        link_.post(message);
+    }
     void describe(const NodeFacts& facts) override { link_.post(facts); }
     void askMind(std::uint32_t fish) override {
-        v1::ExplainRequest question;
-        question.set_fish(fish);
-        link_.post(question);
+        v1::Envelope message;
+        message.mutable_explain_request()->set_fish(fish);
+        link_.post(message);
     }
     std::optional<ExplainedMind> latestMind() const override { return mailbox_.latestMind(); }
 
@@ -247,7 +253,7 @@ class LinkSession final : public Session {
     std::optional<ReleaseReport> released_;
     net::BlankMeter blanks_;
     bool skipped_ = false;
-    std::chrono::nanoseconds stateArrival_{};
+    net::Moment stateArrival_{};
     std::thread netThread_;  // last: it uses all of the above
 };
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A node's side of the cluster: hello, welcome, blobs, frames, ready and present, on a net thread
-// of its own.
+// A node's side of the cluster: hello, welcome, blobs, frames, ready and present, on a separate net
+// thread.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -18,6 +17,7 @@
 #include "common/motion/motion_state.h"
 #include "common/net/blob.h"
 #include "common/net/channels.h"
+#include "common/net/clock.h"
 #include "common/wire/recording.h"
 
 namespace aquarama::session {
@@ -26,7 +26,7 @@ namespace aquarama::session {
 enum class Release : std::uint8_t {
     Present,  // swap now: the present instant has come
     Skip,     // the wall went on without this frame; take the next one
-    Rejoin,   // the master has dropped us or was restarted: join() again
+    Rejoin,   // the master has dropped this node or was restarted: join() again
     Quit,     // the show is over
 };
 
@@ -44,15 +44,15 @@ struct Admission {
     std::vector<wire::SpeciesAssets> cast;  // of all fish of the school, in its order
 };
 
-// What only the process knows of the machine that it draws on.
+// Facts of the node's machine that only its process knows.
 struct NodeFacts {
     std::string build;                  // version and commit
     std::string renderer;               // of OpenGL
     std::vector<std::string> monitors;  // none without a display
 };
 
-// What the master said of the mind of a fish: lines of printable ASCII; none where there is no such
-// fish.
+// The master's explanation of the mind of a fish: lines of printable ASCII; none where there is no
+// such fish.
 struct ExplainedMind {
     std::uint32_t fish = 0;
     std::vector<std::string> lines;
@@ -67,8 +67,8 @@ class Session {
     // cached on disk). Empty: stopped, or the master ended the show. Throws Error where the master
     // refuses the node, saying why.
     virtual std::optional<Admission> join() = 0;
-    // This look is built, and this is the finest tier that the node keeps up with. After join():
-    // from now on the master waits for the node.
+    // This look is built, and this is the finest tier that the node keeps up with. After join().
+    // From now on the master waits for the node.
     virtual void prepared(std::uint32_t look, config::QualityTier quality) = 0;
     // The look that the master will show next, to be built while frames are drawn; each is returned
     // once. Does not block. Throws Error where the master's scene cannot be read.
@@ -77,30 +77,32 @@ class Session {
     // `interruption`.
     virtual std::optional<wire::StateFrame> nextFrame() = 0;
     // When the state of the frame that nextFrame() gave had arrived, on CLOCK_MONOTONIC.
-    [[nodiscard]] virtual std::chrono::nanoseconds stateArrival() const = 0;
+    [[nodiscard]] virtual net::Moment stateArrival() const = 0;
     // Why nextFrame() was empty.
     [[nodiscard]] virtual Release interruption() const = 0;
     // The picture of this frame is finished (its fence has signalled). Blocks until it is released
     // or overtaken.
     virtual Release readyThenWait(Frame frame) = 0;
     // A vertical blank of the node's display, as its driver counts and dates it (CLOCK_MONOTONIC).
-    virtual void sawBlank(std::uint64_t count, std::chrono::nanoseconds at) = 0;
-    // What the keys of a window ask of the show: its end, and whether the world stands still.
+    virtual void sawBlank(std::uint64_t count, net::Moment at) = 0;
+    // Requests of a window's keys: end the show, or freeze the world.
     virtual void quit() = 0;
     virtual void freeze(bool frozen) = 0;
     virtual void dropFood(glm::vec3 positionMetres) = 0;  // world frame
-    // What hands ask of the submarine; holds until the next, half a second at most.
+    // Steers the submarine; valid until the next call, half a second at most.
     virtual void steer(const Steering& steering) = 0;
-    // Told to the master every few seconds, with how the way to it is. May be called by any thread.
+    // Reported to the master every few seconds, with the state of the network. May be called by any
+    // thread.
     virtual void describe(const NodeFacts& facts) = 0;
-    // Asks what goes on in the mind of a fish; the answer comes when it comes.
+    // Asks the master to explain the mind of a fish; latestMind() returns the answer once it has
+    // come.
     virtual void askMind(std::uint32_t fish) = 0;
     [[nodiscard]] virtual std::optional<ExplainedMind> latestMind() const = 0;
     // Called four times a second while the render thread waits in one of the functions above, as
     // long as the net thread is at work.
     virtual void whileWaiting(std::function<void()> call) = 0;
     virtual void stop() = 0;
-    // Whether the session has ended since this node is to be started again.
+    // Whether the session has ended because this node is to be started again.
     [[nodiscard]] virtual bool isToRestart() const = 0;
 };
 

@@ -1,7 +1,6 @@
-// A little of what is bright glows about it, as it does in an eye and in a lens: means over two rings
-// of the picture's smaller copies, sized in radians.
-// Gives sceneLight(): linear light of the scene at uv (0 to 1, origin bottom left) with a glow.
-// scene must have mip levels.
+// Bloom: bright places glow a little, as in an eye and in a lens. It takes means over two rings of the
+// picture's smaller copies, sized in radians. Gives sceneLight(): linear light of the scene at uv (0 to
+// 1, origin bottom left) with a glow. scene must have mip levels.
 #ifndef BLOOM_GLSL
 #define BLOOM_GLSL
 #include "look_around.glsl"

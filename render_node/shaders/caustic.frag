@@ -1,6 +1,6 @@
-// Light is kept: as an area shrinks it brightens.
-// In: `before`, the place of the undisturbed grid, metres. Out: light relative to its mean, added
-// up over the triangles. Space: texels of one layer.
+// Light is conserved: an area that shrinks becomes brighter. In: `before`, the place of the undisturbed
+// grid, metres. Out: light relative to its mean, added up over the triangles. Space: texels of one
+// layer.
 #include "shader_interface.h"
 layout(location = kCausticTexelLocation) uniform float texelMetres;
 layout(location = 0) in vec2 before;

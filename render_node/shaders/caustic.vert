@@ -1,7 +1,7 @@
-// A grid over the surface, moved to where the refracted sun carries it at one depth, less the mean
-// shift: so the tile is indexed by where the straight ray meets the surface.
-// In: the vertex number, (cells + 1)^2 vertices; the wave tile; receiverMetres, the depth of the
-// layer. Out: place on the tile in clip space, and the place before refraction, metres.
+// A grid over the surface, moved to where the refracted sunlight meets one depth, less the mean shift.
+// So the tile is indexed by the place where the straight ray meets the surface. In: the vertex number,
+// (cells + 1)^2 vertices; the wave tile; receiverMetres, the depth of the layer. Out: place on the tile
+// in clip space, and the place before refraction, metres.
 #include "shader_interface.h"
 #include "frame_uniforms.h"
 layout(binding = kWaveTileUnit) uniform sampler2D waveTile;

@@ -1,6 +1,5 @@
-// Coral, sponge and leaf near by: polyps as a fine relief, or the meanders of a brain coral.
-// In: world metres and unit vectors from coral.vert; the detail tile. Out: scene radiance, linear
-// Rec. 709.
+// Near corals, sponges and leaves: polyps as a fine relief, or the meanders of a brain coral. In: world
+// metres and unit vectors from coral.vert; the detail tile. Out: scene radiance, linear Rec. 709.
 #include "shader_interface.h"
 #include "light.glsl"
 // Interpolated at centroids: outside a thin leaf the values would be extrapolated.

@@ -1,6 +1,5 @@
-// What grows, near by: lit at each pixel.
-// In: a SolidVertex and the chosen instance (grown.glsl). Out: world place, place without sway
-// (rest), normal, albedo, occlusion, material.
+// Near corals and plants, lit at each pixel. In: a SolidVertex and the chosen instance (grown.glsl).
+// Out: world place, place without sway (rest), normal, albedo, occlusion, material.
 #include "grown.glsl"
 layout(location = 0) centroid out vec3 place;
 layout(location = 1) centroid out vec3 rest;

@@ -1,5 +1,5 @@
-// What grows, far off: lit at its corners, as a pixel holds several of them.
-// In: as coral.vert. Out: the light that reaches the eye, linear Rec. 709, for lit.frag.
+// Distant corals and plants, lit at their vertices, as a pixel holds several of them. In: as
+// coral.vert. Out: the light that reaches the eye, linear Rec. 709, for lit.frag.
 #include "grown.glsl"
 layout(location = 0) centroid out vec3 light;
 void main() {

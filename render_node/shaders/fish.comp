@@ -18,9 +18,9 @@ struct Entry {
 };
 layout(std430, binding = kEntriesStorage) readonly buffer Entries { Entry entries[]; };
 layout(std430, binding = kSurfaceStorage) coherent buffer Surface { uvec4 surface[]; };
-// Of each vertex the two, of the same mesh, between which the coarser level has it: 16 bits each. Of
-// the control mesh its place on few triangles: three control points of 9 bits, the weights of two,
-// and a normal.
+// For each vertex the two vertices of the same mesh between which the coarser level has it: 16 bits
+// each. For the control mesh its place on few triangles: three control points of 9 bits, the weights of
+// two, and a normal.
 layout(std430, binding = kParentsStorage) readonly buffer Parents { uint parents[]; };
 
 layout(location = kTurnLocation) uniform uint turn;

@@ -10,7 +10,7 @@ layout(location = 0) in vec4 vertexRest;
 layout(location = 1) in vec2 vertexFin;
 layout(location = 2) in uint vertexPart;
 layout(location = 3) in uint slot;  // of the instance: its place in the school
-layout(location = 4) in vec4 coarserRest;  // what is painted where the coarser level has it
+layout(location = 4) in vec4 coarserRest;  // the place on the skin where the coarser level has it
 layout(location = 5) in vec2 coarserFin;
 
 layout(location = 0) out vec3 place;   // world, metres
@@ -20,11 +20,8 @@ layout(location = 3) out vec2 fin;     // p along its base, q from base to edge
 layout(location = 4) flat out uint part;
 layout(location = 5) flat out uint id;
 layout(location = 6) flat out vec3 dorsal;  // the fish's own up, in the world
-layout(location = 7) out float opacity;     // 1 but where a level of detail fades
+layout(location = 7) out float opacity;     // 1, or less where a level of detail fades
 layout(location = 8) flat out float nearness;  // of the skin's details, which come with the mesh
-
-// Of DetailLevel, and of CagePart.
-const uint kControlMesh = 3u, kMesh = 4u, kPelvic = 5u, kPectoral = 6u;
 
 void main() {
     uvec4 vertex = surface[fish[slot].firstVertex + uint(gl_VertexID)];

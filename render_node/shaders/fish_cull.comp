@@ -1,7 +1,6 @@
 // Which fish a view shows, and how finely: one thread a fish, one workgroup a group. Only place and
-// length are unpacked here; the rest of what nobody sees is never looked at (paper, section 4.3).
-// In: records, cast, limits, planes. Out: choices (level and rank of each fish), counts of each
-// group and level.
+// length are unpacked here; the rest of an unseen fish is never read (paper, section 4.3). In: records,
+// cast, limits, planes. Out: choices (level and rank of each fish), counts of each group and level.
 #include "shader_interface.h"
 #include "fish_record.glsl"
 #include "fish_detail.glsl"
@@ -19,7 +18,7 @@ uint levelOf(Species species, uint i) {
     if (isAway(i)) return kUnseen;
     vec3 place = placeMetresOf(i);
     float lengthMetres = lengthMetresOf(i);
-    // Nothing drawn of the fish reaches further; a point may be wider than the fish.
+    // The radius of all that is drawn of the fish; a point may be wider than the fish.
     float margin = species.area.w * lengthMetres + 3.0 * sharedEye.w * distance(sharedEye.xyz, place);
     if (culls && !reaches(place, margin)) return kUnseen;
     return detailAt(place, lengthMetres).level;

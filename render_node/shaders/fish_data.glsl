@@ -1,4 +1,4 @@
-// A fish that a view draws, as fish_scatter.comp makes it of what the node receives.
+// A fish that a view draws, as fish_scatter.comp makes it from the records.
 #ifndef FISH_DATA_GLSL
 #define FISH_DATA_GLSL
 
@@ -16,7 +16,7 @@ struct Fish {
     uint id;
     uint species;  // its place in the cast
     uint detail;   // DetailLevel of render_node/surface/visibility.h
-    float blend;   // how far it is from the next coarser level: 0 looks as that does
+    float blend;   // how far it has changed from the next coarser level: 0 looks like that level
     uint firstVertex;  // in the surface buffer, less the first vertex of its mesh
     float speed;  // body lengths a second
     float spread;  // of the pectoral fins, 0 to 1

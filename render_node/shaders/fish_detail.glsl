@@ -5,8 +5,7 @@
 #define FISH_DETAIL_GLSL
 #include "shader_interface.h"
 
-const uint kPoint = 0u, kFading = 1u, kFewTriangles = 2u, kControlMesh = 3u, kHero = 5u, kDetails = 7u,
-           kUnseen = 15u;
+const uint kUnseen = 15u;  // in place of a level of detail
 
 layout(location = kPlanesLocation) uniform vec4 planes[6];       // of the view's frustum, inward
 layout(location = kSharedEyeLocation) uniform vec4 sharedEye;       // world, metres; w: the wall's finest pixel, radians
@@ -20,7 +19,7 @@ struct Detail {
     float blend;
 };
 
-// Of a fish that fills so many pixels of the wall from nose to tail.
+// The detail of a fish that fills so many pixels of the wall from nose to tail.
 Detail detailOf(float pixels) {
     if (!choosesDetail) return Detail(kHero, 1.0);
     uint level = 0u;
@@ -37,7 +36,7 @@ Detail detailAt(vec3 place, float lengthMetres) {
     return detailOf(lengthMetres / (distance(sharedEye.xyz, place) * sharedEye.w));
 }
 
-// A single point against the enlarged frustum.
+// Tests a single point against the enlarged frustum.
 bool reaches(vec3 place, float marginMetres) {
     for (int i = 0; i < 6; ++i)
         if (dot(planes[i].xyz, place) + planes[i].w < -marginMetres) return false;

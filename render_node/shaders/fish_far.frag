@@ -1,5 +1,5 @@
-// The skin of a distant fish: its pattern and its flash, none of its details.
-// In: as fish_body.frag, from any vertex shader of fish. Out: scene radiance; alpha is `opacity`.
+// The skin of a distant fish: its pattern and its flash, without details. In: as fish_body.frag, from
+// any vertex shader of fish. Out: scene radiance; alpha is `opacity`.
 #include "fish_light.glsl"
 #include "skin_plain.glsl"
 

@@ -1,7 +1,6 @@
-// A corner of a fish of few triangles: a control point, posed here, as there are too few of them for
-// a kernel of their own.
-// In: control point, normal at rest (body frame), place on the skin. Out: as fish.vert, in world
-// metres and clip space.
+// A corner of a fish of few triangles: a control point, which is posed here, as a separate kernel would
+// not pay. In: control point, normal at rest (body frame), place on the skin. Out: as fish.vert, in
+// world metres and clip space.
 #include "frame_uniforms.h"
 #include "fish_pose.glsl"
 

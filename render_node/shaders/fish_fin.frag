@@ -47,9 +47,9 @@ void main() {
     // The edge of a membrane is thin and clear, its rays are bone.
     made.albedo *= (1.05 - 0.15 * fin.y) * (1.0 - made.ribbing * ray);
     made.opacity = clamp(made.opacity - (isFleshy ? 0.0 : 0.10 * fin.y) + 0.25 * ray, 0.0, 1.0);
-    // Seen from its edge one looks the longer way through it.
+    // A line of sight near its plane passes through more of the membrane.
     made.opacity = 1.0 - pow(1.0 - made.opacity, 1.0 / throughIt);
-    // At its root a fin is muscle under the skin; those of the paired fins reach further out.
+    // At its root a fin is muscle under the skin; on the paired fins it reaches further out.
     float reach = isPaired ? mix(0.55, 0.20, made.opacity) : 0.12;
     float grown = smoothstep(0.0, reach, fin.y);
     Skin skin = root;

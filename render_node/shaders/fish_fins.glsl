@@ -1,8 +1,10 @@
-// Fins that row, flutter, ripple and fold beside the body that bears them: a pure function of time and
-// of what a node knows of a fish. common/body/fins.h is the reference.
-// Lengths in body lengths, angles in radians, times in seconds; axes tailwards, up, right.
+// Fins that row, flutter, ripple and fold beside the body: a pure function of time and of a fish's
+// record. common/body/fins.h is the reference. Lengths in body lengths, angles in radians, times in
+// seconds; axes tailwards, up, right.
 #ifndef FISH_FINS_GLSL
 #define FISH_FINS_GLSL
+#include "fin_motion.h"
+#include "shader_interface.h"
 
 // FinStyle and FinPoint of common/body/fish_body.h. Tailwards, up, away from the body; the left side
 // is the mirror image of the right.
@@ -25,21 +27,12 @@ struct FinPoint {
     uint part;
 };
 
-// CagePart of common/body/fish_body.h
-const uint kBodyPart = 0u, kCaudalPart = 1u, kAnalPart = 4u, kPelvicPart = 5u, kPectoralPart = 6u;
-
-const float kWholeTurn = 6.2831853;
-const float kFinSeconds = 10.0;
-const float kMarginLag = kWholeTurn / 6.0, kTipLag = 0.12;
-const float kStands = 0.2, kSwims = 0.6, kFolded = 1.5;  // body lengths a second
-const float kFoldBand = 0.2, kTrimGain = 3.0;
-
-// What drives the fins of one fish.
+// The inputs of the motion of one fish's fins.
 struct FinDrive {
     float seconds, speed, climb;
     float tilt, spread;
     vec2 turning;  // how far it is in a turn to the left, to the right
-    float own;     // cycles by which it differs from others
+    float own;     // the fish's phase offset, cycles
     float phase, fromPhase, weight;
 };
 
@@ -54,8 +47,8 @@ float beyondSpeed(float speed, float limit) {
     return smoothstep(limit - band, limit + band, abs(speed) + 1.0e-3);
 }
 
-// A pectoral fin rows with its stroke and feathers its blade; fast fish fold it, one that brakes holds
-// it across the water, and its twist gives the lift of a slope and of balancing. Below the speed
+// A pectoral fin rows with its stroke and feathers its blade. Fast fish fold it, and a fish that brakes
+// holds it across the water. Its twist gives lift, for a slope and for balance. Below the speed
 // `alternateBelow` the left fin is half a cycle behind the right one.
 vec3 rowedFin(FinStyle style, FinPoint point, FinDrive drive) {
     bool isRight = point.side > 0.0;
@@ -81,24 +74,25 @@ float finWave(FinPoint point, float cycles, float waves) {
 float rippledFin(FinStyle style, FinPoint point, FinDrive drive) {
     float swimming = mix(finWave(point, drive.fromPhase, style.swimWaves),
                          finWave(point, drive.phase, style.swimWaves), drive.weight);
-    float opposed = point.part == kAnalPart ? style.opposed / kWholeTurn : 0.0;
+    float opposed = point.part == kAnal ? style.opposed / kWholeTurn : 0.0;
     float hovering = finWave(point, style.hoverHertz * drive.seconds + drive.own + opposed,
                              style.hoverWaves);
     return point.sway * mix(style.hoverRipple * hovering, style.swimRipple * swimming,
                             smoothstep(kStands, kSwims, abs(drive.speed)));
 }
 
-// How far a control point is from where the body alone would have it: tailwards, up, to the right.
+// The displacement of a control point from where the body alone would place it: tailwards, up, to the
+// right.
 vec3 finOffset(FinStyle style, FinPoint point, FinDrive drive, float drift) {
     vec3 mirror = vec3(1.0, 1.0, point.side);
     switch (point.part) {
-        case kBodyPart: return vec3(0.0);
-        case kPectoralPart: return rowedFin(style, point, drive) * mirror;
-        case kPelvicPart: {
+        case kBody: return vec3(0.0);
+        case kPectoral: return rowedFin(style, point, drive) * mirror;
+        case kPelvic: {
             float angle = style.pelvicFold * (1.0 - drive.spread) * smoothstep(kStands, kFolded, abs(drive.speed));
             return (rotatedAbout(vec3(0.0, 0.0, 1.0), angle, point.arm) - point.arm) * mirror;
         }
-        case kCaudalPart: {
+        case kCaudal: {
             float lobe = 2.0 * point.p - 1.0;
             return vec3(0.0, 0.0, drift * style.cupping * (lobe * lobe - 0.5) * pow(point.q, 1.5));
         }
@@ -106,7 +100,7 @@ vec3 finOffset(FinStyle style, FinPoint point, FinDrive drive, float drift) {
     }
 }
 
-// tailwards, up, right to the body frame, in which right is turned from z towards x.
+// Converts (tailwards, up, right) to the body frame, in which right is turned from z towards x.
 vec3 turnedBy(float heading, vec3 offset) {
     float c = cos(heading), s = sin(heading);
     return vec3(s * offset.z - c * offset.x, offset.y, c * offset.z + s * offset.x);

@@ -1,6 +1,5 @@
-// What light does on and in the skin of a fish.
-// Radiances in linear Rec. 709, relative to an irradiance of 1 at the surface; vectors are unit
-// vectors in the world.
+// How the skin of a fish reflects and scatters light. Radiances in linear Rec. 709, relative to an
+// irradiance of 1 at the surface; vectors are unit vectors in the world.
 #ifndef FISH_LIGHT_GLSL
 #define FISH_LIGHT_GLSL
 #include "light.glsl"
@@ -19,8 +18,8 @@ vec3 litSkin(Skin skin, vec3 place, vec3 n) {
     return lit(skin.albedo, place, wrapped, 0.10 * skin.soft) * open;
 }
 
-// What a mirror in the skin shows: the open water and the surface; over a sea floor, towards the level
-// and below, more and more of the sunlit sand and rock.
+// The light that a mirror in the skin reflects: of the open water and the surface; over a sea floor,
+// towards the horizontal and below it, more and more of the sunlit sand and rock.
 const float kBottomAlbedo = 0.30;
 vec3 around(vec3 direction, vec3 place) {
     float share = unscatteredShare(max(-place.y, 0.1));
@@ -50,8 +49,8 @@ vec3 iridescent(vec3 albedo, float amount, float facing) {
     return albedo * (1.0 + 0.9 * amount * cos(phase));
 }
 
-// A platelet that faces the lamp gives its light back at once. They stand at all angles about the
-// upright axis, so some do.
+// A platelet that faces the lamp reflects its light straight back. Platelets stand at all angles about
+// the upright axis, so some do.
 vec3 lampFlash(vec3 plate, vec3 place) {
     vec3 toLamp = normalize(lamp.xyz - place);
     float c = max(dot(plate, toLamp), 0.0);
@@ -64,7 +63,7 @@ vec3 underSilver(vec3 matte, vec3 mirror, float silver) {
     return mirror * silver + matte * ((1.0 - silver) * (1.0 - 0.85 * silver));
 }
 
-// What a mirror of platelets sends to the eye. shown: what lies where it points.
+// The light of a mirror of platelets. shown: the light from the direction that it reflects.
 vec3 silvered(vec3 shown, vec3 plate, vec3 albedo, vec3 place, float facing) {
     return (shown + lampFlash(plate, place)) * filmTint(facing) * mix(vec3(1.0), albedo, 0.35);
 }

@@ -1,11 +1,10 @@
-// What the kernels that sort fish into lists share: a list is a species at a level of detail. Fish
-// are counted in groups that no two species share, so that each finds its place without waiting for
-// any other, and the order is always that of the school.
+// The lists into which kernels sort the fish: a list is a species at a level of detail. Fish are
+// counted in groups that no two species share, so that each finds its place without waiting for any
+// other, and the order is always that of the school.
 #ifndef FISH_LISTS_GLSL
 #define FISH_LISTS_GLSL
 #include "shader_interface.h"
 
-const uint kMeshes = 5u;   // few triangles, then the surfaces from coarse to fine
 
 struct Mesh {
     uint vertexCount;

@@ -1,6 +1,6 @@
-// From how many fish are in each list to the commands that draw them. One thread: a few hundred
-// steps, whatever the number of fish.
-// In: totals of each list, cast. Out: firsts, turns, pieces, commands (fish_plan.glsl).
+// Makes the commands that draw the fish, from the number of fish in each list. One thread: a few
+// hundred steps, whatever the number of fish. In: totals of each list, cast. Out: firsts, turns,
+// pieces, commands (fish_plan.glsl).
 #include "shader_interface.h"
 #include "fish_detail.glsl"
 #include "fish_plan.glsl"
@@ -34,8 +34,8 @@ void clear() {
     }
 }
 
-// Gives a list of surfaces room in this turn and the next; what does not fit in the last is drawn as
-// few triangles.
+// Gives a list of surfaces room in this turn and the next ones; fish that do not fit in the last turn
+// are drawn as few triangles.
 void place(uint species, uint surface, uint first, uint fish) {
     Mesh mesh = kinds[species].meshes[1u + surface];
     uint placed = 0u;
@@ -91,7 +91,7 @@ void main() {
         }
     }
     for (uint species = 0u; species < speciesCount; ++species) first = placeTail(species, first);
-    // A surface that is still there when fins are drawn need not be evaluated again.
+    // A surface that is still in the buffer when fins are drawn need not be evaluated again.
     for (uint t = 0u; turns[bodyGroupsOf(1u)] > 0u && t < kTurns; ++t)
         turns[finGroupsOf(t)] = turns[bodyGroupsOf(t)];
 }

@@ -1,5 +1,5 @@
-// What a view does with its lists: where each begins, which fish each turn of the surface buffer
-// holds, and the commands that draw them. FishPlan of render_node/surface/fish_tables.h.
+// The plan of a view's lists: where each begins, which fish each turn of the surface buffer holds, and
+// the commands that draw them. FishPlan of render_node/surface/fish_tables.h.
 #ifndef FISH_PLAN_GLSL
 #define FISH_PLAN_GLSL
 #include "shader_interface.h"

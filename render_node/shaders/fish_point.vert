@@ -1,9 +1,8 @@
-// A fish that is hardly more than a pixel: a sprite of four triangles, opaque in the middle and clear
-// at its rim, that covers as much as the fish does. Its skin is spread over it, so that what a pixel
-// shows is a mean of the flank's colours; and it is lit as the flank is, so that it flashes when the
-// fish turns.
-// In: five corners for each fish. Out: as fish.vert. The size follows the shared eye, not the
-// view's own, so that neighbours agree.
+// A fish of about one pixel: a sprite of four triangles, opaque in the middle and clear at its rim,
+// with the area of the fish. The skin is spread over it, so that a pixel shows a mean of the flank's
+// colours. It is lit as the flank is, so that it flashes when the fish turns. In: five corners for each
+// fish. Out: as fish.vert. The size follows the shared eye, not the view's own, so that neighbours
+// agree.
 #include "frame_uniforms.h"
 #include "fish_school.glsl"
 #include "fish_lists.glsl"

@@ -10,8 +10,8 @@
 
 const uint kPoses = kActions * kPhases * kControlPoints;
 const uint kFinNumbers = 7u * 2u + kControlPoints * 2u * 2u;  // of a FinStyle, and of FinPoints
-// Species by species. First by action and phase the points: 3 x 16 bits, body lengths, then a
-// heading, half turns; behind them, as OpenGL promises no more buffers, the fins.
+// Species by species. First by action and phase the points: 3 x 16 bits, body lengths, then a heading,
+// half turns; the fins follow in the same buffer, as OpenGL guarantees no more buffers.
 layout(std430, binding = kRecordedStorage) readonly buffer Recorded { uvec2 recorded[]; };
 
 vec4 finNumbers(uint species, uint vector) {
@@ -84,7 +84,7 @@ vec3 controlPointOf(Fish self, uint i) {
         pose.drift = mix(from.drift, pose.drift, self.warpWeight);
     }
     FinPoint point = finPointOf(self.species, i);
-    if (point.part == kBodyPart) return pose.place;
+    if (point.part == kBody) return pose.place;
     vec3 offset = finOffset(finStyleOf(self.species), point, finDriveOf(self), pose.drift);
     return pose.place + turnedBy(pose.heading, offset);
 }

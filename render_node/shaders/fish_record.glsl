@@ -1,10 +1,10 @@
 // The school as the wire has it (FishRecord of common/motion/motion_state.h, 32 bytes): before and
 // after a tick, and where each fish is between them. present() of common/motion/reconstruct.h is the
-// reference of all this.
-// Gives place in world metres, length in metres, rotation as a quaternion from body to world,
-// phases in cycles.
+// reference. Gives place in world metres, length in metres, rotation as a quaternion from body to
+// world, phases in cycles.
 #ifndef FISH_RECORD_GLSL
 #define FISH_RECORD_GLSL
+#include "record_units.h"
 #include "shader_interface.h"
 
 // Two words of four numbers a fish: place and the low orientation; the high one, phases, segments
@@ -14,26 +14,21 @@ layout(std430, binding = kAfterStorage) readonly buffer After { uvec4 after[]; }
 layout(std430, binding = kTraitsStorage) readonly buffer Traits { uvec2 traits[]; };  // id, length in millimetres
 layout(location = kFractionLocation) uniform float fraction;                             // of the way to `after`
 
-const float kPositionUnitMetres = 1.0 / 65536.0;
-const float kPhaseUnit = 1.0 / 65536.0;
-const int kAwayBelow = -8192 * 65536;
-
 float lengthMetresOf(uint i) { return float(traits[i].y) * 0.001; }
 
 // Body lengths a second; backwards is negative.
 float speedOf(uint i) {
-    const float kUnitsPerBodyLength = 262144.0;
     ivec2 units = ivec2(before[2u * i + 1u].w, after[2u * i + 1u].w) << 8 >> 8;
-    return mix(float(units.x), float(units.y), fraction) / kUnitsPerBodyLength;
+    return mix(float(units.x), float(units.y), fraction) / kSpeedUnitsPerBodyLength;
 }
 
 // Of the pectoral fins, 0 to 1.
 float spreadOf(uint i) {
     uvec2 spread = uvec2(before[2u * i + 1u].w, after[2u * i + 1u].w) >> 24;
-    return mix(float(spread.x), float(spread.y), fraction) / 255.0;
+    return mix(float(spread.x), float(spread.y), fraction) / kMostSpread;
 }
 
-// Not in the water at one of the ticks: nobody draws it.
+// Whether the fish is away at one of the ticks, and so not drawn.
 bool isAway(uint i) {
     return int(before[2u * i].y) < kAwayBelow || int(after[2u * i].y) < kAwayBelow;
 }
@@ -45,9 +40,8 @@ vec3 placeMetresOf(uint i) {
 
 // The smallest three components of a unit quaternion, 20 bits each; the largest is positive.
 vec4 unpackRotation(uint low, uint high) {
-    const float kUnit = 1.0 / 741455.2;
     uvec3 bits = uvec3(low, (low >> 20) | (high << 12), high >> 8);
-    vec3 abc = vec3(ivec3(bits << 12) >> 12) * kUnit;
+    vec3 abc = vec3(ivec3(bits << 12) >> 12) * kOrientationUnit;
     float most = sqrt(max(1.0 - dot(abc, abc), 0.0));
     uint largest = (high >> 28) & 3u;  // of w, x, y, z
     if (largest == 0u) return vec4(abc, most);

@@ -1,6 +1,6 @@
-// Puts each fish that a view shows in its place, and only of those unpacks all.
-// In: choices, sums, firsts, pieces, records. Out: the drawn fish, in the order of the school
-// within each list.
+// Puts each fish that a view shows in its place, and unpacks the whole record of these fish alone. In:
+// choices, sums, firsts, pieces, records. Out: the drawn fish, in the order of the school within each
+// list.
 #include "shader_interface.h"
 #include "fish_data.glsl"
 #include "fish_record.glsl"
@@ -13,7 +13,7 @@ layout(std430, binding = kChoicesStorage) readonly buffer Choices { uint choices
 layout(std430, binding = kCountsStorage) readonly buffer Counts { uint counts[]; };    // [group][level], sums
 layout(location = kFishCountLocation) uniform uint fishCount;
 
-// The piece that has its place, or none.
+// The piece that contains its place, or none.
 bool findSurface(uint species, uint surface, uint slot, out uint firstVertex) {
     Mesh mesh = kinds[species].meshes[1u + surface];
     for (uint t = 0u; t < kTurns; ++t) {

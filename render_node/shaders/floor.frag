@@ -12,7 +12,7 @@ const float kRubbleTile = 1.3;
 const vec3 kSand = vec3(0.44, 0.39, 0.31);
 void main() {
     vec4 fine = texture(detail, place.xz / kSandTileMetres);
-    // A second look, larger and turned, so that the tile is not seen to repeat.
+    // A second sample, larger and rotated, hides the repetition of the tile.
     vec2 turned = vec2(place.x * 0.83 - place.z * 0.56, place.x * 0.56 + place.z * 0.83);
     vec4 coarse = texture(detail, turned / (kSandTileMetres * 5.3));
     vec3 open = texture(shade, place.xz / kFloorShadeMetres + 0.5).rgb;

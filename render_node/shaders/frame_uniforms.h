@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame's uniform block, included by C++ and by GLSL: one truth for both. std140, so only vec4
-// and mat4 members.
+// The frame's uniform block, included by C++ and by GLSL. std140, so only vec4 and mat4 members.
 #ifndef AQUARAMA_FRAME_UNIFORMS_H
 #define AQUARAMA_FRAME_UNIFORMS_H
 #ifdef __cplusplus
@@ -16,7 +15,7 @@ layout(std140, binding = kFrameBlock) uniform FrameUniforms {
 #endif
     mat4 clipFromWorld;
     mat4 worldFromClip;
-    vec4 eyeAndTime;         // eye of this view in world metres; w: seconds, anew after 9000
+    vec4 eyeAndTime;         // eye of this view in world metres; w: seconds, restarts after 9000
     vec4 sharedEyeAndPixel;  // shared eye in world metres, from which levels of detail follow; w:
                              // the wall's finest pixel, radians
     vec4 sunAndFilterDepth;  // unit vector towards the refracted sun; w: depth of the diver's

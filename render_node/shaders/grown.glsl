@@ -1,6 +1,6 @@
-// A corner of what grows on the reef: where the swell has carried it, and how it is lit.
-// grown() reads the vertex attributes and the chosen instance, and returns place and normal in the
-// world, albedo and occlusion.
+// A vertex of a coral or plant: where the swell has carried it, and how it is lit. grown() reads the
+// vertex attributes and the chosen instance, and returns place and normal in the world, albedo and
+// occlusion.
 #include "shader_interface.h"
 #include "instance.glsl"
 #include "plant_bend.h"
@@ -16,7 +16,7 @@ layout(location = 4) in uint chosen;
 layout(location = kDetailLocation) uniform float detail;
 layout(location = kStirredLocation) uniform bool stirred;  // by fish that pass
 
-// How far passing fish push what is free to move, metres: between the middles of eight cells.
+// How far passing fish push a free plant, metres: interpolated between the middles of eight cells.
 vec2 pushedAt(vec3 place) {
     vec3 at = place / kWakeCellMetres - 0.5;
     ivec3 low = ivec3(floor(at));
@@ -30,7 +30,7 @@ vec2 pushedAt(vec3 place) {
         sum += weight.x * weight.y * weight.z * vec2(wake[index], wake[index + 2]);
     }
     sum *= 0.5 * kWakeUnit;
-    return 0.35 * sum / (0.35 + length(sum));  // however many pass, a leaf gives way no further
+    return 0.35 * sum / (0.35 + length(sum));  // a limit for any number of fish
 }
 struct Grown {
     vec3 place, rest, normal, albedo;
@@ -38,7 +38,7 @@ struct Grown {
 };
 Grown grown() {
     Instance one = instances[chosen];
-    // What is about to be culled has shrunk before, so that it does not vanish at once.
+    // A thing shrinks before it is culled, so that it does not vanish suddenly.
     float shown = smoothstep(2.2, 4.5, detail * pixelsOf(one.placeAndScale));
     float scale = one.placeAndScale.w * shown;
     vec3 root = one.placeAndScale.xyz;
@@ -54,7 +54,7 @@ Grown grown() {
     }
     it.normal = turned(one.turn, normalAndRoughness.xyz);
     it.albedo = min(1.75 * albedoAndSky.rgb * one.tintAndSway.rgb, vec3(0.80));
-    // A leaf has two sides: the one that looks at us is lit.
+    // A leaf has two sides: the one that faces the eye is lit.
     if (response.y > 0.3 && dot(it.normal, eyeAndTime.xyz - it.place) < 0.0) it.normal = -it.normal;
     // Sand close below takes some of the light from above.
     float contact = mix(0.55, 1.0, smoothstep(-0.05, 0.35, it.rest.y - one.sandHeightMetres));

@@ -1,2 +1,2 @@
-// Leaves out what the lowest tier has no time for; see light_fine.glsl.
+// Omits what is too slow for the lowest tier; see light_fine.glsl.
 const bool kFine = false;

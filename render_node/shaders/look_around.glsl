@@ -1,6 +1,6 @@
-// Places of the picture so many radians beside another: the same in the world whichever way the
-// channel's picture lies, so that neighbours read the same neighbourhood.
-// uv: 0 to 1, origin bottom left. Angles in radians. `clip` has x, y and w of clip space.
+// Places of the picture at an angular distance from another. They are the same in the world for every
+// orientation of the channel's picture, so that neighbours read the same places. uv: 0 to 1, origin
+// bottom left. Angles in radians. `clip` has x, y and w of clip space.
 #ifndef LOOK_AROUND_GLSL
 #define LOOK_AROUND_GLSL
 #include "frame_uniforms.h"
@@ -25,7 +25,7 @@ vec3 beside(Neighbourhood at, vec2 radians) {
 }
 vec2 uvOf(vec3 clip) { return 0.5 + 0.5 * clip.xy / clip.z; }
 
-// How far one sees there: the depth is near / distance along the axis.
+// The distance of the thing that is seen there; depth is near / distance along the axis.
 float rangeOf(vec3 clip, float depth) {
     return min(clipFromWorld[3].z / max(depth * clip.z, 1.0e-6), 80.0);
 }

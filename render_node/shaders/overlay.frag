@@ -1,6 +1,5 @@
-// White dots on a dark box.
-// In: place in dots from the glyph's top left dot; the bits of the glyph. Out: display light with
-// alpha, blended.
+// White dots on a dark box. In: place in dots from the glyph's top left dot; the bits of the glyph.
+// Out: display light with alpha, for blending.
 layout(location = 0) in vec2 dot;
 layout(location = 1) flat in uvec2 bits;
 layout(location = 0) out vec4 colour;

@@ -12,8 +12,6 @@ layout(location = kEyeAndSizeLocation) uniform vec4 eyeAndSize;
 layout(location = kGroundLocation) uniform int ground;
 layout(location = kLocalFromWallLocation) uniform mat3 localFromWall;
 
-const int kSphere = 1, kPlane = 2, kFar = 3;  // else a cylinder
-
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 light;
 
@@ -30,12 +28,13 @@ float majorAndMinor(float at, float scale) {
 float gridLight(vec3 direction) {
     float azimuth = degrees(atan(direction.x, -direction.z));
     float elevation = degrees(atan(direction.y, length(direction.xz)));
-    bool isAround = ground == kSphere || ground == kFar;
+    bool isAround = ground == kSphereGround || ground == kFarGround;
     float scale = isAround ? length(direction.xz) / length(direction) : 1.0;
     return max(majorAndMinor(azimuth, scale), majorAndMinor(elevation, 1.0));
 }
 
-// The way along a ray from the eye to the ground, in lengths of the ray; the eye is inside of it.
+// The distance along a ray from the eye to the ground, in lengths of the ray; the eye is inside the
+// ground.
 float wayToRound(float rayRay, float eyeRay, float eyeEye) {
     float c = eyeEye - eyeAndSize.w * eyeAndSize.w;
     return (sqrt(max(eyeRay * eyeRay - rayRay * c, 0.0)) - eyeRay) / rayRay;
@@ -44,11 +43,11 @@ float wayToRound(float rayRay, float eyeRay, float eyeEye) {
 // From the pattern's origin to where a ray of the wall's frame meets the ground.
 vec3 onGround(vec3 ray) {
     vec3 eye = eyeAndSize.xyz, local = localFromWall * ray;
-    if (ground == kFar) return ray;
+    if (ground == kFarGround) return ray;
     float way;
-    if (ground == kSphere)
+    if (ground == kSphereGround)
         way = wayToRound(dot(local, local), dot(eye, local), dot(eye, eye));
-    else if (ground == kPlane)
+    else if (ground == kPlaneGround)
         way = (-eyeAndSize.w - eye.z) / local.z;
     else
         way = wayToRound(dot(local.xz, local.xz), dot(eye.xz, local.xz), dot(eye.xz, eye.xz));

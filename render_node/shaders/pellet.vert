@@ -6,11 +6,11 @@
 #include "shading.glsl"
 layout(location = 0) out vec3 light;
 layout(location = 1) out float coverage;
-const float kLeastPixels = 3.0;  // of its diameter: smaller, it would slip between the pixels
+const float kLeastPixels = 3.0;  // least diameter: a smaller one would fall between the pixels
 // Albedo of a crumb.
 const vec3 kCrumb = vec3(0.66, 0.27, 0.07);
 
-// Of corner 0 to 5: right, left, above, below, towards us, away.
+// Directions of corners 0 to 5: right, left, up, down, towards the eye, away.
 vec3 cornerOf(int corner, uint seed) {
     vec3 axis = vec3(corner >> 1 == 0, corner >> 1 == 1, corner >> 1 == 2);
     return axis * (((corner & 1) == 0 ? 1.0 : -1.0) * mix(0.6, 1.0, unit(seed, 6u + uint(corner))));

@@ -1,8 +1,8 @@
-// What of the place a view may show, and how finely: each instance becomes one more of the draw of
-// its prototype at its level. A ball against the four sides of the frustum; the level follows from
-// the angle at the shared eye in units of the wall's finest pixel, so that neighbours agree.
-// In: seen groups, instances, prototypes. Out: instance counts of the commands, and the list of
-// chosen instances. The order within a command is not fixed; opaque draws do not depend on it.
+// Selects the instances that a view may show, and their level of detail: each one is added to the draw
+// of its prototype at that level. A ball against the four sides of the frustum; the level follows from
+// the angle at the shared eye in units of the wall's finest pixel, so that neighbours agree. In: seen
+// groups, instances, prototypes. Out: instance counts of the commands, and the list of chosen
+// instances. The order within a command is not fixed; opaque draws do not depend on it.
 #include "shader_interface.h"
 #include "instance.glsl"
 #include "place_groups.glsl"
@@ -31,7 +31,7 @@ void main() {
     Prototype prototype = prototypes[one.prototype];
     float scale = one.placeAndScale.w;
     vec3 centre = one.placeAndScale.xyz + turned(one.turn, vec3(0.0, prototype.middle * scale, 0.0));
-    // What bends reaches further.
+    // Plants that bend reach further.
     float reach = scale * (prototype.reach + 1.5 * one.tintAndSway.w);
     if (!sees(centre, reach)) return;
     float pixels = detail * pixelsOf(one.placeAndScale);

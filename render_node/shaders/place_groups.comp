@@ -1,6 +1,7 @@
-// Which groups of instances a view may show: a ball about each against the frustum. Only these are
-// then culled one by one (place_cull.comp), so that what lies behind the eye costs next to nothing.
-// In: balls of groups, world metres. Out: the list of seen groups, and its length as a dispatch.
+// Which groups of instances a view may show: a ball about each against the frustum. Only their
+// instances are then culled one by one (place_cull.comp), so that groups behind the eye cost next to
+// nothing. In: balls of groups, world metres. Out: the list of seen groups, and its length as a
+// dispatch.
 #include "shader_interface.h"
 #include "place_groups.glsl"
 layout(local_size_x = kGroupSize) in;

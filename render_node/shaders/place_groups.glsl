@@ -7,7 +7,7 @@
 layout(std430, binding = kGroupsStorage) readonly buffer Groups { vec4 groupBalls[]; };
 layout(location = kCullingLocation) uniform bool culling;
 
-// The four sides: things before and behind are few.
+// Tests the four sides only: few things are in front of the near plane or behind the far one.
 bool sees(vec3 centre, float reach) {
     if (!culling) return true;
     mat4 rows = transpose(clipFromWorld);

@@ -1,4 +1,4 @@
-// One pixel of the projector: the scene where it looks, times its share of the light, encoded.
+// One pixel of the projector: the scene's light at its place, times its share of the light, encoded.
 // In: scene picture and projection map. Out: code of the projector, 0 to 1.
 #include "shader_interface.h"
 #include "project.glsl"

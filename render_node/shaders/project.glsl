@@ -1,7 +1,7 @@
-// From a projector pixel's light to its code. The dither is the same for both eyes, or its grain would
-// hang in the room.
-// Pixels count from the top left corner. `light` is linear, 0 to 1; `encoded` is what the projector
-// takes: sRGB, or where its channel has a colour (formats::ChannelColour) what that says.
+// Converts a projector pixel's light to its code. The dither is the same for both eyes; otherwise its
+// grain would appear at a depth of its own. Pixels count from the top left corner. `light` is linear, 0
+// to 1; `encoded` is what the projector takes: sRGB, or where its channel has a colour
+// (formats::ChannelColour) what that says.
 #include "shader_interface.h"
 layout(location = kSizeLocation) uniform ivec2 size;  // of the projector's picture
 layout(location = kSeedLocation) uniform uint seed;
@@ -9,10 +9,11 @@ layout(location = kDitheredLocation) uniform bool dithered;
 layout(location = kBlendMaskLocation) uniform bool blendMask;
 layout(location = kBrightnessLocation) uniform float brightness;  // share of the light, 0 black
 
-// Of a wall file, in linear light, a texel for each pixel: the display's, whatever eye sees it.
+// Blend and black level of a wall file, in linear light, with a texel for each pixel of the display,
+// for either eye.
 layout(binding = kBlendUnit) uniform sampler2D fileBlend;
 layout(binding = kBlackUnit) uniform sampler2D fileBlack;
-layout(location = kMasksLocation) uniform bvec2 masks;  // which of them there are
+layout(location = kMasksLocation) uniform bvec2 masks;  // which of the two exist
 layout(location = kColouredLocation) uniform bool coloured;
 layout(location = kMixLocation) uniform mat3 ownFromLight;  // to the projector's red green blue
 layout(binding = kCodesUnit) uniform sampler1D codes;       // for each of them
@@ -50,9 +51,9 @@ uvec3 noise(uvec3 v) {
     return v;
 }
 
-// To one of 256 codes, right in the mean. Triangular noise of +-1 code keeps the grain the same at
-// every level; below half a code from either end it would be cut off and shift the mean, and the
-// grain of uniform noise is the same at that point and fades to none at the end.
+// Rounds to one of 256 codes, exact in the mean. Triangular noise of +-1 code has the same grain at
+// every level. Within half a code of either end it would be cut off and shift the mean. There uniform
+// noise takes its place, whose grain is the same at that point and fades to none at the end.
 vec3 toCodes(vec3 value, uvec3 random) {
     vec3 code = value * 255.0;
     vec3 first = vec3(random & 0xffffu) / 65536.0;
@@ -61,10 +62,10 @@ vec3 toCodes(vec3 value, uvec3 random) {
     return floor(code + mix(first + second - 0.5, first, atAnEnd)) / 255.0;
 }
 
-// The fragment's, from the top left corner.
+// The fragment's pixel, from the top left corner.
 ivec2 projectorPixel() { return ivec2(gl_FragCoord.x, size.y - 1 - int(gl_FragCoord.y)); }
 
-// What a texel of the map, top row first, shows of a scene.
+// The light of the scene at a texel of the map, top row first.
 vec3 projectedLight(sampler2D scene, sampler2D placeAndWeight, ivec2 pixel) {
     vec3 place = texelFetch(placeAndWeight, pixel, 0).xyz;
     return (blendMask ? vec3(1.0) : textureLod(scene, place.xy, 0.0).rgb) * place.z;

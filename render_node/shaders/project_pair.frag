@@ -8,8 +8,6 @@ layout(binding = kRightSceneUnit) uniform sampler2D rightScene;
 layout(binding = kRightPlacesUnit) uniform sampler2D rightPlaces;
 layout(location = kModeLocation) uniform int mode;
 
-const int kSideBySide = 2, kTopBottom = 3, kInterlaced = 4;  // as StereoMode; else anaglyph
-
 // Red and cyan glasses by least squares over what display and filters do to the light (Dubois 2001),
 // for linear light.
 const mat3 kLeftToRed = mat3(0.4561, -0.0400822, -0.0152161,

@@ -1,7 +1,6 @@
-// Rock: grit, pits and knobs at two or three scales, laid on from three sides; turf on what looks
-// up, pink crusts of algae in the shade, sponges in patches.
-// In: world place and normal, colours and occlusion from rock.vert; the rock tile. Out: scene
-// radiance, opaque.
+// Rock: grit, pits and knobs at two or three scales, mapped from three sides; turf on faces that look
+// up, pink crusts of algae in the shade, sponges in patches. In: world place and normal, colours and
+// occlusion from rock.vert; the rock tile. Out: scene radiance, opaque.
 #include "shader_interface.h"
 #include "light.glsl"
 // Interpolated at centroids: outside a thin shape the values would be extrapolated.
@@ -13,7 +12,6 @@ layout(location = 2) centroid in vec3 mottle;  // lightness, turf, crust
 layout(location = 3) centroid in vec2 open;
 layout(location = 4) centroid in vec3 tint;
 layout(location = 0) out vec4 radiance;
-const float kTexels = 512.0;
 
 // xyz: slope as a vector of the world; tone: albedo and crest.
 struct Relief {
@@ -21,7 +19,7 @@ struct Relief {
     vec2 tone;
 };
 Relief reliefAt(vec3 p, vec3 weight, float tile, float pixelMetres) {
-    float lod = log2(max(pixelMetres * kTexels / tile, 1.0));
+    float lod = log2(max(pixelMetres * float(kDetailTexels) / tile, 1.0));
     vec4 above = textureLod(grit, p.xz / tile, lod) - vec4(0.5, 0.5, 0.0, 0.0);
     vec4 east = textureLod(grit, p.zy / tile + 0.37, lod) - vec4(0.5, 0.5, 0.0, 0.0);
     vec4 south = textureLod(grit, p.xy / tile + 0.71, lod) - vec4(0.5, 0.5, 0.0, 0.0);

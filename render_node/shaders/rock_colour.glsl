@@ -1,5 +1,6 @@
-// Rock is seldom bare: films of algae on what looks up, crusts of pink ones in the shade, in patches
-// of a hand to an arm. mottle: lightness, turf, crust; tone: of the grit; patches and crest: 0 to 1.
+// Rock is seldom bare: films of algae on faces that look up, pink crusts in the shade, in patches of
+// the size of a hand to an arm. mottle: lightness, turf, crust; tone: of the grit; patches and crest: 0
+// to 1.
 vec3 rockColour(vec3 mottle, float tone, float patches, float crest) {
     vec3 stone = mix(vec3(0.13, 0.10, 0.075), vec3(0.46, 0.37, 0.27), mottle.x) * tone;
     vec3 turf = mix(vec3(0.14, 0.10, 0.03), vec3(0.36, 0.22, 0.08), smoothstep(0.3, 0.8, patches)) * tone;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What C++ and GLSL agree on, included by both: bindings of uniform blocks, shader storage and
-// textures, locations of uniforms, and the sizes of what they share. OpenGL promises eight storage
-// blocks in a stage: what is never bound at the same time may share a number.
+// The constants that C++ and GLSL share: bindings of uniform blocks, shader storage and textures,
+// locations of uniforms, and sizes. OpenGL guarantees eight storage blocks in a stage: blocks that
+// are never bound at the same time may share a number.
 #ifndef AQUARAMA_SHADER_INTERFACE_H
 #define AQUARAMA_SHADER_INTERFACE_H
 #ifdef __cplusplus
@@ -145,10 +145,31 @@ AQUARAMA_CONSTANT uint kGroupSize = 64U;
 
 // The plan of a view's fish.
 AQUARAMA_CONSTANT uint kMostSpecies = 64U;
-AQUARAMA_CONSTANT uint kTurns = 8U;         // of the surface buffer
-AQUARAMA_CONSTANT uint kSurfaces = 4U;      // levels of detail that have a surface
-AQUARAMA_CONSTANT uint kTails = 11U;        // commands of a species that need no surface
-AQUARAMA_CONSTANT uint kDetailStride = 8U;  // numbers of a species, one a level of detail
+AQUARAMA_CONSTANT uint kTurns = 8U;     // of the surface buffer
+AQUARAMA_CONSTANT uint kSurfaces = 4U;  // levels of detail that have a surface
+AQUARAMA_CONSTANT uint kMeshes =
+    1U + kSurfaces;  // few triangles, then the surfaces from coarse to fine
+AQUARAMA_CONSTANT uint kTails = 2U * kMeshes + 1U;  // commands of a species that need no surface
+AQUARAMA_CONSTANT uint kDetailStride = 8U;          // numbers of a species, one a level of detail
+
+// Levels of detail of a fish: surface::DetailLevel.
+AQUARAMA_CONSTANT uint kPoint = 0U;
+AQUARAMA_CONSTANT uint kFading = 1U;
+AQUARAMA_CONSTANT uint kFewTriangles = 2U;
+AQUARAMA_CONSTANT uint kControlMesh = 3U;
+AQUARAMA_CONSTANT uint kMesh = 4U;
+AQUARAMA_CONSTANT uint kHero = 5U;
+AQUARAMA_CONSTANT uint kDetails = 7U;  // how many levels there are
+
+// Parts of a fish: body::CagePart.
+AQUARAMA_CONSTANT uint kBody = 0U;
+AQUARAMA_CONSTANT uint kCaudal = 1U;
+AQUARAMA_CONSTANT uint kFirstDorsal = 2U;
+AQUARAMA_CONSTANT uint kSecondDorsal = 3U;
+AQUARAMA_CONSTANT uint kAnal = 4U;
+AQUARAMA_CONSTANT uint kPelvic = 5U;
+AQUARAMA_CONSTANT uint kPectoral = 6U;
+AQUARAMA_CONSTANT uint kEye = 7U;
 
 // Recorded poses of a species.
 AQUARAMA_CONSTANT uint kControlPoints = 426U;
@@ -161,6 +182,19 @@ AQUARAMA_CONSTANT uint kTurnSegments = 41U;  // of the wire
 // The water stirred by fish, about the shared eye: cells of a grid, three numbers each.
 AQUARAMA_CONSTANT int kWakeCellsAcross = 40;
 AQUARAMA_CONSTANT int kWakeCellsUp = 16;
+
+// Where a test pattern lies, as wall::PatternGround::Kind; else on a cylinder.
+AQUARAMA_CONSTANT int kSphereGround = 1;
+AQUARAMA_CONSTANT int kPlaneGround = 2;
+AQUARAMA_CONSTANT int kFarGround = 3;
+
+// Layouts of a pair of pictures, as config::StereoMode; else an anaglyph.
+AQUARAMA_CONSTANT int kSideBySide = 2;
+AQUARAMA_CONSTANT int kTopBottom = 3;
+AQUARAMA_CONSTANT int kInterlaced = 4;
+
+// Texels along a side of the tiles of sand and rock.
+AQUARAMA_CONSTANT int kDetailTexels = 512;
 
 // Texels of the table of a projector's codes, spread evenly over the root of light.
 AQUARAMA_CONSTANT int kCodeTexels = 4096;
@@ -189,7 +223,7 @@ AQUARAMA_CONSTANT float kPelletMetres = 16.0F;
 // Water scatters by sigma = 0.0016 sqrt(r) rad over r metres; taps go to two sigma.
 AQUARAMA_CONSTANT float kScatterSigma = 0.0016F;
 AQUARAMA_CONSTANT float kScatterMostSigma = 0.0080F;
-// The glow about what is bright: rings of taps of so wide a mean.
+// Bloom around bright places: the radii of its rings of taps.
 AQUARAMA_CONSTANT float kBloomNear = 0.0035F;
 AQUARAMA_CONSTANT float kBloomFar = 0.0095F;
 AQUARAMA_CONSTANT float kPostReach = 0.0170F;

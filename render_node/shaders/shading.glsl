@@ -1,6 +1,6 @@
-// The light that falls on things and what of theirs reaches the shared eye, for any stage.
-// Places in world metres, unit normals; radiances in linear Rec. 709, relative to an irradiance of
-// 1 at the surface.
+// The light that falls on things, and the part of it that reaches the shared eye, for any stage. Places
+// in world metres, unit normals; radiances in linear Rec. 709, relative to an irradiance of 1 at the
+// surface.
 #ifndef SHADING_GLSL
 #define SHADING_GLSL
 #include "water.glsl"
@@ -34,18 +34,19 @@ vec3 litAt(float lod, Occlusion open, vec3 albedo, vec3 place, vec3 normal, floa
     vec3 front = sun * max(towardsSun, 0.0) + sky * mix(0.16, 1.0, up * sqrt(up));
     vec3 bounce = 0.24 * (1.0 - up) * (sky + sand);
     vec3 back = translucency * (sun * max(-towardsSun, 0.0) + 0.35 * sky);
-    // The lamp's light has not come down from the surface: what `seen` takes for that is undone. Of
-    // the diver's filter 2.5 m are left on it: with all of it the nearest reds would burn.
+    // The lamp's light has not come down from the surface, so the absorption that `seen` applies for
+    // that is undone. 2.5 m of the diver's filter remain; with all of it the nearest reds would be too
+    // bright.
     vec3 lamplit = lampLight(place, normal) *
                    exp(kdAndExposure.xyz * (depth - sunAndFilterDepth.w + 2.5));
     return albedo * (front + bounce + back + lamplit) / kPi;
 }
 
-// Many corals turn the blue that is left into their own colour.
+// Many corals fluoresce: they turn the remaining blue light into their own colour.
 vec3 fluorescent(vec3 albedo, float amount) { return albedo * (0.10 * amount); }
 
-// What a mirror shows: the open water, the bright window above, the sun. Water has coloured this
-// light already, so the way down that `seen` will add is taken out beforehand.
+// The light that a mirror reflects: of the open water, the bright window above, the sun. Water has
+// coloured this light already, so the way down that `seen` will add is taken out beforehand.
 vec3 mirrored(vec3 direction, vec3 worldPosition) {
     float depth = max(-worldPosition.y, 0.1);
     float towardsSun = dot(direction, sunAndFilterDepth.xyz) - 1.0;
@@ -57,7 +58,7 @@ vec3 mirrored(vec3 direction, vec3 worldPosition) {
     return water * undone + fromSurface;
 }
 
-// What reaches the shared eye: absorbed on the way, and joined by light scattered into it.
+// The light that reaches the shared eye: absorbed on the way, plus the light that is scattered into it.
 vec3 seen(vec3 radiance, vec3 worldPosition) {
     vec3 way = worldPosition - eyeAndTime.xyz;
     float range = length(way);

@@ -1,7 +1,6 @@
-// What stands between a place and the light from above: the sea floor with all that stands on it,
-// and the fish. Every map is indexed by where a straight ray from the place meets the surface, and
-// holds heights, so that a shadow is soft by how far its thrower is above it.
-// In: world metres. Out: shares of light, 0 to 1.
+// The shadows of a place: of the sea floor with all that stands on it, and of the fish. Every map is
+// indexed by where a straight ray from the place meets the surface, and holds heights, so that a shadow
+// is softer the higher its thrower is above it. In: world metres. Out: shares of light, 0 to 1.
 #ifndef SHADOW_GLSL
 #define SHADOW_GLSL
 #include "shader_interface.h"
@@ -23,7 +22,7 @@ vec2 surfacePoint(vec3 place) {
     return place.xz - sunAndFilterDepth.xz / sunAndFilterDepth.y * place.y;
 }
 
-// The share of what the map holds here that is not above a height: Chebyshev's bound (Donnelly and
+// The share of the map's heights here that are not above a height: Chebyshev's bound (Donnelly and
 // Lauritzen 2006), less its tail, which would let light bleed in.
 float shareNotAbove(vec2 moments, float height) {
     float above = moments.x - height;

@@ -1,7 +1,7 @@
 // How much more or less than the mean the sun lights the water before 3, 8, 18 and 45 m along each
-// direction. Never added light: a weighted mean of the caustics on the way, less what rock and fish
-// keep away.
-// In: uv over the octahedral map of directions. Out: the four ratios, mean 1, one in each channel.
+// direction. It adds no light: it is a weighted mean of the caustics on the way, without the light that
+// rock and fish block. In: uv over the octahedral map of directions. Out: the four ratios, mean 1, one
+// in each channel.
 #include "shader_interface.h"
 #include "water.glsl"
 layout(location = 0) in vec2 uv;
@@ -21,9 +21,9 @@ vec3 directionOf(vec2 p) {
     return normalize(d);
 }
 
-// At a place, of the light's mean there. apart: how far from one step to the next the rays of the sun
-// come through the surface: the net is blurred by as much, or steps would show as clouds. Towards the
-// sun they come through one place, and shafts are sharp.
+// The light at a place, relative to its mean there. apart: the distance on the surface between the
+// sun's rays of one step and the next. The caustics are blurred by it; otherwise steps would appear as
+// clouds. Towards the sun all rays pass the surface at one place, and shafts are sharp.
 float lightAt(vec3 place, float range, float apart) {
     float depth = -place.y;
     float spread = 0.06 + range * (4.0 / float(texels)) + 0.35 * apart;

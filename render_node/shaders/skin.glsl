@@ -1,14 +1,11 @@
-// What a skin shader gets and gives, and the words that all skin shaders share. A species' file,
-// skin_NAME.glsl, has a function each for the ground of its pattern, for what is seen only from
-// near, and for its fins.
-// Coordinates: s from nose 0 to tail tip 1, y up and z to the right, in body lengths; v from belly
-// -1 to back +1. Colours are linear Rec. 709 albedos.
+// The inputs and outputs of skin shaders, and the functions that they share. A species' file,
+// skin_NAME.glsl, has a function each for the ground of its pattern, for what is seen only from near,
+// and for its fins. Coordinates: s from nose 0 to tail tip 1, y up and z to the right, in body lengths;
+// v from belly -1 to back +1. Colours are linear Rec. 709 albedos.
 #ifndef SKIN_GLSL
 #define SKIN_GLSL
+#include "shader_interface.h"
 
-// CagePart of common/body/fish_body.h
-const uint kCaudal = 1u, kFirstDorsal = 2u, kSecondDorsal = 3u, kAnal = 4u, kPelvic = 5u,
-           kPectoral = 6u, kEye = 7u;
 const vec3 kInk = vec3(0.006, 0.007, 0.009);
 
 uniform vec3 eyeOfSpecies;  // s, y and radius, body lengths
@@ -49,7 +46,7 @@ struct Fin {
     float ribbing;  // how much rays stand out
 };
 
-// What paints an eye.
+// The parameters of a painted eye.
 struct Iris {
     vec3 colour;
     vec3 ring;      // about the pupil
@@ -76,14 +73,15 @@ float band(float x, float halfWidth, float soft) {
     return falling(halfWidth - soft, halfWidth + soft, abs(x));
 }
 
-// 1 on a line, fading over its width. What is thinner than a pixel grows fainter, never shimmers.
+// 1 on a line, fading over its width. A line that is thinner than a pixel becomes fainter and does not
+// shimmer.
 float line(float x, float width, float pixel) {
     float wide = sqrt(width * width + 0.36 * pixel * pixel);
     float t = x / wide;
     return exp(-t * t) * width / wide;
 }
 
-// How soft an edge is that a brush drew, at least a pixel.
+// The softness of a painted edge, at least a pixel.
 float edgeOf(SkinPoint at) { return 0.7 * at.pixel + 0.0018; }
 
 // 1 where details of this size are well seen, 0 where they are too fine for the pixel.
@@ -94,7 +92,7 @@ float own(uint id, uint what) { return hash(uvec2(id, what), 7u); }
 float ownBetween(uint id, uint what, float least, float most) {
     return mix(least, most, own(id, what));
 }
-// A tint of its own, +-3.5 % a channel.
+// The tint of this fish, +-3.5 % a channel.
 vec3 tintOf(uint id) { return 0.965 + 0.07 * vec3(own(id, 1u), own(id, 2u), own(id, 3u)); }
 
 // Smooth noise, 0 .. 1, mean 0.5.
@@ -154,8 +152,8 @@ Scale scaleAt(vec2 at, float size, bool isSeen) {
     return scale;
 }
 
-// Lays scales over a skin: each a little of its own shade, tilted like a tile, darker at its edge.
-// on: where they are, 0 .. 1. Returns what a skin shader may colour by.
+// Lays scales over a skin: each has its own shade, is tilted like a tile and darker at its edge. on:
+// where they are, 0 .. 1. Returns values from which a skin shader may colour them.
 Scale layScales(inout Skin skin, SkinPoint at, float thickness, float size, float relief, float on) {
     float detail = seenAt(size, at.pixel) * on;
     Scale scale = scaleAt(vec2(at.s, girthOf(at, thickness)), size, detail > 0.0);

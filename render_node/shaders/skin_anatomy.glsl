@@ -1,6 +1,5 @@
-// What the heads and flanks of all fish have, painted into any skin: gill covers, a mouth,
-// nostrils, the lateral line. Places in the coordinates of skin.glsl: s and y in body lengths, v
-// from -1 to 1.
+// Details of the heads and flanks of all fish, painted on any skin: gill covers, a mouth, nostrils, the
+// lateral line. Places in the coordinates of skin.glsl: s and y in body lengths, v from -1 to 1.
 #ifndef SKIN_ANATOMY_GLSL
 #define SKIN_ANATOMY_GLSL
 #include "skin.glsl"

@@ -21,8 +21,8 @@ Skin groundOf(SkinPoint at) {
     Skin skin = skinOf(colour, 0.70 - 0.35 * back, 0.6);
     skin.silver = 0.98 * falling(0.22, 0.66, at.v) * smoothstep(0.015, 0.05, at.s) *
                   (1.0 - 0.75 * golden);
-    // From near one sees the light of the reef and the sand in the platelets, of which the open
-    // water that they mirror knows nothing.
+    // At close range the platelets also reflect the light of the reef and the sand, which the mirrored
+    // open water does not contain.
     float near = seenAt(0.034, at.pixel);
     skin.silver *= 1.0 - near * (0.54 + 0.3 * falling(-1.0, -0.6, at.v));
     skin.iridescence = 0.10 + 0.30 * back;

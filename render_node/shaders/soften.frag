@@ -1,8 +1,7 @@
-// Forward scattering on the way to the eye: of the light of a thing at a range, a share arrives
-// spread over some tenths of a degree. Each tap counts by its own thing's share and spread, so that
-// the distance softens behind a near fish whose outline stays sharp.
-// In: picture and depth of the scene, one sample. Out: linear light. Angles in radians, ranges in
-// metres.
+// Forward scattering on the way to the eye: of the light of a thing at a range, a share arrives spread
+// over some tenths of a degree. Each tap is weighted by the share and spread of its own thing, so that
+// the distance softens behind a near fish, whose outline stays sharp. In: picture and depth of the
+// scene, one sample. Out: linear light. Angles in radians, ranges in metres.
 #include "shader_interface.h"
 #include "look_around.glsl"
 layout(binding = kSceneUnit) uniform sampler2D scene;

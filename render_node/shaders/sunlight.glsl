@@ -1,5 +1,4 @@
-// Where the sun's light is more or less than its mean: gathered by the waves on things, and in shafts
-// in the water.
+// The sun's light relative to its mean: focused by the waves on things, and in shafts in the water.
 // Depths and places in metres; a lod is log2 of a width in texels.
 #ifndef SUNLIGHT_GLSL
 #define SUNLIGHT_GLSL
@@ -22,8 +21,8 @@ vec2 shaftPlace(vec3 direction) {
     return 0.5 + 0.5 * p * ((texels - 2.0) / texels);
 }
 
-// More or less than the mean that the sun lights the water along a ray: mean 1, so that light is
-// neither made nor lost, less what rock and fish keep away.
+// How much the sun lights the water along a ray, relative to the mean; the mean is 1, so that light is
+// conserved, without the light that rock and fish block.
 float shaft(vec3 direction, float range) {
     vec4 upTo = texture(shaftMap, shaftPlace(direction));
     vec3 share = clamp((vec3(range) - vec3(3.0, 8.0, 18.0)) / vec3(5.0, 10.0, 27.0), 0.0, 1.0);
@@ -31,9 +30,9 @@ float shaft(vec3 direction, float range) {
     return mix(mix(mix(near, upTo.y, share.x), upTo.z, share.y), upTo.w, share.z);
 }
 
-// How the waves gather the sunlight where the straight ray of the sun met the surface here, mean 1.
-// lod: of texels of 47 mm. Layers by the logarithm of depth; above the first the net is not yet in
-// focus, below the last it is spread.
+// How the waves focus the sunlight where the straight ray of the sun met the surface here, mean 1. lod:
+// of texels of 47 mm. Layers by the logarithm of depth; above the first the net is not yet in focus,
+// below the last it is spread.
 float net(vec2 surfaceMetres, float depth, float lod) {
     float layer = log2(max(depth, 0.05) / causticAxis.x) * causticAxis.y;
     float last = causticAxis.z;
@@ -56,8 +55,8 @@ float net(vec2 surfaceMetres, float depth, float lod) {
 
 float caustic(vec3 place, float lod) { return net(surfacePoint(place), max(-place.y, 0.0), lod); }
 
-// Water bends blue more than red: what the mean ray of each is moved by (indices 1.331, 1.335,
-// 1.341), a share of it, as more looks cheap.
+// Water bends blue light more than red. This is the shift of the mean ray of each colour (indices
+// 1.331, 1.335, 1.341), reduced, as the full effect looks exaggerated.
 vec3 causticColour(vec3 place, float lod) {
     vec2 at = surfacePoint(place);
     float depth = max(-place.y, 0.0);

@@ -1,6 +1,6 @@
-// From the light of the scene to the light of the display, both linear. The same everywhere on the
-// wall and at all times: no histogram, or neighbours would differ.
-// In: linear scene light. Out: linear display light, 0 black to 1 full white.
+// Converts the light of the scene to the light of the display, both linear. It is the same everywhere
+// on the wall and at all times; with a histogram neighbours would differ. In: linear scene light. Out:
+// linear display light, 0 black to 1 full white.
 #include "shader_interface.h"
 #include "frame_uniforms.h"
 #include "scene_light.glsl"

@@ -11,7 +11,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= fishCount || isAway(i)) return;
     float size = lengthMetresOf(i) * 4.0;
-    // A body swims along x of its mean frame.
+    // A fish swims along the x axis of its mean frame.
     vec4 q = rotationOf(i);
     const vec3 kAlong = vec3(1.0, 0.0, 0.0);
     vec3 ahead = kAlong + 2.0 * cross(q.xyz, cross(q.xyz, kAlong) + q.w * kAlong);

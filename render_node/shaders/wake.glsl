@@ -1,7 +1,7 @@
-// How fish that pass stir the water near them: their momentum on a coarse grid of the world about
-// the shared eye, in integers, so that no order of adding shows. Cells lie at whole multiples of
-// their side, so that the grid may follow the eye and no value changes.
-// Three integers for each cell: momentum along world x, y, z. wakeIndex() gives the first of them.
+// How passing fish stir the water near them: their momentum on a coarse grid of the world about the
+// shared eye, in integers, so that the order of the additions does not matter. Cells lie at whole
+// multiples of their side, so that the grid may follow the eye and no value changes. Three integers for
+// each cell: momentum along world x, y, z. wakeIndex() gives the first of them.
 #ifndef WAKE_GLSL
 #define WAKE_GLSL
 #include "shader_interface.h"

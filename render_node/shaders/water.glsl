@@ -1,7 +1,7 @@
-// What water does to light. All radiances are relative to an irradiance of 1 at the sea's surface,
-// linear Rec. 709, and may be negative in red (deep water lies outside the gamut) until the tone.
-// Two coefficients, never one: Kd for the way down, kappa = a + 0.51 b for the way to the eye.
-// Ranges and depths in metres; directions are unit vectors from the eye, world frame.
+// The effect of water on light. All radiances are relative to an irradiance of 1 at the sea's surface,
+// linear Rec. 709, and may be negative in red (deep water lies outside the gamut) until the tone. Two
+// coefficients, never one: Kd for the way down, kappa = a + 0.51 b for the way to the eye. Ranges and
+// depths in metres; directions are unit vectors from the eye, world frame.
 #ifndef WATER_GLSL
 #define WATER_GLSL
 #include "shader_interface.h"
@@ -19,7 +19,7 @@ const vec2 kOpenWaterTexels = vec2(64.0, 32.0);
 vec2 atTexelCentres(vec2 u, vec2 texels) { return (u * (texels - 1.0) + 0.5) / texels; }
 // Texture coordinate of a range: the tables are finer near the eye.
 float rangeAxis(float range) { return sqrt(clamp(range * (1.0 / 80.0), 0.0, 1.0)); }
-// The diver's filter undoes so many metres of the way down: one looks up at a lesser depth.
+// The diver's filter undoes so many metres of the way down, so the lookup uses a smaller depth.
 float depthAxis(float depth) {
     return sqrt(clamp((depth - sunAndFilterDepth.w + 10.0) * (1.0 / 40.0), 0.0, 1.0));
 }
@@ -36,8 +36,8 @@ float lobe(float cosine, float g) {
     return (1.0 - g * g) / (4.0 * kPi * x * sqrt(x));
 }
 // The mean of what a Monte Carlo of Fournier-Forand water gives at many depths and wavelengths: light
-// scattered from about the sun's ray, and from all the light that comes down. What a wavelength and
-// a depth have besides is in the tables (water_lobes.h).
+// scattered from about the sun's ray, and from all the light that comes down. The rest, which depends
+// on wavelength and depth, is in the tables (water_lobes.h).
 float sunLobe(vec3 direction) { return 0.22 * lobe(dot(direction, sunAndFilterDepth.xyz), 0.64); }
 float skyLobe(vec3 direction) { return 0.10 * lobe(direction.y, 0.40); }
 
@@ -62,7 +62,7 @@ vec3 inscatter(vec3 direction, float range) {
             skyLobe(direction) * daylight.yzw);
 }
 
-// The water itself, seen from a place at this depth with nothing in the way.
+// The light of open water, seen from a place at this depth with nothing in the way.
 vec3 openWater(vec3 direction, float depth) {
     vec2 uv = atTexelCentres(vec2(depthAxis(depth), 0.5 + 0.5 * direction.y), kOpenWaterTexels);
     return texture(openWaterTable, uv).rgb *

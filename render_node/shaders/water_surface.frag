@@ -49,8 +49,9 @@ float fresnel(float inward) {
     return 0.5 * (s * s + p * p);
 }
 
-// What lies below, mirrored: the sea's floor as far as the water lets it through, then the water.
-// Water has coloured the latter on its way already: seen as if from where the filter takes nothing.
+// The mirrored light from below: of the sea floor, as far as the water lets it through, and of the
+// water. The water's light is already coloured, so it is computed for a depth where the filter has no
+// effect.
 vec3 mirroredSea(vec3 down, vec2 xz, float range) {
     vec3 water = openWater(down, sunAndFilterDepth.w);
     float depth = 8.0;
@@ -71,7 +72,7 @@ vec3 surfaceSeen(vec3 w, vec2 xz, float range, float footprint) {
     Facets facets = facetsAt(xz, footprint);
     vec3 normal = normalize(vec3(-facets.slope.x, 1.0, -facets.slope.y));
     float inward = max(dot(w, normal), 0.02);
-    // Of the facets in a pixel only those within the critical angle let light in.
+    // Only facets within the critical angle let light in.
     float width = sqrt(facets.variance * max(1.0 - inward * inward, 0.0)) + 0.001;
     float open = smoothstep(-1.8, 1.8, (inward - kCritical) / width);
     float within = max(inward, kCritical + 0.4 * width);
@@ -87,7 +88,7 @@ vec3 surfaceSeen(vec3 w, vec2 xz, float range, float footprint) {
     if (!kFine)
         return direct(above + (1.0 - enters) * 0.8 * openWater(down, sunAndFilterDepth.w), range,
                       sunAndFilterDepth.w);
-    // The diver's filter undoes a way down that this light has not come: most of it is left out.
+    // The diver's filter undoes an absorption that this light has not had, so most of it is left out.
     return direct(above, range, 0.75 * sunAndFilterDepth.w) + (1.0 - enters) * mirroredSea(down, xz, range);
 }
 
@@ -104,6 +105,7 @@ void main() {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < taps; ++i)
         sum += surfaceSeen(w, place.xz + stretch * (float(i) - 0.5 * float(taps - 1)), range, footprint);
-    // As far as the open water behind it is seen (water.frag), or a line would show where it ends.
+    // The same distance as that of open water (water.frag); otherwise a line would be visible at the
+    // end.
     radiance = vec4(sum / float(taps) + inscatter(w, min(range, 80.0)), 1.0);
 }

@@ -13,7 +13,7 @@ void main() {
     float lost = 0.0;
     for (int i = 0; i < 32; ++i) {
         vec4 wave = drawsRipples ? ripples[i] : waves[i];
-        // A wave that texels are too coarse for only adds to how rough the surface is.
+        // A wave that is too fine for the texels only adds to the roughness of the surface.
         float k = length(wave.xy);
         float kept = 1.0 - smoothstep(1.4, 2.4, k * texelMetres);
         float angle = dot(wave.xy, uv * tileMetres) + wave.w;

@@ -4,24 +4,21 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <span>
 #include <string_view>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 
 #include "common/base/digest.h"
 #include "common/base/log.h"
-#include "common/base/picture.h"
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 #include "common/motion/repertoire.h"
 #include "render_node/gl/program.h"
 #include "render_node/shaders/shader_interface.h"
-#include "render_node/show/channel_show.h"
+#include "render_node/show/presented.h"
 
 namespace aquarama::show {
 
@@ -79,7 +76,7 @@ std::vector<surface::SchoolSpecies> castOf(const session::Admission& admission) 
     return cast;
 }
 
-// From the world straight to clip space.
+// Converts from the world to clip space.
 glm::mat4 clipOf(const scene::View& view) {
     return view.clipFromCamera * view.cameraFromWorld;
 }
@@ -146,7 +143,7 @@ void ChannelPicture::drawScene(const wire::StateFrame& frame,
     frame_ = frame.frame;
     brightness_ = frame.show.brightness;
     scan_ = frame.show.scan;
-    if (scan_ && frame.show.black) scan_->lit = 0;  // at once
+    if (scan_ && frame.show.black) scan_->lit = 0;  // black takes effect at once
     if (scan_) return;
     const bool isWorld = scene_ && frame.show.pattern == wire::Pattern::World;
     sceneSize_ = isWorld ? worldSize_ : patternSize_;
@@ -310,65 +307,6 @@ scene::View ChannelPicture::viewOf(const Viewing& viewing, const wire::Eye& subm
     return {.clipFromCamera = wall::clipFromCamera(viewing.frustum, kNearMetres),
             .cameraFromWorld = glm::mat4(viewing.frustum.cameraFromWall * wallFromWorld(submarine)),
             .sizePixels = sceneSize_};
-}
-
-namespace {
-
-template <class Sample>
-// Projects into a target of the sample's format and reads it back.
-Picture readBack(ChannelPicture& picture, GLenum format, Encoding encoding, Shown shown) {
-    const gl::Target target(format, picture.sizePixels());
-    picture.project(target.framebuffer(), encoding, Overlays{}, shown);
-    const std::vector<Sample> pixels = gl::readRgb<Sample>(target);
-    return {
-        picture.sizePixels(), 8 * static_cast<int>(sizeof(Sample)), {pixels.begin(), pixels.end()}};
-}
-
-}  // namespace
-
-Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown) {
-    return bits == PictureBits::Deep16
-               ? readBack<std::uint16_t>(picture, GL_RGBA16, Encoding::Plain, shown)
-               : readBack<std::uint8_t>(picture, GL_RGBA8, Encoding::Dithered8, shown);
-}
-
-Shown flat(const ChannelPicture& picture) {
-    const config::StereoMode mode = picture.stereo().mode;
-    const bool whole = mode == config::StereoMode::Mono || mode == config::StereoMode::Anaglyph;
-    return whole ? Shown::Display : Shown::LeftEye;
-}
-
-void writeSnapshot(const std::string& folder,
-                   const std::string& channel,
-                   ChannelPicture& picture,
-                   PictureBits bits) {
-    const std::string name = folder + "/channel-" + channel;
-    writePng(name + ".png", takePicture(picture, bits, Shown::Display));
-    if (picture.stereo().mode == config::StereoMode::Mono) return;
-    writePng(name + ".left_eye.png", takePicture(picture, bits, Shown::LeftEye));
-    writePng(name + ".right_eye.png", takePicture(picture, bits, Shown::RightEye));
-}
-
-WindowFit fitInto(glm::ivec2 windowPixels, glm::ivec2 picturePixels) {
-    assert(picturePixels.x > 0);
-    assert(picturePixels.y > 0);
-    const glm::vec2 size(picturePixels);
-    const glm::vec2 room = glm::vec2(windowPixels) / size;
-    const glm::ivec2 fitted(size * std::min(room.x, room.y));
-    return {(windowPixels - fitted) / 2, fitted};
-}
-
-std::optional<glm::vec2> picturePlace(glm::ivec2 windowPixels,
-                                      glm::ivec2 picturePixels,
-                                      glm::vec2 windowPlace) {
-    const WindowFit fit = fitInto(windowPixels, picturePixels);
-    const glm::vec2 topLeft(fit.corner.x, windowPixels.y - fit.corner.y - fit.size.y);
-    const glm::vec2 share = (windowPlace - topLeft) / glm::vec2(fit.size);
-    // Written so that a NaN counts as outside.
-    const bool inside = glm::all(glm::greaterThanEqual(share, glm::vec2(0))) &&
-                        glm::all(glm::lessThan(share, glm::vec2(1)));
-    if (!inside) return std::nullopt;
-    return share * glm::vec2(picturePixels);
 }
 
 }  // namespace aquarama::show

@@ -12,7 +12,6 @@
 
 #include <glm/vec2.hpp>
 
-#include "common/base/picture.h"
 #include "common/motion/reconstruct.h"
 #include "common/wire/state_codec.h"
 #include "render_node/gl/handle.h"
@@ -66,7 +65,7 @@ class ChannelPicture {
     [[nodiscard]] const config::Stereo& stereo() const { return stereo_; }
 
   private:
-    // What is needed for one of the viewer's eyes, or for the point between them where one picture
+    // The picture of one of the viewer's eyes, or of the point between them where one picture
     // serves both.
     struct Viewing {
         Viewing(const wall::ChannelFrustum& from,
@@ -106,7 +105,7 @@ class ChannelPicture {
     std::vector<motion::FishTraits> school_;
     // The map for the point between the eyes.
     ProjectionMap map_;
-    // Of the world's picture, of a pattern's, and of the one that was drawn last.
+    // Sizes of the world's picture, of a pattern's, and of the picture that was drawn last.
     glm::ivec2 worldSize_{}, patternSize_{}, sceneSize_{};
     // One, or left and right.
     std::deque<Viewing> eyes_;
@@ -117,53 +116,15 @@ class ChannelPicture {
     // Set where the world can be shown, not test patterns alone.
     std::optional<scene::SceneRenderer> scene_;
     TextOverlay text_;
-    // What the frame shows where it is of a scan, and what draws it; made when one is first shown.
+    // The pattern of a scan that the frame shows, and its pass, which is made when one is first
+    // shown.
     std::optional<config::ScanPattern> scan_;
     std::optional<ScanPass> scanPass_;
     std::size_t channel_;
     std::vector<scene::FoodParticle> food_;
-    // Number of the frame that was drawn last: its parity seeds the dither. And its light.
+    // Number of the frame that was drawn last, whose parity seeds the dither; and its brightness.
     Frame frame_;
     float brightness_ = 1.0F;
 };
-
-// Pictures of what a channel projects, read back from the GPU.
-
-// Bits of a sample: 8 as the projector gets them, dithered, or 16 without dither.
-enum class PictureBits : std::uint8_t { Dithered8, Deep16 };
-
-// Projects and reads back the frame that was drawn last, without overlays of the channel. Waits for
-// the GPU.
-[[nodiscard]] Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown);
-
-// The picture to show to somebody without stereo glasses: one eye's picture where the display
-// separates the eyes in space or time, else the display's own.
-[[nodiscard]] Shown flat(const ChannelPicture& picture);
-
-// Writes folder/channel-NAME.png, the picture of the display, and in stereo
-// channel-NAME.left_eye.png and .right_eye.png beside it; creates the folder. Throws Error where
-// they cannot be written.
-void writeSnapshot(const std::string& folder,
-                   const std::string& channel,
-                   ChannelPicture& picture,
-                   PictureBits bits);
-
-// A channel's picture in a window of another size: the whole picture, enlarged or reduced, in the
-// middle.
-
-// A rectangle in pixels of the window.
-struct WindowFit {
-    // The lower left corner, from the window's lower left corner.
-    glm::ivec2 corner{};
-    glm::ivec2 size{};
-};
-// The largest rectangle with the picture's proportions that fits into the window.
-[[nodiscard]] WindowFit fitInto(glm::ivec2 windowPixels, glm::ivec2 picturePixels);
-
-// Converts a place of the window to a place of the picture, both in pixels from the top left
-// corner; empty on the dark margins.
-[[nodiscard]] std::optional<glm::vec2> picturePlace(glm::ivec2 windowPixels,
-                                                    glm::ivec2 picturePixels,
-                                                    glm::vec2 windowPlace);
 
 }  // namespace aquarama::show

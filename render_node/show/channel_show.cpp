@@ -6,12 +6,9 @@
 #include <chrono>
 #include <utility>
 
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/quaternion.hpp>
-
 #include "common/base/log.h"
-#include "render_node/gl/program.h"
-#include "render_node/show/channel_picture.h"
+#include "render_node/show/snapshot.h"
+#include "render_node/show/window_fit.h"
 
 namespace aquarama::show {
 
@@ -20,16 +17,6 @@ namespace {
 // On CLOCK_MONOTONIC, as FrameTimes.
 std::chrono::nanoseconds now() {
     return std::chrono::steady_clock::now().time_since_epoch();
-}
-
-// Returns when the GPU has finished all that was submitted. A frame may be called ready only after
-// that.
-void waitForGpu() {
-    constexpr GLuint64 kASecond = 1'000'000'000;
-    const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-    while (glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kASecond) == GL_TIMEOUT_EXPIRED) {
-    }
-    glDeleteSync(fence);
 }
 
 // Copies a texture into framebuffer 0 of a window, scaled to fit, with black margins.
@@ -57,73 +44,6 @@ void copyToWindow(const gl::Target& picture, glm::ivec2 window, GLenum buffer) {
 
 }  // namespace
 
-BuiltLook::BuiltLook(gl::Context& context, const std::string& channel, session::Admission admission)
-    : admission_{std::move(admission)},
-      channel_{channelIndex(admission_.rig, channel)},
-      wall_{std::make_shared<const wall::Wall>(admission_.rig)},
-      workspace_{context.makeWorkspace()} {
-    const glm::ivec2 size = admission_.rig.channels[channel_].sizePixels;
-    workspace_->makeCurrent();
-#ifndef NDEBUG
-    gl::logMessages();
-#endif
-    renderer_ = context.description();
-    logInfo("building {} x {} pixels on {}", size.x, size.y, renderer_);
-    for (int eye = 0; eye < (context.quadBuffered() ? 2 : 1); ++eye)
-        targets_.emplace_back(GL_RGBA8, size);
-    chooseQuality();
-    // Some drivers compile shaders on first use.
-    drawEmpty();
-    waitForGpu();
-}
-
-BuiltLook::~BuiltLook() {
-    workspace_->makeCurrent();
-    reader_.reset();
-    picture_.reset();
-    targets_.clear();
-    workspace_->release();
-}
-
-void BuiltLook::bringTo(config::QualityTier quality) {
-    if (picture_ && quality_ == quality) return;
-    // The old picture goes first, so that the GPU need not hold both.
-    picture_.reset();
-    picture_.emplace(admission_, channel_, quality, wall_);
-    quality_ = quality;
-}
-
-void BuiltLook::chooseQuality() {
-    if (admission_.quality || !admission_.world) {
-        bears_ = admission_.quality.value_or(config::QualityTier::Low);
-    } else {
-        bears_ =
-            finestWithin(kBudgetShare / admission_.rig.timing.refreshHertz,
-                         [this](config::QualityTier quality) { return secondsAFrame(quality); });
-        logInfo("keeps up with quality {}", config::nameOf(bears_));
-    }
-    bringTo(bears_);
-}
-
-void BuiltLook::drawEmpty() {
-    wire::StateFrame frame;
-    frame.eye.positionMetres = admission_.scene.eye;
-    if (!admission_.world) frame.show.pattern = wire::Pattern::Grey;
-    picture_->drawScene(frame, Overlays{});
-    picture_->project(targets_.front().framebuffer(), Encoding::Dithered8, Overlays{});
-}
-
-double BuiltLook::secondsAFrame(config::QualityTier quality) {
-    constexpr int kFrames = 5;
-    bringTo(quality);
-    drawEmpty();  // not measured
-    waitForGpu();
-    const auto begin = now();
-    for (int i = 0; i < kFrames; ++i) drawEmpty();
-    waitForGpu();
-    return std::chrono::duration<double>(now() - begin).count() / kFrames;
-}
-
 ChannelShow::ChannelShow(session::Session& session,
                          gl::Context& context,
                          Controls& controls,
@@ -139,7 +59,7 @@ ChannelShow::ChannelShow(session::Session& session,
     if (!options.filmPipe.empty()) film_ = net::connectFrames(options.filmPipe);
 }
 
-// A stage that is still being built is waited for: it uses the context.
+// Waits for a look that is still being built: it uses the context.
 ChannelShow::~ChannelShow() {
     if (stage_) stage_->workspace().release();
 }
@@ -175,7 +95,8 @@ void ChannelShow::writePicture() {
 void ChannelShow::build(session::Admission admission) {
     const std::uint32_t look = admission.look;
     next_.reset();
-    isStale_ = building_.valid();  // of another run of the master: its numbers mean nothing now
+    isStale_ =
+        building_.valid();  // a look of another run of the master: its number is not valid now
     if (stage_ && stage_->admission().show == admission.show) return stage_->renumber(look);
     const std::size_t channel = channelIndex(admission.rig, options_.channel);
     if (stage_ && stage_->picture().sizePixels() != admission.rig.channels[channel].sizePixels)
@@ -239,8 +160,8 @@ void ChannelShow::bringTo(config::QualityTier quality) {
 }
 
 session::Release ChannelShow::play() {
-    // On the target, for the operator's console. Looked at after nextFrame(): until then this
-    // thread has real-time priority, and would keep other nodes of its machine from their release.
+    // The frame on the target, for the operator's console. It is read after nextFrame(): until then
+    // this thread has real-time priority and would delay other nodes of its machine.
     std::optional<wire::StateFrame> presented;
     while (std::optional<wire::StateFrame> state = session_.nextFrame()) {
         if (presented) showOperator(*std::exchange(presented, {}));
@@ -300,7 +221,7 @@ void ChannelShow::nameFish() {
     }
 }
 
-// Not after every frame: it asks the display server.
+// Not after every frame, as it queries the display server.
 void ChannelShow::watchBlanks(Frame frame) {
     constexpr std::uint64_t kEvery = 16;
     if (frame.value % kEvery != 0) return;
@@ -315,7 +236,7 @@ void ChannelShow::watchBlanks(Frame frame) {
 void ChannelShow::refuseLoss() const {
     if (const auto loss = context_.loss())
         throw Error("the graphics driver took its context away (" + *loss +
-                    "); this node ends, and is to be started again");
+                    "); this node ends; start it again");
 }
 
 void ChannelShow::draw(const wire::StateFrame& frame) {
@@ -330,12 +251,12 @@ void ChannelShow::draw(const wire::StateFrame& frame) {
         for (const Shown eye : {Shown::LeftEye, Shown::RightEye})
             picture.project(stage_->target(eye).framebuffer(), Encoding::Dithered8, overlays, eye);
     }
-    waitForGpu();
+    gl::waitForGpu();
     refuseLoss();
 }
 
-// Into the back buffer, so that a swap shows it at once. The window's context is current
-// afterwards.
+// Copies the picture into the back buffer, so that a swap shows it at once. The window's context is
+// current afterwards.
 void ChannelShow::fillWindow() {
     if (!context_.hasWindow()) return;
     stage_->workspace().release();
@@ -350,7 +271,7 @@ void ChannelShow::fillWindow() {
         copyToWindow(
             stage_->target(swapped ? Shown::LeftEye : Shown::RightEye), window, GL_BACK_RIGHT);
     }
-    waitForGpu();
+    gl::waitForGpu();
 }
 
 void ChannelShow::feed(const wire::Eye& eye) {
@@ -396,82 +317,6 @@ bool ChannelShow::isFilmed(Frame frame) const {
 // Without a window only the clip takes pictures: frames that it skips are not drawn.
 bool ChannelShow::isSeen(Frame frame) const {
     return context_.hasWindow() || !film_ || isFilmed(frame);
-}
-
-std::optional<motion::PresentedFish> presentedFish(const wire::StateFrame& frame,
-                                                   std::span<const motion::FishTraits> school,
-                                                   std::size_t place) {
-    if (place >= std::min(frame.after.size(), school.size())) return std::nullopt;
-    // Without a record of the tick before, the frame shows the later tick.
-    const bool between = frame.before.size() == frame.after.size();
-    const motion::FishRecord& before = between ? frame.before[place] : frame.after[place];
-    return motion::present(
-        before, frame.after[place], between ? frame.fraction : 1.0F, school[place]);
-}
-
-std::vector<motion::PresentedFish> presentedFish(const wire::StateFrame& frame,
-                                                 std::span<const motion::FishTraits> school) {
-    std::vector<motion::PresentedFish> fish;
-    const std::size_t count = std::min(frame.after.size(), school.size());
-    fish.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) fish.push_back(*presentedFish(frame, school, i));
-    return fish;
-}
-
-void presentFood(const wire::StateFrame& frame, std::vector<scene::FoodParticle>& food) {
-    const bool between = frame.foodBefore.size() == frame.foodAfter.size();
-    food.clear();
-    food.reserve(frame.foodAfter.size());
-    for (std::size_t i = 0; i < frame.foodAfter.size(); ++i) {
-        const wire::FoodRecord after = frame.foodAfter[i];
-        if (after.kind() == wire::FoodRecord::Kind::None) continue;
-        const wire::FoodRecord before = between ? frame.foodBefore[i] : after;
-        const bool isSame =
-            before.kind() == after.kind() && before.generation() == after.generation();
-        const glm::vec3 to = after.offsetMetres();
-        const glm::vec3 from = isSame ? before.offsetMetres() : to;
-        food.push_back({frame.foodOriginMetres + glm::mix(from, to, frame.fraction),
-                        static_cast<std::uint32_t>(4 * i + after.generation()),
-                        after.kind() == wire::FoodRecord::Kind::Pellet});
-    }
-}
-
-double presentedSeconds(const wire::StateFrame& frame) {
-    const double ticks =
-        static_cast<double>(frame.tick.value) - 1 + static_cast<double>(frame.fraction);
-    return std::max(ticks, 0.0) / kTicksPerSecond;
-}
-
-glm::dmat4 wallFromWorld(const wire::Eye& eye) {
-    const glm::dmat4 wallFromWorldRotation =
-        glm::mat4_cast(glm::conjugate(glm::dquat(eye.worldFromWall)));
-    return glm::translate(wallFromWorldRotation, -glm::dvec3(eye.positionMetres));
-}
-
-Trace::Trace(const std::string& folder, const std::string& name) {
-    if (folder.empty()) return;
-    file_ = GrowingFile(folder + "/" + name + ".csv");
-    file_.append("frame,state_ns,ready_ns,present_ns\n");
-}
-
-void Trace::write(Frame frame, const FrameTimes& times) {
-    if (!file_.isOpen()) return;
-    file_.appendOrLog(fmt::format("{},{},{},{}\n",
-                                  frame.value,
-                                  times.state.count(),
-                                  times.ready.count(),
-                                  times.present.count()));
-}
-
-config::QualityTier finestWithin(double budgetSeconds, const FrameCost& cost) {
-    assert(cost != nullptr);
-    config::QualityTier finest = config::QualityTier::Low;
-    for (std::uint32_t i = 0; i < config::kTierNames.size(); ++i) {
-        const config::QualityTier tier = *config::tierAt(i);
-        if (cost(tier) > budgetSeconds) break;
-        finest = tier;
-    }
-    return finest;
 }
 
 }  // namespace aquarama::show

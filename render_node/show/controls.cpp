@@ -16,10 +16,10 @@ namespace aquarama::show {
 
 namespace {
 
-// Pinches that may wait for a frame; more are dropped.
+// Largest number of pinches that wait for a frame; more are dropped.
 constexpr std::size_t kMostPinches = 8;
 
-// How long a window says why a key did nothing.
+// How long a window shows why a key did nothing.
 constexpr std::chrono::seconds kHint{4};
 
 // The overlay that a key switches; null for other keys.

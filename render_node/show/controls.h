@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The input of a visitor: steering of the submarine, keys that change the show or this window, food
-// at the pointer.
+// A visitor's input at a window: steering of the submarine, keys that change the show or the
+// window, food at the pointer.
 #pragma once
 
 #include <array>
@@ -25,11 +25,12 @@
 
 namespace aquarama::show {
 
-// What keys, mouse and gamepad ask of the submarine, -kFullSteering to kFullSteering on each axis.
-// W S, arrows up and down: ahead and back. A D: sideways. Arrows left and right: turn. Page up and
-// down: rise and sink. Home, End: nose up, down. Dragging with the right mouse button turns and
-// tilts in proportion to the distance. Gamepad: left stick ahead and sideways, right stick turns
-// and tilts, triggers sink and rise. Where several act on one axis, their values are added.
+// The steering that keys, mouse and gamepad ask of the submarine, -kFullSteering to kFullSteering
+// on each axis. W S, arrows up and down: ahead and back. A D: sideways. Arrows left and right:
+// turn. Page up and down: rise and sink. Home, End: nose up, down. Dragging with the right mouse
+// button turns and tilts in proportion to the distance. Gamepad: left stick ahead and sideways,
+// right stick turns and tilts, triggers sink and rise. Where several act on one axis, their values
+// are added.
 [[nodiscard]] Steering steeringOf(const gl::Hands& hands);
 
 // Decides when a steering is sent: at once when it changes, but at most thirty times a second, and
@@ -59,11 +60,11 @@ struct Overlays {
     // The mind of the fish nearest to the pointer, or to the middle of the picture.
     bool mind = false;
     bool help = false;
-    // Since a key was to end the show, which the rig does not allow.
+    // A key was pressed that would end the show, which the rig does not allow.
     bool endRefused = false;
 };
 
-// What a window says for some seconds after a key that ends nothing.
+// The text that a window shows for some seconds after such a key.
 inline constexpr std::string_view kEndHint = "THE SHOW IS ENDED FROM THE CONSOLE, NOT BY THIS KEY";
 
 // The text of the help overlay: one line for each key, in capitals, which are all that the font
@@ -99,7 +100,7 @@ struct Pinch {
 class Controls {
   public:
     // endsShow: whether q and Esc end the show, as the rig says. A second q ends this node alone,
-    // for the case that no master listens.
+    // in case no master listens.
     Controls(session::Session& session, bool endsShow) : session_{session}, endsShow_{endsShow} {}
     // Called on the main thread.
     void press(char key);

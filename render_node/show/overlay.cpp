@@ -101,7 +101,7 @@ std::vector<Glyph> glyphsOf(std::span<const Label> labels, float dotPixels) {
     std::vector<Glyph> glyphs;
     for (const Label& label : labels) {
         glm::vec2 place = label.topLeft;
-        // The blank at the end closes the box on the right.
+        // The blank at the end draws the right edge of the box.
         for (const char character : label.text + ' ') {
             const GlyphBits bits = glyphOf(character);
             glyphs.push_back({place, glm::uvec2(bits, bits >> 32U)});
@@ -141,7 +141,7 @@ void TextOverlay::draw(std::span<const Label> labels,
                 static_cast<float>(sizePixels.x),
                 static_cast<float>(sizePixels.y));
     glUniform1f(shaders::kDotPixelsLocation, dotPixels);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kGlyphsStorage, glyphs_.name());
+    gl::bindStorage(shaders::kGlyphsStorage, glyphs_);
     glBindVertexArray(noVertices_.name());
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(glyphs.size()));
     glDisable(GL_BLEND);

@@ -17,13 +17,13 @@ namespace aquarama::show {
 
 namespace {
 
-constexpr net::Instant kBetweenPictures = std::chrono::milliseconds(200);
-// Whoever asked before that looks no longer.
-constexpr net::Instant kPatience = std::chrono::seconds(1);
-constexpr net::Instant kBetweenHellos = std::chrono::seconds(1);
+constexpr net::Duration kBetweenPictures = std::chrono::milliseconds(200);
+// An older request is dropped: its console has stopped looking.
+constexpr net::Duration kPatience = std::chrono::seconds(1);
+constexpr net::Duration kBetweenHellos = std::chrono::seconds(1);
 constexpr std::size_t kMostQuestions = 4;
 
-// Of a picture of four codes a pixel.
+// Bytes of a picture of four codes a pixel.
 std::size_t bytesOf(glm::ivec2 sizePixels) {
     return std::size_t{4} * static_cast<std::size_t>(sizePixels.x) *
            static_cast<std::size_t>(sizePixels.y);
@@ -35,7 +35,7 @@ PictureReader::~PictureReader() {
     if (fence_ != nullptr) glDeleteSync(fence_);
 }
 
-// Reduced by the GPU, then read into a buffer of its own: nobody waits.
+// The GPU reduces the picture and copies it to a buffer; no thread waits for it.
 void PictureReader::begin(const gl::Target& from, int widthPixels) {
     assert(!isBusy());
     const glm::ivec2 whole = from.sizePixels();
@@ -65,7 +65,7 @@ void PictureReader::begin(const gl::Target& from, int widthPixels) {
     glFlush();
 }
 
-// A lost buffer is no picture; the next one is asked for.
+// Where the buffer is lost there is no picture; the console asks for another.
 std::optional<ReducedPicture> PictureReader::take() {
     if (!isBusy() || glClientWaitSync(fence_, 0, 0) == GL_TIMEOUT_EXPIRED) return std::nullopt;
     glDeleteSync(std::exchange(fence_, nullptr));
@@ -79,7 +79,7 @@ std::optional<ReducedPicture> PictureReader::take() {
     return picture;
 }
 
-// Of a reef quality 75 takes 18 kB of the 60 that a packet may have.
+// A picture of a reef at quality 75 takes 18 kB; a packet may have 60.
 std::string encodeJpeg(const ReducedPicture& picture) {
     const std::unique_ptr<void, int (*)(tjhandle)> encoder(tjInitCompress(), tjDestroy);
     const glm::ivec2 size = picture.sizePixels;
@@ -118,10 +118,10 @@ ConsoleLink::~ConsoleLink() {
     thread_.join();
 }
 
-// Rare: most frames find nobody who looks. One that was being made when its look went is lost.
+// A picture that was being made when its look was replaced is lost, so the wait for it has a limit.
 std::optional<int> ConsoleLink::wantedWidth() {
     const std::lock_guard lock(mutex_);
-    const net::Instant now = net::monotonicNow();
+    const net::Moment now = net::monotonicNow();
     const bool isMaking = beingMade_ != 0 && now - lastPicture_ < kPatience;
     if (!request_ || isMaking || now - lastPicture_ < kBetweenPictures) return std::nullopt;
     const auto [number, width] = *std::exchange(request_, {});
@@ -131,7 +131,7 @@ std::optional<int> ConsoleLink::wantedWidth() {
     return width;
 }
 
-// The link's thread encodes it.
+// The link's thread encodes the picture.
 void ConsoleLink::put(Frame frame, ReducedPicture picture) {
     {
         const std::lock_guard lock(mutex_);
@@ -148,7 +148,7 @@ std::optional<FishQuestion> ConsoleLink::nextQuestion() {
     return first;
 }
 
-// Sent by the link's thread.
+// The link's thread sends the answer.
 void ConsoleLink::answer(const FishQuestion& question,
                          Frame frame,
                          std::optional<std::uint32_t> fish) {
@@ -166,14 +166,14 @@ void ConsoleLink::answer(const FishQuestion& question,
 
 // --- its thread
 
-// Says who it is every second, as the console may have been started anew.
+// Introduces itself every second, as the console may have been restarted.
 void ConsoleLink::run() {
     constexpr int kLowest = 19;
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);  // of this thread alone
-    net::Instant lastHello{};
+    net::Moment lastHello{};
     while (!ended_) {
         while (const auto bytes = channels_->receiveControl()) hear(*bytes);
-        const net::Instant now = net::monotonicNow();
+        const net::Moment now = net::monotonicNow();
         if (now - lastHello >= kBetweenHellos) {
             lastHello = now;
             v1::Envelope hello;
@@ -185,7 +185,7 @@ void ConsoleLink::run() {
     }
 }
 
-// A newer request takes the place of an older one.
+// A newer request replaces an older one.
 void ConsoleLink::hear(const net::ByteVector& bytes) {
     const auto message = wire::decode(bytes);
     if (!message) return;
@@ -200,7 +200,7 @@ void ConsoleLink::hear(const net::ByteVector& bytes) {
     }
 }
 
-// Encoded here, beside the frames.
+// Encodes on this thread, so that no frame waits for it.
 void ConsoleLink::sayWhatIsThere() {
     std::optional<Taken> taken;
     std::deque<wire::Packet> answers;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of a channel for the operator's console, and answers to what it asks of them: beside the
-// frames, never before one.
+// Pictures of a channel for the operator's console, and answers to its questions. They never delay
+// a frame.
 #pragma once
 
 #include <atomic>
@@ -23,21 +23,21 @@
 
 namespace aquarama::show {
 
-// A small copy of what a projector got.
+// A small copy of a projector's picture.
 struct ReducedPicture {
     glm::ivec2 sizePixels{};
     std::vector<std::uint8_t> rgba;  // sRGB codes of 8 bits, bottom row first
 };
 
-// Fetches a small copy of a picture from the GPU without waiting for it: begun after a frame, taken
-// frames later. Owns GL objects; used and destroyed with the same workspace current.
+// Reads a small copy of a picture from the GPU without waiting: it is started after a frame and
+// taken some frames later. Owns GL objects; use and destroy it with the same workspace current.
 class PictureReader {
   public:
-    // As wide as asked for, in the picture's proportions, never wider than it. Not while one is on
-    // its way.
+    // Starts a copy of this width, in the picture's proportions and never wider than it. Not while
+    // isBusy().
     void begin(const gl::Target& from, int widthPixels);
     [[nodiscard]] bool isBusy() const { return fence_ != nullptr; }
-    // Empty while the GPU still writes it, and where none was begun.
+    // The copy; empty while the GPU still writes it, and where none was started.
     [[nodiscard]] std::optional<ReducedPicture> take();
     PictureReader() = default;
     ~PictureReader();
@@ -50,12 +50,12 @@ class PictureReader {
     GLsync fence_ = nullptr;
 };
 
-// JPEG of at most wire::kMostJpegBytes, of quality 75 or as little less as that takes. Throws Error
-// where the encoder fails.
+// A JPEG of at most wire::kMostJpegBytes, of quality 75 or the next lower one that fits. Throws
+// Error where the encoder fails.
 [[nodiscard]] std::string encodeJpeg(const ReducedPicture& picture);
 
-// What the console asks of a picture: which fish is at this place, as shares of its size from the
-// top left corner.
+// A question of the console: which fish is at this place of a picture, as shares of its size from
+// the top left corner.
 struct FishQuestion {
     std::uint64_t number = 0;
     Frame frame;
@@ -74,8 +74,8 @@ class ConsoleLink {
     ConsoleLink(const ConsoleLink&) = delete;
     ConsoleLink& operator=(const ConsoleLink&) = delete;
 
-    // The width of a picture that is asked for: at most five times a second, and not while the last
-    // one is encoded. Empty where nobody looks.
+    // The width of the picture that the console asks for; empty where it asks for none. At most
+    // five times a second, and not while the last picture is encoded.
     [[nodiscard]] std::optional<int> wantedWidth();
     void put(Frame frame, ReducedPicture picture);
     [[nodiscard]] std::optional<FishQuestion> nextQuestion();
@@ -94,10 +94,10 @@ class ConsoleLink {
     std::string channel_;
     std::unique_ptr<net::NodeChannels> channels_;
     std::atomic<bool> ended_ = false;
-    std::mutex mutex_;                                      // guards all below but the thread
+    std::mutex mutex_;  // guards all members below, except the thread
     std::optional<std::pair<std::uint64_t, int>> request_;  // number, width
-    net::Instant requestedAt_{}, lastPicture_{};
-    std::uint64_t beingMade_ = 0;  // its number; 0: none
+    net::Moment requestedAt_{}, lastPicture_{};
+    std::uint64_t beingMade_ = 0;  // number of the picture; 0: none
     std::optional<Taken> taken_;
     std::deque<FishQuestion> questions_;
     std::deque<wire::Packet> answers_;

@@ -22,6 +22,13 @@
 
 namespace aquarama::show {
 
+static_assert(shaders::kSideBySide == static_cast<int>(config::StereoMode::SideBySide) &&
+              shaders::kTopBottom == static_cast<int>(config::StereoMode::TopBottom) &&
+              shaders::kInterlaced == static_cast<int>(config::StereoMode::Interlaced));
+static_assert(shaders::kSphereGround == static_cast<int>(wall::PatternGround::Kind::Sphere) &&
+              shaders::kPlaneGround == static_cast<int>(wall::PatternGround::Kind::Plane) &&
+              shaders::kFarGround == static_cast<int>(wall::PatternGround::Kind::Far));
+
 namespace {
 
 // State and uniforms that project.frag and project_pair.frag share (project.glsl). GL's own
@@ -162,7 +169,7 @@ glm::u8vec4 codeOf(glm::vec3 light) {
     return {code(light.r), code(light.g), code(light.b), 255};
 }
 
-// Of the places along both axes: all that is not the tag depends on one of them alone.
+// The light along both axes; except for the tag, each depends on one axis alone.
 std::vector<glm::u8vec4> codesAlong(config::ScanPattern pattern,
                                     std::size_t channel,
                                     glm::ivec2 size) {
@@ -213,7 +220,7 @@ void ScanPass::draw(unsigned framebuffer,
         drawn_.emplace(pattern, mode);
     }
     glDisable(GL_SCISSOR_TEST);
-    // The codes have their top row first, a framebuffer its bottom row.
+    // The codes have the top row first, a framebuffer the bottom row.
     glBlitNamedFramebuffer(picture_.framebuffer(),
                            framebuffer,
                            0,
@@ -258,8 +265,8 @@ ProjectionMap projectionMap(const wall::WarpMap& warp, const wall::ChannelFrustu
 
 namespace {
 
-// The pixel nearest to the middle that lights the screen, as its neighbours to the right and below
-// do, each another place of it; the number of pixels where there is none.
+// The pixel nearest to the middle that lights the screen at another place than its neighbours to
+// the right and below, which light it too; the number of pixels where there is none.
 std::size_t litNearMiddle(const ProjectionMap& map) {
     const glm::ivec2 size = map.sizePixels;
     const auto isLit = [&](std::size_t i) { return map.placeAndWeight[i].z > 0; };

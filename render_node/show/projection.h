@@ -28,7 +28,7 @@ struct ProjectionMap {
     // One entry for each pixel, top row first: texture coordinate in the frustum's picture (origin
     // at its bottom left), blend weight, 0. All 0 for a pixel that lights no part of the screen.
     std::vector<glm::vec4> placeAndWeight;
-    // As in wall::WarpMap; of both, or empty.
+    // Blend and black level as in wall::WarpMap; of all pixels, or empty.
     std::vector<glm::vec3> blend = {}, black = {};
 };
 
@@ -99,7 +99,7 @@ class Projection {
     gl::VertexArray noVertices_;
 };
 
-// Puts both eyes into one picture, for a display that separates them again (docs/stereo.md). Owns
+// Combines both eyes in one picture, for a display that separates them again (docs/stereo.md). Owns
 // its GL objects, as Projection.
 class PairProjection {
   public:
@@ -107,13 +107,13 @@ class PairProjection {
     // and bottom an even height.
     PairProjection(glm::ivec2 sizePixels, std::uint32_t channelId, config::StereoMode mode);
 
-    // GL name of the picture of one eye, and what projects it. A wall file's masks are of the
+    // GL name of the picture of one eye, and its projection. A wall file's masks are of the
     // display: those of the left eye are taken.
     struct Eye {
         unsigned sceneTexture = 0;
         const Projection& projection;
     };
-    // Draws into both.framebuffer; both.sceneTexture is not read.
+    // Draws both pictures into both.framebuffer; both.sceneTexture is not read.
     void draw(const Eye& left, const Eye& right, const Projection::Draw& both) const;
 
   private:
@@ -132,8 +132,8 @@ class PairProjection {
 // The patterns of a scan: the projector's own pixels, as wall::scanLight() has them, each colour
 // rounded to a code of 8 bits.
 
-// Of the channel of this index in the rig, top row first. A display that takes half a picture for
-// each eye gets the pattern in both halves.
+// Codes for the channel of this index in the rig, top row first. A display that takes half a
+// picture for each eye gets the pattern in both halves.
 [[nodiscard]] std::vector<glm::u8vec4> scanCodes(const config::ScanPattern& pattern,
                                                  std::size_t channel,
                                                  glm::ivec2 sizePixels,

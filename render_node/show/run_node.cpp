@@ -14,6 +14,7 @@
 #include "common/wall/wall.h"
 #include "render_node/gl/context.h"
 #include "render_node/session/session.h"
+#include "render_node/show/channel_picture.h"
 #include "render_node/show/channel_show.h"
 #include "render_node/show/controls.h"
 

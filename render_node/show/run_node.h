@@ -14,7 +14,7 @@ namespace aquarama::show {
 struct NodeOptions {
     std::string channel;
     std::string masterAddress;
-    std::optional<net::PeerKeys> keys;  // where the master is past the loopback
+    std::optional<net::PeerKeys> keys;  // where the master is on another machine
     bool headless = false;
     // With --headless, in place of the rig's device; empty: the rig's.
     std::string device;
@@ -28,16 +28,16 @@ struct NodeOptions {
     int filmEvery = 1;
     // Where the times of frames are written.
     std::string traceFolder;
-    // For the master: version and commit, and the monitors of this machine.
+    // Reported to the master: version and commit, and the monitors of this machine.
     std::string build;
     std::vector<std::string> monitors;
 };
 
-// One node, from joining the show to its end.
+// Runs one node from joining the show to its end.
 
-// Call it on the main thread: it handles the window's events there and draws on a thread of its
-// own. Returns when the show is over or a signal has ended it: true where this node is
-// to be started again. Throws Error for options that cannot be met.
+// Call on the main thread, which handles the window's events and starts the drawing thread. Returns
+// when the show is over or a signal has ended it; true where this node is to be started again.
+// Throws Error for options that cannot be met.
 bool runNode(const NodeOptions& options);
 
 }  // namespace aquarama::show

@@ -32,7 +32,7 @@ struct FewTriangles {
         std::array<std::uint32_t, 3> controlPoints{};
         std::array<float, 3> weights{};
         glm::vec3 normal{};
-        // What is painted at that place.
+        // The place on the skin that is painted there.
         skin::SkinPlace place;
     };
     std::vector<Vertex> vertices;

@@ -30,6 +30,25 @@ static_assert(shaders::kControlPoints == body::kControlPoints &&
               shaders::kFirstTurn == motion::kFirstTurn &&
               shaders::kTurnSegments == motion::kTurnSegments);
 
+template <class Enum>
+constexpr bool isAt(std::uint32_t number, Enum value) {
+    return number == static_cast<std::uint32_t>(value);
+}
+static_assert(isAt(shaders::kPoint, DetailLevel::Point) &&
+              isAt(shaders::kFading, DetailLevel::Fading) &&
+              isAt(shaders::kFewTriangles, DetailLevel::FewTriangles) &&
+              isAt(shaders::kControlMesh, DetailLevel::ControlMesh) &&
+              isAt(shaders::kMesh, DetailLevel::Mesh) && isAt(shaders::kHero, DetailLevel::Hero) &&
+              shaders::kDetails == kDetailLevels);
+static_assert(isAt(shaders::kBody, body::CagePart::Body) &&
+              isAt(shaders::kCaudal, body::CagePart::Caudal) &&
+              isAt(shaders::kFirstDorsal, body::CagePart::FirstDorsal) &&
+              isAt(shaders::kSecondDorsal, body::CagePart::SecondDorsal) &&
+              isAt(shaders::kAnal, body::CagePart::Anal) &&
+              isAt(shaders::kPelvic, body::CagePart::Pelvic) &&
+              isAt(shaders::kPectoral, body::CagePart::Pectoral) &&
+              isAt(shaders::kEye, body::CagePart::Eye));
+
 namespace {
 
 // Rounds a place to 16 bits; the heading follows later. The negated comparison also rejects NaN.

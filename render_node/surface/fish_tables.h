@@ -35,9 +35,8 @@ inline constexpr std::size_t kTurns = shaders::kTurns;
 inline constexpr std::size_t kDetailStride = shaders::kDetailStride;
 inline constexpr std::size_t kSurfaces = shaders::kSurfaces;
 // Few triangles, then one mesh for each level that has a surface.
-inline constexpr std::size_t kMeshes = 1 + kSurfaces;
+inline constexpr std::size_t kMeshes = shaders::kMeshes;
 inline constexpr std::size_t kTails = shaders::kTails;
-static_assert(kTails == 2 * kMeshes + 1);
 static_assert(kSurfaces <= skin::kSurfaceLevels);
 // Fish that one workgroup of fish_cull.comp tests.
 inline constexpr std::size_t kGroup = shaders::kGroupSize;
@@ -49,7 +48,7 @@ struct FishPlan {
     struct Command {
         std::uint32_t count, instances, firstIndex, firstVertex, firstInstance;
     };
-    // Fish of one species and level whose surfaces a turn holds.
+    // Fish of one species and level whose surfaces are made in one turn.
     struct Piece {
         std::uint32_t firstFish, fish, firstVertex;
     };

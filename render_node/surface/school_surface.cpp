@@ -67,23 +67,6 @@ namespace {
 // A vertex of the surface buffer: three floats and a packed normal (fish.comp).
 constexpr std::size_t kBytesPerVertex = 16;
 
-void bindStorage(GLuint binding, const gl::Buffer& buffer) {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
-}
-
-// Layout of the traits in fish_record.glsl.
-struct Traits {
-    std::uint32_t id, lengthMillimetres;
-};
-
-std::vector<Traits> traitsOf(std::span<const SchoolSpecies> cast) {
-    std::vector<Traits> traits;
-    for (const SchoolSpecies& species : cast)
-        for (const motion::FishTraits& fish : species.fish)
-            traits.push_back({fish.id, fish.lengthMillimetres});
-    return traits;
-}
-
 // 0, 1, 2 ..., at least one number. As an instanced attribute they give a shader its place in the
 // school, since gl_InstanceID does not count from the first instance of a draw.
 std::vector<std::uint32_t> upTo(std::size_t count) {
@@ -151,18 +134,16 @@ struct SchoolSurface::Parts {
           arrays{std::async(std::launch::async, fishArrays, members, surfaceOf(options.finest))},
           programs{std::move(skins)},
           skinShaders{skinShadersOf(members, programs->replacements)},
-          tables{arrays.get(), surfaceOf(options.finest)} {
-        for (const SchoolSpecies& member : members) fish += member.fish.size();
-        makeBuffers(members);
+          tables{arrays.get(), surfaceOf(options.finest)},
+          records{members} {
+        makeBuffers();
         makeVertexArrays();
         setConstants();
     }
 
-    void makeBuffers(std::span<const SchoolSpecies> members);
+    void makeBuffers();
     void makeVertexArrays() const;
     void setConstants() const;
-    void upload(const gl::Buffer& buffer, std::span<const motion::FishRecord> records) const;
-    void bindRecords() const;
     void setView(unsigned program, const FrustumPlanes& frustum, const SharedView& shared) const;
     // The four kernels that cull, count, plan and scatter.
     void sort() const;
@@ -184,10 +165,10 @@ struct SchoolSurface::Parts {
     std::shared_ptr<const SkinPrograms> programs;
     std::vector<SkinShader> skinShaders;  // one a species
     FishTables tables;
-    std::size_t fish = 0;
+    SchoolRecords records;
     // How often the surface buffer is filled for a view, at most.
     std::size_t turns = 1;
-    gl::Buffer before, after, traits, choices, counts, plan, school, surface, slots;
+    gl::Buffer choices, counts, plan, school, surface, slots;
     gl::VertexArray surfaceArray, fewArray, pointArray;
     gl::Buffer pointIndices{gl::makeBuffer(
         std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1}, "point indices")};
@@ -195,25 +176,17 @@ struct SchoolSurface::Parts {
     gl::ProgramHandle scan{gl::makeProgram({"fish_scan.comp"})};
     gl::ProgramHandle planner{gl::makeProgram({"fish_plan.comp"})};
     gl::ProgramHandle scatter{gl::makeProgram({"fish_scatter.comp"})};
-
-    // Of the last update.
-    std::size_t recordsUploaded = 0;
-    bool isBetween = false;
-    float fraction = 1.0F;
 };
 
 // The surface buffer has room for the whole school at its finest level where that fits into
 // surfaceBytes; otherwise it is filled in several turns.
-void SchoolSurface::Parts::makeBuffers(std::span<const SchoolSpecies> members) {
+void SchoolSurface::Parts::makeBuffers() {
+    const std::size_t fish = records.fish();
     const std::size_t most = options.surfaceBytes / kBytesPerVertex;
     assert(most > 0);
     const std::size_t wanted = std::max<std::size_t>(fish, 1) * tables.mostVertices;
     const std::size_t room = std::min(most, wanted);
     turns = std::min(kTurns, (wanted + most - 1) / most);
-    before =
-        gl::makeBuffer(fish * sizeof(motion::FishRecord), "fish before", GL_DYNAMIC_STORAGE_BIT);
-    after = gl::makeBuffer(fish * sizeof(motion::FishRecord), "fish after", GL_DYNAMIC_STORAGE_BIT);
-    traits = gl::makeBuffer(traitsOf(members), "traits");
     choices = gl::makeBuffer(fish * sizeof(std::uint32_t), "fish choices");
     counts = gl::makeBuffer(tables.groups * kDetailStride * sizeof(std::uint32_t), "fish counts");
     plan = gl::makeBuffer(sizeof(FishPlan), "fish plan");
@@ -263,41 +236,27 @@ void SchoolSurface::Parts::setConstants() const {
         planner.name(), shaders::kSpeciesCountLocation, static_cast<GLuint>(skinShaders.size()));
 }
 
-void SchoolSurface::Parts::upload(const gl::Buffer& buffer,
-                                  std::span<const motion::FishRecord> records) const {
-    const std::size_t count = std::min(records.size(), fish);
-    if (count == 0) return;
-    const auto bytes = static_cast<GLsizeiptr>(count * sizeof(motion::FishRecord));
-    glNamedBufferSubData(buffer.name(), 0, bytes, records.data());
-}
-
-// Without a record of the tick before, the frame shows the later tick.
-void SchoolSurface::Parts::bindRecords() const {
-    bindStorage(shaders::kBeforeStorage, isBetween ? before : after);
-    bindStorage(shaders::kAfterStorage, after);
-    bindStorage(shaders::kTraitsStorage, traits);
-}
-
 void SchoolSurface::Parts::setView(unsigned program,
                                    const FrustumPlanes& frustum,
                                    const SharedView& shared) const {
     const glm::vec4 eye{shared.eyeMetres, shared.pixelRadians};
     glProgramUniform4fv(program, shaders::kPlanesLocation, 6, &frustum.planes.front().x);
     glProgramUniform4fv(program, shaders::kSharedEyeLocation, 1, &eye.x);
-    glProgramUniform1f(program, shaders::kFractionLocation, fraction);
-    glProgramUniform1ui(program, shaders::kFishCountLocation, static_cast<GLuint>(recordsUploaded));
+    glProgramUniform1f(program, shaders::kFractionLocation, records.fraction());
+    glProgramUniform1ui(
+        program, shaders::kFishCountLocation, static_cast<GLuint>(records.uploaded()));
 }
 
 // Cull and count, scan (where each group begins), plan (where each list begins, and the draws),
 // scatter. Each kernel reads what the one before it wrote, hence the barriers.
 void SchoolSurface::Parts::sort() const {
     const auto groups = static_cast<GLuint>(tables.groups);
-    bindRecords();
-    bindStorage(shaders::kCastStorage, tables.cast);
-    bindStorage(shaders::kChoicesStorage, choices);
-    bindStorage(shaders::kCountsStorage, counts);
-    bindStorage(shaders::kPlanStorage, plan);
-    bindStorage(shaders::kSchoolStorage, school);
+    records.bind();
+    gl::bindStorage(shaders::kCastStorage, tables.cast);
+    gl::bindStorage(shaders::kChoicesStorage, choices);
+    gl::bindStorage(shaders::kCountsStorage, counts);
+    gl::bindStorage(shaders::kPlanStorage, plan);
+    gl::bindStorage(shaders::kSchoolStorage, school);
     // An earlier view has drawn from these buffers.
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(cull.name());
@@ -316,18 +275,18 @@ void SchoolSurface::Parts::sort() const {
 
 void SchoolSurface::Parts::evaluate(std::size_t turn, std::size_t groupsOffset) const {
     const gl::Stage stage{"fish surfaces"};
-    bindStorage(shaders::kSchoolStorage, school);
-    bindStorage(shaders::kRecordedStorage, tables.recorded);
-    bindStorage(shaders::kFirstEntriesStorage, tables.firstEntries);
-    bindStorage(shaders::kEntriesStorage, tables.entries);
-    bindStorage(shaders::kCastStorage, tables.cast);
-    bindStorage(shaders::kSurfaceStorage, surface);
-    bindStorage(shaders::kPlanStorage, plan);
-    bindStorage(shaders::kParentsStorage, tables.parents);
+    gl::bindStorage(shaders::kSchoolStorage, school);
+    gl::bindStorage(shaders::kRecordedStorage, tables.recorded);
+    gl::bindStorage(shaders::kFirstEntriesStorage, tables.firstEntries);
+    gl::bindStorage(shaders::kEntriesStorage, tables.entries);
+    gl::bindStorage(shaders::kCastStorage, tables.cast);
+    gl::bindStorage(shaders::kSurfaceStorage, surface);
+    gl::bindStorage(shaders::kPlanStorage, plan);
+    gl::bindStorage(shaders::kParentsStorage, tables.parents);
     glUseProgram(programs->surface.name());
     glUniform1ui(shaders::kTurnLocation, static_cast<GLuint>(turn));
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, plan.name());
-    // Earlier draws have read what is now overwritten.
+    // Earlier draws have read the buffer that is overwritten now.
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glDispatchComputeIndirect(static_cast<GLintptr>(offsetof(FishPlan, turns) +
                                                     turn * sizeof(FishPlan::Turn) + groupsOffset));
@@ -369,8 +328,8 @@ void SchoolSurface::Parts::drawTurns(bool isFins) const {
             evaluate(turn,
                      isFins ? offsetof(FishPlan::Turn, finGroups)
                             : offsetof(FishPlan::Turn, bodyGroups));
-        bindStorage(shaders::kSchoolStorage, school);
-        bindStorage(shaders::kSurfaceStorage, surface);
+        gl::bindStorage(shaders::kSchoolStorage, school);
+        gl::bindStorage(shaders::kSurfaceStorage, surface);
         drawSurfaces(turn, isFins);
     }
 }
@@ -392,8 +351,8 @@ void SchoolSurface::Parts::drawTails(std::size_t first,
 
 // Points are drawn before the few triangles that fade in over them. They do not write depth.
 void SchoolSurface::Parts::drawPoints() const {
-    bindStorage(shaders::kSchoolStorage, school);
-    bindStorage(shaders::kCastStorage, tables.cast);
+    gl::bindStorage(shaders::kSchoolStorage, school);
+    gl::bindStorage(shaders::kCastStorage, tables.cast);
     glBindVertexArray(pointArray.name());
     glDepthMask(GL_FALSE);
     drawTails(2 * kMeshes, 1, &SkinShader::point);
@@ -401,12 +360,12 @@ void SchoolSurface::Parts::drawPoints() const {
 }
 
 void SchoolSurface::Parts::drawFew() const {
-    bindStorage(shaders::kSchoolStorage, school);
-    bindStorage(shaders::kRecordedStorage, tables.recorded);
+    gl::bindStorage(shaders::kSchoolStorage, school);
+    gl::bindStorage(shaders::kRecordedStorage, tables.recorded);
     glBindVertexArray(fewArray.name());
     glEnable(GL_CULL_FACE);
     drawTails(0, kMeshes, &SkinShader::fewBody);
-    glDisable(GL_CULL_FACE);  // a sheet has two sides
+    glDisable(GL_CULL_FACE);  // a fin is visible from both sides
     drawTails(kMeshes, kMeshes, &SkinShader::fewFins);
 }
 
@@ -420,21 +379,14 @@ SchoolSurface::SchoolSurface(SchoolSurface&&) noexcept = default;
 SchoolSurface& SchoolSurface::operator=(SchoolSurface&&) noexcept = default;
 
 void SchoolSurface::update(const SchoolMoment& moment) {
-    assert(moment.fraction >= 0.0F);
-    assert(moment.fraction <= 1.0F);
     const gl::Stage stage{"fish records"};
-    Parts& parts = *parts_;
-    parts.recordsUploaded = std::min(moment.after.size(), parts.fish);
-    parts.isBetween = moment.before.size() == moment.after.size();
-    parts.fraction = parts.isBetween ? moment.fraction : 1.0F;
-    parts.upload(parts.after, moment.after);
-    if (parts.isBetween) parts.upload(parts.before, moment.before);
+    parts_->records.update(moment);
 }
 
 void SchoolSurface::look(const glm::mat4& clipFromWorld, const SharedView& shared) {
     const gl::Stage stage{"fish sort"};
     const Parts& parts = *parts_;
-    if (parts.fish == 0) return;
+    if (parts.records.fish() == 0) return;
     const FrustumPlanes frustum = frustumOf(clipFromWorld);
     for (const unsigned program : {parts.cull.name(), parts.scatter.name()})
         parts.setView(program, frustum, shared);
@@ -443,7 +395,7 @@ void SchoolSurface::look(const glm::mat4& clipFromWorld, const SharedView& share
 
 void SchoolSurface::drawBodies() const {
     const gl::Stage stage{"fish bodies"};
-    if (parts_->fish == 0) return;
+    if (parts_->records.fish() == 0) return;
     glEnable(GL_CULL_FACE);
     parts_->drawTurns(false);
     glDisable(GL_CULL_FACE);
@@ -451,7 +403,7 @@ void SchoolSurface::drawBodies() const {
 
 void SchoolSurface::drawBlended() const {
     const gl::Stage stage{"fish blended"};
-    if (parts_->fish == 0) return;
+    if (parts_->records.fish() == 0) return;
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     if (parts_->options.levelsOfDetail) {
@@ -465,18 +417,18 @@ void SchoolSurface::drawBlended() const {
 }
 
 void SchoolSurface::bindRecords() const {
-    parts_->bindRecords();
+    parts_->records.bind();
 }
 std::size_t SchoolSurface::fishInRecords() const {
-    return parts_->recordsUploaded;
+    return parts_->records.uploaded();
 }
 float SchoolSurface::fraction() const {
-    return parts_->fraction;
+    return parts_->records.fraction();
 }
 
 SurfaceCounts SchoolSurface::counts() const {
     SurfaceCounts counts;
-    if (parts_->fish == 0) return counts;
+    if (parts_->records.fish() == 0) return counts;
     decltype(FishPlan::totals) totals{};
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(

@@ -17,12 +17,13 @@
 #include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
 #include "render_node/surface/fish_tables.h"
+#include "render_node/surface/school_records.h"
 #include "render_node/surface/visibility.h"
 
 namespace aquarama::surface {
 
-// The program that makes surfaces, which all species share, and the includes of a tier. May be
-// shared by several schools of one context.
+// The program that makes surfaces, which all species share, and the includes of a tier. Several
+// schools of one context may share it.
 struct SkinPrograms {
     // fish.comp
     gl::ProgramHandle surface;
@@ -49,9 +50,9 @@ struct SkinShader {
     }
 };
 
-// From the wire's records to the surfaces that a view draws. Culling, level of detail, control
+// Makes the surfaces that a view draws from the wire's records. Culling, level of detail, control
 // points and limit surface (eq. 13, paper sections 4.3 and 6) are compute shaders, and the GPU
-// draws what they found. The processor's cost of a frame does not depend on the number of fish,
+// draws their results. The processor's cost of a frame does not depend on the number of fish,
 // except for copying their records.
 
 // Fixed for the life of a SchoolSurface.
@@ -66,13 +67,6 @@ struct SurfaceOptions {
     // Size of the surface buffer, bytes. Half of the smallest limit for a block that OpenGL drivers
     // have in practice (128 MiB on software Mesa).
     std::size_t surfaceBytes = std::size_t{64} << 20U;
-};
-
-// The school between two ticks, as the wire brings it: at `fraction` (0 to 1) of the way from
-// `before` to `after`. Where `before` has another size, the school is shown at `after`.
-struct SchoolMoment {
-    std::span<const motion::FishRecord> before, after;
-    float fraction = 1.0F;
 };
 
 // Layout of Fish in fish_data.glsl, std430: one fish that a view draws.

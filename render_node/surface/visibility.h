@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which fish a channel draws, and how finely (paper, section 6). This is the reference on the CPU
-// for fish_cull.comp; tests compare the two.
+// The choice of the fish that a channel draws, and of their level of detail (paper, section 6).
+// This is the reference on the CPU for fish_cull.comp; tests compare the two.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct FrustumPlanes {
 [[nodiscard]] FrustumPlanes frustumOf(const glm::mat4& clipFromWorld);
 
 // Levels of detail, from coarse to fine. From ControlMesh on a fish has a surface, which is refined
-// 0 to 3 times. The numbers are those of fish_detail.glsl.
+// 0 to 3 times. The numbers are those of shader_interface.h.
 enum class DetailLevel : std::uint32_t {
     // A sprite with the area and the mean colour of the fish.
     Point,

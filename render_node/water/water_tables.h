@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jerlov's types of sea water, and tables of what each does to light. Light is integrated over 31
+// Jerlov's types of sea water, and tables of their effect on light. Light is integrated over 31
 // bands of the spectrum, then stored as linear Rec. 709.
 #pragma once
 

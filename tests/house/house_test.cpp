@@ -211,7 +211,7 @@ TEST(House, generatedMessagesStayWithWhoSpeaks) {
                                             "master/conductor/preparation.cpp",
                                             "master/conductor/reception.cpp",
                                             "master/conductor/requests.",
-                                            "render_node/session/master_link.",
+                                            "render_node/session/",
                                             "render_node/show/preview.cpp",
                                             "console/overview.",
                                             "console/picture_hub."};
@@ -230,8 +230,13 @@ TEST(House, generatedMessagesStayWithWhoSpeaks) {
     EXPECT_EQ(strangers(std::regex("^common/ask/request_client\\.h$"), askers),
               std::vector<std::string>{});
     EXPECT_EQ(
-        strangers(std::regex("^render_node/session/master_link\\.h$"), {"render_node/session/"}),
+        strangers(std::regex("^render_node/session/(?!session\\.h$)"), {"render_node/session/"}),
         std::vector<std::string>{});
+    for (const Inclusion& inclusion : inclusions()) {
+        if (inclusion.file != "render_node/session/session.h") continue;
+        EXPECT_EQ(inclusion.included.find("render_node/session/"), std::string::npos);
+        EXPECT_NE(inclusion.included, "common/wire/messages.h");
+    }
 }
 
 TEST(House, ffmpegStaysInClipsAndScans) {

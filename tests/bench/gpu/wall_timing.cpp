@@ -9,6 +9,7 @@
 #include <epoxy/gl.h>
 
 #include "render_node/show/channel_picture.h"
+#include "render_node/show/snapshot.h"
 #include "tests/bench/gpu/stage_clock.h"
 
 namespace aquarama::bench {

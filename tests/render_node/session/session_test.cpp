@@ -57,8 +57,8 @@ class ScriptedMaster {
     // The next message of this kind from the node; answers pings on the way. Empty after ten
     // seconds.
     std::optional<v1::Envelope> hear(v1::Envelope::MessageCase kind,
-                                     net::Instant within = seconds(10)) {
-        const net::Instant end = net::monotonicNow() + within;
+                                     net::Duration within = seconds(10)) {
+        const net::Moment end = net::monotonicNow() + within;
         while (net::monotonicNow() < end) {
             while (const auto from = channels_->receiveControl()) {
                 auto message = wire::decode(from->bytes);
@@ -109,7 +109,7 @@ class ScriptedMaster {
     }
 
     std::uint64_t run = kRun;
-    net::Instant clockAhead{};
+    net::Duration clockAhead{};
     int chunksGiven = 0;
 
   private:
@@ -313,7 +313,7 @@ TEST_F(SessionTest, saysReadyAndWaitsForTheRelease) {
     EXPECT_EQ(release.wait_for(milliseconds(50)), std::future_status::timeout);
     master_.say(test::present(7, 0));
     EXPECT_EQ(release.get(), Release::Present);
-    EXPECT_GT(session_->stateArrival(), net::Instant{0});
+    EXPECT_GT(session_->stateArrival(), net::Moment{0});
 }
 
 TEST_F(SessionTest, letsGoAtTheAppointedTimeOfTheMastersClock) {
@@ -324,7 +324,7 @@ TEST_F(SessionTest, letsGoAtTheAppointedTimeOfTheMastersClock) {
     EXPECT_EQ(nextFrame(), 0U);
     auto release = readying(0);
     ASSERT_TRUE(master_.hear(v1::Envelope::kReady));
-    const net::Instant at = net::monotonicNow() + milliseconds(200);
+    const net::Moment at = net::monotonicNow() + milliseconds(200);
     master_.say(test::present(0, (at + master_.clockAhead).count()));
     EXPECT_EQ(release.get(), Release::Present);
     // Never before; but the clock's offset is known to half the shortest round trip of twelve.
@@ -337,7 +337,7 @@ TEST_F(SessionTest, letsGoAtTheAppointedTimeOfTheMastersClock) {
     const v1::Ready& ready = message->ready();
     ASSERT_TRUE(ready.has_released_frame());
     EXPECT_EQ(ready.released_frame(), 0U);
-    EXPECT_GE(net::Instant{ready.released_ns()}, at + master_.clockAhead - milliseconds(100));
+    EXPECT_GE(net::Moment{ready.released_ns()}, at + master_.clockAhead - milliseconds(100));
     session_->stop();
     release.get();
 }

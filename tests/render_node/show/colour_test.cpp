@@ -16,6 +16,7 @@
 #include "render_node/gl/handle.h"
 #include "render_node/show/channel_picture.h"
 #include "render_node/show/projection.h"
+#include "render_node/show/snapshot.h"
 #include "tests/render_node/show/fake_session.h"
 
 namespace aquarama::show {

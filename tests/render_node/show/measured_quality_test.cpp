@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render_node/show/channel_show.h"
+#include "render_node/show/built_look.h"
 
 namespace aquarama::show {
 namespace {

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "common/wall/wall.h"
-#include "render_node/show/channel_picture.h"
 #include "render_node/show/controls.h"
+#include "render_node/show/window_fit.h"
 #include "tests/common/wall/rigs.h"
 
 namespace aquarama::show {

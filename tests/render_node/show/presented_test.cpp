@@ -5,7 +5,7 @@
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
-#include "render_node/show/channel_show.h"
+#include "render_node/show/presented.h"
 
 namespace aquarama::show {
 namespace {

@@ -14,6 +14,7 @@
 #include "common/wall/scan_pattern.h"
 #include "common/wall/wall.h"
 #include "render_node/show/channel_picture.h"
+#include "render_node/show/snapshot.h"
 #include "tests/render_node/show/fake_session.h"
 #include "tests/support/golden.h"
 

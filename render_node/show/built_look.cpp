@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/show/built_look.h"
+
+#include <cassert>
+#include <chrono>
+#include <utility>
+
+#include "common/base/log.h"
+#include "render_node/gl/program.h"
+
+namespace aquarama::show {
+
+BuiltLook::BuiltLook(gl::Context& context, const std::string& channel, session::Admission admission)
+    : admission_{std::move(admission)},
+      channel_{channelIndex(admission_.rig, channel)},
+      wall_{std::make_shared<const wall::Wall>(admission_.rig)},
+      workspace_{context.makeWorkspace()} {
+    const glm::ivec2 size = admission_.rig.channels[channel_].sizePixels;
+    workspace_->makeCurrent();
+#ifndef NDEBUG
+    gl::logMessages();
+#endif
+    renderer_ = context.description();
+    logInfo("building {} x {} pixels on {}", size.x, size.y, renderer_);
+    for (int eye = 0; eye < (context.quadBuffered() ? 2 : 1); ++eye)
+        targets_.emplace_back(GL_RGBA8, size);
+    chooseQuality();
+    // Some drivers compile shaders on first use.
+    drawEmpty();
+    gl::waitForGpu();
+}
+
+BuiltLook::~BuiltLook() {
+    workspace_->makeCurrent();
+    reader_.reset();
+    picture_.reset();
+    targets_.clear();
+    workspace_->release();
+}
+
+void BuiltLook::bringTo(config::QualityTier quality) {
+    if (picture_ && quality_ == quality) return;
+    // The old picture goes first, so that the GPU need not hold both.
+    picture_.reset();
+    picture_.emplace(admission_, channel_, quality, wall_);
+    quality_ = quality;
+}
+
+void BuiltLook::chooseQuality() {
+    if (admission_.quality || !admission_.world) {
+        bears_ = admission_.quality.value_or(config::QualityTier::Low);
+    } else {
+        bears_ =
+            finestWithin(kBudgetShare / admission_.rig.timing.refreshHertz,
+                         [this](config::QualityTier quality) { return secondsAFrame(quality); });
+        logInfo("keeps up with quality {}", config::nameOf(bears_));
+    }
+    bringTo(bears_);
+}
+
+void BuiltLook::drawEmpty() {
+    wire::StateFrame frame;
+    frame.eye.positionMetres = admission_.scene.eye;
+    if (!admission_.world) frame.show.pattern = wire::Pattern::Grey;
+    picture_->drawScene(frame, Overlays{});
+    picture_->project(targets_.front().framebuffer(), Encoding::Dithered8, Overlays{});
+}
+
+double BuiltLook::secondsAFrame(config::QualityTier quality) {
+    constexpr int kFrames = 5;
+    bringTo(quality);
+    drawEmpty();  // not measured
+    gl::waitForGpu();
+    const auto begin = std::chrono::steady_clock::now();
+    for (int i = 0; i < kFrames; ++i) drawEmpty();
+    gl::waitForGpu();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() /
+           kFrames;
+}
+
+config::QualityTier finestWithin(double budgetSeconds, const FrameCost& cost) {
+    assert(cost != nullptr);
+    config::QualityTier finest = config::QualityTier::Low;
+    for (std::uint32_t i = 0; i < config::kTierNames.size(); ++i) {
+        const config::QualityTier tier = *config::tierAt(i);
+        if (cost(tier) > budgetSeconds) break;
+        finest = tier;
+    }
+    return finest;
+}
+
+}  // namespace aquarama::show

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/show/trace.h"
+
+#include <fmt/format.h>
+
+namespace aquarama::show {
+
+Trace::Trace(const std::string& folder, const std::string& name) {
+    if (folder.empty()) return;
+    file_ = GrowingFile(folder + "/" + name + ".csv");
+    file_.append("frame,state_ns,ready_ns,present_ns\n");
+}
+
+void Trace::write(Frame frame, const FrameTimes& times) {
+    if (!file_.isOpen()) return;
+    file_.appendOrLog(fmt::format("{},{},{},{}\n",
+                                  frame.value,
+                                  times.state.count(),
+                                  times.ready.count(),
+                                  times.present.count()));
+}
+
+}  // namespace aquarama::show

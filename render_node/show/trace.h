@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// A file of the times of each frame that a node has shown.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "common/base/output_file.h"
+#include "common/base/units.h"
+
+namespace aquarama::show {
+
+// The times of one frame. On CLOCK_MONOTONIC, which all processes of a machine share.
+struct FrameTimes {
+    // When its state arrived.
+    std::chrono::nanoseconds state{};
+    // When its picture was finished.
+    std::chrono::nanoseconds ready{};
+    // When the swap had returned; without a display, when the frame was released.
+    std::chrono::nanoseconds present{};
+};
+
+// Writes a line for each frame that was presented: frame,state_ns,ready_ns,present_ns.
+class Trace {
+  public:
+    // Creates folder/name.csv, or empties it; an empty folder means that nothing is written. Throws
+    // Error where it cannot be written.
+    Trace(const std::string& folder, const std::string& name);
+    // Appends a line, which a reader sees at once. A disk that is full ends the trace, not the
+    // show.
+    void write(Frame frame, const FrameTimes& times);
+    // Throws Error where a line could not be written.
+    void close() { file_.close(); }
+
+  private:
+    GrowingFile file_;
+};
+
+}  // namespace aquarama::show
