@@ -19,6 +19,7 @@
 #include "common/base/characters.h"
 #include "common/base/log.h"
 #include "common/config/rig.pb.h"
+#include "common/config/rules.h"
 #include "common/config/scene.pb.h"
 #include "common/config/species.pb.h"
 
@@ -97,24 +98,6 @@ std::string shown(double value) {
     out.precision(10);
     out << value;
     return out.str();
-}
-
-bool isNumber(const pb::FieldDescriptor& field) {
-    const auto type = field.cpp_type();
-    return type == pb::FieldDescriptor::CPPTYPE_DOUBLE ||
-           type == pb::FieldDescriptor::CPPTYPE_INT32 ||
-           type == pb::FieldDescriptor::CPPTYPE_UINT32;
-}
-
-double numberIn(const pb::Message& message, const pb::FieldDescriptor& field) {
-    assert(isNumber(field));
-    assert(!field.is_repeated());
-    const pb::Reflection& get = *message.GetReflection();
-    if (field.cpp_type() == pb::FieldDescriptor::CPPTYPE_DOUBLE)
-        return get.GetDouble(message, &field);
-    if (field.cpp_type() == pb::FieldDescriptor::CPPTYPE_INT32)
-        return get.GetInt32(message, &field);
-    return get.GetUInt32(message, &field);
 }
 
 // "A, B or C", without the first, which says nothing.
@@ -242,85 +225,99 @@ TextReader::TextReader(Message& message, const std::string& text, std::string so
     if (!parser.ParseFromString(text, &message)) throw Error(error.text());
 }
 
+// The pass over a file: notes where each part of the message stands, and refuses the first fault.
+class TextReader::FilePass : public RulePass {
+  public:
+    explicit FilePass(TextReader& reader) : reader_{reader} {}
+
+  private:
+    void fault(const Message& message,
+               const Field& field,
+               const v1::Rule& rule,
+               int index,
+               RuleFault what) override;
+    void enter(const Message& message,
+               const Field& field,
+               int index,
+               const Message& inner) override;
+    // In a file no text is empty, and each is what people can read.
+    bool isGood(const std::string& text, const v1::Rule& rule) const override {
+        return !text.empty() && faultOfQuoted(text).empty() && RulePass::isGood(text, rule);
+    }
+
+    TextReader& reader_;
+};
+
 void TextReader::check() {
     assert(parts_.empty() && "a file is checked once");
-    checkPart(*message_, {&tree_, {1, 1}, "the file"});
+    fillDefaults(*message_);
+    parts_.emplace(message_, Part{&tree_, {1, 1}, "the file"});
+    FilePass(*this).look(*message_);
 }
 
-void TextReader::checkPart(Message& message, Part part) {
-    parts_.emplace(&message, std::move(part));
+void TextReader::fillDefaults(Message& message) {
+    const pb::Reflection& get = *message.GetReflection();
     const pb::Descriptor& type = *message.GetDescriptor();
-    for (int i = 0; i < type.field_count(); ++i) checkField(message, *type.field(i));
-}
-
-void TextReader::checkField(Message& message, const Field& field) {
-    const v1::Rule& rule = field.options().GetExtension(v1::rule);
-    const pb::Reflection& get = *message.GetReflection();
-    if (field.is_repeated()) {
-        checkCount(message, field, rule);
-    } else if (!get.HasField(message, &field)) {
-        if (rule.required()) require(message, field.name());
-        if (rule.default_value().empty()) return;
-        [[maybe_unused]] const bool filled =
-            pb::TextFormat::ParseFieldValueFromString(rule.default_value(), &field, &message);
-        assert(filled && "a default of the schema cannot be read");
-    }
-    const int count = field.is_repeated() ? get.FieldSize(message, &field) : 1;
-    for (int i = 0; i < count; ++i) {
-        if (field.cpp_type() != Field::CPPTYPE_MESSAGE) {
-            checkValue(message, field, rule, i);
-            continue;
+    for (int i = 0; i < type.field_count(); ++i) {
+        const Field& field = *type.field(i);
+        const std::string& value = field.options().GetExtension(v1::rule).default_value();
+        if (!field.is_repeated() && !get.HasField(message, &field) && !value.empty()) {
+            [[maybe_unused]] const bool filled =
+                pb::TextFormat::ParseFieldValueFromString(value, &field, &message);
+            assert(filled && "a default of the schema cannot be read");
         }
-        Message& inner = field.is_repeated() ? *get.MutableRepeatedMessage(&message, &field, i)
-                                             : *get.MutableMessage(&message, &field);
-        const Tree* tree = partOf(message).tree;
-        if (tree != nullptr) tree = tree->GetTreeForNested(&field, field.is_repeated() ? i : -1);
-        checkPart(inner, {tree, placeOf(message, field.name(), i), field.name()});
+        if (field.cpp_type() != Field::CPPTYPE_MESSAGE) continue;
+        for (int j = 0; field.is_repeated() && j < get.FieldSize(message, &field); ++j)
+            fillDefaults(*get.MutableRepeatedMessage(&message, &field, j));
+        if (!field.is_repeated() && get.HasField(message, &field))
+            fillDefaults(*get.MutableMessage(&message, &field));
     }
 }
 
-void TextReader::checkCount(const Message& message,
-                            const Field& field,
-                            const v1::Rule& rule) const {
-    const int count = message.GetReflection()->FieldSize(message, &field);
-    const bool few = rule.has_least() && count < rule.least();
-    if (!few && (!rule.has_most() || count <= rule.most())) return;
-    const std::string had = count == 0 ? " lacks " : " has " + std::to_string(count) + " ";
-    refuse(message,
-           field.name(),
-           partOf(message).name + had + field.name() + ": give " + countsOf(rule),
-           few ? 0 : static_cast<int>(rule.most()));
+void TextReader::FilePass::enter(const Message& message,
+                                 const Field& field,
+                                 int index,
+                                 const Message& inner) {
+    const Tree* tree = reader_.partOf(message).tree;
+    if (tree != nullptr) tree = tree->GetTreeForNested(&field, field.is_repeated() ? index : -1);
+    reader_.parts_.emplace(&inner,
+                           Part{tree, reader_.placeOf(message, field.name(), index), field.name()});
+    look(inner);
 }
 
-void TextReader::checkValue(const Message& message,
-                            const Field& field,
-                            const v1::Rule& rule,
-                            int index) const {
-    const pb::Reflection& get = *message.GetReflection();
-    if (field.cpp_type() == Field::CPPTYPE_STRING) {
-        const std::string text = field.is_repeated() ? get.GetRepeatedString(message, &field, index)
-                                                     : get.GetString(message, &field);
-        const std::string fault = text.empty() ? "is empty: fill it in" : faultOfQuoted(text);
-        if (!fault.empty()) refuse(message, field.name(), field.name() + " " + fault, index);
-    } else if (field.cpp_type() == Field::CPPTYPE_ENUM) {
-        const pb::EnumValueDescriptor& value = field.is_repeated()
-                                                   ? *get.GetRepeatedEnum(message, &field, index)
-                                                   : *get.GetEnum(message, &field);
-        if (value.number() == 0)
-            refuse(message,
-                   field.name(),
-                   field.name() + " is " + value.name() + ": write " + choicesOf(*value.type()),
-                   index);
-    } else if (isNumber(field)) {
-        assert(rule.has_least() == rule.has_most());
-        assert((rule.has_least() || field.cpp_type() == Field::CPPTYPE_UINT32) &&
-               "the schema gives no bounds");
-        const double value = numberIn(message, field);
-        if (rule.has_least() && !(value >= rule.least() && value <= rule.most()))  // refuses nan
-            refuse(message,
-                   field.name(),
-                   field.name() + " is " + shown(value) + ": it must be from " +
-                       shown(rule.least()) + " to " + shown(rule.most()));
+void TextReader::FilePass::fault(
+    const Message& message, const Field& field, const v1::Rule& rule, int index, RuleFault what) {
+    const std::string& name = field.name();
+    switch (what) {
+        case RuleFault::Missing:
+            reader_.require(message, name);
+            return;
+        case RuleFault::Count: {
+            const int count = message.GetReflection()->FieldSize(message, &field);
+            const bool few = rule.has_least() && count < rule.least();
+            const std::string had = count == 0 ? " lacks " : " has " + std::to_string(count) + " ";
+            reader_.refuse(message,
+                           name,
+                           reader_.partOf(message).name + had + name + ": give " + countsOf(rule),
+                           few ? 0 : static_cast<int>(rule.most()));
+        }
+        case RuleFault::Text: {
+            const std::string text = textIn(message, field, index);
+            std::string why = text.empty() ? "is empty: fill it in" : faultOfQuoted(text);
+            if (why.empty()) why = "is too long: shorten it";
+            reader_.refuse(message, name, name + " " + why, index);
+        }
+        case RuleFault::Choice:
+            reader_.refuse(message,
+                           name,
+                           name + " is " + field.enum_type()->value(0)->name() + ": write " +
+                               choicesOf(*field.enum_type()),
+                           index);
+        case RuleFault::Number:
+            reader_.refuse(message,
+                           name,
+                           name + " is " + shown(numberIn(message, field)) + ": it must be from " +
+                               shown(rule.least()) + " to " + shown(rule.most()));
     }
 }
 

@@ -11,7 +11,6 @@
 #include <google/protobuf/text_format.h>
 
 #include "common/config/plain_text.h"
-#include "common/config/rules.pb.h"
 #include "common/config/text_file.h"
 
 namespace aquarama::config {
@@ -61,13 +60,8 @@ class TextReader {
         std::string name;  // as a reader of the file knows it
     };
 
-    void checkPart(Message& message, Part part);
-    void checkField(Message& message, const Field& field);
-    void checkCount(const Message& message, const Field& field, const v1::Rule& rule) const;
-    void checkValue(const Message& message,
-                    const Field& field,
-                    const v1::Rule& rule,
-                    int index) const;
+    class FilePass;
+    static void fillDefaults(Message& message);
     [[nodiscard]] const Part& partOf(const Message& message) const;
 
     std::string source_;

@@ -56,9 +56,7 @@ std::int32_t positionUnits(float metres) {
     return static_cast<std::int32_t>(roundToEven(bounded));
 }
 
-// Half of the height that setAway() sets: wherever the motor moves an absent fish, it stays below.
-constexpr std::int32_t kAwayBelow =
-    static_cast<std::int32_t>(kAwayHeightMetres / kPositionUnitMetres) / 2;
+static_assert(kAwayBelow == static_cast<int>(kAwayHeightMetres / kPositionUnitMetres) / 2);
 
 template <class RecordAt>
 std::uint64_t foldedRecords(std::size_t count, RecordAt&& recordAt) {

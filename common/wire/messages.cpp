@@ -11,6 +11,7 @@
 #include <google/protobuf/io/coded_stream.h>
 
 #include "common/base/units.h"
+#include "common/config/rules.h"
 #include "common/wall/scan_pattern.h"
 
 namespace aquarama::wire {
@@ -29,46 +30,7 @@ static_assert(int{v1::PATTERN_WORLD} == static_cast<int>(Pattern::World) &&
               int{v1::PATTERN_GREY} == static_cast<int>(Pattern::Grey) &&
               int{v1::PATTERN_SCAN} == static_cast<int>(Pattern::Scan));
 
-// No control characters, so that no peer can write lines of its own into a log.
-bool isText(const std::string& text, std::size_t maxBytes) {
-    return text.size() <= maxBytes && std::ranges::none_of(text, [](char c) {
-               const auto byte = static_cast<unsigned char>(c);
-               return byte < 0x20 || byte == 0x7F;
-           });
-}
-
-// Of a channel, a node or a build.
-bool isName(const std::string& text) {
-    return !text.empty() && isText(text, kMostNameBytes);
-}
-
-// Drawn with a font of ASCII, and printed.
-bool isLine(const std::string& line) {
-    return line.size() <= kMostExplanationLineBytes &&
-           std::ranges::all_of(line, [](char c) { return c >= ' ' && c <= '~'; });
-}
-
-bool isDigest(const std::string& bytes) {
-    return bytes.size() == Digest{}.bytes.size();
-}
-
-// A value of an enum that we know, and not the unset one.
-bool isOneOf(int value, bool (*isKnown)(int)) {
-    return value != 0 && isKnown(value);
-}
-
-// One overload a message: whether all that it needs is there and within bounds.
-bool isValid(const v1::Hello& m) {
-    return isName(m.channel()) && m.has_major() && isText(m.build(), kMostNameBytes);
-}
-
-bool isValid(const v1::Refusal& m) {
-    return m.has_reason() && isText(m.reason(), kMostReasonBytes);
-}
-
-bool isValid(const v1::Dismissed& m) {
-    return m.has_reason() && isText(m.reason(), kMostReasonBytes);
-}
+// What no rule of a single field can tell (aquarama.proto): one overload a message.
 
 // As many lengths as fish, each of 16 bits as in motion::FishTraits.
 bool isSchool(const v1::Look& m) {
@@ -79,87 +41,33 @@ bool isSchool(const v1::Look& m) {
            });
 }
 
-// Species that together have as many fish as the school.
-bool isCast(const v1::Look& m) {
-    std::uint64_t fish = 0;
-    for (const v1::SpeciesBlobs& member : m.cast()) {
-        if (!isDigest(member.species()) || !isDigest(member.repertoire())) return false;
-        fish += member.fish();
-    }
-    return m.cast_size() <= int{kMostSpecies} && std::cmp_equal(fish, m.fish_ids_size());
-}
-
-bool areRigFiles(const v1::Look& m) {
-    return m.rig_files_size() <= kMostRigFiles &&
-           std::ranges::all_of(m.rig_files(), [](const v1::RigFile& file) {
-               return isText(file.name(), kMostReasonBytes) && isDigest(file.digest());
-           });
-}
-
+// The species together have as many fish as the school.
 bool isValid(const v1::Look& m) {
-    return m.has_number() && m.scene_text().size() <= kMostSceneTextBytes && m.has_seed() &&
-           m.has_world() && (!m.has_quality() || config::tierAt(m.quality())) && isSchool(m) &&
-           isCast(m) && areRigFiles(m);
+    std::uint64_t fish = 0;
+    for (const v1::SpeciesBlobs& member : m.cast()) fish += member.fish();
+    return isSchool(m) && std::cmp_equal(fish, m.fish_ids_size());
 }
 
-bool isValid(const v1::Welcome& m) {
-    return m.rig_text().size() <= kMostRigTextBytes &&
-           isText(m.state_address(), kMostReasonBytes) && isOneOf(m.pace(), v1::Pace_IsValid) &&
-           isValid(m.look());
-}
-
-bool isValid(const v1::HeldScan& m) {
-    return m.holder() != 0 && (!m.has_pattern() || readScanPattern(m.pattern()));
-}
-
-// A value that is there is one of its choices.
-bool isValid(const v1::WantedShow& m) {
-    return (!m.has_scene() || isName(m.scene())) &&
-           (!m.has_quality() || isOneOf(m.quality(), v1::WantedShow::Tier_IsValid)) &&
-           (!m.has_pattern() || isOneOf(m.pattern(), v1::WantedShow::Shown_IsValid));
-}
-
+// A power order names its run: it must not come to the next one.
 bool isValid(const v1::Order& m) {
-    if (m.request() == 0) return false;
     switch (m.order_case()) {
-        case v1::Order::kShow:
-            return isValid(m.show());
         case v1::Order::kScan:
-            return isValid(m.scan());
-        case v1::Order::kRestart:
-            return isName(m.restart().channel());
+            return !m.scan().has_pattern() || readScanPattern(m.scan().pattern());
         case v1::Order::kPower:
-            return m.run() != 0 && isName(m.power().channel()) &&
-                   isOneOf(m.power().word(), v1::Power::Word_IsValid);
-        case v1::Order::ORDER_NOT_SET:
-            break;
+            return m.run() != 0;
+        default:
+            return m.order_case() != v1::Order::ORDER_NOT_SET;
     }
-    return false;
-}
-
-bool isValid(const v1::OrderReply& m) {
-    return m.request() != 0 && isOneOf(m.outcome(), v1::OrderReply::Outcome_IsValid) &&
-           isText(m.reason(), kMostReasonBytes);
-}
-
-bool isValid(const v1::BlobRequest& m) {
-    return isDigest(m.digest()) && m.has_offset() && m.offset() <= kMostBlobBytes;
 }
 
 // The content lies within the blob; written so that no sum overflows.
 bool isValid(const v1::BlobChunk& m) {
-    return isDigest(m.digest()) && m.has_offset() && m.has_total() &&
-           m.content().size() <= kBlobChunkBytes && m.total() <= kMostBlobBytes &&
-           m.offset() <= m.total() && m.content().size() <= m.total() - m.offset();
-}
-
-bool isValid(const v1::Prepared& m) {
-    return m.has_quality() && config::tierAt(m.quality()) && m.has_look();
+    return m.offset() <= m.total() && m.content().size() <= m.total() - m.offset();
 }
 
 // An earlier release is reported as a whole or not at all, and so are blanks.
 bool isValid(const v1::Ready& m) {
-    return m.has_frame() && m.has_released_frame() == m.has_released_ns() &&
+    return m.has_released_frame() == m.has_released_ns() &&
            m.has_blank_ns() == m.has_blank_period_ns();
 }
 
@@ -171,152 +79,37 @@ bool isValid(const v1::Input& m) {
     const auto isShare = [](std::int32_t axis) {
         return axis >= -kFullSteering && axis <= kFullSteering;
     };
-    return isOneOf(m.kind(), v1::InputKind_IsValid) && m.position_size() == (isFood ? 3 : 0) &&
+    return m.position_size() == (isFood ? 3 : 0) &&
            m.steering_size() == (isSteering ? int{kAxes.size()} : 0) &&
-           std::ranges::all_of(m.position(), isNear) &&  // a number that is none is not near
+           std::ranges::all_of(m.position(), isNear) &&  // NaN is not near
            std::ranges::all_of(m.steering(), isShare);
 }
 
-bool isValid(const v1::NodeReport& m) {
-    const std::array numbers{m.round_trip_median_ms(),
-                             m.round_trip_p99_ms(),
-                             m.unanswered_percent(),
-                             m.clock_drift_ppm(),
-                             m.gpu_celsius(),
-                             m.jitter_ms(),
-                             m.picture_median_ms(),
-                             m.picture_p99_ms()};
-    const auto isFinite = [](float number) { return std::isfinite(number); };
-    const auto isLineOfReport = [](const std::string& line) {
-        return isText(line, kMostLineBytes);
-    };
-    return isLineOfReport(m.host()) && isLineOfReport(m.build()) && isLineOfReport(m.renderer()) &&
-           m.monitors_size() <= kMostMonitors &&
-           std::ranges::all_of(m.monitors(), isLineOfReport) &&
-           std::ranges::all_of(numbers, isFinite);
-}
-
-bool isValid(const v1::LogLine& m) {
-    return isOneOf(m.severity(), v1::LogSeverity_IsValid) && m.has_frame() &&
-           isText(m.text(), kMostLogBytes);
-}
-
-bool isValid(const v1::NodeStatus& m) {
-    return (!m.has_report() || isValid(m.report())) && isName(m.name()) &&
-           isOneOf(m.condition(), v1::NodeCondition_IsValid) &&
-           isText(m.machine(), kMostNameBytes) && std::isfinite(m.picture_ms());
-}
-
 bool isValid(const v1::StatusReply& m) {
-    const std::array numbers{m.frame_median_ms(),
-                             m.frame_p99_ms(),
-                             m.frame_peak_ms(),
-                             m.skew_median_ms(),
-                             m.skew_p99_ms(),
-                             m.skew_peak_ms(),
-                             m.speed_m_s()};
-    const auto isFinite = [](float number) { return std::isfinite(number); };
-    return isOneOf(m.pace(), v1::Pace_IsValid) && std::ranges::all_of(numbers, isFinite) &&
-           readEye(m.eye()) && readShow(m.show()) && isText(m.change(), kMostReasonBytes) &&
-           m.nodes_size() <= kMostNodes && m.skew_counts_size() <= kMostSkewCounts &&
-           std::ranges::all_of(m.nodes(), [](const v1::NodeStatus& node) { return isValid(node); });
+    return readEye(m.eye()) && readShow(m.show());
 }
 
-bool isValid(const v1::Explanation& m) {
-    return m.has_fish() && m.has_school() && m.has_tick() && m.school() <= kMostFish &&
-           m.lines_size() <= kMostExplanationLines && std::ranges::all_of(m.lines(), isLine);
-}
-
-bool isPictureWidth(std::uint32_t pixels) {
-    return pixels > 0 && pixels <= kMostPictureWidth;
-}
-
-bool isValid(const v1::PictureRequest& m) {
-    return m.has_number() && isPictureWidth(m.width_px());
-}
-
-bool isValid(const v1::FramePicture& m) {
-    return m.has_number() && m.has_frame() && isPictureWidth(m.width_px()) &&
-           isPictureWidth(m.height_px()) && m.jpeg().size() <= kMostJpegBytes;
-}
-
-// A number that is none is no share.
-bool isValid(const v1::FishRequest& m) {
-    const auto isShare = [](float number) { return number >= 0 && number <= 1; };
-    return m.has_number() && m.has_frame() && isShare(m.x()) && isShare(m.y());
-}
-
-bool isValid(const v1::FishReply& m) {
-    return m.has_number() && m.has_frame() && (!m.has_fish() || m.fish() < kMostFish);
-}
-
-// What a node and the operator's console say to each other.
-bool isValidWatch(const v1::Envelope& m) {
-    switch (m.message_case()) {
-        case v1::Envelope::kWatchHello:
-            return isName(m.watch_hello().channel());
-        case v1::Envelope::kPictureRequest:
-            return isValid(m.picture_request());
-        case v1::Envelope::kFramePicture:
-            return isValid(m.frame_picture());
-        case v1::Envelope::kFishRequest:
-            return isValid(m.fish_request());
-        default:
-            return m.has_fish_reply() && isValid(m.fish_reply());
-    }
-}
-
+// A state is checked by readState(); the rules need not walk its records.
 bool isValid(const v1::Envelope& m) {
+    if (m.has_state()) return true;
+    if (!config::keepsRules(m)) return false;
     switch (m.message_case()) {
-        case v1::Envelope::kHello:
-            return isValid(m.hello());
-        case v1::Envelope::kRefusal:
-            return isValid(m.refusal());
         case v1::Envelope::kWelcome:
-            return isValid(m.welcome());
-        case v1::Envelope::kBlobRequest:
-            return isValid(m.blob_request());
-        case v1::Envelope::kBlobChunk:
-            return isValid(m.blob_chunk());
+            return isValid(m.welcome().look());
         case v1::Envelope::kPrepare:
             return isValid(m.prepare().look());
-        case v1::Envelope::kPrepared:
-            return isValid(m.prepared());
         case v1::Envelope::kOrder:
             return isValid(m.order());
-        case v1::Envelope::kOrderReply:
-            return isValid(m.order_reply());
-        case v1::Envelope::kNodeReport:
-            return isValid(m.node_report());
-        case v1::Envelope::kLogLine:
-            return isValid(m.log_line());
-        case v1::Envelope::kJoined:
-            return m.joined().has_first_frame();
+        case v1::Envelope::kBlobChunk:
+            return isValid(m.blob_chunk());
         case v1::Envelope::kReady:
             return isValid(m.ready());
-        case v1::Envelope::kPresent:
-            return m.present().has_frame() && m.present().has_at_ns();
-        case v1::Envelope::kDismissed:
-            return isValid(m.dismissed());
-        case v1::Envelope::kPing:
-            return m.ping().has_sent_ns();
-        case v1::Envelope::kPong:
-            return m.pong().has_sent_ns() && m.pong().has_master_ns();
         case v1::Envelope::kInput:
             return isValid(m.input());
         case v1::Envelope::kStatusReply:
             return isValid(m.status_reply());
-        case v1::Envelope::kExplainRequest:
-            return m.explain_request().has_fish();
-        case v1::Envelope::kExplanation:
-            return isValid(m.explanation());
-        case v1::Envelope::kState:  // by readState()
-        case v1::Envelope::kBeacon:
-        case v1::Envelope::kFarewell:
-        case v1::Envelope::kStatusRequest:
-            return true;
         default:
-            return isValidWatch(m);
+            return m.message_case() != v1::Envelope::MESSAGE_NOT_SET;
     }
 }
 
@@ -437,27 +230,21 @@ std::optional<config::ScanPattern> readScanPattern(const v1::ScanPattern& m) {
 }
 
 std::optional<Show> readShow(const v1::Show& m) {
-    const auto quality = config::tierAt(m.quality());
-    const bool isWhole = m.has_version() && m.has_look() && m.has_quality() && m.has_black() &&
-                         m.has_brightness() && m.has_frozen() && m.has_calibration() &&
-                         isOneOf(m.pattern(), v1::Pattern_IsValid);
-    const bool isLight = m.brightness() <= static_cast<std::uint32_t>(kFullLight);
     const auto scan = m.has_scan() ? readScanPattern(m.scan()) : std::nullopt;
     const bool isScan = m.pattern() == v1::PATTERN_SCAN;
-    if (!isWhole || !isLight || !quality || m.has_scan() != isScan || scan.has_value() != isScan ||
-        !isText(m.scene(), kMostNameBytes) || !isText(m.pilot(), kMostNameBytes))
+    if (!config::keepsRules(m) || m.has_scan() != isScan || scan.has_value() != isScan)
         return std::nullopt;
-    return Show{m.version(),
-                m.look(),
-                m.scene(),
-                *quality,
-                static_cast<Pattern>(m.pattern()),
-                m.black(),
-                static_cast<float>(m.brightness()) / kFullLight,
-                m.frozen(),
-                m.pilot(),
-                m.calibration(),
-                scan};
+    return Show{.version = m.version(),
+                .look = m.look(),
+                .scene = m.scene(),
+                .quality = *config::tierAt(m.quality()),
+                .pattern = static_cast<Pattern>(m.pattern()),
+                .black = m.black(),
+                .brightness = static_cast<float>(m.brightness()) / kFullLight,
+                .frozen = m.frozen(),
+                .pilot = m.pilot(),
+                .calibration = m.calibration(),
+                .scan = scan};
 }
 
 bool areFinite(const google::protobuf::RepeatedField<float>& numbers) {
@@ -497,7 +284,7 @@ std::string bytesOf(const Digest& digest) {
 }
 
 Digest digestIn(const std::string& bytes) {
-    assert(isDigest(bytes));
+    assert(bytes.size() == Digest{}.bytes.size());
     Digest digest;
     std::ranges::transform(
         bytes, digest.bytes.begin(), [](char c) { return static_cast<std::uint8_t>(c); });

@@ -25,24 +25,15 @@ namespace aquarama::wire {
 // Peers of another major version are refused.
 inline constexpr std::uint32_t kProtocolMajor = 5;
 
-// Bounds. Larger or longer values are refused on arrival; text has no control characters, since it
-// is printed in logs and terminals.
+// Bounds that the code keeps to. All bounds of arriving messages are rules of aquarama.proto; a
+// test compares these with them.
 inline constexpr std::size_t kMostNameBytes = 64;
-inline constexpr std::size_t kMostReasonBytes = 1024;
 inline constexpr std::size_t kMostLogBytes = 1000;  // of a line of a node's log
-inline constexpr std::size_t kMostRigTextBytes = std::size_t{1} << 20U;
-inline constexpr std::size_t kMostSceneTextBytes = std::size_t{1} << 20U;
 inline constexpr std::size_t kBlobChunkBytes = std::size_t{256} << 10U;
-inline constexpr int kMostNodes = 256;
-inline constexpr int kMostRigFiles = 129;  // two of each channel, and the screen's
-inline constexpr int kMostMonitors = 16;
-inline constexpr std::size_t kMostLineBytes = 256;  // of a report
-inline constexpr float kMostInputMetres = 10'000;   // of a position, on each axis
+inline constexpr float kMostInputMetres = 10'000;  // of a position, on each axis
 inline constexpr int kMostExplanationLines = 48;
 inline constexpr std::size_t kMostExplanationLineBytes = 120;
 inline constexpr std::size_t kMostJpegBytes = std::size_t{60} << 10U;
-inline constexpr std::uint32_t kMostPictureWidth = 1920;  // of one that a console is shown
-inline constexpr int kMostSkewCounts = 16;
 inline constexpr float kFullLight = 255;  // of Show.brightness
 // All messages but welcomes, states and chunks, which alone hold their content as plain bytes or
 // numbers. Nothing larger goes from a node to the master.

@@ -162,7 +162,7 @@ glm::vec3 flightFrom(const Situation& situation) {
 }
 
 bool isBeforeTheMouth(const Senses& senses, glm::vec3 offset) {
-    const glm::vec3 fromMouth = offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
+    const glm::vec3 fromMouth = offset - senses.heading * (fish::kNoseBodyLengths * senses.length);
     const float distance = place::lengthOf(fromMouth) / senses.length;
     return distance <= kAtTheLips ||
            (distance <= kSuction &&
@@ -177,7 +177,7 @@ fish::Course eat(const Situation& situation, fish::Mind& mind, DeferredEvents& e
     if (isBeforeTheMouth(senses, food.offset))
         events.push_back({fish::DeferredEventKind::EatParticle, situation.fish, food.object});
     const glm::vec3 fromMouth =
-        food.offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
+        food.offset - senses.heading * (fish::kNoseBodyLengths * senses.length);
     if (mind.stage == kApproach && cannotTurnTo(senses, fromMouth)) enter(mind, kRunUp);
     const bool farEnough = food.distance > kRunUpLengths * senses.length;
     if (mind.stage == kRunUp && (farEnough || mind.sinceStage > kRunUpTicks))

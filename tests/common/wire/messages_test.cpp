@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/units.h"
+#include "common/config/rules.h"
 #include "tests/common/wire/sample_messages.h"
 #include "tests/support/count_memory.h"
 #include "tests/support/state_packet.h"
@@ -311,7 +312,7 @@ TEST(Messages, aWelcomeOrAStatusThatLiesIsRefused) {
         welcomed([](v1::Welcome& w) { w.mutable_look()->mutable_cast(0)->set_species("short"); }));
     EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.set_state_address("a\nb"); }));
     EXPECT_FALSE(
-        welcomed([](v1::Welcome& w) { w.set_rig_text(std::string(kMostRigTextBytes + 1, ' ')); }));
+        welcomed([](v1::Welcome& w) { w.set_rig_text(std::string((1U << 20U) + 1, ' ')); }));
     const auto told = [](auto alter) {
         v1::Envelope message = sampleStatus();
         alter(*message.mutable_status_reply());
@@ -326,8 +327,116 @@ TEST(Messages, aWelcomeOrAStatusThatLiesIsRefused) {
     EXPECT_FALSE(told([](v1::StatusReply& s) { s.mutable_nodes(0)->clear_condition(); }));
     EXPECT_FALSE(told([](v1::StatusReply& s) { s.mutable_nodes(0)->set_name(""); }));
     EXPECT_FALSE(told([](v1::StatusReply& s) {
-        for (int i = 0; i < kMostNodes; ++i) *s.add_nodes() = s.nodes(0);
+        for (int i = 0; i < 64; ++i) *s.add_nodes() = s.nodes(0);
     }));
+}
+
+namespace pb = google::protobuf;
+using Field = pb::FieldDescriptor;
+using Break = std::function<void(pb::Message&)>;
+
+const v1::Rule& ruleOf(const Field& field) {
+    return field.options().GetExtension(v1::rule);
+}
+
+const v1::Rule& ruleOf(const pb::Message& message, const std::string& field) {
+    return ruleOf(*message.GetDescriptor()->FindFieldByName(field));
+}
+
+void setText(pb::Message& message, const Field& field, const std::string& text) {
+    const pb::Reflection& set = *message.GetReflection();
+    if (field.is_repeated())
+        set.SetRepeatedString(&message, &field, 0, text);
+    else
+        set.SetString(&message, &field, text);
+}
+
+void setNumber(pb::Message& message, const Field& field, double value) {
+    const pb::Reflection& set = *message.GetReflection();
+    if (field.cpp_type() == Field::CPPTYPE_UINT32)
+        set.SetUInt32(&message, &field, static_cast<std::uint32_t>(value));
+    else if (field.cpp_type() == Field::CPPTYPE_UINT64)
+        set.SetUInt64(&message, &field, static_cast<std::uint64_t>(value));
+    else
+        set.SetFloat(&message, &field, static_cast<float>(value));
+}
+
+// Ways to break the rule of a field that the message has.
+std::vector<Break> breaksOf(const Field& field) {
+    const v1::Rule& rule = ruleOf(field);
+    std::vector<Break> ways;
+    const auto add = [&](auto way) {
+        ways.emplace_back([&field, way](pb::Message& message) { way(message); });
+    };
+    if (rule.required())
+        add([&field](pb::Message& m) { m.GetReflection()->ClearField(&m, &field); });
+    for (const std::uint32_t bytes : {rule.most_bytes() + 1, rule.least_bytes() - 1})
+        if (rule.has_most_bytes() && bytes <= rule.most_bytes() + 1)
+            add([&field, bytes](pb::Message& m) { setText(m, field, std::string(bytes, 'x')); });
+    if (rule.printed()) add([&field](pb::Message& m) { setText(m, field, "a\nb"); });
+    if (rule.ascii()) add([&field](pb::Message& m) { setText(m, field, "\xC3\xA9"); });
+    const bool isNumber = field.cpp_type() == Field::CPPTYPE_UINT32 ||
+                          field.cpp_type() == Field::CPPTYPE_UINT64 ||
+                          field.cpp_type() == Field::CPPTYPE_FLOAT;
+    if (!isNumber || field.is_repeated()) return ways;
+    if (rule.has_most())
+        add([&field, &rule](pb::Message& m) { setNumber(m, field, rule.most() + 1); });
+    if (rule.has_least())
+        add([&field, &rule](pb::Message& m) { setNumber(m, field, rule.least() - 1); });
+    if (field.cpp_type() == Field::CPPTYPE_FLOAT)
+        add([&field](pb::Message& m) { setNumber(m, field, NAN); });
+    return ways;
+}
+
+// Breaks each rule of `part`, which is inside `whole`, and looks whether that is noticed.
+int breakEach(v1::Envelope& whole, pb::Message& part) {
+    const pb::Reflection& get = *part.GetReflection();
+    std::vector<const Field*> fields;
+    get.ListFields(part, &fields);
+    int broken = 0;
+    for (const Field* field : fields) {
+        const std::unique_ptr<pb::Message> good(part.New());
+        good->CopyFrom(part);
+        for (const Break& way : breaksOf(*field)) {
+            way(part);
+            EXPECT_FALSE(isUnderstood(whole)) << field->full_name();
+            part.CopyFrom(*good);
+            ++broken;
+        }
+        if (field->cpp_type() != Field::CPPTYPE_MESSAGE || field->name() == "state") continue;
+        broken += breakEach(whole,
+                            field->is_repeated() ? *get.MutableRepeatedMessage(&part, field, 0)
+                                                 : *get.MutableMessage(&part, field));
+    }
+    return broken;
+}
+
+// Each rule of each message that is sampled, one at a time.
+TEST(Messages, whatBreaksARuleOfTheSchemaIsRefused) {
+    int broken = 0;
+    for (const Packet& packet : samplePackets()) {
+        auto message = decode(packet);
+        ASSERT_TRUE(message);
+        ASSERT_TRUE(isUnderstood(*message));
+        broken += breakEach(*message, *message);
+    }
+    EXPECT_GT(broken, 150);
+}
+
+// What the code cuts texts to, and what is accepted, is one length.
+TEST(Messages, boundsOfTheCodeAreThoseOfTheSchema) {
+    EXPECT_EQ(ruleOf(v1::Hello(), "channel").most_bytes(), kMostNameBytes);
+    EXPECT_EQ(ruleOf(v1::Show(), "scene").most_bytes(), kMostNameBytes);
+    EXPECT_EQ(ruleOf(v1::LogLine(), "text").most_bytes(), kMostLogBytes);
+    EXPECT_EQ(ruleOf(v1::BlobChunk(), "content").most_bytes(), kBlobChunkBytes);
+    EXPECT_EQ(ruleOf(v1::BlobChunk(), "total").most(), kMostBlobBytes);
+    EXPECT_EQ(ruleOf(v1::Explanation(), "lines").most(), kMostExplanationLines);
+    EXPECT_EQ(ruleOf(v1::Explanation(), "lines").most_bytes(), kMostExplanationLineBytes);
+    EXPECT_EQ(ruleOf(v1::Explanation(), "school").most(), kMostFish);
+    EXPECT_EQ(ruleOf(v1::FishReply(), "fish").most(), kMostFish - 1);
+    EXPECT_EQ(ruleOf(v1::Look(), "cast").most(), kMostSpecies);
+    EXPECT_EQ(ruleOf(v1::FramePicture(), "jpeg").most_bytes(), kMostJpegBytes);
+    EXPECT_EQ(ruleOf(v1::Show(), "brightness").most(), kFullLight);
 }
 
 TEST(Messages, namesAreBoundedAndPrintable) {
@@ -336,8 +445,8 @@ TEST(Messages, namesAreBoundedAndPrintable) {
     EXPECT_FALSE(accepted(std::string(kMostNameBytes + 1, 'n')));
     EXPECT_FALSE(accepted(""));
     EXPECT_FALSE(accepted("left\nmaster: all is well"));
-    EXPECT_TRUE(isUnderstood(test::refusal(std::string(kMostReasonBytes, 'r'))));
-    EXPECT_FALSE(isUnderstood(test::refusal(std::string(kMostReasonBytes + 1, 'r'))));
+    EXPECT_TRUE(isUnderstood(test::refusal(std::string(1024, 'r'))));
+    EXPECT_FALSE(isUnderstood(test::refusal(std::string(1025, 'r'))));
     EXPECT_FALSE(isUnderstood(test::dismissed("\x1b[2J")));
 }
 
