@@ -49,7 +49,8 @@ function(aquarama_library name)
 endfunction()
 
 # aquarama_schema(config SOURCES rules.proto ... [LINK targets...]): the messages of a folder, as library
-# aquarama_config_schema. A schema is imported, and its header included, from the root: "common/config/rules.proto". What
+# aquarama_config_schema. A schema is imported, and its header included, from the root: "common/config/rules.proto".
+# What
 # protoc writes is compiled apart: our warnings and our linter are not its business.
 function(aquarama_schema name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})

@@ -1,4 +1,5 @@
-# cmake -DFOLDER=render_node/shaders -DSHARED="common/base/hash.h;..." -DOUTPUT=embedded_shaders.cpp -P EmbedShaders.cmake
+# cmake -DFOLDER=render_node/shaders -DSHARED="common/base/hash.h;..." -DOUTPUT=embedded_shaders.cpp -P
+# EmbedShaders.cmake
 # Writes every file of the folder, and the shared ones that shaders include, into one C++ source, each as a
 # string literal of its own, since compilers limit the length of a literal.
 file(GLOB files LIST_DIRECTORIES false ${FOLDER}/*)

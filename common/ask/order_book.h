@@ -19,6 +19,7 @@ enum class Outcome : std::uint8_t {
     Lost = 4,  // nobody answered: it may have been carried out
 };
 
+// What somebody who asks again is told of an order.
 struct Answer {
     Outcome outcome = Outcome::Done;
     std::string reason = {};  // why it was refused, or what is waited for

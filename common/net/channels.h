@@ -23,6 +23,7 @@
 
 namespace aquarama::net {
 
+// The bytes of a packet: seen, and owned.
 using ByteView = std::span<const std::byte>;
 using ByteVector = std::vector<std::byte>;
 
@@ -71,6 +72,8 @@ struct PacketLimits {
 class MasterChannels {
   public:
     virtual ~MasterChannels() = default;
+    // Sends a packet to one peer; takes the oldest that one has sent, nothing where there is none;
+    // sends a state to all who hear the state channel.
     virtual void sendControl(const PeerId& peer, ByteView bytes) = 0;
     [[nodiscard]] virtual std::optional<FromPeer> receiveControl() = 0;
     virtual void publishState(ByteView bytes) = 0;
@@ -90,6 +93,9 @@ class MasterChannels {
 class NodeChannels {
   public:
     virtual ~NodeChannels() = default;
+    // Sends a packet to the master; takes the oldest that it has sent, nothing where there is none;
+    // hears the state channel at this address from now on; takes the oldest state; waits until
+    // something has arrived, wake(), or `atMost`; ends the wait, from any thread.
     virtual void sendControl(ByteView bytes) = 0;
     [[nodiscard]] virtual std::optional<ByteVector> receiveControl() = 0;
     virtual void subscribeState(const std::string& address) = 0;

@@ -87,6 +87,7 @@ struct Blanks {
 // Finds the period of a display from blanks that its driver counts and time-stamps.
 class BlankMeter {
   public:
+    // A blank of this count was at this moment.
     void add(std::uint64_t count, Moment at);
     // Empty until a second has passed without a jump.
     [[nodiscard]] std::optional<Blanks> blanks() const;
@@ -102,6 +103,7 @@ class BlankMeter {
 // The last 600 durations: of frames, ten seconds at 60 Hz.
 class RecentTimes {
   public:
+    // The newest duration; the oldest is forgotten.
     void add(Duration time);
     [[nodiscard]] float quantileMs(
         double quantile) const;  // quantile 0 to 1; 0 where there is nothing yet
@@ -118,6 +120,7 @@ class RecentTimes {
 // any. A reader that asks ten times a second misses none.
 class RecentPeak {
   public:
+    // A duration that ended now.
     void add(Moment now, Duration time);
     [[nodiscard]] float ms() const;  // 0 where there is nothing yet
 

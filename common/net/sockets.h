@@ -29,6 +29,7 @@ class WakeEvent {
 
     void set() const;    // from any thread
     void clear() const;  // by the thread that polls
+    // The file descriptor that is polled.
     [[nodiscard]] int descriptor() const { return descriptor_; }
 
   private:
@@ -61,6 +62,7 @@ class Doorkeeper {
     Doorkeeper(const Doorkeeper&) = delete;
     Doorkeeper& operator=(const Doorkeeper&) = delete;
 
+    // Whether this user may connect now. From any thread.
     [[nodiscard]] bool isAllowed(const std::string& user) const;
     // Whether a user has been taken from the list since the last call.
     [[nodiscard]] bool hasRevoked() { return revoked_.exchange(false); }

@@ -60,10 +60,12 @@ inline constexpr std::size_t kMostFood = config::kMostPlankton + 256;
 // units of 2^-13 m (64 m to each side; a finer step than a particle drifts in a tick, so that none
 // is seen to stutter); kind << 60 | generation << 62. All zero: nothing is there.
 struct FoodRecord {
+    // What it is; None: an empty place of the list.
     enum class Kind : std::uint8_t { None, Plankton, Pellet };
 
     std::uint64_t bits = 0;
 
+    // What is in this place.
     [[nodiscard]] Kind kind() const { return static_cast<Kind>(bits >> 60U & 3U); }
     // Modulo 4: another number is another particle in the same place of the list.
     [[nodiscard]] unsigned generation() const { return static_cast<unsigned>(bits >> 62U); }

@@ -78,6 +78,7 @@ class Watchdog {
     // Null: nobody is told. `service` outlives this.
     explicit Watchdog(machine::ServiceNotifier* service) : service_{service} {}
 
+    // The show serves, and ends.
     void ready() const;
     // `isStill`: no tick has to come, as the world stands still.
     void turn(net::Instant now, std::optional<Tick> newest, bool isStill, std::uint64_t frames);

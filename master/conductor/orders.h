@@ -41,6 +41,7 @@ class Orders {
     // Gives up nodes that do not answer and a scan that has fallen silent.
     void giveUpTheSilent(net::Instant now);
 
+    // What the wall shows or changes to, and who holds it for a scan.
     [[nodiscard]] ShowControl& control() { return control_; }
     [[nodiscard]] const ShowControl& control() const { return control_; }
     [[nodiscard]] const ScanHold& scan() const { return scan_; }

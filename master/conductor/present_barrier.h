@@ -39,6 +39,7 @@ class PresentBarrier {
   public:
     PresentBarrier(std::size_t nodes, const BarrierLimits& limits, net::Instant start);
 
+    // The node has said something.
     void heard(std::size_t node, net::Instant now);
     // The node is prepared and sees every state from `first` on.
     void join(std::size_t node, Frame first);
@@ -50,19 +51,24 @@ class PresentBarrier {
     void begin(Frame frame);
     void ready(std::size_t node, Frame frame, net::Instant now);
 
+    // What becomes of the frame that is drawn.
     enum class Verdict : std::uint8_t {
         Idle,     // nobody draws this frame
         Wait,     // ask again when something was heard, or at `until`
         Present,  // whoever missed the deadline has left the wait set
         Silent,   // lockstep: `node` has said nothing for too long
     };
+    // A verdict with what belongs to it.
     struct Decision {
         Verdict verdict = Verdict::Idle;
         std::optional<net::Instant> until;
         std::size_t node = 0;
     };
+    // What becomes of the frame at this moment.
     [[nodiscard]] Decision decide(net::Instant now);
 
+    // Of one node, and of all: whether it takes part, whether the frame waits for it, whether all
+    // have joined, whether any takes part.
     [[nodiscard]] bool isMember(std::size_t node) const { return nodes_[node].member; }
     [[nodiscard]] bool isWaitedFor(std::size_t node) const;
     [[nodiscard]] bool allPrepared() const;

@@ -33,6 +33,7 @@ class FrameSource {
     virtual void onReleased(Frame frame) = 0;
 };
 
+// When frames are presented, and how many.
 struct PresentationLimits {
     BarrierLimits barrier;
     net::Instant refresh{};                // of the displays
@@ -61,6 +62,7 @@ class Presentation {
     // How long the loop may sleep where nothing is heard.
     [[nodiscard]] net::Instant untilDue() const;
 
+    // Which nodes are waited for.
     [[nodiscard]] PresentBarrier& barrier() { return barrier_; }
     [[nodiscard]] const PresentBarrier& barrier() const { return barrier_; }
     // The frame that is drawn, or will be as soon as it can; the first that is not published.

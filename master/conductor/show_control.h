@@ -69,6 +69,7 @@ class ShowControl {
     [[nodiscard]] const std::string& waitingFor() const { return waitingFor_; }
     void setWaitingFor(const std::string& what);
 
+    // The steps of a change.
     enum class Phase : std::uint8_t {
         Steady,     // nothing changes but brightness
         Making,     // the next world is being made: then made()
@@ -76,6 +77,7 @@ class ShowControl {
         Fading,     // to black; then blackShown()
         Switching,  // the next frame is of the next look: then switched()
     };
+    // The step of the change that is under way, and calls that end a step.
     [[nodiscard]] Phase phase() const { return phase_; }
     void made();
     void prepared();

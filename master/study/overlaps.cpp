@@ -21,7 +21,8 @@ glm::vec3 pointOf(const Rod& rod, float behindNose) {
 // Distance from a point to the middle line of a rod.
 float distanceTo(const Rod& rod, glm::vec3 point) {
     const float along = glm::dot(point - rod.origin, rod.heading);
-    const float nearest = std::clamp(along, (fish::kNoseBodyLengths - 1) * rod.length, fish::kNoseBodyLengths * rod.length);
+    const float nearest = std::clamp(
+        along, (fish::kNoseBodyLengths - 1) * rod.length, fish::kNoseBodyLengths * rod.length);
     return glm::distance(point, rod.origin + rod.heading * nearest);
 }
 

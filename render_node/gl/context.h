@@ -57,10 +57,12 @@ struct Hands {
     // Of several gamepads, the one that is deflected most.
     Pad pad;
 
+    // Whether the key is down.
     [[nodiscard]] bool holds(HeldKey key) const {
         assert(static_cast<std::size_t>(key) < kHeldKeys);
         return keys[static_cast<std::size_t>(key)];
     }
+    // Notes that the key is down.
     void hold(HeldKey key) {
         assert(static_cast<std::size_t>(key) < kHeldKeys);
         keys.set(static_cast<std::size_t>(key));

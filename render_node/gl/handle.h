@@ -34,6 +34,7 @@ class Handle {
         return *this;
     }
 
+    // OpenGL's name of the object.
     [[nodiscard]] unsigned name() const { return name_; }
 
   private:
@@ -43,50 +44,63 @@ class Handle {
 // Traits of each kind of object. They use direct state access (OpenGL 4.5): create() makes an
 // object, not a mere name, so that it can be used without being bound.
 struct BufferTraits {
+    // Makes an object.
     static unsigned create() {
         unsigned name = 0;
         glCreateBuffers(1, &name);
         return name;
     }
+    // Deletes it.
     static void destroy(unsigned name) { glDeleteBuffers(1, &name); }
 };
 struct TextureTraits {
+    // Makes an object.
     static unsigned create(GLenum target) {
         unsigned name = 0;
         glCreateTextures(target, 1, &name);
         return name;
     }
+    // Deletes it.
     static void destroy(unsigned name) { glDeleteTextures(1, &name); }
 };
 struct FramebufferTraits {
+    // Makes an object.
     static unsigned create() {
         unsigned name = 0;
         glCreateFramebuffers(1, &name);
         return name;
     }
+    // Deletes it.
     static void destroy(unsigned name) { glDeleteFramebuffers(1, &name); }
 };
 struct VertexArrayTraits {
+    // Makes an object.
     static unsigned create() {
         unsigned name = 0;
         glCreateVertexArrays(1, &name);
         return name;
     }
+    // Deletes it.
     static void destroy(unsigned name) { glDeleteVertexArrays(1, &name); }
 };
 struct SamplerTraits {
+    // Makes an object.
     static unsigned create() {
         unsigned name = 0;
         glCreateSamplers(1, &name);
         return name;
     }
+    // Deletes it.
     static void destroy(unsigned name) { glDeleteSamplers(1, &name); }
 };
 struct ProgramTraits {
+    // Makes an object.
     static unsigned create() { return glCreateProgram(); }
+    // Deletes it.
     static void destroy(unsigned name) { glDeleteProgram(name); }
 };
 
+// Handles of OpenGL's objects, each deleted with its handle.
 using Buffer = Handle<BufferTraits>;
 using Texture = Handle<TextureTraits>;
 using Sampler = Handle<SamplerTraits>;
@@ -138,6 +152,7 @@ inline void bindStorage(int binding, const Buffer& buffer) {
 class Target {
   public:
     Target(GLenum format, glm::ivec2 sizePixels);
+    // OpenGL's names of its framebuffer and its texture, and its size.
     [[nodiscard]] unsigned framebuffer() const { return framebuffer_.name(); }
     [[nodiscard]] unsigned texture() const { return colour_.name(); }
     [[nodiscard]] glm::ivec2 sizePixels() const { return size_; }

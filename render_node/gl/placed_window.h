@@ -31,6 +31,7 @@ class PlacedWindow {
     PlacedWindow(const PlacedWindow&) = delete;
     PlacedWindow& operator=(const PlacedWindow&) = delete;
 
+    // GLFW's window, and the size of its framebuffer in pixels.
     [[nodiscard]] GLFWwindow* handle() const { return window_.get(); }
     [[nodiscard]] glm::ivec2 framebufferPixels() const { return framebuffer_; }
     // GLFW reports another size of the framebuffer.

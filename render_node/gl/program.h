@@ -73,6 +73,7 @@ struct EmbeddedShader {
     std::string_view text;
 };
 
+// The sources of all shaders of the program.
 [[nodiscard]] std::span<const EmbeddedShader> embeddedShaders();
 
 // Programs from the embedded files.
@@ -84,6 +85,7 @@ struct EmbeddedShader {
 
 // For Handle: a shader object of one stage.
 struct ShaderTraits {
+    // Makes an object, and deletes it.
     static unsigned create(GLenum stage) { return glCreateShader(stage); }
     static void destroy(unsigned name) { glDeleteShader(name); }
 };

@@ -70,6 +70,7 @@ struct Quality {
     bool growthAtPixels = false;
 };
 
+// All that a tier chooses.
 [[nodiscard]] Quality qualityOf(config::QualityTier tier);
 
 // The viewpoint of a frame, and its detail.

@@ -43,6 +43,7 @@ struct GroundTables {
     // occlusion (g), rubble (b).
     std::vector<glm::u8vec4> shade;
 
+    // All arrays, for the cache of derived data.
     auto arrays() { return std::tie(vertices, indices, patches, levels, shade); }
 };
 

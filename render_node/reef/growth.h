@@ -51,6 +51,8 @@ inline constexpr int kShapesOfForm = 3;
 // an empty mesh; the dice choose the shape. Coarser levels have fewer and broader parts, so that
 // the form remains as dense.
 
+// Each adds one form at a level of detail, 0 the finest, in metres about the origin; the dice
+// decide its branches.
 void growStaghorn(Mesh& mesh, std::size_t level, Dice dice);
 void growBush(Mesh& mesh, std::size_t level, Dice dice);
 void growFingers(Mesh& mesh, std::size_t level, Dice dice);

@@ -59,6 +59,7 @@ struct ReefTables {
     // For each workgroup of the culling a ball about its instances: centre, radius; world metres.
     std::vector<glm::vec4> groups;
 
+    // All arrays, for the cache of derived data.
     auto arrays() { return std::tie(vertices, indices, instances, prototypes, commands, groups); }
 };
 

@@ -40,6 +40,7 @@ struct Tile {
     // mean), height from hollow 0 to crest 1.
     std::vector<glm::u8vec4> values;
 
+    // All arrays, for the cache of derived data.
     auto arrays() { return std::tie(values); }
 };
 

@@ -51,6 +51,7 @@ class SeaLight {
     // Binds block and textures to the units that water.glsl and what it includes name.
     void bind() const;
 
+    // The shade that things in the water cast.
     [[nodiscard]] SeaShade& shade() { return shade_; }
     // For tests: sunlight by depth (array layers) and by direction.
     [[nodiscard]] const gl::Texture& causticLayers() const { return causticLayers_; }

@@ -21,6 +21,7 @@ class FrameReports {
     bool check(const wire::StateFrame& state, net::Moment arrival);
     [[nodiscard]] std::uint64_t mismatches() const { return mismatches_; }
 
+    // The picture of a frame is finished.
     void finish(const FinishedFrame& finished);
     // The master has released this frame and all before it.
     void release(Frame frame);

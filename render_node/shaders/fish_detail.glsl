@@ -8,7 +8,8 @@
 const uint kUnseen = 15u;  // in place of a level of detail
 
 layout(location = kPlanesLocation) uniform vec4 planes[6];       // of the view's frustum, inward
-layout(location = kSharedEyeLocation) uniform vec4 sharedEye;       // world, metres; w: the wall's finest pixel, radians
+// world, metres; w: the wall's finest pixel, radians
+layout(location = kSharedEyeLocation) uniform vec4 sharedEye;
 layout(location = kLimitsLocation) uniform float limits[7];      // pixels that a fish fills from this level on
 layout(location = kFinestDetailLocation) uniform uint finestDetail;
 layout(location = kCullsLocation) uniform bool culls;

@@ -1,4 +1,5 @@
-// The fins: painted membranes between rays, growing out of the skin. Blended. The skin shader's file takes the place of the plain one where the species has a skin shader.
+// The fins: painted membranes between rays, growing out of the skin. Blended. The skin shader's file takes the place
+// of the plain one where the species has a skin shader.
 // In: world place, place on skin and fin. Out: scene radiance with alpha.
 #include "fish_light.glsl"
 #include "skin_plain.glsl"

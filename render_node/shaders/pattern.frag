@@ -6,7 +6,8 @@
 layout(location = kWallFromCameraLocation) uniform mat3 wallFromCamera;
 layout(location = kExtentsLocation) uniform vec4 extents;  // left, bottom, right, top: tangents
 layout(location = kGreyLightLocation) uniform float greyLight;  // negative: the grid
-layout(location = kGridLinesLocation) uniform vec4 gridLines;   // degrees between lines, between bright ones; light of the others; sigma, degrees
+// degrees between lines, between bright ones; light of the others; sigma, degrees
+layout(location = kGridLinesLocation) uniform vec4 gridLines;
 // As wall::PatternGround: the eye in its local frame, and w its size.
 layout(location = kEyeAndSizeLocation) uniform vec4 eyeAndSize;
 layout(location = kGroundLocation) uniform int ground;

@@ -20,7 +20,9 @@ struct Command {
 layout(std430, binding = kPrototypesStorage) readonly buffer Prototypes { Prototype prototypes[]; };
 layout(std430, binding = kCommandsStorage) buffer Commands { Command commands[]; };
 layout(std430, binding = kChosenStorage) writeonly buffer Chosen { uint chosenOnes[]; };
-layout(std430, binding = kSeenGroupsStorage) readonly buffer SeenGroups { uint groupsX, groupsY, groupsZ, seenGroups[]; };
+layout(std430, binding = kSeenGroupsStorage) readonly buffer SeenGroups {
+    uint groupsX, groupsY, groupsZ, seenGroups[];
+};
 layout(location = kInstanceCountLocation) uniform uint instanceCount;
 layout(location = kCullDetailLocation) uniform float detail;
 

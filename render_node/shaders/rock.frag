@@ -40,7 +40,8 @@ void main() {
     vec3 slope = 1.1 * broad.slope + 0.9 * middle.slope + 0.5 * fine.slope;
     n = normalize(n - (slope - n * dot(slope, n)));
     float tone = 2.0 * middle.tone.x * mix(1.0, 2.0 * fine.tone.x, 0.9) * mix(1.0, 2.0 * broad.tone.x, 0.8);
-    float pits = mix(0.30, 1.0, smoothstep(0.15, 0.75, middle.tone.y)) * mix(0.35, 1.0, smoothstep(0.15, 0.55, fine.tone.y)) *
+    float pits = mix(0.30, 1.0, smoothstep(0.15, 0.75, middle.tone.y)) *
+                 mix(0.35, 1.0, smoothstep(0.15, 0.55, fine.tone.y)) *
                  mix(0.45, 1.0, smoothstep(0.15, 0.6, broad.tone.y));
     float patches = broad.tone.y + 0.35 * (middle.tone.y - 0.5);
     vec3 sponge = vec3(0.58, 0.27, 0.07) * (0.7 + 0.5 * middle.tone.y);

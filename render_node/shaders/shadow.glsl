@@ -9,7 +9,8 @@
 
 layout(binding = kSunHeightsUnit) uniform sampler2D sunHeights;  // topmost height along the sun's ray, and its square
 layout(binding = kTopHeightsUnit) uniform sampler2D topHeights;  // the same straight from above
-layout(binding = kFishOnTheWayUnit) uniform sampler2D fishOnTheWay;  // optical depth along the sun's ray; times height; times its square
+// optical depth along the sun's ray; times height; times its square
+layout(binding = kFishOnTheWayUnit) uniform sampler2D fishOnTheWay;
 
 // How much of the sun and of the light from above reaches a place (1: nothing stands in the way).
 struct Occlusion {

@@ -8,7 +8,8 @@
 #include "shadow.glsl"
 
 layout(binding = kCausticLayersUnit) uniform sampler2DArray causticLayers;  // sunlight at some depths, mean 1
-layout(binding = kShaftMapUnit) uniform sampler2D shaftMap;  // by direction: sunlight in the water before 3, 8, 18, 45 m
+// by direction: sunlight in the water before 3, 8, 18, 45 m
+layout(binding = kShaftMapUnit) uniform sampler2D shaftMap;
 
 const float kPi = 3.14159265;
 

@@ -30,6 +30,7 @@ class BuiltLook {
     BuiltLook(const BuiltLook&) = delete;
     BuiltLook& operator=(const BuiltLook&) = delete;
 
+    // What it was built from.
     [[nodiscard]] const session::Admission& admission() const { return admission_; }
     // Gives the same look another number, after the master was started again.
     void renumber(std::uint32_t look) { admission_.look = look; }

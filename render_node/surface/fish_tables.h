@@ -138,6 +138,7 @@ struct FishArrays {
     std::vector<FewTriangles::Vertex> fewVertices;
     std::vector<std::uint32_t> fewIndices;
 
+    // All arrays, for the cache of derived data.
     auto arrays() {
         return std::tie(species,
                         recorded,

@@ -9,8 +9,9 @@ Doc lines: each type and function that a header declares and that is not private
   - at the end of one of its lines, up to the line that ends in ; { or }; or
   - above the first declaration of its group: within a group there is no blank line and no public:, protected: or
     private:.
-Exempt are: functions that are defaulted or deleted, comparison operators, overrides (their base has the line), what
-stands in an unnamed namespace, and calls of macros, which look like functions (names in capitals).
+Exempt are: constructors, destructors and assignments (the class has the line), functions that are deleted, comparison
+operators, overrides (their base has the line), specialisations of templates, what stands in an unnamed namespace, and
+calls of macros, which look like functions (names in capitals).
 """
 import collections
 import json
@@ -27,7 +28,7 @@ MOST_MEMBERS = 25
 CLASSES = ("class", "struct", "union")
 FUNCTIONS = ("function", "prototype")
 TYPES = (*CLASSES, "enum", "typedef")
-COMPARISONS = {"operator ==", "operator !=", "operator <", "operator <=>"}
+NEEDS_NO_LINE = {"operator ==", "operator !=", "operator <", "operator <=>", "operator ="}
 
 
 def has_ctags():
@@ -90,7 +91,10 @@ def needs_doc_line(declaration, classes):
         if around.get("access") == "private":
             return False
         around = classes.get(scope_of(around))
-    return (declaration["name"] not in COMPARISONS
+    own = scope_of(declaration).split("::")[-1]
+    if declaration["name"].removeprefix("~") == own or "<" in scope_of(declaration):
+        return False
+    return (declaration["name"] not in NEEDS_NO_LINE
             and not {"default", "delete", "override"} & set(properties(declaration)))
 
 
