@@ -56,6 +56,7 @@ def width_problems(name, text):
 def paragraphs(text):
     """The paragraphs, items, headings and cells of a document in Markdown, without code and formulas."""
     text = re.sub(r"^ *(```|~~~).*?^ *\1", "", text, flags=re.S | re.M)
+    text = re.sub(r"(?<=\n\n)(    .*\n)+", "", text)
     text = re.sub(r"\$\$.*?\$\$", "", text, flags=re.S)
     text = re.sub(r"<!--.*?-->", "", text, flags=re.S)
     text = re.sub(r"`[^`]*`|\$[^$\n]+\$", "code", text)
