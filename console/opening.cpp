@@ -189,7 +189,7 @@ void Opening::done(const config::WantedHours& wanted) {
     keep();
 }
 
-// A wall in service is not.
+// Not closed while the schedule is held.
 bool Opening::isClosed(UnixSeconds now) const {
     return hours_ && heldUntil(now) == 0 && !wantedIn(now).isOpen;
 }

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The width of lines of all files that people write, and the length of sentences in documents.
 
-Width: at most MOST_COLUMNS columns. Not counted are what cannot be broken in a document, rows of tables and links that
-stand alone on a line, and the files of NOT_WRITTEN.
+Width: at most MOST_COLUMNS columns. Not counted are what cannot be broken in a document (rows of tables, blocks of
+code, and links that stand alone on a line) and the files of NOT_WRITTEN.
 
 Sentences: in each document, at most one sentence in SENTENCES_PER_LONG has more than MOST_WORDS words. A sentence ends
 at . ! or ? before a space, at the end of a paragraph, of an item, of a heading and of a table's cell. Code, quoted or
@@ -43,8 +43,8 @@ def written_files(root):
 
 
 def may_be_wide(name, line):
-    """Whether the line is a row of a table, or a link that stands alone."""
-    return name.endswith(".md") and re.fullmatch(r" *\|.*|\W*(\[[^]]*\]\(\S*\)|<?https?://\S*)\W*", line)
+    """Whether the line is a row of a table, of a block of code, or a link that stands alone."""
+    return name.endswith(".md") and re.fullmatch(r" *\|.*|    .*|\W*(\[[^]]*\]\(\S*\)|<?https?://\S*)\W*", line)
 
 
 def width_problems(name, text):
