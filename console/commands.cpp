@@ -1,36 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands of the console: who may give which, and how each is carried out. All of it on the
-// server's thread.
+#include "console/commands.h"
+
 #include <algorithm>
-#include <chrono>
-#include <future>
-#include <map>
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
 
+#include "common/ask/request_client.h"
 #include "common/base/log.h"
+#include "common/config/rules.h"
 #include "common/machine/machine_power.h"
 #include "common/wire/wanted_show.h"
-#include "console/console.h"
 
 namespace aquarama::console {
 
 namespace {
 
+using ask::Answer;
+using ask::Outcome;
 using What = browser::Command::WhatCase;
 
+Answer refused(std::string why) {
+    return {Outcome::Refused, std::move(why)};
+}
+
 // What somebody must be for a command; empty for what is none.
-std::optional<ConsoleRole> roleFor(What what) {
+std::optional<ConsoleRole> roleFor(const browser::Command& command) {
     static const std::map<What, ConsoleRole> kRoles{{What::kRunDoctor, ConsoleRole::Watcher},
                                                     {What::kPointAt, ConsoleRole::Watcher},
                                                     {What::kMind, ConsoleRole::Watcher},
-                                                    {What::kBlack, ConsoleRole::Operator},
-                                                    {What::kFreeze, ConsoleRole::Operator},
-                                                    {What::kScene, ConsoleRole::Operator},
-                                                    {What::kQuality, ConsoleRole::Operator},
-                                                    {What::kPattern, ConsoleRole::Operator},
-                                                    {What::kRestart, ConsoleRole::Operator},
                                                     {What::kAcknowledge, ConsoleRole::Operator},
                                                     {What::kHoldHours, ConsoleRole::Operator},
                                                     {What::kScan, ConsoleRole::Operator},
@@ -40,59 +38,10 @@ std::optional<ConsoleRole> roleFor(What what) {
                                                     {What::kProjector, ConsoleRole::Crew},
                                                     {What::kUseCalibration, ConsoleRole::Crew},
                                                     {What::kPower, ConsoleRole::Crew},
-                                                    {What::kMachine, ConsoleRole::Crew}};
-    const auto role = kRoles.find(what);
+                                                    {What::kOrder, ConsoleRole::Operator}};
+    const auto role = kRoles.find(command.what_case());
+    if (command.order().has_power()) return ConsoleRole::Crew;
     return role == kRoles.end() ? std::nullopt : std::optional(role->second);
-}
-
-// Nothing where there is no tier of this name.
-std::optional<v1::WantedShow::Tier> tierNamed(const std::string& name) {
-    if (name == "auto") return v1::WantedShow::AUTO;
-    if (const auto tier = config::tierNamed(name)) return wire::tierOf(tier);
-    return std::nullopt;
-}
-
-v1::Power::Word powerWordNamed(const std::string& word) {
-    if (word == "poweroff") return v1::Power::POWEROFF;
-    return word == "reboot" ? v1::Power::REBOOT : v1::Power::WORD_UNSPECIFIED;
-}
-
-// Of a command for the wall, for the master; empty where it is of something else.
-std::optional<v1::Order> orderOf(const browser::Command& command) {
-    v1::Order order;
-    order.set_request(command.id());
-    order.set_run(command.run());
-    v1::WantedShow& show = *order.mutable_show();
-    switch (command.what_case()) {
-        case What::kBlack:
-            show.set_black(command.black());
-            return order;
-        case What::kFreeze:
-            show.set_freeze(command.freeze());
-            return order;
-        case What::kScene:
-            show.set_scene(command.scene());
-            return order;
-        case What::kQuality:
-            show.set_quality(
-                tierNamed(command.quality()).value_or(v1::WantedShow::TIER_UNSPECIFIED));
-            return order;
-        case What::kPattern:
-            if (const auto pattern = wire::patternNamed(command.pattern()))
-                show.set_pattern(static_cast<v1::WantedShow::Shown>(*pattern));
-            else
-                show.set_pattern(v1::WantedShow::SHOWN_UNSPECIFIED);
-            return order;
-        case What::kRestart:
-            order.mutable_restart()->set_channel(command.restart());
-            return order;
-        case What::kMachine:
-            order.mutable_power()->set_channel(command.machine().channel());
-            order.mutable_power()->set_word(powerWordNamed(command.machine().word()));
-            return order;
-        default:
-            return std::nullopt;
-    }
 }
 
 // What was asked for, as the list of events has it.
@@ -105,31 +54,6 @@ std::string textOf(const v1::Order& order) {
     if (order.has_scan())
         return order.scan().has_pattern() ? "a pattern of a scan" : "no pattern of a scan";
     return wire::textOf(order.show());
-}
-
-// A name that the master takes: a packet of ours is never malformed there.
-bool isName(const std::string& text) {
-    return !text.empty() && text.size() <= wire::kMostNameBytes &&
-           std::ranges::all_of(
-               text, [](char c) { return static_cast<unsigned char>(c) >= 0x20 && c != 0x7F; });
-}
-
-// Of one value, as orderOf() makes it.
-bool isSendable(const v1::Order& order) {
-    if (order.has_restart()) return isName(order.restart().channel());
-    if (order.has_power())
-        return isName(order.power().channel()) &&
-               order.power().word() != v1::Power::WORD_UNSPECIFIED;
-    const v1::WantedShow& show = order.show();
-    return (!show.has_scene() || isName(show.scene())) &&
-           (!show.has_quality() || show.quality() != v1::WantedShow::TIER_UNSPECIFIED) &&
-           (!show.has_pattern() || show.pattern() != v1::WantedShow::SHOWN_UNSPECIFIED);
-}
-
-// A place of a picture, as shares of its size. A number that is none is no place.
-bool isPlace(const browser::PointAt& at) {
-    const auto isShare = [](float number) { return number >= 0 && number <= 1; };
-    return isShare(at.x()) && isShare(at.y());
 }
 
 // The channels that show a pattern, a bit each; nothing where there is none of that name.
@@ -167,121 +91,193 @@ bool isVersion(const std::string& name) {
            name.find_first_not_of(kLetters) == std::string::npos;
 }
 
-}  // namespace
-
-// What has ended is remembered: the same number is answered once more, and not carried out.
-browser::Done Console::settle(std::uint64_t id,
-                              const std::string& outcome,
-                              const std::string& why) {
-    constexpr std::size_t kRemembered = 128;
-    browser::Done done;
-    done.set_id(id);
-    done.set_outcome(outcome);
-    done.set_reason(why);
-    if (outcome == "waiting") return done;
-    settled_.push_back(done);
-    if (settled_.size() > kRemembered) settled_.pop_front();
-    return done;
+// What the master is told where the hours want this.
+v1::Order orderOfHours(const config::WantedHours& wanted) {
+    v1::Order order;
+    order.set_request(ask::freshRequest());
+    v1::WantedShow& show = *order.mutable_show();
+    show.set_black(!wanted.isOpen);
+    if (!wanted.scene.empty()) show.set_scene(wanted.scene);
+    if (wanted.quality == "auto") show.set_quality(v1::WantedShow::AUTO);
+    if (const auto tier = config::tierNamed(wanted.quality)) show.set_quality(wire::tierOf(tier));
+    return order;
 }
 
-// The only way to any command, whoever says it and how: roles are held to here.
-browser::Done Console::carryOut(const Holder& holder, Visitor* visitor, const Command& command) {
-    const auto known = std::ranges::find(settled_, command.id(), &browser::Done::id);
-    if (known != settled_.end()) return *known;
-    if (pending_.contains(command.id())) return settle(command.id(), "waiting", "");
-    const auto needed = roleFor(command.what_case());
-    if (!needed || command.id() == 0) {
-        ++refused_;
-        return settle(command.id(), "refused", "this is no command of this console");
+// What is said of a scan again and again; nobody asks how it went.
+v1::Order orderOf(const v1::HeldScan& scan) {
+    v1::Order order;
+    order.set_request(ask::freshRequest());
+    *order.mutable_scan() = scan;
+    return order;
+}
+
+// The shutters of projectors wait for that.
+bool isInStep(const browser::Wall& wall) {
+    return wall.heard() && std::ranges::all_of(wall.nodes(), [](const browser::Node& node) {
+               return node.condition() == "in step";
+           });
+}
+
+v1::OrderReply replyOf(std::uint64_t request, const Answer& answer) {
+    v1::OrderReply reply;
+    reply.set_request(request);
+    reply.set_outcome(static_cast<v1::OrderReply::Outcome>(answer.outcome));
+    reply.set_reason(answer.reason);
+    return reply;
+}
+
+}  // namespace
+
+// The only way to any command, whoever gives it and how: roles are held to here.
+v1::OrderReply Commands::carryOut(const Holder& holder, Visitor* visitor, const Command& command) {
+    const std::uint64_t id = command.id();
+    if (const Answer* known = book_.find(id)) return replyOf(id, *known);
+    const auto needed = roleFor(command);
+    if (!needed || id == 0) {
+        ++state_.refused;
+        return replyOf(id, refused("this is no command of this console"));
     }
     if (holder.role < *needed) {
-        ++refused_;
-        note(holder.name, "refused: it needs " + std::string(nameOf(*needed)));
-        return settle(
-            command.id(), "refused", "only " + std::string(nameOf(*needed)) + " may do this");
+        ++state_.refused;
+        const std::string role(nameOf(*needed));
+        visitors_.note(holder.name, "refused: it needs " + role);
+        return replyOf(id, book_.enter(id, refused("only " + role + " may do this")));
     }
-    return carryOutAllowed(holder, visitor, command);
+    return replyOf(id, book_.enter(id, carryOutAllowed(holder, visitor, command)));
 }
 
 // By where it goes.
-browser::Done Console::carryOutAllowed(const Holder& holder,
-                                       Visitor* visitor,
-                                       const Command& command) {
+Answer Commands::carryOutAllowed(const Holder& holder, Visitor* visitor, const Command& command) {
     if (command.has_scan()) return showScan(holder, visitor, command);
     if (command.has_use_calibration()) return useKept(holder, visitor, command);
-    if (const auto order = orderOf(command)) return tellWall(holder, visitor, command, *order);
-    return carryOutHere(holder, visitor, command);
+    if (command.has_order()) {
+        v1::Order order = command.order();
+        order.set_request(command.id());
+        order.set_run(command.run());
+        const bool isWhole = order.order_case() != v1::Order::ORDER_NOT_SET && !order.has_scan();
+        if (!isWhole || !config::keepsRules(order)) return refused("there is nothing of that name");
+        return tellWall(holder, visitor, order);
+    }
+    const std::string refusal = carryOutHere(holder, visitor, command);
+    if (visitor != nullptr) visitors_.sendTopics(*visitor);
+    return refusal.empty() ? Answer{} : refused(refusal);
 }
 
-// The master answers later; saidOfSet() passes that on.
-browser::Done Console::tellWall(const Holder& holder,
-                                Visitor* visitor,
-                                const Command& command,
-                                const v1::Order& order) {
-    if (!wall_.heard()) return settle(command.id(), "refused", "the master does not answer");
-    if (command.run() != wall_.run())
-        return settle(command.id(),
-                      "refused",
-                      "the show was started again meanwhile: look, and say it once more");
-    if (!isSendable(order)) return settle(command.id(), "refused", "there is nothing of that name");
-    pending_[command.id()] = {visitor, holder.name, textOf(order)};
+// The master answers later; said() passes that on.
+Answer Commands::tellWall(const Holder& holder, Visitor* visitor, const v1::Order& order) {
+    if (!state_.wall.heard()) return refused("the master does not answer");
+    if (order.run() != state_.wall.run())
+        return refused("the show was started again meanwhile: look, and say it once more");
+    waiting_[order.request()] = {visitor, holder.name, textOf(order)};
     link_->give(order);
-    return settle(command.id(), "waiting", "");
+    return {Outcome::Waiting, ""};
+}
+
+// Whoever asked may have gone; the event is noted all the same.
+void Commands::said(std::uint64_t request, const Answer& answer) {
+    const bool isEnded = answer.outcome != Outcome::Waiting;
+    const bool isDone = answer.outcome == Outcome::Done;
+    if (request == scan_.request && isEnded && !isDone) scan_ = {};
+    if (opened_ && request == opened_->request && isEnded) return saidOfHours(answer);
+    const auto waiting = waiting_.find(request);
+    if (waiting == waiting_.end()) return;
+    if (const Answer* before = book_.find(request); !isEnded && before && *before == answer) return;
+    browser::ToBrowser message;
+    *message.mutable_done() = replyOf(request, book_.enter(request, answer));
+    if (Visitor* visitor = waiting->second.visitor)
+        visitors_.sendTo(*visitor, fmt::format("done {}", request), message);
+    if (!isEnded) return;
+    visitors_.note(waiting->second.who,
+                   waiting->second.what + (isDone ? "" : ", refused: " + answer.reason));
+    waiting_.erase(waiting);
+}
+
+// What is refused now is refused in a second as well: that is told once. An order that did not
+// arrive is sent again.
+void Commands::saidOfHours(const Answer& answer) {
+    const config::WantedHours wanted = std::exchange(opened_, {})->wanted;
+    if (answer.outcome == Outcome::Lost) return;
+    state_.opening.done(wanted);
+    visitors_.note("schedule",
+                   (wanted.isOpen ? "opened " + wanted.scene : std::string("closed")) +
+                       (answer.outcome == Outcome::Done ? "" : ", refused: " + answer.reason));
+}
+
+// By a clock that is wrong the wall stays as it is.
+void Commands::keepHours() {
+    if (!state_.doubtOfClock.empty()) return;
+    state_.opening.switchProjectors(unixNow(), isInStep(state_.wall));
+    const auto due = state_.opening.due(unixNow());
+    if (!due || opened_ || !state_.wall.heard()) return;
+    const v1::Order order = orderOfHours(*due);
+    opened_ = {order.request(), *due};
+    link_->give(order);
+}
+
+// The master ends it by itself three seconds after the last word.
+void Commands::keepScan() {
+    if (scan_.visitor == nullptr) return;
+    if (scan_.visitor->ticksToLook > 0 && scan_.visitor->wants("calibrations"))
+        return link_->give(orderOf(scan_.held));
+    scan_.visitor->holdsScan = false;  // the page was left
+    scan_ = {};
+}
+
+void Commands::forget(const Visitor& visitor) {
+    for (auto& [request, waiting] : waiting_)
+        if (waiting.visitor == &visitor) waiting.visitor = nullptr;
+    if (scan_.visitor == &visitor) scan_ = {};
 }
 
 // What needs no master, or only asks it.
-browser::Done Console::carryOutHere(const Holder& holder,
-                                    Visitor* visitor,
-                                    const Command& command) {
-    std::string refusal;
+std::string Commands::carryOutHere(const Holder& holder, Visitor* visitor, const Command& command) {
     switch (command.what_case()) {
         case What::kAcknowledge:
-            refusal = acknowledge(holder, command.acknowledge());
-            break;
+            return acknowledge(holder, command.acknowledge());
         case What::kRunDoctor:
-            runDoctor();
-            break;
+            errands_.runDoctor();
+            return {};
         case What::kPointAt:
-            askFish(visitor, command.point_at());
-            break;
+            if (visitor != nullptr) visitors_.askFish(*visitor, command.point_at());
+            return {};
         case What::kMind:
             link_->explain(command.mind());
-            break;
+            return {};
         default:
-            refusal = carryOutOfHall(holder, command);
+            return carryOutOfHall(holder, command);
     }
-    if (visitor != nullptr) sendTopics(*visitor);
-    return settle(command.id(), refusal.empty() ? "done" : "refused", refusal);
 }
 
 // It may have ended by itself meanwhile.
-std::string Console::acknowledge(const Holder& holder, const std::string& alert) {
-    if (!alerts_.acknowledge(alert)) return "there is no such alert any more";
-    note(holder.name, "acknowledged: " + alert);
+std::string Commands::acknowledge(const Holder& holder, const std::string& alert) {
+    if (!state_.alerts.acknowledge(alert)) return "there is no such alert any more";
+    visitors_.note(holder.name, "acknowledged: " + alert);
     return {};
 }
 
 // Hours, projectors, and people.
-std::string Console::carryOutOfHall(const Holder& holder, const Command& command) {
+std::string Commands::carryOutOfHall(const Holder& holder, const Command& command) {
     switch (command.what_case()) {
         case What::kHoldHours:
-            opening_.hold(command.hold_hours(), unixNow());
-            note(holder.name,
-                 command.hold_hours() > 0 ? "the schedule is held" : "the schedule goes on");
+            state_.opening.hold(command.hold_hours(), unixNow());
+            visitors_.note(
+                holder.name,
+                command.hold_hours() > 0 ? "the schedule is held" : "the schedule goes on");
             return {};
         case What::kHoursText:
             return takeHours(holder, command.hours_text());
         case What::kProjector:
-            if (!opening_.setProjector(command.projector())) return "there is no such projector";
-            note(holder.name, "switched projector " + command.projector().name());
+            if (!state_.opening.setProjector(command.projector()))
+                return "there is no such projector";
+            visitors_.note(holder.name, "switched projector " + command.projector().name());
             return {};
         case What::kPower:
             return switchMachine(holder, command.power());
         case What::kNewCode:
-            code_ = access_.makeCode(
+            state_.code = state_.access.makeCode(
                 static_cast<ConsoleRole>(std::clamp(static_cast<int>(command.new_code()), 1, 3)),
                 unixNow());
-            note(holder.name, "made a pairing code");
+            visitors_.note(holder.name, "made a pairing code");
             return {};
         default:
             return sendAway(holder, command.revoke());
@@ -289,88 +285,65 @@ std::string Console::carryOutOfHall(const Holder& holder, const Command& command
 }
 
 // The service of the machine ends the show in order.
-std::string Console::switchMachine(const Holder& holder, const std::string& word) {
+std::string Commands::switchMachine(const Holder& holder, const std::string& word) {
     try {
         machine::sayPower(machine::powerFolder(), word);
     } catch (const Error& problem) {
         return problem.what();
     }
-    note(holder.name, "machine: " + word);
+    visitors_.note(holder.name, "machine: " + word);
     return {};
 }
 
 // A mistake is answered with its place in the text.
-std::string Console::takeHours(const Holder& holder, const std::string& text) {
+std::string Commands::takeHours(const Holder& holder, const std::string& text) {
     try {
-        opening_.setText(text);
+        state_.opening.setText(text);
     } catch (const Error& problem) {
         return problem.what();
     }
-    note(holder.name, "changed the hours");
+    visitors_.note(holder.name, "changed the hours");
     return {};
 }
 
 // Its session ends, and so do its connections.
-std::string Console::sendAway(const Holder& holder, const std::string& person) {
-    access_.revoke(person);
-    for (Visitor* one : visitors_)
-        if (one->holder.id == person) one->outbox->close(kClosedUnpaired);
-    note(holder.name, "sent a browser away");
+std::string Commands::sendAway(const Holder& holder, const std::string& person) {
+    state_.access.revoke(person);
+    visitors_.sendAway(person);
+    visitors_.note(holder.name, "sent a browser away");
     return {};
 }
 
 // Held by the page: a browser that goes takes it along.
-browser::Done Console::showScan(const Holder& holder, Visitor* visitor, const Command& command) {
+Answer Commands::showScan(const Holder& holder, Visitor* visitor, const Command& command) {
     const browser::ScanCommand& scan = command.scan();
-    const auto pattern = scanPatternOf(scan, options_.rig);
+    const auto pattern = scanPatternOf(scan, state_.rig);
     const bool isShown = !scan.kind().empty();
     if (isShown && (!pattern || visitor == nullptr))
-        return settle(command.id(), "refused", "there is no such pattern, or no page to hold it");
+        return refused("there is no such pattern, or no page to hold it");
     v1::Order order;
     order.set_request(command.id());
     order.set_run(command.run());
     order.mutable_scan()->set_holder(holder_);
     if (pattern) wire::writeScanPattern(*pattern, *order.mutable_scan()->mutable_pattern());
-    browser::Done done = tellWall(holder, visitor, command, order);
-    const bool isHeld = isShown && done.outcome() == "waiting";
-    scan_ = isHeld ? ShownScan{visitor, command.id(), order.scan()} : ShownScan{};
-    return done;
+    Answer answer = tellWall(holder, visitor, order);
+    if (scan_.visitor != nullptr) scan_.visitor->holdsScan = false;
+    scan_ = {};
+    if (isShown && answer.outcome == Outcome::Waiting) {
+        scan_ = {visitor, command.id(), order.scan()};
+        visitor->holdsScan = true;
+    }
+    return answer;
 }
 
-// One at a time, beside the frames; hearCalibrations() says how it ended.
-browser::Done Console::useKept(const Holder& holder, Visitor* visitor, const Command& command) {
+// One at a time, beside the frames; said() tells how it ended.
+Answer Commands::useKept(const Holder& holder, Visitor* visitor, const Command& command) {
     const std::string& name = command.use_calibration();
-    if (!isVersion(name)) return settle(command.id(), "refused", "there is no such calibration");
-    if (calibrationUse_.valid())
-        return settle(command.id(), "refused", "another one is being put in place; say it again");
-    pending_[command.id()] = {visitor, holder.name, "calibration " + name};
-    calibrationUseId_ = command.id();
-    calibrationUse_ = std::async(std::launch::async, [rig = options_.master.rig, name] {
-        return useCalibration(rig, name);
-    });
-    return settle(command.id(), "waiting", "");
-}
-
-// The answer comes by heardFish(); of too many questions the oldest is lost.
-void Console::askFish(Visitor* visitor, const browser::PointAt& at) {
-    if (!hub_ || visitor == nullptr || !isPlace(at) || channelIndexOf(at.channel()) < 0) return;
-    constexpr std::size_t kMostAsked = 64;
-    if (fishAsked_.size() >= kMostAsked) fishAsked_.erase(fishAsked_.begin());
-    fishAsked_[++number_] = visitor;
-    v1::FishRequest request;
-    request.set_number(number_);
-    request.set_frame(at.frame());
-    request.set_x(at.x());
-    request.set_y(at.y());
-    hub_->askFish(at.channel(), request);
-}
-
-// One at a time, on a thread of its own: it takes seconds.
-void Console::runDoctor() {
-    if (doctorRun_.valid()) return;
-    doctor_.set_running(true);
-    doctorRun_ =
-        std::async(std::launch::async, [rig = options_.master.rig] { return askDoctor(rig); });
+    if (!isVersion(name)) return refused("there is no such calibration");
+    if (!errands_.use(name, command.id()))
+        return refused("another one is being put in place; say it again");
+    waiting_[command.id()] = {visitor, holder.name, "calibration " + name};
+    return {Outcome::Waiting, ""};
 }
 
 }  // namespace aquarama::console

@@ -57,7 +57,7 @@ std::string jsonOfObject(const nlohmann::json& object) {
 // A WebSocket of one visitor.
 class VisitorConnection final : public web::Service::Connection {
   public:
-    VisitorConnection(Console& console, std::unique_ptr<Console::Visitor> visitor)
+    VisitorConnection(Console& console, std::unique_ptr<Visitor> visitor)
         : console_{console}, visitor_{std::move(visitor)} {}
     ~VisitorConnection() override { console_.forget(*visitor_); }
     VisitorConnection(const VisitorConnection&) = delete;
@@ -66,14 +66,14 @@ class VisitorConnection final : public web::Service::Connection {
 
   private:
     Console& console_;
-    std::unique_ptr<Console::Visitor> visitor_;
+    std::unique_ptr<Visitor> visitor_;
 };
 
 }  // namespace
 
 // Counted, and shown in the foot of every page.
 HttpReply Console::refused(int status, const std::string& why) {
-    ++refused_;
+    ++state_.refused;
     return {.status = status, .body = why + "\n"};
 }
 
@@ -82,13 +82,13 @@ HttpReply Console::answer(const HttpRequest& request) {
     const bool reads = request.method == "GET" || request.method == "HEAD";
     const Doors doors = doorsFor(request, doors_);
     if (auto objection = objectionTo(request, doors, !reads)) {
-        ++refused_;
+        ++state_.refused;
         return *std::move(objection);
     }
     if (request.method == "POST") return act(request);
     if (!reads) return refused(405, "only GET, HEAD and POST");
     if (auto page = pageAt(request)) return *std::move(page);
-    const auto holder = holderOf(request, doors, access_);
+    const auto holder = holderOf(request, doors, state_.access);
     if (request.target == "/me")
         return {.type = "application/json",
                 .body = jsonOfObject({{"name", holder ? holder->name : ""},
@@ -99,7 +99,7 @@ HttpReply Console::answer(const HttpRequest& request) {
 // Of this machine's clock, and of the certificate where the server has one.
 std::string Console::ownMetrics(UnixSeconds now) const {
     std::string text =
-        fmt::format("aquarama_console_clock_wrong {}\n", doubtOfClock_.empty() ? 0 : 1);
+        fmt::format("aquarama_console_clock_wrong {}\n", state_.doubtOfClock.empty() ? 0 : 1);
     if (options_.certificate != nullptr)
         text += fmt::format("aquarama_console_certificate_days {:.1f}\n",
                             (options_.certificate->validity().until - now) / kSecondsOfDay);
@@ -110,17 +110,17 @@ std::string Console::ownMetrics(UnixSeconds now) const {
 HttpReply Console::look(const HttpRequest& request) {
     if (request.target == "/metrics")
         return {.type = "text/plain; version=0.0.4",
-                .body = metricsOf(wall_, opening_.projectors(), server_->cutOff()) +
+                .body = metricsOf(state_.wall, state_.opening.projectors(), server_->cutOff()) +
                         ownMetrics(unixNow())};
     if (request.target == "/bundle.tar") {
         std::string events;
-        const browser::EventList list = events_.list();
+        const browser::EventList list = state_.events.list();
         for (const browser::Event& event : list.events())
             events += fmt::format("{:.0f} {}: {}\n", event.at_s(), event.who(), event.what());
         browser::ToBrowser status;
-        *status.mutable_wall() = wall_;
+        *status.mutable_wall() = state_.wall;
         return {.type = "application/x-tar",
-                .body = bundleOf(options_.master.rig,
+                .body = bundleOf(state_.rigFile,
                                  {{"events.txt", events}, {"status.json", jsonOf(status)}}),
                 .headers = {{"Content-Disposition", "attachment; filename=\"aquarama.tar\""}}};
     }
@@ -134,7 +134,7 @@ HttpReply Console::act(const HttpRequest& request) {
     if (request.target == "/pair") return pair(request);
     if (request.target == "/leave") return leave(request);
     if (request.target != "/command") return refused(404, "there is nothing to act on here");
-    const auto holder = holderOf(request, doorsFor(request, doors_), access_);
+    const auto holder = holderOf(request, doorsFor(request, doors_), state_.access);
     return holder ? obey(request, *holder) : refused(401, "not paired");
 }
 
@@ -145,24 +145,25 @@ HttpReply Console::pair(const HttpRequest& request) {
     bool isSpent = false;
     const std::string client = clientOf(request, doors_);
     const auto secret =
-        access_.pair(asked.code, {.name = asked.name, .client = client}, unixNow(), isSpent);
+        state_.access.pair(asked.code, {.name = asked.name, .client = client}, unixNow(), isSpent);
     if (secret) {
-        code_.clear();
-        note("console", "a browser was let in");
+        state_.code.clear();
+        visitors_.note("console", "a browser was let in");
         return {.body = "welcome\n",
                 .headers = {{"Set-Cookie", cookieOf(doorsFor(request, doors_), *secret)}}};
     }
     if (isSpent)
-        note("console", "five wrong pairing codes, from " + client + ": the code has ended");
-    if (isSpent && !access_.hasPeople()) showCode(ConsoleRole::Crew);
+        visitors_.note("console",
+                       "five wrong pairing codes, from " + client + ": the code has ended");
+    if (isSpent && !state_.access.hasPeople()) showCode(ConsoleRole::Crew);
     return refused(403, "this is not the code, or it has ended");
 }
 
 // The session ends on this side, whatever the browser does with its cookie.
 HttpReply Console::leave(const HttpRequest& request) {
     const Doors doors = doorsFor(request, doors_);
-    const auto holder = access_.session(sessionIn(request, doors), unixNow());
-    if (holder) access_.revoke(holder->id);
+    const auto holder = state_.access.session(sessionIn(request, doors), unixNow());
+    if (holder) state_.access.revoke(holder->id);
     return {.body = "goodbye\n", .headers = {{"Set-Cookie", cookieOf(doors, "")}}};
 }
 
@@ -171,8 +172,8 @@ HttpReply Console::obey(const HttpRequest& request, const Holder& holder) {
     const auto message = readBrowser(request.body);
     if (!message || !message->has_command()) return refused(400, "this is no command");
     browser::ToBrowser reply;
-    *reply.mutable_done() = carryOut(holder, nullptr, message->command());
-    const bool isRefused = reply.done().outcome() == "refused";
+    *reply.mutable_done() = commands_.carryOut(holder, nullptr, message->command());
+    const bool isRefused = reply.done().outcome() == v1::OrderReply::REFUSED;
     return {.status = isRefused ? 403 : 200, .type = "application/json", .body = jsonOf(reply)};
 }
 
@@ -181,32 +182,27 @@ std::unique_ptr<web::Service::Connection> Console::open(const HttpRequest& reque
                                                         web::Outbox& outbox,
                                                         HttpReply& refusal) {
     const Doors doors = doorsFor(request, doors_);
-    const auto holder = holderOf(request, doors, access_);
+    const auto holder = holderOf(request, doors, state_.access);
     if (auto objection = objectionTo(request, doors, true)) {
-        ++refused_;
+        ++state_.refused;
         refusal = *std::move(objection);
     } else if (request.target != "/ws") {
         refusal = refused(404, "the console is at /ws");
     } else if (!holder) {
         refusal = refused(401, "not paired");
-    } else if (visitors_.size() >= kMostVisitors) {
+    } else if (visitors_.count() >= kMostVisitors) {
         refusal = refused(503, "too many browsers look already; close one");
     } else {
         auto visitor = std::make_unique<Visitor>(Visitor{.holder = *holder, .outbox = &outbox});
-        visitors_.insert(visitor.get());
-        sendTo(*visitor, "0", snapshotFor(*visitor));  // before all other topics
+        visitors_.add(*visitor);
         return std::make_unique<VisitorConnection>(*this, std::move(visitor));
     }
     return nullptr;
 }
 
-// What it has asked for goes on, and is answered to nobody.
 void Console::forget(Visitor& visitor) {
-    visitors_.erase(&visitor);
-    for (auto& [id, pending] : pending_)
-        if (pending.visitor == &visitor) pending.visitor = nullptr;
-    if (scan_.visitor == &visitor) scan_ = {};
-    std::erase_if(fishAsked_, [&](const auto& one) { return one.second == &visitor; });
+    commands_.forget(visitor);
+    visitors_.remove(visitor);
 }
 
 // A visitor that is noisy is sent away, and may come again.
@@ -216,12 +212,12 @@ void Console::hear(Visitor& visitor, const std::string& text) {
     const bool isNoisy = ++visitor.messages > kMostMessagesASecond;
     if (isNoisy || visitor.malformed > kMostMalformed) visitor.outbox->close(kClosedNoisy);
     if (isNoisy || !message) {
-        ++refused_;
+        ++state_.refused;
         return;
     }
     switch (message->message_case()) {
         case browser::FromBrowser::kLook:
-            return takeLook(visitor, message->look());
+            return visitors_.takeLook(visitor, message->look());
         case browser::FromBrowser::kSeen:
             visitor.picturesUnderWay.erase(static_cast<int>(message->seen().channel()));
             return;
@@ -231,20 +227,14 @@ void Console::hear(Visitor& visitor, const std::string& text) {
             return;
         case browser::FromBrowser::kCommand: {
             browser::ToBrowser reply;
-            *reply.mutable_done() = carryOut(visitor.holder, &visitor, message->command());
-            return sendTo(visitor, fmt::format("done {}", message->command().id()), reply);
+            *reply.mutable_done() =
+                commands_.carryOut(visitor.holder, &visitor, message->command());
+            return visitors_.sendTo(
+                visitor, fmt::format("done {}", message->command().id()), reply);
         }
         default:
             return;  // it is there
     }
-}
-
-// Said every second; what is new in it is answered at once.
-void Console::takeLook(Visitor& visitor, const browser::Look& look) {
-    const bool isNew = look.SerializeAsString() != visitor.look.SerializeAsString();
-    visitor.look = look;
-    visitor.ticksToLook = kTicksOfALook;
-    if (isNew) sendTopics(visitor);
 }
 
 }  // namespace aquarama::console

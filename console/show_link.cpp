@@ -88,7 +88,7 @@ void ShowLink::work() {
         for (v1::Order& order : wanted) press(order);
     } catch (const Error& problem) {
         for (const v1::Order& order : wanted)
-            listener_.said(order.request(), "lost", problem.what());
+            listener_.said(order.request(), {ask::Outcome::Lost, problem.what()});
         throw;
     }
     if (fish) listener_.explained(client_.explain(*fish));
@@ -101,14 +101,8 @@ void ShowLink::press(v1::Order& order) {
     const v1::OrderReply reply = client_.give(order);
     const std::uint64_t id = order.request();
     if (reply.request() != id) return give(std::move(order));  // an answer to another
-    if (reply.outcome() == v1::OrderReply::WAITING) {
-        if (std::exchange(waitingFor_[id], reply.reason()) != reply.reason())
-            listener_.said(id, "waiting", reply.reason());
-        return give(std::move(order));
-    }
-    waitingFor_.erase(id);
-    const bool isDone = reply.outcome() == v1::OrderReply::DONE;
-    listener_.said(id, isDone ? "done" : "refused", reply.reason());
+    listener_.said(id, {static_cast<ask::Outcome>(reply.outcome()), reply.reason()});
+    if (reply.outcome() == v1::OrderReply::WAITING) give(std::move(order));
 }
 
 }  // namespace aquarama::console

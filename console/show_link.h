@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "common/ask/order_book.h"
 #include "common/ask/request_client.h"
 #include "common/base/units.h"
 
@@ -24,9 +24,8 @@ struct ShowListener {
     std::function<void(const v1::StatusReply&, std::uint64_t run)> heard;
     // Nobody answers, or the master prepares its show: what it says then, else empty.
     std::function<void(const std::string& preparing)> silent;
-    // What has become of an order: "done", "waiting", "refused", "lost" where
-    // nobody answered; and why.
-    std::function<void(std::uint64_t id, const std::string& outcome, const std::string& why)> said;
+    // What has become of an order so far; lost: nobody answered.
+    std::function<void(std::uint64_t request, const ask::Answer&)> said;
     std::function<void(const v1::Explanation&)> explained;
 };
 
@@ -51,8 +50,7 @@ class ShowLink {
 
     ask::RequestClient client_;
     ShowListener listener_;
-    std::map<std::uint64_t, std::string> waitingFor_;  // of the link's thread
-    std::mutex mutex_;                                 // guards what follows
+    std::mutex mutex_;  // guards what follows
     std::condition_variable changed_;
     bool ended_ = false;
     // Not sent yet.

@@ -83,9 +83,9 @@ export class Link extends EventTarget {
   }
 
   #done(done) {
-    const command = this.commands.get(done.id);
+    const command = this.commands.get(done.request);
     if (!command) return;
-    Object.assign(command, {outcome: done.outcome, reason: done.reason, at: performance.now()});
+    Object.assign(command, {outcome: done.outcome.toLowerCase(), reason: done.reason, at: performance.now()});
   }
 
   #tell() { this.dispatchEvent(new Event('change')); }
@@ -96,7 +96,7 @@ export class Link extends EventTarget {
   sayLook() { this.say({look: this.look}); }
   seen(channel) { this.say({seen: {channel}}); }
 
-  // A wanted value, as {black: true}; `text` is shown until it is done. Returns its number in `commands`.
+  // A command, as {order: {show: {black: true}}}; `text` is shown until it is done. Returns its number in `commands`.
   command(wanted, text) {
     if (this.isStale) return;
     const id = bigRandom();

@@ -205,10 +205,22 @@ class Socket:
     def command(self, run, identity=None, **what):
         """Says it, and waits until it is done or refused."""
         identity = str(identity or secrets.randbits(63) | 1)
-        self.say({"command": {"id": identity, "run": run, **what}})
-        ended = self.hear_until(lambda m: isinstance(m, dict) and m.get("done", {}).get("id") == identity
-                                and m["done"]["outcome"] != "waiting")
-        return ended["done"]
+        self.say({"command": {"id": identity, "run": run, **command_of(**what)}})
+        ended = self.hear_until(lambda m: isinstance(m, dict) and m.get("done", {}).get("request") == identity
+                                and m["done"]["outcome"] != "WAITING")
+        return {**ended["done"], "outcome": ended["done"]["outcome"].lower()}
+
+
+def command_of(**what):
+    """A command in JSON; what is for the wall is an order."""
+    (name, value), = what.items()
+    if name in ("black", "freeze", "scene", "quality", "pattern"):
+        return {"order": {"show": {name: value}}}
+    if name == "restart":
+        return {"order": {"restart": {"channel": value}}}
+    if name == "machine":
+        return {"order": {"power": value}}
+    return what
 
 
 def frame(content, opcode=1, mask=b"\0\0\0\0"):

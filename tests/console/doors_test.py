@@ -82,7 +82,7 @@ class Doors(unittest.TestCase):
     def test_a_table_of_requests(self):
         ask = self.desk.request
         own = {"Origin": self.origin}
-        command = {"command": {"id": "1", "run": "1", "black": True}}
+        command = {"command": {"id": "1", "run": "1", "order": {"show": {"black": True}}}}
         other = "http://evil.example"
         for expected, method, target, body, headers in (
                 (200, "GET", "/", None, {}),
@@ -106,13 +106,13 @@ class Doors(unittest.TestCase):
                 (401, "POST", "/command", command, own),
                 (400, "POST", "/command", {"command": 7}, {"Cookie": self.cookie, **own}),
                 (400, "POST", "/command", {"nothing": 7}, self.bearer(self.operator)),
-                (403, "POST", "/command", {"command": {"id": "2", "run": "1", "black": True}},
+                (403, "POST", "/command", {"command": {"id": "2", "run": "1", "order": {"show": {"black": True}}}},
                  self.bearer(self.watcher)),
                 (403, "POST", "/command", {"command": {"id": "3", "run": "1", "revoke": "x"}},
                  self.bearer(self.operator)),
-                (403, "POST", "/command", {"command": {"id": "4", "run": "1", "black": True}},
+                (403, "POST", "/command", {"command": {"id": "4", "run": "1", "order": {"show": {"black": True}}}},
                  self.bearer(self.operator)),  # another show
-                (403, "POST", "/command", {"command": {"id": "0", "run": "1", "black": True}},
+                (403, "POST", "/command", {"command": {"id": "0", "run": "1", "order": {"show": {"black": True}}}},
                  self.bearer(self.operator)),
                 (400, "POST", "/pair", {"nothing": 1}, own),
                 (403, "POST", "/pair", {"code": "00000000"}, own),
@@ -148,7 +148,7 @@ class Doors(unittest.TestCase):
                                (self.crew, {"pointAt", "black", "freeze", "pattern", "scan", "newCode"})):
             client = Socket(self.desk, Origin=None, **self.bearer(token))
             run = client.hear()["snapshot"]["wall"]["run"]
-            for what, value in (("black", False), ("freeze", False), ("pattern", "grid"), ("newCode", "WATCHER"),
+            for what, value in (("black", False), ("freeze", False), ("pattern", "GRID"), ("newCode", "WATCHER"),
                                 ("scan", {}),
                                 ("useCalibration", "--help"), ("power", "nonsense"),
                                 ("pointAt", {"channel": "left", "x": 0.5, "y": 0.5})):
@@ -244,8 +244,7 @@ class Doors(unittest.TestCase):
                          "done")  # said again: answered, not done
         self.assertEqual(self.desk.status()["black"], "on")
         self.assertEqual(client.command(run, black=False)["outcome"], "done")
-        for what in ({"scene": "none/such"}, {"scene": ""}, {"quality": "best"}, {"pattern": "scan"},
-                     {"pattern": "x\ny"},
+        for what in ({"scene": "none/such"}, {"scene": ""}, {"scene": "x\ny"}, {"pattern": "SHOWN_UNSPECIFIED"},
                      {"restart": "nobody"}, {"scene": "x" * 500}, {"acknowledge": "nothing"}):
             done = client.command(run, **what)
             self.assertEqual(done["outcome"], "refused", what)
@@ -305,7 +304,7 @@ class Doors(unittest.TestCase):
 
     def cut_frames(self):
         """Each leaves a console that serves the next."""
-        whole = frame(b'{"command":{"id":"7","run":"1","black":true}}')
+        whole = frame(b'{"command":{"id":"7","run":"1","order":{"show":{"black":true}}}}')
         pieces = [whole[:cut] for cut in range(1, len(whole), 7)]
         pieces += [b"\x81\xff" + b"\xff" * 8 + b"\0\0\0\0", b"\xff\xff\xff", frame(b"x" * 70_000), b"\x81\x05hello"]
         for piece in pieces:
@@ -430,38 +429,38 @@ class OtherMachines(unittest.TestCase):
 
     def test_the_word_goes_to_the_machine_of_the_node_once(self):
         word, identity = self.pit / "word", secrets.randbits(62) | 1
-        self.assertEqual(self.switch("left", "reboot", identity),
-                         {"id": str(identity), "outcome": "done", "reason": ""})
+        done = self.switch("left", "REBOOT", identity)
+        self.assertEqual((done["request"], done["outcome"], done["reason"]), (str(identity), "done", ""))
         self.assertIn("reboot of the machine of left", self.events())
         self.assertEqual(word.read_text(), "reboot\n")
         word.unlink()  # as its service does
-        self.assertEqual(self.switch("left", "reboot", identity)["outcome"], "done")
+        self.assertEqual(self.switch("left", "REBOOT", identity)["outcome"], "done")
         time.sleep(0.5)
         self.assertFalse(word.exists(), "said again: answered, not done")
-        self.assertEqual(self.switch("left", "poweroff")["outcome"], "done")
+        self.assertEqual(self.switch("left", "POWEROFF")["outcome"], "done")
         self.assertEqual(word.read_text(), "poweroff\n")
         word.unlink()
 
     def test_only_the_crew_and_only_one_of_two_words_of_this_show(self):
         operator = Socket(self.desk, Origin=None, Authorization=f"Bearer {self.desk.token('operator')}")
-        self.assertEqual(operator.command(self.run_number, machine={"channel": "left", "word": "poweroff"})["reason"],
+        self.assertEqual(operator.command(self.run_number, machine={"channel": "left", "word": "POWEROFF"})["reason"],
                          "only crew may do this")
         operator.close()
-        for channel, word, run in (("left", "halt", None), ("left", "", None), ("", "reboot", None),
-                                   ("nobody", "reboot", None),
-                                   ("left", "poweroff", str(int(self.run_number) ^ 1))):
+        for channel, word, run in (("left", "WORD_UNSPECIFIED", None), ("", "REBOOT", None),
+                                   ("nobody", "REBOOT", None),
+                                   ("left", "POWEROFF", str(int(self.run_number) ^ 1))):
             self.assertEqual(self.switch(channel, word, run=run)["outcome"], "refused", (channel, word, run))
         self.assertEqual(list(self.pit.iterdir()), [])
 
     def test_a_machine_that_is_not_set_up_says_so_and_does_nothing(self):
         nodes = self.wall(lambda nodes: "takesPower" in nodes["left"])
         self.assertEqual([nodes[name]["takesPower"] for name in ("left", "right")], [True, False])
-        refused = self.switch("right", "poweroff")
+        refused = self.switch("right", "POWEROFF")
         self.assertEqual(refused["reason"], "the machine of right takes no such word; set up aquarama-power.path there")
         self.assertFalse(self.nowhere.exists())
         self.pit.rename(self.nowhere)  # taken away since the node's last report: the node refuses it itself
         try:
-            done = self.switch("left", "poweroff")
+            done = self.switch("left", "POWEROFF")
             self.assertEqual(done["outcome"], "refused")
             self.assertIn("takes no such word", done["reason"])
             self.assertNotIn("\n", done["reason"])

@@ -349,7 +349,7 @@ class Pages(unittest.TestCase):
                 socket.onmessage = event => {
                   const message = JSON.parse(event.data);
                   const run = message.snapshot?.wall.run;
-                  if (run) socket.send(JSON.stringify({command: {id: '99', run, black: true}}));
+                  if (run) socket.send(JSON.stringify({command: {id: '99', run, order: {show: {black: true}}}}));
                   if (message.done) { window.refusal = message.done.reason; socket.close(); done(); }
                 };""")
             self.assertEqual(driver.execute_script("return window.refusal"), "only operator may do this")

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "console/errands.h"
+
+#include <chrono>
+
+namespace aquarama::console {
+
+namespace {
+
+template <class Result>
+bool isReady(const std::future<Result>& future) {
+    return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+}  // namespace
+
+void Errands::runDoctor() {
+    if (doctor_.valid()) return;
+    state_.doctor.set_running(true);
+    doctor_ = std::async(std::launch::async, [rig = state_.rigFile] { return askDoctor(rig); });
+}
+
+void Errands::wantCalibrations(int ticks) {
+    constexpr int kTicksBetween = 50;
+    const bool isDue = !state_.calibrations || ticks >= readingDue_;
+    if (!isDue || reading_.valid()) return;
+    readingDue_ = ticks + kTicksBetween;
+    reading_ =
+        std::async(std::launch::async, [rig = state_.rigFile] { return calibrationsOf(rig); });
+}
+
+bool Errands::use(const std::string& calibration, std::uint64_t command) {
+    if (using_.valid()) return false;
+    command_ = command;
+    using_ = std::async(std::launch::async, [rig = state_.rigFile, calibration] {
+        return useCalibration(rig, calibration);
+    });
+    return true;
+}
+
+std::optional<Errands::Used> Errands::hear() {
+    if (isReady(doctor_)) {
+        state_.doctor = doctor_.get();
+        state_.doctor.set_running(false);
+    }
+    if (isReady(reading_)) state_.calibrations = reading_.get();
+    if (!isReady(using_)) return std::nullopt;
+    readingDue_ = 0;
+    return Used{command_, using_.get()};
+}
+
+}  // namespace aquarama::console

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the console knows of its wall and keeps of its own: pages show it, commands change it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "common/config/rig.h"
+#include "console/access.h"
+#include "console/alerts.h"
+#include "console/console.pb.h"
+#include "console/files_of_show.h"
+#include "console/opening.h"
+#include "console/overview.h"
+#include "console/panorama.h"
+
+namespace aquarama::console {
+
+// Of the server's thread.
+struct State {
+    // `rigFile`: its path; `build`: version and commit of the console. Throws Error where what is
+    // kept on the disk cannot be read.
+    State(config::Rig rigRead, std::string rigPath, std::string buildText, Access& accessBook)
+        : rig{std::move(rigRead)},
+          rigFile{std::move(rigPath)},
+          build{std::move(buildText)},
+          access{accessBook},
+          events{stateFolderOf(rigFile) / "events.jsonl"},
+          opening{stateFolderOf(rigFile)},
+          panorama{rigFile} {
+        wall.set_heard(false);
+    }
+
+    config::Rig rig;
+    std::string rigFile;
+    std::string build;
+    Access& access;
+    EventBook events;
+    Opening opening;
+    Alerts alerts;
+    FigureRings figures;
+    PanoramaWatch panorama;
+    browser::Wall wall;  // as the master last said it
+    browser::DoctorReport doctor;
+    std::optional<browser::Calibrations> calibrations = {};  // as they were last read
+    std::string code = {};          // the last pairing code that somebody asked for in a page
+    std::string doubtOfClock = {};  // empty: it may be right
+    std::uint64_t refused = 0;      // requests, since the start
+};
+
+}  // namespace aquarama::console
