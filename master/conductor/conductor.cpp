@@ -78,12 +78,12 @@ Conductor::Conductor(const config::Rig& rig,
                      std::unique_ptr<net::MasterChannels> channels)
     : options_{std::move(options)},
       channels_{std::move(channels)},
-      outbox_{freshSession(),
+      sender_{freshSession(),
               [this](const net::PeerId& peer, net::ByteView packet) {
                   channels_->sendControl(peer, packet);
               }},
       roster_{rig, options_.expected},
-      orders_{limitsOf(options_), roster_, outbox_},
+      orders_{limitsOf(options_), roster_, sender_},
       looks_{sourcesOf(options_),
              welcomeTo(rig, options_, *channels_),
              rig.files,
@@ -91,12 +91,12 @@ Conductor::Conductor(const config::Rig& rig,
              blobsOf(assets),
              orders_.control(),
              roster_,
-             outbox_},
+             sender_},
       keeper_{options_.keptAt, options_.kept},
       gauges_{roster_, isLockstep() ? std::uint16_t{0} : rig.metricsPort},
       presentation_{
-          limitsOf(rig.timing, options_), roster_, outbox_, *channels_, gauges_, report_, *this},
-      visitors_{outbox_, [this] { channels_->wake(); }},
+          limitsOf(rig.timing, options_), roster_, sender_, *channels_, gauges_, report_, *this},
+      visitors_{sender_, [this] { channels_->wake(); }},
       watchdog_{options_.service},
       simulation_{&simulation},
       windowsEndShow_{rig.windowsEndShow} {
@@ -127,7 +127,7 @@ ShowReport Conductor::run() {
         const v1::WantedShow& wanted = orders_.control().wanted();
         if (gauges_.count(
                 now, report_, visitors_.fish(), wanted.black(), roster_, presentation_.barrier()))
-            for (Seat& seat : roster_.seats()) seat.logLines = 0;
+            for (NodeSeat& seat : roster_.seats()) seat.logLines = 0;
         const bool isStill = isLockstep() || wanted.freeze();
         watchdog_.turn(now, presentation_.newestTick(), isStill, report_.frames);
         channels_->wait(presentation_.untilDue());
@@ -146,7 +146,7 @@ void Conductor::nameMissing(net::Instant now) {
     if (now - lastRoll_ < kBetweenRolls) return;
     lastRoll_ = now;
     std::string missing;
-    for (const Seat& seat : roster_.seats()) {
+    for (const NodeSeat& seat : roster_.seats()) {
         if (!seat.peer.empty()) continue;
         missing += (missing.empty() ? "" : ", ") + seat.name;
         if (!seat.machine.empty()) missing += " (machine " + seat.machine + ")";
@@ -167,8 +167,8 @@ void Conductor::sayFarewell() {
         const net::Instant now = net::monotonicNow();
         if (now - begin > kLongest) return;
         if (now - lastSaid >= kFarewellRepeat) {
-            for (const Seat& seat : roster_.seats())
-                if (!seat.peer.empty()) outbox_.say(seat.peer, farewell);
+            for (const NodeSeat& seat : roster_.seats())
+                if (!seat.peer.empty()) sender_.say(seat.peer, farewell);
             lastSaid = now;
         }
         channels_->wait(kFarewellRepeat / 4);
@@ -203,12 +203,12 @@ void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net
     }
     const bool isCostly = isQuestion(message) || message.has_hello() || message.has_order();
     if (isCostly && !roster_.isWithinRate(from.user, now)) return countRefused(false);
-    const auto node = roster_.speaker(from, message.session() == outbox_.session());
+    const auto node = roster_.speaker(from, message.session() == sender_.session());
     switch (message.message_case()) {
         case v1::Envelope::kHello:
             return greet(from.peer, message.hello(), now);
         case v1::Envelope::kStatusRequest:
-            return outbox_.say(from.peer, status(now));
+            return sender_.say(from.peer, status(now));
         case v1::Envelope::kExplainRequest:
             return countRefused(visitors_.ask(from.peer, message.explain_request().fish()));
         case v1::Envelope::kOrder:
@@ -219,18 +219,18 @@ void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net
         default:
             break;
     }
-    if (node && message.session() == outbox_.session()) {
+    if (node && message.session() == sender_.session()) {
         roster_.seats()[*node].lastHeard = now;
         presentation_.barrier().heard(*node, now);
         takeOfNode(*node, message, now);
     } else {
         countRefused(false);
-        outbox_.dismiss(from.peer, "the master does not know this connection");
+        sender_.dismiss(from.peer, "the master does not know this connection");
     }
 }
 
 void Conductor::takeOfNode(std::size_t node, const v1::Envelope& message, net::Instant now) {
-    Seat& seat = roster_.seats()[node];
+    NodeSeat& seat = roster_.seats()[node];
     switch (message.message_case()) {
         case v1::Envelope::kPing:
             return pong(seat.peer, message.ping().sent_ns());
@@ -291,7 +291,8 @@ std::string Conductor::objectionTo(const v1::Hello& hello) const {
             hello.motor_hash(),
             ownHash);
     if (roster_.named(hello.channel())) return {};
-    return "the rig has no such channel, only " + roster_.listed([](const Seat&) { return true; });
+    return "the rig has no such channel, only " +
+           roster_.listed([](const NodeSeat&) { return true; });
 }
 
 void Conductor::greet(const net::PeerId& peer, const v1::Hello& hello, net::Instant now) {
@@ -301,13 +302,13 @@ void Conductor::greet(const net::PeerId& peer, const v1::Hello& hello, net::Inst
             logWarning("refused node {}: {}", hello.channel(), objection);
         v1::Envelope refusal;
         refusal.mutable_refusal()->set_reason(objection);
-        return outbox_.say(peer, std::move(refusal));
+        return sender_.say(peer, std::move(refusal));
     }
     const std::size_t node = *roster_.named(hello.channel());
-    Seat& seat = roster_.seats()[node];
+    NodeSeat& seat = roster_.seats()[node];
     const bool isAnother = !seat.peer.empty() && seat.peer != peer;
     if (isAnother && now - seat.lastHeard < kSilenceOfTheDead)
-        return outbox_.dismiss(peer, "another node of this name takes part already");
+        return sender_.dismiss(peer, "another node of this name takes part already");
     if (seat.peer != peer) logInfo("welcomed node {}", seat.name);
     presentation_.barrier().leave(node);
     presentation_.barrier().heard(node, now);
@@ -315,17 +316,17 @@ void Conductor::greet(const net::PeerId& peer, const v1::Hello& hello, net::Inst
     seat.prepared = false;
     seat.lastHeard = now;
     seat.released = {};
-    outbox_.send(peer, looks_.welcome());
+    sender_.send(peer, looks_.welcome());
 }
 
 void Conductor::pong(const net::PeerId& peer, std::int64_t sentNs) const {
     v1::Envelope message;
     message.mutable_pong()->set_sent_ns(sentNs);
     message.mutable_pong()->set_master_ns(net::monotonicNow().count());
-    outbox_.say(peer, std::move(message));
+    sender_.say(peer, std::move(message));
 }
 
-void Conductor::note(Seat& seat, const v1::LogLine& line) const {
+void Conductor::note(NodeSeat& seat, const v1::LogLine& line) const {
     constexpr std::uint64_t kMostLinesASecond = 50;
     if (options_.log == nullptr || ++seat.logLines > kMostLinesASecond) return;
     options_.log->write(seat.name,
@@ -335,7 +336,7 @@ void Conductor::note(Seat& seat, const v1::LogLine& line) const {
 }
 
 void Conductor::prepared(std::size_t node, const v1::Prepared& prepared) {
-    Seat& seat = roster_.seats()[node];
+    NodeSeat& seat = roster_.seats()[node];
     seat.builtLook = prepared.look();
     if (prepared.look() == orders_.control().look()) {
         if (!looks_.shown().has_quality()) seat.bears = config::tierAt(prepared.quality());
@@ -344,19 +345,19 @@ void Conductor::prepared(std::size_t node, const v1::Prepared& prepared) {
     if (seat.prepared) return;  // the next one, or one that was given up
     // It was built while the wall went on to another.
     presentation_.barrier().leave(node);
-    outbox_.dismiss(std::exchange(seat.peer, {}), "the wall shows another look by now");
+    sender_.dismiss(std::exchange(seat.peer, {}), "the wall shows another look by now");
     seat.prepared = false;
 }
 
 void Conductor::admit(std::size_t node) {
-    Seat& seat = roster_.seats()[node];
+    NodeSeat& seat = roster_.seats()[node];
     if (seat.prepared) return;
     looks_.prepareAgain();  // if another look is being prepared, this node has to build it as well
     seat.prepared = true;
     const Frame first = presentation_.admit(node);
     v1::Envelope message;
     message.mutable_joined()->set_first_frame(first.value);
-    outbox_.say(seat.peer, std::move(message));
+    sender_.say(seat.peer, std::move(message));
     logInfo("node {} takes part from frame {}", seat.name, first.value);
 }
 
@@ -369,7 +370,7 @@ void Conductor::leave(std::size_t node) {
 void Conductor::giveChunk(const net::PeerId& peer, const v1::BlobRequest& request) {
     const net::Blob blob = looks_.blob(wire::digestIn(request.digest()));
     countRefused(blob && request.offset() <= blob->size());
-    if (!blob) return outbox_.dismiss(peer, "the wall shows another look by now");
+    if (!blob) return sender_.dismiss(peer, "the wall shows another look by now");
     if (request.offset() > blob->size()) return;
     const auto content = net::chunkAt(*blob, request.offset(), wire::kBlobChunkBytes);
     v1::Envelope message;
@@ -378,7 +379,7 @@ void Conductor::giveChunk(const net::PeerId& peer, const v1::BlobRequest& reques
     chunk.set_offset(request.offset());
     chunk.set_total(blob->size());
     chunk.set_content(content.data(), content.size());
-    outbox_.say(peer, std::move(message));
+    sender_.say(peer, std::move(message));
 }
 
 // Whoever shows no key is an account of this machine.
@@ -388,7 +389,7 @@ void Conductor::obey(const net::FromPeer& from, const v1::Order& order, net::Ins
     *message.mutable_order_reply() = orders_.obey(user, order, presentation_.unpublished(), now);
     if (simulationThread_ && !isLockstep())
         simulationThread_->freeze(orders_.control().wanted().freeze());
-    outbox_.say(from.peer, std::move(message));
+    sender_.say(from.peer, std::move(message));
 }
 
 v1::Envelope Conductor::status(net::Instant now) const {

@@ -19,12 +19,12 @@
 #include "master/conductor/gauges.h"
 #include "master/conductor/looks.h"
 #include "master/conductor/orders.h"
-#include "master/conductor/outbox.h"
 #include "master/conductor/presentation.h"
 #include "master/conductor/roster.h"
+#include "master/conductor/sender.h"
 #include "master/conductor/simulation.h"
 #include "master/conductor/simulation_thread.h"
-#include "master/conductor/visitors.h"
+#include "master/conductor/visitor_inputs.h"
 
 namespace aquarama::conductor {
 
@@ -83,7 +83,7 @@ class Conductor final : private FrameSource {
     [[nodiscard]] std::string objectionTo(const v1::Hello& hello) const;
     void pong(const net::PeerId& peer, std::int64_t sentNs) const;
     // A line of a node's log, into the log of the show.
-    void note(Seat& seat, const v1::LogLine& line) const;
+    void note(NodeSeat& seat, const v1::LogLine& line) const;
     // The node has built a look. The one that is shown: from the next frame on it is waited for.
     void prepared(std::size_t node, const v1::Prepared& prepared);
     void admit(std::size_t node);
@@ -108,7 +108,7 @@ class Conductor final : private FrameSource {
 
     ConductorOptions options_;
     std::unique_ptr<net::MasterChannels> channels_;
-    Outbox outbox_;
+    Sender sender_;
     Roster roster_;
     Orders orders_;
     Looks looks_;
@@ -116,7 +116,7 @@ class Conductor final : private FrameSource {
     Gauges gauges_;
     ShowReport report_;
     Presentation presentation_;
-    Visitors visitors_;
+    VisitorInputs visitors_;
     Watchdog watchdog_;
     Simulation* simulation_;
     std::unique_ptr<Simulation> own_;  // simulation_, after a change of scene

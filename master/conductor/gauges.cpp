@@ -20,7 +20,7 @@ constexpr std::array<net::Instant, 8> kSkewEdges{std::chrono::microseconds(50),
                                                  std::chrono::milliseconds(5),
                                                  std::chrono::milliseconds(10)};
 
-v1::NodeCondition conditionOf(const Seat& seat, bool isWaitedFor) {
+v1::NodeCondition conditionOf(const NodeSeat& seat, bool isWaitedFor) {
     if (seat.peer.empty()) return v1::NODE_ABSENT;
     if (!seat.prepared) return v1::NODE_PREPARING;
     return isWaitedFor ? v1::NODE_IN_STEP : v1::NODE_LATE;
@@ -38,10 +38,10 @@ Gauges::Gauges(const Roster& roster, std::uint16_t port)
       bytes_{metrics_.counter("aquarama_state_bytes_total", "Bytes of states, once for all nodes")},
       refused_{metrics_.counter("aquarama_refused_packets_total", "Packets that were refused")},
       black_{metrics_.gauge("aquarama_black", "1 where the wall is black because it was set so")} {
-    for (const Seat& seat : roster.seats()) nodes_.push_back(figuresOf(seat));
+    for (const NodeSeat& seat : roster.seats()) nodes_.push_back(figuresOf(seat));
 }
 
-Gauges::NodeFigures Gauges::figuresOf(const Seat& seat) {
+Gauges::NodeFigures Gauges::figuresOf(const NodeSeat& seat) {
     net::Metrics& m = metrics_;
     const net::Labels node{{"node", seat.name}};
     return {
@@ -98,7 +98,7 @@ bool Gauges::count(net::Instant now,
     refused_(static_cast<double>(report.refusedPackets));
     black_(isBlack ? 1 : 0);
     for (std::size_t place = 0; place < nodes_.size(); ++place) {
-        const Seat& seat = roster.seats()[place];
+        const NodeSeat& seat = roster.seats()[place];
         const NodeFigures& node = nodes_[place];
         node.condition(conditionOf(seat, barrier.isWaitedFor(place)));
         node.late(static_cast<double>(barrier.timesLate(place)));
@@ -129,7 +129,7 @@ void Gauges::writeStatus(v1::StatusReply& reply,
     wire::writeEye(eye_, *reply.mutable_eye());
     reply.set_speed_m_s(speedMetresPerSecond_);
     for (std::size_t place = 0; place < roster.seats().size(); ++place) {
-        const Seat& seat = roster.seats()[place];
+        const NodeSeat& seat = roster.seats()[place];
         v1::NodeStatus& node = *reply.add_nodes();
         node.set_name(seat.name);
         node.set_condition(conditionOf(seat, barrier.isWaitedFor(place)));

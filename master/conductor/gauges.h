@@ -56,7 +56,7 @@ class Gauges {
     struct NodeFigures {
         net::Record condition, late, dropped, mismatches, roundTrip, drift, celsius;
     };
-    [[nodiscard]] NodeFigures figuresOf(const Seat& seat);
+    [[nodiscard]] NodeFigures figuresOf(const NodeSeat& seat);
 
     net::Metrics metrics_;
     net::Record frameSeconds_, skewSeconds_, frames_, fish_, bytes_, refused_, black_;

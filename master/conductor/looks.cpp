@@ -73,11 +73,11 @@ Looks::Looks(LookSources sources,
              Blobs blobs,
              ShowControl& control,
              Roster& roster,
-             const Outbox& outbox)
+             const Sender& sender)
     : sources_{std::move(sources)},
       control_{control},
       roster_{roster},
-      outbox_{outbox},
+      sender_{sender},
       welcome_{std::move(welcome)},
       blobs_{std::move(blobs)} {
     for (const auto& [name, content] : rigFiles) {
@@ -97,7 +97,7 @@ void Looks::tellShown() {
     calibration_ = wire::calibrationOf(welcome_.rig_text(), shown());
     v1::Envelope message;
     *message.mutable_welcome() = welcome_;
-    welcomePacket_ = outbox_.packetOf(std::move(message));
+    welcomePacket_ = sender_.packetOf(std::move(message));
     const std::filesystem::path scene = control_.wanted().scene();
     sceneName_ = scene.stem().string().substr(0, wire::kMostNameBytes);
 }
@@ -176,7 +176,7 @@ void Looks::announceNext(net::Instant now) {
     chooseQuality(*next_, chosen ? chosen : roster_.measuredTier());
     v1::Envelope message;
     *message.mutable_prepare()->mutable_look() = *next_;
-    prepare_ = outbox_.packetOf(std::move(message));
+    prepare_ = sender_.packetOf(std::move(message));
     preparingSince_ = now;
     lastPrepare_ = {};
 }
@@ -187,12 +187,12 @@ void Looks::prepareNodes(net::Instant now) {
     if (!next_) announceNext(now);
     const bool isDue = now - lastPrepare_ > kRepeat;
     if (isDue) lastPrepare_ = now;
-    const auto lacksIt = [&](const Seat& seat) {
+    const auto lacksIt = [&](const NodeSeat& seat) {
         return seat.prepared && seat.builtLook != next_->number();
     };
     if (isDue)
-        for (const Seat& seat : roster_.seats())
-            if (lacksIt(seat)) outbox_.send(seat.peer, prepare_);
+        for (const NodeSeat& seat : roster_.seats())
+            if (lacksIt(seat)) sender_.send(seat.peer, prepare_);
     const std::string missing = roster_.listed(lacksIt);
     if (missing.empty()) return control_.prepared();
     control_.setWaitingFor("prepared by all nodes but " + missing);

@@ -21,8 +21,8 @@
 #include "common/net/blob.h"
 #include "common/wire/messages.h"
 #include "common/wire/recording.h"
-#include "master/conductor/outbox.h"
 #include "master/conductor/roster.h"
+#include "master/conductor/sender.h"
 #include "master/conductor/show_control.h"
 #include "master/conductor/simulation.h"
 
@@ -61,7 +61,7 @@ using Blobs = std::map<Digest, net::Blob>;
 class Looks {
   public:
     // `welcome`: has the rig's text, the state address and the pace. `control`, `roster` and
-    // `outbox` outlive this.
+    // `sender` outlive this.
     Looks(LookSources sources,
           v1::Welcome welcome,
           const std::map<std::string, net::Blob>& rigFiles,
@@ -69,7 +69,7 @@ class Looks {
           Blobs blobs,
           ShowControl& control,
           Roster& roster,
-          const Outbox& outbox);
+          const Sender& sender);
 
     // The look that is shown, and the message that tells it to a node that says hello.
     [[nodiscard]] const v1::Look& shown() const { return welcome_.look(); }
@@ -107,7 +107,7 @@ class Looks {
     LookSources sources_;
     ShowControl& control_;
     Roster& roster_;
-    const Outbox& outbox_;
+    const Sender& sender_;
     v1::Welcome welcome_;         // with the look that is shown
     wire::Packet welcomePacket_;  // encoded once for many
     std::string sceneName_;

@@ -20,10 +20,10 @@ Answer refused(std::string why) {
 
 }  // namespace
 
-Orders::Orders(OrderLimits limits, Roster& roster, const Outbox& outbox)
+Orders::Orders(OrderLimits limits, Roster& roster, const Sender& sender)
     : limits_{std::move(limits)},
       roster_{roster},
-      outbox_{outbox},
+      sender_{sender},
       control_{limits_.wanted, limits_.kept, book_} {}
 
 v1::OrderReply Orders::obey(const std::string& user,
@@ -31,7 +31,7 @@ v1::OrderReply Orders::obey(const std::string& user,
                             Frame unpublished,
                             net::Instant now) {
     Answer answer;
-    if (order.run() != 0 && order.run() != outbox_.session())
+    if (order.run() != 0 && order.run() != sender_.session())
         answer = refused("the show was started again meanwhile: look, and say it once more");
     else if (order.has_scan())
         answer = hold(user, order.scan(), unpublished, now);
@@ -46,7 +46,7 @@ v1::OrderReply Orders::obey(const std::string& user,
     reply.set_outcome(static_cast<v1::OrderReply::Outcome>(answer.outcome));
     reply.set_reason(answer.reason);
     if (order.has_scan() && answer.outcome == Outcome::Done)
-        reply.set_frame(std::ranges::max(roster_.seats(), {}, &Seat::released).released.value);
+        reply.set_frame(std::ranges::max(roster_.seats(), {}, &NodeSeat::released).released.value);
     return reply;
 }
 
@@ -110,7 +110,7 @@ std::string Orders::objectionToScan() const {
 
 std::string Orders::notShowingScan() const {
     std::string missing;
-    for (const Seat& seat : roster_.seats()) {
+    for (const NodeSeat& seat : roster_.seats()) {
         const bool isThere = seat.prepared && !seat.peer.empty();
         if (isThere && scan_.first() <= seat.released) continue;
         missing += (missing.empty() ? "" : ", ") + seat.name + (isThere ? " (late)" : " (absent)");
@@ -129,7 +129,7 @@ std::string Orders::objectionToEnding(const std::string& channel) const {
 void Orders::passOn(const v1::Order& order, const std::string& channel) const {
     v1::Envelope message;
     *message.mutable_order() = order;
-    outbox_.say(roster_.seats()[*roster_.named(channel)].peer, std::move(message));
+    sender_.say(roster_.seats()[*roster_.named(channel)].peer, std::move(message));
 }
 
 Answer Orders::restart(const std::string& user, const v1::Order& order) {

@@ -9,8 +9,8 @@
 #include "common/ask/order_book.h"
 #include "common/base/units.h"
 #include "common/wire/messages.h"
-#include "master/conductor/outbox.h"
 #include "master/conductor/roster.h"
+#include "master/conductor/sender.h"
 #include "master/conductor/show_control.h"
 
 namespace aquarama::conductor {
@@ -27,8 +27,8 @@ struct OrderLimits {
 // answer, or its silence, ends it.
 class Orders {
   public:
-    // `roster` and `outbox` outlive this.
-    Orders(OrderLimits limits, Roster& roster, const Outbox& outbox);
+    // `roster` and `sender` outlive this.
+    Orders(OrderLimits limits, Roster& roster, const Sender& sender);
 
     // Carries out an order of `user`, or begins it; said again, it is answered again.
     // `unpublished`: the first frame that is still to be published.
@@ -73,7 +73,7 @@ class Orders {
 
     OrderLimits limits_;
     Roster& roster_;
-    const Outbox& outbox_;
+    const Sender& sender_;
     ask::OrderBook book_;
     ShowControl control_;
     ScanHold scan_;

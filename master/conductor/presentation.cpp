@@ -36,31 +36,31 @@ GrowingFile openTrace(const std::filesystem::path& directory) {
     return trace;
 }
 
-wire::Packet beaconOf(const Outbox& outbox) {
+wire::Packet beaconOf(const Sender& sender) {
     v1::Envelope beacon;
     beacon.mutable_beacon();
-    return outbox.packetOf(std::move(beacon));
+    return sender.packetOf(std::move(beacon));
 }
 
 }  // namespace
 
 Presentation::Presentation(const PresentationLimits& limits,
                            Roster& roster,
-                           const Outbox& outbox,
+                           const Sender& sender,
                            net::MasterChannels& channels,
                            Gauges& gauges,
                            ShowReport& report,
                            FrameSource& source)
     : limits_{limits},
       roster_{roster},
-      outbox_{outbox},
+      sender_{sender},
       channels_{channels},
       gauges_{gauges},
       report_{report},
       source_{source},
       barrier_{roster.seats().size(), limits.barrier, net::monotonicNow()},
       trace_{openTrace(limits.traceDirectory)},
-      beacon_{beaconOf(outbox)},
+      beacon_{beaconOf(sender)},
       isOver_{limits.frames == 0U} {
     assert(roster.seats().size() <= kMostNodes);
 }
@@ -87,10 +87,10 @@ void Presentation::takeTicks() {
 
 void Presentation::expelSilent(net::Instant now) {
     for (const std::size_t node : barrier_.expelSilent(now)) {
-        Seat& seat = roster_.seats()[node];
+        NodeSeat& seat = roster_.seats()[node];
         ++seat.dropped;
         logWarning("node {} is not counted any more: silent", seat.name);
-        outbox_.dismiss(seat.peer, "you were silent for too long");
+        sender_.dismiss(seat.peer, "you were silent for too long");
         seat.vacate();
     }
 }
@@ -155,9 +155,9 @@ void Presentation::release(net::Instant now) {
     v1::Envelope message;
     message.mutable_present()->set_frame(next_.value);
     message.mutable_present()->set_at_ns(isLockstep() ? 0 : at.count());
-    lastPresent_.emplace(next_, outbox_.packetOf(std::move(message)));
-    for (const Seat& seat : roster_.seats())
-        if (seat.prepared) outbox_.send(seat.peer, lastPresent_->second);
+    lastPresent_.emplace(next_, sender_.packetOf(std::move(message)));
+    for (const NodeSeat& seat : roster_.seats())
+        if (seat.prepared) sender_.send(seat.peer, lastPresent_->second);
     source_.onReleased(next_);
     if (report_.frames++ > 0) gauges_.released(now, at - lastRelease_);
     lastRelease_ = at;
@@ -175,7 +175,7 @@ bool Presentation::publish(Frame frame, net::Instant now) {
     if (!state) return false;
     state->show = &source_.showOf(frame, now);
     state->motionHash = motion::hashOf(state->after);
-    const wire::Packet& packet = published_[frame] = wire::encodeState(outbox_.session(), *state);
+    const wire::Packet& packet = published_[frame] = wire::encodeState(sender_.session(), *state);
     channels_.publishState(packet);
     lastPublished_ = lastRepeat_ = net::monotonicNow();
     repeatAfter_ = isLockstep() ? kRepeat : limits_.barrier.deadline;
@@ -213,7 +213,7 @@ Frame Presentation::admit(std::size_t node) {
 
 void Presentation::ready(std::size_t node, const v1::Ready& ready, net::Instant now) {
     const Frame frame{ready.frame()};
-    Seat& seat = roster_.seats()[node];
+    NodeSeat& seat = roster_.seats()[node];
     barrier_.ready(node, frame, now);
     seat.mismatches = ready.hash_mismatches();
     seat.blanks = blanksIn(ready);
@@ -224,7 +224,7 @@ void Presentation::ready(std::size_t node, const v1::Ready& ready, net::Instant 
         gauges_.nodeReleased(now, {ready.released_frame()}, ready.released_ns());
     }
     // It asks again for a release that never came.
-    if (lastPresent_ && frame <= lastPresent_->first) outbox_.send(seat.peer, lastPresent_->second);
+    if (lastPresent_ && frame <= lastPresent_->first) sender_.send(seat.peer, lastPresent_->second);
 }
 
 // A display of quite another rate cannot be kept in step with the wall.

@@ -14,9 +14,9 @@
 #include "common/config/rig.h"
 #include "common/net/channels.h"
 #include "master/conductor/gauges.h"
-#include "master/conductor/outbox.h"
 #include "master/conductor/present_barrier.h"
 #include "master/conductor/roster.h"
+#include "master/conductor/sender.h"
 #include "master/conductor/simulation_thread.h"
 
 namespace aquarama::conductor {
@@ -47,7 +47,7 @@ class Presentation {
     // All that is referred to outlives this. Throws Error where the trace cannot be written.
     Presentation(const PresentationLimits& limits,
                  Roster& roster,
-                 const Outbox& outbox,
+                 const Sender& sender,
                  net::MasterChannels& channels,
                  Gauges& gauges,
                  ShowReport& report,
@@ -100,7 +100,7 @@ class Presentation {
 
     PresentationLimits limits_;
     Roster& roster_;
-    const Outbox& outbox_;
+    const Sender& sender_;
     net::MasterChannels& channels_;
     Gauges& gauges_;
     ShowReport& report_;

@@ -73,7 +73,7 @@ bool maySay(const User& user, const v1::Envelope& message) {
     return false;
 }
 
-void Seat::vacate() {
+void NodeSeat::vacate() {
     peer.clear();
     prepared = false;
     report.reset();
@@ -87,13 +87,13 @@ Roster::Roster(const config::Rig& rig, const std::vector<std::string>& names) {
 }
 
 std::optional<std::size_t> Roster::named(const std::string& channel) const {
-    const auto seat = std::ranges::find(seats_, channel, &Seat::name);
+    const auto seat = std::ranges::find(seats_, channel, &NodeSeat::name);
     if (seat == seats_.end()) return std::nullopt;
     return static_cast<std::size_t>(seat - seats_.begin());
 }
 
 std::optional<std::size_t> Roster::of(const net::PeerId& peer) const {
-    const auto seat = std::ranges::find(seats_, peer, &Seat::peer);
+    const auto seat = std::ranges::find(seats_, peer, &NodeSeat::peer);
     if (seat == seats_.end()) return std::nullopt;
     return static_cast<std::size_t>(seat - seats_.begin());
 }
@@ -108,25 +108,25 @@ std::optional<std::size_t> Roster::speaker(const net::FromPeer& from, bool knows
 }
 
 bool Roster::isEmpty() const {
-    return std::ranges::all_of(seats_, [](const Seat& seat) { return seat.peer.empty(); });
+    return std::ranges::all_of(seats_, [](const NodeSeat& seat) { return seat.peer.empty(); });
 }
 
-std::string Roster::listed(const std::function<bool(const Seat&)>& isListed) const {
+std::string Roster::listed(const std::function<bool(const NodeSeat&)>& isListed) const {
     std::string list;
-    for (const Seat& seat : seats_)
+    for (const NodeSeat& seat : seats_)
         if (isListed(seat)) list += (list.empty() ? "" : ", ") + seat.name;
     return list;
 }
 
 std::optional<config::QualityTier> Roster::measuredTier() const {
     const bool all =
-        std::ranges::all_of(seats_, [](const Seat& seat) { return seat.bears.has_value(); });
+        std::ranges::all_of(seats_, [](const NodeSeat& seat) { return seat.bears.has_value(); });
     return all ? std::optional(finestTier()) : std::nullopt;
 }
 
 config::QualityTier Roster::finestTier() const {
     std::optional<config::QualityTier> least;
-    for (const Seat& seat : seats_)
+    for (const NodeSeat& seat : seats_)
         if (seat.bears) least = std::min(least.value_or(*seat.bears), *seat.bears);
     return least.value_or(config::QualityTier::Low);
 }

@@ -36,7 +36,7 @@ struct User {
 [[nodiscard]] bool isVisitorsInput(const v1::Envelope& message);
 
 // A channel of the show, and the node that draws it.
-struct Seat {
+struct NodeSeat {
     std::string name;
     std::string machine = {};                       // empty: the master's
     net::PeerId peer = {};                          // of its node; empty: it is absent
@@ -64,8 +64,8 @@ class Roster {
     Roster(const config::Rig& rig, const std::vector<std::string>& names);
 
     // In the order of the channels; a node is named by its place.
-    [[nodiscard]] std::vector<Seat>& seats() { return seats_; }
-    [[nodiscard]] const std::vector<Seat>& seats() const { return seats_; }
+    [[nodiscard]] std::vector<NodeSeat>& seats() { return seats_; }
+    [[nodiscard]] const std::vector<NodeSeat>& seats() const { return seats_; }
     // The place of a channel, or of a peer's node; nothing where there is none.
     [[nodiscard]] std::optional<std::size_t> named(const std::string& channel) const;
     [[nodiscard]] std::optional<std::size_t> of(const net::PeerId& peer) const;
@@ -74,7 +74,7 @@ class Roster {
     [[nodiscard]] std::optional<std::size_t> speaker(const net::FromPeer& from, bool knowsRun);
     [[nodiscard]] bool isEmpty() const;
     // The seats for which it is true, as "left, right"; empty where none is.
-    [[nodiscard]] std::string listed(const std::function<bool(const Seat&)>& isListed) const;
+    [[nodiscard]] std::string listed(const std::function<bool(const NodeSeat&)>& isListed) const;
 
     // The finest tier that every node has measured that it bears; nothing where one has not.
     [[nodiscard]] std::optional<config::QualityTier> measuredTier() const;
@@ -94,7 +94,7 @@ class Roster {
         int count = 0;
     };
 
-    std::vector<Seat> seats_;
+    std::vector<NodeSeat> seats_;
     std::map<std::string, Rate> rates_;  // by user: what was answered in this second
     std::set<std::string> refused_;      // users
     std::set<std::string> objections_;

@@ -75,14 +75,14 @@ class Measures(unittest.TestCase):
                                            "    int h();", "};"), [])
         self.assertEqual(self.undocumented("// One.", "", "int f();"), ["f"], "a blank line ends a group")
         self.assertEqual(self.undocumented("// One.", "struct A {", "    int g();", "};"), ["g"])
-        self.assertEqual(self.undocumented("// One.", "class A {", "  public:", "    explicit A(int b);", "};"), ["A"])
+        self.assertEqual(self.undocumented("// One.", "class A {", "  public:", "    explicit A(int b);", "    int c();", "};"), ["c"])
         self.assertEqual(self.undocumented("using A = int;", "", "enum class B { C };"), ["A", "B"])
 
     def test_width(self):
         fits = "x" * texts.MOST_COLUMNS
         self.assertEqual(list(texts.width_problems("a.md", f"{fits}\n- [{fits}](b)\nhttps://{fits}")), [])
         self.assertEqual(len(list(texts.width_problems("a.md", f"{fits} y"))), 1)
-        self.assertEqual(len(list(texts.width_problems("a.md", f"| {fits} |"))), 1)
+        self.assertEqual(list(texts.width_problems("a.md", f"| {fits} |\n    {fits}")), [])
         self.assertEqual(len(list(texts.width_problems("a.py", f"https://{fits}"))), 1)
 
     def test_sentences(self):

@@ -13,12 +13,12 @@
 namespace aquarama::conductor {
 
 // Of the conductor's thread.
-class Outbox {
+class Sender {
   public:
     // Sends bytes to a peer.
     using Send = std::function<void(const net::PeerId&, net::ByteView)>;
     // `session`: of this run of the master. `send` must not throw.
-    Outbox(std::uint64_t session, Send send) : session_{session}, send_{std::move(send)} {}
+    Sender(std::uint64_t session, Send send) : session_{session}, send_{std::move(send)} {}
 
     // The run of the master.
     [[nodiscard]] std::uint64_t session() const { return session_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/conductor/visitors.h"
+#include "master/conductor/visitor_inputs.h"
 
 #include <chrono>
 
@@ -14,30 +14,33 @@ constexpr float kReachMetres = 8.0F;  // from the eye
 
 }  // namespace
 
-Visitors::Visitors(const Outbox& outbox, std::function<void()> wake)
-    : outbox_{outbox}, wake_{std::move(wake)} {}
+VisitorInputs::VisitorInputs(const Sender& sender, std::function<void()> wake)
+    : sender_{sender}, wake_{std::move(wake)} {}
 
-void Visitors::enter(SimulationThread* world, std::uint32_t fish) {
+void VisitorInputs::enter(SimulationThread* world, std::uint32_t fish) {
     world_ = world;
     fish_ = fish;
 }
 
-bool Visitors::feed(Seat& seat, const v1::Input& input, const wire::Eye& eye, net::Instant now) {
+bool VisitorInputs::feed(NodeSeat& seat,
+                         const v1::Input& input,
+                         const wire::Eye& eye,
+                         net::Instant now) {
     return feed(seat.lastFed, input, eye, now);
 }
 
-bool Visitors::feed(const std::string& user,
-                    const v1::Input& input,
-                    const wire::Eye& eye,
-                    net::Instant now) {
+bool VisitorInputs::feed(const std::string& user,
+                         const v1::Input& input,
+                         const wire::Eye& eye,
+                         net::Instant now) {
     return feed(lastFed_[user], input, eye, now);
 }
 
 // The world bounds the number of pellets; here the rate of a visitor is bounded, and the reach.
-bool Visitors::feed(net::Instant& lastFed,
-                    const v1::Input& input,
-                    const wire::Eye& eye,
-                    net::Instant now) {
+bool VisitorInputs::feed(net::Instant& lastFed,
+                         const v1::Input& input,
+                         const wire::Eye& eye,
+                         net::Instant now) {
     if (now - lastFed < kBetweenPinches || world_ == nullptr) return true;
     const glm::vec3 at{input.position(0), input.position(1), input.position(2)};
     const auto drop = [at](Simulation& simulation) {
@@ -49,14 +52,14 @@ bool Visitors::feed(net::Instant& lastFed,
     return true;
 }
 
-bool Visitors::steer(const net::PeerId& peer, const v1::Input& input, net::Instant now) {
+bool VisitorInputs::steer(const net::PeerId& peer, const v1::Input& input, net::Instant now) {
     const Steering steering = wire::steeringOf(input);
     if (world_ == nullptr || !arbitration_.accepts(peer, steering, now)) return true;
     return world_->betweenTicks([steering](Simulation& simulation) { simulation.apply(steering); });
 }
 
 // A mind is looked into between two ticks.
-bool Visitors::ask(const net::PeerId& peer, std::uint32_t fish) {
+bool VisitorInputs::ask(const net::PeerId& peer, std::uint32_t fish) {
     if (world_ == nullptr) return true;  // the show is over
     return world_->betweenTicks([=, this](const Simulation& simulation) {
         v1::Envelope message;
@@ -65,14 +68,14 @@ bool Visitors::ask(const net::PeerId& peer, std::uint32_t fish) {
         explanation.set_school(fish_);
         explanation.set_tick(simulation.tick().value);
         for (const std::string& line : simulation.explain(fish)) explanation.add_lines(line);
-        explanations_.tryPut({peer, outbox_.packetOf(std::move(message))});
+        explanations_.tryPut({peer, sender_.packetOf(std::move(message))});
         wake_();
     });
 }
 
-void Visitors::answer() {
+void VisitorInputs::answer() {
     while (const auto explanation = explanations_.tryTake())
-        outbox_.send(explanation->first, explanation->second);
+        sender_.send(explanation->first, explanation->second);
 }
 
 }  // namespace aquarama::conductor

@@ -10,18 +10,18 @@
 
 #include "common/net/channels.h"
 #include "common/wire/messages.h"
-#include "master/conductor/outbox.h"
 #include "master/conductor/roster.h"
+#include "master/conductor/sender.h"
 #include "master/conductor/simulation_thread.h"
 #include "master/conductor/steering.h"
 
 namespace aquarama::conductor {
 
 // Of the conductor's thread.
-class Visitors {
+class VisitorInputs {
   public:
     // `wake` is called by the tick thread when an answer is there. Both outlive this.
-    Visitors(const Outbox& outbox, std::function<void()> wake);
+    VisitorInputs(const Sender& sender, std::function<void()> wake);
 
     // The world that they reach, of so many fish; null: none, and nothing is passed on.
     void enter(SimulationThread* world, std::uint32_t fish);
@@ -29,7 +29,7 @@ class Visitors {
 
     // Each returns false where it is refused: out of reach, or too much waits already.
     // Food from a window; `seat` is its node's.
-    [[nodiscard]] bool feed(Seat& seat,
+    [[nodiscard]] bool feed(NodeSeat& seat,
                             const v1::Input& input,
                             const wire::Eye& eye,
                             net::Instant now);
@@ -53,7 +53,7 @@ class Visitors {
               const wire::Eye& eye,
               net::Instant now);
 
-    const Outbox& outbox_;
+    const Sender& sender_;
     std::function<void()> wake_;
     SimulationThread* world_ = nullptr;
     std::uint32_t fish_ = 0;
