@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
+#include "common/cli/progress.h"
 #include "common/net/channels.h"
 
 namespace aquarama::compose {
@@ -142,13 +142,13 @@ void film(const config::Rig& rig, const Filming& filming) {
     std::uint64_t pictures = 0;
     for (; frames; frames = filmed->nextFrame()) {
         clip->add(camera.pictureOf(*frames), frames->front().frame);
-        progress.show(++pictures);
+        progress.count(++pictures);
     }
     filmed.reset();  // the nodes need not wait for the encoder's last pictures
     clip->finish();
     progress.end();
-    std::cout << "clip of the " << filming.of << " in " << filming.clipPath << ": "
-              << counted(pictures, "picture") << std::endl;
+    cli::say(fmt::format(
+        "clip of the {} in {}: {}", filming.of, filming.clipPath, counted(pictures, "picture")));
 }
 
 }  // namespace aquarama::compose

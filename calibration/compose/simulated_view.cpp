@@ -67,8 +67,7 @@ Picture seenInHall(const hall::TrueHall& truth, const std::vector<Light>& sent) 
 // With the faults and the noise of the simulated camera, unlike seenByPlainCamera().
 Picture seenByCamera(const hall::TrueHall& truth, const std::vector<Light>& sent) {
     std::vector<config::ScanPattern> whites;  // the camera is exposed for them
-    for (std::size_t i = 0; i < truth.channels(); ++i)
-        whites.push_back({.lit = std::uint64_t{1} << i});
+    for (std::size_t i = 0; i < truth.channels(); ++i) whites.push_back({.lit = config::bitOf(i)});
     const hall::SimulatedCamera camera(truth, whites, kCameraSeed);
     return camera.pictureOf(hall::allThrown(truth, sent));
 }

@@ -14,6 +14,7 @@
 
 #include "calibration/scan/frames.h"
 #include "common/base/log.h"
+#include "common/base/statistics.h"
 #include "common/wall/scan_pattern.h"
 
 namespace aquarama::drift {
@@ -33,8 +34,7 @@ struct DotPicture {
     }
 };
 
-// Weights 1, 2 and 1 of red, green and blue, in linear light by the camera's response. Sets `size`
-// to that of the picture.
+// The linear light of a picture, by the camera's response. Sets `size` to that of the picture.
 scan::Plane luminanceOf(scan::PictureSource& source, std::size_t index, glm::ivec2& size) {
     const config::Scan& scan = source.scan();
     const Picture picture = source.picture(index);
@@ -43,15 +43,10 @@ scan::Plane luminanceOf(scan::PictureSource& source, std::size_t index, glm::ive
     size = picture.sizePixels;
     scan::Plane light(picture.rgb.size() / 3);
     for (std::size_t i = 0; i < light.size(); ++i)
-        light[i] = (table[picture.rgb[3 * i]] + 2 * table[picture.rgb[3 * i + 1]] +
-                    table[picture.rgb[3 * i + 2]]) /
-                   4;
+        light[i] = scan::cameraLuminance(table[picture.rgb[3 * i]],
+                                         table[picture.rgb[3 * i + 1]],
+                                         table[picture.rgb[3 * i + 2]]);
     return light;
-}
-
-// A level that no channel shows: the picture of the black wall.
-bool isBlack(const config::ScanPattern& pattern) {
-    return pattern.kind == Kind::Level && pattern.lit == 0;
 }
 
 // The black picture whose exposure is nearest.
@@ -150,11 +145,7 @@ glm::dvec2 centred(const DotPicture& picture, const Spot& spot) {
 float leastLight(const DotPicture& picture) {
     constexpr float kLeastShare = 0.12F;   // of the brightest
     constexpr double kBrightest = 0.9997;  // but for this share of the pixels
-    scan::Plane sorted = picture.light;
-    const auto place = sorted.begin() + static_cast<std::ptrdiff_t>(
-                                            kBrightest * static_cast<double>(sorted.size() - 1));
-    std::ranges::nth_element(sorted, place);
-    return kLeastShare * *place;
+    return kLeastShare * quantile(picture.light, kBrightest);
 }
 
 // Spots of a picture, none of them smaller than a few pixels.

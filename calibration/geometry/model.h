@@ -14,13 +14,14 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/base/brown_lens.h"
 #include "common/config/rig.h"
 #include "common/wall/surface.h"
 
 namespace aquarama::geometry {
 
-// A lens, of a camera or a projector; after Brown (1966) and Conrady (1919). Pixels from the top
-// left corner of the picture; x right, y down, z along the axis.
+// A lens of a camera or a projector: a pinhole with the distortion of BrownLens. Pixels from the
+// top left corner of the picture; x right, y down, z along the axis.
 namespace lens {
 enum : std::size_t { Focal, Aspect, CentreX, CentreY, K1, K2, K3, P1, P2, Count };
 }
@@ -43,15 +44,9 @@ T dot(const Three<T>& a, const Three<T>& b) {
 // The place in the picture of a tangent from the lens' axis.
 template <class T>
 Two<T> imaged(const T* lens, const Two<T>& tangent) {
-    const T& x = tangent[0];
-    const T& y = tangent[1];
-    const T square = x * x + y * y;
-    const T radial =
-        1.0 + square * (lens[lens::K1] + square * (lens[lens::K2] + square * lens[lens::K3]));
-    const T& p1 = lens[lens::P1];
-    const T& p2 = lens[lens::P2];
-    const T across = x * radial + 2.0 * p1 * x * y + p2 * (square + 2.0 * x * x);
-    const T down = y * radial + p1 * (square + 2.0 * y * y) + 2.0 * p2 * x * y;
+    const BrownLens<T> distortion{
+        lens[lens::K1], lens[lens::K2], lens[lens::K3], lens[lens::P1], lens[lens::P2]};
+    const auto [across, down] = distortion.imageOf(tangent[0], tangent[1]);
     return {lens[lens::CentreX] + lens[lens::Focal] * across,
             lens[lens::CentreY] + lens[lens::Focal] * lens[lens::Aspect] * down};
 }
@@ -75,7 +70,6 @@ struct Tangent {
     glm::dvec2 tangent{};
     glm::dmat2 byPlace{1};
 };
-// By Newton's method, from the tangent without distortion.
 [[nodiscard]] Tangent tangentOf(const LensParameters& lens, glm::dvec2 place);
 
 // A ray through a place of a picture. `from` is the lens' own tangent there, found in double; one

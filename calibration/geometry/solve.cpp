@@ -259,6 +259,13 @@ bool begin(Solved& solved, const std::vector<scan::CameraView>& views) {
 
 }  // namespace
 
+OverlapFigures overlapFigures(const std::vector<double>& errors) {
+    return {.points = errors.size(),
+            .rms = rootMeanSquare(errors),
+            .p95 = quantile(errors, 0.95),
+            .most = quantile(errors, 1)};
+}
+
 Solved solveHall(const config::Rig& rig,
                  const wall::Wall& wall,
                  const std::vector<scan::CameraView>& views,
@@ -291,10 +298,7 @@ Solved solveTies(const config::Rig& rig,
     solved.partings = overlapErrors(*solved.hall, solved.ties);
     std::vector<double> errors;
     for (const Parting& parting : solved.partings) errors.push_back(parting.pixels);
-    solved.figures.overlapPoints = errors.size();
-    solved.figures.overlapRms = rootMeanSquare(errors);
-    solved.figures.overlapP95 = quantile(errors, 0.95);
-    solved.figures.overlapMax = quantile(errors, 1);
+    solved.figures.overlap = overlapFigures(errors);
     return solved;
 }
 

@@ -11,6 +11,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "common/base/picture.h"
+#include "common/base/statistics.h"
+
 namespace aquarama::geometry {
 
 namespace {
@@ -71,8 +74,7 @@ std::vector<Seen> withoutOutliers(const std::vector<Seen>& seen, double scale, c
     const auto middle = [&](auto get) {
         std::vector<double> values;
         for (const Seen& one : seen) values.push_back(get(one));
-        std::ranges::nth_element(values, values.begin() + static_cast<long>(values.size() / 2));
-        return values[values.size() / 2];
+        return median(values);
     };
     const glm::dvec2 median(middle([](const Seen& one) { return one.place.x; }),
                             middle([](const Seen& one) { return one.place.y; }));
@@ -141,10 +143,6 @@ std::vector<Tie> tiesOf(const scan::CameraView& view, std::uint32_t camera, std:
 
 namespace {
 
-double luminance(const glm::vec3& light) {
-    return glm::dot(glm::dvec3(light), glm::dvec3(0.2126, 0.7152, 0.0722));
-}
-
 // Light along a line: samples in steps, from `from` steps before a place.
 struct LightProfile {
     std::vector<double> light;
@@ -164,7 +162,7 @@ LightProfile profileAlong(const Light& room, glm::dvec2 at, glm::dvec2 outwards,
         if (!isInside && profile.light.empty()) continue;
         if (!isInside) break;
         if (profile.light.empty()) profile.from = i;
-        profile.light.push_back(luminance(bilinear(room, place)));
+        profile.light.push_back(luminance(glm::dvec3(bilinear(room, place))));
     }
     return profile;
 }
@@ -312,7 +310,7 @@ class SeenMark {
                     seen->y > room.sizePixels.y)
                     return std::nullopt;
                 light.at(static_cast<std::size_t>(i + kMarkReach)) +=
-                    luminance(bilinear(room, *seen)) / kLines.size();
+                    luminance(glm::dvec3(bilinear(room, *seen))) / kLines.size();
             }
         return light;
     }
@@ -340,9 +338,8 @@ std::optional<double> crossing(const MarkProfile& light, int from, int direction
 std::optional<double> stripIn(const MarkProfile& light) {
     constexpr double kMostLight = 0.5;                     // of what is beside it
     constexpr double kLeastWidth = 0.6, kMostWidth = 1.5;  // of the tape's
-    MarkProfile sorted = light;
-    std::ranges::nth_element(sorted, sorted.begin() + kMarkReach);
-    const double white = sorted.at(kMarkReach);
+    MarkProfile values = light;
+    const double white = median(values);
     const auto darkest = std::ranges::min_element(light);
     if (white <= 0 || *darkest > kMostLight * white) return std::nullopt;
     const double level = (white + *darkest) / 2;

@@ -8,6 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "common/base/statistics.h"
+
 namespace aquarama::hall {
 
 namespace {
@@ -255,7 +257,7 @@ Light HallView::of(const std::vector<ThrownPicture>& pictures,
 std::vector<float> HallView::whiteOf(const Row& row, std::uint64_t channels) const {
     std::vector<float> white(row.coverage.size());
     for (std::size_t channel = 0; channel < row.beams.size(); ++channel)
-        if (((channels >> channel) & 1U) != 0)
+        if (config::contains(channels, channel))
             for (const Beam& beam : row.beams[channel]) white[beam.column] += beam.white;
     for (std::size_t x = 0; x < white.size(); ++x) white[x] *= albedo(row.coverage[x]);
     return white;
@@ -268,9 +270,7 @@ float HallView::brightestOf(std::uint64_t channels) const {
         for (const float white : whiteOf(rows_[y], channels))
             if (white > 0) lit.push_back(white);
     if (lit.empty()) return 0;
-    const auto brightest = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() * 999 / 1000);
-    std::nth_element(lit.begin(), brightest, lit.end());
-    return *brightest;
+    return valueAtRank(lit, lit.size() * 999 / 1000);
 }
 
 TrueLens eyeAt(glm::dvec3 position, glm::dvec3 lookAt, glm::ivec2 sizePixels, double halfWidth) {

@@ -38,9 +38,10 @@ double farthestTangent(const config::Channel& channel) {
 config::HallLens drawLens(Chance& chance, double farthest, glm::dvec3 radial, double tangential) {
     const double square = farthest * farthest;
     config::HallLens lens;
-    lens.radial = chance.within(radial) / glm::dvec3(square, square * square, std::pow(square, 3));
+    const glm::dvec3 k =
+        chance.within(radial) / glm::dvec3(square, square * square, std::pow(square, 3));
     const double aside = tangential / farthest;
-    lens.tangential = {chance.within(aside), chance.within(aside)};
+    lens.distortion = {k.x, k.y, k.z, chance.within(aside), chance.within(aside)};
     lens.vignetting = chance.between(0.1, 0.3);
     return lens;
 }

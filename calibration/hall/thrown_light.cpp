@@ -55,11 +55,6 @@ std::size_t pixelsOf(glm::ivec2 size) {
     return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
 }
 
-bool isOfRows(config::ScanPattern::Kind kind) {
-    return kind == config::ScanPattern::Kind::GrayRows ||
-           kind == config::ScanPattern::Kind::PhaseRows;
-}
-
 // A pattern's light along its axis; across it is the same.
 void fillLines(const config::HallProjector& projector,
                config::ScanPattern pattern,

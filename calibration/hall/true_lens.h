@@ -49,12 +49,6 @@ class TrueLens {
     [[nodiscard]] const LensTruth& truth() const { return truth_; }
 
   private:
-    // A point beside and below the axis, at distance one; y down.
-    [[nodiscard]] glm::dvec2 tangentOf(glm::dvec3 seen) const;
-    [[nodiscard]] glm::dvec2 distorted(glm::dvec2 tangent) const;
-    [[nodiscard]] glm::dmat2 slopeAt(glm::dvec2 tangent) const;
-    [[nodiscard]] glm::dvec2 undistorted(glm::dvec2 thrown) const;
-
     LensTruth truth_;
     double farthest_ = 0;  // of the tangents that reach the picture, squared
 };

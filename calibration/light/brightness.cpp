@@ -228,7 +228,7 @@ class ShareMap {
     void add(std::size_t cell, std::size_t channel, glm::dvec2 pixel, double sum) {
         const glm::ivec2 size = rig_.channels[channel].sizePixels;
         const double share = wall::pullAt(pixel, size) / sum;
-        reached_[cell] |= std::uint64_t{1} << channel;
+        reached_[cell] |= config::bitOf(channel);
         const double white = lights_[channel].white.at(pixel / glm::dvec2(size));
         shares[channel].values[cell] = static_cast<float>(share);
         black.values[cell] += static_cast<float>(blackOf(channel, pixel));

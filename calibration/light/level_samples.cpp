@@ -17,15 +17,11 @@ namespace {
 
 using Kind = config::ScanPattern::Kind;
 
-bool isBlack(const scan::SampledPicture& picture) {
-    return picture.pattern.kind == Kind::Level && picture.pattern.lit == 0;
-}
-
 Light meanBlack(const scan::CameraView& view) {
     Light sum;
     float count = 0;
     for (const scan::SampledPicture& picture : view.samples) {
-        if (!isBlack(picture)) continue;
+        if (!isBlack(picture.pattern)) continue;
         if (count == 0) sum = darkness(picture.light.sizePixels);
         for (std::size_t i = 0; i < sum.rgb.size(); ++i) sum.rgb[i] += picture.light.rgb[i];
         ++count;
@@ -43,10 +39,6 @@ bool isInBand(int at, int samples) {
 
 }  // namespace
 
-double luminance(glm::dvec3 rgb) {
-    return glm::dot(rgb, {0.2126, 0.7152, 0.0722});
-}
-
 int firstOfBand(double at, int samples) {
     return static_cast<int>(at * samples) - kBandWidth / 2;
 }
@@ -58,7 +50,7 @@ bool isHeldOut(glm::ivec2 size, std::size_t index) {
 
 LevelSamples::LevelSamples(const scan::CameraView& view) : view_{view}, black_{meanBlack(view)} {
     for (std::size_t c = 0; c < view.channels.size(); ++c)
-        whites_.push_back(levelOf(std::uint64_t{1} << c, glm::vec3(1)));
+        whites_.push_back(levelOf(config::bitOf(c), glm::vec3(1)));
 }
 
 bool LevelSamples::isWhole() const {
@@ -84,7 +76,7 @@ std::vector<const scan::SampledPicture*> LevelSamples::greys() const {
 glm::dvec3 LevelSamples::whites(std::uint64_t lit, std::size_t index) const {
     glm::dvec3 sum(0);
     for (std::size_t c = 0; c < whites_.size(); ++c)
-        if (((lit >> c) & 1U) != 0 && whites_[c] != nullptr) sum += white(c, index);
+        if (config::contains(lit, c) && whites_[c] != nullptr) sum += white(c, index);
     return sum;
 }
 
@@ -292,7 +284,7 @@ class CameraCurve {
 scan::CameraView linearised(scan::CameraView view) {
     const DarkNoise noise(view);
     for (scan::SampledPicture& picture : view.samples)
-        if (isBlack(picture)) noise.leave(picture.light);
+        if (isBlack(picture.pattern)) noise.leave(picture.light);
     const CameraCurve curve(view);
     for (scan::SampledPicture& picture : view.samples)
         for (glm::vec3& light : picture.light.rgb) light = picture.scale * curve.corrected(light);

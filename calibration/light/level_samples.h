@@ -14,8 +14,6 @@
 
 namespace aquarama::light {
 
-[[nodiscard]] double luminance(glm::dvec3 rgb);
-
 // The view with the light of its samples as the camera should have counted it, all in the exposure
 // of the first picture: without what noise adds to black where it is cut off below zero, and by
 // pictures of one white in several exposures.

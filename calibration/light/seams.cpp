@@ -11,14 +11,11 @@
 #include <lcms2.h>
 
 #include "calibration/hall/hall_view.h"
+#include "common/base/picture.h"
 
 namespace aquarama::light {
 
 namespace {
-
-double luminance(glm::dvec3 rgb) {
-    return glm::dot(rgb, {0.2126, 0.7152, 0.0722});
-}
 
 cmsCIELab labOf(glm::dvec3 rgb, glm::dvec3 white) {
     const auto xyz = [](glm::dvec3 light) {

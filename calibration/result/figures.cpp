@@ -11,9 +11,9 @@
 
 namespace aquarama::result {
 
-const char* nameOf(Judgement verdict) {
+const char* nameOf(Judgement judgement) {
     constexpr std::array kNames{"pass", "warn", "refuse"};
-    return kNames.at(static_cast<std::size_t>(verdict));
+    return kNames.at(static_cast<std::size_t>(judgement));
 }
 
 namespace {
@@ -66,16 +66,13 @@ struct Bounds {
 constexpr Bounds kGood{0.2, 0.45, 1.0};
 constexpr Bounds kUsable{0.6, 1.4, 3.0};
 
-bool isWithin(const geometry::SolveFigures& figures, const Bounds& bounds) {
-    return figures.overlapRms <= bounds.rms && figures.overlapP95 <= bounds.p95 &&
-           figures.overlapMax <= bounds.most;
+bool isWithin(const geometry::OverlapFigures& overlap, const Bounds& bounds) {
+    return overlap.rms <= bounds.rms && overlap.p95 <= bounds.p95 && overlap.most <= bounds.most;
 }
 
-void take(Figures& figures, Judgement verdict, const scan::ScanFault& fault) {
-    if (verdict <= figures.verdict && !figures.cause.empty()) return;
-    figures.verdict = std::max(verdict, figures.verdict);
-    figures.cause = fault.cause;
-    figures.advice = fault.advice;
+void take(Verdict& verdict, Judgement judgement, const scan::ScanFault& fault) {
+    if (judgement <= verdict.judgement && !verdict.cause.empty()) return;
+    verdict = {std::max(judgement, verdict.judgement), fault.cause, fault.advice};
 }
 
 // How many channels light a point of the rig's screen, by where the rig says that they hang.
@@ -100,41 +97,41 @@ bool hasOverlaps(const geometry::SolvedHall& hall) {
 }
 
 // Of places that were kept from the solve, where the rig has places that two channels light.
-void judgeOverlaps(Figures& figures,
+void judgeOverlaps(Verdict& verdict,
                    const geometry::SolvedHall& hall,
                    const geometry::SolveFigures& solved) {
     constexpr std::size_t kLeastPoints = 8;
-    if (solved.overlapPoints < kLeastPoints) {
+    if (solved.overlap.points < kLeastPoints) {
         if (!hasOverlaps(hall)) return;
-        return take(figures,
+        return take(verdict,
                     Judgement::Refuse,
                     {"no_overlap",
                      "the camera sees no place that two channels light, where the rig has them: "
                      "let neighbours overlap by a tenth of their pictures, or correct where the "
                      "rig says that they hang, and scan again"});
     }
-    if (isWithin(solved, kGood)) return;
-    take(figures,
-         isWithin(solved, kUsable) ? Judgement::Warn : Judgement::Refuse,
+    if (isWithin(solved.overlap, kGood)) return;
+    take(verdict,
+         isWithin(solved.overlap, kUsable) ? Judgement::Warn : Judgement::Refuse,
          {"misregistration",
           fmt::format("neighbours part by {:.2f} panorama pixels (RMS) at places that were kept "
                       "from the solve: let nothing move during the scan, focus the camera and scan "
                       "again",
-                      solved.overlapRms)});
+                      solved.overlap.rms)});
 }
 
 // By the noise of what was seen; the models' own errors come on top.
-void judgePlace(Figures& figures, const geometry::SolveFigures& solved) {
+void judgePlace(Verdict& verdict, const geometry::SolveFigures& solved) {
     constexpr double kMostPixels = 1;
     if (solved.absoluteSigma <= kMostPixels) return;
-    take(figures,
+    take(verdict,
          Judgement::Warn,
          {"place_not_sure",
           fmt::format("{}the whole picture may be off by {:.1f} panorama pixels "
                       "(RMS): mark the middle of the screen's upper and lower edge with strips of "
                       "dark tape, 50 mm by 150 mm, let the screen fill the camera's picture, and "
                       "scan again",
-                      solved.overlapPoints > 0 ? "neighbours agree, but " : "",
+                      solved.overlap.points > 0 ? "neighbours agree, but " : "",
                       solved.absoluteSigma)});
 }
 
@@ -167,13 +164,13 @@ LensApart apartFromRig(const geometry::SolvedHall& hall, std::size_t channel) {
 
 // A picture of another shape than the rig's is fitted, and neighbours agree, but what the fit gets
 // wrong of it pulls the others from their places: most on domes, where all overlap.
-void judgeLenses(Figures& figures, const geometry::SolvedHall& hall) {
+void judgeLenses(Verdict& verdict, const geometry::SolvedHall& hall) {
     std::vector<LensApart> lenses;
     for (std::size_t c = 0; c < hall.projectors.size(); ++c)
         lenses.push_back(apartFromRig(hall, c));
     const LensApart& worst = *std::ranges::max_element(lenses, {}, &LensApart::stretch);
     if (worst.stretch > 1)
-        take(figures,
+        take(verdict,
              Judgement::Warn,
              {"picture_stretched",
               fmt::format("channel \"{}\" shows its picture stretched or as a trapezoid: switch "
@@ -181,7 +178,7 @@ void judgeLenses(Figures& figures, const geometry::SolvedHall& hall) {
                           worst.channel->name)});
     const LensApart& set = *std::ranges::max_element(lenses, {}, &LensApart::setting);
     if (set.setting() > 1)
-        take(figures,
+        take(verdict,
              Judgement::Warn,
              {"lens_not_as_stated",
               fmt::format("the lens of channel \"{}\" is not {} as the rig says: switch keystone "
@@ -191,10 +188,10 @@ void judgeLenses(Figures& figures, const geometry::SolvedHall& hall) {
 }
 
 // A round edge does not tell how it is turned about its axis, but a mark on it does.
-void judgeDome(Figures& figures, const geometry::Solved& solved) {
+void judgeDome(Verdict& verdict, const geometry::Solved& solved) {
     if (solved.hall->rig.screen.shape != config::ScreenShape::Dome || solved.figures.marks > 0)
         return;
-    take(figures,
+    take(verdict,
          Judgement::Warn,
          {"dome_front",
           "the camera does not see where the front of a dome is: stick strips of dark tape, 50 mm "
@@ -204,29 +201,29 @@ void judgeDome(Figures& figures, const geometry::Solved& solved) {
 
 // Of a dome that each place of is lit by one projector alone nothing but its round edge tells where
 // the middle of its picture lies: simulated ones were up to eight pixels off.
-void judgeLoneDome(Figures& figures, const geometry::Solved& solved) {
+void judgeLoneDome(Verdict& verdict, const geometry::Solved& solved) {
     if (solved.hall->rig.screen.shape != config::ScreenShape::Dome ||
-        solved.figures.overlapPoints > 0)
+        solved.figures.overlap.points > 0)
         return;
     take(
-        figures,
+        verdict,
         Judgement::Warn,
         {"place_not_checked",
          "no place of the dome is lit by two projectors, so nothing checks where its picture lies: "
          "show aquarama run --pattern grid, and move what is off by aquarama adjust move"});
 }
 
-void judgeOutline(Figures& figures, const geometry::SolveFigures& solved) {
+void judgeOutline(Verdict& verdict, const geometry::SolveFigures& solved) {
     constexpr std::size_t kLeastPoints = 150;
     constexpr double kMostPixels = 1.5;
     if (solved.outlinePoints < kLeastPoints)
-        take(figures,
+        take(verdict,
              Judgement::Warn,
              {"outline_not_seen",
               "the outline of the screen is not seen all round, so the whole picture may be off: "
               "show all of the screen to the camera, and light the room for the first picture"});
     else if (solved.outlineRms > kMostPixels)
-        take(figures,
+        take(verdict,
              Judgement::Refuse,
              {"wrong_screen",
               fmt::format("the screen's outline is {:.1f} camera pixels off (RMS) from what the "
@@ -234,17 +231,13 @@ void judgeOutline(Figures& figures, const geometry::SolveFigures& solved) {
                           solved.outlineRms)});
 }
 
-}  // namespace
-
-namespace {
-
 // Exchanged cables make channels look hidden, so what the solve found goes first.
-void takeFaults(Figures& figures,
+void takeFaults(Verdict& verdict,
                 const std::vector<scan::CameraView>& views,
                 const geometry::Solved& solved) {
     const auto takeAll = [&](const std::vector<scan::ScanFault>& faults) {
         for (const scan::ScanFault& fault : faults)
-            take(figures, fault.refuses ? Judgement::Refuse : Judgement::Warn, fault);
+            take(verdict, fault.refuses ? Judgement::Refuse : Judgement::Warn, fault);
     };
     takeAll(solved.faults);
     for (const scan::CameraView& view : views) takeAll(view.faults);
@@ -252,63 +245,48 @@ void takeFaults(Figures& figures,
 
 }  // namespace
 
-Figures judged(const std::vector<scan::CameraView>& views, const geometry::Solved& solved) {
-    Figures figures;
-    figures.verdict = Judgement::Pass;
-    takeFaults(figures, views, solved);
-    if (solved.faults.empty()) {
-        judgeOverlaps(figures, *solved.hall, solved.figures);
-        judgeOutline(figures, solved.figures);
-        judgePlace(figures, solved.figures);
-        judgeDome(figures, solved);
-        judgeLoneDome(figures, solved);
-        judgeLenses(figures, *solved.hall);
-    }
-    figures.overlapRms = solved.figures.overlapRms;
-    figures.overlapP95 = solved.figures.overlapP95;
-    figures.overlapMax = solved.figures.overlapMax;
-    figures.overlapPoints = solved.figures.overlapPoints;
-    figures.absoluteRms = solved.figures.absoluteSigma;
-    figures.outlineRms = solved.figures.outlineRms;
-    figures.fitRms = solved.figures.fitRms;
-    return figures;
+Verdict judged(const std::vector<scan::CameraView>& views, const geometry::Solved& solved) {
+    Verdict verdict;
+    takeFaults(verdict, views, solved);
+    if (!solved.faults.empty()) return verdict;
+    judgeOverlaps(verdict, *solved.hall, solved.figures);
+    judgeOutline(verdict, solved.figures);
+    judgePlace(verdict, solved.figures);
+    judgeDome(verdict, solved);
+    judgeLoneDome(verdict, solved);
+    judgeLenses(verdict, *solved.hall);
+    return verdict;
 }
 
-void setBrightness(Figures& figures, const std::optional<light::BrightnessFigures>& brightness) {
-    figures.brightness = brightness;
-    if (brightness) return;
-    take(figures,
-         Judgement::Warn,
-         {"colour_not_measured",
-          "places are right, but light and colour are as the projectors give them: the scan lacks "
-          "levels, or a channel cannot be told from others; scan with all patterns, and let no "
-          "channel be "
-          "wholly covered by others"});
-}
-
-void setForeseen(Figures& figures, const std::optional<light::ForeseenSeams>& seams) {
+Verdict judgedLight(Verdict verdict,
+                    const std::optional<light::BrightnessFigures>& brightness,
+                    const std::optional<light::ForeseenSeams>& seams) {
     constexpr double kMostLight = 0.01, kMostDark = 0.03;
-    figures.foreseen = seams;
-    if (!seams) return;
+    if (!brightness)
+        take(verdict,
+             Judgement::Warn,
+             {"colour_not_measured",
+              "places are right, but light and colour are as the projectors give them: the scan "
+              "lacks levels, or a channel cannot be told from others; scan with all patterns, and "
+              "let no channel be wholly covered by others"});
+    if (!seams) return verdict;
     const double light = std::max(seams->grey18, seams->grey100);
-    if (light <= kMostLight && seams->grey2 <= kMostDark) return;
-    take(figures,
-         Judgement::Warn,
-         {"seam_visible",
-          fmt::format("a seam of {:.1f} % is to be expected (of {:.1f} % in the dark): let the "
-                      "projectors warm up for half an hour, switch off their automatic brightness, "
-                      "keep lamps and people away, and scan again",
-                      100 * light,
-                      100 * seams->grey2)});
+    if (light > kMostLight || seams->grey2 > kMostDark)
+        take(verdict,
+             Judgement::Warn,
+             {"seam_visible",
+              fmt::format("a seam of {:.1f} % is to be expected (of {:.1f} % in the dark): let the "
+                          "projectors warm up for half an hour, switch off their automatic "
+                          "brightness, keep lamps and people away, and scan again",
+                          100 * light,
+                          100 * seams->grey2)});
+    return verdict;
 }
 
-void setTrue(Figures& figures, WallErrors errors) {
-    figures.isTrue = true;
-    figures.overlapPoints = errors.overlap.size();
-    figures.overlapRms = rootMeanSquare(errors.overlap);
-    figures.overlapP95 = quantile(errors.overlap, 0.95);
-    figures.overlapMax = quantile(std::move(errors.overlap), 1);
-    figures.absoluteRms = rootMeanSquare(errors.absolute);
+TrueFigures trueFigures(const WallErrors& errors, const light::Seams& seams) {
+    return {.overlap = geometry::overlapFigures(errors.overlap),
+            .absoluteRms = rootMeanSquare(errors.absolute),
+            .seams = seams};
 }
 
 std::string jsonOf(const Figures& figures) {
@@ -317,35 +295,37 @@ std::string jsonOf(const Figures& figures) {
                     : nlohmann::ordered_json(nullptr);
     };
     const auto parting = [&](double pixels) {
-        return figures.overlapPoints > 0 ? nlohmann::ordered_json(pixels)
-                                         : nlohmann::ordered_json(nullptr);
+        return figures.overlap().points > 0 ? nlohmann::ordered_json(pixels)
+                                            : nlohmann::ordered_json(nullptr);
     };
     const auto seam = [&](double light::Seams::*known, double light::ForeseenSeams::*foreseen) {
-        return figures.seams ? told(figures.seams, known, 100)
+        return figures.truth ? nlohmann::ordered_json(100 * figures.truth->seams.*known)
                              : told(figures.foreseen, foreseen, 100);
     };
     return nlohmann::ordered_json{
-               {"verdict", nameOf(figures.verdict)},
-               {"cause", figures.cause},
-               {"advice", figures.advice},
-               {"from_ground_truth", figures.isTrue},
-               {"overlap_rms_px", parting(figures.overlapRms)},
-               {"overlap_p95_px", parting(figures.overlapP95)},
-               {"overlap_max_px", parting(figures.overlapMax)},
-               {"overlap_points", figures.overlapPoints},
-               {"absolute_rms_px", figures.absoluteRms},
+               {"verdict", nameOf(figures.verdict.judgement)},
+               {"cause", figures.verdict.cause},
+               {"advice", figures.verdict.advice},
+               {"from_ground_truth", figures.truth.has_value()},
+               {"overlap_rms_px", parting(figures.overlap().rms)},
+               {"overlap_p95_px", parting(figures.overlap().p95)},
+               {"overlap_max_px", parting(figures.overlap().most)},
+               {"overlap_points", figures.overlap().points},
+               {"absolute_rms_px", figures.absoluteRms()},
                {"seam_percent_grey2", seam(&light::Seams::grey2, &light::ForeseenSeams::grey2)},
                {"seam_percent_grey18", seam(&light::Seams::grey18, &light::ForeseenSeams::grey18)},
                {"seam_percent_grey100",
                 seam(&light::Seams::grey100, &light::ForeseenSeams::grey100)},
-               {"seam_ciede2000", told(figures.seams, &light::Seams::colour, 1)},
+               {"seam_ciede2000",
+                figures.truth ? nlohmann::ordered_json(figures.truth->seams.colour)
+                              : nlohmann::ordered_json(nullptr)},
                {"kept_light", told(figures.brightness, &light::BrightnessFigures::keptLight, 1)},
                {"kept_contrast",
                 told(figures.brightness, &light::BrightnessFigures::keptContrast, 1)},
                {"desaturation",
                 told(figures.brightness, &light::BrightnessFigures::desaturation, 1)},
-               {"outline_rms_camera_px", figures.outlineRms},
-               {"fit_rms_projector_px", figures.fitRms},
+               {"outline_rms_camera_px", figures.solve.outlineRms},
+               {"fit_rms_projector_px", figures.solve.fitRms},
                {"seconds", figures.seconds},
                {"pictures", figures.pictures},
                {"peak_megabytes", figures.peakMegabytes}}

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iostream>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,8 +17,10 @@
 
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/base/statistics.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
+#include "common/cli/progress.h"
 #include "common/wall/scan_pattern.h"
 
 namespace aquarama::scan {
@@ -31,11 +32,6 @@ using Pattern = config::ScanPattern;
 // A projector shows what it is given some frames later.
 constexpr auto kProjectorDelay = std::chrono::milliseconds(150);
 constexpr int kAttempts = 3;
-
-bool isBlack(const Pattern& pattern) {
-    return pattern.kind == Pattern::Kind::Level &&
-           (pattern.lit == 0 || pattern.light == glm::vec3(0));
-}
 
 bool isWhite(const Pattern& pattern) {
     return pattern.kind == Pattern::Kind::Level && !isBlack(pattern) &&
@@ -53,10 +49,8 @@ double codeExceededBy(const Picture& picture, double share) {
     std::vector<std::uint16_t> codes;
     for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3)
         codes.push_back(std::max({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]}));
-    const auto place =
-        codes.end() - 1 - static_cast<std::ptrdiff_t>(share * static_cast<double>(codes.size()));
-    std::ranges::nth_element(codes, place);
-    return *place / (picture.bits == 16 ? 65535.0 : 255.0);
+    const auto brighter = static_cast<std::size_t>(share * static_cast<double>(codes.size()));
+    return valueAtRank(codes, codes.size() - 1 - brighter) / (picture.bits == 16 ? 65535.0 : 255.0);
 }
 
 // Shows patterns and takes pictures of them.
@@ -222,11 +216,11 @@ config::Scan capture(const config::Rig& rig,
         const auto [picture, frame] = photographer.take(planned.pattern, planned.exposureSeconds);
         planned.frame = frame;
         writePng(folder + "/" + planned.file, picture);
-        progress.show(++done);
+        progress.count(++done);
     }
     progress.end();
     writeScan(scan, rig, folder);
-    std::cout << "scan of " << scan.pictures.size() << " pictures in " << folder << std::endl;
+    cli::say(fmt::format("scan of {} pictures in {}", scan.pictures.size(), folder));
     return scan;
 }
 

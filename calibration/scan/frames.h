@@ -15,6 +15,12 @@ namespace aquarama::scan {
 // Values for each pixel of a camera, top row first.
 using Plane = std::vector<float>;
 
+// The light of a camera's pixel as one number: green counts as much as red and blue together, as
+// most of a camera's sensors are green. This is not Rec. 709: cameras have primaries of their own.
+[[nodiscard]] constexpr float cameraLuminance(float red, float green, float blue) {
+    return 0.25F * red + 0.5F * green + 0.25F * blue;
+}
+
 // Linear light of every code.
 [[nodiscard]] std::vector<float> lightOfCodes(int bits, config::ScanCamera::Response response);
 

@@ -2,7 +2,7 @@
 // What a pixel's neighbours know: it settles doubts, and finds what is wrong.
 #pragma once
 
-#include "calibration/scan/code.h"
+#include "calibration/scan/axis_reader.h"
 
 namespace aquarama::scan {
 

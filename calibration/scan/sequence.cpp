@@ -29,7 +29,7 @@ std::size_t cellAt(int x, int y) {
 std::uint64_t litAt(const wall::Wall& wall, glm::dvec3 point) {
     std::uint64_t lit = 0;
     for (std::size_t c = 0; c < wall.channels(); ++c)
-        if (wall.channel(c).pixelOf(point)) lit |= std::uint64_t{1} << c;
+        if (wall.channel(c).pixelOf(point)) lit |= config::bitOf(c);
     return lit;
 }
 
@@ -61,7 +61,7 @@ std::vector<std::uint64_t> neighboursOf(const config::Rig& rig) {
         for (int x = 0; x < kCells.x; ++x) {
             const std::uint64_t lit = litAround(cells, x, y);
             for (std::size_t c = 0; c < neighbours.size(); ++c)
-                if (((lit >> c) & 1U) != 0) neighbours[c] |= lit;
+                if (config::contains(lit, c)) neighbours[c] |= lit;
         }
     return neighbours;
 }
@@ -75,7 +75,7 @@ std::vector<std::uint64_t> roundsOf(const config::Rig& rig) {
         const auto free = std::ranges::find_if(
             rounds, [&](std::uint64_t round) { return (round & neighbours[c]) == 0; });
         std::uint64_t& round = free == rounds.end() ? rounds.emplace_back(0) : *free;
-        round |= std::uint64_t{1} << c;
+        round |= config::bitOf(c);
     }
     return rounds;
 }
@@ -90,7 +90,7 @@ std::uint64_t withBit(const config::Rig& rig, std::uint64_t round, Kind kind, in
     std::uint64_t lit = 0;
     for (std::size_t c = 0; c < rig.channels.size(); ++c)
         if (wall::scanGrayBits(linesOf(rig.channels[c], kind), wall::kScanPeriodPixels / 2) > bit)
-            lit |= round & (std::uint64_t{1} << c);
+            lit |= round & config::bitOf(c);
     return lit;
 }
 
@@ -158,7 +158,7 @@ ScanPattern black() {
 std::vector<ScanPattern> sequenceOf(const config::Rig& rig) {
     std::vector<ScanPattern> sequence{{.kind = Kind::Room, .lit = 0, .tagged = false}, black()};
     for (std::size_t c = 0; c < rig.channels.size(); ++c)
-        sequence.push_back({.lit = std::uint64_t{1} << c});
+        sequence.push_back({.lit = config::bitOf(c)});
     const std::vector<std::uint64_t> rounds = roundsOf(rig);
     std::uint64_t all = 0;
     for (const std::uint64_t round : rounds) {

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a command writes, tested before it works for minutes: whether its files can be written, and
-// whether there is a Python for its figures; and how far it is meanwhile. Figures and pages are
-// drawn by Python scripts, which lie beside the sources that write their data.
+// What a command writes: lines, files and figures. Files and Python are tested before the command
+// works for minutes. Figures and pages are drawn by Python scripts, which lie beside the sources
+// that write their data.
 #pragma once
 
-#include <chrono>
-#include <cstdint>
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace aquarama::cli {
@@ -36,25 +33,8 @@ void runPython(const std::vector<std::string>& modules,
                const std::vector<std::string>& arguments,
                const std::filesystem::path& folder);
 
-// Says how far a long work is on standard output: in one line of a terminal, written anew, or in a
-// line of a log every ten seconds.
-class Progress {
-  public:
-    // "clip: picture", and how many there will be; 0: as many as come.
-    Progress(std::string what, std::uint64_t ofAll) : what_{std::move(what)}, ofAll_{ofAll} {}
-    void show(std::uint64_t done);
-    // Takes the terminal's line away.
-    void end() const;
-
-  private:
-    using Clock = std::chrono::steady_clock;
-    std::string what_;
-    std::uint64_t ofAll_;
-    bool terminal_ = isTerminal();
-    Clock::time_point begun_ = Clock::now();
-    Clock::time_point shown_ = begun_;
-
-    static bool isTerminal();
-};
+// Writes a line to standard output at once. Whether all lines arrived is checked when the program
+// ends.
+void say(const std::string& line);
 
 }  // namespace aquarama::cli

@@ -60,8 +60,7 @@ HallScreen screenOf(const v1::HallScreen& in) {
 }
 
 HallLens lensOf(const v1::HallLens& in) {
-    return {.radial = {in.k1(), in.k2(), in.k3()},
-            .tangential = {in.p1(), in.p2()},
+    return {.distortion = {in.k1(), in.k2(), in.k3(), in.p1(), in.p2()},
             .vignetting = in.vignetting()};
 }
 

@@ -13,6 +13,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/base/brown_lens.h"
 #include "common/config/rig.h"
 #include "common/config/scan.h"
 
@@ -35,11 +36,9 @@ struct HallScreen {
     std::vector<double> marksOffMetres = {};  // of each strip of tape, along the edge
 };
 
-// Terms of Brown's model on tangents, and the share of light that the corners lack.
 struct HallLens {
-    glm::dvec3 radial{};      // k1, k2, k3
-    glm::dvec2 tangential{};  // p1, p2
-    double vignetting = 0;
+    BrownLens<double> distortion = {};
+    double vignetting = 0;  // the share of light that the corners lack
 };
 
 // How the true projector of a channel differs from the rig's.

@@ -3,6 +3,8 @@
 // camera takes of them.
 #pragma once
 
+#include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,6 +13,15 @@
 #include <glm/vec3.hpp>
 
 namespace aquarama::config {
+
+// The bit of a channel (its index in the rig, below 64) in a set of channels.
+[[nodiscard]] constexpr std::uint64_t bitOf(std::size_t channel) {
+    assert(channel < 64);
+    return std::uint64_t{1} << channel;
+}
+[[nodiscard]] constexpr bool contains(std::uint64_t channels, std::size_t channel) {
+    return (channels & bitOf(channel)) != 0;
+}
 
 // What the channels show while a picture is taken: in the projectors' own pixels, before any warp,
 // blend or correction. common/wall/scan_pattern.h has the formula.
@@ -31,12 +42,28 @@ struct ScanPattern {
     std::uint16_t finestPixels = 16;  // width of the finest stripe of the Gray code
     bool inverse = false;             // Gray: dark and lit are swapped
     glm::vec3 light{1};               // linear, of what is lit
-    std::uint64_t lit = 0;            // bit i: channel i of the rig shows it; the others are black
+    std::uint64_t lit = 0;            // the set of channels that show it; the others are black
     std::uint16_t number = 0;         // of the picture in its scan, shown in its tag
     bool tagged = true;
 
     friend bool operator==(const ScanPattern&, const ScanPattern&) = default;
 };
+
+// The pattern is a level without light.
+[[nodiscard]] inline bool isBlack(const ScanPattern& pattern) {
+    return pattern.kind == ScanPattern::Kind::Level &&
+           (pattern.lit == 0 || pattern.light == glm::vec3(0));
+}
+[[nodiscard]] constexpr bool isGray(ScanPattern::Kind kind) {
+    return kind == ScanPattern::Kind::GrayColumns || kind == ScanPattern::Kind::GrayRows;
+}
+[[nodiscard]] constexpr bool isPhase(ScanPattern::Kind kind) {
+    return kind == ScanPattern::Kind::PhaseColumns || kind == ScanPattern::Kind::PhaseRows;
+}
+// The pattern changes from row to row only, so that it measures rows.
+[[nodiscard]] constexpr bool isOfRows(ScanPattern::Kind kind) {
+    return kind == ScanPattern::Kind::GrayRows || kind == ScanPattern::Kind::PhaseRows;
+}
 
 // A place that the camera stood at. Lens, exposure and focus stay as they are in all its pictures.
 struct ScanCamera {

@@ -41,10 +41,9 @@ double side(double one, double other) {
     return (a - b) / (a + b);
 }
 
-// As water fills vessels of different heights: those that are full drop out, and the rest share
-// what is left until nothing is, or all are full.
-// Hands out `all` in proportion to what each wants, on top of what it was given, and none more than
-// it may have. Returns what is left over.
+// Hands out `all` in proportion to what each part wants, on top of what it was given, up to the
+// most that each may have. Parts that are full drop out; the others share the rest, until nothing
+// is left or all are full. Returns what is left.
 double handOut(double all,
                std::vector<double> wanted,
                const std::vector<double>& most,

@@ -35,18 +35,13 @@ class Lens {
     [[nodiscard]] glm::dvec3 position() const { return position_; }
 
   private:
-    // What the lens makes of a tangent from its axis, as a factor.
-    [[nodiscard]] double stretch(double squaredTangent) const {
-        return 1 + squaredTangent * (radial_.x + squaredTangent * radial_.y);
-    }
-    [[nodiscard]] glm::dvec2 undistorted(glm::dvec2 tangent) const;
-
     // Projector frame: x right, y up, looking along -z. Focal lengths, principal point and size in
     // pixels.
     glm::dmat3 wallFromProjector_;
     glm::dvec3 position_;
-    glm::dvec2 focal_, principal_, size_, radial_;
-    double farthestSquared_ = 0;  // of the tangents before the lens that reach the picture
+    glm::dvec2 focal_, principal_, size_;
+    BrownLens<double> distortion_;
+    double farthestSquared_ = 0;  // the greatest squared tangent whose image is in the picture
 };
 
 // A projector, a panel, or a projector that another program has calibrated. Immutable.

@@ -121,19 +121,18 @@ inline constexpr double kScanDotShare = 1.0 / 120;
                                          std::size_t channel,
                                          glm::ivec2 size,
                                          glm::ivec2 pixel) {
-    using Kind = config::ScanPattern::Kind;
-    if (((pattern.lit >> channel) & 1U) == 0) return glm::vec3(0);
+    if (!config::contains(pattern.lit, channel)) return glm::vec3(0);
     if (pattern.tagged) {
         const auto [cell, corner] = scanTagPlace(size);
         const glm::ivec2 at = pixel - corner;
         if (at.x >= 0 && at.y >= 0 && at.y < cell && at.x < kScanTagCells * cell)
             return scanTagIsLit(at.x / cell, pattern.number) ? pattern.light : glm::vec3(0);
     }
-    if (pattern.kind == Kind::Dots)
+    if (pattern.kind == config::ScanPattern::Kind::Dots)
         return pattern.light * static_cast<float>(scanDotShare(pattern.step, channel, size, pixel));
-    const bool rows = pattern.kind == Kind::GrayRows || pattern.kind == Kind::PhaseRows;
-    return pattern.light * static_cast<float>(rows ? scanShare(pattern, pixel.y, size.y)
-                                                   : scanShare(pattern, pixel.x, size.x));
+    return pattern.light * static_cast<float>(config::isOfRows(pattern.kind)
+                                                  ? scanShare(pattern, pixel.y, size.y)
+                                                  : scanShare(pattern, pixel.x, size.x));
 }
 
 }  // namespace aquarama::wall
