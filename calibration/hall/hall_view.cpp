@@ -151,7 +151,7 @@ void HallView::addBeam(const Arrival& arrival,
                          .column = static_cast<std::uint16_t>(column)});
 }
 
-// At the screen's edges, how much of a pixel is screen.
+// How much of each pixel is screen, smoothed at the screen's edges.
 std::vector<std::uint8_t> HallView::smoothed(int y) const {
     std::vector<std::uint8_t> coverage = rows_[static_cast<std::size_t>(y)].coverage;
     const auto isLit = [&](int x, int row) {
@@ -173,7 +173,8 @@ std::vector<std::uint8_t> HallView::smoothed(int y) const {
     return coverage;
 }
 
-// From the beams of the pixels to the right and below; where there is none as those before it.
+// Sets the steps to the beams of the next pixels to the right and below; without a next beam they
+// are those of the beam before.
 void HallView::setSteps(int y) {
     const bool isLast = y + 1 == size_.y;
     const Row& other = rows_[static_cast<std::size_t>(isLast ? y - 1 : y + 1)];
@@ -253,7 +254,7 @@ Light HallView::of(const std::vector<ThrownPicture>& pictures,
     return seen;
 }
 
-// Of a row: the white of some channels, pixel by pixel.
+// The white of some channels, for each pixel of a row.
 std::vector<float> HallView::whiteOf(const Row& row, std::uint64_t channels) const {
     std::vector<float> white(row.coverage.size());
     for (std::size_t channel = 0; channel < row.beams.size(); ++channel)

@@ -12,7 +12,7 @@ namespace aquarama::hall {
 
 namespace {
 
-// A picture with its corners at -1 and 1.
+// The place of a pixel where the corners of the picture are at -1 and 1.
 glm::dvec2 centred(glm::dvec2 pixel, glm::dvec2 size) {
     return 2.0 * pixel / size - 1.0;
 }
@@ -119,8 +119,8 @@ std::optional<glm::dvec2> TrueLens::pixelOf(glm::dvec3 point) const {
     return inside ? std::optional(pixel) : std::nullopt;
 }
 
-// The same light leaves all pixels of a panel. It is spread over the area that a pixel covers on a
-// plane across the axis, which grows with the square of the distance along it.
+// All pixels of a panel send the same light. It is spread over the area that a pixel covers on a
+// plane across the axis; this area grows with the square of the distance along the axis.
 double TrueLens::lightAt(glm::dvec3 point) const {
     const glm::dvec3 seen = (point - truth_.position) * truth_.wallFromLens;
     const glm::dvec2 tangent = tangentTo(seen);

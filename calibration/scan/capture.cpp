@@ -29,7 +29,7 @@ namespace {
 
 using Pattern = config::ScanPattern;
 
-// A projector shows what it is given some frames later.
+// The delay of projectors: they show a frame some frames later.
 constexpr auto kProjectorDelay = std::chrono::milliseconds(150);
 constexpr int kAttempts = 3;
 
@@ -38,13 +38,13 @@ bool isWhite(const Pattern& pattern) {
            pattern.light == glm::vec3(1) && pattern.step == 0;
 }
 
-// Of one code all over, as a lens cap or a night without light makes them.
+// All pixels have one code, as with a lens cap on.
 bool isEven(const Picture& picture) {
     return std::ranges::adjacent_find(picture.rgb, std::ranges::not_equal_to{}) ==
            picture.rgb.end();
 }
 
-// The code, 0 to 1 of the full one, that this share of the pixels exceeds in one of its colours.
+// The code (0 to 1) that this share of the pixels exceeds in one of its colours.
 double codeExceededBy(const Picture& picture, double share) {
     std::vector<std::uint16_t> codes;
     for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3)
@@ -62,7 +62,7 @@ class Photographer {
         Picture picture;
         std::uint64_t frame = 0;
     };
-    // A channel that has gone meanwhile may come back: show() waits for it.
+    // A channel that was lost meanwhile may return: show() waits for it.
     Taken take(const Pattern& pattern, double exposure) {
         for (int attempt = 1;; ++attempt) {
             const std::uint64_t frame = wall_.show(pattern);
@@ -84,7 +84,7 @@ class Photographer {
     }
 
   private:
-    // Noise makes every picture another one.
+    // Whether a picture differs from the one before: noise makes all pictures different.
     bool isNew(const Picture& picture) {
         const bool isSame = before_.rgb == picture.rgb && !isEven(picture);
         before_ = picture;
@@ -96,7 +96,7 @@ class Photographer {
     Picture before_;
 };
 
-// The longest at which white is not clipped, of what the camera has.
+// Finds the longest exposure of the camera at which white is not clipped.
 class ExposureChoice {
   public:
     ExposureChoice(Photographer& photographer, ExposureRange range, double refreshHertz)
@@ -114,8 +114,8 @@ class ExposureChoice {
     static constexpr double kWanted = 0.7;  // of the light that clips
     static constexpr double kDarkest = 0.05;
 
-    // Steps towards what is wanted by the camera's light, which is nearly that of sRGB; each is
-    // looked at, since it is not quite.
+    // Computes the next exposure as if the camera had the response of sRGB, and tests each, since
+    // the response is only similar.
     double below(const Pattern& white, double most) {
         constexpr int kMostSteps = 10;
         if (range_.isFixed()) return fixed(white);
@@ -155,7 +155,7 @@ class ExposureChoice {
     double brightest(const Pattern& white, double exposure) {
         return codeExceededBy(photographer_.take(white, exposure).picture, kShare);
     }
-    // Whole refreshes where there is time for one: else the projectors' beat is in the picture.
+    // Exposes for whole refreshes where possible; else the flicker of projectors is in the picture.
     [[nodiscard]] double inRange(double exposure, double most) const {
         const double within = std::clamp(exposure, range_.shortest, std::min(most, range_.longest));
         const double whole = std::floor(within / refresh_ + 1e-6) * refresh_;

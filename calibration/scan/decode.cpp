@@ -24,8 +24,8 @@ using config::ScanPattern;
 using Kind = ScanPattern::Kind;
 using Indices = std::vector<std::size_t>;
 
-// A channel lights a pixel that gets this share of what its brightest pixels get, and at least so
-// much.
+// A channel lights a pixel that has this share of the light of its brightest pixels, and at least
+// kLeastLight.
 constexpr float kLitShare = 0.05F, kLeastLight = 0.004F;
 // Two channels of a round light a pixel where the fainter gives this share of the brighter.
 constexpr float kShared = 0.6F;
@@ -48,10 +48,10 @@ bool isWhiteOf(const ScanPattern& pattern, std::size_t channel) {
            pattern.light == glm::vec3(1);
 }
 
-// Samples of a picture have at most about so many columns.
+// The columns of a sampled picture, about.
 constexpr int kSampleColumns = 640;
 
-// Linear light of the 3 x 3 pixels about one.
+// The sum of the linear light of the 3 x 3 pixels around one; NaN where one is clipped.
 glm::vec3 sumAround(const Picture& picture, std::size_t pixel, const std::vector<float>& table) {
     const auto width = static_cast<std::size_t>(picture.sizePixels.x);
     const auto full = static_cast<std::uint16_t>(0.995F * static_cast<float>(table.size() - 1));
@@ -63,13 +63,14 @@ glm::vec3 sumAround(const Picture& picture, std::size_t pixel, const std::vector
     return sum;
 }
 
+// The pictures that scan some channels together.
 struct RoundPlan {
     std::uint64_t channels = 0;
     std::array<AxisCode, 2> codes;
     std::array<Indices, 2> pictures;
 };
 
-// Which pictures are read for what, in the order of reading.
+// The use of each picture, in the order of reading.
 struct Plan {
     std::size_t black = 0;
     std::vector<std::optional<std::size_t>> whites;  // of the channels
@@ -95,7 +96,7 @@ Error missing(const std::string& what) {
     return Error("the scan has no " + what + "; take it again with all of its patterns");
 }
 
-// Channels that any picture of columns or rows shows together.
+// The rounds: channels that pictures of columns or rows show together.
 std::vector<RoundPlan> roundsOf(const std::vector<config::ScanPicture>& pictures,
                                 const Indices& own) {
     std::vector<RoundPlan> rounds;
@@ -128,7 +129,7 @@ AxisCode codeOf(const std::vector<config::ScanPicture>& pictures, const Indices&
     return code;
 }
 
-// Each pattern of an axis once.
+// Whether the axis has each pattern exactly once.
 bool isComplete(const std::vector<config::ScanPicture>& pictures,
                 const Indices& axis,
                 const AxisCode& code) {
@@ -324,7 +325,7 @@ class Decoder {
         notes_[channel].clipped = lit > 0 ? clipped / lit : 0;
     }
 
-    // The channel of a round that lights a pixel most, where no other lights it too.
+    // The channel of a round that lights a pixel, where no other channel lights it too.
     [[nodiscard]] std::uint8_t ownerOf(const Indices& channels,
                                        std::size_t pixel,
                                        bool hasPhase) const {
@@ -338,7 +339,7 @@ class Decoder {
         }
         if (owner == Round::kNobody || most < litFrom_[owner] || second > kShared * most)
             return Round::kNobody;
-        // Stripes are told from their inverse though white is clipped.
+        // Stripes can be decoded by their inverse even where white is clipped; phase cannot.
         const bool isBroken = hasPhase && clipped_[owner][pixel] != 0;
         return isBroken ? Round::kNobody : static_cast<std::uint8_t>(owner);
     }

@@ -12,7 +12,7 @@ namespace aquarama::scan {
 
 namespace {
 
-// Small copies have at most so many columns.
+// The most columns of a small copy.
 constexpr int kSmallColumns = 1024;
 
 glm::ivec2 smallSize(glm::ivec2 size, int factor) {

@@ -34,6 +34,7 @@ void forNeighbours(std::size_t pixel, int width, std::size_t pixels, int reach, 
                      static_cast<std::size_t>(x));
 }
 
+// The median place of the neighbours; nothing where too few are known.
 std::optional<float> expectedAt(const ChannelView& view, std::size_t pixel, int width, int axis) {
     constexpr int kReach = 2;
     constexpr std::size_t kLeast = 5;
@@ -90,7 +91,7 @@ bool isOutlier(const ChannelView& view, std::size_t pixel, int width, float step
     return votes.agree < kLeastAgree || votes.differ > kMostDiffer;
 }
 
-// Between pixels that lie `apart` in the arrays.
+// The median distance between pixels whose indices differ by `apart`.
 float medianStep(const ChannelView& view, std::size_t apart) {
     constexpr std::size_t kStride = 3;
     std::vector<float> steps;

@@ -13,14 +13,14 @@ namespace aquarama::scan {
 // Immutable. Maps pixels of the camera to the cells of a channel's tag.
 class TagMap {
   public:
-    // Nothing where too few places are seen around it, or they contradict each other.
+    // By the places around the tag; nothing where too few are seen, or they contradict each other.
     [[nodiscard]] static std::optional<TagMap> of(const ChannelView& view,
                                                   glm::ivec2 cameraPixels,
                                                   glm::ivec2 channelPixels);
     // From a camera's pixel (its index, whole at the centre) to cells right and down of the corner
     // of the tag.
     [[nodiscard]] glm::dvec2 cellAt(glm::dvec2 pixel) const;
-    // The camera's pixels that it holds for: around the tag.
+    // The pixels of the camera, around the tag, for which the map is valid.
     [[nodiscard]] glm::ivec2 low() const { return low_; }
     [[nodiscard]] glm::ivec2 high() const { return high_; }
     [[nodiscard]] double cellPixels() const { return cell_; }  // of the channel
