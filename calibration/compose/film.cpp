@@ -36,7 +36,8 @@ struct FilmedFrame {
     Picture picture;  // 8 bits
 };
 
-// Makes a picture of the clip of a frame of each filmed channel. Keeps a reference to the rig.
+// Composes a picture of the clip from one frame of each filmed channel. Keeps a reference to the
+// rig.
 class Camera {
   public:
     Camera(const config::Rig& rig, std::string of) : rig_{rig}, of_{std::move(of)} {
@@ -85,7 +86,7 @@ std::uint64_t picturesIn(const Filming& filming) {
     return (filming.frames.value_or(0) + between - 1) / between;
 }
 
-// What the nodes of some channels send.
+// Receives the frames of the nodes of some channels.
 class FilmedChannels {
   public:
     FilmedChannels(const std::filesystem::path& folder, std::vector<config::Channel> channels)

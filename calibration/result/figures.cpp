@@ -18,7 +18,7 @@ const char* nameOf(Judgement judgement) {
 
 namespace {
 
-// The places of the panorama where each channel shows a point, where it reaches it.
+// The place of the panorama that each channel shows at a point that it lights.
 std::vector<glm::dvec2> shownAt(const hall::TrueHall& truth,
                                 const wall::ScreenSurface& screen,
                                 const formats::WallFile& file,
@@ -59,7 +59,7 @@ WallErrors errorsOf(const hall::TrueHall& truth,
 
 namespace {
 
-// Bounds of what is good, and of what may still be used, in panorama pixels.
+// Bounds of good and of usable overlaps, in panorama pixels.
 struct Bounds {
     double rms, p95, most;
 };
@@ -75,7 +75,7 @@ void take(Verdict& verdict, Judgement judgement, const scan::ScanFault& fault) {
     verdict = {std::max(judgement, verdict.judgement), fault.cause, fault.advice};
 }
 
-// How many channels light a point of the rig's screen, by where the rig says that they hang.
+// The number of channels that light a point of the rig's screen, as the rig describes them.
 std::size_t lightAt(const geometry::SolvedHall& hall, glm::dvec3 point) {
     std::size_t lit = 0;
     for (std::size_t c = 0; c < hall.rig.channels.size(); ++c)
@@ -83,8 +83,8 @@ std::size_t lightAt(const geometry::SolvedHall& hall, glm::dvec3 point) {
     return lit;
 }
 
-// Whether the rig has two channels that show one place. One channel has no neighbour, and channels
-// may hang apart: then nothing of overlap is asked.
+// Whether the rig has two channels that show one place. A single channel and channels that hang
+// apart need no overlap.
 bool hasOverlaps(const geometry::SolvedHall& hall) {
     constexpr int kColumns = 192, kRows = 64;
     if (hall.rig.channels.size() < 2) return false;
@@ -96,7 +96,7 @@ bool hasOverlaps(const geometry::SolvedHall& hall) {
     return false;
 }
 
-// Of places that were kept from the solve, where the rig has places that two channels light.
+// Judges places that were held out from the solve, where the rig has overlaps.
 void judgeOverlaps(Verdict& verdict,
                    const geometry::SolvedHall& hall,
                    const geometry::SolveFigures& solved) {
@@ -120,7 +120,7 @@ void judgeOverlaps(Verdict& verdict,
                       solved.overlap.rms)});
 }
 
-// By the noise of what was seen; the models' own errors come on top.
+// Judges the place of the whole picture by the camera's noise; errors of the model add to it.
 void judgePlace(Verdict& verdict, const geometry::SolveFigures& solved) {
     constexpr double kMostPixels = 1;
     if (solved.absoluteSigma <= kMostPixels) return;
@@ -135,7 +135,7 @@ void judgePlace(Verdict& verdict, const geometry::SolveFigures& solved) {
                       solved.absoluteSigma)});
 }
 
-// How far a projector's lens was found from what the rig says, as shares of what is let pass.
+// The difference of a projector's lens from the rig, as shares of the permitted difference.
 struct LensApart {
     const config::Channel* channel = nullptr;
     double stretch = 0;          // of its picture: the aspect, and that of a trapezoid
@@ -162,8 +162,8 @@ LensApart apartFromRig(const geometry::SolvedHall& hall, std::size_t channel) {
         shift / size.x / kMostShift};
 }
 
-// A picture of another shape than the rig's is fitted, and neighbours agree, but what the fit gets
-// wrong of it pulls the others from their places: most on domes, where all overlap.
+// A picture of another shape than the rig's can be fitted so that neighbours agree, but its errors
+// pull the other projectors from their places: most of all on domes, where all overlap.
 void judgeLenses(Verdict& verdict, const geometry::SolvedHall& hall) {
     std::vector<LensApart> lenses;
     for (std::size_t c = 0; c < hall.projectors.size(); ++c)
@@ -187,7 +187,7 @@ void judgeLenses(Verdict& verdict, const geometry::SolvedHall& hall) {
                           set.zoom > set.shift ? "zoomed" : "shifted")});
 }
 
-// A round edge does not tell how it is turned about its axis, but a mark on it does.
+// A round edge does not show the rotation about its axis; a mark on it does.
 void judgeDome(Verdict& verdict, const geometry::Solved& solved) {
     if (solved.hall->rig.screen.shape != config::ScreenShape::Dome || solved.figures.marks > 0)
         return;
@@ -199,8 +199,8 @@ void judgeDome(Verdict& verdict, const geometry::Solved& solved) {
           "scan again"});
 }
 
-// Of a dome that each place of is lit by one projector alone nothing but its round edge tells where
-// the middle of its picture lies: simulated ones were up to eight pixels off.
+// Where each place of a dome is lit by one projector alone, only the round edge shows where the
+// picture lies: in simulations it was up to eight pixels off.
 void judgeLoneDome(Verdict& verdict, const geometry::Solved& solved) {
     if (solved.hall->rig.screen.shape != config::ScreenShape::Dome ||
         solved.figures.overlap.points > 0)
@@ -231,7 +231,7 @@ void judgeOutline(Verdict& verdict, const geometry::SolveFigures& solved) {
                           solved.outlineRms)});
 }
 
-// Exchanged cables make channels look hidden, so what the solve found goes first.
+// Exchanged cables make channels look hidden, so the faults of the solve come first.
 void takeFaults(Verdict& verdict,
                 const std::vector<scan::CameraView>& views,
                 const geometry::Solved& solved) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How good a calibration is, and whether it may be used.
+// Judges a calibration: its errors, and whether it may be used.
 #pragma once
 
 #include <cstddef>
@@ -25,13 +25,13 @@ struct Verdict {
     std::string cause, advice;  // empty where it passes
 };
 
-// Errors of a wall in panorama pixels: between two channels that show one point, and between what
-// a channel shows at a point and what belongs there.
+// Errors of a wall in panorama pixels: between two channels that show one point, and between the
+// place that a channel shows at a point and the right one.
 struct WallErrors {
     std::vector<double> overlap, absolute;
 };
 
-// Of a wall file in a hall whose truth is known, at so many points of the screen.
+// The errors of a wall file in a simulated hall, at this number of points of the screen.
 [[nodiscard]] WallErrors errorsOf(const hall::TrueHall& truth,
                                   const config::Rig& rig,
                                   const formats::WallFile& file,

@@ -16,7 +16,7 @@ namespace {
 static_assert(v1::ScanPicture::DOTS == static_cast<int>(ScanPattern::Kind::Dots));
 static_assert(v1::ScanCamera::LINEAR == static_cast<int>(ScanCamera::Response::Linear));
 
-// A name in the folder of the scan, no way out of it.
+// Whether a name is a file in the folder of the scan, and no path out of it.
 bool isPlainName(const std::string& file) {
     return file.find('/') == std::string::npos && file.find('\0') == std::string::npos &&
            file != "." && file != "..";

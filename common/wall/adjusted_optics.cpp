@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Control points: what a channel shows is moved by hand, on top of whatever says where it shows it.
+// Control points: they move a channel's picture by hand, on top of its other geometry.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -42,7 +42,7 @@ double hillOf(const Anchor& anchor, glm::dvec2 place) {
     return hill(glm::distance(place, anchor.place) / anchor.radius);
 }
 
-// Solves for the weights that make the hills of all anchors together move each place as is wanted.
+// Solves for the weights with which the hills of all anchors together move each place as wanted.
 // False where the system is singular.
 bool solveWeights(std::vector<Anchor>& anchors) {
     constexpr double kLeastPivot = 1e-6;  // hills are 1 high
@@ -63,11 +63,11 @@ bool solveWeights(std::vector<Anchor>& anchors) {
     return true;
 }
 
-// A smooth move of places of the panorama, in its pixels, that does not fold it: at each point what
-// is wanted there, beyond all radii nothing.
+// A smooth movement of the panorama, in its pixels, that does not fold it: the wanted one at each
+// point, none beyond all radii.
 class SmoothMove {
   public:
-    // Throws Error where there is no such move. `source`: the file that the points stand in.
+    // Throws Error where there is no such movement. `source`: the file of the points.
     SmoothMove(std::vector<Anchor> anchors, const std::string& source)
         : anchors_(std::move(anchors)) {
         if (!solveWeights(anchors_))
@@ -81,7 +81,7 @@ class SmoothMove {
             return glm::distance(place, anchor.place) < anchor.radius;
         });
     }
-    // Where a place comes to lie.
+    // The place to which a place moves.
     [[nodiscard]] glm::dvec2 moved(glm::dvec2 place) const {
         glm::dvec2 to = place;
         for (const Anchor& anchor : anchors_) to += anchor.weight * hillOf(anchor, place);
@@ -95,7 +95,7 @@ class SmoothMove {
         glm::dvec2 off = moved(from) - place;
         for (int i = 0; i < kMostSteps && glm::length(off) > kGoodPixels; ++i) {
             glm::dvec2 step = glm::inverse(slopeAt(from)) * off;
-            // Half as far until it is nearer.
+            // Halves the step until it comes nearer.
             for (int half = 0; half < 20; ++half, step /= 2.0)
                 if (glm::length(moved(from - step) - place) < glm::length(off)) break;
             from -= step;
@@ -119,8 +119,7 @@ class SmoothMove {
         }
         return slope;
     }
-    // Looks at places all over a point's circle; a share of the picture's area must be left at
-    // each.
+    // Tests places all over a point's circle: at each, a share of the picture's area must be left.
     void checkFold(const Anchor& anchor, const std::string& source) const {
         constexpr int kSteps = 16;  // from the middle to the radius
         constexpr double kLeastArea = 0.2;
@@ -181,8 +180,8 @@ class AdjustedOptics final : public Optics {
     }
 
   private:
-    // What is to be seen at a point of the screen: the point that was moved there. What would come
-    // from past the screen's edge is what is at the edge.
+    // The point that is shown at a point of the screen: the one that was moved there. Beyond the
+    // screen's edge, the edge is continued.
     [[nodiscard]] glm::dvec3 shownAt(glm::dvec3 point) const {
         const glm::dvec2 place = screen_.unrolled(point) * panorama_;
         if (!move_.moves(place)) return point;
