@@ -143,7 +143,7 @@ class Calibration {
             writeWhole(std::filesystem::path(options_.report) / "figures.json",
                        std::as_bytes(std::span(text)));
         }
-        const result::Verdict& verdict = figures.verdict;
+        const result::CalibrationVerdict& verdict = figures.verdict;
         cli::say(fmt::format("{}{}{}",
                              result::nameOf(verdict.judgement),
                              verdict.cause.empty() ? "" : ": " + verdict.cause + ": ",

@@ -18,6 +18,7 @@ class RequestClient;
 
 namespace aquarama {
 
+using cli::AddedCommand;
 using cli::CommandLine;
 
 // In the order of the program's help; what each command does its help says.

@@ -70,7 +70,7 @@ bool isWithin(const geometry::OverlapFigures& overlap, const Bounds& bounds) {
     return overlap.rms <= bounds.rms && overlap.p95 <= bounds.p95 && overlap.most <= bounds.most;
 }
 
-void take(Verdict& verdict, Judgement judgement, const scan::ScanFault& fault) {
+void take(CalibrationVerdict& verdict, Judgement judgement, const scan::ScanFault& fault) {
     if (judgement <= verdict.judgement && !verdict.cause.empty()) return;
     verdict = {std::max(judgement, verdict.judgement), fault.cause, fault.advice};
 }
@@ -97,7 +97,7 @@ bool hasOverlaps(const geometry::SolvedHall& hall) {
 }
 
 // Judges places that were held out from the solve, where the rig has overlaps.
-void judgeOverlaps(Verdict& verdict,
+void judgeOverlaps(CalibrationVerdict& verdict,
                    const geometry::SolvedHall& hall,
                    const geometry::SolveFigures& solved) {
     constexpr std::size_t kLeastPoints = 8;
@@ -121,7 +121,7 @@ void judgeOverlaps(Verdict& verdict,
 }
 
 // Judges the place of the whole picture by the camera's noise; errors of the model add to it.
-void judgePlace(Verdict& verdict, const geometry::SolveFigures& solved) {
+void judgePlace(CalibrationVerdict& verdict, const geometry::SolveFigures& solved) {
     constexpr double kMostPixels = 1;
     if (solved.absoluteSigma <= kMostPixels) return;
     take(verdict,
@@ -164,7 +164,7 @@ LensApart apartFromRig(const geometry::SolvedHall& hall, std::size_t channel) {
 
 // A picture of another shape than the rig's can be fitted so that neighbours agree, but its errors
 // pull the other projectors from their places: most of all on domes, where all overlap.
-void judgeLenses(Verdict& verdict, const geometry::SolvedHall& hall) {
+void judgeLenses(CalibrationVerdict& verdict, const geometry::SolvedHall& hall) {
     std::vector<LensApart> lenses;
     for (std::size_t c = 0; c < hall.projectors.size(); ++c)
         lenses.push_back(apartFromRig(hall, c));
@@ -188,7 +188,7 @@ void judgeLenses(Verdict& verdict, const geometry::SolvedHall& hall) {
 }
 
 // A round edge does not show the rotation about its axis; a mark on it does.
-void judgeDome(Verdict& verdict, const geometry::Solved& solved) {
+void judgeDome(CalibrationVerdict& verdict, const geometry::Solved& solved) {
     if (solved.hall->rig.screen.shape != config::ScreenShape::Dome || solved.figures.marks > 0)
         return;
     take(verdict,
@@ -201,7 +201,7 @@ void judgeDome(Verdict& verdict, const geometry::Solved& solved) {
 
 // Where each place of a dome is lit by one projector alone, only the round edge shows where the
 // picture lies: in simulations it was up to eight pixels off.
-void judgeLoneDome(Verdict& verdict, const geometry::Solved& solved) {
+void judgeLoneDome(CalibrationVerdict& verdict, const geometry::Solved& solved) {
     if (solved.hall->rig.screen.shape != config::ScreenShape::Dome ||
         solved.figures.overlap.points > 0)
         return;
@@ -213,7 +213,7 @@ void judgeLoneDome(Verdict& verdict, const geometry::Solved& solved) {
          "show aquarama run --pattern grid, and move what is off by aquarama adjust move"});
 }
 
-void judgeOutline(Verdict& verdict, const geometry::SolveFigures& solved) {
+void judgeOutline(CalibrationVerdict& verdict, const geometry::SolveFigures& solved) {
     constexpr std::size_t kLeastPoints = 150;
     constexpr double kMostPixels = 1.5;
     if (solved.outlinePoints < kLeastPoints)
@@ -232,7 +232,7 @@ void judgeOutline(Verdict& verdict, const geometry::SolveFigures& solved) {
 }
 
 // Exchanged cables make channels look hidden, so the faults of the solve come first.
-void takeFaults(Verdict& verdict,
+void takeFaults(CalibrationVerdict& verdict,
                 const std::vector<scan::CameraView>& views,
                 const geometry::Solved& solved) {
     const auto takeAll = [&](const std::vector<scan::ScanFault>& faults) {
@@ -245,8 +245,9 @@ void takeFaults(Verdict& verdict,
 
 }  // namespace
 
-Verdict judged(const std::vector<scan::CameraView>& views, const geometry::Solved& solved) {
-    Verdict verdict;
+CalibrationVerdict judged(const std::vector<scan::CameraView>& views,
+                          const geometry::Solved& solved) {
+    CalibrationVerdict verdict;
     takeFaults(verdict, views, solved);
     if (!solved.faults.empty()) return verdict;
     judgeOverlaps(verdict, *solved.hall, solved.figures);
@@ -258,9 +259,9 @@ Verdict judged(const std::vector<scan::CameraView>& views, const geometry::Solve
     return verdict;
 }
 
-Verdict judgedLight(Verdict verdict,
-                    const std::optional<light::BrightnessFigures>& brightness,
-                    const std::optional<light::ForeseenSeams>& seams) {
+CalibrationVerdict judgedLight(CalibrationVerdict verdict,
+                               const std::optional<light::BrightnessFigures>& brightness,
+                               const std::optional<light::ForeseenSeams>& seams) {
     constexpr double kMostLight = 0.01, kMostDark = 0.03;
     if (!brightness)
         take(verdict,

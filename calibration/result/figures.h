@@ -20,7 +20,7 @@ enum class Judgement : std::uint8_t { Pass, Warn, Refuse };
 [[nodiscard]] const char* nameOf(Judgement judgement);
 
 // Whether a calibration may be used, and the first of its worst faults.
-struct Verdict {
+struct CalibrationVerdict {
     Judgement judgement = Judgement::Pass;
     std::string cause, advice;  // empty where it passes
 };
@@ -47,7 +47,7 @@ struct TrueFigures {
 
 // All that is known about a calibration.
 struct Figures {
-    Verdict verdict;
+    CalibrationVerdict verdict;
     geometry::SolveFigures solve;
     // Of the light by the camera's pictures; nothing where it was not measured.
     std::optional<light::BrightnessFigures> brightness = {};
@@ -68,12 +68,13 @@ struct Figures {
 };
 
 // By the scan and the solve alone; the truth is not used.
-[[nodiscard]] Verdict judged(const std::vector<scan::CameraView>& views,
-                             const geometry::Solved& solved);
+[[nodiscard]] CalibrationVerdict judged(const std::vector<scan::CameraView>& views,
+                                        const geometry::Solved& solved);
 // With a warning where light was not measured or seams will be visible.
-[[nodiscard]] Verdict judgedLight(Verdict verdict,
-                                  const std::optional<light::BrightnessFigures>& brightness,
-                                  const std::optional<light::ForeseenSeams>& seams);
+[[nodiscard]] CalibrationVerdict judgedLight(
+    CalibrationVerdict verdict,
+    const std::optional<light::BrightnessFigures>& brightness,
+    const std::optional<light::ForeseenSeams>& seams);
 
 // {"verdict": "pass", "cause": "", ...}; null for what was not measured, such as the overlap of a
 // wall without overlaps.

@@ -206,7 +206,7 @@ TEST(Calibration, ofOneChannelTakesGrayCodesOfOpenCv) {
     const wall::Wall wall(rig);
     const geometry::Solved solved =
         geometry::solveHall(rig, wall, views, [](const std::string&) {});
-    const Verdict verdict = judged(views, solved);
+    const CalibrationVerdict verdict = judged(views, solved);
     EXPECT_EQ(verdict.cause, "outline_not_seen") << "no picture of the room";
     ASSERT_EQ(verdict.judgement, Judgement::Warn) << verdict.cause << ": " << verdict.advice;
     EXPECT_LT(solved.figures.fitRms, 0.3) << "pixels of the projector";
