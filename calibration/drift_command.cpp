@@ -164,7 +164,6 @@ int look(const DriftOptions& options) {
 void addDrift(cli::CommandLine& line) {
     const auto [command, options] = line.add<DriftOptions>(
         "drift", "Says whether a projector has moved since its dots were learned.", look);
-    line.hide("drift");
     command.add_option("--rig", options.rig, "the rig")->required();
     auto& source = *command.add_option_group("pictures", "where the pictures come from");
     source.add_option(

@@ -6,8 +6,8 @@
 
 namespace aquarama {
 
-// Adds `drift`, which help does not list: it is a command of `aquarama`. Its exit status: 0 all in
-// place, 1 a projector has moved, 2 it cannot be told, errors included.
+// Adds `drift`. Its exit status: 0 all in place, 1 a projector has moved, 2 it cannot be told,
+// errors included.
 void addDrift(cli::CommandLine& line);
 
 }  // namespace aquarama

@@ -67,7 +67,7 @@ function(aquarama_write_version program)
   aquarama_collect_links(${program} links)
   set(LIBRARIES "")
   foreach(library IN ITEMS
-      "CLI11 CLI11::CLI11 . CLI11_VERSION" "Eigen Eigen3::Eigen capture Eigen3_VERSION"
+      "CLI11 CLI11::CLI11 . CLI11_VERSION" "Eigen Eigen3::Eigen common Eigen3_VERSION"
       "FFmpeg-libavcodec PkgConfig::FFMPEG calibration/compose FFMPEG_libavcodec_VERSION" "GLFW glfw render_node glfw3_VERSION"
       "GLM glm::glm . glm_VERSION" "Highway hwy::hwy common hwy_VERSION" "libepoxy PkgConfig::EPOXY render_node EPOXY_VERSION"
       "libpng PNG::PNG common PNG_VERSION_STRING" "libjpeg-turbo PkgConfig::TURBOJPEG render_node TURBOJPEG_VERSION" "libzip PkgConfig::LIBZIP common/formats LIBZIP_VERSION" "libwebp PkgConfig::WEBP calibration/compose WEBP_libwebp_VERSION"

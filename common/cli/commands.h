@@ -64,7 +64,7 @@ class CommandLine {
 
   private:
     CLI::App& app_;
-    std::string heading_;
+    std::string heading_ = "Subcommands";
     Job job_;
 };
 
