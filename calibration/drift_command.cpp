@@ -2,7 +2,6 @@
 #include "calibration/drift_command.h"
 
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -95,10 +94,10 @@ class DriftWatch {
                                 rig_.channels[i].name));
         const std::string text = drift::textOf(reference, rig_);
         writeWhole(beside(".drift.json"), std::as_bytes(std::span(text)));
-        std::printf("%s: %zu dots of %zu channels; leave the camera where it is\n",
-                    beside(".drift.json").c_str(),
-                    reference.dots.size(),
-                    rig_.channels.size());
+        cli::say(fmt::format("{}: {} dots of {} channels; leave the camera where it is",
+                             beside(".drift.json").string(),
+                             reference.dots.size(),
+                             rig_.channels.size()));
         return 0;
     }
 
@@ -124,14 +123,14 @@ class DriftWatch {
         const auto bytes = std::as_bytes(std::span(text));
         if (!options_.report.empty()) writeWhole(fs::path(options_.report) / "drift.json", bytes);
         writeWhole(beside(".drift.last.json"), bytes);  // for the operator's console
-        std::printf("since %s; the camera moved by %.2f of its pixels\n",
-                    reference.learned.c_str(),
-                    drift.cameraPixels);
+        cli::say(fmt::format("since {}; the camera moved by {:.2f} of its pixels",
+                             reference.learned,
+                             drift.cameraPixels));
         if (drift.isCameraLost)
-            std::puts("the camera has moved too far: put it back, or calibrate and learn again");
+            cli::say("the camera has moved too far: put it back, or calibrate and learn again");
         else
             for (std::size_t i = 0; i < drift.channels.size(); ++i)
-                std::puts(drift::lineOf(rig_.channels[i], drift.channels[i]).c_str());
+                cli::say(drift::lineOf(rig_.channels[i], drift.channels[i]));
     }
 
     [[nodiscard]] static int statusOf(const drift::WallDrift& drift) {
@@ -162,22 +161,21 @@ int look(const DriftOptions& options) {
 
 }  // namespace
 
-int runDrift(int count, char** arguments) {
-    CLI::App app("Says whether a projector has moved since its dots were learned.",
-                 "aquarama drift");
-    DriftOptions options;
-    app.add_option("--rig", options.rig, "the rig")->required();
-    auto& source = *app.add_option_group("pictures", "where the pictures come from");
+void addDrift(cli::CommandLine& line) {
+    const auto [command, options] = line.add<DriftOptions>(
+        "drift", "Says whether a projector has moved since its dots were learned.", look);
+    command.add_option("--rig", options.rig, "the rig")->required();
+    auto& source = *command.add_option_group("pictures", "where the pictures come from");
     source.add_option(
         "--camera", options.camera, "as for aquarama calibrate; the show must be running");
     source.add_option("--from", options.from, "a folder of pictures that were taken before");
     source.add_option("--simulate", options.simulate, "a simulated hall: a file or random:SEED");
     source.require_option(1);
-    app.add_flag("--learn", options.learns, "keep where the dots are, right after a calibration");
-    app.add_option("--report", options.report, "folder for drift.json, the figures");
-    app.add_option("--key", options.key, "key of the crew, where the rig needs one");
-    app.footer("Exit status: 0 all in place, 1 a projector has moved, 2 it cannot be told.");
-    return cli::runProgram(app, count, arguments, [&] { return look(options); });
+    command.add_flag(
+        "--learn", options.learns, "keep where the dots are, right after a calibration");
+    command.add_option("--report", options.report, "folder for drift.json, the figures");
+    command.add_option("--key", options.key, "key of the crew, where the rig needs one");
+    command.footer("Exit status: 0 all in place, 1 a projector has moved, 2 it cannot be told.");
 }
 
 }  // namespace aquarama

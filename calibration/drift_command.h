@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama drift`.
+// The command `aquarama drift`.
 #pragma once
+
+#include "common/cli/commands.h"
 
 namespace aquarama {
 
-// Exit status: 0 all in place, 1 a projector has moved, 2 it cannot be told, errors included.
-[[nodiscard]] int runDrift(int count, char** arguments);
+// Adds `drift`. Its exit status: 0 all in place, 1 a projector has moved, 2 it cannot be told,
+// errors included.
+void addDrift(cli::CommandLine& line);
 
 }  // namespace aquarama

@@ -2,7 +2,6 @@
 // aquarama-calibrate: from pictures of a wall that a camera took, or a simulated one takes, to the
 // wall file that render nodes take.
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -28,7 +27,7 @@
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/base/versions.h"
-#include "common/cli/command_line.h"
+#include "common/cli/commands.h"
 #include "common/cli/outputs.h"
 #include "common/config/rig.h"
 #include "common/formats/mpcdi.h"
@@ -45,11 +44,6 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-void say(const std::string& text) {
-    std::puts(text.c_str());
-    std::fflush(stdout);
 }
 
 double peakMegabytes() {
@@ -72,21 +66,21 @@ class Calibration {
         }
         const auto begin = Clock::now();
         const std::vector<scan::CameraView> views = decoded();
-        const geometry::Solved solved = geometry::solveHall(rig_, wall_, views, say);
-        result::Figures figures = result::judged(views, solved);
-        if (figures.verdict != result::Judgement::Refuse) write(solved, views.front(), figures);
+        const geometry::Solved solved = geometry::solveHall(rig_, wall_, views, cli::say);
+        result::Figures figures{.verdict = result::judged(views, solved), .solve = solved.figures};
+        const bool isRefused = figures.verdict.judgement == result::Judgement::Refuse;
+        if (!isRefused) write(solved, views.front(), figures);
         figures.seconds = secondsSince(begin);
         figures.pictures = source_->scan().pictures.size();
         figures.peakMegabytes = peakMegabytes();
         report(figures);
-        if (figures.verdict != result::Judgement::Refuse)
-            keepVersion(options_.out, result::jsonOf(figures));
+        if (!isRefused) keepVersion(options_.out, result::jsonOf(figures));
         writePage({.figures = figures,
                    .solved = solved,
                    .views = views,
                    .truth = truth_.get(),
                    .wallFile = options_.out});
-        return figures.verdict == result::Judgement::Refuse ? 1 : 0;
+        return isRefused ? 1 : 0;
     }
 
   private:
@@ -99,7 +93,7 @@ class Calibration {
     [[nodiscard]] std::vector<scan::CameraView> decoded() {
         std::vector<scan::CameraView> views;
         for (std::uint32_t i = 0; i < source_->scan().cameras.size(); ++i) {
-            say(fmt::format("reading {} pictures", source_->scan().pictures.size()));
+            cli::say(fmt::format("reading {} pictures", source_->scan().pictures.size()));
             views.push_back(scan::decode(*source_, i, rig_));
         }
         return views;
@@ -127,19 +121,20 @@ class Calibration {
     void write(const geometry::Solved& solved,
                const scan::CameraView& view,
                result::Figures& figures) {
-        say("evening light and colour");
+        cli::say("evening light and colour");
         const result::ShadedWall wall = result::shadedWallOf(*solved.hall, view);
-        result::setBrightness(figures, wall.brightness);
-        result::setForeseen(figures, wall.seams);
-        say("writing the wall file");
+        figures.verdict = result::judgedLight(figures.verdict, wall.brightness, wall.seams);
+        figures.brightness = wall.brightness;
+        figures.foreseen = wall.seams;
+        cli::say("writing the wall file");
         keepVersion(options_.out, "");  // what is there before
         writeWhole(options_.out, formats::encodeMpcdi(wall.file, 2));
         constexpr std::size_t kPoints = 20000;
         if (!truth_) return;
         if (!std::filesystem::is_regular_file(options_.out)) return;  // a pipe is not read again
-        result::setTrue(figures, result::errorsOf(*truth_, rig_, wall.file, kPoints));
-        figures.seams =
-            light::seamsOf(*truth_, hall::DrawnWall(hall::withWallFile(rig_, options_.out)));
+        figures.truth = result::trueFigures(
+            result::errorsOf(*truth_, rig_, wall.file, kPoints),
+            light::seamsOf(*truth_, hall::DrawnWall(hall::withWallFile(rig_, options_.out))));
     }
 
     void report(const result::Figures& figures) const {
@@ -148,22 +143,24 @@ class Calibration {
             writeWhole(std::filesystem::path(options_.report) / "figures.json",
                        std::as_bytes(std::span(text)));
         }
-        say(fmt::format("{}{}{}",
-                        result::nameOf(figures.verdict),
-                        figures.cause.empty() ? "" : ": " + figures.cause + ": ",
-                        figures.advice));
-        if (figures.verdict == result::Judgement::Refuse) return;
-        say(figures.overlapPoints == 0
-                ? "no two channels overlap: there is no overlap to measure"
-                : fmt::format(
-                      "neighbours part by {:.2f} panorama pixels (RMS; 95 % {:.2f}, most {:.2f})",
-                      figures.overlapRms,
-                      figures.overlapP95,
-                      figures.overlapMax));
-        if (figures.isTrue)
-            say(fmt::format("the picture is {:.2f} panorama pixels off (RMS)",
-                            figures.absoluteRms));
-        say(options_.out);
+        const result::CalibrationVerdict& verdict = figures.verdict;
+        cli::say(fmt::format("{}{}{}",
+                             result::nameOf(verdict.judgement),
+                             verdict.cause.empty() ? "" : ": " + verdict.cause + ": ",
+                             verdict.advice));
+        if (verdict.judgement == result::Judgement::Refuse) return;
+        const geometry::OverlapFigures& overlap = figures.overlap();
+        cli::say(overlap.points == 0
+                     ? "no two channels overlap: there is no overlap to measure"
+                     : fmt::format("neighbours part by {:.2f} panorama pixels (RMS; 95 % {:.2f}, "
+                                   "most {:.2f})",
+                                   overlap.rms,
+                                   overlap.p95,
+                                   overlap.most));
+        if (figures.truth)
+            cli::say(fmt::format("the picture is {:.2f} panorama pixels off (RMS)",
+                                 figures.truth->absoluteRms));
+        cli::say(options_.out);
     }
 
     void writePage(const result::CalibrationPage& content) const {
@@ -171,7 +168,7 @@ class Calibration {
         const std::string text = result::htmlOf(content);
         const std::filesystem::path path = std::filesystem::path(options_.report) / "index.html";
         writeWhole(path, std::as_bytes(std::span(text)));
-        say(path.string());
+        cli::say(path.string());
     }
 
     const Options& options_;
@@ -181,41 +178,13 @@ class Calibration {
     std::unique_ptr<scan::PictureSource> source_;
 };
 
-// Until version 0.2 the program aquarama-compose had the name of this one.
-bool isOfCompose(const std::string& command) {
-    return command == "check" || command == "compose" || command == "clip" ||
-           command == "theatre" || command == "inspect";
-}
-
-// Does not return where that program is beside this one.
-void becomeCompose(char** arguments) {
-    const std::filesystem::path program =
-        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "aquarama-compose";
-    cli::sayError("aquarama-calibrate",
-                  std::string(arguments[1]) +
-                      " is a command of aquarama-compose now; this way to "
-                      "it ends with the next release");
-    execv(program.c_str(), arguments);
-}
-
 int calibrate(const Options& options) {
     cli::requireFile("--out", options.out);
     cli::requireFolder("--report", options.report);
     return Calibration(options).run();
 }
 
-}  // namespace
-}  // namespace aquarama
-
-// NOLINTNEXTLINE(bugprone-exception-escape): outside runProgram() only a lack of memory throws
-int main(int count, char** arguments) {
-    using namespace aquarama;
-    const std::string first = count > 1 ? arguments[1] : "";
-    if (first == "drift") return runDrift(count - 1, arguments + 1);
-    if (isOfCompose(first)) becomeCompose(arguments);
-    CLI::App app("Finds how projectors hang before their screen, from pictures of patterns.",
-                 "aquarama calibrate");
-    Options options;
+void describe(CLI::App& app, Options& options) {
     app.add_option("--rig", options.rig, "the rig, with its projectors about where they hang")
         ->required();
     auto& source = *app.add_option_group("pictures", "where the pictures come from");
@@ -231,5 +200,61 @@ int main(int count, char** arguments) {
     app.add_option("--report", options.report, "folder for a page with pictures and figures");
     app.add_option("--keep", options.keep, "folder for the pictures, to solve them again");
     app.add_option("--key", options.key, "key of the crew, where the rig needs one");
-    return cli::runProgram(app, count, arguments, [&] { return calibrate(options); });
+}
+
+// A command of aquarama-compose, which had the name of this program until version 0.2.
+struct FormerCommand {
+    const CLI::App* command = nullptr;
+};
+
+// Does not return: aquarama-compose takes the place of this process.
+void becomeCompose(const FormerCommand& former) {
+    const std::filesystem::path program =
+        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "aquarama-compose";
+    std::vector<std::string> words = former.command->remaining();
+    const std::string name = former.command->get_name();
+    words.insert(words.begin(), {"aquarama-compose", name == "theatre" ? "view" : name});
+    cli::sayError("aquarama-calibrate",
+                  words[1] +
+                      " is a command of aquarama-compose now; this way to it ends with the next "
+                      "release");
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    execv(program.c_str(), arguments.data());
+    throw Error("cannot start " + program.string() + "; install it beside this program");
+}
+
+void addFormerCommands(cli::CommandLine& line) {
+    for (const char* name : {"check", "compose", "clip", "theatre", "inspect"}) {
+        const auto [command, options] = line.add<FormerCommand>(name, "", becomeCompose);
+        command.prefix_command();
+        command.set_help_flag();  // the other program has its own
+        options.command = &command;
+        line.hide(name);
+    }
+}
+
+}  // namespace
+}  // namespace aquarama
+
+// NOLINTNEXTLINE(bugprone-exception-escape): outside runProgram() only a lack of memory throws
+int main(int count, char** arguments) {
+    using namespace aquarama;
+    CLI::App app("Finds how projectors hang before their screen, from pictures of patterns.",
+                 "aquarama calibrate");
+    cli::CommandLine line(app);
+    addDrift(line);
+    addFormerCommands(line);
+    Options options;
+    describe(app, options);
+    // A command needs none of the options of the calibration itself.
+    for (CLI::App* command : app.get_subcommands({}))
+        command->preparse_callback([&app](std::size_t) {
+            for (CLI::Option* option : app.get_options()) option->required(false);
+            app.get_option_group("pictures")->require_option(0);
+        });
+    return cli::runProgram(app, count, arguments, [&] {
+        return line.isChosen() ? line.runChosen() : calibrate(options);
+    });
 }

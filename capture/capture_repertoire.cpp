@@ -5,13 +5,10 @@
 #include <array>
 #include <cassert>
 #include <exception>
-#include <iostream>
 #include <mutex>
 #include <optional>
 #include <tuple>
 #include <utility>
-
-#include <unistd.h>
 
 #include "capture/compile_segment.h"
 #include "capture/measure.h"
@@ -24,40 +21,6 @@
 #include "common/motion/repertoire.h"
 
 namespace aquarama::capture {
-
-namespace {
-
-// Progress bar.
-
-constexpr int kCells = 40;                    // characters between the brackets
-constexpr const char* kEraseRest = "\033[K";  // ANSI: erases the rest of the line
-
-}  // namespace
-
-ProgressBar::ProgressBar(std::string what)
-    : what_(std::move(what)), isTerminal_(isatty(STDERR_FILENO) == 1) {}
-
-ProgressBar::~ProgressBar() {
-    // A job that did not end leaves its bar; the next message begins on a line of its own.
-    if (shown_ >= 0 && shown_ < 100) std::cerr << '\n';
-}
-
-void ProgressBar::show(double share, const std::string& note) {
-    assert(share >= 0);
-    assert(share <= 1);
-    // The small term keeps rounding from showing 99 % for a share of 1.
-    const int percent = static_cast<int>(share * 100 + 1e-6);
-    if (!isTerminal_ || (percent == shown_ && note == note_)) return;
-    const bool isLast = percent == 100 && shown_ < 100;
-    shown_ = percent;
-    note_ = note;
-    const auto filled = static_cast<std::size_t>(percent * kCells / 100);
-    std::cerr << '\r' << what_ << " [" << std::string(filled, '#')
-              << std::string(kCells - filled, '.') << "] " << percent << " %  " << note
-              << kEraseRest;
-    if (isLast) std::cerr << '\n';
-    std::cerr.flush();
-}
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Captures the repertoires of species (the paper's section 3), finds the species files, caches
-// captured repertoires, and shows progress.
+// Captures the repertoires of species (the paper's section 3), finds the species files, and keeps
+// captured repertoires in a cache.
 #pragma once
 
 #include <cstddef>
@@ -16,27 +16,6 @@
 #include "common/motion/repertoire.h"
 
 namespace aquarama::capture {
-
-// Shows the progress of one job as a bar on stderr where that is a terminal. Elsewhere it shows
-// nothing: stderr is for errors. Not synchronised: one thread at a time calls it.
-class ProgressBar {
-  public:
-    // Shows `what` before the bar; the destructor ends the line.
-    explicit ProgressBar(std::string what);
-    ~ProgressBar();
-    ProgressBar(const ProgressBar&) = delete;
-    ProgressBar& operator=(const ProgressBar&) = delete;
-    ProgressBar(ProgressBar&&) = delete;
-    ProgressBar& operator=(ProgressBar&&) = delete;
-    // `share` is 0 to 1; the note stands behind the bar. Writes only when something has changed.
-    void show(double share, const std::string& note = "");
-
-  private:
-    std::string what_;
-    bool isTerminal_;
-    int shown_ = -1;  // per cent; -1 before the first
-    std::string note_;
-};
 
 // Capture: simulates the actions of species and compiles their repertoires.
 

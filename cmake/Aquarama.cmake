@@ -94,7 +94,7 @@ function(aquarama_write_version program)
   aquarama_collect_links(${program} links)
   set(LIBRARIES "")
   foreach(library IN ITEMS
-      "CLI11 CLI11::CLI11 . CLI11_VERSION" "Eigen Eigen3::Eigen capture Eigen3_VERSION"
+      "CLI11 CLI11::CLI11 . CLI11_VERSION" "Eigen Eigen3::Eigen common Eigen3_VERSION"
       "FFmpeg-libavcodec PkgConfig::FFMPEG calibration/compose FFMPEG_libavcodec_VERSION"
       "GLFW glfw render_node glfw3_VERSION"
       "GLM glm::glm . glm_VERSION" "Highway hwy::hwy common hwy_VERSION"

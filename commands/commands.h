@@ -4,13 +4,10 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
-#include <type_traits>
-#include <utility>
 
-#include "common/cli/command_line.h"
+#include "common/cli/commands.h"
 #include "common/config/rig.h"
 #include "common/net/channels.h"
 #include "master/supervisor/supervise.h"
@@ -21,61 +18,8 @@ class RequestClient;
 
 namespace aquarama {
 
-// A command that was added, to describe its options; both live as long as the command line.
-template <class Options>
-struct AddedCommand {
-    CLI::App& app;
-    Options& options;
-};
-
-// The command line of `aquarama` while commands are added to it, and then the job that it chose.
-class CommandLine {
-  public:
-    // Adds to this application, which outlives it.
-    explicit CommandLine(CLI::App& app) : app_{app} {}
-    // Sets the heading in the program's help of the commands that are added next.
-    void startGroup(std::string heading) { heading_ = std::move(heading); }
-    // Adds a command. `run(options)` is its job, which returns the exit status, or void for 0.
-    template <class Options, class Run>
-    AddedCommand<Options> add(const std::string& name, const std::string& what, Run run) {
-        const auto added = addTo<Options>(app_, name, what, std::move(run));
-        added.app.group(heading_);
-        return added;
-    }
-    // Adds a command that the help does not list.
-    void hide(const std::string& name) { app_.get_subcommand(name)->group(""); }
-    // Adds a subcommand of the command `parent`.
-    template <class Options, class Run>
-    AddedCommand<Options> addTo(CLI::App& parent,
-                                const std::string& name,
-                                const std::string& what,
-                                Run run) {
-        auto options = std::make_shared<Options>();
-        CLI::App& command = *parent.add_subcommand(name, what);
-        command.callback([this, options, run = std::move(run)] {
-            if (job_) return;  // by a nested command: CLI11 calls the innermost first
-            job_ = [options, run] {
-                if constexpr (std::is_void_v<std::invoke_result_t<Run, const Options&>>) {
-                    run(*options);
-                    return 0;
-                } else {
-                    return run(*options);
-                }
-            };
-        });
-        return {command, *options};
-    }
-    // Runs the chosen job; returns the exit status. Throws CLI::RequiredError where nothing was.
-    [[nodiscard]] int runChosen() const {
-        if (!job_) throw CLI::RequiredError("a command");
-        return job_();
-    }
-
-  private:
-    CLI::App& app_;
-    std::string heading_;
-    cli::Job job_;
-};
+using cli::AddedCommand;
+using cli::CommandLine;
 
 // Each adds one command, in the order of the program's help, which says what the command does.
 void addRun(CommandLine& line);     // a show on this machine

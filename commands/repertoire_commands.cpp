@@ -20,6 +20,7 @@
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
+#include "common/cli/progress.h"
 
 namespace aquarama {
 
@@ -39,7 +40,7 @@ struct CaptureOptions {
 std::vector<capture::RepertoireFile> captured(const std::vector<config::Species>& species) {
     std::atomic<bool> isStopped = false;
     const cli::SignalWatch watch([&] { isStopped = true; });
-    capture::ProgressBar bar("capturing");
+    cli::Progress bar("capturing");
     return capture::repertoiresFor(species,
                                    cacheFolder() / "repertoires",
                                    {.progress = [&](double share) { bar.show(share); },

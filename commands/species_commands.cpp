@@ -22,6 +22,7 @@
 #include "commands/commands.h"
 #include "common/base/files.h"
 #include "common/cli/outputs.h"
+#include "common/cli/progress.h"
 
 namespace aquarama {
 
@@ -78,7 +79,7 @@ void searchGaitsOf(const SearchOptions& options) {
     const std::string text = textOf(file);
     const config::Species species = config::parseSpecies(text, file.string());
     capture::SearchJournal journal(options.out + ".journal", capture::searchName(text));
-    capture::ProgressBar bar("searching " + species.name);
+    cli::Progress bar("searching " + species.name);
     const capture::SearchTrial best = capture::searchGaits(
         species,
         options.trials,
@@ -138,7 +139,7 @@ void compareAll(const FidelityOptions& options) {
     std::vector<report::SpeciesVocabularies> vocabularies;
     for (const fs::path& file : capture::speciesFiles(options.species, config)) {
         const config::Species species = config::readSpecies(file.string());
-        capture::ProgressBar bar("comparing " + species.name);
+        cli::Progress bar("comparing " + species.name);
         const motion::Repertoire repertoire =
             capture::captureRepertoire(species, [&](double share) { bar.show(0.5 * share); });
         fidelities.push_back(

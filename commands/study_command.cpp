@@ -18,6 +18,7 @@
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/cli/outputs.h"
+#include "common/cli/progress.h"
 #include "master/study/chronicle.h"
 #include "master/study/study.h"
 
@@ -71,7 +72,7 @@ class DataFolder {
 
 // Runs the study with a progress bar.
 std::vector<study::Sample> watched(const study::StudyPlan& plan) {
-    capture::ProgressBar bar("studying");
+    cli::Progress bar("studying");
     std::mutex mutex;
     return study::runStudy(plan, [&](double share) {
         const std::scoped_lock lock(mutex);
@@ -109,7 +110,7 @@ void chronicle(const ChronicleOptions& options) {
     constexpr std::uint64_t kTicksOfMinute = 3600;
     constexpr std::uint64_t kTicksOfHour = 60 * kTicksOfMinute;
     study::Chronicle chronicle(world, scenario.halfWidths, kTicksOfHour);
-    capture::ProgressBar bar("living");
+    cli::Progress bar("living");
     const auto ticks = static_cast<std::uint64_t>(options.hours * kTicksOfHour);
     for (std::uint64_t tick = 0; tick < ticks; ++tick) {
         world.advance();

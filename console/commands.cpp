@@ -60,7 +60,7 @@ std::string textOf(const v1::Order& order) {
 std::optional<std::uint64_t> litIn(const std::string& channel, const config::Rig& rig) {
     if (channel.empty()) return ~std::uint64_t{0};
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
-        if (rig.channels[i].name == channel) return std::uint64_t{1} << i;
+        if (rig.channels[i].name == channel) return config::bitOf(i);
     return std::nullopt;
 }
 

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <iterator>
 #include <optional>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "common/base/units.h"
@@ -19,16 +18,6 @@
 namespace aquarama::compose {
 
 namespace {
-
-// As printf(), up to 511 characters.
-[[gnu::format(printf, 1, 2)]] std::string said(const char* format, ...) {
-    char text[512];
-    std::va_list arguments;
-    va_start(arguments, format);
-    std::vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    return text;
-}
 
 const char* nameOf(config::Role role) {
     if (role == config::Role::Prey) return "prey";
@@ -51,11 +40,11 @@ std::string joined(const std::vector<std::string>& names) {
 // Name, role, size, and whom it hunts or shadows.
 std::string lineOf(const config::Species& species) {
     const config::Habits& habits = species.habits;
-    std::string line = said("%s, %s, %.3g to %.3g m",
-                            species.name.c_str(),
-                            nameOf(habits.role),
-                            double{species.size.leastMetres},
-                            double{species.size.mostMetres});
+    std::string line = fmt::format("{}, {}, {:.3g} to {:.3g} m",
+                                   species.name,
+                                   nameOf(habits.role),
+                                   double{species.size.leastMetres},
+                                   double{species.size.mostMetres});
     if (!habits.hunts.empty()) line += "; hunts " + joined(habits.hunts);
     if (!habits.shadows.empty()) line += "; shadows " + joined(habits.shadows);
     return line;
@@ -65,19 +54,20 @@ std::string lineOf(const config::Species& species) {
 std::string lineOfTour(const config::Scene& scene) {
     if (!scene.tour) return "submarine: stays at the eye until somebody steers\n";
     const std::size_t stops = scene.tour->stops.size();
-    return said("submarine: tours %s at %.3g m/s after %.4g s without a hand\n",
-                stops > 0 ? said("%zu stops", stops).c_str() : "round the water",
-                scene.tour->metresPerSecond,
-                scene.idleSeconds);
+    return fmt::format("submarine: tours {} at {:.3g} m/s after {:.4g} s without a hand\n",
+                       stops > 0 ? fmt::format("{} stops", stops) : "round the water",
+                       scene.tour->metresPerSecond,
+                       scene.idleSeconds);
 }
 
 // A length of 0 means that the light never changes. `startsAt` is a share of a day.
 std::string lineOf(const config::Day& day) {
-    if (day.lengthSeconds <= 0) return said("light: always as at %.3g of a day\n", day.startsAt);
-    return said("light: a day of %.4g s, from %.3g on, down to %.3g at midnight\n",
-                day.lengthSeconds,
-                day.startsAt,
-                day.night);
+    if (day.lengthSeconds <= 0)
+        return fmt::format("light: always as at {:.3g} of a day\n", day.startsAt);
+    return fmt::format("light: a day of {:.4g} s, from {:.3g} on, down to {:.3g} at midnight\n",
+                       day.lengthSeconds,
+                       day.startsAt,
+                       day.night);
 }
 
 constexpr int kAlong = 12001;  // samples of the screen's mid-height; a hundredth of a degree each
@@ -166,7 +156,7 @@ glm::dvec2 densityAt(const config::Screen& screen,
 
 // An azimuth in words.
 std::string sideways(double degrees) {
-    return said("%.1f deg %s", std::abs(degrees), degrees < 0 ? "left" : "right");
+    return fmt::format("{:.1f} deg {}", std::abs(degrees), degrees < 0 ? "left" : "right");
 }
 
 }  // namespace
@@ -178,29 +168,31 @@ std::string inventoryOf(const config::Scene& scene, const std::string& path) {
     const auto length = cast.front().species.size.meanMetres;
     place::checkRoom(scene, path, fish, length);
 
-    std::string text = said("scene \"%s\": %s; %s\n",
-                            scene.name.c_str(),
-                            scene.place == config::PlaceKind::Reef ? "a reef" : "the open sea",
-                            nameOf(scene.gathering));
+    std::string text =
+        fmt::format("scene \"{}\": {}; {}\n",
+                    scene.name,
+                    scene.place == config::PlaceKind::Reef ? "a reef" : "the open sea",
+                    nameOf(scene.gathering));
     for (std::size_t i = 0; i < cast.size(); ++i)
-        text += said("%7u ", scene.cast[i].fish) + lineOf(cast[i].species) +
+        text += fmt::format("{:7} ", scene.cast[i].fish) + lineOf(cast[i].species) +
                 (scene.cast[i].start ? "; with a start" : "") + "\n";
     const place::Region water = place::waterFor(scene, fish, length);
     const glm::dvec3 size = glm::dvec3(water.halfExtent) * 2.0;
     const auto top = static_cast<double>(-water.centre.y) - size.y / 2;
-    text += said("water: %.3g x %.3g x %.3g m, %.3g to %.3g m deep, for up to %u fish\n",
-                 size.x,
-                 size.y,
-                 size.z,
-                 top,
-                 top + size.y,
-                 place::mostFishIn(scene, length));
-    text += said("food: %u plankton, %zu drops\n", scene.plankton, scene.drops.size());
-    return text + lineOfTour(scene) + lineOf(scene.day) + path + ": good\n";
+    text += fmt::format(
+        "water: {:.3g} x {:.3g} x {:.3g} m, {:.3g} to {:.3g} m deep, for up to {} fish\n",
+        size.x,
+        size.y,
+        size.z,
+        top,
+        top + size.y,
+        place::mostFishIn(scene, length));
+    text += fmt::format("food: {} plankton, {} drops\n", scene.plankton, scene.drops.size());
+    return text + lineOfTour(scene) + lineOf(scene.day) + path + ": good";
 }
 
 std::string inventoryOf(const config::Species& species, const std::string& path) {
-    return "species " + lineOf(species) + "\n" + path + ": good\n";
+    return "species " + lineOf(species) + "\n" + path + ": good";
 }
 
 namespace {
@@ -297,7 +289,7 @@ namespace {
 
 // An elevation in words.
 std::string upward(double degrees) {
-    return said("%.1f deg %s", std::abs(degrees), degrees < 0 ? "down" : "up");
+    return fmt::format("{:.1f} deg {}", std::abs(degrees), degrees < 0 ? "down" : "up");
 }
 
 }  // namespace
@@ -309,15 +301,18 @@ std::string oneLine(const ChannelSurvey& survey) {
     line += survey.rightDegrees - survey.leftDegrees > kNearlyRound
                 ? "all round, "
                 : sideways(survey.leftDegrees) + " to " + sideways(survey.rightDegrees) + ", ";
-    line += survey.isUpright ? said("%+.2f to %+.2f m", survey.bottomMetres, survey.topMetres)
-                             : upward(survey.bottomDegrees) + " to " + upward(survey.topDegrees);
-    line += said("; %.1f x %.1f px per degree", survey.pixelsPerDegree.x, survey.pixelsPerDegree.y);
+    line += survey.isUpright
+                ? fmt::format("{:+.2f} to {:+.2f} m", survey.bottomMetres, survey.topMetres)
+                : upward(survey.bottomDegrees) + " to " + upward(survey.topDegrees);
+    line += fmt::format(
+        "; {:.1f} x {:.1f} px per degree", survey.pixelsPerDegree.x, survey.pixelsPerDegree.y);
     for (const ChannelOverlap& overlap : survey.overlaps)
-        line +=
-            (overlap.pixels > 0
-                 ? said("; blends over %.0f px (%.1f deg) with ", overlap.pixels, overlap.degrees)
-                 : said("; blends over %.0f %% of its picture with ", 100 * overlap.share)) +
-            overlap.with;
+        line += (overlap.pixels > 0 ? fmt::format("; blends over {:.0f} px ({:.1f} deg) with ",
+                                                  overlap.pixels,
+                                                  overlap.degrees)
+                                    : fmt::format("; blends over {:.0f} % of its picture with ",
+                                                  100 * overlap.share)) +
+                overlap.with;
     return line;
 }
 

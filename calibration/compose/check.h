@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `aquarama check` and `inspect` say: what a rig's projectors do to its screen, in the numbers
-// that a crew asks for, and what is in a scene's or a species' file.
+// The output of `aquarama check` and `inspect`: what a rig's projectors light, in the numbers that
+// a crew asks for, and the contents of the files of scenes and species.
 #pragma once
 
 #include <string>
@@ -12,12 +12,13 @@
 
 namespace aquarama::compose {
 
-// Several lines. `path`: of the file that it was read from. Throws Error with file:line:column
-// where the scene has no room for its fish, or for a mistake in a file of its cast.
+// Several lines about a scene or a species, without the last line break. `path`: its file. Throws
+// Error with file:line:column where the scene has no room for its fish, or for a mistake in a file
+// of its cast.
 [[nodiscard]] std::string inventoryOf(const config::Scene& scene, const std::string& path);
 [[nodiscard]] std::string inventoryOf(const config::Species& species, const std::string& path);
 
-// What two channels both light.
+// The overlap of a channel with another one.
 struct ChannelOverlap {
     std::string with;   // the other channel
     double pixels = 0;  // of this channel's picture, along a cylinder's mid-height
@@ -25,6 +26,7 @@ struct ChannelOverlap {
     double share = 0;  // of this channel's picture
 };
 
+// The area that a channel lights.
 struct ChannelSurvey {
     std::string name;
     double leftDegrees = 0, rightDegrees = 0;  // azimuths of what it lights; right is positive
@@ -35,8 +37,8 @@ struct ChannelSurvey {
     std::vector<ChannelOverlap> overlaps;
 };
 
-// Of the channel of this index, which lights a part of the screen (wall::checkGeometry). `wall` is
-// rig's.
+// Surveys the channel of this index, which must light a part of the screen (wall::checkGeometry).
+// `wall` is the rig's.
 [[nodiscard]] ChannelSurvey surveyChannel(const config::Rig& rig,
                                           const wall::Wall& wall,
                                           std::size_t channel);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A moving picture in a file: MP4 by FFmpeg's libraries, or a looping animated WebP.
+// Writes clips: MP4 by FFmpeg's libraries, or a looping animated WebP.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@
 
 namespace aquarama::compose {
 
-// Of a clip that is to be made.
+// The format of a clip.
 struct ClipFormat {
     std::string path;  // its ending chooses: .mp4 or .webp
     glm::ivec2 sizePixels{};
-    int ticksBetween = 1;  // frames of a show from one picture of the clip to the next
+    int ticksBetween = 1;  // frames of the show for each picture of the clip
 };
 
 // A clip that is being made: an OutputFile until finish(). The functions throw Error where the file
@@ -25,10 +25,9 @@ struct ClipFormat {
 class Clip {
   public:
     virtual ~Clip() = default;
-    // The next picture: codes of 8 bits, of the format's size. Ticks count up; the first may be
-    // any.
+    // Adds the next picture: codes of 8 bits, of the format's size. Ticks increase from any number.
     virtual void add(const Picture& picture, std::uint64_t tick) = 0;
-    // Once, after the last. The last picture is seen as long as the others.
+    // Completes the file; call it once. The last picture is shown as long as the others.
     virtual void finish() = 0;
 };
 
@@ -36,10 +35,10 @@ class Clip {
 // part 2, which every build of the library has.
 [[nodiscard]] std::span<const char* const> videoEncoders();
 
-// By the ending of the path. Throws Error: another ending, a file that cannot be written, no
-// encoder.
+// Chooses by the ending of the path. Throws Error for another ending, for a file that cannot be
+// written, and without an encoder.
 [[nodiscard]] std::unique_ptr<Clip> makeClip(const ClipFormat& format);
-// By the first of these encoders that the library has and that opens.
+// Uses the first of these encoders that the library has and that opens.
 [[nodiscard]] std::unique_ptr<Clip> makeVideo(const ClipFormat& format,
                                               std::span<const char* const> encoders);
 [[nodiscard]] std::unique_ptr<Clip> makeAnimation(const ClipFormat& format);

@@ -68,7 +68,7 @@ struct Eye {
     }
 };
 
-// So that all of the screen is in the picture that is well before the eye.
+// Chooses the view so that it shows all of the screen that is not too near.
 Eye eyeAtTheBack(const wall::ScreenSurface& screen, glm::dvec2 sizePixels) {
     constexpr double kNearest = 0.5;  // of the screen's reach
     const ScreenReach reach = reachOf(screen);
@@ -155,7 +155,7 @@ bool hasStereo(const config::Rig& rig) {
 
 namespace {
 
-// Of the projector's own red, green and blue.
+// The light of the projector's own red, green and blue.
 std::array<std::vector<float>, 3> lightOfCodes(const formats::ChannelColour& colour, int bits) {
     std::array<std::vector<float>, 3> light;
     const std::size_t codes = std::size_t{1} << bits;
@@ -206,7 +206,7 @@ Light composePanorama(const config::Rig& rig, std::span<const Light> channels) {
 
 namespace {
 
-// What the screen sends back at a point of it.
+// The light that the screen reflects at one of its points.
 ScreenLight screenLight(const wall::Wall& wall,
                         const Light& panorama,
                         std::span<const Light> channels) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated hall: adds up, in linear light, what the projectors throw on the screen, and writes
-// the two pictures that are composed of a snapshot.
+// Composes the pictures of channels to a panorama and to a picture of the hall, in linear light.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +19,8 @@
 
 namespace aquarama::compose {
 
-// What projectors throw for the codes of their pictures: sRGB, or where a channel's wall file has a
-// colour what that says. Immutable.
+// The light of projectors for the codes of their pictures: by sRGB, or by the colour in a channel's
+// wall file. Immutable.
 class Projectors {
   public:
     // Throws Error where a wall file cannot be used.
@@ -32,8 +31,7 @@ class Projectors {
     std::vector<std::optional<formats::ChannelColour>> colours_;
 };
 
-// Where the unrolled screen's pixels lie in the channels' pictures. Made once for many panoramas of
-// one rig.
+// The places of the panorama's pixels in the channels' pictures, computed once for many panoramas.
 class PanoramaMap {
   public:
     explicit PanoramaMap(const config::Rig& rig);
@@ -51,30 +49,30 @@ class PanoramaMap {
     std::vector<std::vector<Sample>> samples_;  // of each channel
 };
 
-// The unrolled screen, of one picture for each channel as above.
+// The unrolled screen, composed of one picture for each channel as above.
 [[nodiscard]] Light composePanorama(const config::Rig& rig, std::span<const Light> channels);
 
-// Size of the hall's picture and clip.
+// The size of the hall's picture and clip.
 inline constexpr glm::ivec2 kHallPixels(1600, 900);
 
-// What a visitor at the back of the dark hall sees, over the heads of the audience. `channels`: as
-// above, for panels, whose panorama is coarse above and below; else they may be left out. Takes
-// seconds; uses all processors.
+// The view of a visitor at the back of the dark hall, over the heads of the audience. `channels`:
+// as above; only panels need them, as their panorama is coarse above and below. Takes seconds; uses
+// all processors.
 [[nodiscard]] Light composeHall(const config::Rig& rig,
                                 const Light& panorama,
                                 glm::ivec2 sizePixels,
                                 std::span<const Light> channels = {});
 
-// The same of any light on a screen, which may differ from what a rig means. `panorama`: the
-// screen's, coarse, for what it throws on the room.
+// The same for any light on a screen, which may differ from the rig's. `panorama`: a coarse one of
+// the screen, for its light on the room.
 [[nodiscard]] Light composeHall(const wall::ScreenSurface& screen,
                                 const Light& panorama,
                                 const ScreenLight& light,
                                 glm::ivec2 sizePixels);
 
-// What every channel of folder/channel-NAME.png throws on the wall, seen without glasses: of two
-// eyes that its display parts again the mean of channel-NAME.left_eye.png and .right_eye.png.
-// Throws Error when a picture is missing or has not its channel's size.
+// The light of each channel by folder/channel-NAME.png, seen without glasses: where a display
+// separates two eyes, the mean of channel-NAME.left_eye.png and .right_eye.png. Throws Error where
+// a picture is missing or has another size than its channel.
 [[nodiscard]] std::vector<Light> readChannels(const config::Rig& rig, const std::string& folder);
 
 // Writes folder/panorama.png and folder/hall.png with 8 or 16 bits. Throws Error where they cannot

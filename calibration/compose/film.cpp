@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
+#include "common/cli/progress.h"
 #include "common/net/channels.h"
 
 namespace aquarama::compose {
@@ -36,7 +36,8 @@ struct FilmedFrame {
     Picture picture;  // 8 bits
 };
 
-// Makes a picture of the clip of a frame of each filmed channel. Keeps a reference to the rig.
+// Composes a picture of the clip from one frame of each filmed channel. Keeps a reference to the
+// rig.
 class Camera {
   public:
     Camera(const config::Rig& rig, std::string of) : rig_{rig}, of_{std::move(of)} {
@@ -85,7 +86,7 @@ std::uint64_t picturesIn(const Filming& filming) {
     return (filming.frames.value_or(0) + between - 1) / between;
 }
 
-// What the nodes of some channels send.
+// Receives the frames of the nodes of some channels.
 class FilmedChannels {
   public:
     FilmedChannels(const std::filesystem::path& folder, std::vector<config::Channel> channels)
@@ -142,13 +143,13 @@ void film(const config::Rig& rig, const Filming& filming) {
     std::uint64_t pictures = 0;
     for (; frames; frames = filmed->nextFrame()) {
         clip->add(camera.pictureOf(*frames), frames->front().frame);
-        progress.show(++pictures);
+        progress.count(++pictures);
     }
     filmed.reset();  // the nodes need not wait for the encoder's last pictures
     clip->finish();
     progress.end();
-    std::cout << "clip of the " << filming.of << " in " << filming.clipPath << ": "
-              << counted(pictures, "picture") << std::endl;
+    cli::say(fmt::format(
+        "clip of the {} in {}: {}", filming.of, filming.clipPath, counted(pictures, "picture")));
 }
 
 }  // namespace aquarama::compose

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A clip of the wall, composed while nodes draw it.
+// Makes a clip of the wall while nodes draw it.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,25 @@
 
 namespace aquarama::compose {
 
-// What a clip shows beside channels by their names.
+// The names of views, beside the names of channels.
 inline constexpr const char* kPanorama = "panorama";
 inline constexpr const char* kHall = "hall";
 
-// What is filmed, and into which files.
+// The view that is filmed, and the files of the clip.
 struct Filming {
     std::string of = kPanorama;   // or kHall, or a channel's name
     std::filesystem::path pipes;  // folder of the sockets by which the nodes send frames
     std::string clipPath;         // .mp4 or .webp
     int ticksBetween = 1;
     std::optional<std::uint64_t> frames = {};  // of the show, where it is known
-    // Of the panorama or the hall: where panorama.png and hall.png of the first frame go, at once;
-    // empty: nowhere.
+    // Folder for panorama.png and hall.png of the first frame, written at once, where the panorama
+    // or the hall is filmed; empty: none.
     std::string firstPictures = {};
 };
 
-// Makes the clip until a node has ended, and says what it made. Shows its progress on standard
-// output: in one line of a terminal, or a line every ten seconds. Throws Error: frames that are not
-// the rig's or not the same ones of all channels, no frame at all, a clip that cannot be written.
+// Makes the clip until a node ends, and writes one line about it. Shows its progress. Throws Error
+// for frames that do not fit the rig or differ between channels, without any frame, and where the
+// clip cannot be written.
 void film(const config::Rig& rig, const Filming& filming);
 
 }  // namespace aquarama::compose

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // aquarama-compose: checks a rig, says what it does, and composes what its projectors show.
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,7 @@
 #include "common/base/counted.h"
 #include "common/base/log.h"
 #include "common/base/units.h"
-#include "common/cli/command_line.h"
+#include "common/cli/commands.h"
 #include "common/cli/outputs.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
@@ -24,11 +23,6 @@
 
 namespace aquarama {
 namespace {
-
-// To standard output, without a line end of its own.
-void say(const std::string& text) {
-    std::fputs(text.c_str(), stdout);
-}
 
 // Throws Error for a mistake in the file, or for a projector that misses the screen.
 config::Rig checkedRig(const std::string& text, const std::string& path) {
@@ -45,7 +39,7 @@ config::Rig readCheckedRig(const std::string& path) {
 
 // How much the rig's file of adjustments holds.
 std::string byHand(const config::Adjustments& adjustments) {
-    return fmt::format("by hand: {} control points, {} masks, {} limits of blends\n",
+    return fmt::format("by hand: {} control points, {} masks, {} limits of blends",
                        adjustments.points.size(),
                        adjustments.masks.size(),
                        adjustments.blends.size());
@@ -55,10 +49,10 @@ std::string byHand(const config::Adjustments& adjustments) {
 void checkRig(const config::Rig& rig, const std::string& path) {
     const wall::Wall wall(rig);
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
-        std::printf("%s\n", compose::oneLine(compose::surveyChannel(rig, wall, i)).c_str());
+        cli::say(compose::oneLine(compose::surveyChannel(rig, wall, i)));
     const double dark = wall::darkShare(wall);
-    if (dark > 0) std::printf("dark: %.1f %% of the screen\n", 100 * dark);
-    if (!rig.adjustments.empty()) say(byHand(wall.adjustments()));
+    if (dark > 0) cli::say(fmt::format("dark: {:.1f} % of the screen", 100 * dark));
+    if (!rig.adjustments.empty()) cli::say(byHand(wall.adjustments()));
     const bool blendsItself = std::ranges::none_of(
         rig.channels, [](const config::Channel& channel) { return channel.wallFile.has_value(); });
     const double worst = compose::worstBlendSum(wall);
@@ -66,10 +60,10 @@ void checkRig(const config::Rig& rig, const std::string& path) {
         throw Error(path + ": the channels' shares of light do not sum to one");
     const std::string scene = config::scenePathOf(rig, path);
     (void)compose::inventoryOf(config::readScene(scene), scene);
-    std::printf("%s: good; the %s sum to one within %.0e\n",
-                path.c_str(),
-                blendsItself ? "channels' shares of light" : "blends of its wall files",
-                worst);
+    cli::say(fmt::format("{}: good; the {} sum to one within {:.0e}",
+                         path,
+                         blendsItself ? "channels' shares of light" : "blends of its wall files",
+                         worst));
 }
 
 // A rig, a scene or a species, whichever the file holds; `showRig` is called for a rig.
@@ -79,9 +73,9 @@ void show(const std::string& path, void (*showRig)(const config::Rig&, const std
         case config::FileKind::Rig:
             return showRig(checkedRig(text, path), path);
         case config::FileKind::Scene:
-            return say(compose::inventoryOf(config::parseScene(text, path), path));
+            return cli::say(compose::inventoryOf(config::parseScene(text, path), path));
         case config::FileKind::Species:
-            return say(compose::inventoryOf(config::parseSpecies(text, path), path));
+            return cli::say(compose::inventoryOf(config::parseSpecies(text, path), path));
     }
 }
 
@@ -143,31 +137,27 @@ std::string placeOf(const config::Display& display) {
 // Says what the file holds, without any geometry of the wall. show() wants the path, which is not
 // used.
 void inspectRig(const config::Rig& rig, const std::string& /*path*/) {
-    std::printf(
-        "rig \"%s\": %s\n", rig.name.c_str(), counted(rig.channels.size(), "channel").c_str());
-    std::printf("scene: %s\n", rig.scene.c_str());
-    std::printf("screen: %s\n", textOf(rig.screen).c_str());
-    std::printf("panorama: %d x %d pixels\n", rig.panoramaPixels.x, rig.panoramaPixels.y);
+    cli::say(fmt::format("rig \"{}\": {}", rig.name, counted(rig.channels.size(), "channel")));
+    cli::say("scene: " + rig.scene);
+    cli::say("screen: " + textOf(rig.screen));
+    cli::say(fmt::format("panorama: {} x {} pixels", rig.panoramaPixels.x, rig.panoramaPixels.y));
     if (rig.stereo.mode != config::StereoMode::Mono)
-        std::printf("stereo: %s, eyes %.0f mm apart\n",
-                    config::nameOf(rig.stereo.mode).c_str(),
-                    1000 * rig.stereo.eyeSeparationMetres);
-    std::printf(
-        "addresses: control %s, state %s\n", rig.controlAddress.c_str(), rig.stateAddress.c_str());
-    std::printf("timing: %g Hz, present deadline %g s, membership %g s\n",
-                rig.timing.refreshHertz,
-                rig.timing.presentDeadlineSeconds,
-                rig.timing.membershipSeconds);
-    for (const config::Channel& channel : rig.channels) {
-        const std::string place = placeOf(channel.display);
-        std::printf("channel %u \"%s\": %d x %d pixels, %s, device %s\n",
-                    channel.id,
-                    channel.name.c_str(),
-                    channel.sizePixels.x,
-                    channel.sizePixels.y,
-                    place.c_str(),
-                    channel.display.device.c_str());
-    }
+        cli::say(fmt::format("stereo: {}, eyes {:.0f} mm apart",
+                             config::nameOf(rig.stereo.mode),
+                             1000 * rig.stereo.eyeSeparationMetres));
+    cli::say(fmt::format("addresses: control {}, state {}", rig.controlAddress, rig.stateAddress));
+    cli::say(fmt::format("timing: {:g} Hz, present deadline {:g} s, membership {:g} s",
+                         rig.timing.refreshHertz,
+                         rig.timing.presentDeadlineSeconds,
+                         rig.timing.membershipSeconds));
+    for (const config::Channel& channel : rig.channels)
+        cli::say(fmt::format("channel {} \"{}\": {} x {} pixels, {}, device {}",
+                             channel.id,
+                             channel.name,
+                             channel.sizePixels.x,
+                             channel.sizePixels.y,
+                             placeOf(channel.display),
+                             channel.display.device));
 }
 
 // Options of `compose` and `clip`.
@@ -182,54 +172,54 @@ struct Clip {
     compose::Filming filming;
 };
 
-// The callback only chooses the job, which runs when the whole line has been read. `options` must
-// outlive it.
-void describeCompose(CLI::App& app, Composition& options, cli::Job& job) {
-    CLI::App& compose = *app.add_subcommand(
-        "compose", "make DIR/panorama.png and DIR/hall.png from DIR/channel-NAME.png");
-    compose.add_option("RIG", options.rig, "rig file that the pictures were taken with")
-        ->required();
-    compose.add_option("DIR", options.folder, "folder of the pictures")->required();
-    compose.add_flag("--deep", options.deep, "write 16 bits instead of 8");
-    compose.callback([&] {
-        job = [&] {
+void addCompose(cli::CommandLine& line) {
+    const auto [command, options] = line.add<Composition>(
+        "compose",
+        "make DIR/panorama.png and DIR/hall.png from DIR/channel-NAME.png",
+        [](const Composition& chosen) {
             compose::composeSnapshot(
-                readCheckedRig(options.rig), options.folder, options.deep ? 16 : 8);
-            return 0;
-        };
-    });
+                readCheckedRig(chosen.rig), chosen.folder, chosen.deep ? 16 : 8);
+        });
+    command.add_option("RIG", options.rig, "rig file that the pictures were taken with")
+        ->required();
+    command.add_option("DIR", options.folder, "folder of the pictures")->required();
+    command.add_flag("--deep", options.deep, "write 16 bits instead of 8");
 }
 
-void describeClip(CLI::App& app, Clip& options, cli::Job& job) {
-    CLI::App& clip = *app.add_subcommand(
-        "clip", "make FILE.mp4 or FILE.webp of the frames that running nodes send (--film)");
-    clip.add_option("RIG", options.rig, "rig file that is shown")->required();
-    clip.add_option("FILE", options.filming.clipPath, "the clip")->required();
-    clip.add_option("--pipes",
+void addClip(cli::CommandLine& line) {
+    const auto [command, options] = line.add<Clip>(
+        "clip",
+        "make FILE.mp4 or FILE.webp of the frames that running nodes send (--film)",
+        [](const Clip& chosen) { compose::film(readCheckedRig(chosen.rig), chosen.filming); });
+    command.add_option("RIG", options.rig, "rig file that is shown")->required();
+    command.add_option("FILE", options.filming.clipPath, "the clip")->required();
+    command
+        .add_option("--pipes",
                     options.filming.pipes,
                     "folder of the sockets by which the nodes send frames")
         ->required();
-    clip.add_option("--of", options.filming.of, "panorama, hall or a channel's name");
-    clip.add_option("--every", options.filming.ticksBetween, "frames of the show to one picture")
+    command.add_option("--of", options.filming.of, "panorama, hall or a channel's name");
+    command
+        .add_option("--every", options.filming.ticksBetween, "frames of the show to one picture")
         ->check(cli::wholeNumber(1, 10000));
-    clip.add_option("--frames",
+    command
+        .add_option("--frames",
                     options.filming.frames,
                     "how many frames the show has, to say how long it takes")
         ->check(cli::wholeNumber(1, cli::kMostShownFrames));
-    clip.add_option("--first",
-                    options.filming.firstPictures,
-                    "folder for panorama.png and hall.png of the first frame, at once");
-    clip.callback([&] {
-        job = [&] {
-            compose::film(readCheckedRig(options.rig), options.filming);
-            return 0;
-        };
-    });
+    command.add_option("--first",
+                       options.filming.firstPictures,
+                       "folder for panorama.png and hall.png of the first frame, at once");
 }
 
-void describeView(CLI::App& app, compose::SimulatedView& options, cli::Job& job) {
-    CLI::App& command = *app.add_subcommand(
-        "view", "what an eye in the hall or a camera sees of the channels' pictures");
+void drawView(const compose::SimulatedView& view) {
+    cli::requireFile("--out", view.outPath);
+    compose::drawView(view);
+}
+
+void addView(cli::CommandLine& line) {
+    const auto [command, options] = line.add<compose::SimulatedView>(
+        "view", "what an eye in the hall or a camera sees of the channels' pictures", drawView);
     command.add_option("RIG", options.rigPath, "the rig")->required();
     command
         .add_option("--frame",
@@ -249,13 +239,33 @@ void describeView(CLI::App& app, compose::SimulatedView& options, cli::Job& job)
         ->required()
         ->check(CLI::IsMember({"hall", "camera"}));
     command.add_option("--out", options.outPath, "the picture (.png)")->required();
-    command.callback([&] {
-        job = [&] {
-            cli::requireFile("--out", options.outPath);
-            compose::drawView(options);
-            return 0;
-        };
-    });
+}
+
+struct Files {
+    std::vector<std::string> paths;
+};
+
+void addCheck(cli::CommandLine& line, const CLI::App& program) {
+    const auto [command, options] = line.add<Files>(
+        "check",
+        "validate rigs and say what their projectors light; or scenes or "
+        "species, and say what is in them",
+        [&program](const Files& files) { return checkAll(program.get_name(), files.paths); });
+    command
+        .add_option("FILE", options.paths, "such as config/desk.txtpb; several are checked in turn")
+        ->required();
+}
+
+struct InspectedFile {
+    std::string path;
+};
+
+void addInspect(cli::CommandLine& line) {
+    const auto [command, options] = line.add<InspectedFile>(
+        "inspect", "say what a rig, a scene or a species holds", [](const InspectedFile& file) {
+            show(file.path, inspectRig);
+        });
+    command.add_option("FILE", options.path, "a rig, a scene or a species")->required();
 }
 
 }  // namespace
@@ -266,34 +276,11 @@ int main(int count, char** arguments) {
     using namespace aquarama;
     CLI::App app("Checks a rig and composes what its projectors show.", "aquarama-compose");
     app.require_subcommand(1);
-    cli::Job job;
-
-    std::vector<std::string> checked;
-    CLI::App& checking =
-        *app.add_subcommand("check",
-                            "validate rigs and say what their projectors light; or scenes or "
-                            "species, and say what is in them");
-    checking.add_option("FILE", checked, "such as config/desk.txtpb; several are checked in turn")
-        ->required();
-    checking.callback([&] { job = [&] { return checkAll(app.get_name(), checked); }; });
-
-    Composition composition;
-    describeCompose(app, composition, job);
-    Clip clip;
-    describeClip(app, clip, job);
-
-    compose::SimulatedView view;
-    describeView(app, view, job);
-
-    std::string inspected;
-    CLI::App& inspecting =
-        *app.add_subcommand("inspect", "say what a rig, a scene or a species holds");
-    inspecting.add_option("FILE", inspected, "a rig, a scene or a species")->required();
-    inspecting.callback([&] {
-        job = [&] {
-            show(inspected, inspectRig);
-            return 0;
-        };
-    });
-    return cli::runProgram(app, count, arguments, [&] { return job(); });
+    cli::CommandLine line(app);
+    addCheck(line, app);
+    addCompose(line);
+    addClip(line);
+    addView(line);
+    addInspect(line);
+    return cli::runProgram(app, count, arguments, [&] { return line.runChosen(); });
 }

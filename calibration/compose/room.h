@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dark hall round the wall: floor, ceiling, walls and a row of people, lit by nothing but the
-// screen.
+// The dark hall around the wall: floor, ceiling, walls and a row of people, lit by the screen
+// alone.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@
 
 namespace aquarama::compose {
 
-// How far the screen reaches from the wall's y axis, and its heights; metres.
+// The greatest distance of the screen from the wall's y axis, and its heights; metres.
 struct ScreenReach {
     double radius = 0, bottom = 0, top = 0;
 };
@@ -23,15 +23,15 @@ struct ScreenReach {
 // Points all over the screen, edges included.
 [[nodiscard]] std::vector<glm::dvec3> pointsOn(const wall::ScreenSurface& screen);
 
-// The screen as a coarse grid of lamps, for what it throws on the room.
+// The screen as a coarse grid of lamps that light the room.
 class ScreenGlow {
   public:
     ScreenGlow(const wall::ScreenSurface& screen, const Light& panorama);
-    // Light that a white matt surface at this point of the wall's frame would send back; the normal
-    // has length one.
+    // The light that a white matt surface at this point of the wall's frame would reflect; the
+    // normal has length one.
     [[nodiscard]] glm::vec3 on(glm::dvec3 point, glm::dvec3 normal) const;
-    // The screen out of focus, as a dull floor mirrors it; unrolled coordinates.
     [[nodiscard]] const glm::vec3& mean() const { return mean_; }
+    // The screen out of focus, as in the reflection of a dull floor; unrolled coordinates.
     [[nodiscard]] glm::vec3 blurred(glm::dvec2 unrolledPosition) const;
 
   private:
@@ -58,7 +58,7 @@ struct Person {
     double reach;
 };
 
-// What the screen sends back at a point of it.
+// The light that the screen reflects at one of its points.
 using ScreenLight = std::function<glm::vec3(glm::dvec3 point)>;
 
 // The hall as an eye sees it; keeps a reference to the screen.
@@ -68,8 +68,8 @@ class Room {
          const Light& panorama,
          ScreenLight light,
          glm::dvec3 eye);
-    // The mean of what comes along the rays (of length-one directions) of one pixel to an eye in
-    // the room. The light on floor, ceiling and walls changes slowly: it is found once a pixel.
+    // The mean light along the rays (with directions of length one) of one pixel. The light on
+    // floor, ceiling and walls changes slowly, so it is computed once for each pixel.
     [[nodiscard]] glm::vec3 seen(std::span<const wall::Ray> rays) const;
 
   private:

@@ -22,7 +22,7 @@ namespace {
 // Fixed: the same command gives the same picture, with the same noise.
 constexpr std::uint32_t kCameraSeed = 1;
 
-// By which nodes draw.
+// The rig by which nodes draw.
 config::Rig drawnRig(const SimulatedView& options) {
     if (options.wallPath.empty()) return config::readRig(options.rigPath);
     return hall::withWallFile(config::readRigAsHung(options.rigPath), options.wallPath);
@@ -37,8 +37,8 @@ bool hasChannelPictures(const config::Rig& rig, const std::string& folder) {
     });
 }
 
-// What every channel is sent, as the light of sRGB codes. A panorama is drawn where there is
-// nothing else.
+// The pictures that the channels are sent, as the light of sRGB codes; drawn from a panorama where
+// there are no others.
 std::vector<Light> sentPictures(const SimulatedView& options, const config::Rig& drawn) {
     const std::string panorama = options.folder + "/panorama.png";
     if (hasChannelPictures(drawn, options.folder) || !std::filesystem::exists(panorama)) {
@@ -51,7 +51,7 @@ std::vector<Light> sentPictures(const SimulatedView& options, const config::Rig&
     return wall.pictures(hall::contentOf(content, wall.wall().screen()));
 }
 
-// A panorama for the light that the screen throws on the room.
+// The panorama for the light of the screen on the room.
 constexpr glm::ivec2 kGlowPixels(640, 320);
 
 // By an eye at the back of the hall, in 8 bits of sRGB.
@@ -67,13 +67,12 @@ Picture seenInHall(const hall::TrueHall& truth, const std::vector<Light>& sent) 
 // With the faults and the noise of the simulated camera, unlike seenByPlainCamera().
 Picture seenByCamera(const hall::TrueHall& truth, const std::vector<Light>& sent) {
     std::vector<config::ScanPattern> whites;  // the camera is exposed for them
-    for (std::size_t i = 0; i < truth.channels(); ++i)
-        whites.push_back({.lit = std::uint64_t{1} << i});
+    for (std::size_t i = 0; i < truth.channels(); ++i) whites.push_back({.lit = config::bitOf(i)});
     const hall::SimulatedCamera camera(truth, whites, kCameraSeed);
     return camera.pictureOf(hall::allThrown(truth, sent));
 }
 
-// The truth is that of --hall; what is sent comes from the rig and its wall file.
+// The light falls by the hall of --hall; the pictures are drawn by the rig and its wall file.
 Picture seenIn(const config::Rig& hung, const SimulatedView& options, bool isCamera) {
     if (!options.wallPath.empty() && hasChannelPictures(hung, options.folder))
         throw Error("--wall: " + options.folder +

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is seen in a simulated hall of the pictures of channels: `aquarama view`.
+// Draws the view in a simulated hall that shows the pictures of channels: `aquarama view`.
 #pragma once
 
 #include <string>
 
 namespace aquarama::compose {
 
-// What is drawn, and of what. Empty names are not given.
+// The options of a view. An empty name is not given.
 struct SimulatedView {
     std::string rigPath;
-    // How projectors and screen truly are: a hall's file or random:SEED. Where it is empty, the
-    // light falls as the rig and its wall file say.
+    // The simulated hall: a file or random:SEED. Empty: the light falls as the rig and its wall
+    // file say.
     std::string hall;
     std::string wallPath;  // wall file for all channels, in place of the rig's
     std::string folder;    // of channel-NAME.png; or of panorama.png alone, which is drawn first

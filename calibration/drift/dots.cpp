@@ -14,6 +14,7 @@
 
 #include "calibration/scan/frames.h"
 #include "common/base/log.h"
+#include "common/base/statistics.h"
 #include "common/wall/scan_pattern.h"
 
 namespace aquarama::drift {
@@ -22,7 +23,7 @@ namespace {
 
 using Kind = config::ScanPattern::Kind;
 
-// Luminance without that of the black wall.
+// The luminance of a picture without that of the black wall.
 struct DotPicture {
     glm::ivec2 size{};
     scan::Plane light;
@@ -33,8 +34,7 @@ struct DotPicture {
     }
 };
 
-// Weights 1, 2 and 1 of red, green and blue, in linear light by the camera's response. Sets `size`
-// to that of the picture.
+// The linear light of a picture, by the camera's response. Sets `size` to that of the picture.
 scan::Plane luminanceOf(scan::PictureSource& source, std::size_t index, glm::ivec2& size) {
     const config::Scan& scan = source.scan();
     const Picture picture = source.picture(index);
@@ -43,15 +43,10 @@ scan::Plane luminanceOf(scan::PictureSource& source, std::size_t index, glm::ive
     size = picture.sizePixels;
     scan::Plane light(picture.rgb.size() / 3);
     for (std::size_t i = 0; i < light.size(); ++i)
-        light[i] = (table[picture.rgb[3 * i]] + 2 * table[picture.rgb[3 * i + 1]] +
-                    table[picture.rgb[3 * i + 2]]) /
-                   4;
+        light[i] = scan::cameraLuminance(table[picture.rgb[3 * i]],
+                                         table[picture.rgb[3 * i + 1]],
+                                         table[picture.rgb[3 * i + 2]]);
     return light;
-}
-
-// A level that no channel shows: the picture of the black wall.
-bool isBlack(const config::ScanPattern& pattern) {
-    return pattern.kind == Kind::Level && pattern.lit == 0;
 }
 
 // The black picture whose exposure is nearest.
@@ -78,7 +73,7 @@ DotPicture dotPicture(scan::PictureSource& source, std::size_t index) {
     return picture;
 }
 
-// A place of light with dark all round it.
+// A bright spot in the dark.
 struct Spot {
     glm::dvec2 place{};
     double radius = 0;
@@ -91,7 +86,7 @@ struct SpotSum {
     std::size_t pixels = 0;
 };
 
-// All that hangs together and is brighter than `least`, from a pixel on; it is taken away.
+// The connected pixels brighter than `least` around a pixel; they are removed from the picture.
 SpotSum takeSpot(DotPicture& picture, glm::ivec2 start, float least) {
     SpotSum sum;
     std::vector<glm::ivec2> open{start};
@@ -115,9 +110,9 @@ SpotSum takeSpot(DotPicture& picture, glm::ivec2 start, float least) {
     return sum;
 }
 
-// From a place to the middle of the light about it, weighted by a Gaussian there. The window of a
-// spot is the same whenever it is looked at, so what the light round it does to the middle is the
-// same too, and cancels where two nights are compared.
+// The vector from a place to the centre of the light around it, weighted by a Gaussian at the
+// place. The window of a spot stays the same, so that the effect of other light cancels when two
+// nights are compared.
 glm::dvec2 wayToMiddle(const DotPicture& picture, glm::dvec2 place, double radius) {
     const glm::ivec2 low = glm::max(glm::ivec2(place - 3 * radius), 0);
     const glm::ivec2 high = glm::min(glm::ivec2(place + 3 * radius), picture.size - 1);
@@ -134,7 +129,7 @@ glm::dvec2 wayToMiddle(const DotPicture& picture, glm::dvec2 place, double radiu
     return sum > 0 ? moment / sum : glm::dvec2(0);
 }
 
-// The middle of a spot. Twice the way that the window shows is that of a spot as wide as it.
+// The centre of a spot. The vector is doubled, as a window as wide as the spot shows half of it.
 glm::dvec2 centred(const DotPicture& picture, const Spot& spot) {
     constexpr int kSteps = 30;
     glm::dvec2 place = spot.place;
@@ -146,15 +141,11 @@ glm::dvec2 centred(const DotPicture& picture, const Spot& spot) {
     return place;
 }
 
-// Light that is no dot's is darker than this.
+// Dots are brighter than this.
 float leastLight(const DotPicture& picture) {
     constexpr float kLeastShare = 0.12F;   // of the brightest
     constexpr double kBrightest = 0.9997;  // but for this share of the pixels
-    scan::Plane sorted = picture.light;
-    const auto place = sorted.begin() + static_cast<std::ptrdiff_t>(
-                                            kBrightest * static_cast<double>(sorted.size() - 1));
-    std::ranges::nth_element(sorted, place);
-    return kLeastShare * *place;
+    return kLeastShare * quantile(picture.light, kBrightest);
 }
 
 // Spots of a picture, none of them smaller than a few pixels.
@@ -237,7 +228,7 @@ void readNumbers(scan::PictureSource& source,
     }
 }
 
-// To the nearest other dot of the same channel.
+// The distance to the nearest other dot of the same channel.
 double spacingOf(const SeenDot& dot, const std::vector<SeenDot>& dots) {
     double least = std::numeric_limits<double>::infinity();
     for (const SeenDot& other : dots)

@@ -93,20 +93,21 @@ glm::dvec2 movedBy(const CameraMove& move, glm::dvec2 place, glm::dvec2 size) {
     return {by.x(), by.y()};
 }
 
-// What is left of a dot's way for its projector, in pixels of its channel.
+// The movement of a dot that is due to its projector, in pixels of its channel.
 glm::dvec2 ownWay(const DotPair& pair, const CameraMove& move, glm::dvec2 size) {
     return pair.channelFromCamera * (pair.after - pair.before - movedBy(move, pair.before, size));
 }
 
-// Finds the movement of the camera that the most dots agree on. A projector that has moved takes
-// its dots with it; the dots of the others and of the screen's own places still agree with what a
-// camera alone can do, which has five numbers for all of them.
+// Finds the movement of the camera on which most dots agree. A projector that has moved takes its
+// dots with it. The dots of the others still agree with a movement of the camera, which has five
+// parameters for all of them.
 class CameraMoveSearch {
   public:
     CameraMoveSearch(const std::vector<DotPair>& pairs, glm::dvec2 size)
         : pairs_{pairs}, size_{size} {}
 
-    // Of those that no dots, the dots of one or of two channels, or all of them tell.
+    // The best of the candidates: no movement, and fits to the dots of one, of two and of all
+    // channels.
     [[nodiscard]] CameraMove find(std::size_t channels) {
         if (channels < 2) return {};
         std::vector<double> all(pairs_.size(), 1);
@@ -123,7 +124,7 @@ class CameraMoveSearch {
     }
 
   private:
-    // It must explain clearly more than a camera that stands still.
+    // The movement must explain the dots clearly better than a camera that stands still.
     void consider(const std::vector<double>& weights) {
         for (const double bend : {0.0, 0.3, 0.6, 1.0, 1.5, 2.2, 3.0, 4.5, 6.5, 9.0}) {
             const CameraMove move = fitted(weights, bend);
@@ -146,7 +147,7 @@ class CameraMoveSearch {
         }
         return {square.ldlt().solve(right), bend};
     }
-    // Small where many dots agree well, whatever the others say.
+    // A measure that is small where many dots agree well, even if others disagree.
     [[nodiscard]] double costOf(const CameraMove& move) const {
         double cost = 0;
         for (const DotPair& pair : pairs_)
@@ -174,8 +175,9 @@ class CameraMoveSearch {
     CameraMove move_;
 };
 
-// First the mean, then how it grows to the right and down, for both ways; of least sum, not
-// squares. The ways of a channel's dots as one smooth movement; dots that disagree hardly count.
+// The movements of a channel's dots as one linear movement: its mean and its slopes to the right
+// and down, in both axes. It minimises the sum of distances, not of squares, so that outliers
+// hardly count.
 Eigen::Matrix<double, 3, 2> smoothWay(std::span<const DotPair> pairs,
                                       const CameraMove& move,
                                       glm::dvec2 size) {
@@ -234,7 +236,7 @@ const SeenDot* found(const std::vector<SeenDot>& dots, const SeenDot& wanted) {
     return at == dots.end() ? nullptr : &*at;
 }
 
-// Of a channel; its slopes come from all dots that the reference has of it.
+// The drift of a channel; slopes come from all dots that the reference has of it.
 std::vector<DotPair> pairsOf(const Reference& reference,
                              const std::vector<SeenDot>& now,
                              std::size_t channel,
@@ -258,8 +260,8 @@ std::vector<DotPair> pairsOf(const Reference& reference,
 
 }  // namespace
 
-// The camera's movement is found first, from the dots of all channels; a channel is judged by what
-// is left.
+// The camera's movement is found first, from the dots of all channels. A channel is judged by the
+// rest.
 WallDrift driftOf(const Reference& reference,
                   const std::vector<SeenDot>& now,
                   const config::Rig& rig) {

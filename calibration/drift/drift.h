@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a projector has moved since its dots were learned, and how far; told apart from the
-// camera's own small movement.
+// Finds whether a projector has moved since its dots were learned, and how far, apart from small
+// movements of the camera.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@
 
 namespace aquarama::drift {
 
-// What was learned right after a calibration.
+// The dots that were learned right after a calibration.
 struct Reference {
     std::string learned;  // when: "2026-11-24T21:03:01Z"
     glm::ivec2 cameraPixels{};
     std::vector<SeenDot> dots;
 };
 
-// As text (JSON). Throws Error, naming `source`, where it is none or of another rig.
+// To and from JSON. Throws Error with `source` where the text is no reference or of another rig.
 [[nodiscard]] std::string textOf(const Reference& reference, const config::Rig& rig);
 [[nodiscard]] Reference parseReference(const std::string& text,
                                        const std::string& source,
@@ -35,7 +35,8 @@ enum class DriftVerdict : std::uint8_t { InPlace, Moved, NotSeen };
 struct ChannelDrift {
     DriftVerdict verdict = DriftVerdict::NotSeen;
     double shift = 0;  // of its dots, root mean square
-    // To the right, down, clockwise and larger, the last two at the sides of the picture.
+    // Movement to the right and down, clockwise turn and growth; the last two at the picture's
+    // sides.
     double right = 0, down = 0, turn = 0, zoom = 0;
     std::size_t dots = 0;
 };
@@ -47,18 +48,18 @@ struct WallDrift {
     std::vector<ChannelDrift> channels;
 };
 
-// A channel that has moved by more must be calibrated again.
+// A channel that has moved farther must be calibrated again.
 inline constexpr double kMostDriftPixels = 0.5;
 
-// `now`: of foundAgain(). With one channel alone, a movement of the camera is taken for its
-// projector's.
+// `now`: the result of foundAgain(). With one channel alone, a movement of the camera counts as
+// that of its projector.
 [[nodiscard]] WallDrift driftOf(const Reference& reference,
                                 const std::vector<SeenDot>& now,
                                 const config::Rig& rig);
 
-// One line for the terminal, without its end.
+// One line for the terminal, without a line break.
 [[nodiscard]] std::string lineOf(const config::Channel& channel, const ChannelDrift& drift);
-// For other programs.
+// JSON for other programs.
 [[nodiscard]] std::string jsonOf(const WallDrift& drift,
                                  const std::string& looked,  // when, as Reference::learned
                                  const Reference& reference,

@@ -13,7 +13,7 @@ namespace aquarama::geometry {
 
 namespace {
 
-// A tie of a camera with a point of the hall as the rig says it.
+// The residual of a tie between a camera and a point of the hall as the rig describes it.
 struct Sighting {
     glm::dvec2 seen;
     glm::dvec3 point;
@@ -37,8 +37,8 @@ struct SightCost {
     }
 };
 
-// A camera straight before what it sees, at the distance where it sees it as large as it is, rolled
-// by quarter turns.
+// A first guess: a camera straight before the points that it sees, at the distance where they have
+// the size that it sees, rolled by quarter turns.
 Device cameraBefore(const std::vector<Sighting>& sightings,
                     const wall::ScreenSurface& screen,
                     glm::ivec2 size,

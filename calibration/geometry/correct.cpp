@@ -11,10 +11,10 @@ namespace {
 
 constexpr int kCellsAcross = 20;
 constexpr double kPlacePixels = 0.05;  // of a tie
-// From one control to the next, and of the whole.
+// Standard deviations of the bend between controls and of the whole correction, in pixels.
 constexpr Smoothness kSmoothness{.bend = 0.15, .size = 3};
 
-// What is left at the ties of a channel.
+// The difference between the model and the measured places at the ties of a channel.
 std::vector<Measured> restsOf(const SolvedHall& hall,
                               const std::vector<Tie>& ties,
                               std::size_t channel) {

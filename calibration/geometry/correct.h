@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The smooth rest between a solved hall and what its cameras have seen.
+// Corrects a solved hall by the smooth difference that is left to what its cameras saw.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace aquarama::geometry {
 
-// Sets the hall's corrections from the ties that are not held out: least squares with a penalty on
-// bends, where a tie that lies far off counts little.
+// Sets the hall's corrections from the ties that are not held out: by least squares with a penalty
+// on bends, in which outliers have little weight.
 void correct(SolvedHall& hall, const std::vector<Tie>& ties);
 
 }  // namespace aquarama::geometry

@@ -18,7 +18,7 @@ namespace aquarama::geometry {
 
 namespace {
 
-// The part of a dual number that is no derivative.
+// The value of a dual number, without its derivatives.
 double valueOf(double x) {
     return x;
 }
@@ -65,7 +65,7 @@ std::array<T, 16> controlsFrom(const T* const* blocks) {
     return controls;
 }
 
-// A cost with the sixteen controls of a cell behind its other blocks.
+// A cost whose last blocks are the sixteen controls of a cell.
 template <class Cost, int kResiduals, int... kBlocks>
 using WithControls = ceres::AutoDiffCostFunction<Cost,
                                                  kResiduals,
@@ -87,12 +87,13 @@ using WithControls = ceres::AutoDiffCostFunction<Cost,
                                                  1,
                                                  1>;
 
-// The screen's displacement by the sixteen controls of one cell, also a little beyond the cell.
+// The displacement of the screen by the sixteen controls of one cell; it continues a little beyond
+// the cell.
 class CellDisplacement {
   public:
     CellDisplacement(glm::ivec2 cells, glm::ivec2 index) : cells_{cells}, index_{index} {}
     [[nodiscard]] glm::dvec2 within(glm::dvec2 place) const { return place * cells_ - index_; }
-    // Of values and controls of one type: a number, or a dual one at a place without derivatives.
+    // Place and controls have one type, or the place is a number and the controls are dual numbers.
     template <class T>
     [[nodiscard]] T sum(glm::dvec2 place, const std::array<T, 16>& controls) const {
         const glm::dvec2 at = within(place);
@@ -107,21 +108,22 @@ class CellDisplacement {
     glm::dvec2 cells_, index_;
 };
 
-// The same with its controls, as BumpyScreen wants it.
+// The same together with its controls, as a displacement for BumpyScreen.
 struct HeldDisplacement {
     CellDisplacement cell;
     std::array<double, 16> controls;
     [[nodiscard]] double at(glm::dvec2 place) const { return cell.sum(place, controls); }
 };
 
-// Pixels of a channel between the place that lights what a camera sees and the one that the model
-// says. The screen is met in double; its derivatives are those of the plane that touches it there.
+// The residual of a tie: the distance between its measured place and that of the model, in pixels
+// of the channel. The point on the screen is found in double; its derivatives are those of the
+// tangent plane there.
 class TieCost {
   public:
     TieCost(const BumpyScreen& screen, const Tie& tie, CellDisplacement cell, double sigma)
         : screen_{screen}, tie_{tie}, cell_{cell}, weight_{1 / sigma} {}
 
-    // Of lens and pose of the camera and of the projector, the controls of the cell, the residual.
+    // Blocks: lens and pose of the camera, lens and pose of the projector, controls, residual.
     template <class T, class... Rest>
     bool operator()(const T* cameraLens, Rest*... rest) const {
         const auto [blocks, residual] = parted<T, 19>(rest...);
@@ -141,7 +143,7 @@ class TieCost {
   private:
     static constexpr double kNearest = 0.01;  // metres before a lens
 
-    // As far as a picture is wide: a loss that bends makes little of it.
+    // An error as large as a picture is wide; the robust loss gives it little weight.
     template <class T>
     static bool farOff(T* residual) {
         residual[0] = residual[1] = T(1000.0);
@@ -175,13 +177,13 @@ class TieCost {
     double weight_;
 };
 
-// Pixels of a camera, across the outline.
+// The residual of a tie of the outline: pixels of the camera, across the outline.
 class OutlineCost {
   public:
     OutlineCost(const OutlineTie& tie, CellDisplacement cell, double sigma)
         : tie_{tie}, cell_{cell}, weight_{1 / sigma} {}
 
-    // Of lens and pose of the camera, the controls of the cell, the residual.
+    // Blocks: lens and pose of the camera, controls, residual.
     template <class T, class... Rest>
     bool operator()(const T* lens, Rest*... rest) const {
         const auto [blocks, residual] = parted<T, 17>(rest...);
@@ -206,7 +208,7 @@ class OutlineCost {
     double weight_;
 };
 
-// Keeps a value of a block near an expected one.
+// The residual that keeps one value of a block near an expected value.
 struct NearCost {
     std::size_t index;
     double expected, sigma;
@@ -217,7 +219,7 @@ struct NearCost {
     }
 };
 
-// Bends of the displacement, from one control to the next.
+// The residual that keeps the displacement from bending between neighbouring controls.
 struct BendCost {
     double weight;
     template <class T>
@@ -235,8 +237,8 @@ struct FlatCost {
     }
 };
 
-// How far a value may be from what the rig and makers of lenses say: standard deviations. They
-// decide what the pictures leave open alone, and a value that is far off is let go (Cauchy's loss).
+// Standard deviations of values from those of the rig and of usual lenses. They only decide what
+// the pictures leave open. Values that are far off have little weight (Cauchy's loss).
 struct Expectation {
     static constexpr double kPositionMetres = 0.08;
     static constexpr double kTurnRadians = 0.04;
@@ -266,7 +268,7 @@ std::vector<int> heldLensParameters(FreeParts stage, bool isCamera) {
 
 }  // namespace
 
-// One problem for Ceres, built of the hall as it is so far; solving it moves the hall.
+// The implementation, with one problem of Ceres.
 class JointProblem::Problem {
   public:
     Problem(SolvedHall& hall,
@@ -316,7 +318,8 @@ class JointProblem::Problem {
         ceres::Solver::Options options;
         options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
         options.max_num_iterations = steps;
-        // What pictures hardly tell, as how far a camera stands from a flat wall, is found last.
+        // Tight, since the last steps find what the pictures hardly show, such as the distance of a
+        // camera from a flat wall.
         options.function_tolerance = 1e-7;
         options.num_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
         options.logging_type = ceres::SILENT;
@@ -362,8 +365,8 @@ class JointProblem::Problem {
         for (double& control : hall_.screen.displacement().controls()) blocks.push_back(&control);
         return blocks;
     }
-    // How the place in the panorama of what a camera sees moves with the free parameters, by
-    // differences. Only those of the camera and the controls about the place move it.
+    // The derivative of the panorama place of a camera pixel by the free parameters, by
+    // differences. Only the parameters of the camera and the controls near the place move it.
     Eigen::MatrixX2d slopeOf(std::size_t camera, glm::dvec2 seen) {
         Eigen::MatrixX2d slope = Eigen::MatrixX2d::Zero(freeCount(), 2);
         const auto here = hall_.placeSeen(camera, seen);
@@ -386,7 +389,7 @@ class JointProblem::Problem {
     }
     glm::dvec2 movedBy(double* block, int i, std::size_t camera, glm::dvec2 seen, glm::dvec2 at) {
         const int size = problem_.ParameterBlockSize(block);
-        // Of a lens the aspect alone may be held.
+        // In a lens only the aspect may be fixed.
         const bool isHeld = problem_.ParameterBlockTangentSize(block) < size;
         double& value = block[isHeld && i >= int{lens::Aspect} ? i + 1 : i];
         const double kept = value, step = 1e-5 * std::max(1.0, std::abs(value));
@@ -471,8 +474,8 @@ class JointProblem::Problem {
                       lens,
                       size));
         problem_.AddParameterBlock(projector.pose.data(), 6);
-        // Of the turn, and of the position: the shift of a pose is in its own frame, so it is held
-        // as loosely as the larger of the two moves it.
+        // The shift of a pose is in its own frame, so that turning the projector changes it too:
+        // its standard deviation is the larger effect of turn and position.
         std::vector<double> sigma(6, Expectation::kTurnRadians);
         const double arm = glm::length(positionOf(expected.pose));
         for (std::size_t i = 3; i < 6; ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The joint problem of cameras, projectors and the screen's bumps, for the least squares of Ceres.
+// Solves for cameras, projectors and the bumps of the screen together, by least squares (Ceres).
 #pragma once
 
 #include <memory>
@@ -12,11 +12,11 @@
 
 namespace aquarama::geometry {
 
-// What is free: first where things stand, then what lenses do as well, at last the screen too.
+// The parameters that are free: the poses; the poses and lenses; or these and the screen's bumps.
 enum class FreeParts : std::uint8_t { Poses, Lenses, Bumps };
 
-// A problem that is built of the hall as it is so far; solving it moves the hall, which outlives
-// it. `expected`: projectors as the rig has them; what is solved stays near them.
+// A problem that starts from the hall as it is. solve() changes the hall, which outlives the
+// problem. `expected`: the projectors as the rig has them; the solution stays near them.
 class JointProblem {
   public:
     JointProblem(SolvedHall& hall,
@@ -26,13 +26,14 @@ class JointProblem {
     JointProblem(const JointProblem&) = delete;
     JointProblem& operator=(const JointProblem&) = delete;
 
-    // Standard deviations, pixels of the channel and of the camera. A tie's own is added.
+    // `sigma`: a standard deviation beside the tie's own; pixels of the channel, or of the camera
+    // for the outline.
     void add(const Tie& tie, double sigma);
     void add(const OutlineTie& tie, double sigma);
     void solve(FreeParts stage, int mostSteps);
 
-    // After the stage of bumps: how well the place in the panorama of what a camera sees is known,
-    // as a standard deviation in its pixels, by the errors of the ties alone.
+    // The standard deviation of the panorama place of each camera pixel in `seen`, in panorama
+    // pixels, by the errors of the ties alone. Call it after the stage of bumps.
     [[nodiscard]] std::vector<double> uncertainty(std::size_t camera,
                                                   const std::vector<glm::dvec2>& seen);
 

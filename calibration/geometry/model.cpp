@@ -10,34 +10,14 @@
 
 namespace aquarama::geometry {
 
-namespace {
-
-glm::dvec2 imageOf(const LensParameters& lens, glm::dvec2 tangent) {
-    const Two<double> at = imaged(lens.data(), Two<double>{tangent.x, tangent.y});
-    return {at[0], at[1]};
-}
-
-// How the tangent moves with its image.
-glm::dmat2 tangentByPlace(const LensParameters& lens, glm::dvec2 tangent) {
-    constexpr double kStep = 1e-6;
-    const glm::dvec2 at = imageOf(lens, tangent);
-    return glm::inverse(glm::dmat2((imageOf(lens, tangent + glm::dvec2(kStep, 0)) - at) / kStep,
-                                   (imageOf(lens, tangent + glm::dvec2(0, kStep)) - at) / kStep));
-}
-
-}  // namespace
-
 Tangent tangentOf(const LensParameters& lens, glm::dvec2 place) {
+    const BrownLens<double> distortion{
+        lens[lens::K1], lens[lens::K2], lens[lens::K3], lens[lens::P1], lens[lens::P2]};
     const glm::dvec2 focal(lens[lens::Focal], lens[lens::Focal] * lens[lens::Aspect]);
-    glm::dvec2 tangent = (place - glm::dvec2(lens[lens::CentreX], lens[lens::CentreY])) / focal;
-    glm::dmat2 byPlace(1);
-    for (int i = 0; i < 20; ++i) {
-        byPlace = tangentByPlace(lens, tangent);
-        const glm::dvec2 off = place - imageOf(lens, tangent);
-        tangent += byPlace * off;
-        if (glm::dot(off, off) < 1e-20) break;
-    }
-    return {tangent, byPlace};
+    const glm::dvec2 centre(lens[lens::CentreX], lens[lens::CentreY]);
+    const glm::dvec2 tangent = tangentOf(distortion, (place - centre) / focal);
+    const glm::dmat2 byImage = glm::inverse(imageSlope(distortion, tangent));
+    return {tangent, {byImage[0] / focal.x, byImage[1] / focal.y}};
 }
 
 SmoothField::Cell SmoothField::cellAt(glm::dvec2 place) const {
@@ -75,8 +55,8 @@ LensParameters lensOf(const config::Projector& projector) {
     lens[lens::Aspect] = projector.focalPixels.y / projector.focalPixels.x;
     lens[lens::CentreX] = projector.principalPixels.x;
     lens[lens::CentreY] = projector.principalPixels.y;
-    lens[lens::K1] = projector.radial.x;
-    lens[lens::K2] = projector.radial.y;
+    lens[lens::K1] = projector.distortion.k1;
+    lens[lens::K2] = projector.distortion.k2;
     return lens;
 }
 

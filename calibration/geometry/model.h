@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hall as the solver knows it: lenses, poses and a screen that is displaced along its normals.
+// The solver's model of a hall: lenses, poses and a screen that is displaced along its normals.
 // Templates on the number type T: double, or Ceres' dual numbers. Wall frame, metres.
 #pragma once
 
@@ -14,20 +14,21 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/base/brown_lens.h"
 #include "common/config/rig.h"
 #include "common/wall/surface.h"
 
 namespace aquarama::geometry {
 
-// A lens, of a camera or a projector; after Brown (1966) and Conrady (1919). Pixels from the top
-// left corner of the picture; x right, y down, z along the axis.
+// A lens of a camera or a projector: a pinhole with the distortion of BrownLens. Pixels from the
+// top left corner of the picture; x right, y down, z along the axis.
 namespace lens {
 enum : std::size_t { Focal, Aspect, CentreX, CentreY, K1, K2, K3, P1, P2, Count };
 }
 using LensParameters = std::array<double, lens::Count>;
 
-// From the wall's frame to that of a camera or projector (x right, y down, z ahead): an axis times
-// the angle about it, then a shift.
+// The transform from the wall's frame to that of a camera or projector (x right, y down, z ahead):
+// a rotation as an axis times its angle, then a shift in metres.
 using PoseParameters = std::array<double, 6>;
 
 template <class T>
@@ -40,23 +41,17 @@ T dot(const Three<T>& a, const Three<T>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// The place in the picture of a tangent from the lens' axis.
+// The pixel of a tangent from the axis of a lens (LensParameters).
 template <class T>
 Two<T> imaged(const T* lens, const Two<T>& tangent) {
-    const T& x = tangent[0];
-    const T& y = tangent[1];
-    const T square = x * x + y * y;
-    const T radial =
-        1.0 + square * (lens[lens::K1] + square * (lens[lens::K2] + square * lens[lens::K3]));
-    const T& p1 = lens[lens::P1];
-    const T& p2 = lens[lens::P2];
-    const T across = x * radial + 2.0 * p1 * x * y + p2 * (square + 2.0 * x * x);
-    const T down = y * radial + p1 * (square + 2.0 * y * y) + 2.0 * p2 * x * y;
+    const BrownLens<T> distortion{
+        lens[lens::K1], lens[lens::K2], lens[lens::K3], lens[lens::P1], lens[lens::P2]};
+    const auto [across, down] = distortion.imageOf(tangent[0], tangent[1]);
     return {lens[lens::CentreX] + lens[lens::Focal] * across,
             lens[lens::CentreY] + lens[lens::Focal] * lens[lens::Aspect] * down};
 }
 
-// A point of the wall's frame in that of a camera or projector.
+// Transforms a point from the wall's frame to that of a camera or projector.
 template <class T>
 Three<T> inFrame(const T* pose, const Three<T>& point) {
     Three<T> turned;
@@ -70,16 +65,16 @@ Two<T> pixelOf(const T* lens, const T* pose, const Three<T>& point) {
     return imaged(lens, Two<T>{seen[0] / seen[2], seen[1] / seen[2]});
 }
 
-// The tangent whose image is a place, and how it moves with the place.
+// A tangent of a lens, and its derivative by the pixel that images it.
 struct Tangent {
     glm::dvec2 tangent{};
     glm::dmat2 byPlace{1};
 };
-// By Newton's method, from the tangent without distortion.
+// The tangent whose image is this pixel.
 [[nodiscard]] Tangent tangentOf(const LensParameters& lens, glm::dvec2 place);
 
-// A ray through a place of a picture. `from` is the lens' own tangent there, found in double; one
-// step of Newton's method gives it its derivatives.
+// The ray through a pixel. `from` is the tangent of the pixel in double; one step of Newton's
+// method gives it its derivatives.
 template <class T>
 struct RayOf {
     Three<T> origin, direction;
@@ -100,7 +95,7 @@ RayOf<T> rayOf(const T* lens, const T* pose, glm::dvec2 place, const Tangent& fr
     return ray;
 }
 
-// Values of the four cubic B-splines that matter in a cell, at t from its beginning (0) to its end.
+// The four cubic B-splines that are not 0 in a cell, at t from its beginning (0) to its end (1).
 template <class T>
 std::array<T, 4> splineWeights(const T& t) {
     const T s = 1.0 - t;
@@ -111,7 +106,7 @@ std::array<T, 4> splineWeights(const T& t) {
             t2 * t / 6.0};
 }
 
-// A smooth function of a place (0 to 1 both ways): a bicubic B-spline.
+// A smooth function of a place (0 to 1 both ways), as a bicubic B-spline.
 class SmoothField {
   public:
     // `cells` across and down.
@@ -122,11 +117,11 @@ class SmoothField {
         glm::ivec2 index{};
         glm::dvec2 within{};  // 0 to 1
     };
-    // The nearest cell of a place outside.
+    // For a place outside, the nearest cell.
     [[nodiscard]] Cell cellAt(glm::dvec2 place) const;
     [[nodiscard]] double at(glm::dvec2 place) const;
     [[nodiscard]] glm::ivec2 cells() const { return cells_; }
-    // Of column and row of the controls, from 0.
+    // The index of the control in this column and row, from 0.
     [[nodiscard]] std::size_t control(int column, int row) const {
         return static_cast<std::size_t>(row * (cells_.x + 3) + column);
     }
@@ -138,8 +133,8 @@ class SmoothField {
     std::vector<double> controls_;
 };
 
-// The screen of a rig, moved along its normals (towards the audience positive) by a smooth field
-// over the unrolled screen; beyond its edges it goes on as a plane does. Refers to the screen.
+// The screen of a rig, displaced along its normals (positive towards the audience) by a smooth
+// field over the unrolled screen; a plane continues it beyond its edges. Refers to the screen.
 class BumpyScreen {
   public:
     BumpyScreen(const wall::ScreenSurface& screen, glm::ivec2 cells)
@@ -151,13 +146,13 @@ class BumpyScreen {
         glm::dvec3 baseNormal{};  // of the rig's
         glm::dvec2 unrolled{};    // of the rig's screen, 0 to 1 where the ray meets it
     };
-    // Where a ray meets it, to a millionth of a metre; nothing where it passes.
+    // The place where a ray meets it, to a micrometre; nothing where the ray misses it.
     [[nodiscard]] std::optional<Place> hit(const wall::Ray& ray) const {
         return hit(ray, displacement_);
     }
-    // Above or below a place of the unrolled screen, which is brought into it.
+    // The place on the normal at a place of the unrolled screen, which is clamped to the screen.
     [[nodiscard]] Place at(glm::dvec2 unrolled) const { return at(unrolled, displacement_); }
-    // The same of another displacement, which has at(place).
+    // The same with another displacement, a class with at(place).
     template <class Displacement>
     [[nodiscard]] std::optional<Place> hit(const wall::Ray& ray,
                                            const Displacement& displacement) const;
@@ -169,8 +164,8 @@ class BumpyScreen {
     [[nodiscard]] const SmoothField& displacement() const { return displacement_; }
 
   private:
-    // Of the rig's screen, at a place that is brought into it: a dome's picture has corners without
-    // screen, from where it is brought towards the middle.
+    // The point of the rig's screen at a place, which is clamped to the screen: from the corners of
+    // a dome's panorama, which have no screen, the place is moved towards the middle.
     [[nodiscard]] glm::dvec3 baseAt(glm::dvec2& place) const;
 
     const wall::ScreenSurface& screen_;
@@ -222,10 +217,10 @@ std::optional<BumpyScreen::Place> BumpyScreen::hit(const wall::Ray& ray,
     return place;
 }
 
-// As the solver has them, of a rig's projector.
+// The parameters of a projector of the rig.
 [[nodiscard]] LensParameters lensOf(const config::Projector& projector);
 [[nodiscard]] PoseParameters poseOf(const config::Projector& projector);
-// Of something at a position that looks along -z of a frame with y up.
+// The pose of a device at a position, which looks along -z of its own frame with y up.
 [[nodiscard]] PoseParameters poseOf(glm::dvec3 position, const glm::dmat3& wallFromOwn);
 [[nodiscard]] glm::dvec3 positionOf(const PoseParameters& pose);
 [[nodiscard]] wall::Ray rayOf(const LensParameters& lens,

@@ -69,7 +69,7 @@ class Equations {
     Eigen::Index rows_ = 0;
 };
 
-// Three controls in a row, across or down.
+// Three neighbouring controls, across or down.
 void addBends(Equations& equations, const SmoothField& field, glm::ivec2 way) {
     const glm::ivec2 controls = field.cells() + 3;
     for (int row = way.y; row + way.y < controls.y; ++row)

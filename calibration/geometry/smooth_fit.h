@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A smooth function over a picture that follows measured values, by least squares.
+// Fits a smooth function over a picture to measured values, by least squares.
 #pragma once
 
 #include <vector>
@@ -10,19 +10,19 @@
 
 namespace aquarama::geometry {
 
-// A place (0 to 1 both ways) and two values there; weight: one over their standard deviation.
+// Two values measured at a place (0 to 1 both ways); the weight is one over their standard
+// deviation.
 struct Measured {
     glm::dvec2 share{}, values{};
     double weight = 0;
 };
 
-// Standard deviations: of the change of slope from one control to the next, and of the values as a
-// whole.
+// Standard deviations of the change of slope between neighbouring controls, and of the values.
 struct Smoothness {
     double bend = 0, size = 0;
 };
 
-// Two functions, of the two values.
+// The functions of the first and of the second value.
 struct FieldPair {
     SmoothField first{{1, 1}}, second{{1, 1}};
     [[nodiscard]] glm::dvec2 at(glm::dvec2 share) const {
@@ -30,7 +30,7 @@ struct FieldPair {
     }
 };
 
-// In `rounds` of weights that make little of what lies farther off than about `far`.
+// Repeats the fit in `rounds`; values that lie farther off than about `far` get little weight.
 [[nodiscard]] FieldPair smoothFit(std::vector<Measured> measured,
                                   glm::ivec2 cells,
                                   const Smoothness& smoothness,

@@ -23,7 +23,7 @@ namespace aquarama::geometry {
 
 namespace {
 
-// A cell of the displacement for each so many metres of the screen.
+// The cells of the displacement over the screen, each about kMetres wide.
 glm::ivec2 cellsFor(const wall::ScreenSurface& screen) {
     constexpr double kMetres = 0.30;
     constexpr int kSteps = 32;
@@ -40,7 +40,7 @@ glm::ivec2 cellsFor(const wall::ScreenSurface& screen) {
     return glm::clamp(glm::ivec2(glm::round(length / kMetres)), glm::ivec2(4), glm::ivec2(40));
 }
 
-// How far apart two channels show one place, which both of these ties are of.
+// How far apart two channels show the place of these two ties.
 std::optional<Parting> partedBy(const SolvedHall& hall, const Tie& tie, const Tie& other) {
     const auto a = hall.placeOf(tie.channel, tie.place);
     const auto b = hall.placeOf(other.channel, other.place);
@@ -49,7 +49,7 @@ std::optional<Parting> partedBy(const SolvedHall& hall, const Tie& tie, const Ti
     return Parting{(one + two) / 2.0, glm::distance(one, two)};
 }
 
-// Of what a camera sees at one place: held-out windows alone.
+// The errors between channels in held-out windows.
 std::vector<Parting> overlapErrors(const SolvedHall& hall, const std::vector<Tie>& ties) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<const Tie*>> windows;
     for (const Tie& tie : ties)
@@ -99,8 +99,8 @@ std::vector<MarkTie> marksOf(const SolvedHall& hall, const std::vector<scan::Cam
     return marks;
 }
 
-// One pass of the joint solve: what is free, where the outline is looked for, and how far off
-// outline and ties may be, beside their own noise.
+// One round of the joint solve: the free parameters, how far the outline is searched, and standard
+// deviations of outline and ties beside their own noise.
 struct Pass {
     FreeParts stage;
     double outlineReach;  // of the picture's width
@@ -112,9 +112,9 @@ constexpr std::array kPasses{Pass{FreeParts::Poses, 0.04, 8, 4, 25},
                              Pass{FreeParts::Bumps, 0.006, 0.7, 0.3, 60},
                              Pass{FreeParts::Bumps, 0.003, 0.2, 0.12, 60}};
 
-// What models of lenses do not know is the same in neighbouring windows, so that many of them tell
-// no more than one does: a window counts as far off as the fit before leaves it, times the root of
-// so many.
+// The standard deviation of a tie in the last round. Errors of the lens model are alike in
+// neighbouring windows, so that many windows measure no better than one: the error of the fit
+// before is multiplied by the root of their number.
 double lastTiePixels(double fitRms) {
     constexpr double kNeighbours = 16, kLeast = kPasses.back().tiePixels, kMost = 0.5;
     return std::clamp(std::sqrt(kNeighbours) * fitRms, kLeast, kMost);
@@ -132,7 +132,7 @@ double outlineRms(const SolvedHall& hall, const std::vector<OutlineTie>& outline
     return rootMeanSquare(off);
 }
 
-// Places of the first camera's picture all over the screen.
+// Pixels of the first camera, spread over all of the screen.
 std::vector<glm::dvec2> someSeen(const std::vector<Tie>& ties) {
     constexpr std::size_t kPlaces = 60;
     std::vector<glm::dvec2> seen;
@@ -142,7 +142,7 @@ std::vector<glm::dvec2> someSeen(const std::vector<Tie>& ties) {
     return seen;
 }
 
-// Where a camera sees a point; nothing beside its picture.
+// The pixel where a camera sees a point; nothing outside its picture.
 std::optional<glm::dvec2> seenBy(const Device& camera, glm::ivec2 size, glm::dvec3 point) {
     const Three<double> at{point.x, point.y, point.z};
     if (inFrame(camera.pose.data(), at)[2] <= 0) return std::nullopt;
@@ -152,7 +152,7 @@ std::optional<glm::dvec2> seenBy(const Device& camera, glm::ivec2 size, glm::dve
     return inside ? std::optional(pixel) : std::nullopt;
 }
 
-// A cell of the map of uncertainty that a camera sees.
+// A cell of the uncertainty map that a camera sees.
 struct SeenCell {
     std::size_t index;
     glm::dvec2 pixel;
@@ -173,7 +173,7 @@ std::vector<SeenCell> cellsSeen(const UncertaintyMap& map,
     return cells;
 }
 
-// By the first camera that sees a place.
+// The map, for each cell by the first camera that sees it.
 UncertaintyMap uncertaintyMap(JointProblem& joint,
                               const SolvedHall& hall,
                               const std::vector<glm::ivec2>& cameraSizes) {
@@ -219,7 +219,7 @@ void fit(Solved& solved, const std::vector<scan::CameraView>& views) {
     }
 }
 
-// Why a camera cannot be found: by its pictures' own fault where they have one.
+// The reason why a camera cannot be found: a fault of its pictures, if they have one.
 scan::ScanFault tooLittleSeen(const std::vector<scan::CameraView>& views, std::uint32_t camera) {
     for (const scan::ScanFault& fault : views[camera].faults)
         if (fault.refuses) return fault;
@@ -229,8 +229,8 @@ scan::ScanFault tooLittleSeen(const std::vector<scan::CameraView>& views, std::u
                         camera)};
 }
 
-// Finds the cameras by what the rig says of the projectors. False where one sees too little or
-// cables are exchanged.
+// Finds the cameras, with the projectors as the rig has them. False where a camera sees too little
+// or cables are exchanged.
 bool begin(Solved& solved, const std::vector<scan::CameraView>& views) {
     SolvedHall& hall = *solved.hall;
     std::vector<std::size_t> order(hall.rig.channels.size());
@@ -258,6 +258,13 @@ bool begin(Solved& solved, const std::vector<scan::CameraView>& views) {
 }
 
 }  // namespace
+
+OverlapFigures overlapFigures(const std::vector<double>& errors) {
+    return {.points = errors.size(),
+            .rms = rootMeanSquare(errors),
+            .p95 = quantile(errors, 0.95),
+            .most = quantile(errors, 1)};
+}
 
 Solved solveHall(const config::Rig& rig,
                  const wall::Wall& wall,
@@ -291,10 +298,7 @@ Solved solveTies(const config::Rig& rig,
     solved.partings = overlapErrors(*solved.hall, solved.ties);
     std::vector<double> errors;
     for (const Parting& parting : solved.partings) errors.push_back(parting.pixels);
-    solved.figures.overlapPoints = errors.size();
-    solved.figures.overlapRms = rootMeanSquare(errors);
-    solved.figures.overlapP95 = quantile(errors, 0.95);
-    solved.figures.overlapMax = quantile(errors, 1);
+    solved.figures.overlap = overlapFigures(errors);
     return solved;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A solved hall: from pixels of cameras and channels to points of the screen.
+// The result of the solve: maps pixels of cameras and channels to points of the screen.
 #pragma once
 
 #include <cstddef>
@@ -17,32 +17,33 @@
 
 namespace aquarama::geometry {
 
+// A camera or a projector.
 struct Device {
     LensParameters lens{};
     PoseParameters pose{};
 };
 
-// A solved hall: from pixels of cameras and channels to points of the screen. Immutable once
-// solved; for any thread. Refers to the screen of `wall`.
+// Immutable once it is solved; then for any thread. Refers to the screen of `wall`.
 class SolvedHall {
   public:
     SolvedHall(const config::Rig& rig, const wall::Wall& wall, glm::ivec2 displacementCells);
 
-    // Nothing where the light passes the screen.
+    // The place that a channel's pixel lights; nothing where the light misses the screen.
     [[nodiscard]] std::optional<BumpyScreen::Place> placeOf(std::size_t channel,
                                                             glm::dvec2 pixel) const;
+    // The place that a camera's pixel sees; nothing beside the screen.
     [[nodiscard]] std::optional<BumpyScreen::Place> placeSeen(std::size_t camera,
                                                               glm::dvec2 pixel) const;
-    // What the model says of a place that a camera sees: a place in a channel's picture.
+    // The pixel of the tie's channel that the model gives for the tie's camera pixel.
     [[nodiscard]] std::optional<glm::dvec2> modelled(const Tie& tie) const;
-    // The place in the panorama, in its pixels, that a viewer at the sweet spot sees a point at.
+    // The pixel of the panorama where a viewer at the sweet spot sees a point.
     [[nodiscard]] glm::dvec2 panoramaPixel(glm::dvec3 point) const;
 
     const config::Rig& rig;
     const wall::Wall& nominal;
     std::vector<Device> cameras, projectors;
-    // What is left between the model and the measured places of each projector, smooth over its
-    // picture: lenses that the model does not know, and the like. Pixels, across and down.
+    // The smooth difference between the model and the measured places, over the picture of each
+    // projector, such as lens errors that the model lacks. Pixels, across and down.
     std::vector<FieldPair> corrections;
     BumpyScreen screen;
 };

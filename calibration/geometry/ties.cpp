@@ -11,6 +11,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "common/base/picture.h"
+#include "common/base/statistics.h"
+
 namespace aquarama::geometry {
 
 namespace {
@@ -22,7 +25,7 @@ struct Window {
     [[nodiscard]] glm::dvec2 centre() const { return glm::dvec2(corner) + 0.5 * side; }
 };
 
-// One pixel of a window: where it lies from the centre, and what is seen there.
+// One pixel of a window: its offset from the centre, and the place of the channel seen there.
 struct Seen {
     glm::dvec2 at, place;
     double sigma;
@@ -42,7 +45,7 @@ std::vector<Seen> seenIn(const scan::ChannelView& view, glm::ivec2 size, const W
     return seen;
 }
 
-// Of a surface of second degree through the places of a window.
+// The fit of a surface of second degree to the places of a window.
 struct Fit {
     glm::dvec2 centre{};
     double residual = 0;  // root of the mean square of both coordinates
@@ -64,15 +67,13 @@ Fit fitted(const std::vector<Seen>& seen, double scale) {
             std::sqrt(square / (2.0 * static_cast<double>(seen.size())))};
 }
 
-// What lies farther from the median step than its neighbours do is dropped by one pass over the
-// residuals of a first fit.
+// Drops places far from the median of the window, where a first fit has large residuals.
 std::vector<Seen> withoutOutliers(const std::vector<Seen>& seen, double scale, const Fit& first) {
     if (first.residual < 0.3) return seen;
     const auto middle = [&](auto get) {
         std::vector<double> values;
         for (const Seen& one : seen) values.push_back(get(one));
-        std::ranges::nth_element(values, values.begin() + static_cast<long>(values.size() / 2));
-        return values[values.size() / 2];
+        return median(values);
     };
     const glm::dvec2 median(middle([](const Seen& one) { return one.place.x; }),
                             middle([](const Seen& one) { return one.place.y; }));
@@ -96,13 +97,13 @@ std::optional<Tie> tieIn(const scan::ChannelView& view, glm::ivec2 size, const W
     if (!isEnough()) return std::nullopt;
     fit = fitted(seen, scale);
     if (fit.residual > kMostResidual) return std::nullopt;
-    // The centre of a surface of second degree knows about as much as a third of its pixels.
+    // The value at the centre of such a surface is as exact as the mean of a third of its pixels.
     const double sigma = std::sqrt(3.0 / static_cast<double>(seen.size())) *
                          std::max(fit.residual, seen.front().sigma);
     return Tie{.seen = window.centre(), .place = fit.centre, .sigma = sigma};
 }
 
-// Of pixels where any channel is seen, about.
+// The number of pixels where any channel is seen.
 double seenPixels(const scan::CameraView& view) {
     double count = 0;
     const auto pixels =
@@ -141,18 +142,14 @@ std::vector<Tie> tiesOf(const scan::CameraView& view, std::uint32_t camera, std:
 
 namespace {
 
-double luminance(const glm::vec3& light) {
-    return glm::dot(glm::dvec3(light), glm::dvec3(0.2126, 0.7152, 0.0722));
-}
-
-// Light along a line: samples in steps, from `from` steps before a place.
+// Light along a line through a place: samples in steps; the first is `from` steps from the place.
 struct LightProfile {
     std::vector<double> light;
     long from = 0;
 };
 constexpr double kProfileStep = 0.5;  // pixels
 
-// As far as the line lies in the picture.
+// The profile of the part of the line that lies in the picture.
 LightProfile profileAlong(const Light& room, glm::dvec2 at, glm::dvec2 outwards, double reach) {
     const glm::dvec2 size(room.sizePixels);
     const auto steps = static_cast<long>(reach / kProfileStep);
@@ -164,13 +161,13 @@ LightProfile profileAlong(const Light& room, glm::dvec2 at, glm::dvec2 outwards,
         if (!isInside && profile.light.empty()) continue;
         if (!isInside) break;
         if (profile.light.empty()) profile.from = i;
-        profile.light.push_back(luminance(bilinear(room, place)));
+        profile.light.push_back(luminance(glm::dvec3(bilinear(room, place))));
     }
     return profile;
 }
 
-// Where a profile falls most, as an index between its samples; nothing where it does not fall
-// enough.
+// The index, between samples, where a profile falls most steeply; nothing where it falls too
+// little.
 std::optional<double> steepest(const std::vector<double>& light) {
     constexpr long kHalf = 3;               // samples that a side of an edge is averaged over
     constexpr double kLeastContrast = 0.3;  // of the light inside
@@ -192,7 +189,8 @@ std::optional<double> steepest(const std::vector<double>& light) {
     return static_cast<double>(index) + (bend < 0 ? 0.5 * (before - after) / bend : 0);
 }
 
-// The strongest fall of light from inside to outside along a line through `at`; pixels along it.
+// The distance from `at`, along a line, of the steepest fall of light from inside to outside;
+// pixels.
 std::optional<double> edgeAlong(const Light& room,
                                 glm::dvec2 at,
                                 glm::dvec2 outwards,
@@ -218,7 +216,8 @@ std::optional<glm::dvec2> seenBy(const LensParameters& lens,
     return glm::dvec2(seen[0], seen[1]);
 }
 
-// The direction of the outline at one of its points, by its nearest neighbour that is not too near.
+// The direction of the outline at one of its points, from its nearest neighbour that is not too
+// near.
 glm::dvec2 alongOutline(const std::vector<OutlinePoint>& outline, const OutlinePoint& at) {
     constexpr double kNearest = 1.5;  // pixels
     double least = std::numeric_limits<double>::infinity();
@@ -232,7 +231,7 @@ glm::dvec2 alongOutline(const std::vector<OutlinePoint>& outline, const OutlineP
     return way;
 }
 
-// All of the outline that is before the camera.
+// The part of the outline that is before the camera.
 std::vector<OutlinePoint> predictedOutline(const BumpyScreen& screen,
                                            const LensParameters& lens,
                                            const PoseParameters& pose) {
@@ -243,7 +242,7 @@ std::vector<OutlinePoint> predictedOutline(const BumpyScreen& screen,
     return outline;
 }
 
-// Out of the screen, across the outline, which goes `along` there.
+// The direction across the outline, which runs `along` there, out of the screen.
 glm::dvec2 outwards(glm::dvec2 along, glm::dvec2 fromInside) {
     const glm::dvec2 across(-along.y, along.x);
     return glm::dot(across, fromInside) < 0 ? -across : across;
@@ -261,7 +260,7 @@ std::vector<OutlineTie> outlineTies(const Light& room,
     if (room.rgb.empty()) return ties;
     const std::vector<OutlinePoint> outline = predictedOutline(screen, lens, pose);
     constexpr std::size_t kTies = 1000;
-    // Odd: edges may take turns in the order of the points.
+    // Odd, since the points of two edges may alternate.
     const std::size_t step = (outline.size() / kTies) | 1U;
     for (std::size_t i = 0; i < outline.size(); i += step) {
         const OutlinePoint& point = outline[i];
@@ -284,12 +283,12 @@ std::vector<OutlineTie> outlineTies(const Light& room,
 
 namespace {
 
-// The light across a strip of tape, in steps of so many metres to both sides of where it belongs.
+// The light across a strip of tape, in steps to both sides of its expected place.
 constexpr double kMarkStepMetres = 0.002;
 constexpr int kMarkReach = 150;  // steps
 using MarkProfile = std::array<double, 2 * kMarkReach + 1>;
 
-// Where a camera sees a place of the plane that touches the screen at a mark.
+// The places of a camera's picture near a mark, on the tangent plane of the screen there.
 class SeenMark {
   public:
     SeenMark(const BumpyScreen& screen,
@@ -301,7 +300,7 @@ class SeenMark {
         const glm::dvec3 base = place_.at(inwards, along);
         return seenBy(lens_, pose_, screen_.at(screen_.screen().unrolled(base)).point);
     }
-    // The mean of a few lines; nothing where one of them leaves the picture.
+    // The mean profile of a few lines; nothing where one of them leaves the picture.
     [[nodiscard]] std::optional<MarkProfile> profile(const Light& room) const {
         constexpr std::array kLines{0.3, 0.4, 0.5, 0.6, 0.7};  // shares of the strip's length
         MarkProfile light{};
@@ -312,7 +311,7 @@ class SeenMark {
                     seen->y > room.sizePixels.y)
                     return std::nullopt;
                 light.at(static_cast<std::size_t>(i + kMarkReach)) +=
-                    luminance(bilinear(room, *seen)) / kLines.size();
+                    luminance(glm::dvec3(bilinear(room, *seen))) / kLines.size();
             }
         return light;
     }
@@ -324,8 +323,8 @@ class SeenMark {
     const wall::MarkPlace& place_;
 };
 
-// The steps to where a profile crosses a level, from a step on in a direction; nothing where it
-// does not.
+// The step where a profile first crosses a level, from a given step in a direction; nothing where
+// it does not.
 std::optional<double> crossing(const MarkProfile& light, int from, int direction, double level) {
     for (int i = from; i > 0 && i + 1 < static_cast<int>(light.size()); i += direction) {
         const double here = light.at(static_cast<std::size_t>(i)),
@@ -336,13 +335,12 @@ std::optional<double> crossing(const MarkProfile& light, int from, int direction
     return std::nullopt;
 }
 
-// The middle of a dark strip as wide as tape, in metres from the middle of the profile.
+// The place of a dark strip as wide as tape, in metres from the middle of the profile.
 std::optional<double> stripIn(const MarkProfile& light) {
     constexpr double kMostLight = 0.5;                     // of what is beside it
     constexpr double kLeastWidth = 0.6, kMostWidth = 1.5;  // of the tape's
-    MarkProfile sorted = light;
-    std::ranges::nth_element(sorted, sorted.begin() + kMarkReach);
-    const double white = sorted.at(kMarkReach);
+    MarkProfile values = light;
+    const double white = median(values);
     const auto darkest = std::ranges::min_element(light);
     if (white <= 0 || *darkest > kMostLight * white) return std::nullopt;
     const double level = (white + *darkest) / 2;

@@ -20,7 +20,8 @@ glm::dvec2 placeIn(glm::ivec2 cell, int x, int y, int samples) {
     return (glm::dvec2(cell) + (glm::dvec2(x, y) + 0.5) / double(samples)) / glm::dvec2(kPatches);
 }
 
-// Of a dome's square panorama the corners lie on no screen: what is nearest to them does.
+// The point of the screen at a place. The corners of a dome's square panorama have no screen: there
+// it is the nearest point.
 glm::dvec2 pulledIn(const wall::ScreenSurface& shape, glm::dvec2 place) {
     constexpr int kSteps = 50;
     for (int step = kSteps; step > 0; --step) {
@@ -94,7 +95,8 @@ void Bounce::light(Patch& patch, glm::dvec3 point, double samples) const {
     }
 }
 
-// Two cosines over pi times the square of the distance; nowhere large, as the screen is smooth.
+// The form factor: two cosines over pi times the squared distance. The screen is smooth, so that it
+// is never large.
 float Bounce::shareOf(const Patch& to, const Patch& from) const {
     double share = 0;
     for (const Patch::Sample& sample : from.samples) {

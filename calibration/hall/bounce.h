@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light that parts of a concave screen throw on one another: one bounce, between coarse patches
-// of the screen without its bumps.
+// The light that a concave screen reflects on itself: one bounce between coarse patches of the
+// screen without its bumps.
 #pragma once
 
 #include <vector>
@@ -19,10 +19,10 @@ class Bounce {
   public:
     explicit Bounce(const TrueHall& hall);
 
-    // The light that falls on the unrolled screen, to be read between its pixels' centres, when
-    // channels throw these pictures; nothing where the screen's parts do not light one another.
+    // The light that falls on the unrolled screen while the channels project these pictures; read
+    // it by bilinear(). An empty picture where the screen does not light itself.
     [[nodiscard]] Light of(const std::vector<ThrownPicture>& pictures) const;
-    // When each patch sends back this light.
+    // The same while each patch reflects this light.
     [[nodiscard]] Light of(const std::vector<glm::vec3>& patches) const;
     [[nodiscard]] std::size_t patches() const { return shares_.empty() ? 0 : patches_.size(); }
 
@@ -44,7 +44,7 @@ class Bounce {
         std::vector<Lit> lit;  // of all samples
     };
     [[nodiscard]] Patch patchAt(glm::ivec2 cell) const;
-    // Adds what falls on one of so many samples of it.
+    // Adds the light that falls on one of `samples` samples of the patch.
     void light(Patch& patch, glm::dvec3 point, double samples) const;
     [[nodiscard]] float shareOf(const Patch& to, const Patch& from) const;
     [[nodiscard]] glm::vec3 sentBack(const Patch& patch,
@@ -52,7 +52,7 @@ class Bounce {
 
     const TrueHall& hall_;
     std::vector<Patch> patches_;
-    std::vector<float> shares_;  // of the light of each patch on each other, by rows of receivers
+    std::vector<float> shares_;  // of a patch's light that another receives; rows are receivers
 };
 
 }  // namespace aquarama::hall

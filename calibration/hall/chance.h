@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws for halls: the same for the same seed, on every machine.
+// Random numbers for halls: the same for the same seed on every machine.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ class Chance {
     [[nodiscard]] double between(double low, double high) {
         return low + (high - low) * static_cast<double>(unitOf(hashOf(seed_, next_++)));
     }
-    // To either side of 0.
+    // From -most to most.
     [[nodiscard]] double within(double most) { return between(-most, most); }
     [[nodiscard]] glm::dvec3 within(glm::dvec3 most) {
         const double x = within(most.x), y = within(most.y), z = within(most.z);
@@ -26,7 +26,7 @@ class Chance {
     }
     // One of 0 to count - 1.
     [[nodiscard]] int below(int count) { return static_cast<int>(between(0, count)); }
-    // Of length one; evenly over the sphere.
+    // A direction of length one, evenly over the sphere.
     [[nodiscard]] glm::dvec3 direction() {
         const double z = within(1), turn = within(3.141592653589793);
         const double side = std::sqrt(1 - z * z);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What render nodes send to projectors of something that is shown on the screen: warped, blended
-// and in the projectors' colours, without GL.
+// The pictures that render nodes send to projectors: warped, blended and in the projectors'
+// colours, computed without OpenGL.
 #pragma once
 
 #include <cstddef>
@@ -17,25 +17,25 @@
 
 namespace aquarama::hall {
 
-// Linear light of what is shown at a point of the rig's screen.
+// The linear light of the content at a point of the rig's screen.
 using Content = std::function<glm::vec3(glm::dvec3 point)>;
-// Of the unrolled screen. Keeps references.
+// The content of a panorama. Keeps references.
 [[nodiscard]] Content contentOf(const Light& panorama, const wall::ScreenSurface& screen);
-// The grid of `aquarama run --pattern grid`. Keeps a reference.
+// The content of `aquarama run --pattern grid`. Keeps a reference.
 [[nodiscard]] Content gridContent(const wall::Wall& wall);
 
-// The rig with this wall file for all of its channels, in place of those that it names. Throws
-// Error where it cannot be read.
+// The rig with this wall file for all of its channels, instead of the files that it names. Throws
+// Error where the file cannot be read.
 [[nodiscard]] config::Rig withWallFile(config::Rig rig, const std::string& path);
 
-// Immutable; for any thread.
+// Draws the pictures of a rig's channels. Immutable; for any thread.
 class DrawnWall {
   public:
     // Throws Error where a wall file of the rig cannot be used.
     explicit DrawnWall(const config::Rig& rig) : rig_{rig}, wall_{rig} {}
 
-    // What is sent for a place (continuous) of a channel's picture: linear light whose sRGB codes
-    // they are, 0 to 1.
+    // The light that is sent to a place (continuous) of a channel's picture: linear, 0 to 1; it is
+    // sent as sRGB codes.
     [[nodiscard]] glm::vec3 sent(std::size_t channel,
                                  glm::dvec2 pixel,
                                  const Content& content) const;

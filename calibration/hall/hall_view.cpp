@@ -8,6 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "common/base/statistics.h"
+
 namespace aquarama::hall {
 
 namespace {
@@ -149,7 +151,7 @@ void HallView::addBeam(const Arrival& arrival,
                          .column = static_cast<std::uint16_t>(column)});
 }
 
-// At the screen's edges, how much of a pixel is screen.
+// How much of each pixel is screen, smoothed at the screen's edges.
 std::vector<std::uint8_t> HallView::smoothed(int y) const {
     std::vector<std::uint8_t> coverage = rows_[static_cast<std::size_t>(y)].coverage;
     const auto isLit = [&](int x, int row) {
@@ -171,7 +173,8 @@ std::vector<std::uint8_t> HallView::smoothed(int y) const {
     return coverage;
 }
 
-// From the beams of the pixels to the right and below; where there is none as those before it.
+// Sets the steps to the beams of the next pixels to the right and below; without a next beam they
+// are those of the beam before.
 void HallView::setSteps(int y) {
     const bool isLast = y + 1 == size_.y;
     const Row& other = rows_[static_cast<std::size_t>(isLast ? y - 1 : y + 1)];
@@ -251,11 +254,11 @@ Light HallView::of(const std::vector<ThrownPicture>& pictures,
     return seen;
 }
 
-// Of a row: the white of some channels, pixel by pixel.
+// The white of some channels, for each pixel of a row.
 std::vector<float> HallView::whiteOf(const Row& row, std::uint64_t channels) const {
     std::vector<float> white(row.coverage.size());
     for (std::size_t channel = 0; channel < row.beams.size(); ++channel)
-        if (((channels >> channel) & 1U) != 0)
+        if (config::contains(channels, channel))
             for (const Beam& beam : row.beams[channel]) white[beam.column] += beam.white;
     for (std::size_t x = 0; x < white.size(); ++x) white[x] *= albedo(row.coverage[x]);
     return white;
@@ -268,9 +271,7 @@ float HallView::brightestOf(std::uint64_t channels) const {
         for (const float white : whiteOf(rows_[y], channels))
             if (white > 0) lit.push_back(white);
     if (lit.empty()) return 0;
-    const auto brightest = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() * 999 / 1000);
-    std::nth_element(lit.begin(), brightest, lit.end());
-    return *brightest;
+    return valueAtRank(lit, lit.size() * 999 / 1000);
 }
 
 TrueLens eyeAt(glm::dvec3 position, glm::dvec3 lookAt, glm::ivec2 sizePixels, double halfWidth) {

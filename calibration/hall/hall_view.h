@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an eye in a simulated hall sees: screen and drape, lit by projectors and lamps. Worked out
-// once, for many pictures.
+// The view of an eye in a simulated hall: screen and drape, lit by projectors and lamps. The rays
+// are traced once for many pictures.
 #pragma once
 
 #include <array>
@@ -21,14 +21,14 @@
 
 namespace aquarama::hall {
 
-// Lamps that shine, as shares of their full light.
+// The lamps of a hall, as shares of their full light.
 struct HallLamps {
     float dark = 1, room = 0, spot = 0;
 };
 
-// Keeps references to the hall and the pool. Some 30 bytes for each pixel and projector that lights
-// it. Of pictures wider than 1500 pixels every fourth ray is followed, and those between them are
-// interpolated, to 0.005 of a projector's pixels.
+// Keeps references to the hall and the pool. Takes some 30 bytes for each pixel and projector that
+// lights it. In pictures wider than 1500 pixels every fourth ray is traced and the others are
+// interpolated, exact to 0.005 pixels of a projector.
 class HallView {
   public:
     HallView(const TrueHall& hall, const TrueLens& eye, WorkerPool& pool);
@@ -37,21 +37,21 @@ class HallView {
     [[nodiscard]] Light of(const std::vector<ThrownPicture>& pictures,
                            const Light& bounced,
                            HallLamps lamps) const;
-    // The brightest that white of these channels gets, but for the brightest thousandth.
+    // The brightest light of the white of these channels, without the brightest thousandth.
     [[nodiscard]] float brightestOf(std::uint64_t channels) const;
 
   private:
     // A pixel that a projector lights.
     struct Beam {
         glm::vec2 panelPixel{};
-        float white = 0;  // as it falls on the screen
+        float white = 0;  // the light of white that falls on the screen
         std::array<std::int16_t, 2> right{},
             down{};                // of panelPixel, to the next pixel of the view
         std::uint16_t column = 0;  // of the view
     };
     struct Row {
         std::vector<std::vector<Beam>> beams;  // of each channel
-        std::vector<std::uint8_t> coverage;    // by white screen, in parts of kFullCoverage
+        std::vector<std::uint8_t> coverage;    // share of white screen, in 1 / kFullCoverage
         std::vector<float> room, spot;         // light of lamps; spot may be empty
         std::vector<glm::vec2> place;          // on the unrolled smooth screen
     };
@@ -77,7 +77,7 @@ class HallView {
     [[nodiscard]] float spotLight(const Arrival& arrival) const;
     void setSteps(int y);
     static void setStepsRight(std::vector<Beam>& beams);
-    // Of the beams of the row below, or above.
+    // Sets the steps down from the beams of the row below, or of the row above.
     static void setStepsDown(std::vector<Beam>& beams,
                              const std::vector<Beam>& others,
                              bool areAbove);
@@ -94,30 +94,31 @@ class HallView {
     glm::ivec2 size_;
     int step_ = 1;  // pixels between the rays that are followed
     int gridWidth_ = 0;
-    double middleLight_ = 1;          // of the room's lamp, in the middle of the screen
-    std::optional<glm::dvec3> spot_;  // the middle of the lamp's that is switched on
+    double middleLight_ = 1;          // of the room's lamp at the middle of the screen
+    std::optional<glm::dvec3> spot_;  // the middle of the light of the lamp that is switched on
     std::vector<Row> rows_;
 };
 
-// The eye of a camera without faults at a place, that looks at a point and sees so far to each side
-// of it: `halfWidth` is a tangent.
+// The eye of a camera without faults that looks at a point. `halfWidth`: the tangent of half its
+// view.
 [[nodiscard]] TrueLens eyeAt(glm::dvec3 position,
                              glm::dvec3 lookAt,
                              glm::ivec2 sizePixels,
                              double halfWidth);
 
-// What an eye sees in the dark hall of any pictures of the channels.
+// The view of an eye in the dark hall while the channels show these pictures.
 [[nodiscard]] Light seen(const TrueHall& hall,
                          std::span<const Light> channels,
                          const TrueLens& eye);
 
-// Pictures on the true screen, for any eye. Keeps a reference to the hall.
+// The true screen while the channels show some pictures. Keeps a reference to the hall.
 class LitScreen {
   public:
     LitScreen(const TrueHall& hall, std::span<const Light> channels);
-    // What the screen sends back at a point of it, or of the smooth screen under its bumps.
+    // The light that the screen reflects at one of its points, or at a point of the smooth screen
+    // under its bumps.
     [[nodiscard]] glm::vec3 at(glm::dvec3 point) const;
-    // The true screen, unrolled; black where the panorama shows none.
+    // The true screen, unrolled; black where the panorama has no screen.
     [[nodiscard]] Light panorama(glm::ivec2 sizePixels) const;
 
   private:

@@ -26,7 +26,7 @@ namespace {
 
 constexpr double kDegree = kRadiansPerDegree<double>;
 
-// Of the tangents from a lens's axis to its picture's farthest corner.
+// The tangent from a lens's axis to the farthest corner of its picture.
 double farthestTangent(const config::Channel& channel) {
     const config::Projector& lens = channel.projector;
     const glm::dvec2 size(channel.sizePixels);
@@ -34,18 +34,19 @@ double farthestTangent(const config::Channel& channel) {
     return glm::length(far / lens.focalPixels);
 }
 
-// Terms that move the farthest corner by shares of its distance from the axis.
+// A lens whose terms move the farthest corner by up to these shares of its distance from the axis.
 config::HallLens drawLens(Chance& chance, double farthest, glm::dvec3 radial, double tangential) {
     const double square = farthest * farthest;
     config::HallLens lens;
-    lens.radial = chance.within(radial) / glm::dvec3(square, square * square, std::pow(square, 3));
+    const glm::dvec3 k =
+        chance.within(radial) / glm::dvec3(square, square * square, std::pow(square, 3));
     const double aside = tangential / farthest;
-    lens.tangential = {chance.within(aside), chance.within(aside)};
+    lens.distortion = {k.x, k.y, k.z, chance.within(aside), chance.within(aside)};
     lens.vignetting = chance.between(0.1, 0.3);
     return lens;
 }
 
-// Rows add up to about one: white has a tint of a few percent.
+// Random primaries. Rows add up to about one: white has a tint of a few percent.
 glm::dmat3 primariesOf(Chance& chance) {
     glm::dmat3 primaries(0.0);
     for (int row = 0; row < 3; ++row) {
@@ -67,7 +68,7 @@ void drawLight(config::HallProjector& projector, Chance& chance) {
     projector.brightness = chance.between(0.85, 1.15);
 }
 
-// How a projector hangs: the errors of its crew.
+// The errors with which a crew hangs a projector.
 struct Crookedness {
     glm::dvec3 moved{}, aim{};  // metres; of where the middle of its picture falls
     double roll = 0, focal = 0;
@@ -84,7 +85,7 @@ Crookedness drawCrookedness(Chance& chance) {
     return crooked;
 }
 
-// Where the middle of a picture is meant to fall.
+// The planned point of the middle of a picture on the screen.
 glm::dvec3 targetOf(const config::Channel& channel, const wall::ScreenSurface& screen) {
     const LensTruth lens = lensOf(channel);
     const wall::Ray ray = TrueLens(lens).ray(lens.size / 2.0);
@@ -99,7 +100,7 @@ glm::dmat3 aimed(const LensTruth& lens, glm::dvec3 point) {
     return glm::mat3_cast(glm::rotation(now, wanted)) * lens.wallFromLens;
 }
 
-// `share` of the errors.
+// The projector with this share of its errors.
 void hang(const config::Channel& channel,
           const Crookedness& crooked,
           double share,
@@ -135,7 +136,7 @@ void hangAll(const config::Rig& rig, Chance& chance, config::Hall& hall) {
             drawLens(chance, farthestTangent(channel), glm::dvec3(0.004, 0.0015, 0.0006), 0.0003);
         drawLight(projector, chance);
     }
-    // Until a crew would be content.
+    // Reduces the errors until all of the planned screen is lit, as a crew would.
     double share = 1;
     while (share > 0.01) {
         for (std::size_t i = 0; i < crooked.size(); ++i)
@@ -160,7 +161,7 @@ void drawScreen(config::HallScreen& screen, Chance& chance) {
     screen.bounces = true;
 }
 
-// Beside and behind the viewer; under a dome low.
+// A place for the camera beside and behind the viewer; a low one under a dome.
 void placeCamera(const config::Rig& rig, Chance& chance, double scale, config::HallCamera& camera) {
     const bool isDome = rig.screen.shape == config::ScreenShape::Dome;
     const double side = chance.below(2) == 0 ? -1 : 1;
@@ -186,7 +187,7 @@ glm::dvec4 boxOf(const config::HallCamera& camera, const std::vector<glm::dvec3>
     return box;
 }
 
-// Looks at the screen's middle, as near as the lens shows all of it.
+// The camera looks at the middle of the screen, from where its lens shows all of it.
 void aimCamera(const TrueHall& hall, config::HallCamera& camera) {
     constexpr double kMargin = 1.05;
     std::vector<glm::dvec3> points = hall.outline();
@@ -213,7 +214,7 @@ bool seesAll(const std::vector<glm::dvec3>& points, const config::HallCamera& ca
                                [&](glm::dvec3 point) { return lens.pixelOf(point).has_value(); });
 }
 
-// The lens and the sensor of it. The lens is zoomed until it shows the whole screen, `edge`.
+// The lens and sensor of the camera. The lens is zoomed until it shows all of `edge`, the screen's.
 void drawCamera(Chance& chance, const std::vector<glm::dvec3>& edge, config::HallCamera& camera) {
     const glm::dvec2 size(camera.sizePixels);
     camera.lens = drawLens(chance,
@@ -234,7 +235,7 @@ void drawCamera(Chance& chance, const std::vector<glm::dvec3>& edge, config::Hal
     camera.readNoise = chance.between(2e-4, 6e-4);
 }
 
-// Of a random hall, without what it differs in from the rig.
+// A hall with the camera of a random hall and no other difference from the rig.
 config::Hall hallOf(const config::Rig& rig, Chance& chance, double scale) {
     config::Hall hall;
     hall.projectors.resize(rig.channels.size());
@@ -290,7 +291,7 @@ config::Hall hallFrom(const std::string& option, const std::string& text, const 
 
 namespace {
 
-// What a fault is drawn with.
+// The data that a fault is drawn from.
 struct FaultDraw {
     const config::Rig& rig;
     config::Hall& hall;
@@ -355,7 +356,7 @@ void turnAway(const FaultDraw& draw) {
     draw.hall.projectors.back().turnedRadians.x -= draw.chance.between(20, 35) * kDegree;
 }
 
-// The picture stays about where it is.
+// The picture stays about at its place.
 void shiftLens(const FaultDraw& draw) {
     const std::size_t index = draw.channel();
     const config::Channel& channel = draw.rig.channels[index];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walls that light their screens, of any shape: the panorama is divided into cells, and each
-// projector's lens is chosen so that its picture just holds its cell.
+// Random rigs whose projectors light all of a screen of any shape. The panorama is divided into
+// cells, and the lens of each projector is chosen so that its picture just covers its cell.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,7 +32,7 @@ struct Cell {
     [[nodiscard]] glm::dvec2 middle() const { return (low + high) / 2.0; }
 };
 
-// What a wall is drawn with.
+// The random values of a rig.
 struct Plan {
     config::Screen screen;
     std::vector<int> rows;  // columns of each, from the top
@@ -103,7 +103,7 @@ Plan drawPlan(Chance& chance) {
     return plan;
 }
 
-// With half of the overlap at edges that it shares, and the overshoot at those of the screen.
+// The cell with half of the overlap at shared edges, and the overshoot at the edges of the screen.
 Cell cellOf(const Plan& plan, std::size_t row, int column) {
     const glm::dvec2 size(1.0 / plan.rows[row], 1.0 / double(plan.rows.size()));
     Cell cell;
@@ -159,7 +159,8 @@ glm::dvec2 tangentOf(const config::Projector& projector, glm::dvec3 point) {
     return glm::dvec2(seen.x, -seen.y) / -seen.z;
 }
 
-// So that its picture holds the points. `inwards` is where on the screen more of it is welcome.
+// Sets the lens so that its picture covers the points. `inwards`: the side where the picture may be
+// larger.
 void fitLens(config::Projector& projector,
              glm::dvec2 pixels,
              const std::vector<glm::dvec3>& points,
@@ -178,8 +179,8 @@ void fitLens(config::Projector& projector,
     projector.principalPixels = pixels / 2.0 - focal * (middle + glm::clamp(way, -free, free));
 }
 
-// Hangs before the middle of its cell, and above it: the lens is shifted. On its side where the
-// cell of a dome is higher than wide.
+// The projector hangs before the middle of its cell and above it, with a shifted lens. It lies on
+// its side where the cell of a dome is higher than wide.
 config::Projector projectorOf(const Plan& plan, const Cell& cell, Chance& chance) {
     const auto surface = enlarged(plan.screen, 0);
     const std::vector<glm::dvec3> points = pointsOf(cell, plan.screen);
@@ -210,7 +211,8 @@ config::Channel channelOf(std::size_t index, glm::ivec2 pixels, double scale) {
     return channel;
 }
 
-// As fine as the projectors' pixels in the middles of their pictures, but not more than 4000 wide.
+// The panorama is as fine as the projectors' pixels in the middles of their pictures, up to 4000
+// pixels wide.
 glm::ivec2 panoramaPixels(const config::Rig& rig, double scale) {
     const auto surface = wall::makeSurface(rig);
     const glm::dvec3 centre = *surface->at({0.5, 0.5});

@@ -42,7 +42,7 @@ const std::array<float, 4096>& normals() {
     return table;
 }
 
-// From linear light in kLevels steps to codes.
+// The code of each of kLevels steps of linear light.
 std::vector<std::uint16_t> codesOf(const config::HallCamera& camera) {
     std::vector<std::uint16_t> codes(kLevels);
     const double most = (1 << camera.bits) - 1;
@@ -60,7 +60,7 @@ std::vector<std::uint16_t> codesOf(const config::HallCamera& camera) {
     return codes;
 }
 
-// The weights of a point's light on the pixels beside it, the middle first.
+// The weights of blur on a pixel and its neighbours, the middle first.
 std::vector<float> blurWeights(double sigma) {
     const int reach = static_cast<int>(std::ceil(3 * sigma));
     std::vector<float> weights;
@@ -93,7 +93,7 @@ void blurLine(glm::vec3* first,
     }
 }
 
-// Without the push that a projector gets in the scan.
+// The hall before a projector is moved during the scan.
 config::Hall unmoved(config::Hall hall) {
     hall.faults.moved.reset();
     return hall;
@@ -157,7 +157,7 @@ Light SimulatedCamera::lightOf(std::size_t index) const {
     return view.of(pictures, bounce.of(pictures), lamps);
 }
 
-// Something dark before the lens, out of focus.
+// Draws a dark object before the lens, out of focus.
 void SimulatedCamera::hide(Light& light) const {
     const auto& block = hall_.hall().faults.blocked;
     if (!block) return;
@@ -201,7 +201,8 @@ void SimulatedCamera::dim(Light& light) const {
     });
 }
 
-// An automatic one makes all pictures of the same mean, as far as it can.
+// The gain of an exposure. An automatic exposure gives all pictures the same mean, within its
+// range.
 float SimulatedCamera::gainFor(const Light& light) const {
     if (!hall_.hall().faults.autoExposure) return gain_;
     constexpr float kFarthest = 16;  // of the exposure that would be right for white

@@ -24,10 +24,10 @@ class SimulatedCamera final : public scan::PictureSource {
 
     [[nodiscard]] const config::Scan& scan() const override { return scan_; }
     [[nodiscard]] Picture picture(std::size_t index) override;
-    // What arrives at the camera, before its lens blurs and its sensor counts; not yet exposed.
+    // The light that arrives at the camera, before blur, exposure and the noise of the sensor.
     [[nodiscard]] Light lightOf(std::size_t index) const;
 
-    // Of any pictures of the channels, once the scan is over; exposed as the scan is.
+    // A picture while the channels show these pictures, after the scan; exposed as the scan is.
     [[nodiscard]] Picture pictureOf(const std::vector<ThrownPicture>& pictures) const;
 
   private:
@@ -40,14 +40,14 @@ class SimulatedCamera final : public scan::PictureSource {
     };
     void listPictures(const std::vector<config::ScanPattern>& patterns);
     [[nodiscard]] const config::ScanPattern& shownIn(std::size_t index) const;
-    // Before the projector that is moved was.
+    // Before the projector was moved.
     [[nodiscard]] bool isEarly(std::size_t index) const;
     [[nodiscard]] float gainFor(const Light& light) const;
     void hide(Light& light) const;
     void blur(Light& light) const;
     void dim(Light& light) const;
-    // From what arrives to what is stored.
-    // `index`: of the noise; `exposure`: as a share of that of the scan.
+    // The stored picture of light that arrives. `index`: of the noise; `exposure`: as a share of
+    // that of the scan.
     [[nodiscard]] Picture taken(Light light, std::uint32_t index, float exposure) const;
     [[nodiscard]] Picture counted(const Light& light, float gain, std::uint32_t seed) const;
 

@@ -33,13 +33,13 @@ glm::vec3 codeOf(glm::vec3 light) {
             static_cast<float>(srgbFromLinear(std::clamp(double(light.z), 0.0, 1.0)))};
 }
 
-// As a node sends it.
+// The codes that a node sends.
 glm::vec4 sent(const config::HallProjector& projector, glm::vec3 light) {
     constexpr float kMost = 255;
     return {lightOfCode(projector, glm::round(codeOf(light) * kMost) / kMost), 0};
 }
 
-// Of a channel's cable, without light.
+// A picture without light, with the places of a channel's cable.
 ThrownPicture emptyPicture(const TrueHall& hall, std::size_t channel, glm::ivec2 size) {
     ThrownPicture picture{.sizePixels = size, .light = {}};
     const auto& projector = hall.hall().projectors[hall.projectorOf(channel)];
@@ -55,12 +55,7 @@ std::size_t pixelsOf(glm::ivec2 size) {
     return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
 }
 
-bool isOfRows(config::ScanPattern::Kind kind) {
-    return kind == config::ScanPattern::Kind::GrayRows ||
-           kind == config::ScanPattern::Kind::PhaseRows;
-}
-
-// A pattern's light along its axis; across it is the same.
+// Fills in a pattern that changes along one axis only.
 void fillLines(const config::HallProjector& projector,
                config::ScanPattern pattern,
                std::size_t channel,
@@ -78,7 +73,7 @@ void fillLines(const config::HallProjector& projector,
         out.light[i] = line[isRows ? i / width : i % width];
 }
 
-// Of dots, which are dark but for a few pixels.
+// Fills in a pattern of dots, most of whose pixels are dark.
 void fillDots(const config::HallProjector& projector,
               const config::ScanPattern& pattern,
               std::size_t channel,
@@ -109,7 +104,7 @@ void fillTag(const config::HallProjector& projector,
     }
 }
 
-// The picture that a computer sends which draws at another size.
+// The picture of a computer that draws at another size.
 ThrownPicture resized(const ThrownPicture& full, glm::ivec2 size) {
     ThrownPicture small = full;
     small.sizePixels = size;

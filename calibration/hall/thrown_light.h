@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the panels of projectors make of codes: linear light with the primaries of Rec. 709, in
-// shares of their own white.
+// The light that projectors make from codes: linear, with the primaries of Rec. 709, as shares of
+// the projector's own white.
 #pragma once
 
 #include <span>
@@ -17,22 +17,23 @@
 
 namespace aquarama::hall {
 
-// A picture on its way from the panel. Four numbers a pixel, of which one is idle: it is read fast.
+// A picture as it leaves the panel. Each pixel has a fourth, unused number, so that it is read
+// fast.
 struct ThrownPicture {
-    glm::ivec2 sizePixels{};  // of what the projector was sent; not always the channel's
+    glm::ivec2 sizePixels{};  // of the signal; not always the channel's
     std::vector<glm::vec4> light;
     glm::vec4 black{};     // beside the picture
     glm::dvec2 scale{1};   // from pixels of the panel
     glm::dvec2 offset{0};  // in pixels of the picture
 
-    // Bilinear, at a place on the panel.
+    // The light at a place on the panel, bilinear.
     [[nodiscard]] glm::vec4 at(glm::vec2 panelPixel) const;
 };
 
-// Light of one colour and level of a projector: codes from 0 to 1.
+// The light of a projector for a code (0 to 1 in red, green and blue).
 [[nodiscard]] glm::vec3 lightOfCode(const config::HallProjector& projector, glm::vec3 code);
 
-// What a channel's projector throws of a pattern, whose light is sent in codes of 8 bits, or of a
+// The light of a channel's projector for a pattern, which is sent in codes of 8 bits, or for a
 // picture of the channel's size.
 [[nodiscard]] ThrownPicture thrown(const TrueHall& hall,
                                    std::size_t channel,

@@ -15,8 +15,7 @@ namespace aquarama::hall {
 
 namespace {
 
-// Of a lens, where the middle of its picture meets the screen that the rig means: what a surface
-// there gets of it.
+// The light of a lens on a surface where the middle of its picture meets the planned screen.
 double lightInTheMiddle(const LensTruth& truth, const wall::ScreenSurface& screen) {
     LensTruth even = truth;
     even.lens.vignetting = 0;
@@ -28,7 +27,7 @@ double lightInTheMiddle(const LensTruth& truth, const wall::ScreenSurface& scree
     return lens.lightAt(*point) * -glm::dot(normal, glm::normalize(ray.direction));
 }
 
-// With the push that it got.
+// The lens of a projector after it was moved.
 config::HallProjector atRest(const config::Hall& hall, std::size_t projector) {
     config::HallProjector truth = hall.projectors[projector];
     const auto& moved = hall.faults.moved;
@@ -62,7 +61,7 @@ TrueHall::TrueHall(const config::Rig& rig, const config::Hall& hall)
     for (std::size_t i = 0; i < rig.channels.size(); ++i) cables_.push_back(cableOf(i));
 }
 
-// A picture that arrives in the panel's shape fills it; others leave two of its sides black.
+// A picture with the panel's shape fills it; another leaves two of its sides black.
 TrueHall::Cable TrueHall::cableOf(std::size_t channel) const {
     Cable cable{.projector = channel};
     if (const auto& swapped = hall_.faults.swapped) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The truth of a simulated hall: where every pixel of a channel falls, and how bright. Wall frame,
-// metres; channels are indices of the rig's.
+// The truth of a simulated hall: where each pixel of a channel falls, and how bright it is. Wall
+// frame, metres; channels are indices in the rig.
 #pragma once
 
 #include <memory>
@@ -17,12 +17,12 @@
 
 namespace aquarama::hall {
 
-// Immutable; for any thread. As the hall is after a scan: a projector that was moved meanwhile is
-// where it came to rest. A channel's picture is what its node draws, whichever projector its cable
-// leads to.
+// The hall after a scan: a projector that was moved during it is at its last place. A channel's
+// picture is the one that its node draws, whichever projector its cable leads to. Immutable; for
+// any thread.
 class TrueHall {
   public:
-    // Throws Error where the hall has not the rig's channels, or one of them is no projector's.
+    // Throws Error where the hall has other channels than the rig, or one of them is no projector.
     TrueHall(const config::Rig& rig, const config::Hall& hall);
 
     // Where a pixel (continuous) of the channel's picture lights the true screen; nothing where it
@@ -31,19 +31,19 @@ class TrueHall {
     // The inverse; nothing where the channel does not light the point.
     [[nodiscard]] std::optional<glm::dvec2> pixelOf(std::size_t channel, glm::dvec3 point) const;
     // The place in the panorama where a viewer at the sweet spot sees a point, as a share of its
-    // width and height; not a number where the rig's screen is not in this direction.
+    // width and height; NaN where the rig's screen is not in this direction.
     [[nodiscard]] glm::dvec2 unrolled(glm::dvec3 point) const;
     // Nothing where the camera does not see the point.
     [[nodiscard]] std::optional<glm::dvec2> cameraPixelOf(glm::dvec3 point) const;
     [[nodiscard]] std::optional<glm::dvec3> pointSeen(glm::dvec2 cameraPixel) const;
     // About `count` points, evenly over the true screen.
     [[nodiscard]] std::vector<glm::dvec3> screenPoints(std::size_t count) const;
-    // Points along its true edges.
+    // Points along the true edges of the screen.
     [[nodiscard]] std::vector<glm::dvec3> outline() const { return screen_.border(); }
-    // What the screen sends back of a projector's full white at a point that it lights; the white
-    // of brightness one in the middle of the picture that the rig means is the albedo.
+    // The light that the screen reflects of the full white of a channel, at a point that it lights.
+    // A projector of brightness one gives the albedo in the middle of the planned picture.
     [[nodiscard]] double whiteAt(std::size_t channel, glm::dvec3 point) const;
-    // The same as it falls on a surface there, whose normal has length one.
+    // The light of full white that falls on a surface there; the normal has length one.
     [[nodiscard]] double whiteOn(std::size_t channel, glm::dvec3 point, glm::dvec3 normal) const;
 
     [[nodiscard]] std::size_t channels() const { return cables_.size(); }
@@ -73,7 +73,7 @@ class TrueHall {
     std::shared_ptr<const wall::ScreenSurface> nominal_;
     TrueScreen screen_;
     std::vector<TrueLens> lenses_;
-    std::vector<double> unitLight_;  // of each projector's lens, of a white of one
+    std::vector<double> unitLight_;  // of each projector's lens, for a white of one
     TrueLens camera_;
     std::vector<Cable> cables_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The true lens of a projector or a camera, with terms that the solver's model has not. Wall frame,
+// The true lens of a projector or a camera, with terms that the solver's model lacks. Wall frame,
 // metres; pictures in pixels from the top left corner.
 #pragma once
 
@@ -16,16 +16,17 @@
 
 namespace aquarama::hall {
 
-// Where a lens is, and what it does. Its frame: x right, y up, looking along -z.
+// The place and the optics of a lens. Its frame: x right, y up, looking along -z.
 struct LensTruth {
     glm::dvec3 position{};
     glm::dmat3 wallFromLens{1.0};
     glm::dvec2 focal{1}, principal{}, size{};  // pixels
     config::HallLens lens = {};
-    glm::dvec2 keystone{};  // of a projector's picture, as hall.proto has it
+    glm::dvec2 keystone{};  // of a projector's picture, as in hall.proto
 };
 
-// Of a channel's projector in a hall, as the rig means it and as it hangs.
+// The lens of a channel's projector as the rig describes it, and as it hangs in a hall; of a
+// camera.
 [[nodiscard]] LensTruth lensOf(const config::Channel& channel);
 [[nodiscard]] LensTruth lensOf(const config::Channel& channel, const config::HallProjector& truth);
 [[nodiscard]] LensTruth lensOf(const config::HallCamera& camera);
@@ -37,26 +38,20 @@ class TrueLens {
   public:
     explicit TrueLens(const LensTruth& truth);
 
-    // Continuous; a pixel outside of the picture has a ray too.
+    // The ray of a pixel (continuous); pixels outside the picture have one too.
     [[nodiscard]] wall::Ray ray(glm::dvec2 pixel) const;
-    // Nothing outside of the picture and behind the lens.
+    // The inverse; nothing outside the picture and behind the lens.
     [[nodiscard]] std::optional<glm::dvec2> pixelOf(glm::dvec3 point) const;
-    // How much light a projector with this lens brings to a surface that faces it at a point, in
-    // comparison with one metre straight ahead; with vignetting. For points that it lights.
+    // The light of a projector with this lens on a surface that faces it at a point that it lights,
+    // relative to one metre straight ahead; with vignetting.
     [[nodiscard]] double lightAt(glm::dvec3 point) const;
-    // What vignetting leaves of a pixel's light.
+    // The share of a pixel's light that vignetting leaves.
     [[nodiscard]] double vignetted(glm::dvec2 pixel) const;
     [[nodiscard]] const LensTruth& truth() const { return truth_; }
 
   private:
-    // A point beside and below the axis, at distance one; y down.
-    [[nodiscard]] glm::dvec2 tangentOf(glm::dvec3 seen) const;
-    [[nodiscard]] glm::dvec2 distorted(glm::dvec2 tangent) const;
-    [[nodiscard]] glm::dmat2 slopeAt(glm::dvec2 tangent) const;
-    [[nodiscard]] glm::dvec2 undistorted(glm::dvec2 thrown) const;
-
     LensTruth truth_;
-    double farthest_ = 0;  // of the tangents that reach the picture, squared
+    double farthest_ = 0;  // the greatest squared tangent whose image is in the picture
 };
 
 }  // namespace aquarama::hall

@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t kWaves = 14;
 constexpr double kBefore = 0.3;  // metres: more than any bump
 
-// A flat wall that fills the view of a curved one.
+// A flat screen that fills the view of the curved one.
 config::Screen flattened(const config::Screen& curved) {
     const bool isDome = curved.shape == config::ScreenShape::Dome;
     const double arc = curved.arcRadians * curved.radiusMetres;
@@ -57,8 +57,8 @@ TrueScreen::TrueScreen(const config::Rig& rig, const config::Hall& hall)
     addMarks(hall.screen, hall.faults.flatScreen ? config::ScreenShape::Flat : rig.screen.shape);
 }
 
-// Waves of any direction in space, so that no shape has a seam or a pole, as high as is asked where
-// they are highest.
+// Adds waves of random directions in space, so that no shape has a seam or a pole. The highest bump
+// has the height that is asked for.
 void TrueScreen::addBumps(const config::HallScreen& screen) {
     if (screen.bumpMetres == 0) return;
     Chance chance(screen.bumpSeed);
@@ -120,7 +120,7 @@ glm::dvec3 TrueScreen::slopeAt(glm::dvec3 foot) const {
     return slope;
 }
 
-// From a little before the screen back to it.
+// Searches from a little before the screen back to it.
 std::optional<glm::dvec3> TrueScreen::footOf(glm::dvec3 point) const {
     const glm::dvec3 normal = glm::normalize(shape_->normalAt(point));
     return shape_->hit({point + kBefore * normal, -normal}, kDrapeMetres);
@@ -145,7 +145,7 @@ std::optional<TrueScreen::Meeting> TrueScreen::meet(const wall::Ray& ray) const 
     return meeting;
 }
 
-// By the secant method, from where the ray meets the smooth shape.
+// Uses the secant method, from the point where the ray meets the smooth shape.
 bool TrueScreen::approach(const wall::Ray& ray, glm::dvec3 smooth, Meeting& meeting) const {
     const double square = glm::dot(ray.direction, ray.direction);
     double t = glm::dot(smooth - ray.origin, ray.direction) / square;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The true screen: the rig's shape with other measures, bumps and dents. Wall frame, metres.
+// The true screen of a simulated hall. Wall frame, metres.
 #pragma once
 
 #include <memory>
@@ -16,13 +16,13 @@
 
 namespace aquarama::hall {
 
-// Immutable.
+// The rig's shape with other measures, bumps and dents. Immutable.
 class TrueScreen {
   public:
-    // The screen goes on this far past its edges, as what a drape hangs from.
+    // A drape continues the screen this far past its edges.
     static constexpr double kDrapeMetres = 1.5;
 
-    // Throws Error for panels, which nothing is projected on.
+    // Throws Error for panels: nothing is projected on them.
     TrueScreen(const config::Rig& rig, const config::Hall& hall);
 
     // Where a ray meets the screen or the drape.
@@ -31,18 +31,18 @@ class TrueScreen {
         bool isScreen = false;
         bool isMarked = false;  // covered by the crew's tape
     };
-    // Within 1e-6 metres along the ray.
+    // Exact to 1e-6 metres along the ray; nothing where the ray misses both.
     [[nodiscard]] std::optional<Meeting> meet(const wall::Ray& ray) const;
     [[nodiscard]] std::optional<glm::dvec3> hit(const wall::Ray& ray) const;
-    // Towards the audience, of length one, with the slopes of bumps and dents.
+    // The normal towards the audience, with the slopes of bumps and dents; length one.
     [[nodiscard]] glm::dvec3 normalAt(glm::dvec3 point) const;
-    // At a place of the unrolled smooth shape; nothing where it has none.
+    // The point at a place of the unrolled smooth shape; nothing where there is no screen.
     [[nodiscard]] std::optional<glm::dvec3> at(glm::dvec2 place) const;
     // Points along the true edges.
     [[nodiscard]] std::vector<glm::dvec3> border() const;
-    // Of bumps and dents, towards the audience.
+    // The height of bumps and dents, towards the audience.
     [[nodiscard]] double heightAt(glm::dvec3 foot) const;
-    // Without bumps and dents.
+    // The screen without bumps and dents.
     [[nodiscard]] const wall::ScreenSurface& shape() const { return *shape_; }
 
   private:
@@ -59,7 +59,7 @@ class TrueScreen {
     void addDents(const config::HallScreen& screen);
     void addMarks(const config::HallScreen& screen, config::ScreenShape shape);
     [[nodiscard]] std::optional<glm::dvec3> footOf(glm::dvec3 point) const;
-    // How far a point is before the bumpy screen; nothing far beside it.
+    // The distance of a point before the bumpy screen; nothing far beside the screen.
     [[nodiscard]] std::optional<double> gap(glm::dvec3 point, glm::dvec3& foot) const;
     // False where the ray leaves the drape.
     [[nodiscard]] bool approach(const wall::Ray& ray, glm::dvec3 smooth, Meeting& meeting) const;

@@ -23,9 +23,9 @@ namespace aquarama::light {
 namespace {
 
 constexpr float kNoBound = std::numeric_limits<float>::infinity();
-// How fast brightness may change unseen: its logarithm, for a degree of the viewer's eye.
+// The fastest change of brightness that is not visible: of its logarithm, for each degree of view.
 constexpr double kWhiteStep = 0.01, kBlackStep = 0.04;
-// White is softened over so many degrees, so that its slope does not jump.
+// White is smoothed over this many degrees, so that its slope has no jumps.
 constexpr double kSoftDegrees = 2.0;
 
 ScreenField fieldOf(glm::ivec2 size, float value) {
@@ -36,7 +36,7 @@ std::size_t indexOf(const ScreenField& field, int x, int y) {
     return static_cast<std::size_t>(y * field.size.x + x);
 }
 
-// One way over a field of logarithms: each cell at most a step above those before it.
+// One pass over a field of logarithms: each cell is at most a step above the cells before it.
 void sweep(ScreenField& field, glm::dvec2 step, bool isBack) {
     const glm::ivec2 size = field.size;
     const int way = isBack ? -1 : 1;
@@ -82,7 +82,7 @@ void each(ScreenField& field, const Function& function) {
     for (float& value : field.values) value = static_cast<float>(function(double(value)));
 }
 
-// From light in the wall's primaries to shares of each projector's own colours.
+// The conversion from light in the wall's primaries to shares of each projector's own colours.
 struct Colours {
     std::vector<glm::dmat3> mixes;
     std::vector<double> gains;  // luminance of the wall's white, as a share of the projector's own
@@ -95,7 +95,8 @@ glm::dmat3 meanPrimaries(const std::vector<ChannelLight>& lights) {
     return mean;
 }
 
-// How much of the mean's other primaries must be in each, so that every projector reaches it.
+// The share of the other primaries that must be mixed into each, so that every projector reaches
+// it.
 glm::dmat3 desaturationOf(const std::vector<ChannelLight>& lights, const glm::dmat3& mean) {
     glm::dmat3 most(0.0);
     for (const ChannelLight& light : lights) {
@@ -108,8 +109,8 @@ glm::dmat3 desaturationOf(const std::vector<ChannelLight>& lights, const glm::dm
     return most;
 }
 
-// The mean of the projectors' primaries, desaturated as little as all of them need; white is that
-// of the mean.
+// The mean of the projectors' primaries, desaturated only as far as all projectors need. Its white
+// stays that of the mean.
 Colours coloursOf(const std::vector<ChannelLight>& lights) {
     Colours colours;
     const glm::dmat3 mean = meanPrimaries(lights), others = desaturationOf(lights, mean);
@@ -133,8 +134,8 @@ Colours coloursOf(const std::vector<ChannelLight>& lights) {
     return colours;
 }
 
-// Of each channel at each cell of the unrolled screen: its share of the light, and what it can
-// give.
+// The share of the light of each channel, and its available light, at each cell of the unrolled
+// screen.
 class ShareMap {
   public:
     ShareMap(const geometry::SolvedHall& hall,
@@ -165,8 +166,7 @@ class ShareMap {
             });
     }
 
-    // The blacks of all channels that reach a pixel of one, in the mean over the pixel: near the
-    // border of a picture a share of it.
+    // The sum of the blacks of all channels at a pixel of one channel, as the mean over the pixel.
     [[nodiscard]] double blackAt(std::size_t channel, glm::dvec2 pixel, glm::dvec2 place) const {
         const Reach reach = reachAbout(place);
         if (reach.all == reach.some) return black.at(place);
@@ -181,7 +181,8 @@ class ShareMap {
     }
 
     std::vector<ScreenField> shares;
-    // The most light that the channels give together while each gives its share; and their blacks.
+    // The most light that the channels give together while each gives its share; and the sum of
+    // blacks.
     ScreenField mostWhite, black;
 
   private:
@@ -200,7 +201,7 @@ class ShareMap {
             }
         return reach;
     }
-    // Of some channels at a place of the picture of one, which is one of them.
+    // The blacks of some channels at a place of the picture of one of them.
     [[nodiscard]] double blackOf(std::size_t channel,
                                  glm::dvec2 pixel,
                                  std::uint64_t channels) const {
@@ -228,7 +229,7 @@ class ShareMap {
     void add(std::size_t cell, std::size_t channel, glm::dvec2 pixel, double sum) {
         const glm::ivec2 size = rig_.channels[channel].sizePixels;
         const double share = wall::pullAt(pixel, size) / sum;
-        reached_[cell] |= std::uint64_t{1} << channel;
+        reached_[cell] |= config::bitOf(channel);
         const double white = lights_[channel].white.at(pixel / glm::dvec2(size));
         shares[channel].values[cell] = static_cast<float>(share);
         black.values[cell] += static_cast<float>(blackOf(channel, pixel));
@@ -244,7 +245,7 @@ class ShareMap {
     std::vector<std::uint64_t> reached_;  // for each cell a bit for each channel
 };
 
-// Degrees of the viewer's eye for a cell in the middle of the screen.
+// The size of a cell in the middle of the screen, in degrees as the viewer sees it.
 glm::dvec2 degreesOf(const geometry::SolvedHall& hall, glm::ivec2 size) {
     const glm::dvec3 eye = hall.rig.sweetSpotMetres;
     const auto towards = [&](glm::dvec2 share) {
@@ -264,7 +265,7 @@ glm::dvec2 degreesOf(const geometry::SolvedHall& hall, glm::ivec2 size) {
     return degrees;
 }
 
-// What the wall shows of white and of black at each place.
+// The white and black of the wall at each place.
 struct Target {
     ScreenField white, black;
 };
@@ -274,9 +275,9 @@ Target targetOf(const geometry::SolvedHall& hall, const ShareMap& map) {
     Target target{evenedBelow(map.mostWhite, kWhiteStep * degrees), map.black};
     each(target.white, [](double light) { return std::log(light); });
     soften(target.white, kSoftDegrees / degrees);
-    // Softened, it may stand above the bound by as much as it changes over the width of softening.
+    // After smoothing it may exceed the bound by its change over the width of the smoothing.
     each(target.white, [](double light) { return std::exp(light - kWhiteStep * kSoftDegrees); });
-    // Black is evened from above: the same of its inverse.
+    // Black is evened from above: the same is done to its inverse.
     each(target.black, [](double light) { return light > 0 ? 1 / light : double(kNoBound); });
     target.black = evenedBelow(target.black, kBlackStep * degrees);
     each(target.black, [](double light) { return -std::log(light); });
@@ -291,8 +292,7 @@ std::uint16_t codeOf(double light) {
     return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(light, 0.0, 1.0)));
 }
 
-// Light of a channel for light of the wall, at a place of its picture and of the screen: what its
-// masks hold.
+// The values of a channel's masks at a place of its picture and of the screen.
 struct Shade {
     double blend = 0, black = 0;
 };
@@ -366,7 +366,7 @@ double ScreenField::at(glm::dvec2 share) const {
 
 ScreenField evenedBelow(ScreenField most, glm::dvec2 step) {
     each(most, [](double light) { return std::log(light); });
-    // Twice each way: light that is held back goes round corners of what is not lit.
+    // Two passes each way, so that limits also spread around corners of unlit parts.
     for (int pass = 0; pass < 4; ++pass) sweep(most, step, pass % 2 == 1);
     each(most, [](double light) { return std::exp(light); });
     return most;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One picture in light and colour of projectors that differ: how much each gives at each place,
-// what is added to black, and the primaries that all of them reach.
+// Evens the light and colour of projectors that differ: the light of each at each place, the light
+// added to black, and the primaries that all of them reach.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace aquarama::light {
 
-// What even light costs. Shares of what the projectors would give at their brightest and darkest.
+// The cost of even light, as shares of the projectors' own brightest and darkest light.
 struct BrightnessFigures {
     double keptLight = 1;     // of white, in the mean over the screen
     double keptContrast = 1;  // of white against black, in the mean
@@ -25,12 +25,12 @@ struct ScreenField {
     [[nodiscard]] double at(glm::dvec2 share) const;
 };
 
-// The largest function below `most` (infinite where nothing is asked) whose logarithm changes by no
-// more than `step` from a cell to the next across and down: Majumder and Stevens (2005).
+// The largest function below `most` (infinite where there is no bound) whose logarithm changes by
+// at most `step` between neighbouring cells, across and down: Majumder and Stevens (2005).
 [[nodiscard]] ScreenField evenedBelow(ScreenField most, glm::dvec2 step);
 
-// Puts blend, black and colour into the channels of a wall file (a3) of the hall, which has its
-// warps.
+// Sets blend, black and colour of the channels of a wall file (a3), which has the warps of the
+// hall.
 BrightnessFigures shade(const geometry::SolvedHall& hall,
                         const std::vector<ChannelLight>& lights,
                         formats::WallFile& file);

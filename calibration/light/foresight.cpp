@@ -15,7 +15,7 @@ namespace aquarama::light {
 
 namespace {
 
-// What the finished masks make of even light, where the camera has seen each channel's white.
+// The result of the finished masks for even light, where the camera saw each channel's white.
 class Foresight {
   public:
     Foresight(const LevelSamples& levels,
@@ -39,14 +39,14 @@ class Foresight {
     }
 
   private:
-    // Luminance as it will be seen and as the masks mean it, and how many channels give it.
+    // The luminance that will be seen, the one that the masks intend, and the number of channels.
     struct Seen {
         double seen = 0, meant = 0;
         int channels = 0;
     };
-    // Nothing beside the screen and where it is not known which place of a picture lights it.
+    // Nothing beside the screen, and where the place in a picture is not known.
     [[nodiscard]] std::optional<Seen> at(std::size_t index, double grey) const {
-        // Of a channel's white: where it is not meant to be, and past the screen's edge.
+        // Shares of a channel's white: outside its picture, and past the screen's edge.
         constexpr double kUnlit = 0.2, kScreen = 0.7;
         Seen seen;
         for (std::size_t c = 0; c < lights_.size(); ++c) {
@@ -93,7 +93,7 @@ class Foresight {
             point.luminance /= count;
             points.push_back(point);
         }
-        // Without the edges of the screen, where samples lie half beside it.
+        // Leaves out the edges of the screen, where samples are only partly on it.
         const auto edge = static_cast<std::ptrdiff_t>(points.size() / 30 + 2);
         if (points.size() < 20) return {};
         return {points.begin() + edge, points.end() - edge};

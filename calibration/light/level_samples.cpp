@@ -17,15 +17,11 @@ namespace {
 
 using Kind = config::ScanPattern::Kind;
 
-bool isBlack(const scan::SampledPicture& picture) {
-    return picture.pattern.kind == Kind::Level && picture.pattern.lit == 0;
-}
-
 Light meanBlack(const scan::CameraView& view) {
     Light sum;
     float count = 0;
     for (const scan::SampledPicture& picture : view.samples) {
-        if (!isBlack(picture)) continue;
+        if (!isBlack(picture.pattern)) continue;
         if (count == 0) sum = darkness(picture.light.sizePixels);
         for (std::size_t i = 0; i < sum.rgb.size(); ++i) sum.rgb[i] += picture.light.rgb[i];
         ++count;
@@ -43,10 +39,6 @@ bool isInBand(int at, int samples) {
 
 }  // namespace
 
-double luminance(glm::dvec3 rgb) {
-    return glm::dot(rgb, {0.2126, 0.7152, 0.0722});
-}
-
 int firstOfBand(double at, int samples) {
     return static_cast<int>(at * samples) - kBandWidth / 2;
 }
@@ -58,7 +50,7 @@ bool isHeldOut(glm::ivec2 size, std::size_t index) {
 
 LevelSamples::LevelSamples(const scan::CameraView& view) : view_{view}, black_{meanBlack(view)} {
     for (std::size_t c = 0; c < view.channels.size(); ++c)
-        whites_.push_back(levelOf(std::uint64_t{1} << c, glm::vec3(1)));
+        whites_.push_back(levelOf(config::bitOf(c), glm::vec3(1)));
 }
 
 bool LevelSamples::isWhole() const {
@@ -84,7 +76,7 @@ std::vector<const scan::SampledPicture*> LevelSamples::greys() const {
 glm::dvec3 LevelSamples::whites(std::uint64_t lit, std::size_t index) const {
     glm::dvec3 sum(0);
     for (std::size_t c = 0; c < whites_.size(); ++c)
-        if (((lit >> c) & 1U) != 0 && whites_[c] != nullptr) sum += white(c, index);
+        if (config::contains(lit, c) && whites_[c] != nullptr) sum += white(c, index);
     return sum;
 }
 
@@ -105,19 +97,19 @@ const scan::SampledPicture* LevelSamples::levelOf(std::uint64_t lit, glm::vec3 l
 
 namespace {
 
-// The camera's noise in the dark. A camera counts what is below zero as zero, so the mean of a dark
-// place's pixels is more than its light.
+// The noise of the camera in the dark. A camera counts values below zero as zero, so that the mean
+// of dark pixels is more than their light.
 class DarkNoise {
   public:
-    // By what differs between neighbours in the first picture of black, as the mean of each
-    // sample's pixels has it. Without such a picture there is no noise.
+    // By the differences of neighbouring samples in the first picture of black. Without such a
+    // picture there is no noise.
     explicit DarkNoise(const scan::CameraView& view) {
         if (view.black.rgb.empty()) return;
         for (int colour = 0; colour < 3; ++colour)
             sigma_[colour] = sigmaOf(spreadsOf(view, colour));
     }
-    // Takes away what it adds to a picture. As much as it adds in the mean of a neighbourhood: in a
-    // single sample there is noise.
+    // Subtracts from a picture what the noise adds in the mean of a neighbourhood, as a single
+    // sample is noisy itself.
     void leave(Light& light) const {
         const Light means = meansOf(light);
         for (std::size_t i = 0; i < light.rgb.size(); ++i)
@@ -130,7 +122,7 @@ class DarkNoise {
     }
 
   private:
-    // Of 5 x 5 samples about each, without those that are not a number.
+    // The means of the 5 x 5 samples around each, without those that are NaN.
     static Light meansOf(const Light& light) {
         constexpr int kReach = 2;
         Light means = darkness(light.sizePixels);
@@ -152,7 +144,7 @@ class DarkNoise {
             }
         return means;
     }
-    // Of the pixels of a sample: their mean, and the square of what differs.
+    // The mean of the pixels of a sample, and their squared deviation.
     struct Spread {
         double mean = 0, square = 0;
     };
@@ -191,7 +183,7 @@ class DarkNoise {
             light -= (light * below(light) + density(light) - mean) / below(light);
         return {light, (light * light + 1) * below(light) + light * density(light) - mean * mean};
     }
-    // The noise that spreads as seen: what is not noise, as an edge, lies far off.
+    // The noise that has this spread. Values far off, such as edges, are no noise.
     static double sigmaOf(const std::vector<Spread>& spreads) {
         constexpr double kMost = 25;  // variances
         double sigma = 0;
@@ -212,11 +204,11 @@ class DarkNoise {
     glm::dvec3 sigma_{0};
 };
 
-// How a camera's light differs from what it is taken for: a factor for each of its values, by
-// pictures of one wall in several exposures (Debevec and Malik 1997).
+// The correction of a camera's response: a factor for each of its values, by pictures of one wall
+// in several exposures (Debevec and Malik 1997).
 class CameraCurve {
   public:
-    // Of a view without such pictures it changes nothing.
+    // Without such pictures it changes nothing.
     explicit CameraCurve(const scan::CameraView& view) {
         const LevelSamples levels(view);
         if (!levels.isWhole()) return;
@@ -258,7 +250,7 @@ class CameraCurve {
                     add(less[c], full[c], less[c] * double(picture.scale));
         }
     }
-    // One light in two exposures; `again` is the first as the second should have it.
+    // Adds one light in two exposures; `again` is the first one scaled to the second exposure.
     void add(double less, double full, double again) {
         constexpr double kMost = 0.25;  // farther off are tags, and what has moved
         if (std::abs(std::log(full / again)) > kMost) return;
@@ -292,7 +284,7 @@ class CameraCurve {
 scan::CameraView linearised(scan::CameraView view) {
     const DarkNoise noise(view);
     for (scan::SampledPicture& picture : view.samples)
-        if (isBlack(picture)) noise.leave(picture.light);
+        if (isBlack(picture.pattern)) noise.leave(picture.light);
     const CameraCurve curve(view);
     for (scan::SampledPicture& picture : view.samples)
         for (glm::vec3& light : picture.light.rgb) light = picture.scale * curve.corrected(light);

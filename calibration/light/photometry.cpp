@@ -48,8 +48,8 @@ double medianWhite(const LevelSamples& levels,
     return quantile(std::move(whites), 0.5);
 }
 
-// A sample where it is known what each channel lights it with: its whites' luminance, with what the
-// screen throws on itself.
+// A sample with the known luminance of each channel's white there, with the light that the screen
+// reflects on itself.
 struct Mixed {
     std::size_t index = 0;
     Eigen::VectorXd whites;
@@ -59,8 +59,8 @@ struct Mixed {
 std::optional<Mixed> mixedAt(const LevelSamples& levels,
                              const std::vector<double>& medians,
                              std::size_t index) {
-    // Of its white a channel gives more than this to all that it lights, and less by way of the
-    // screen. More at an unknown place are borders, tags and the crew's tape.
+    // A channel gives more than this share of its white to the places that it lights, and less by
+    // way of the screen. More light at an unknown place is a border, a tag or the crew's tape.
     constexpr double kUnlit = 0.2, kScreen = 0.5;
     Mixed sample{index, Eigen::VectorXd(static_cast<Eigen::Index>(medians.size()))};
     bool isLit = false;
@@ -82,8 +82,8 @@ std::vector<Mixed> mixedOf(const LevelSamples& levels, const std::vector<double>
     return mixed;
 }
 
-// Light of each channel (columns) for one unit of its white's luminance, from what samples have of
-// all channels together: light is a sum, on the screen and on the camera.
+// The light of each channel (columns) for one unit of its white's luminance, from samples that all
+// channels light together: light adds up.
 class Unmixing {
   public:
     explicit Unmixing(const std::vector<Mixed>& samples, std::size_t channels)
@@ -100,7 +100,7 @@ class Unmixing {
         }
         return normal.selfadjointView<Eigen::Lower>().ldlt().solve(right).transpose();
     }
-    // Of how many samples a channel's white is known apart from those of the others.
+    // The number of samples in which a channel's white is separable from the others.
     [[nodiscard]] std::vector<double> apart(const std::vector<double>& medians) const {
         Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(channels_, channels_);
         for (const Mixed& sample : samples_) normal += sample.whites * sample.whites.transpose();
@@ -127,8 +127,8 @@ struct Response {
     glm::dvec3 light{};
 };
 
-// Codes below those that a camera can measure: along logarithms the slope goes on changing as it
-// does above them, but for light that is no steeper than its code.
+// Extends a response to codes that the camera cannot measure: on logarithms the slope continues to
+// change as above, but stays at least one.
 void addDark(std::vector<glm::dvec2>& points) {
     constexpr int kSteps = 6;
     const double first = (points[1].y - points[0].y) / (points[1].x - points[0].x);
@@ -142,7 +142,7 @@ void addDark(std::vector<glm::dvec2>& points) {
     }
 }
 
-// From codes to light; between what is measured along logarithms, where a power is a straight line.
+// A response from codes to light, interpolated on logarithms, where a power is a straight line.
 std::vector<float> responseOf(const std::vector<Response>& levels, int colour) {
     constexpr std::size_t kCodes = 257;
     std::vector<glm::dvec2> points;
@@ -166,7 +166,7 @@ glm::dvec3 columnOf(const Eigen::Matrix3Xd& lights, std::size_t channel) {
     return {column(0), column(1), column(2)};
 }
 
-// Full red, green and blue of each channel, scaled so that their sum is white. Nothing where a
+// The full red, green and blue of each channel, scaled so that their sum is white. Nothing where a
 // picture is missing.
 std::vector<glm::dmat3> primariesOf(const LevelSamples& levels,
                                     const Unmixing& unmixing,
@@ -189,7 +189,7 @@ std::vector<glm::dmat3> primariesOf(const LevelSamples& levels,
     return primaries;
 }
 
-// Of a channel's white, for one unit of luminance.
+// The colour of a channel's white, for one unit of luminance.
 glm::dvec3 tintOf(const LevelSamples& levels,
                   std::size_t channel,
                   const std::vector<Sample>& samples) {
@@ -198,8 +198,8 @@ glm::dvec3 tintOf(const LevelSamples& levels,
     return sum / luminance(sum);
 }
 
-// Whether each colour of a level is clearly brighter than that of the one before, and darker than
-// white: not where a picture shows another level than it should.
+// Whether each colour of a level is clearly brighter than in the level before, and darker than
+// white. Otherwise the picture shows another level than it should.
 bool rises(glm::dvec3 before, glm::dvec3 light) {
     constexpr double kLeast = 1.03;
     for (int colour = 0; colour < 3; ++colour)
@@ -208,8 +208,8 @@ bool rises(glm::dvec3 before, glm::dvec3 light) {
     return true;
 }
 
-// What each channel gives of its own colours at the levels of the scan, rising; nothing where they
-// do not rise.
+// The light of each channel's own colours at the levels of the scan, rising; nothing where they do
+// not rise.
 std::vector<std::vector<Response>> levelsOf(const std::vector<ChannelLight>& channels,
                                             const LevelSamples& levels,
                                             const Unmixing& unmixing) {
@@ -262,8 +262,8 @@ geometry::SmoothField whiteOf(const LevelSamples& levels,
     return field;
 }
 
-// Terms of the light of the room at a sample: it changes smoothly over the camera's picture, as
-// does what the camera's lens lets through.
+// Terms of the light of the room at a sample. It changes smoothly over the camera's picture, as
+// does the transmission of the camera's lens.
 constexpr Eigen::Index kRoomTerms = 6;
 Eigen::Matrix<double, kRoomTerms, 1> roomTerms(glm::ivec2 size, std::size_t index) {
     const auto width = static_cast<std::size_t>(size.x);
@@ -271,7 +271,7 @@ Eigen::Matrix<double, kRoomTerms, 1> roomTerms(glm::ivec2 size, std::size_t inde
     return {1, at.x, at.y, at.x * at.x, at.x * at.y, at.y * at.y};
 }
 
-// Blacks as shares of white, with the light of the room as unknown as they, by least squares.
+// The blacks as shares of white, fitted together with the unknown light of the room.
 void setBlacks(std::vector<ChannelLight>& channels,
                const LevelSamples& levels,
                const std::vector<Mixed>& samples) {
@@ -294,7 +294,7 @@ void setBlacks(std::vector<ChannelLight>& channels,
         channels[static_cast<std::size_t>(c)].black = std::clamp(solved(c), 0.0, 0.1);
 }
 
-// Sets all but the whites. False where the pictures do not tell.
+// Sets all but the whites. False where the pictures are not sufficient.
 bool setLight(std::vector<ChannelLight>& channels,
               const LevelSamples& levels,
               const std::vector<std::vector<Sample>>& samples) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How each projector shines, from the levels of a scan. The camera's linear red, green
-// and blue are taken for those of Rec. 709; all light is in units of the camera's most.
+// Measures the light of each projector from the levels of a scan. The camera's linear red, green
+// and blue are assumed to be those of Rec. 709; light is in units of the camera's maximum.
 #pragma once
 
 #include <array>
@@ -16,24 +16,24 @@
 
 namespace aquarama::light {
 
-// One projector.
+// The light of one projector.
 struct ChannelLight {
-    // Luminance on the screen of its full white without its black, over the picture (0 to 1).
+    // Luminance of its full white on the screen, without its black, over the picture (0 to 1).
     geometry::SmoothField white{{1, 1}};
     double black = 0;  // as a share of white
     // Its full red, green and blue as columns, without black; their sum has the luminance one.
     glm::dmat3 primaries{1};
-    // Light of its colours for codes that are spread evenly from 0 to 1.
+    // The light of red, green and blue for codes at equal steps from 0 to 1.
     std::array<std::vector<float>, 3> response;
 };
 
-// Of each channel; places of the view that are not a number are left out. Nothing where it lacks a
-// channel's white, red, green or levels, or sees too little of one.
+// Measures each channel; places that are NaN are left out. Nothing where the view lacks a channel's
+// white, red, green or levels, or sees too little of it.
 [[nodiscard]] std::optional<std::vector<ChannelLight>> measureLight(const config::Rig& rig,
                                                                     scan::CameraView view);
 
-// A smooth curve through points (x and y rising) that rises everywhere, after Fritsch and Carlson
-// (1980), at rising places; before the first point it is straight.
+// The values, at rising places, of a smooth curve through points (x and y rising). It rises
+// everywhere (Fritsch and Carlson 1980) and is straight before the first point.
 [[nodiscard]] std::vector<double> risingCurve(const std::vector<glm::dvec2>& points,
                                               const std::vector<double>& at);
 

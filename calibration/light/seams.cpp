@@ -11,14 +11,11 @@
 #include <lcms2.h>
 
 #include "calibration/hall/hall_view.h"
+#include "common/base/picture.h"
 
 namespace aquarama::light {
 
 namespace {
-
-double luminance(glm::dvec3 rgb) {
-    return glm::dot(rgb, {0.2126, 0.7152, 0.0722});
-}
 
 cmsCIELab labOf(glm::dvec3 rgb, glm::dvec3 white) {
     const auto xyz = [](glm::dvec3 light) {
@@ -32,7 +29,7 @@ cmsCIELab labOf(glm::dvec3 rgb, glm::dvec3 white) {
     return lab;
 }
 
-// The value at the middle of points that follow one another, by a curve of second degree.
+// The value at a point of a window, by a fit of second degree.
 double smoothAt(std::span<const ProfilePoint> window, std::size_t at) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -72,8 +69,8 @@ namespace {
 constexpr std::size_t kPoints = 480;  // of a profile
 constexpr std::size_t kWithin = 3;    // samples across and down whose mean a point is
 
-// A profile's points along a row or a column of the true screen: each is the mean of a square of
-// samples, as wide as the points are apart, as a luminance camera sees it.
+// A point of a profile along a row or column of the true screen: the mean of a square of samples as
+// wide as the distance of points, as a luminance camera sees it.
 struct LinePoint {
     std::vector<glm::dvec3> samples;
     int channels = 0;  // that light its middle
@@ -108,7 +105,7 @@ Line lineAlong(const hall::TrueHall& truth, int axis, double at) {
         LinePoint point = pointAt(truth, place, side);
         if (!point.samples.empty()) line.push_back(std::move(point));
     }
-    // Without the edges of the screen, where a wall may stay dark.
+    // Leaves out the edges of the screen, which may stay dark.
     const auto edge = static_cast<std::ptrdiff_t>(line.size() / 50 + 1);
     if (line.size() <= count / 2) return {};
     return {line.begin() + edge, line.end() - edge};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How even a wall is, in light and colour: by the truth of a simulated hall.
+// Measures how even the light and colour of a wall are, by the truth of a simulated hall.
 #pragma once
 
 #include <span>
@@ -16,14 +16,15 @@ struct ProfilePoint {
     bool isShared = false;  // by several channels
 };
 
-// The largest step of luminance in and about what several channels light, as a share: against a
-// smooth curve through an eighth of the profile about it (a line of points at equal distances,
-// without gaps). 0 where there is nothing shared.
+// The largest step of luminance in and near parts that several channels light, as a share: the
+// deviation from a smooth curve through an eighth of the profile around it. The profile is a line
+// of points at equal distances without gaps. 0 where nothing is shared.
 [[nodiscard]] double seamOf(std::span<const ProfilePoint> profile);
 
 // CIEDE2000 of two colours in linear Rec. 709, for an eye that takes `white` for white.
 [[nodiscard]] double colourDifference(glm::dvec3 one, glm::dvec3 other, glm::dvec3 white);
 
+// The steps of light and colour at the overlaps of a wall.
 struct Seams {
     // Shares, the largest of all profiles, for white of 2, 18 and 100 %.
     double grey2 = 0, grey18 = 0, grey100 = 0;
@@ -32,7 +33,7 @@ struct Seams {
     double colour = 0;
 };
 
-// What a wall makes of even light, on some rows and columns of the screen. Takes seconds; uses all
+// Measures the seams of even light on some rows and columns of the screen. Takes seconds; uses all
 // processors.
 [[nodiscard]] Seams seamsOf(const hall::TrueHall& truth, const hall::DrawnWall& wall);
 

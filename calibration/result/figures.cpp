@@ -11,14 +11,14 @@
 
 namespace aquarama::result {
 
-const char* nameOf(Judgement verdict) {
+const char* nameOf(Judgement judgement) {
     constexpr std::array kNames{"pass", "warn", "refuse"};
-    return kNames.at(static_cast<std::size_t>(verdict));
+    return kNames.at(static_cast<std::size_t>(judgement));
 }
 
 namespace {
 
-// The places of the panorama where each channel shows a point, where it reaches it.
+// The place of the panorama that each channel shows at a point that it lights.
 std::vector<glm::dvec2> shownAt(const hall::TrueHall& truth,
                                 const wall::ScreenSurface& screen,
                                 const formats::WallFile& file,
@@ -59,26 +59,23 @@ WallErrors errorsOf(const hall::TrueHall& truth,
 
 namespace {
 
-// Bounds of what is good, and of what may still be used, in panorama pixels.
+// Bounds of good and of usable overlaps, in panorama pixels.
 struct Bounds {
     double rms, p95, most;
 };
 constexpr Bounds kGood{0.2, 0.45, 1.0};
 constexpr Bounds kUsable{0.6, 1.4, 3.0};
 
-bool isWithin(const geometry::SolveFigures& figures, const Bounds& bounds) {
-    return figures.overlapRms <= bounds.rms && figures.overlapP95 <= bounds.p95 &&
-           figures.overlapMax <= bounds.most;
+bool isWithin(const geometry::OverlapFigures& overlap, const Bounds& bounds) {
+    return overlap.rms <= bounds.rms && overlap.p95 <= bounds.p95 && overlap.most <= bounds.most;
 }
 
-void take(Figures& figures, Judgement verdict, const scan::ScanFault& fault) {
-    if (verdict <= figures.verdict && !figures.cause.empty()) return;
-    figures.verdict = std::max(verdict, figures.verdict);
-    figures.cause = fault.cause;
-    figures.advice = fault.advice;
+void take(CalibrationVerdict& verdict, Judgement judgement, const scan::ScanFault& fault) {
+    if (judgement <= verdict.judgement && !verdict.cause.empty()) return;
+    verdict = {std::max(judgement, verdict.judgement), fault.cause, fault.advice};
 }
 
-// How many channels light a point of the rig's screen, by where the rig says that they hang.
+// The number of channels that light a point of the rig's screen, as the rig describes them.
 std::size_t lightAt(const geometry::SolvedHall& hall, glm::dvec3 point) {
     std::size_t lit = 0;
     for (std::size_t c = 0; c < hall.rig.channels.size(); ++c)
@@ -86,8 +83,8 @@ std::size_t lightAt(const geometry::SolvedHall& hall, glm::dvec3 point) {
     return lit;
 }
 
-// Whether the rig has two channels that show one place. One channel has no neighbour, and channels
-// may hang apart: then nothing of overlap is asked.
+// Whether the rig has two channels that show one place. A single channel and channels that hang
+// apart need no overlap.
 bool hasOverlaps(const geometry::SolvedHall& hall) {
     constexpr int kColumns = 192, kRows = 64;
     if (hall.rig.channels.size() < 2) return false;
@@ -99,46 +96,46 @@ bool hasOverlaps(const geometry::SolvedHall& hall) {
     return false;
 }
 
-// Of places that were kept from the solve, where the rig has places that two channels light.
-void judgeOverlaps(Figures& figures,
+// Judges places that were held out from the solve, where the rig has overlaps.
+void judgeOverlaps(CalibrationVerdict& verdict,
                    const geometry::SolvedHall& hall,
                    const geometry::SolveFigures& solved) {
     constexpr std::size_t kLeastPoints = 8;
-    if (solved.overlapPoints < kLeastPoints) {
+    if (solved.overlap.points < kLeastPoints) {
         if (!hasOverlaps(hall)) return;
-        return take(figures,
+        return take(verdict,
                     Judgement::Refuse,
                     {"no_overlap",
                      "the camera sees no place that two channels light, where the rig has them: "
                      "let neighbours overlap by a tenth of their pictures, or correct where the "
                      "rig says that they hang, and scan again"});
     }
-    if (isWithin(solved, kGood)) return;
-    take(figures,
-         isWithin(solved, kUsable) ? Judgement::Warn : Judgement::Refuse,
+    if (isWithin(solved.overlap, kGood)) return;
+    take(verdict,
+         isWithin(solved.overlap, kUsable) ? Judgement::Warn : Judgement::Refuse,
          {"misregistration",
           fmt::format("neighbours part by {:.2f} panorama pixels (RMS) at places that were kept "
                       "from the solve: let nothing move during the scan, focus the camera and scan "
                       "again",
-                      solved.overlapRms)});
+                      solved.overlap.rms)});
 }
 
-// By the noise of what was seen; the models' own errors come on top.
-void judgePlace(Figures& figures, const geometry::SolveFigures& solved) {
+// Judges the place of the whole picture by the camera's noise; errors of the model add to it.
+void judgePlace(CalibrationVerdict& verdict, const geometry::SolveFigures& solved) {
     constexpr double kMostPixels = 1;
     if (solved.absoluteSigma <= kMostPixels) return;
-    take(figures,
+    take(verdict,
          Judgement::Warn,
          {"place_not_sure",
           fmt::format("{}the whole picture may be off by {:.1f} panorama pixels "
                       "(RMS): mark the middle of the screen's upper and lower edge with strips of "
                       "dark tape, 50 mm by 150 mm, let the screen fill the camera's picture, and "
                       "scan again",
-                      solved.overlapPoints > 0 ? "neighbours agree, but " : "",
+                      solved.overlap.points > 0 ? "neighbours agree, but " : "",
                       solved.absoluteSigma)});
 }
 
-// How far a projector's lens was found from what the rig says, as shares of what is let pass.
+// The difference of a projector's lens from the rig, as shares of the permitted difference.
 struct LensApart {
     const config::Channel* channel = nullptr;
     double stretch = 0;          // of its picture: the aspect, and that of a trapezoid
@@ -165,15 +162,15 @@ LensApart apartFromRig(const geometry::SolvedHall& hall, std::size_t channel) {
         shift / size.x / kMostShift};
 }
 
-// A picture of another shape than the rig's is fitted, and neighbours agree, but what the fit gets
-// wrong of it pulls the others from their places: most on domes, where all overlap.
-void judgeLenses(Figures& figures, const geometry::SolvedHall& hall) {
+// A picture of another shape than the rig's can be fitted so that neighbours agree, but its errors
+// pull the other projectors from their places: most of all on domes, where all overlap.
+void judgeLenses(CalibrationVerdict& verdict, const geometry::SolvedHall& hall) {
     std::vector<LensApart> lenses;
     for (std::size_t c = 0; c < hall.projectors.size(); ++c)
         lenses.push_back(apartFromRig(hall, c));
     const LensApart& worst = *std::ranges::max_element(lenses, {}, &LensApart::stretch);
     if (worst.stretch > 1)
-        take(figures,
+        take(verdict,
              Judgement::Warn,
              {"picture_stretched",
               fmt::format("channel \"{}\" shows its picture stretched or as a trapezoid: switch "
@@ -181,7 +178,7 @@ void judgeLenses(Figures& figures, const geometry::SolvedHall& hall) {
                           worst.channel->name)});
     const LensApart& set = *std::ranges::max_element(lenses, {}, &LensApart::setting);
     if (set.setting() > 1)
-        take(figures,
+        take(verdict,
              Judgement::Warn,
              {"lens_not_as_stated",
               fmt::format("the lens of channel \"{}\" is not {} as the rig says: switch keystone "
@@ -190,11 +187,11 @@ void judgeLenses(Figures& figures, const geometry::SolvedHall& hall) {
                           set.zoom > set.shift ? "zoomed" : "shifted")});
 }
 
-// A round edge does not tell how it is turned about its axis, but a mark on it does.
-void judgeDome(Figures& figures, const geometry::Solved& solved) {
+// A round edge does not show the rotation about its axis; a mark on it does.
+void judgeDome(CalibrationVerdict& verdict, const geometry::Solved& solved) {
     if (solved.hall->rig.screen.shape != config::ScreenShape::Dome || solved.figures.marks > 0)
         return;
-    take(figures,
+    take(verdict,
          Judgement::Warn,
          {"dome_front",
           "the camera does not see where the front of a dome is: stick strips of dark tape, 50 mm "
@@ -202,31 +199,31 @@ void judgeDome(Figures& figures, const geometry::Solved& solved) {
           "scan again"});
 }
 
-// Of a dome that each place of is lit by one projector alone nothing but its round edge tells where
-// the middle of its picture lies: simulated ones were up to eight pixels off.
-void judgeLoneDome(Figures& figures, const geometry::Solved& solved) {
+// Where each place of a dome is lit by one projector alone, only the round edge shows where the
+// picture lies: in simulations it was up to eight pixels off.
+void judgeLoneDome(CalibrationVerdict& verdict, const geometry::Solved& solved) {
     if (solved.hall->rig.screen.shape != config::ScreenShape::Dome ||
-        solved.figures.overlapPoints > 0)
+        solved.figures.overlap.points > 0)
         return;
     take(
-        figures,
+        verdict,
         Judgement::Warn,
         {"place_not_checked",
          "no place of the dome is lit by two projectors, so nothing checks where its picture lies: "
          "show aquarama run --pattern grid, and move what is off by aquarama adjust move"});
 }
 
-void judgeOutline(Figures& figures, const geometry::SolveFigures& solved) {
+void judgeOutline(CalibrationVerdict& verdict, const geometry::SolveFigures& solved) {
     constexpr std::size_t kLeastPoints = 150;
     constexpr double kMostPixels = 1.5;
     if (solved.outlinePoints < kLeastPoints)
-        take(figures,
+        take(verdict,
              Judgement::Warn,
              {"outline_not_seen",
               "the outline of the screen is not seen all round, so the whole picture may be off: "
               "show all of the screen to the camera, and light the room for the first picture"});
     else if (solved.outlineRms > kMostPixels)
-        take(figures,
+        take(verdict,
              Judgement::Refuse,
              {"wrong_screen",
               fmt::format("the screen's outline is {:.1f} camera pixels off (RMS) from what the "
@@ -234,17 +231,13 @@ void judgeOutline(Figures& figures, const geometry::SolveFigures& solved) {
                           solved.outlineRms)});
 }
 
-}  // namespace
-
-namespace {
-
-// Exchanged cables make channels look hidden, so what the solve found goes first.
-void takeFaults(Figures& figures,
+// Exchanged cables make channels look hidden, so the faults of the solve come first.
+void takeFaults(CalibrationVerdict& verdict,
                 const std::vector<scan::CameraView>& views,
                 const geometry::Solved& solved) {
     const auto takeAll = [&](const std::vector<scan::ScanFault>& faults) {
         for (const scan::ScanFault& fault : faults)
-            take(figures, fault.refuses ? Judgement::Refuse : Judgement::Warn, fault);
+            take(verdict, fault.refuses ? Judgement::Refuse : Judgement::Warn, fault);
     };
     takeAll(solved.faults);
     for (const scan::CameraView& view : views) takeAll(view.faults);
@@ -252,63 +245,49 @@ void takeFaults(Figures& figures,
 
 }  // namespace
 
-Figures judged(const std::vector<scan::CameraView>& views, const geometry::Solved& solved) {
-    Figures figures;
-    figures.verdict = Judgement::Pass;
-    takeFaults(figures, views, solved);
-    if (solved.faults.empty()) {
-        judgeOverlaps(figures, *solved.hall, solved.figures);
-        judgeOutline(figures, solved.figures);
-        judgePlace(figures, solved.figures);
-        judgeDome(figures, solved);
-        judgeLoneDome(figures, solved);
-        judgeLenses(figures, *solved.hall);
-    }
-    figures.overlapRms = solved.figures.overlapRms;
-    figures.overlapP95 = solved.figures.overlapP95;
-    figures.overlapMax = solved.figures.overlapMax;
-    figures.overlapPoints = solved.figures.overlapPoints;
-    figures.absoluteRms = solved.figures.absoluteSigma;
-    figures.outlineRms = solved.figures.outlineRms;
-    figures.fitRms = solved.figures.fitRms;
-    return figures;
+CalibrationVerdict judged(const std::vector<scan::CameraView>& views,
+                          const geometry::Solved& solved) {
+    CalibrationVerdict verdict;
+    takeFaults(verdict, views, solved);
+    if (!solved.faults.empty()) return verdict;
+    judgeOverlaps(verdict, *solved.hall, solved.figures);
+    judgeOutline(verdict, solved.figures);
+    judgePlace(verdict, solved.figures);
+    judgeDome(verdict, solved);
+    judgeLoneDome(verdict, solved);
+    judgeLenses(verdict, *solved.hall);
+    return verdict;
 }
 
-void setBrightness(Figures& figures, const std::optional<light::BrightnessFigures>& brightness) {
-    figures.brightness = brightness;
-    if (brightness) return;
-    take(figures,
-         Judgement::Warn,
-         {"colour_not_measured",
-          "places are right, but light and colour are as the projectors give them: the scan lacks "
-          "levels, or a channel cannot be told from others; scan with all patterns, and let no "
-          "channel be "
-          "wholly covered by others"});
-}
-
-void setForeseen(Figures& figures, const std::optional<light::ForeseenSeams>& seams) {
+CalibrationVerdict judgedLight(CalibrationVerdict verdict,
+                               const std::optional<light::BrightnessFigures>& brightness,
+                               const std::optional<light::ForeseenSeams>& seams) {
     constexpr double kMostLight = 0.01, kMostDark = 0.03;
-    figures.foreseen = seams;
-    if (!seams) return;
+    if (!brightness)
+        take(verdict,
+             Judgement::Warn,
+             {"colour_not_measured",
+              "places are right, but light and colour are as the projectors give them: the scan "
+              "lacks levels, or a channel cannot be told from others; scan with all patterns, and "
+              "let no channel be wholly covered by others"});
+    if (!seams) return verdict;
     const double light = std::max(seams->grey18, seams->grey100);
-    if (light <= kMostLight && seams->grey2 <= kMostDark) return;
-    take(figures,
-         Judgement::Warn,
-         {"seam_visible",
-          fmt::format("a seam of {:.1f} % is to be expected (of {:.1f} % in the dark): let the "
-                      "projectors warm up for half an hour, switch off their automatic brightness, "
-                      "keep lamps and people away, and scan again",
-                      100 * light,
-                      100 * seams->grey2)});
+    if (light > kMostLight || seams->grey2 > kMostDark)
+        take(verdict,
+             Judgement::Warn,
+             {"seam_visible",
+              fmt::format("a seam of {:.1f} % is to be expected (of {:.1f} % in the dark): let the "
+                          "projectors warm up for half an hour, switch off their automatic "
+                          "brightness, keep lamps and people away, and scan again",
+                          100 * light,
+                          100 * seams->grey2)});
+    return verdict;
 }
 
-void setTrue(Figures& figures, WallErrors errors) {
-    figures.isTrue = true;
-    figures.overlapPoints = errors.overlap.size();
-    figures.overlapRms = rootMeanSquare(errors.overlap);
-    figures.overlapP95 = quantile(errors.overlap, 0.95);
-    figures.overlapMax = quantile(std::move(errors.overlap), 1);
-    figures.absoluteRms = rootMeanSquare(errors.absolute);
+TrueFigures trueFigures(const WallErrors& errors, const light::Seams& seams) {
+    return {.overlap = geometry::overlapFigures(errors.overlap),
+            .absoluteRms = rootMeanSquare(errors.absolute),
+            .seams = seams};
 }
 
 std::string jsonOf(const Figures& figures) {
@@ -317,35 +296,37 @@ std::string jsonOf(const Figures& figures) {
                     : nlohmann::ordered_json(nullptr);
     };
     const auto parting = [&](double pixels) {
-        return figures.overlapPoints > 0 ? nlohmann::ordered_json(pixels)
-                                         : nlohmann::ordered_json(nullptr);
+        return figures.overlap().points > 0 ? nlohmann::ordered_json(pixels)
+                                            : nlohmann::ordered_json(nullptr);
     };
     const auto seam = [&](double light::Seams::*known, double light::ForeseenSeams::*foreseen) {
-        return figures.seams ? told(figures.seams, known, 100)
+        return figures.truth ? nlohmann::ordered_json(100 * figures.truth->seams.*known)
                              : told(figures.foreseen, foreseen, 100);
     };
     return nlohmann::ordered_json{
-               {"verdict", nameOf(figures.verdict)},
-               {"cause", figures.cause},
-               {"advice", figures.advice},
-               {"from_ground_truth", figures.isTrue},
-               {"overlap_rms_px", parting(figures.overlapRms)},
-               {"overlap_p95_px", parting(figures.overlapP95)},
-               {"overlap_max_px", parting(figures.overlapMax)},
-               {"overlap_points", figures.overlapPoints},
-               {"absolute_rms_px", figures.absoluteRms},
+               {"verdict", nameOf(figures.verdict.judgement)},
+               {"cause", figures.verdict.cause},
+               {"advice", figures.verdict.advice},
+               {"from_ground_truth", figures.truth.has_value()},
+               {"overlap_rms_px", parting(figures.overlap().rms)},
+               {"overlap_p95_px", parting(figures.overlap().p95)},
+               {"overlap_max_px", parting(figures.overlap().most)},
+               {"overlap_points", figures.overlap().points},
+               {"absolute_rms_px", figures.absoluteRms()},
                {"seam_percent_grey2", seam(&light::Seams::grey2, &light::ForeseenSeams::grey2)},
                {"seam_percent_grey18", seam(&light::Seams::grey18, &light::ForeseenSeams::grey18)},
                {"seam_percent_grey100",
                 seam(&light::Seams::grey100, &light::ForeseenSeams::grey100)},
-               {"seam_ciede2000", told(figures.seams, &light::Seams::colour, 1)},
+               {"seam_ciede2000",
+                figures.truth ? nlohmann::ordered_json(figures.truth->seams.colour)
+                              : nlohmann::ordered_json(nullptr)},
                {"kept_light", told(figures.brightness, &light::BrightnessFigures::keptLight, 1)},
                {"kept_contrast",
                 told(figures.brightness, &light::BrightnessFigures::keptContrast, 1)},
                {"desaturation",
                 told(figures.brightness, &light::BrightnessFigures::desaturation, 1)},
-               {"outline_rms_camera_px", figures.outlineRms},
-               {"fit_rms_projector_px", figures.fitRms},
+               {"outline_rms_camera_px", figures.solve.outlineRms},
+               {"fit_rms_projector_px", figures.solve.fitRms},
                {"seconds", figures.seconds},
                {"pictures", figures.pictures},
                {"peak_megabytes", figures.peakMegabytes}}

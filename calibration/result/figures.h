@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How good a calibration is, and whether it may be used.
+// Judges a calibration: its errors, and whether it may be used.
 #pragma once
 
 #include <cstddef>
@@ -17,51 +17,67 @@
 namespace aquarama::result {
 
 enum class Judgement : std::uint8_t { Pass, Warn, Refuse };
-[[nodiscard]] const char* nameOf(Judgement verdict);
+[[nodiscard]] const char* nameOf(Judgement judgement);
 
-// Errors of a wall in panorama pixels: between two channels that show one point, and between what
-// a channel shows at a point and what belongs there.
+// Whether a calibration may be used, and the first of its worst faults.
+struct CalibrationVerdict {
+    Judgement judgement = Judgement::Pass;
+    std::string cause, advice;  // empty where it passes
+};
+
+// Errors of a wall in panorama pixels: between two channels that show one point, and between the
+// place that a channel shows at a point and the right one.
 struct WallErrors {
     std::vector<double> overlap, absolute;
 };
 
-// Of a wall file in a hall whose truth is known, at so many points of the screen.
+// The errors of a wall file in a simulated hall, at this number of points of the screen.
 [[nodiscard]] WallErrors errorsOf(const hall::TrueHall& truth,
                                   const config::Rig& rig,
                                   const formats::WallFile& file,
                                   std::size_t points);
 
+// The errors of a wall file by the truth of a simulated hall.
+struct TrueFigures {
+    geometry::OverlapFigures overlap;
+    double absoluteRms = 0;  // of the picture's place, panorama pixels
+    light::Seams seams;
+};
+[[nodiscard]] TrueFigures trueFigures(const WallErrors& errors, const light::Seams& seams);
+
+// All that is known about a calibration.
 struct Figures {
-    Judgement verdict = Judgement::Refuse;
-    std::string cause, advice;  // empty where it passes
-    double overlapRms = 0, overlapP95 = 0, overlapMax = 0;
-    // From the truth of a simulated hall; else how well the solve knows the whole picture's place.
-    double absoluteRms = 0;
-    bool isTrue = false;  // from ground truth
-    std::size_t overlapPoints = 0;
-    double outlineRms = 0, fitRms = 0;
-    std::optional<light::BrightnessFigures> brightness =
-        {};                                  // nothing: light and colour are not measured
-    std::optional<light::Seams> seams = {};  // from ground truth
-    // From the camera's pictures alone; what figures tell where there is no truth.
+    CalibrationVerdict verdict;
+    geometry::SolveFigures solve;
+    // Of the light by the camera's pictures; nothing where it was not measured.
+    std::optional<light::BrightnessFigures> brightness = {};
     std::optional<light::ForeseenSeams> foreseen = {};
+    std::optional<TrueFigures> truth = {};  // in a simulated hall
     double seconds = 0;
     std::size_t pictures = 0;
     double peakMegabytes = 0;
+
+    // By the truth where it is known, else by the solve.
+    [[nodiscard]] const geometry::OverlapFigures& overlap() const {
+        return truth ? truth->overlap : solve.overlap;
+    }
+    // The error of the picture's place by the truth where it is known, else the error to expect.
+    [[nodiscard]] double absoluteRms() const {
+        return truth ? truth->absoluteRms : solve.absoluteSigma;
+    }
 };
 
-// What the scan and the solve say of themselves; truth is no part of it.
-[[nodiscard]] Figures judged(const std::vector<scan::CameraView>& views,
-                             const geometry::Solved& solved);
-// What evening the light costs; a warning where it could not be measured.
-void setBrightness(Figures& figures, const std::optional<light::BrightnessFigures>& brightness);
-// Seams that are foreseen; a warning where they can be seen.
-void setForeseen(Figures& figures, const std::optional<light::ForeseenSeams>& seams);
-// Sets the errors from the truth; the verdict stays.
-void setTrue(Figures& figures, WallErrors errors);
+// By the scan and the solve alone; the truth is not used.
+[[nodiscard]] CalibrationVerdict judged(const std::vector<scan::CameraView>& views,
+                                        const geometry::Solved& solved);
+// With a warning where light was not measured or seams will be visible.
+[[nodiscard]] CalibrationVerdict judgedLight(
+    CalibrationVerdict verdict,
+    const std::optional<light::BrightnessFigures>& brightness,
+    const std::optional<light::ForeseenSeams>& seams);
 
-// {"verdict": "pass", "cause": "", ...}; what was not measured, as how neighbours part on a wall
-// where none overlap, is null.
+// {"verdict": "pass", "cause": "", ...}; null for what was not measured, such as the overlap of a
+// wall without overlaps.
 [[nodiscard]] std::string jsonOf(const Figures& figures);
 
 }  // namespace aquarama::result

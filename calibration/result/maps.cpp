@@ -45,7 +45,7 @@ class SolvedFall final : public Fall {
             geometry::imaged(projector.lens.data(), geometry::Two<double>{tangent.x, tangent.y});
         const glm::dvec2 size(hall_.rig.channels[channel].sizePixels);
         const glm::dvec2 modelled(model[0], model[1]);
-        // Far beside its picture a lens may fold, and what is there is no part of it.
+        // Far outside its picture a lens may fold: points there are not in the picture.
         constexpr double kSame = 1e-6;
         if (glm::distance(geometry::tangentOf(projector.lens, modelled).tangent, tangent) > kSame)
             return std::nullopt;

@@ -15,33 +15,34 @@
 
 namespace aquarama::result {
 
-// Where light falls. Wall frame; channels are indices of the rig's. Immutable, for any thread.
+// The places where the light of the channels falls. Wall frame; channels are indices in the rig.
+// Immutable; for any thread.
 class Fall {
   public:
     virtual ~Fall() = default;
     // The point of the screen that the sweet spot sees at a place of the panorama (0 to 1).
     [[nodiscard]] virtual std::optional<glm::dvec3> seenAt(glm::dvec2 place) const = 0;
-    // Nothing where the channel does not light the point.
+    // The pixel of a channel that lights a point; nothing where it does not light the point.
     [[nodiscard]] virtual std::optional<glm::dvec2> pixelOf(std::size_t channel,
                                                             glm::dvec3 point) const = 0;
-    // What the screen sends back there of what is sent to the projector.
+    // The light that the screen reflects there while this light is sent to the projector.
     [[nodiscard]] virtual glm::vec3 light(std::size_t channel,
                                           glm::dvec3 point,
                                           glm::vec3 sent) const = 0;
 };
-// As it was solved; every projector is as bright as the others. Keeps a reference.
+// By the solved hall; all projectors have one brightness. Keeps a reference.
 [[nodiscard]] std::unique_ptr<Fall> fallOf(const geometry::SolvedHall& hall);
-// As it is, without what parts of the screen throw on one another. Keeps a reference.
+// By the truth, without the light that the screen reflects on itself. Keeps a reference.
 [[nodiscard]] std::unique_ptr<Fall> fallOf(const hall::TrueHall& hall);
 
-// The panorama that the sweet spot sees of what nodes draw. Uses all processors.
+// The panorama that a viewer at the sweet spot sees. Uses all processors.
 [[nodiscard]] Light seenPanorama(const Fall& fall,
                                  const hall::DrawnWall& wall,
                                  const hall::Content& content,
                                  glm::ivec2 sizePixels);
 
 // Errors in panorama pixels: between channels that show one point, and of the worst channel from
-// what belongs there.
+// the right place.
 struct ErrorMaps {
     Field neighbours, absolute;
 };
@@ -52,26 +53,26 @@ struct ErrorMaps {
                                   glm::ivec2 panoramaPixels,
                                   glm::ivec2 sizePixels);
 
-// Towards the audience, millimetres; where the panorama shows screen.
+// The displacement of the screen towards the audience, in millimetres; no value without screen.
 [[nodiscard]] Field displacementMap(const geometry::SolvedHall& hall, glm::ivec2 sizePixels);
 
-// Of the channels, by their shares of light, in a colour for each: channelColour().
+// The shares of light of the channels, each in its channelColour().
 [[nodiscard]] Light sharesOfLight(const hall::DrawnWall& wall, glm::ivec2 sizePixels);
-// Along the middle row of the panorama: a curve for each channel.
+// The shares of light along the middle row of the panorama: a curve for each channel.
 [[nodiscard]] std::vector<std::vector<double>> shareProfile(const hall::DrawnWall& wall, int steps);
-// Linear light; hues far from each other for neighbours.
+// The colour of a channel on the page: linear light; neighbours have very different hues.
 [[nodiscard]] glm::vec3 channelColour(std::size_t channel);
-// The borders of a channel's picture on the unrolled screen (0 to 1), in pieces where its light
-// passes the screen.
+// The border of a channel's picture on the unrolled screen (0 to 1), in pieces where its light
+// misses the screen.
 [[nodiscard]] std::vector<std::vector<glm::dvec2>> footprint(const wall::Wall& wall,
                                                              std::size_t channel,
                                                              glm::ivec2 channelPixels);
 
-// How a projector hangs in comparison with the rig.
+// The difference of a solved projector from the rig.
 struct Hang {
     glm::dvec3 movedMetres{};    // right, up, back
     glm::dvec3 turnedRadians{};  // yaw, pitch, roll
-    double focalShare = 0;       // longer by so much
+    double focalShare = 0;       // of the focal length; positive: longer
     glm::dvec2 shiftPixels{};    // of the principal point: right, down
     double k1 = 0;
 };

@@ -10,6 +10,7 @@
 
 #include "calibration/result/drawing.h"
 #include "calibration/result/maps.h"
+#include "common/base/picture.h"
 #include "common/base/statistics.h"
 #include "common/base/units.h"
 #include "common/wall/pattern.h"
@@ -38,16 +39,17 @@ std::string section(const std::string& title, const std::string& what, const std
 }
 
 std::string verdict(const CalibrationPage& page) {
-    const std::string name = nameOf(page.figures.verdict);
-    std::string what = page.figures.advice;
-    if (page.figures.verdict == Judgement::Pass)
+    const std::string name = nameOf(page.figures.verdict.judgement);
+    std::string what = page.figures.verdict.advice;
+    if (page.figures.verdict.judgement == Judgement::Pass)
         what =
             "neighbours agree and the picture lies where it belongs. Name the file in the rig: "
             "calibration: \"" +
             page.wallFile.substr(page.wallFile.find_last_of('/') + 1) + "\".";
-    if (page.figures.verdict == Judgement::Refuse)
+    if (page.figures.verdict.judgement == Judgement::Refuse)
         what += ". No wall file was written: the wall shows what it showed before.";
-    const std::string cause = page.figures.cause.empty() ? "" : ": " + page.figures.cause;
+    const std::string cause =
+        page.figures.verdict.cause.empty() ? "" : ": " + page.figures.verdict.cause;
     return fmt::format("<div class=\"verdict {0}\"><b>{0}{1}</b><p>{2}</p></div>\n",
                        name,
                        escaped(cause),
@@ -71,16 +73,16 @@ std::string pixels(double value) {
 // What is known of light and colour: of a simulated hall what is left, else what evening costs.
 std::string lightRows(const Figures& figures) {
     std::string rows;
-    if (figures.seams) {
+    if (figures.truth) {
         rows +=
             row("Steps of light",
                 fmt::format("{:.1f}, {:.1f} and {:.1f} %",
-                            100 * figures.seams->grey2,
-                            100 * figures.seams->grey18,
-                            100 * figures.seams->grey100),
+                            100 * figures.truth->seams.grey2,
+                            100 * figures.truth->seams.grey18,
+                            100 * figures.truth->seams.grey100),
                 "The largest about an overlap, for grey of 2, 18 and 100 %; good is 3, 1 and 1.");
         rows += row("Steps of colour",
-                    fmt::format("{:.2f}", figures.seams->colour),
+                    fmt::format("{:.2f}", figures.truth->seams.colour),
                     "CIEDE2000 from one side of an overlap to the other, mean; good is 0.7.");
     }
     if (figures.brightness)
@@ -98,35 +100,36 @@ std::string lightRows(const Figures& figures) {
 std::string neighbourRows(const Figures& figures, const std::string& source) {
     std::string rows =
         row("Neighbours, RMS",
-            pixels(figures.overlapRms),
+            pixels(figures.overlap().rms),
             source + "How far two projectors part where both show one point; good is 0.20.");
     rows += row("Neighbours, 95 %",
-                pixels(figures.overlapP95),
+                pixels(figures.overlap().p95),
                 "Nineteen points of twenty are better; good is 0.45.");
-    rows += row("Neighbours, most", pixels(figures.overlapMax), "The worst point; good is 1.0.");
-    return rows + row("Points", fmt::format("{}", figures.overlapPoints), "of these errors.");
+    rows +=
+        row("Neighbours, most", pixels(figures.overlap().most), "The worst point; good is 1.0.");
+    return rows + row("Points", fmt::format("{}", figures.overlap().points), "of these errors.");
 }
 
 // A simulation is told apart in words: its errors come from the truth, others from places that were
 // kept from the solve.
 std::string figureTable(const Figures& figures) {
     const std::string source =
-        figures.isTrue ? "From the truth of the simulated hall, at points that the solve has not "
-                         "seen. "
-                       : "At places that were kept from the solve. ";
+        figures.truth ? "From the truth of the simulated hall, at points that the solve has not "
+                        "seen. "
+                      : "At places that were kept from the solve. ";
     std::string rows = "<div class=\"wide\"><table class=\"figures\">\n";
-    if (figures.overlapPoints > 0) rows += neighbourRows(figures, source);
+    if (figures.overlap().points > 0) rows += neighbourRows(figures, source);
     rows += row("Place, RMS",
-                pixels(figures.absoluteRms),
-                figures.isTrue
+                pixels(figures.absoluteRms()),
+                figures.truth
                     ? "How far the picture lies from where it belongs; good is 1.0."
                     : "How well the solve knows where the whole picture lies, by the noise of what "
                       "the camera saw; good is 0.8.");
     rows += row("Outline, RMS",
-                fmt::format("{:.2f} camera px", figures.outlineRms),
+                fmt::format("{:.2f} camera px", figures.solve.outlineRms),
                 "Between the screen's edge in the camera's picture and where the solve has it.");
     rows += row("Fit, RMS",
-                fmt::format("{:.3f} projector px", figures.fitRms),
+                fmt::format("{:.3f} projector px", figures.solve.fitRms),
                 "What models of lenses and screen leave over at the places that they were fitted "
                 "to; it is corrected afterwards and is no measure of accuracy.");
     rows += lightRows(figures);
@@ -152,11 +155,12 @@ class Writer {
         text += "<p class=\"dim\">Errors are in pixels of the panorama (px), which is " +
                 fmt::format("{} x {}", rig_.panoramaPixels.x, rig_.panoramaPixels.y) +
                 ". The wall is drawn unrolled, as the sweet spot sees it.</p>\n";
-        if (page_.figures.overlapPoints > 0 || page_.figures.verdict != Judgement::Refuse)
+        if (page_.figures.overlap().points > 0 ||
+            page_.figures.verdict.judgement != Judgement::Refuse)
             text += section(
                 "Figures", "What was measured, and what is good.", figureTable(page_.figures));
         text += camera();
-        if (page_.figures.verdict != Judgement::Refuse) text += calibrated();
+        if (page_.figures.verdict.judgement != Judgement::Refuse) text += calibrated();
         return text + "</body></html>\n";
     }
 
@@ -261,7 +265,7 @@ class Writer {
     [[nodiscard]] std::string errors(const Fall& fall, const hall::DrawnWall& after) const {
         constexpr int kWidth = 500;
         std::string text;
-        const bool hasNeighbours = page_.figures.overlapPoints > 0;
+        const bool hasNeighbours = page_.figures.overlap().points > 0;
         if (page_.truth == nullptr && !hasNeighbours) return text;
         if (page_.truth == nullptr) {
             double most = 0.2;
@@ -356,7 +360,7 @@ class Writer {
         double sum = 0;
         for (int x = 0; x < kSteps; ++x) {
             const glm::vec3 light = seen.at(x, kRows / 2);
-            curve.values.push_back(glm::dot(glm::dvec3(light), glm::dvec3(0.2126, 0.7152, 0.0722)));
+            curve.values.push_back(luminance(glm::dvec3(light)));
             sum += curve.values.back() / kSteps;
         }
         for (double& value : curve.values) value /= std::max(sum, 1e-9);

@@ -12,7 +12,7 @@
 
 namespace aquarama::result {
 
-// What a page tells of.
+// The contents of a page.
 struct CalibrationPage {
     const Figures& figures;
     const geometry::Solved& solved;

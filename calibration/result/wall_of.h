@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a solved hall to the wall file that render nodes take.
+// Makes the wall file for render nodes from a solved hall.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,12 @@
 
 namespace aquarama::result {
 
-// A region for each channel, by its name: for every pixel the point of the rig's screen behind
-// which a viewer at the sweet spot sees what it lights (profile a3). Seen from there the bumps of
-// the screen are undone; x is NaN where the light passes the screen. Uses all processors.
+// A region for each channel, by its name. For every pixel it has the point of the rig's screen that
+// a viewer at the sweet spot sees in the direction of the lit point (profile a3), which corrects
+// the bumps of the screen; x is NaN where the light misses the screen. Uses all processors.
 [[nodiscard]] formats::WallFile wallFileOf(const geometry::SolvedHall& hall);
 
-// The same with light and colour, where the first camera's view tells of them.
+// The same with light and colour, where they can be measured in the first camera's view.
 struct ShadedWall {
     formats::WallFile file;
     std::optional<light::BrightnessFigures> brightness;

@@ -44,7 +44,7 @@ struct Free {
 template <class Owned>
 using Owner = std::unique_ptr<Owned, Free>;
 
-// What FFmpeg shall open, and how.
+// The source that FFmpeg opens, and its options.
 struct Source {
     std::string name;
     const AVInputFormat* format = nullptr;  // null: by its content
@@ -66,7 +66,7 @@ Source sourceOf(const std::string& device) {
 Owner<AVFormatContext> openInput(const Source& source, const std::atomic<bool>& isOver) {
     AVFormatContext* made = avformat_alloc_context();
     made->flags |= AVFMT_FLAG_NOBUFFER;
-    // Ends a wait for a camera that says nothing.
+    // Ends a wait for a camera that does not answer.
     made->interrupt_callback.callback = [](void* over) -> int {
         return *static_cast<const std::atomic<bool>*>(over) ? 1 : 0;
     };
@@ -114,7 +114,7 @@ class FrameReader {
                         "?input_format=mjpeg of a camera");
     }
 
-    // Null at the end. What is not live is read at the speed at which it was filmed.
+    // The next frame; null at the end. A file is read at the speed at which it was filmed.
     Owner<AVFrame> next() {
         Owner<AVFrame> frame(av_frame_alloc());
         while (avcodec_receive_frame(decoder_.get(), frame.get()) != 0)
@@ -128,7 +128,7 @@ class FrameReader {
         return std::chrono::duration_cast<Clock::duration>(
             std::chrono::duration<double>(rate > 0 ? 1 / rate : 0.1));
     }
-    // By the frame's own time, where that is of this machine's clock.
+    // When the frame was taken, where its time is of this machine's clock.
     [[nodiscard]] std::optional<Clock::time_point> takenAt(const AVFrame& frame) const {
         if (frame.pts == AV_NOPTS_VALUE) return std::nullopt;
         const Clock::time_point at{secondsOf(frame)};
@@ -166,14 +166,14 @@ class FrameReader {
     std::optional<Clock::time_point> begun_;
 };
 
-// A frame, when it was taken as far as is known, and how many came before it.
+// A frame, the time when it was taken (if known), and the number of frames before it.
 struct TakenFrame {
     Owner<AVFrame> frame;
     Clock::time_point at;
     std::uint64_t number = 0;
 };
 
-// Reads all frames as they come, so that none waits in a driver, and keeps the newest.
+// Reads all frames as they arrive, so that none waits in a driver, and keeps the newest.
 class StreamCamera final : public Camera {
   public:
     explicit StreamCamera(const std::string& device) : device_{device} {
@@ -201,8 +201,7 @@ class StreamCamera final : public Camera {
     }
 
   private:
-    // So many frames may be on their way in a driver or a cable, and take so long to have another
-    // exposure.
+    // Frames that may still be in the driver, and the time until a new exposure takes effect.
     static constexpr std::uint64_t kHeld = 2;
     static constexpr std::uint64_t kSettling = 5;
 
@@ -221,7 +220,7 @@ class StreamCamera final : public Camera {
         }
     }
 
-    // The first after `held` more, whose exposure began after now.
+    // The first frame, after `held` more, whose exposure began after now.
     TakenFrame awaitFrame(std::chrono::duration<double> exposure, std::uint64_t held) {
         std::unique_lock lock(mutex_);
         const auto from = Clock::now() + reader_->period() +
@@ -247,7 +246,7 @@ class StreamCamera final : public Camera {
     std::optional<FrameReader> reader_;
     std::optional<CameraControls> controls_;
     double exposure_ = 0;
-    std::mutex mutex_;  // of what follows
+    std::mutex mutex_;  // guards the members below
     std::condition_variable came_;
     TakenFrame newest_;
     bool hasEnded_ = false;

@@ -9,31 +9,32 @@
 
 namespace aquarama::scan {
 
-// Exposures that can be asked for, seconds. Both the same where the camera keeps its own: then they
-// mean nothing but "the same".
+// The exposures that a camera allows, in seconds. Both are equal where the camera keeps its own;
+// their value then has no meaning.
 struct ExposureRange {
     double shortest = 1;
     double longest = 1;
     [[nodiscard]] bool isFixed() const { return shortest == longest; }
 };
 
-// For one thread. Its lens, focus, gain and white balance stay as they are.
+// A camera for the pictures of a scan. Lens, focus, gain and white balance stay as they are. For
+// one thread.
 class Camera {
   public:
     virtual ~Camera() = default;
     [[nodiscard]] virtual ExposureRange exposures() const = 0;
-    // A picture whose exposure began after this call did: what the camera or its driver still held
-    // is thrown away. Throws Error where no such picture comes in ten seconds.
+    // Takes a picture whose exposure begins after this call; older pictures in the camera or its
+    // driver are dropped. Throws Error where no such picture arrives in ten seconds.
     [[nodiscard]] virtual Picture take(double exposureSeconds) = 0;
 };
 
-// By what `device` is:
-//   /dev/video0          V4L2, with all that the camera chooses by itself switched to manual; after
-//                        a question mark options of FFmpeg: /dev/video0?video_size=1920x1080
+// Opens a camera. `device` is one of these:
+//   /dev/video0          V4L2, with all automatic settings switched to manual; options of FFmpeg
+//                        follow a question mark: /dev/video0?video_size=1920x1080
 //   gphoto2:             the camera that the program gphoto2 finds; gphoto2:PORT: the one there
 //   lavfi:GRAPH          a filter graph of FFmpeg
-//   rtsp://..., a file   whatever else FFmpeg reads; its exposure is its own
-// Throws Error where it cannot be opened, or a V4L2 camera has no manual exposure.
+//   rtsp://..., a file   any other source that FFmpeg reads; it keeps its own exposure
+// Throws Error where the camera cannot be opened, or a V4L2 camera has no manual exposure.
 [[nodiscard]] std::unique_ptr<Camera> openCamera(const std::string& device);
 
 }  // namespace aquarama::scan

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exposure and all that a camera chooses by itself, through the controls of V4L2 and the settings
-// of gPhoto2.
+// Sets exposure and switches off automatic settings, by the controls of V4L2 and by gPhoto2.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +11,17 @@
 
 namespace aquarama::scan {
 
-// The controls of a V4L2 device; as they were before when this ends.
+// The controls of a V4L2 device. The destructor restores their former values.
 class CameraControls {
   public:
-    // Switches all to manual. Throws Error where it is no such device, or has no manual exposure.
+    // Switches all to manual. Throws Error for another device, or without a manual exposure.
     explicit CameraControls(const std::string& device);
     ~CameraControls();
     CameraControls(const CameraControls&) = delete;
     CameraControls& operator=(const CameraControls&) = delete;
 
     [[nodiscard]] ExposureRange exposures() const { return range_; }
-    // The nearest that it has. Throws Error where the device refuses it.
+    // Sets the nearest exposure that the device has. Throws Error where it refuses.
     void expose(double seconds);
 
   private:
@@ -35,13 +34,12 @@ class CameraControls {
     std::map<std::uint32_t, std::int32_t> before_;
 };
 
-// Why a device, a film or an address cannot be read, and what to do, by the error of the system
-// that came of it (EBUSY, ...; 0 where there is none).
+// The reason why a device, a film or an address cannot be read, and what to do. `error`: the
+// system's (EBUSY, ...), or 0.
 [[nodiscard]] std::string deviceProblem(const std::string& device, int error);
 
-// The cause in what gphoto2 has said, on one line: its last line "*** Error (-53: ...) ***";
-// without one what follows "*** Error ***"; without both the last line that is no advice for
-// debugging.
+// The cause in the output of gphoto2, as one line: its last line "*** Error (-53: ...) ***", else
+// the text after "*** Error ***", else the last line that is no advice for debugging.
 [[nodiscard]] std::string gphotoCause(const std::string& text);
 
 // The camera of the program gphoto2, at a port ("usb:001,004") or the only one (empty). Throws

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iostream>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,8 +17,10 @@
 
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/base/statistics.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
+#include "common/cli/progress.h"
 #include "common/wall/scan_pattern.h"
 
 namespace aquarama::scan {
@@ -28,35 +29,28 @@ namespace {
 
 using Pattern = config::ScanPattern;
 
-// A projector shows what it is given some frames later.
+// The delay of projectors: they show a frame some frames later.
 constexpr auto kProjectorDelay = std::chrono::milliseconds(150);
 constexpr int kAttempts = 3;
-
-bool isBlack(const Pattern& pattern) {
-    return pattern.kind == Pattern::Kind::Level &&
-           (pattern.lit == 0 || pattern.light == glm::vec3(0));
-}
 
 bool isWhite(const Pattern& pattern) {
     return pattern.kind == Pattern::Kind::Level && !isBlack(pattern) &&
            pattern.light == glm::vec3(1) && pattern.step == 0;
 }
 
-// Of one code all over, as a lens cap or a night without light makes them.
+// All pixels have one code, as with a lens cap on.
 bool isEven(const Picture& picture) {
     return std::ranges::adjacent_find(picture.rgb, std::ranges::not_equal_to{}) ==
            picture.rgb.end();
 }
 
-// The code, 0 to 1 of the full one, that this share of the pixels exceeds in one of its colours.
+// The code (0 to 1) that this share of the pixels exceeds in one of its colours.
 double codeExceededBy(const Picture& picture, double share) {
     std::vector<std::uint16_t> codes;
     for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3)
         codes.push_back(std::max({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]}));
-    const auto place =
-        codes.end() - 1 - static_cast<std::ptrdiff_t>(share * static_cast<double>(codes.size()));
-    std::ranges::nth_element(codes, place);
-    return *place / (picture.bits == 16 ? 65535.0 : 255.0);
+    const auto brighter = static_cast<std::size_t>(share * static_cast<double>(codes.size()));
+    return valueAtRank(codes, codes.size() - 1 - brighter) / (picture.bits == 16 ? 65535.0 : 255.0);
 }
 
 // Shows patterns and takes pictures of them.
@@ -68,7 +62,7 @@ class Photographer {
         Picture picture;
         std::uint64_t frame = 0;
     };
-    // A channel that has gone meanwhile may come back: show() waits for it.
+    // A channel that was lost meanwhile may return: show() waits for it.
     Taken take(const Pattern& pattern, double exposure) {
         for (int attempt = 1;; ++attempt) {
             const std::uint64_t frame = wall_.show(pattern);
@@ -90,7 +84,7 @@ class Photographer {
     }
 
   private:
-    // Noise makes every picture another one.
+    // Whether a picture differs from the one before: noise makes all pictures different.
     bool isNew(const Picture& picture) {
         const bool isSame = before_.rgb == picture.rgb && !isEven(picture);
         before_ = picture;
@@ -102,7 +96,7 @@ class Photographer {
     Picture before_;
 };
 
-// The longest at which white is not clipped, of what the camera has.
+// Finds the longest exposure of the camera at which white is not clipped.
 class ExposureChoice {
   public:
     ExposureChoice(Photographer& photographer, ExposureRange range, double refreshHertz)
@@ -120,8 +114,8 @@ class ExposureChoice {
     static constexpr double kWanted = 0.7;  // of the light that clips
     static constexpr double kDarkest = 0.05;
 
-    // Steps towards what is wanted by the camera's light, which is nearly that of sRGB; each is
-    // looked at, since it is not quite.
+    // Computes the next exposure as if the camera had the response of sRGB, and tests each, since
+    // the response is only similar.
     double below(const Pattern& white, double most) {
         constexpr int kMostSteps = 10;
         if (range_.isFixed()) return fixed(white);
@@ -161,7 +155,7 @@ class ExposureChoice {
     double brightest(const Pattern& white, double exposure) {
         return codeExceededBy(photographer_.take(white, exposure).picture, kShare);
     }
-    // Whole refreshes where there is time for one: else the projectors' beat is in the picture.
+    // Exposes for whole refreshes where possible; else the flicker of projectors is in the picture.
     [[nodiscard]] double inRange(double exposure, double most) const {
         const double within = std::clamp(exposure, range_.shortest, std::min(most, range_.longest));
         const double whole = std::floor(within / refresh_ + 1e-6) * refresh_;
@@ -222,11 +216,11 @@ config::Scan capture(const config::Rig& rig,
         const auto [picture, frame] = photographer.take(planned.pattern, planned.exposureSeconds);
         planned.frame = frame;
         writePng(folder + "/" + planned.file, picture);
-        progress.show(++done);
+        progress.count(++done);
     }
     progress.end();
     writeScan(scan, rig, folder);
-    std::cout << "scan of " << scan.pictures.size() << " pictures in " << folder << std::endl;
+    cli::say(fmt::format("scan of {} pictures in {}", scan.pictures.size(), folder));
     return scan;
 }
 

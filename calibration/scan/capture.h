@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes the pictures of a scan: shows its patterns, one after the other, and has a camera look.
+// Takes the pictures of a scan: shows its patterns one after the other and takes a picture of each.
 #pragma once
 
 #include <string>
@@ -12,21 +12,21 @@
 
 namespace aquarama::scan {
 
-// Picks the exposure by the whitest patterns of `sequence`, such that less than a thousandth of the
-// pixels comes near the camera's full code, then takes a picture of each pattern; black and white
-// at three exposures. A picture during which a channel went is taken again. Writes lossless PNG
-// files and scan.txtpb into the folder, which is made; says how far it is on standard output, in
-// one line of a terminal. `rig`: whose names and refresh are meant. Throws Error: what the wall or
-// the camera does; white that is clipped at the shortest exposure; a camera that gives the same
-// picture twice.
+// Chooses the exposure by the white patterns of `sequence`, so that less than a thousandth of the
+// pixels is near the camera's full code. Then it takes a picture of each pattern; black and white
+// at three exposures. A picture is taken again where a channel was lost meanwhile. Writes lossless
+// PNG files and scan.txtpb into the folder, which it creates, and shows the progress. `rig` gives
+// names and refresh rate. Throws Error: as wall and camera do; where white is clipped at the
+// shortest exposure; where the camera gives the same picture twice.
 config::Scan capture(const config::Rig& rig,
                      PatternWall& wall,
                      Camera& camera,
                      const std::vector<config::ScanPattern>& sequence,
                      const std::string& folder);
 
-// The same on the wall of a running show by a camera of openCamera(). SIGINT, SIGTERM and SIGHUP
-// give the wall back at once, and end it with Error. Call it before other threads are made.
+// The same on the wall of a running show, with a camera of openCamera(). SIGINT, SIGTERM and SIGHUP
+// return the wall to the show at once and end the scan with Error. Call it before other threads
+// start.
 config::Scan captureShow(const config::Rig& rig,
                          const ShownOn& where,
                          const std::string& device,

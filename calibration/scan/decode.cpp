@@ -7,11 +7,13 @@
 #include <thread>
 #include <tuple>
 
-#include "calibration/scan/code.h"
+#include "calibration/scan/axis_reader.h"
 #include "calibration/scan/faults.h"
 #include "calibration/scan/frames.h"
 #include "calibration/scan/neighbours.h"
+#include "calibration/scan/stripe_shift.h"
 #include "common/base/log.h"
+#include "common/base/statistics.h"
 #include "common/wall/scan_pattern.h"
 
 namespace aquarama::scan {
@@ -22,15 +24,11 @@ using config::ScanPattern;
 using Kind = ScanPattern::Kind;
 using Indices = std::vector<std::size_t>;
 
-// A channel lights a pixel that gets this share of what its brightest pixels get, and at least so
-// much.
+// A channel lights a pixel that has this share of the light of its brightest pixels, and at least
+// kLeastLight.
 constexpr float kLitShare = 0.05F, kLeastLight = 0.004F;
 // Two channels of a round light a pixel where the fainter gives this share of the brighter.
 constexpr float kShared = 0.6F;
-
-std::uint64_t bitOf(std::size_t channel) {
-    return std::uint64_t{1} << channel;
-}
 
 Indices channelsIn(std::uint64_t set) {
     Indices channels;
@@ -39,28 +37,21 @@ Indices channelsIn(std::uint64_t set) {
     return channels;
 }
 
+// The axis that a pattern measures: 0 columns, 1 rows, -1 none.
 int axisOf(Kind kind) {
-    if (kind == Kind::GrayColumns || kind == Kind::PhaseColumns) return 0;
-    return kind == Kind::GrayRows || kind == Kind::PhaseRows ? 1 : -1;
-}
-
-bool isPhase(Kind kind) {
-    return kind == Kind::PhaseColumns || kind == Kind::PhaseRows;
-}
-
-bool isBlack(const ScanPattern& pattern) {
-    return pattern.kind == Kind::Level && (pattern.lit == 0 || pattern.light == glm::vec3(0));
+    if (!isGray(kind) && !isPhase(kind)) return -1;
+    return isOfRows(kind) ? 1 : 0;
 }
 
 bool isWhiteOf(const ScanPattern& pattern, std::size_t channel) {
-    return pattern.kind == Kind::Level && pattern.lit == bitOf(channel) &&
+    return pattern.kind == Kind::Level && pattern.lit == config::bitOf(channel) &&
            pattern.light == glm::vec3(1);
 }
 
-// Samples of a picture have at most about so many columns.
+// The columns of a sampled picture, about.
 constexpr int kSampleColumns = 640;
 
-// Linear light of the 3 x 3 pixels about one.
+// The sum of the linear light of the 3 x 3 pixels around one; NaN where one is clipped.
 glm::vec3 sumAround(const Picture& picture, std::size_t pixel, const std::vector<float>& table) {
     const auto width = static_cast<std::size_t>(picture.sizePixels.x);
     const auto full = static_cast<std::uint16_t>(0.995F * static_cast<float>(table.size() - 1));
@@ -72,13 +63,14 @@ glm::vec3 sumAround(const Picture& picture, std::size_t pixel, const std::vector
     return sum;
 }
 
+// The pictures that scan some channels together.
 struct RoundPlan {
     std::uint64_t channels = 0;
     std::array<AxisCode, 2> codes;
     std::array<Indices, 2> pictures;
 };
 
-// Which pictures are read for what, in the order of reading.
+// The use of each picture, in the order of reading.
 struct Plan {
     std::size_t black = 0;
     std::vector<std::optional<std::size_t>> whites;  // of the channels
@@ -104,7 +96,7 @@ Error missing(const std::string& what) {
     return Error("the scan has no " + what + "; take it again with all of its patterns");
 }
 
-// Channels that any picture of columns or rows shows together.
+// The rounds: channels that pictures of columns or rows show together.
 std::vector<RoundPlan> roundsOf(const std::vector<config::ScanPicture>& pictures,
                                 const Indices& own) {
     std::vector<RoundPlan> rounds;
@@ -137,7 +129,7 @@ AxisCode codeOf(const std::vector<config::ScanPicture>& pictures, const Indices&
     return code;
 }
 
-// Each pattern of an axis once.
+// Whether the axis has each pattern exactly once.
 bool isComplete(const std::vector<config::ScanPicture>& pictures,
                 const Indices& axis,
                 const AxisCode& code) {
@@ -167,7 +159,7 @@ void checkAxis(const std::vector<config::ScanPicture>& pictures,
 int mostPixels(const config::Rig& rig, std::uint64_t channels, int axis) {
     int most = 0;
     for (std::size_t c = 0; c < rig.channels.size(); ++c)
-        if ((channels & bitOf(c)) != 0) most = std::max(most, rig.channels[c].sizePixels[axis]);
+        if (config::contains(channels, c)) most = std::max(most, rig.channels[c].sizePixels[axis]);
     return most;
 }
 
@@ -199,14 +191,14 @@ void findLevels(Plan& plan,
             std::ranges::find_if(own, [&](auto i) { return fits(pictures[i].pattern); });
         return found == own.end() ? std::nullopt : std::optional(*found);
     };
-    const auto black = find(isBlack);
+    const auto black = find(config::isBlack);
     if (!black) throw missing("picture of black");
     plan.black = *black;
     plan.room = find([](const ScanPattern& pattern) { return pattern.kind == Kind::Room; });
     for (std::size_t c = 0; c < rig.channels.size(); ++c) {
         plan.whites.push_back(
             find([c](const ScanPattern& pattern) { return isWhiteOf(pattern, c); }));
-        if ((plan.scanned & bitOf(c)) != 0 && !plan.whites.back())
+        if (config::contains(plan.scanned, c) && !plan.whites.back())
             throw missing("white of channel \"" + rig.channels[c].name + "\" alone");
     }
 }
@@ -229,14 +221,12 @@ Plan planOf(const config::Scan& scan, std::uint32_t camera, const config::Rig& r
     return plan;
 }
 
-float quantile(const Plane& values, double share) {
+// The quantile of every fifth value.
+float sampledQuantile(const Plane& values, double share) {
     constexpr std::size_t kStride = 5;
     Plane some;
     for (std::size_t i = 0; i < values.size(); i += kStride) some.push_back(values[i]);
-    const auto at =
-        some.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(some.size() - 1));
-    std::nth_element(some.begin(), at, some.end());
-    return *at;
+    return quantile(some, share);
 }
 
 // Decodes one camera, picture by picture in the order of a plan.
@@ -325,7 +315,7 @@ class Decoder {
                 clipped_[channel][p] = std::max({code[0], code[1], code[2]}) >= full ? 1 : 0;
             }
         });
-        litFrom_[channel] = std::max(kLeastLight, kLitShare * quantile(view.light, 0.98));
+        litFrom_[channel] = std::max(kLeastLight, kLitShare * sampledQuantile(view.light, 0.98));
         double lit = 0, clipped = 0;
         for (std::size_t p = 0; p < black_.size(); ++p) {
             if (view.light[p] < litFrom_[channel]) continue;
@@ -335,7 +325,7 @@ class Decoder {
         notes_[channel].clipped = lit > 0 ? clipped / lit : 0;
     }
 
-    // The channel of a round that lights a pixel most, where no other lights it too.
+    // The channel of a round that lights a pixel, where no other channel lights it too.
     [[nodiscard]] std::uint8_t ownerOf(const Indices& channels,
                                        std::size_t pixel,
                                        bool hasPhase) const {
@@ -349,7 +339,7 @@ class Decoder {
         }
         if (owner == Round::kNobody || most < litFrom_[owner] || second > kShared * most)
             return Round::kNobody;
-        // Stripes are told from their inverse though white is clipped.
+        // Stripes can be decoded by their inverse even where white is clipped; phase cannot.
         const bool isBroken = hasPhase && clipped_[owner][pixel] != 0;
         return isBroken ? Round::kNobody : static_cast<std::uint8_t>(owner);
     }
@@ -395,7 +385,8 @@ class Decoder {
         ChannelView& view = view_.channels[channel];
         const int axis = signals.code.axis;
         const int pixels = rig_.channels[channel].sizePixels[axis];
-        const auto reader = makeAxisReader(signals, view.light, owned, pixels);
+        const auto make = signals.code.hasPhase ? makePhaseReader : makeStripeReader;
+        const auto reader = make(signals, view.light, owned, pixels);
         forPixels(pool_, owned.size(), [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
                 const Reading reading = reader->read(owned[i]);
@@ -418,7 +409,7 @@ class Decoder {
         const int pixels = rig_.channels[channel].sizePixels[signals.code.axis];
         for (const std::size_t i : pictures) {
             const ScanPattern& pattern = source_.scan().pictures[i].pattern;
-            if ((pattern.lit & bitOf(channel)) == 0) continue;
+            if (!config::contains(pattern.lit, channel)) continue;
             notes.isTagged |= pattern.tagged;
             if (!signals.code.hasPhase || isPhase(pattern.kind)) continue;
             const ChannelView& view = view_.channels[channel];

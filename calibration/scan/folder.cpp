@@ -36,7 +36,7 @@ char lower(char letter) {
     return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
 }
 
-// Letters of ASCII alone: names may be of any language.
+// Only for letters of ASCII: names may be of any language.
 std::string lowered(std::string text) {
     std::ranges::transform(text, text.begin(), lower);
     return text;
@@ -52,8 +52,8 @@ bool isPicture(const fs::directory_entry& entry) {
 
 constexpr const char* kDigits = "0123456789";
 
-// Compares as people count: "2.png" before "10.PNG". Before each number stands how long it is
-// without the zeros before it; numbers may have any length.
+// A key by which names sort as people count: "2.png" before "10.PNG". Each number is preceded by
+// its length without leading zeros; numbers may have any length.
 std::string countingKey(const std::string& name) {
     std::string key;
     const std::string text = lowered(name);
@@ -95,7 +95,7 @@ std::optional<unsigned long> numberOf(const std::string& name) {
     return std::stoul(stem.substr(begin, end + 1 - begin));
 }
 
-// Where the numbers of the names leave some out; empty where they do not.
+// The gap in the numbers of the names; empty where there is none.
 std::string gapIn(const std::vector<std::string>& files) {
     for (std::size_t i = 1; i < files.size(); ++i) {
         const auto before = numberOf(files[i - 1]), here = numberOf(files[i]);
@@ -105,7 +105,7 @@ std::string gapIn(const std::vector<std::string>& files) {
     return "";
 }
 
-// A folder of the folder that has the pictures, where it has none itself.
+// The subfolder that has the pictures, where the folder itself has none.
 std::string hintAt(const std::string& folder) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
         if (entry.is_directory() && !picturesIn(entry.path().string()).empty())
@@ -124,8 +124,8 @@ void addGray(std::vector<ScanPattern>& patterns, Kind kind, int pixels) {
         }
 }
 
-// What OpenCV's GrayCodePattern and programs after it show with one projector; white and black at
-// the end, here in this order.
+// The patterns that OpenCV's GrayCodePattern and similar programs show with one projector, with
+// white and black at the end, here in this order.
 std::vector<ScanPattern> openCvSequence(glm::ivec2 size) {
     std::vector<ScanPattern> patterns;
     addGray(patterns, Kind::GrayColumns, size.x);
@@ -143,8 +143,8 @@ double brightnessOf(const std::string& path) {
     return sum;
 }
 
-// White and black come last or first, in any order: of the two pairs they are the one that differs
-// more, as half of a projector's picture is lit by any stripes.
+// White and black come first or last, in any order. Of these two pairs they are the one whose light
+// differs more, as any stripes light half of the picture.
 void placeWhite(std::vector<ScanPattern>& patterns,
                 const std::string& folder,
                 const std::vector<std::string>& files) {
@@ -157,7 +157,7 @@ void placeWhite(std::vector<ScanPattern>& patterns,
     if (isFirst) std::rotate(patterns.begin(), patterns.end() - 2, patterns.end());
 }
 
-// What the pictures show, told by how many there are. Throws Error where that fits nothing.
+// The sequence with this number of pictures. Throws Error where none has it.
 std::vector<ScanPattern> patternsOf(const std::string& folder,
                                     const std::vector<std::string>& files,
                                     const config::Rig& rig) {
@@ -194,8 +194,8 @@ config::Scan scanOf(const std::string& folder, const config::Rig& rig) {
     return scan;
 }
 
-// The name that a file of the folder has but for the case of its letters, which disks of other
-// systems change; empty where it is not there.
+// The name of a file of the folder that is equal but for the case of letters, which other systems
+// change; empty where there is none.
 std::string nameThere(const std::string& folder, const std::string& name) {
     if (fs::is_regular_file(fs::path(folder) / name)) return name;
     for (const std::string& there : picturesIn(folder))

@@ -12,16 +12,15 @@ namespace aquarama::scan {
 
 namespace {
 
-// Small copies have at most so many columns.
+// The most columns of a small copy.
 constexpr int kSmallColumns = 1024;
 
 glm::ivec2 smallSize(glm::ivec2 size, int factor) {
     return glm::max(glm::ivec2(1), size / factor);
 }
 
-// Green counts as much as red and blue together: the light of most of a camera's pixels.
 float luminanceOf(const std::uint16_t* rgb, const std::vector<float>& table) {
-    return 0.25F * table[rgb[0]] + 0.5F * table[rgb[1]] + 0.25F * table[rgb[2]];
+    return cameraLuminance(table[rgb[0]], table[rgb[1]], table[rgb[2]]);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of one camera, one after the other, as linear luminance; and small copies of all of
-// them, which stay.
+// Reads the pictures of one camera as linear luminance, and keeps a small copy of each.
 #pragma once
 
 #include <future>
@@ -15,10 +14,16 @@ namespace aquarama::scan {
 // Values for each pixel of a camera, top row first.
 using Plane = std::vector<float>;
 
-// Linear light of every code.
+// The light of a camera's pixel as one number: green counts as much as red and blue together, as
+// most of a camera's sensors are green. This is not Rec. 709: cameras have primaries of their own.
+[[nodiscard]] constexpr float cameraLuminance(float red, float green, float blue) {
+    return 0.25F * red + 0.5F * green + 0.25F * blue;
+}
+
+// The linear light of every code.
 [[nodiscard]] std::vector<float> lightOfCodes(int bits, config::ScanCamera::Response response);
 
-// Work in pieces of some thousand pixels: work(first, last).
+// Calls work(first, last) for pieces of some thousand pixels, on all threads of the pool.
 template <class Work>
 void forPixels(WorkerPool& pool, std::size_t pixels, const Work& work) {
     constexpr std::size_t kPiece = 16384;
@@ -27,23 +32,23 @@ void forPixels(WorkerPool& pool, std::size_t pixels, const Work& work) {
     });
 }
 
-// The mean of blocks of pixels: fine enough for a tag's cells, small enough to keep for all
-// pictures.
+// A small copy of a picture, by the mean of blocks of pixels: fine enough for the cells of a tag.
 struct SmallPicture {
     std::size_t index = 0;  // in the scan
     Plane light;
 };
+// The small copies of all pictures of a camera.
 struct SmallPictures {
     glm::ivec2 sizePixels{};
     int factor = 1;  // camera pixels along the side of a block
     std::vector<SmallPicture> pictures;
 
     [[nodiscard]] Plane shrunk(const Plane& full, int fullWidth) const;
+    // The copy of the picture of this index in the scan; null without one.
     [[nodiscard]] const Plane* of(std::size_t index) const;
 };
 
-// A picture as it was taken, and its luminance; light of all exposures is brought to that of the
-// first picture.
+// A picture as it was taken, and its luminance, scaled to the exposure of the first picture.
 struct ScanFrame {
     std::size_t index = 0;  // in the scan
     const config::ScanPattern* pattern = nullptr;
@@ -51,8 +56,7 @@ struct ScanFrame {
     Plane luminance;
 };
 
-// Reads pictures in a given order; while one is worked on, the next is read. Keeps a small copy of
-// each.
+// Reads pictures in a given order, the next one on a second thread. Keeps a small copy of each.
 class FrameReader {
   public:
     FrameReader(PictureSource& source, std::uint32_t camera, WorkerPool& pool);
@@ -60,6 +64,7 @@ class FrameReader {
     [[nodiscard]] ScanFrame read(std::size_t index, std::optional<std::size_t> next);
     [[nodiscard]] glm::ivec2 sizePixels() const { return size_; }
     [[nodiscard]] SmallPictures& small() { return small_; }
+    // The factor from the exposure of a picture to that of the first one.
     [[nodiscard]] float exposureScale(std::size_t index) const;
 
   private:

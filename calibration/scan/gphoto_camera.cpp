@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A still camera through the program gphoto2: its library changes with every version of a camera's
-// driver, its command line does not.
+// A still camera, used by the program gphoto2. Its command line stays the same, while its library
+// changes with every version of a camera's driver.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,13 +28,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a program has said, and how it ended.
+// The output of a program and its exit status.
 struct Said {
     int status = 0;
     std::string text;
 };
 
-// All that comes through a pipe until its other end is closed.
+// Reads a pipe until its other end is closed.
 std::string readAll(int descriptor) {
     constexpr std::size_t kMostBytes = std::size_t{1} << 20U;
     std::string text;
@@ -44,7 +44,7 @@ std::string readAll(int descriptor) {
     return text;
 }
 
-// With messages in English, which are read here.
+// The environment, with messages in English, which are parsed here.
 std::vector<std::string> environmentInEnglish() {
     std::vector<std::string> all;
     for (char** entry = environ; *entry != nullptr; ++entry) {
@@ -114,7 +114,7 @@ double secondsIn(const std::string& text) {
     return second > 0 ? first / second : 0;
 }
 
-// By exposure, what the camera calls it: lines "Choice: 12 1/60" of --get-config.
+// The camera's names of exposures: lines "Choice: 12 1/60" of --get-config.
 std::map<double, std::string> choicesIn(const std::string& text) {
     constexpr std::string_view kChoice = "Choice: ";
     std::map<double, std::string> choices;
@@ -240,7 +240,7 @@ std::vector<std::string> linesOf(const std::string& text) {
     return lines;
 }
 
-// What it adds to every error.
+// The beginning of the lines that gphoto2 adds to every error.
 bool isBoilerplate(const std::string& line) {
     constexpr std::array<const char*, 7> kBeginnings{"For debugging messages",
                                                      "Debugging messages may help",

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "calibration/scan/tag.h"
+#include "common/base/statistics.h"
 #include "common/wall/scan_pattern.h"
 
 namespace aquarama::scan {
@@ -32,6 +34,7 @@ void forNeighbours(std::size_t pixel, int width, std::size_t pixels, int reach, 
                      static_cast<std::size_t>(x));
 }
 
+// The median place of the neighbours; nothing where too few are known.
 std::optional<float> expectedAt(const ChannelView& view, std::size_t pixel, int width, int axis) {
     constexpr int kReach = 2;
     constexpr std::size_t kLeast = 5;
@@ -43,9 +46,7 @@ std::optional<float> expectedAt(const ChannelView& view, std::size_t pixel, int 
         if (place == place) places.at(count++) = place;
     });
     if (count < kLeast) return std::nullopt;
-    const auto middle = places.begin() + static_cast<std::ptrdiff_t>(count / 2);
-    std::nth_element(places.begin(), middle, places.begin() + static_cast<std::ptrdiff_t>(count));
-    return *middle;
+    return median(std::span(places).first(count));
 }
 
 void settleOnce(ChannelView& view,
@@ -90,17 +91,14 @@ bool isOutlier(const ChannelView& view, std::size_t pixel, int width, float step
     return votes.agree < kLeastAgree || votes.differ > kMostDiffer;
 }
 
-// Between pixels that lie `apart` in the arrays.
+// The median distance between pixels whose indices differ by `apart`.
 float medianStep(const ChannelView& view, std::size_t apart) {
     constexpr std::size_t kStride = 3;
     std::vector<float> steps;
     for (std::size_t p = 0; p + apart < view.place.size(); p += kStride)
         if (isKnown(view.place[p]) && isKnown(view.place[p + apart]))
             steps.push_back(glm::length(view.place[p + apart] - view.place[p]));
-    if (steps.empty()) return 0;
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle;
+    return steps.empty() ? 0 : median(steps);
 }
 
 void forget(ChannelView& view, std::size_t pixel) {

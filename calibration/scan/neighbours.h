@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a pixel's neighbours know: it settles doubts, and finds what is wrong.
+// Compares the places of neighbouring pixels: fills in missing ones and drops wrong ones.
 #pragma once
 
-#include "calibration/scan/code.h"
+#include "calibration/scan/axis_reader.h"
 
 namespace aquarama::scan {
 
-// Pixels of the channel between neighbouring ones of the camera: the median, across or down,
-// whichever is more; 0 where nothing is seen.
+// The distance, in pixels of the channel, between neighbouring pixels of the camera: the median
+// across or down, whichever is larger; 0 where nothing is seen.
 [[nodiscard]] float stepOf(const ChannelView& view, int width);
 
 // Gives pixels without a place along `axis` another reading near the median of their neighbours.
@@ -19,10 +19,11 @@ void settleDoubts(ChannelView& view,
                   const AxisReader& reader,
                   WorkerPool& pool);
 
-// Drops pixels that few neighbours agree with, or several do not: errors, and edges of depth, where
-// a pixel sees two places at once.
+// Drops pixels that agree with few of their neighbours, or disagree with several: errors, and edges
+// of depth, where a pixel sees two places at once.
 void dropOutliers(ChannelView& view, int width, WorkerPool& pool);
-// Then those by the border of the channel's picture, and within its tag.
+// Drop the pixels near the border of the channel's picture, and those within its tag. Call them
+// last.
 void dropBorders(ChannelView& view, float step, glm::ivec2 channelPixels);
 void dropTag(ChannelView& view, float step, glm::ivec2 cameraPixels, glm::ivec2 channelPixels);
 

@@ -69,8 +69,8 @@ Owner<AVCodecContext> decoderOf(AVCodecID id) {
     Owner<AVCodecContext> decoder(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));
     if (!decoder) return nullptr;
     decoder->max_pixels = kMostPixels;
-    // A torn file is an error, not a picture that ends in grey. The reader of TIFF checks its
-    // strips without being asked, and would refuse every tag that it does not know.
+    // A truncated file is an error, not a picture that ends in grey. The reader of TIFF always
+    // checks its strips; with this flag it would also refuse unknown tags.
     if (id == AV_CODEC_ID_MJPEG) decoder->err_recognition |= AV_EF_EXPLODE;
     decoder->thread_count = 1;
     return avcodec_open2(decoder.get(), codec, nullptr) == 0 ? std::move(decoder) : nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of cameras: files of theirs, and frames as FFmpeg's libraries have decoded them.
+// Reads the pictures of cameras: files, and frames that FFmpeg's libraries decoded.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@ struct AVFrame;
 
 namespace aquarama::scan {
 
-// A PNG, JPEG or TIFF file, by its content. 8 bits, or 16 where the file has more than 8; grey as
-// red green blue. As the sensor lay: a turn that the file asks for (EXIF) is not made. Throws Error
-// with the path where it is none of these, is not whole, or has more than 16384 pixels each way or
+// Reads a PNG, JPEG or TIFF file, by its content: 8 bits, or 16 where the file has more than 8;
+// grey becomes red green blue. The rotation that the file asks for (EXIF) is ignored. Throws Error
+// with the path for another format, for a damaged file, and for more than 16384 pixels each way or
 // 64 million in all.
 [[nodiscard]] Picture readPicture(const std::string& path);
 

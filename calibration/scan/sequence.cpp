@@ -17,7 +17,8 @@ using Kind = ScanPattern::Kind;
 
 // The panorama in cells, each with a bit for every channel that lights it.
 constexpr glm::ivec2 kCells{128, 32};
-// Rigs hang crooked: what a channel lights is taken for so much wider, as a share of the panorama.
+// A margin around the area that a channel lights, since rigs hang crooked; as a share of the
+// panorama.
 constexpr double kSlack = 0.02;
 
 using Cells = std::vector<std::uint64_t>;
@@ -29,7 +30,7 @@ std::size_t cellAt(int x, int y) {
 std::uint64_t litAt(const wall::Wall& wall, glm::dvec3 point) {
     std::uint64_t lit = 0;
     for (std::size_t c = 0; c < wall.channels(); ++c)
-        if (wall.channel(c).pixelOf(point)) lit |= std::uint64_t{1} << c;
+        if (wall.channel(c).pixelOf(point)) lit |= config::bitOf(c);
     return lit;
 }
 
@@ -53,7 +54,7 @@ std::uint64_t litAround(const Cells& cells, int x, int y) {
     return lit;
 }
 
-// For each channel, those that may share light with it.
+// For each channel, the set of channels that may share light with it.
 std::vector<std::uint64_t> neighboursOf(const config::Rig& rig) {
     const Cells cells = litCells(wall::Wall(rig));
     std::vector<std::uint64_t> neighbours(rig.channels.size());
@@ -61,7 +62,7 @@ std::vector<std::uint64_t> neighboursOf(const config::Rig& rig) {
         for (int x = 0; x < kCells.x; ++x) {
             const std::uint64_t lit = litAround(cells, x, y);
             for (std::size_t c = 0; c < neighbours.size(); ++c)
-                if (((lit >> c) & 1U) != 0) neighbours[c] |= lit;
+                if (config::contains(lit, c)) neighbours[c] |= lit;
         }
     return neighbours;
 }
@@ -75,7 +76,7 @@ std::vector<std::uint64_t> roundsOf(const config::Rig& rig) {
         const auto free = std::ranges::find_if(
             rounds, [&](std::uint64_t round) { return (round & neighbours[c]) == 0; });
         std::uint64_t& round = free == rounds.end() ? rounds.emplace_back(0) : *free;
-        round |= std::uint64_t{1} << c;
+        round |= config::bitOf(c);
     }
     return rounds;
 }
@@ -85,18 +86,17 @@ int linesOf(const config::Channel& channel, Kind kind) {
     return kind == Kind::GrayColumns ? channel.sizePixels.x : channel.sizePixels.y;
 }
 
-// Those of a round whose Gray code has this bit: a smaller picture has fewer.
+// The channels of a round whose Gray code has this bit: smaller pictures have fewer bits.
 std::uint64_t withBit(const config::Rig& rig, std::uint64_t round, Kind kind, int bit) {
     std::uint64_t lit = 0;
     for (std::size_t c = 0; c < rig.channels.size(); ++c)
         if (wall::scanGrayBits(linesOf(rig.channels[c], kind), wall::kScanPeriodPixels / 2) > bit)
-            lit |= round & (std::uint64_t{1} << c);
+            lit |= round & config::bitOf(c);
     return lit;
 }
 
-// Stripes that are shown at the scan's end, as they tell whether a projector has moved since its
-// other patterns: not so fine that they are lost in small copies of the pictures, of all of a
-// round.
+// The bit of the stripes that are shown at the end of the scan, to detect a projector that moved
+// meanwhile. All channels of the round have it, and it is coarse enough for the small copies.
 int lateBit(const config::Rig& rig, std::uint64_t round, Kind kind) {
     constexpr int kFromFinest = 3;
     int bits = 0;
@@ -131,9 +131,9 @@ void addLateStripes(std::vector<ScanPattern>& sequence,
         sequence.push_back(stripes(kind, lateBit(rig, round, kind), round));
 }
 
-// Of all channels at once, whose tags would lie in one another's light: colours and levels, which
-// tell how each channel responds as light is a sum, and white in shorter exposures, which tell the
-// camera's response.
+// Adds patterns that all channels show at once: colours and levels for the responses of the
+// channels, whose light adds up, and white in shorter exposures for the response of the camera.
+// They have no tags, as other channels would light them.
 void addLevels(std::vector<ScanPattern>& sequence, std::uint64_t all) {
     constexpr std::array<glm::vec3, 8> kLevels{{{1, 0, 0},
                                                 {0, 1, 0},
@@ -158,7 +158,7 @@ ScanPattern black() {
 std::vector<ScanPattern> sequenceOf(const config::Rig& rig) {
     std::vector<ScanPattern> sequence{{.kind = Kind::Room, .lit = 0, .tagged = false}, black()};
     for (std::size_t c = 0; c < rig.channels.size(); ++c)
-        sequence.push_back({.lit = std::uint64_t{1} << c});
+        sequence.push_back({.lit = config::bitOf(c)});
     const std::vector<std::uint64_t> rounds = roundsOf(rig);
     std::uint64_t all = 0;
     for (const std::uint64_t round : rounds) {

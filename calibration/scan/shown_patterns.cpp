@@ -29,7 +29,7 @@ std::uint64_t freshHolder() {
 
 }  // namespace
 
-// One connection for two threads: who shows, and who says again that the wall is held.
+// One connection for two threads: one shows patterns, the other renews the hold.
 class ShownPatterns::Link {
   public:
     explicit Link(const ShownOn& where)
@@ -77,7 +77,7 @@ class ShownPatterns::Link {
         return reply;
     }
 
-    // The pattern is read and said under one lock: a later one is never taken back by an earlier.
+    // The pattern is read and sent under one lock, so that an older pattern never replaces a newer.
     std::optional<v1::OrderReply> sayHeld() {
         const std::lock_guard lock(mutex_);
         return held_ ? std::optional(ask(*held_)) : std::nullopt;
@@ -96,7 +96,7 @@ class ShownPatterns::Link {
         return reply;
     }
 
-    // What goes wrong is found by the next show() or confirm(), which ask the same.
+    // Errors are left to the next show() or confirm(), which ask the same.
     void sayAgain(const std::stop_token& stop) {
         std::mutex mutex;
         std::unique_lock lock(mutex);
@@ -109,7 +109,7 @@ class ShownPatterns::Link {
     }
 
     const std::uint64_t holder_ = freshHolder();
-    std::mutex mutex_;  // of what follows
+    std::mutex mutex_;  // guards the members below
     ask::RequestClient client_;
     std::optional<config::ScanPattern> held_;
     bool isOver_ = false;

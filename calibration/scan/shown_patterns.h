@@ -11,7 +11,7 @@
 
 namespace aquarama::scan {
 
-// Which show, and with whose key, as `aquarama set` has them.
+// A running show and the key for it, as for `aquarama set`.
 struct ShownOn {
     std::string rig;     // its file
     std::string master;  // control address; empty: the rig's
@@ -19,18 +19,18 @@ struct ShownOn {
     std::chrono::milliseconds patience = std::chrono::seconds(10);  // of show()
 };
 
-// What shows the patterns of a scan.
+// A wall that shows the patterns of a scan.
 class PatternWall {
   public:
     virtual ~PatternWall() = default;
-    // Returns when all channels show it: the number of the frame from which on they do.
+    // Returns when all channels show the pattern: the number of the first such frame.
     virtual std::uint64_t show(const config::ScanPattern& pattern) = 0;
-    // Throws Error where a channel has not shown it any more since show() has returned.
+    // Throws Error where a channel has stopped showing the pattern since show() returned.
     virtual void confirm() = 0;
 };
 
-// Holds the wall from the first pattern until it is destroyed, and says so every second on a thread
-// of its own; a program that dies leaves the wall to the show three seconds later.
+// Holds the wall from the first pattern until it is destroyed. A thread renews the hold every
+// second; when the program dies, the wall returns to the show after three seconds.
 class ShownPatterns final : public PatternWall {
   public:
     // Throws Error where the rig or the key cannot be read.
@@ -39,13 +39,13 @@ class ShownPatterns final : public PatternWall {
     ShownPatterns(const ShownPatterns&) = delete;
     ShownPatterns& operator=(const ShownPatterns&) = delete;
 
-    // Waits until the nodes of all channels of the rig have shown a frame with the pattern. What a
-    // projector itself delays is not known. Throws Error: no master answers, the wall is black or
-    // held by another scan, or after `patience`, naming the channels that do not show it; after
+    // Waits until the nodes of all channels have shown a frame with the pattern. The delay of the
+    // projectors is not known. Throws Error: where no master answers; where the wall is black or
+    // held by another scan; after `patience`, with the channels that do not show it; after
     // giveBack().
     std::uint64_t show(const config::ScanPattern& pattern) override;
     void confirm() override;
-    // The wall shows what it did before. From any thread, once or more often.
+    // Returns the wall to the show. May be called from any thread, more than once.
     void giveBack() noexcept;
 
   private:

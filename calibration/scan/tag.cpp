@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "calibration/scan/least_squares.h"
 #include "common/wall/scan_pattern.h"
 
 namespace aquarama::scan {

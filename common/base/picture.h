@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -36,6 +37,10 @@ struct Light {
                static_cast<std::size_t>(x);
     }
 };
+// The luminance of linear light with the primaries of Rec. 709.
+[[nodiscard]] inline double luminance(glm::dvec3 rgb) {
+    return glm::dot(rgb, {0.2126, 0.7152, 0.0722});
+}
 // All black.
 [[nodiscard]] Light darkness(glm::ivec2 sizePixels);
 

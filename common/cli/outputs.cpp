@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/cli/outputs.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
-#include <sstream>
 #include <system_error>
 
 #include <fcntl.h>
@@ -164,30 +161,8 @@ void runPython(const std::vector<std::string>& modules,
             writeWhole(folder / entry.path().filename(), readWhole(entry.path(), kMostBytes));
 }
 
-bool Progress::isTerminal() {
-    return isatty(STDOUT_FILENO) != 0;
-}
-
-void Progress::show(std::uint64_t done) {
-    using namespace std::chrono_literals;
-    const auto now = Clock::now();
-    if (now - shown_ < (terminal_ ? 250ms : 10s)) return;
-    shown_ = now;
-    const double rate =
-        static_cast<double>(done) / std::chrono::duration<double>(now - begun_).count();
-    std::ostringstream line;
-    line << what_ << ' ' << done;
-    if (ofAll_ > 0) line << " of " << ofAll_;
-    line << std::fixed << std::setprecision(1) << ", " << rate << " a second";
-    if (ofAll_ > 0)
-        line << std::setprecision(0) << ", "
-             << static_cast<double>(ofAll_ - std::min(done, ofAll_)) / rate << " s left";
-    std::cout << (terminal_ ? "\r\x1b[K" : "") << line.str() << (terminal_ ? "" : "\n")
-              << std::flush;
-}
-
-void Progress::end() const {
-    if (terminal_) std::cout << "\r\x1b[K" << std::flush;
+void say(const std::string& line) {
+    std::cout << line << std::endl;
 }
 
 }  // namespace aquarama::cli

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks before long work that outputs can be written and that Python is available; and progress
-// lines. Python scripts draw figures and pages; each lies beside the sources that write its data.
+// What a command writes: lines, files and figures. Files and Python are tested before the command
+// works for minutes. Figures and pages are drawn by Python scripts, which lie beside the sources
+// that write their data.
 #pragma once
 
-#include <chrono>
-#include <cstdint>
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace aquarama::cli {
@@ -35,25 +33,8 @@ void runPython(const std::vector<std::string>& modules,
                const std::vector<std::string>& arguments,
                const std::filesystem::path& folder);
 
-// Shows the progress of long work on standard output: in one line of a terminal that is rewritten,
-// or in a log line every ten seconds.
-class Progress {
-  public:
-    // The name, as in "clip: picture", and the number of steps; 0: unknown.
-    Progress(std::string what, std::uint64_t ofAll) : what_{std::move(what)}, ofAll_{ofAll} {}
-    void show(std::uint64_t done);
-    // Clears the terminal's line.
-    void end() const;
-
-  private:
-    using Clock = std::chrono::steady_clock;
-    std::string what_;
-    std::uint64_t ofAll_;
-    bool terminal_ = isTerminal();
-    Clock::time_point begun_ = Clock::now();
-    Clock::time_point shown_ = begun_;
-
-    static bool isTerminal();
-};
+// Writes a line to standard output at once. Whether all lines arrived is checked when the program
+// ends.
+void say(const std::string& line);
 
 }  // namespace aquarama::cli

@@ -60,8 +60,7 @@ HallScreen screenOf(const v1::HallScreen& in) {
 }
 
 HallLens lensOf(const v1::HallLens& in) {
-    return {.radial = {in.k1(), in.k2(), in.k3()},
-            .tangential = {in.p1(), in.p2()},
+    return {.distortion = {in.k1(), in.k2(), in.k3(), in.p1(), in.p2()},
             .vignetting = in.vignetting()};
 }
 
@@ -74,7 +73,7 @@ void requireCount(
                            std::to_string(needs) + " or none");
 }
 
-// All of a list of numbers, each from `least` to `most`; nothing where there are none.
+// A list of numbers, each from `least` to `most`; nothing where it is empty.
 std::vector<double> numbersOf(const HallReader& reader,
                               const v1::HallProjector& in,
                               const std::string& field,
@@ -93,7 +92,7 @@ std::vector<double> numbersOf(const HallReader& reader,
     return numbers;
 }
 
-// What it does with light.
+// Sets how a projector makes light.
 void readLight(const HallReader& reader, const v1::HallProjector& in, HallProjector& out) {
     requireCount(reader, in, "gamma", in.gamma_size(), 3);
     requireCount(reader, in, "primaries", in.primaries_size(), 9);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A simulated hall: what is true of screen, projectors and camera, where the rig is only the crew's
-// idea. Frames are the rig's. hall.proto says what each value means.
+// A simulated hall: the true screen, projectors and camera, which differ from the crew's rig.
+// Frames are the rig's. hall.proto explains each value.
 #pragma once
 
 #include <array>
@@ -13,18 +13,19 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/base/brown_lens.h"
 #include "common/config/rig.h"
 #include "common/config/scan.h"
 
 namespace aquarama::config {
 
-// Away from the audience, on the unrolled screen.
+// A dent away from the audience; its place is on the unrolled screen.
 struct HallDent {
     glm::dvec2 place{0.5};
     double radiusMetres = 0, depthMetres = 0;
 };
 
-// How the true screen differs from the rig's.
+// The differences of the true screen from the rig's.
 struct HallScreen {
     double radiusFactor = 1, sizeFactor = 1, tiltRadians = 0;
     double bumpMetres = 0, bumpDistanceMetres = 1.5;
@@ -35,14 +36,13 @@ struct HallScreen {
     std::vector<double> marksOffMetres = {};  // of each strip of tape, along the edge
 };
 
-// Terms of Brown's model on tangents, and the share of light that the corners lack.
+// The errors of a lens.
 struct HallLens {
-    glm::dvec3 radial{};      // k1, k2, k3
-    glm::dvec2 tangential{};  // p1, p2
-    double vignetting = 0;
+    BrownLens<double> distortion = {};
+    double vignetting = 0;  // the share of light that the corners lack
 };
 
-// How the true projector of a channel differs from the rig's.
+// The differences of a channel's true projector from the rig's.
 struct HallProjector {
     glm::dvec3 movedMetres{};
     glm::dvec3 turnedRadians{};  // yaw, pitch, roll
@@ -56,6 +56,7 @@ struct HallProjector {
     double black = 0, brightness = 1;
 };
 
+// The camera of a hall.
 struct HallCamera {
     glm::dvec3 positionMetres{}, lookAtMetres{0, 0, -1};
     double rollRadians = 0;
@@ -70,7 +71,7 @@ struct HallCamera {
     double exposure = 1, fullWell = 0, readNoise = 0;
 };
 
-// Channels are indices of the rig's, pictures of the scan's.
+// Faults during a scan. Channels are indices in the rig, pictures indices in the scan.
 struct HallFaults {
     struct Block {
         glm::dvec2 place{0.5}, radius{};
@@ -98,6 +99,7 @@ struct HallFaults {
     bool flatScreen = false;
 };
 
+// A whole hall.
 struct Hall {
     HallScreen screen = {};
     std::vector<HallProjector> projectors = {};  // one for each channel of the rig, in its order

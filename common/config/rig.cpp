@@ -173,7 +173,7 @@ Projector projectorOf(const v1::Projector& in, glm::dvec2 sizePixels) {
             .focalPixels = {in.focal_x_px(), in.focal_y_px()},
             .principalPixels = {in.has_principal_x_px() ? in.principal_x_px() : sizePixels.x / 2,
                                 in.has_principal_y_px() ? in.principal_y_px() : sizePixels.y / 2},
-            .radial = {in.k1(), in.k2()}};
+            .distortion = {.k1 = in.k1(), .k2 = in.k2()}};
 }
 
 // A lens must not fold the picture: r (1 + k1 r^2 + k2 r^4) grows all the way to the picture's
@@ -182,7 +182,7 @@ void checkLens(const TextReader& file,
                const v1::Projector& in,
                const Projector& lens,
                glm::dvec2 sizePixels) {
-    if (lens.radial == glm::dvec2(0)) return;
+    if (lens.distortion == BrownLens<double>{}) return;
     double farthest = 0;
     for (const glm::dvec2 corner :
          {glm::dvec2(0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1)})
@@ -192,12 +192,12 @@ void checkLens(const TextReader& file,
     double thrown = 0;
     for (int i = 1; thrown < farthest && i <= 10 * kSteps; ++i) {
         const double square = std::pow(farthest * i / kSteps, 2);
-        if (1 + square * (3 * lens.radial.x + 5 * square * lens.radial.y) <= 0)
+        if (lens.distortion.growth(square) <= 0)
             file.refuse(in,
                         "k1",
                         "the lens folds its picture before the farthest corner: k1 and k2 are for "
                         "tangents, not pixels; make them smaller");
-        thrown = std::sqrt(square) * (1 + square * (lens.radial.x + square * lens.radial.y));
+        thrown = std::sqrt(square) * lens.distortion.stretch(square);
     }
 }
 

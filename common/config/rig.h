@@ -17,6 +17,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/base/brown_lens.h"
 #include "common/base/digest.h"
 #include "common/config/text_file.h"
 
@@ -65,12 +66,12 @@ struct Screen {
 
 // A pinhole with a lens: x right, y up, looking along -Z of its own frame.
 struct Projector {
-    glm::dvec3 positionMetres{};       // wall frame
-    glm::dvec3 yawPitchRollRadians{};  // yaw about +Y (left positive), then pitch about +X (up
-                                       // positive), then roll about +Z
-    glm::dvec2 focalPixels{};          // fx and fy differ where pixels are not square
-    glm::dvec2 principalPixels{};      // from the top left corner of the picture
-    glm::dvec2 radial{};               // k1, k2: a tangent r is thrown at r (1 + k1 r^2 + k2 r^4)
+    glm::dvec3 positionMetres{};        // wall frame
+    glm::dvec3 yawPitchRollRadians{};   // yaw about +Y (left positive), then pitch about +X (up
+                                        // positive), then roll about +Z
+    glm::dvec2 focalPixels{};           // fx and fy differ where pixels are not square
+    glm::dvec2 principalPixels{};       // from the top left corner of the picture
+    BrownLens<double> distortion = {};  // k1 and k2 only
 };
 
 // A flat display, x right and y up on it, its face towards +Z of its own frame.

@@ -16,7 +16,7 @@ namespace {
 static_assert(v1::ScanPicture::DOTS == static_cast<int>(ScanPattern::Kind::Dots));
 static_assert(v1::ScanCamera::LINEAR == static_cast<int>(ScanCamera::Response::Linear));
 
-// A name in the folder of the scan, no way out of it.
+// Whether a name is a file in the folder of the scan, and no path out of it.
 bool isPlainName(const std::string& file) {
     return file.find('/') == std::string::npos && file.find('\0') == std::string::npos &&
            file != "." && file != "..";
@@ -39,7 +39,7 @@ std::uint64_t litFrom(const TextReader& file,
                 "lit",
                 "the rig has no channel \"" + in.lit(i) + "\": give the rig that was scanned",
                 i);
-        lit |= std::uint64_t{1} << static_cast<unsigned>(found - channels.begin());
+        lit |= bitOf(static_cast<std::size_t>(found - channels.begin()));
     }
     return lit;
 }
@@ -88,7 +88,7 @@ void addTo(v1::Scan& out, const ScanPicture& picture, const std::vector<std::str
     if (pattern.inverse) to.set_inverse(true);
     for (int i = 0; i < 3; ++i) to.add_light(pattern.light[i]);
     for (std::size_t i = 0; i < channels.size(); ++i)
-        if (((pattern.lit >> i) & 1U) != 0) to.add_lit(channels[i]);
+        if (contains(pattern.lit, i)) to.add_lit(channels[i]);
     to.set_number(pattern.number);
     to.set_tagged(pattern.tagged);
 }

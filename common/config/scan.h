@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scan of a wall: patterns that its channels show, one after the other, and the pictures that a
-// camera takes of them.
+// A scan of a wall: the patterns that its channels show, and the pictures that a camera takes of
+// them.
 #pragma once
 
+#include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,8 +14,17 @@
 
 namespace aquarama::config {
 
-// What the channels show while a picture is taken: in the projectors' own pixels, before any warp,
-// blend or correction. common/wall/scan_pattern.h has the formula.
+// The bit of a channel (its index in the rig, below 64) in a set of channels.
+[[nodiscard]] constexpr std::uint64_t bitOf(std::size_t channel) {
+    assert(channel < 64);
+    return std::uint64_t{1} << channel;
+}
+[[nodiscard]] constexpr bool contains(std::uint64_t channels, std::size_t channel) {
+    return (channels & bitOf(channel)) != 0;
+}
+
+// The pattern that the channels show in one picture, in the projectors' own pixels, without warp,
+// blend and correction. common/wall/scan_pattern.h has the formula.
 struct ScanPattern {
     enum class Kind : std::uint8_t {
         Level = 1,    // even light
@@ -25,26 +36,43 @@ struct ScanPattern {
         Dots   // step 0: all dots; step n: those with bit n - 1 in their number
     };
     Kind kind = Kind::Level;
-    // Gray: bit, the coarsest is 0; phase: step of kScanPhaseSteps; level: exposed for 4^-step of
-    // the time.
+    // Gray: the bit, the coarsest is 0. Phase: the step, of kScanPhaseSteps. Level: the exposure is
+    // 4^-step of the others'.
     std::uint8_t step = 0;
     std::uint16_t finestPixels = 16;  // width of the finest stripe of the Gray code
     bool inverse = false;             // Gray: dark and lit are swapped
-    glm::vec3 light{1};               // linear, of what is lit
-    std::uint64_t lit = 0;            // bit i: channel i of the rig shows it; the others are black
+    glm::vec3 light{1};               // linear, of the lit parts
+    std::uint64_t lit = 0;            // the set of channels that show it; the others are black
     std::uint16_t number = 0;         // of the picture in its scan, shown in its tag
     bool tagged = true;
 
     friend bool operator==(const ScanPattern&, const ScanPattern&) = default;
 };
 
-// A place that the camera stood at. Lens, exposure and focus stay as they are in all its pictures.
+// Whether the pattern is a level without light.
+[[nodiscard]] inline bool isBlack(const ScanPattern& pattern) {
+    return pattern.kind == ScanPattern::Kind::Level &&
+           (pattern.lit == 0 || pattern.light == glm::vec3(0));
+}
+[[nodiscard]] constexpr bool isGray(ScanPattern::Kind kind) {
+    return kind == ScanPattern::Kind::GrayColumns || kind == ScanPattern::Kind::GrayRows;
+}
+[[nodiscard]] constexpr bool isPhase(ScanPattern::Kind kind) {
+    return kind == ScanPattern::Kind::PhaseColumns || kind == ScanPattern::Kind::PhaseRows;
+}
+// Whether the pattern changes only from row to row, so that it measures rows.
+[[nodiscard]] constexpr bool isOfRows(ScanPattern::Kind kind) {
+    return kind == ScanPattern::Kind::GrayRows || kind == ScanPattern::Kind::PhaseRows;
+}
+
+// A place of the camera. Lens, exposure and focus are the same in all its pictures.
 struct ScanCamera {
     enum class Response : std::uint8_t { Srgb = 1, Linear };
     Response response = Response::Srgb;
     std::optional<double> focalPixels = {};  // about
 };
 
+// A picture of a scan.
 struct ScanPicture {
     std::string file;  // in the folder of the scan
     std::uint32_t camera = 0;
@@ -53,14 +81,15 @@ struct ScanPicture {
     ScanPattern pattern;
 };
 
+// A whole scan, as scan.txtpb has it.
 struct Scan {
     std::string rig;  // its name
     std::vector<ScanCamera> cameras;
     std::vector<ScanPicture> pictures;
 };
 
-// Of scan.txtpb. Channels are written by their names, in the order of `channels`. Throws Error with
-// file:line:column.
+// To and from scan.txtpb, where channels have names; `channels` has the names in the rig's order.
+// Throws Error with file:line:column.
 [[nodiscard]] Scan parseScan(const std::string& text,
                              const std::string& source,
                              const std::vector<std::string>& channels);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A zip archive in memory. Archives are untrusted: how many entries there are, what they claim to
-// hold and how they are named is checked before anything of them is read. Nothing is written to a
-// disk.
+// Reads and writes zip archives in memory. Archives are untrusted: the number, sizes and names of
+// the entries are checked before their data are read. Nothing is written to a disk.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +15,7 @@
 
 namespace aquarama::formats {
 
-// The most that is read of an archive: entries, bytes of one, and bytes of all of them.
+// Limits of an archive: entries, bytes of one entry, and bytes of all entries.
 inline constexpr std::int64_t kMostEntries = 8192;
 inline constexpr std::uint64_t kMostEntryBytes = std::uint64_t{1} << 29;
 inline constexpr std::uint64_t kMostArchiveBytes = std::uint64_t{1} << 32;
@@ -26,26 +25,26 @@ using ArchiveFile = std::pair<std::string, std::vector<std::byte>>;
 
 class Archive {
   public:
-    // `bytes` must outlive it; `source` names it in errors. Throws Error where this is no archive,
-    // or one that is refused.
+    // `bytes` must outlive it; `source` names it in errors. Throws Error where the bytes are no
+    // archive, or exceed the limits.
     Archive(std::span<const std::byte> bytes, std::string source);
     ~Archive();
     Archive(const Archive&) = delete;
     Archive& operator=(const Archive&) = delete;
 
-    // Of the files in it, not of folders: with '/' between them also where the archive has '\\',
-    // and without "./" before them.
+    // The names of its files, without folders. They have '/' also where the archive has '\\', and
+    // no "./" before them.
     [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
-    // As the entry is named that has this name but for upper and lower case and a "./" before it.
+    // The name of the entry that differs from this one at most by case and a "./" before it.
     [[nodiscard]] std::optional<std::string> find(std::string_view name) const;
-    // `name` is one of names(). Throws Error where it is damaged, or where everything that was read
-    // until now has too many bytes: a manifest may name one entry a thousand times.
+    // Reads a file; `name` is one of names(). Throws Error where it is damaged, or where all reads
+    // together exceed the limit of bytes: a manifest may name one entry a thousand times.
     [[nodiscard]] std::vector<std::byte> read(const std::string& name);
 
   private:
     struct Zip;
     void listNames();
-    // Refuses what is too much, and what deflate could not pack so.
+    // Refuses an entry that is too large, or larger than its packed bytes can be.
     [[nodiscard]] std::uint64_t sizeToRead(std::uint64_t size, std::uint64_t packed) const;
     std::unique_ptr<Zip> zip_;
     std::string source_;
@@ -54,17 +53,18 @@ class Archive {
     std::uint64_t readBytes_ = 0;
 };
 
-// Whether bytes begin as an archive does.
+// Whether bytes begin like an archive.
 [[nodiscard]] bool isArchive(std::span<const std::byte> bytes);
 
-// Deflated; the same files give the same bytes. Throws Error where a name would be refused.
+// Makes an archive, deflated; the same files give the same bytes. Throws Error for a name that the
+// reader refuses.
 [[nodiscard]] std::vector<std::byte> encodeArchive(const std::vector<ArchiveFile>& files);
 
 // For names that ignore the case of ASCII letters.
 [[nodiscard]] std::string lowered(std::string_view text);
 [[nodiscard]] bool sameName(std::string_view a, std::string_view b);
-// A text of a file on one line of an error: without control characters, what is no UTF-8 as \xE9,
-// and not too long.
+// A text of a file for one line of an error: shortened, without control characters, and with bytes
+// that are no UTF-8 as \xE9.
 [[nodiscard]] std::string printable(std::string_view text);
 
 }  // namespace aquarama::formats

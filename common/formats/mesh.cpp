@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the readers of meshes share: from meshes to warps, and the parts of text and binary files.
+// Shared by the readers of meshes: conversion of meshes to warps, and parsers of text and binary
+// files.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -30,7 +31,7 @@ constexpr double kMostLayers = 16;
 // Samples of a mask in each cell of a grid each way, where the picture's size is not known.
 constexpr double kLightPerCell = 8;
 constexpr double kMostMaskSide = 2048;
-// The largest number of a file; beyond it differences of coordinates would lose all digits.
+// The largest number of a file: differences of larger coordinates would lose all digits.
 constexpr double kLargest = 1e9;
 
 constexpr float kUnlit = std::numeric_limits<float>::quiet_NaN();
@@ -142,7 +143,7 @@ std::size_t litCells(const Warp& warp) {
     return count;
 }
 
-// A grid of vertices, ordered by rows from the top, each from the left; empty where they are none.
+// The vertices as a grid of rows from the top, each from the left; empty where they form no grid.
 struct OrderedGrid {
     std::size_t columns = 0, rows = 0;
     std::vector<std::uint32_t> order;
@@ -168,7 +169,7 @@ OrderedGrid orderedGrid(const WarpMesh& mesh) {
     return grid.rows < 2 ? OrderedGrid{} : grid;
 }
 
-// The vertices as samples from border to border, where they lie so.
+// The vertices as samples from border to border; nothing where they are not at these places.
 std::optional<Warp> nodesOf(const WarpMesh& mesh) {
     const OrderedGrid grid = orderedGrid(mesh);
     if (grid.columns == 0) return {};
@@ -186,7 +187,7 @@ std::optional<Warp> nodesOf(const WarpMesh& mesh) {
     return warp;
 }
 
-// So many samples that light which is linear within cells of the grid stays so.
+// The number of samples that keeps light linear within the cells of the grid.
 glm::ivec2 maskSize(const Warp& nodes) {
     const auto side = [](int count) {
         return static_cast<int>(
@@ -291,7 +292,7 @@ Frustum turned(double x, double y, double z, double w) {
     Frustum frustum;
     frustum.pitch = std::asin(std::clamp(forward.y, -1.0, 1.0));
     const bool level = std::hypot(forward.x, forward.z) > 1e-6;
-    // Straight up or down yaw and roll are one turn.
+    // Straight up or down, yaw and roll are the same rotation.
     frustum.yaw = level ? std::atan2(forward.x, -forward.z) : std::atan2(right.z, right.x);
     frustum.roll = level ? -std::atan2(right.y, up.y) : 0;
     return frustum;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// MPCDI 1 and 2, profiles 2d, 3d, a3 and sl: an archive of a manifest, warps and masks, or the
-// manifest alone, which has the poses. What the standard leaves open is read as docs/decisions/0046
-// says.
+// Reads and writes MPCDI 1 and 2, profiles 2d, 3d, a3 and sl: an archive of a manifest, warps and
+// masks, or the manifest alone, which has the poses. docs/decisions/0046 says how open points of
+// the standard are read.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace aquarama::formats {
 
-// Any zip archive, and any XML whose root is MPCDI.
+// Whether bytes are a zip archive, or XML whose root is MPCDI.
 [[nodiscard]] bool isMpcdi(std::span<const std::byte> bytes);
 
 // `source` names it in errors. Throws Error.
@@ -26,9 +26,9 @@ namespace aquarama::formats {
                                  const std::string& source,
                                  const ReadOptions& options = {});
 
-// version: 1 or 2. Reading the file again gives the same WallFile, as far as pfmOf() can say its
-// samples. Other tools take any grid for texel centres: resampled() at the projector's size is for
-// them. Throws Error where a channel lacks what its profile needs, or the file cannot be written.
+// version: 1 or 2. Reading the file again gives the same WallFile, as exactly as pfmOf() stores its
+// samples. Other tools take any grid for texel centres: use resampled() at the projector's size for
+// them. Throws Error where a channel lacks data of its profile, or the file cannot be written.
 [[nodiscard]] std::vector<std::byte> encodeMpcdi(const WallFile& wall, int version);
 void writeMpcdi(const std::string& path, const WallFile& wall, int version);
 
@@ -50,7 +50,7 @@ inline constexpr std::array kAngleNames{AngleName{"yaw", &Frustum::yaw},
                                         AngleName{"upAngle", &Frustum::up},
                                         AngleName{"downAngle", &Frustum::down}};
 
-// Each with x, y or z behind it.
+// Each is followed by x, y or z.
 struct AxisName {
     const char* name;
     glm::dvec3 CoordinateFrame::*axis;
@@ -60,21 +60,21 @@ inline constexpr std::array kAxisNames{AxisName{"pos", &CoordinateFrame::positio
                                        AxisName{"pitch", &CoordinateFrame::pitch},
                                        AxisName{"roll", &CoordinateFrame::roll}};
 
-// What a channel's pose lacks that the profile needs; null: nothing.
+// The data of the profile that a channel's pose lacks; null: none.
 [[nodiscard]] const char* missingOf(const FileChannel& channel, Profile profile);
 
-// Numbers of the file are decimals; nothing where it is none, or not finite. What follows is what
-// is kept of them; the writer chooses decimals that give the same again.
+// The decimal number in a text; nothing where it is none or not finite. The functions below convert
+// it; the writer chooses decimals that give the same value again.
 [[nodiscard]] std::optional<long double> decimalIn(std::string_view text);
 [[nodiscard]] double radiansOf(long double degrees);  // over -pi, up to pi
-// The top of a region whose lower border lies at y, as heights of the buffer from its top.
+// The top of a region from the top of the buffer, as a share of its height. y: of the lower border.
 [[nodiscard]] double topOf(long double y, double height);
 
-// An extension of our own says how a warp is stored where the values alone would tell another way:
+// Our own extension says how a warp is stored, where its values alone suggest another way:
 // <extension Name="Aquarama"><warp region="left" file="geometryWarpFile" sampling="nodes"
 // values="places"/></extension>
-// In it also stands the colour of a channel; the mix has a row for each of the projector's colours,
-// and a response its light from code 0 to 1:
+// It also has the colour of a channel; the mix has a row for each of the projector's colours, and a
+// response has its light from code 0 to 1:
 // <colour region="left"><mix>1 0 0 0 1 0 0 0 1</mix><red>0 0.25 1</red><green>0 0.25 1</green>
 // <blue>0 0.25 1</blue></colour>
 inline constexpr const char* kOwnExtension = "Aquarama";

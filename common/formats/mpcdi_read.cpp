@@ -37,7 +37,7 @@ constexpr std::size_t kMostExtensionBytes = std::size_t{64} << 20;
 constexpr unsigned kParsing =
     pugi::parse_default | pugi::parse_comments | pugi::parse_pi | pugi::parse_ws_pcdata;
 
-// What may stand in an element. Everything else is kept as an Extension.
+// The known children of each element. Everything else is kept as an Extension.
 const std::map<std::string, std::vector<std::string>, std::less<>> kKnown{
     {"MPCDI", {"display", "files", "fileset", "extensionSet"}},
     {"display", {"buffer"}},
@@ -56,7 +56,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-// Elements of a name, in any case.
+// The children of an element with this name, in any case.
 std::vector<xml_node> elements(xml_node parent, std::string_view name) {
     std::vector<xml_node> found;
     for (const xml_node node : parent.children())
@@ -89,7 +89,7 @@ std::string attribute(xml_node node, std::string_view name) {
     return "";
 }
 
-// The place of a name in a list, in any case.
+// The index of a name in a list, in any case.
 template <std::size_t count>
 std::optional<std::size_t> indexOf(const std::array<std::string_view, count>& names,
                                    std::string_view name) {
@@ -116,7 +116,7 @@ void append(std::vector<Extension>& to, std::vector<Extension> more) {
     to.insert(to.end(), std::move_iterator(more.begin()), std::move_iterator(more.end()));
 }
 
-// Everything in an element that could be a name of a file, in lower case.
+// All texts in an element that may be names of files, in lower case.
 std::set<std::string> wordsOf(std::string_view xml) {
     std::set<std::string> words;
     while (!xml.empty()) {
@@ -129,8 +129,8 @@ std::set<std::string> wordsOf(std::string_view xml) {
     return words;
 }
 
-// Which extension a file of the archive belongs to: one that mentions it; what nothing mentions and
-// nothing else uses, the first that says it has files.
+// The extension to which a file of the archive belongs: one that mentions it; for a file that
+// nothing mentions or uses, the first extension that says it has files.
 class FileOwners {
   public:
     void add(Extension& extension) {
@@ -139,7 +139,7 @@ class FileOwners {
             lowered(extension.xml).find("hasexternalfiles=\"true\"") != std::string::npos;
         if (other_ == nullptr && hasFiles) other_ = &extension;
     }
-    // Null: to none.
+    // Null: the file belongs to none.
     [[nodiscard]] Extension* of(const std::string& name, bool isUsed) const {
         const auto found = mentioned_.find(lowered(name));
         if (found != mentioned_.end()) return found->second;
@@ -151,7 +151,7 @@ class FileOwners {
     Extension* other_ = nullptr;
 };
 
-// Metres; 0 where the unit is not known.
+// The length of a unit in metres; 0 for an unknown one.
 double metresOf(std::string_view unit) {
     static const std::map<std::string, double, std::less<>> kMetres{{"mm", 0.001},
                                                                     {"cm", 0.01},
@@ -167,15 +167,15 @@ double metresOf(std::string_view unit) {
     return found == kMetres.end() ? 0 : found->second;
 }
 
-// A manifest: its name in the archive, or none where it is the file itself.
+// A manifest. Its name in the archive is empty where it is the file itself.
 struct Manifest {
     std::string source;
     std::string name;
     Archive* archive = nullptr;
 
-    // Of the archive, with a slash behind it; empty at its root.
+    // The folder of the manifest in the archive, with a slash at its end; empty at the root.
     [[nodiscard]] std::string folder() const { return name.substr(0, name.rfind('/') + 1); }
-    // The entry that a path of the manifest means: from its folder, else from the root.
+    // The entry of a path in the manifest: from its folder, else from the root.
     [[nodiscard]] std::optional<std::string> entryOf(std::string path) const {
         std::ranges::replace(path, '\\', '/');
         for (const std::string& from : {folder(), std::string()}) {
@@ -192,7 +192,7 @@ struct Manifest {
     }
 };
 
-// From one manifest to a wall.
+// Reads the wall of one manifest.
 class Reader {
   public:
     Reader(const Manifest& manifest, const ReadOptions& options)
@@ -200,7 +200,7 @@ class Reader {
     WallFile read(xml_node root);
 
   private:
-    // Says where in the file, and what is wrong there.
+    // The error for this place of the file.
     [[noreturn]] void refuse(const std::string& where, const std::string& what) const {
         throw Error(manifest_.where() + ": " + printable(where) + " " + printable(what) +
                     "; export it anew");
@@ -244,9 +244,9 @@ class Reader {
     std::set<std::string> filled_;  // regions whose files were read
     std::set<std::string> used_;    // entries of the archive
     std::size_t maskBytes_ = 0, extensionBytes_ = 0;
-    // Of region and element: what our own extension says of its warp.
+    // The storage of warps in our own extension, by region and element.
     std::map<std::pair<std::string, std::string>, std::pair<Sampling, Stored>> own_;
-    std::map<std::string, ChannelColour> colours_;  // of regions, as it says them
+    std::map<std::string, ChannelColour> colours_;  // of our own extension, by region
 };
 
 long double Reader::number(std::string_view text, const std::string& name) const {
@@ -273,7 +273,7 @@ long double Reader::fraction(xml_node region, const char* name, double otherwise
     return value;
 }
 
-// What the format does not know of an element's children.
+// Keeps the unknown children of an element.
 std::vector<Extension> Reader::unknownIn(xml_node parent, const std::string& place) {
     const std::vector<std::string>& known = kKnown.at(place);
     std::vector<Extension> found;
@@ -290,7 +290,7 @@ std::vector<Extension> Reader::unknownIn(xml_node parent, const std::string& pla
     return found;
 }
 
-// Of an extension, which is for the program of its name; or of an element that the format lacks.
+// The remark about an extension, which is for another program, or about an unknown element.
 void Reader::sayKept(xml_node node, const std::string& place) {
     const std::string name = attribute(node, "Name");
     say(fmt::format(
@@ -304,7 +304,7 @@ void Reader::say(const std::string& what) {
     remark(wall_.remarks, manifest_.where() + ": " + printable(where_) + ": " + printable(what));
 }
 
-// 0 by 0 where it is not said.
+// The size in an element; 0 by 0 where it has none.
 glm::ivec2 Reader::pixelsOf(xml_node node) const {
     const long double width = numberOr(node, "Xresolution", 0);
     const long double height = numberOr(node, "Yresolution", 0);
@@ -365,7 +365,7 @@ void Reader::readOwnExtension(xml_node extension) {
     for (const xml_node colour : elements(extension, "colour")) readColour(colour);
 }
 
-// Of a list between blanks.
+// The numbers of a list separated by blanks.
 std::vector<float> Reader::numbersOf(xml_node node, const char* name) const {
     const std::string text = textOf(element(node, name));
     std::vector<float> numbers;
@@ -404,7 +404,7 @@ void Reader::giveColours() {
                "is for a region that is not there");
 }
 
-// Into the channel: which part of its buffer it is, in pixels and as a rectangle.
+// Sets the channel's part of its buffer, in pixels and as a rectangle.
 void Reader::readPlace(xml_node buffer, xml_node node, FileChannel& channel) const {
     channel.buffer = attribute(buffer, "id");
     channel.bufferPixels = pixelsOf(buffer);
@@ -455,7 +455,7 @@ std::vector<std::byte> Reader::contentOf(xml_node element) {
     return manifest_.archive->read(*entry);
 }
 
-// The float map that an element names, in the order of rows that the user says.
+// The float map that an element names; the user may say that its rows are upside down.
 Pfm Reader::mapOf(xml_node element) {
     Pfm pfm = decodePfm(contentOf(element), manifest_.whereOf(pathOf(element)));
     if (options_.upsideDown) turnOver(pfm);
@@ -481,7 +481,7 @@ std::optional<Warp> Reader::warpOf(xml_node element, const FileChannel& channel)
     return formats::warpOf(std::move(pfm), meaning);
 }
 
-// gamma: where the file says none.
+// Reads a mask. gamma: where the file has none.
 std::optional<Mask> Reader::maskOf(xml_node element, double gamma) {
     if (pathOf(element).empty()) return std::nullopt;
     PngPicture png = decodePng(contentOf(element), manifest_.whereOf(pathOf(element)));
@@ -513,7 +513,8 @@ void Reader::readOrigin(xml_node geometry) {
     wall_.origin = origin;
 }
 
-// Kept for a round trip. Samples as dense as the picture's pixels leave nothing between them.
+// Reads the interpolation, kept for a round trip. It has no effect where samples are as dense as
+// pixels.
 void Reader::readInterpolation(xml_node geometry, FileChannel& channel) {
     const std::string said = textOf(element(geometry, "interpolation"));
     for (const char* known : {"keystone", "smooth"})
@@ -578,7 +579,7 @@ void Reader::readDisplay(xml_node display) {
     }
 }
 
-// Filesets stand in `files`, or beside it.
+// The filesets in `files`, or beside it.
 void Reader::readFiles(xml_node root) {
     for (const xml_node fileset : elements(root, "fileset")) readFileset(fileset);
     for (const xml_node files : elements(root, "files")) {
@@ -604,7 +605,7 @@ WallFile Reader::read(xml_node root) {
     return std::move(wall_);
 }
 
-// Of the system that packed the archive, beside each of its files.
+// Whether an entry was added by the system that packed the archive, beside one of its files.
 bool isOfMacOs(std::string_view name) {
     return name.starts_with("__MACOSX/") || name.substr(name.rfind('/') + 1).starts_with("._");
 }
@@ -620,7 +621,7 @@ std::vector<std::string> entriesAt(const Archive& archive, bool atRoot, std::str
     return found;
 }
 
-// Of several walls in one archive nobody knows which is meant.
+// The error for an archive with several walls, as the right one is not known.
 [[noreturn]] void refuseSeveral(const std::string& source, const std::vector<std::string>& names) {
     throw Error(fmt::format("{}: has {} manifests, \"{}\" and \"{}\"; pack each wall by itself",
                             source,
@@ -629,8 +630,8 @@ std::vector<std::string> entriesAt(const Archive& archive, bool atRoot, std::str
                             printable(names[1])));
 }
 
-// Of an archive whose root has none; empty where its folders have none either. Throws Error where
-// they have several.
+// The manifest in a folder of an archive whose root has none; empty where there is none. Throws
+// Error where there are several.
 std::string manifestInFolders(const Archive& archive, const std::string& source) {
     for (const char* ending : {"/mpcdi.xml", "/mpacs.xml", ".xml"}) {
         const std::vector<std::string> found = entriesAt(archive, false, ending);
@@ -640,8 +641,8 @@ std::string manifestInFolders(const Archive& archive, const std::string& source)
     return "";
 }
 
-// The manifest's name: the standard's, an older one, or any that stands alone; in a folder where
-// the root has none, as of an archive that was packed with its folder.
+// The name of the manifest: the standard's, an older one, or that of the only XML file. It may be
+// in a folder, where the archive was packed with its folder.
 std::string manifestOf(const Archive& archive, const std::string& source) {
     for (const char* name : {"mpcdi.xml", "mpacs.xml"})
         if (const auto found = archive.find(name)) return *found;

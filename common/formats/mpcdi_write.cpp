@@ -26,7 +26,7 @@ using pugi::xml_node;
 constexpr unsigned kParsing =
     pugi::parse_default | pugi::parse_comments | pugi::parse_pi | pugi::parse_ws_pcdata;
 
-// The shortest decimal of a value that is read as wanted; 21 digits say every long double.
+// The shortest decimal that is read as this value; 21 digits are enough for every long double.
 template <typename Reads>
 std::string decimalOf(long double value, const Reads& isAsWanted) {
     std::string text;
@@ -41,7 +41,7 @@ std::string plain(double value) {
     return decimalOf(value, [&](long double read) { return static_cast<double>(read) == value; });
 }
 
-// Between blanks.
+// A list of numbers separated by blanks.
 std::string plain(std::span<const float> values) {
     std::string text;
     for (const float value : values)
@@ -73,7 +73,7 @@ void set(xml_node node, const char* name, const std::string& value) {
     node.append_attribute(name) = value.c_str();
 }
 
-// A line for each element that has been added.
+// The text of a document, one line for each element.
 void indent(xml_node node, std::size_t depth) {
     if (node.first_child().type() != pugi::node_element) return;
     for (xml_node child = node.first_child(); child; child = child.next_sibling()) {
@@ -85,7 +85,7 @@ void indent(xml_node node, std::size_t depth) {
     node.append_child(pugi::node_pcdata).set_value(line.c_str());
 }
 
-// Warps finer than a tenth of the picture are fine ones, as others count.
+// Warps finer than a tenth of the picture count as fine, as in other programs.
 bool isFine(const FileChannel& channel, Profile profile) {
     if (profile == Profile::Projector) return channel.distortion.has_value();
     return channel.warp && (10 * channel.warp->size.x > channel.sizePixels.x ||
@@ -96,7 +96,7 @@ bool isColoured(const FileChannel& channel) {
     return channel.black || (channel.blend && channel.blend->components == 3);
 }
 
-// A part of an entry's name, of a channel's.
+// The part of an entry's name that comes from a channel's name.
 std::string entryPart(std::string name) {
     constexpr std::size_t kMost = 200;
     name.resize(std::min(name.size(), kMost));
@@ -112,7 +112,7 @@ std::string entryPart(std::string name) {
         "channel \"{}\" cannot be written as MPCDI: {}", printable(channel.name), what));
 }
 
-// From a wall to the files of an archive.
+// Writes the files of an archive for a wall.
 class Writer {
   public:
     Writer(const WallFile& wall, int version) : wall_(wall), version_(version) {}
@@ -175,7 +175,7 @@ void Writer::check() const {
     if (names.empty()) throw Error("a wall without channels cannot be written as MPCDI; add one");
 }
 
-// The names that files of extensions have, and keep.
+// Reserves the names of the files of extensions, which stay the same.
 void Writer::reserveNames(const std::vector<Extension>& extensions) {
     for (const Extension& extension : extensions)
         for (const ArchiveFile& file : extension.files) names_.insert(lowered(file.first));
@@ -283,7 +283,7 @@ void Writer::addColour(const FileChannel& channel) {
         addText(colour, kPrimaryNames[i], plain(channel.colour->response[i]));
 }
 
-// Where the values alone would tell otherwise.
+// Whether the values alone would suggest another way of storage.
 void Writer::addMark(const FileChannel& channel, const char* element, const TexelMeaning& meaning) {
     const xml_node warp = add(ownExtension(), "warp");
     set(warp, "region", channel.name);
@@ -326,7 +326,7 @@ void Writer::addGeometry(xml_node fileset, const FileChannel& channel) {
                 kOriginNames.at(static_cast<std::size_t>(wall_.origin)));
 }
 
-// An empty element where there is none: the standard wants it.
+// Adds an empty element where there is none, as the standard requires it.
 void Writer::addMask(xml_node fileset,
                      const char* name,
                      const std::string& stem,

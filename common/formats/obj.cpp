@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront obj: v, vt and f. Names, normals and materials are skipped; free-form surfaces too, and
-// said.
+// Reads Wavefront obj: v, vt and f. Names, normals and materials are skipped; free-form surfaces
+// too, with a remark.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kTelling = 4096;
 constexpr std::size_t kMostTriangles = 2 * kMostVertices;
-constexpr std::size_t kMostWord = 32;  // characters of a word that is told
+constexpr std::size_t kMostWord = 32;  // characters of a word in a remark
 constexpr std::array<std::string_view, 13> kKeywords{
     "v", "vt", "vn", "vp", "f", "o", "g", "s", "l", "p", "mtllib", "usemtl", "mg"};
 
@@ -43,9 +43,9 @@ struct ObjReader {
     std::unordered_map<std::uint64_t, std::uint32_t> known;
     std::vector<ObjCorner> corners;  // of the mesh's points
     TriangleMesh mesh;
-    std::set<std::string> said;  // words that are not known, each once
+    std::set<std::string> said;  // unknown words that have a remark
 
-    // Weights and colours behind the three are passed over.
+    // Weights and colours after the three numbers are ignored.
     void readPoint(const std::vector<std::string_view>& fields) {
         if (fields.size() < 4 || points.size() == kMostVertices)
             lines.fail("a point needs x y z, and at most 4194304 points may be; export it anew");
@@ -53,7 +53,7 @@ struct ObjReader {
             lines.number(fields[1]), lines.number(fields[2]), lines.number(fields[3]));
     }
 
-    // Up to two numbers count; a depth is passed over.
+    // Up to two numbers are used; a depth is ignored.
     void readTexture(const std::vector<std::string_view>& fields) {
         if (fields.size() < 3 || textures.size() == kMostVertices)
             lines.fail("a vt needs u v, and at most 4194304 may be; export it anew");
@@ -79,7 +79,7 @@ struct ObjReader {
         return corner;
     }
 
-    // The point of the mesh that the corner is, a new one if need be.
+    // The point of the mesh at a corner; added where it is new.
     std::uint32_t pointOf(ObjCorner corner) {
         const std::uint64_t key = std::uint64_t{corner.point} << 32 | corner.texture;
         const auto [found, added] =
@@ -119,7 +119,7 @@ struct ObjReader {
         }
     }
 
-    // Up to a comment behind them.
+    // Up to the comment after them.
     [[nodiscard]] std::vector<std::string_view> fields() const {
         auto fields = lines.fields(' ');
         const auto comment = std::ranges::find_if(

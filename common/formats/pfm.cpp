@@ -22,8 +22,8 @@ constexpr std::uint32_t kMostSide = 16384;
 constexpr std::size_t kTexelBytes = sizeof(glm::vec3);
 static_assert(kTexelBytes == 12);
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
-constexpr float kZero = 1e-5F;   // what others take for zero
-constexpr float kNudge = 1e-4F;  // what they do not
+constexpr float kZero = 1e-5F;   // other tools take this for zero
+constexpr float kNudge = 1e-4F;  // and this not
 
 bool isSpace(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
@@ -162,8 +162,7 @@ bool isSame(glm::vec3 a, glm::vec3 b) {
     return a == b || (std::isnan(a.x) && std::isnan(b.x));
 }
 
-// The texel that comes out as the sample: the nearest float, or a neighbour where rounding wants
-// it.
+// The texel that gives the sample: the nearest float, or a neighbour where rounding needs it.
 float texelOf(float sample, double at, double by) {
     if (by == 0) return 0;
     constexpr double kMost = std::numeric_limits<float>::max();
@@ -179,7 +178,7 @@ float texelOf(float sample, double at, double by) {
 glm::vec3 litTexel(glm::vec3 sample, const Affine& affine, Stored stored) {
     glm::vec3 texel{};
     for (int i = 0; i < 3; ++i) texel[i] = texelOf(sample[i], affine.at[i], affine.by[i]);
-    // Three zeros would be read as unlit. A third number that is none prevents that.
+    // Three zeros would be read as unlit; NaN as the third number prevents that.
     if (stored == Stored::Offsets)
         texel.z = kNothing;
     else if (isZero(texel))
@@ -212,7 +211,7 @@ std::array<Spread, 2> spreadOf(const Pfm& pfm, bool zerosCount) {
     return spread;
 }
 
-// Whether values cover this part of the buffer, to one hundredth; the whole tells nothing.
+// Whether values cover this part of the buffer, to one hundredth; false for the whole buffer.
 bool covers(const Spread& spread, double from, double extent) {
     constexpr double kNear = 0.01;
     return extent >= 1 || (std::abs(spread.least - from) <= kNear &&
@@ -226,8 +225,8 @@ bool isOfWholeBuffer(const TexelMeaning& meaning, const Pfm& pfm) {
            covers(v, 1 - meaning.corner.y - meaning.extent.y, meaning.extent.y);
 }
 
-// Places lie about the middle of the picture, offsets about zero to both sides. A map of nothing
-// but zeros says that nothing is moved.
+// Places lie around the middle of the picture, offsets on both sides of zero. A map of zeros alone
+// moves nothing.
 bool isOfOffsets(const Pfm& pfm) {
     constexpr double kNear = 0.15;
     const auto [u, v] = spreadOf(pfm, true);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SCISS sgc: a pose, edges and a mesh. Places are from the top left, texture coordinates from the
-// bottom left of the picture of the frustum.
+// Reads SCISS sgc: a pose, edges and a mesh. Places are from the top left, texture coordinates from
+// the bottom left of the picture of the frustum.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kVertexBytes = 24;
 constexpr std::uint32_t kPlanar = 0, kCube = 1;
-// What the first count of version 2 says: OpenGL's names of how indices become triangles.
+// The first count of version 2: OpenGL's names for the ways in which indices form triangles.
 constexpr std::uint32_t kTriangles = 4, kStrip = 5;
 constexpr double kWidestEdgeDegrees = 89.9;
 
@@ -63,7 +63,7 @@ void readCounts(VendorBytes& in, ScissHeader& header) {
     in.need(header.vertices, kVertexBytes, "vertices");
 }
 
-// Up to the vertices. Throws Error where no mesh can follow.
+// Reads the header, up to the vertices. Throws Error where no mesh can follow.
 ScissHeader readHeader(VendorBytes& in) {
     ScissHeader header;
     in.go(3);
@@ -98,7 +98,7 @@ std::vector<WarpMesh::Vertex> readVertices(VendorBytes& in, std::uint64_t count)
     return vertices;
 }
 
-// Each names a vertex that is there.
+// Reads the indices. Each must name an existing vertex.
 std::vector<std::uint32_t> readIndices(VendorBytes& in, std::uint64_t vertices) {
     const std::uint32_t count = in.u32();
     in.need(count, 4, "indices");

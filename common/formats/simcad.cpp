@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Barco SimCAD: an XML file of offsets of a square grid of nodes, top row first, in parts of a
-// range that is the projector's width or height in pixels.
+// Reads Barco SimCAD: an XML file of offsets of a square grid of nodes, top row first, as parts of
+// a range, the projector's width or height in pixels.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,7 +53,7 @@ std::vector<double> numbersOf(std::string_view text,
     return numbers;
 }
 
-// Of one direction. Throws Error where the element or its range is missing.
+// Reads the offsets of one direction. Throws Error where the element or its range is missing.
 Offsets readOffsets(const pugi::xml_node& definition,
                     const char* element,
                     const std::string& source) {
@@ -105,7 +105,7 @@ SimcadFile simcadFile(std::span<const std::byte> bytes, const std::string& sourc
     return file;
 }
 
-// The even grid is what is shown, the offsets say where.
+// The even grid is the content; the offsets are its places.
 WarpMesh meshOf(const SimcadFile& file) {
     WarpMesh mesh{{}, gridTriangles(file.side, file.side)};
     const glm::dvec2 last(static_cast<double>(file.side - 1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes as text: Scalable ol, domeprojection csv with its frustum csv, Paul Bourke.
+// Reads meshes in text: Scalable ol, domeprojection csv with its frustum csv, Paul Bourke.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -19,7 +19,7 @@ namespace aquarama::formats {
 
 namespace {
 
-// How much of a file tells its format.
+// The number of bytes that show the format of a file.
 constexpr std::size_t kTelling = 256;
 
 std::string_view firstLine(std::span<const std::byte> bytes) {
@@ -30,7 +30,7 @@ std::string_view firstLine(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-// domeprojection: columns are told by the names in the first line; others may follow.
+// domeprojection: the first line names the columns; others may follow.
 
 namespace {
 
@@ -63,7 +63,7 @@ class CsvTable {
         return lines_.integer(field(name), kMostVertices);
     }
     [[noreturn]] void fail(const std::string& why) const { lines_.fail(why); }
-    // Columns of other names than these; all are in the first line.
+    // The columns with other names than these.
     void remarkOthers(std::span<const std::string_view> known,
                       const std::string& source,
                       std::vector<std::string>& remarks) const {
@@ -86,7 +86,7 @@ class CsvTable {
     std::vector<std::string_view> fields_;
 };
 
-// Edges of one direction as angles from the axis. `sign`: of the low one, as the file has it.
+// The edges in one direction as angles from the axis. `sign`: of the low one in the file.
 struct EdgePair {
     double low = 0, high = 0;
 };
@@ -127,7 +127,7 @@ struct GridVertex {
     WarpMesh::Vertex vertex{};
 };
 
-// In the order of the file; each row of the table is one vertex.
+// The vertices, in the order of the file; each row of the table is one.
 std::vector<GridVertex> gridVertices(CsvTable& table) {
     std::vector<GridVertex> vertices;
     while (table.next()) {
@@ -152,7 +152,7 @@ glm::u64vec2 gridSize(const std::vector<GridVertex>& vertices, const CsvTable& t
     return size;
 }
 
-// Puts the vertices in rows; each must be there once.
+// Puts the vertices in rows; each must occur once.
 WarpMesh meshOf(const std::vector<GridVertex>& vertices, const CsvTable& table) {
     const glm::u64vec2 size = gridSize(vertices, table);
     WarpMesh mesh{std::vector<WarpMesh::Vertex>(vertices.size()), gridTriangles(size.x, size.y)};
@@ -211,7 +211,7 @@ namespace {
 
 // Two columns of a polar mesh are neighbours: the first and the last.
 constexpr std::uint32_t kPolar = 1, kRectangular = 2;
-// Of a vertex that is not shown.
+// Marks a vertex that is not shown.
 constexpr double kHidden = std::numeric_limits<double>::quiet_NaN();
 
 struct BourkeMesh {
@@ -219,7 +219,7 @@ struct BourkeMesh {
     WarpMesh mesh;
 };
 
-// Type, then columns and rows. Throws Error where no mesh has so many.
+// Reads the type, then columns and rows. Throws Error for sizes that no mesh has.
 void readBourkeHeader(VendorLines& lines, BourkeMesh& read) {
     lines.next();
     read.type = lines.integer(lines.line(), 1000);
@@ -234,7 +234,7 @@ void readBourkeHeader(VendorLines& lines, BourkeMesh& read) {
                    std::to_string(read.rows) + " vertices; copy it anew");
 }
 
-// All of them, row by row; a light below zero hides a vertex.
+// Reads all vertices, row by row; a light below zero hides a vertex.
 void readBourkeVertices(VendorLines& lines, BourkeMesh& read) {
     const std::size_t count = std::size_t{read.columns} * read.rows;
     while (lines.next()) {
@@ -252,7 +252,7 @@ void readBourkeVertices(VendorLines& lines, BourkeMesh& read) {
                    std::to_string(count) + " vertices; copy it anew");
 }
 
-// Half the picture's width in these units, where its height is 2.
+// Half the picture's width, in units in which its height is 2.
 double aspectOf(const WarpMesh& mesh, const ReadOptions& options) {
     if (options.sizePixels && pictureSize(options.sizePixels->x, options.sizePixels->y))
         return static_cast<double>(options.sizePixels->x) / options.sizePixels->y;
@@ -287,7 +287,7 @@ void addBourkeTriangles(BourkeMesh& read) {
 bool isPaulBourke(std::span<const std::byte> bytes) {
     const std::string source;
     VendorLines lines(bytes.first(std::min(bytes.size(), kTelling)), source);
-    // Whether the next line is so many numbers.
+    // Whether the next line has this many numbers.
     const auto hasNumbers = [&](std::size_t count) {
         lines.next();
         const auto fields = lines.fields(' ');
@@ -379,7 +379,7 @@ std::uint32_t scalableCount(const VendorLines& lines,
     return lines.integer(value, 2 * kMostVertices);
 }
 
-// Keys that are obeyed, that change no picture, or whose switch is said.
+// Keys that are supported, that change no picture, or that another key switches.
 constexpr std::array<std::string_view, 26> kQuietKeys{"OPENMESH",
                                                       "VERTICES",
                                                       "FACES",
@@ -407,7 +407,7 @@ constexpr std::array<std::string_view, 26> kQuietKeys{"OPENMESH",
                                                       "PERSPECTIVE_YOFFSET",
                                                       "PERSPECTIVE_ZOFFSET"};
 
-// What is not done here although a key says it, and what to do. Only DO_NO_WARP is obeyed.
+// The remark for each key that is not supported, and what to do. Only DO_NO_WARP is supported.
 constexpr std::array<std::pair<std::string_view, const char*>, 6> kSaidKeys{{
     {"APPLY_MASK",
      "its mask is a file of its own, which is not read: export MPCDI with an alphaMap, or draw it "
@@ -426,23 +426,23 @@ constexpr std::array<std::pair<std::string_view, const char*>, 6> kSaidKeys{{
     {"DO_NO_WARP", "nothing is warped, only its blend is taken: set it to 0 for the mesh's warp"},
 }};
 
-// A value that is neither zero nor one of the words for off.
+// Whether a value switches a key on: it is neither zero nor a word for off.
 bool isOn(std::string_view value) {
     const std::string_view off[] = {"", "0", "OFF", "FALSE", "NO", "off", "false", "no"};
     return std::ranges::find(off, value) == std::end(off) && numberIn(value) != 0.0;
 }
 
-// Keys whose usual value is a word, and what it is.
+// Keys whose usual value is a word, with that word.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kUsualWords{
     {{"SAMPLING", "LINEAR"}, {"PROJECTION", "PERSPECTIVE"}}};
 
-// Whether nothing is to be said of a key with this value.
+// Whether a key with this value needs no remark.
 bool isQuiet(std::string_view key, std::string_view value) {
     const bool isUsual = std::ranges::find(kUsualWords, std::pair{key, value}) != kUsualWords.end();
     return isUsual || !isOn(value) || std::ranges::find(kQuietKeys, key) != kQuietKeys.end();
 }
 
-// Says what a key that is switched on does not do here, and obeys the one that is obeyed.
+// Adds the remarks about keys that are switched on, and applies the supported one.
 void heedSwitch(const VendorLines& lines,
                 std::string_view key,
                 std::string_view value,
@@ -481,7 +481,7 @@ void readScalableLine(const VendorLines& lines, ScalableFile& file) {
         readScalableKey(lines, fields, file);
 }
 
-// The whole file. Throws Error where its counts do not hold.
+// Reads the whole file. Throws Error where its counts are wrong.
 ScalableFile scalableFile(VendorLines& lines) {
     ScalableFile file;
     while (lines.next()) readScalableLine(lines, file);
@@ -494,7 +494,7 @@ ScalableFile scalableFile(VendorLines& lines) {
     return file;
 }
 
-// The part of the picture that ORTHO_* cut out becomes the whole.
+// Makes the part of the picture that ORTHO_* cuts out the whole picture.
 void placeInPicture(ScalableFile& file, glm::ivec2 size, const VendorLines& lines) {
     const glm::dvec2 first(file.number("ORTHO_LEFT"), file.number("ORTHO_BOTTOM"));
     const glm::dvec2 span =
@@ -520,7 +520,7 @@ Frustum scalablePose(const ScalableFile& file) {
                   cr * cy * cp + sr * sy * sp);
 }
 
-// Edges are signed angles; without any the mesh shows flat content.
+// Sets the edges, which are signed angles; without any the mesh shows flat content.
 std::optional<Frustum> scalableFrustum(const ScalableFile& file, const VendorLines& lines) {
     Frustum frustum = scalablePose(file);
     const std::array<std::pair<const char*, double*>, 4> edges{{

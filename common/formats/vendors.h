@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Readers of the warp files of other vendors. Which format a file has is told by its first bytes;
-// what each format means, and what of it is verified, is in docs/wall_files.md. Files are
-// untrusted: every reader throws Error with one line that says what, where and what to do.
+// Reads the warp files of other vendors. The first bytes of a file show its format;
+// docs/wall_files.md describes each format and what of it is verified. Files are untrusted: every
+// reader throws Error with one line that says what, where and what to do.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@
 
 namespace aquarama::formats {
 
-// A file beside another that says where a channel is seen from (x;y;z;heading;...); no bytes where
-// there is none.
+// A frustum file beside a warp file: the pose of a channel (x;y;z;heading;...). No bytes without
+// one.
 struct FrustumFile {
     std::string source;
     std::span<const std::byte> bytes;
@@ -69,7 +69,7 @@ struct FrustumFile {
                                       const ReadOptions& options);
 
 // Wavefront obj. As a wall file it needs texture coordinates, which are places of the picture; its
-// points are the screen's.
+// points are points of the screen.
 [[nodiscard]] bool isObj(std::span<const std::byte> bytes);
 [[nodiscard]] WallFile readObjWarp(std::span<const std::byte> bytes,
                                    const std::string& source,
@@ -82,28 +82,30 @@ struct TriangleMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::string> remarks = {};  // as WallFile has them
 };
-// Polygons become fans. A point is there once for each texture coordinate that faces give it.
+// Polygons become fans of triangles. A point is repeated for each texture coordinate that faces
+// give it.
 [[nodiscard]] TriangleMesh readObj(std::span<const std::byte> bytes, const std::string& source);
 
-// The meshes as they stand in files, before they are rasterised.
+// The meshes of files before they are rasterised.
 [[nodiscard]] WarpMesh simcadMesh(std::span<const std::byte> bytes, const std::string& source);
 [[nodiscard]] WarpMesh domeprojectionMesh(std::span<const std::byte> bytes,
                                           const std::string& source);
 [[nodiscard]] WarpMesh scissMesh(std::span<const std::byte> bytes, const std::string& source);
 
-// Warns of each of these, once in a process: a wall may be made of the same files several times.
+// Logs each remark as a warning, once in a process: a wall may be made from the same files several
+// times.
 void sayRemarks(const std::vector<std::string>& remarks);
 
 // What these readers share.
 
-// The most that a file may have: vertices or samples; pixels each way and in all of a picture.
+// Limits of a file: vertices or samples; pixels of a picture each way and in all.
 inline constexpr std::size_t kMostVertices = std::size_t{1} << 22;
 inline constexpr std::size_t kMostPictureSide = 16384;
 inline constexpr std::size_t kMostPicturePixels = std::size_t{1} << 25;
 // The exponent of blends whose factor multiplies encoded colours, where the file names none.
 inline constexpr double kCommonGamma = 2.2;
 
-// A picture's size of these numbers, if it can be one.
+// The size of a picture, if these numbers can be one.
 [[nodiscard]] std::optional<glm::ivec2> pictureSize(double width, double height);
 // The name of a channel whose file gives none: the file's, without folder and ending.
 [[nodiscard]] std::string stemOf(const std::string& path);
@@ -113,12 +115,12 @@ inline constexpr double kCommonGamma = 2.2;
 // Adds pose, edges and position of a frustum file where there is one; true then.
 bool addFrustum(FileChannel& channel, const FrustumFile& file);
 
-// Two triangles for each cell of a grid of vertices that stand row by row.
+// Two triangles for each cell of a grid of vertices, row by row.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> gridTriangles(std::size_t columns,
                                                                       std::size_t rows);
-// The mesh as the channel's warp: its own nodes where they lie evenly from border to border, else
-// rasterised at the picture's size, which the channel or the user must know. With `lightGamma` the
-// vertices' light becomes the blend, and multiplies colours that are encoded so.
+// Sets the mesh as the channel's warp: its own nodes where they are even from border to border;
+// else rasterised at the picture's size, which the channel or the user must give. With `lightGamma`
+// the light of the vertices becomes the blend; it multiplies colours with this gamma.
 void addMesh(FileChannel& channel,
              WarpMesh mesh,
              const std::string& source,
@@ -157,11 +159,11 @@ class VendorLines {
     int lineNumber_ = 0;      // of the line, or the first of those that were joined
     int linesTaken_ = 0;
 };
-// A text that is no number, quoted, with the number that it is meant as where that can be told.
+// A text that is no number, quoted, with the number that it seems to mean.
 [[nodiscard]] std::string quotedNumber(std::string_view text);
 // The number in a text, as above.
 [[nodiscard]] std::optional<double> numberIn(std::string_view text);
-// At most this many of the first bytes, as text.
+// The first bytes as text, at most this many.
 [[nodiscard]] std::string_view beginning(std::span<const std::byte> bytes, std::size_t most);
 
 // A binary file, little endian, read from front to back.
@@ -172,7 +174,7 @@ class VendorBytes {
         : source_(source), bytes_(bytes) {}
     [[nodiscard]] std::size_t at() const { return at_; }
     [[nodiscard]] std::size_t left() const { return bytes_.size() - at_; }
-    // Goes there. A place beyond the end is an error.
+    // Moves to an offset. An offset beyond the end is an error.
     void go(std::size_t byte);
     [[nodiscard]] std::uint32_t u32();
     [[nodiscard]] std::uint16_t u16();
@@ -181,7 +183,7 @@ class VendorBytes {
     [[nodiscard]] float f32();
     // A finite number of at most 1e9, positive or negative.
     [[nodiscard]] double number();
-    // Refuses the file unless so many parts of so many bytes follow.
+    // Refuses the file unless this many parts of this size follow.
     void need(std::uint64_t count, std::uint64_t bytesEach, const char* what) const;
     [[noreturn]] void fail(const std::string& why) const;
 

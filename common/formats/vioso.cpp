@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// VIOSO vwf: blocks, each a warp with its header or a Windows bitmap, which belongs to the warp
-// before it: blend, black level, white. Rows and v are from the top, as the vendor's own shaders
-// take them.
+// Reads VIOSO vwf: blocks, each a warp with its header, or a Windows bitmap that belongs to the
+// warp before it: blend, black level, white. Rows and v are from the top, as in the vendor's own
+// shaders.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr std::size_t kNameAt = 124, kNameBytes = 256, kBlackScaleAt = 96, kCont
 constexpr std::size_t kLeastHeader = 28, kMostHeader = std::size_t{1} << 20;
 constexpr std::uint32_t kZipped = 0x1, kBorder = 0x8, kBlackLevel = 0x20, kPoints = 0x40,
                         kEncrypted = 0x400;
-// Records of which the vendor's shaders show nothing.
+// Records that the vendor's shaders do not show.
 constexpr float kUnlitBelow = 0.1F;
 constexpr float kUnlit = std::numeric_limits<float>::quiet_NaN();
 constexpr double kBitmapMost8 = 255, kBitmapMost16 = 65535;
@@ -52,7 +52,7 @@ std::string magicAt(VendorBytes& in) {
     return magic;
 }
 
-// A text of at most so many bytes, up to its first zero, without control characters.
+// A text of a fixed number of bytes, up to its first zero, without control characters.
 std::string textAt(VendorBytes& in, std::size_t most) {
     std::string text;
     for (std::size_t i = 0; i < most; ++i) {
@@ -77,7 +77,7 @@ void refuseUnreadable(const VendorBytes& in, const ViosoHeader& header) {
                 std::to_string(header.dataBytes) + " bytes; export it anew");
 }
 
-// Headers of later versions are longer; what one lacks is zero.
+// Headers of later versions are longer; missing values are zero.
 void readLaterFields(VendorBytes& in, std::size_t begin, std::size_t bytes, ViosoHeader& header) {
     const auto has = [&](std::size_t at, std::size_t size) {
         if (at + size > bytes) return false;
@@ -123,7 +123,7 @@ glm::vec3 contentRecord(VendorBytes& in, bool border) {
     return sample;
 }
 
-// Metres; three numbers that are none where nothing is lit.
+// A point in metres; three NaN where nothing is lit.
 glm::vec3 pointRecord(VendorBytes& in) {
     glm::vec3 sample;
     for (int i = 0; i < 3; ++i) sample[i] = in.f32();
@@ -146,13 +146,13 @@ Warp readRecords(VendorBytes& in, const ViosoHeader& header, bool upsideDown) {
     return warp;
 }
 
-// The part of the content that the channel shows, if the header has it. True where what it has can
-// be none.
+// The part of the content that the channel shows, if the header has it. True where its values
+// cannot be a part.
 bool placeInContent(FileChannel& channel, const std::array<double, 4>& content) {
     const auto [left, top, right, bottom] = content;
     const auto isPart = [](double low, double high) { return low >= 0 && low < high && high <= 1; };
     if (!isPart(left, right) || !isPart(top, bottom))
-        return content != std::array<double, 4>{};  // four zeros say nothing
+        return content != std::array<double, 4>{};  // four zeros: no value
     channel.corner = {left, top};
     channel.extent = {right - left, bottom - top};
     return false;
@@ -201,7 +201,7 @@ Bitmap readBitmapHeader(VendorBytes& in) {
     bitmap.bits = in.u16();
     const std::uint32_t compression = in.u32();
     bitmap.end = std::max(bitmap.pixels, bitmap.begin + bytes);
-    if (width == 0 || rows == 0) return bitmap;  // stands for a map that is not there
+    if (width == 0 || rows == 0) return bitmap;  // a placeholder for a missing map
     if (!pictureSize(width, rows)) in.fail("no bitmap is so large; export it anew");
     if (compression != 0) in.fail("the bitmap is compressed; export it plain");
     bitmap.width = static_cast<int>(width);
@@ -209,7 +209,7 @@ Bitmap readBitmapHeader(VendorBytes& in) {
     return bitmap;
 }
 
-// One colour of a pixel as a part of white.
+// One colour of a pixel as a share of white.
 double readCode(VendorBytes& in, int bytesEach) {
     if (bytesEach == 1) return in.u8() / kBitmapMost8;
     if (bytesEach == 2) return in.u16() / kBitmapMost16;
@@ -217,11 +217,11 @@ double readCode(VendorBytes& in, int bytesEach) {
     return value >= 0 ? std::min(value, 1.0) : 0;
 }
 
-// How the pixels of a bitmap of so many bits are made up.
+// The layout of the pixels of a bitmap, by their number of bits.
 struct PixelLayout {
     int bits = 0;
     int bytesEach = 1;      // of a colour
-    int colours = 3;        // with the fourth that says nothing
+    int colours = 3;        // with an unused fourth one
     bool redFirst = false;  // else blue
 };
 constexpr std::array kLayouts{PixelLayout{24, 1, 3, false},
@@ -248,7 +248,7 @@ void mergeGrey(Mask& mask) {
     mask.components = 1;
 }
 
-// The next pixel's colours as parts of white, red first.
+// The next pixel's colours as shares of white, red first.
 std::array<double, 3> readPixel(VendorBytes& in, const PixelLayout& layout) {
     std::array<double, 3> colours{};
     for (double& colour : colours) colour = readCode(in, layout.bytesEach);
@@ -257,7 +257,8 @@ std::array<double, 3> readPixel(VendorBytes& in, const PixelLayout& layout) {
     return colours;
 }
 
-// scale: the file's, of a black level. Codes stay 8 bits where they were and are not scaled.
+// The mask of a bitmap. scale: of a black level, in the file. Codes of 8 bits that are not scaled
+// stay so.
 Mask readBitmap(VendorBytes& in, const Bitmap& bitmap, double scale) {
     const PixelLayout layout = layoutOf(in, bitmap.bits);
     in.go(bitmap.pixels);
@@ -286,7 +287,7 @@ std::string unusedBitmap(int which) {
            "calibrate where their whites differ";
 }
 
-// Blend, then black level; what follows is not used by the vendor either.
+// Sets the blend, then the black level; the vendor uses no further bitmaps either.
 void addBitmap(VendorBytes& in, ViosoChannel& to) {
     const Bitmap bitmap = readBitmapHeader(in);
     const int which = to.bitmaps++;

@@ -41,7 +41,7 @@ struct Format {
                      const FrustumFile& frustum);
 };
 
-// Of readers that need no frustum beside the file.
+// For readers that need no frustum beside the file.
 template <auto read>
 WallFile alone(Bytes bytes,
                const std::string& source,
@@ -60,7 +60,7 @@ constexpr std::array kFormats{Format{isMpcdi, alone<readMpcdi>},
                               Format{isPfm, readPfm},
                               Format{isObj, alone<readObjWarp>}};
 
-// The samples about a place along one axis: the first of two, and how much of the second.
+// The two samples around a place along one axis: the first one, and the share of the second.
 struct Between {
     int low = 0, high = 0;
     double t = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What other tools know of the channels of a wall: warp, blend, black level and pose of each, read
-// from any of their files into one representation. Files are untrusted: every reader checks sizes
-// before it takes memory, and throws Error with one line that says what, where and what to do.
+// A wall file: warp, blend, black level and pose of the channels of a wall, read from any known
+// format. Files are untrusted: every reader checks sizes before it allocates, and throws Error with
+// one line that says what, where and what to do.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace aquarama::formats {
 
-// What the samples of all warps of a file say; named as the profiles of MPCDI.
+// The meaning of the samples of all warps of a file; named as the profiles of MPCDI.
 enum class Profile : std::uint8_t {
     Content,    // "2d": a place in flat content, the same for all channels: x right, y down, 0 to 1
     View,       // "3d": a place in the picture of the channel's frustum: x right, y down, 0 to 1
@@ -27,27 +27,27 @@ enum class Profile : std::uint8_t {
     Projector,  // "sl": as View; frustum and position are those of the projector itself
 };
 
-// How the samples of a warp lie in the projector's picture: sample c of n at (c + 0.5) / n of its
-// width, or from border to border at c / (n - 1). The same for rows.
+// The places of a warp's samples in the projector's picture: sample c of n is at (c + 0.5) / n of
+// its width, or from border to border at c / (n - 1). The same for rows.
 enum class Sampling : std::uint8_t { Centres, Nodes };
 
-// How a file says the samples of a warp, and says them again when it is written: floats would not
-// come back the same in another way. Samples in memory are always as Profile tells.
+// The way in which a file stores the samples of a warp. They are written in the same way, as floats
+// would not stay exact in another. Samples in memory always have the meaning of Profile.
 enum class Stored : std::uint8_t {
     Places,       // of the channel's part of the buffer (Content), of the picture, of the world
     WholeBuffer,  // of the whole buffer (Content)
     Offsets,      // from an even grid (View, Projector)
 };
 
-// The warp of a channel: for places of the projector's picture, top row first, what they show
-// (Profile). x is NaN where a place shows nothing.
+// The warp of a channel: what each place of the projector's picture shows (Profile), top row first.
+// x is NaN where a place shows nothing.
 struct Warp {
     glm::ivec2 size{};  // samples
     Sampling sampling = Sampling::Centres;
     std::vector<glm::vec3> samples;
     Stored stored = Stored::Places;
-    // In the order of the samples, where a float map was read: what its file had for them. They are
-    // written again to the bit, each where its sample is still the same.
+    // The texels of a float map that was read, in the order of the samples. They are written again
+    // exactly, where the sample is unchanged.
     std::vector<glm::vec3> texels = {};
 };
 
@@ -61,9 +61,9 @@ struct Mask {
     std::vector<std::uint16_t> codes;
 };
 
-// Where a picture is seen or thrown from, and its edges. Canonical axes: x right, y up, -z forward;
-// camera_to_world = Ry(-yaw) Rx(pitch) Rz(-roll). Radians; edges are angles from the optical axis,
-// left and down negative.
+// The pose from which a picture is seen or projected, and its edges. Canonical axes: x right, y up,
+// -z forward; camera_to_world = Ry(-yaw) Rx(pitch) Rz(-roll). Radians; edges are angles from the
+// optical axis, left and down negative.
 struct Frustum {
     double yaw = 0, pitch = 0, roll = 0;
     double left = 0, right = 0, down = 0, up = 0;
@@ -71,7 +71,7 @@ struct Frustum {
 // camera_to_world of its yaw, pitch and roll.
 [[nodiscard]] glm::dmat3 worldFromCamera(const Frustum& frustum);
 
-// The axes of a file in which a projector's position is given: vectors of canonical axes.
+// The axes in which a file gives a projector's position, as vectors of canonical axes.
 struct CoordinateFrame {
     glm::dvec3 position{};  // in the file's axes
     glm::dvec3 yaw{0, -1, 0}, pitch{1, 0, 0},
@@ -80,30 +80,30 @@ struct CoordinateFrame {
     [[nodiscard]] glm::dvec3 canonicalPosition() const;
 };
 
-// What the format allows and we do not know, kept for a round trip: an element of XML, and files of
-// the archive that it names.
+// Unknown parts of a file, kept for a round trip: an element of XML, and files of the archive that
+// it names.
 struct Extension {
     std::string xml;
     std::vector<std::pair<std::string, std::vector<std::byte>>> files;
-    std::string place = "extensionSet";  // the element that it stands in
+    std::string place = "extensionSet";  // the element that contains it
 };
 
-// How a projector makes its own red, green and blue, for a wall whose projectors differ. After
-// blend and black level: own = mix * linear Rec. 709, both 0 to 1; for each of the three the
-// projector is sent the code of which response says that it gives this light.
+// The conversion to a projector's own red, green and blue, for walls whose projectors differ. After
+// blend and black level: own = mix * linear Rec. 709, both 0 to 1. The projector is sent the codes
+// whose light, by `response`, is own.
 struct ChannelColour {
     glm::mat3 mix{1};
-    // Light for codes that are spread evenly from 0 to 1, linear between them: from 0 to 1, nowhere
-    // falling.
+    // The light of codes at equal steps from 0 to 1, linear between them. It rises from 0 to 1 and
+    // never falls.
     std::array<std::vector<float>, 3> response;
 };
 inline constexpr std::array<const char*, 3> kPrimaryNames{"red", "green", "blue"};
 inline constexpr std::size_t kLeastResponses = 2, kMostResponses = 1024;
 inline constexpr float kMostMix = 100;     // of each number, either way
 inline constexpr float kLeastMix = 1e-9F;  // of its determinant: the light of codes can be told
-// What is wrong with it, as words behind "has"; empty: nothing.
+// The fault of a colour, as the words after "has"; empty: none.
 [[nodiscard]] std::string faultOf(const ChannelColour& colour);
-// The least code, 0 to 1, at which a response gives so much light; and the light of a code.
+// The least code (0 to 1) with at least this light; and the light of a code.
 [[nodiscard]] double codeFor(std::span<const float> response, double light);
 [[nodiscard]] double lightFor(std::span<const float> response, double code);
 
@@ -112,7 +112,7 @@ struct FileChannel {
     std::string name;
     glm::ivec2 sizePixels{};
     std::string buffer = "buffer1";  // content that it shares with channels of the same buffer
-    glm::ivec2 bufferPixels{};       // 0: not said
+    glm::ivec2 bufferPixels{};       // 0: not given
     // The part of the buffer that it takes: top left corner and size, 0 to 1.
     glm::dvec2 corner{0, 0}, extent{1, 1};
     std::optional<Frustum> frustum;
@@ -135,40 +135,38 @@ struct WallFile {
     std::vector<Extension> extensions;
     DataOrigin origin = DataOrigin::Unknown;
     std::string date;  // as the file says it; where empty, that of writing
-    // What the file asks for and nobody here does, so that the picture may not be what its producer
-    // meant: a line each for the user, with the place in the file and what to do.
+    // Requests of the file that are not supported, so that the picture may differ from the
+    // producer's: a line each for the user, with the place in the file and what to do.
     std::vector<std::string> remarks = {};
 };
 inline constexpr std::size_t kMostRemarks = 16;
-// Adds one more, as long as they are few.
+// Adds a remark, up to kMostRemarks.
 void remark(std::vector<std::string>& remarks, const std::string& line);
 
-// What a file does not tell itself, and the user may.
+// What a file does not say and the user may add.
 struct ReadOptions {
     std::optional<glm::ivec2> sizePixels = {};  // of the projector's picture
     std::optional<Sampling> sampling = {};      // of coarse grids of formats that leave it open
     bool upsideDown = false;  // the producer's rows run the other way than the format says
 };
 
-// Reads a file of any known format; which one is told by its content, not by its name. Throws
-// Error.
-// Of a mesh or map with a frustum file beside it, that is read as well.
+// Reads a file of any known format, which its content shows, not its name. A frustum file beside a
+// mesh or map is read as well. Throws Error.
 [[nodiscard]] WallFile readWallFile(const std::string& path, const ReadOptions& options = {});
-// The same of its bytes; `source` names it in errors. `frustum`: the bytes of the frustum file,
-// none where there is none.
+// The same from its bytes; `source` names it in errors. `frustum`: the bytes of the frustum file,
+// if any.
 [[nodiscard]] WallFile readWallFile(std::span<const std::byte> bytes,
                                     const std::string& source,
                                     const ReadOptions& options = {},
                                     std::span<const std::byte> frustum = {});
 
-// The warp at a place of the picture (0 to 1, top left corner at (0, 0)), bilinear between samples;
-// beyond the outermost centres by the line through the last two. x is NaN where one of the samples
-// that matter is.
+// The warp at a place of the picture (0 to 1, top left corner at (0, 0)), bilinear between samples
+// and extrapolated beyond the outermost centres. x is NaN where a sample that is used is NaN.
 [[nodiscard]] glm::vec3 warpAt(const Warp& warp, glm::dvec2 place);
-// Linear light that a mask lets through at a place, bilinear between the centres of its codes;
+// The linear light that a mask transmits at a place, bilinear between the centres of its codes;
 // beyond them that of the border.
 [[nodiscard]] glm::vec3 lightAt(const Mask& mask, glm::dvec2 place);
-// lightAt() for many places: what each code is in linear light is computed once. Immutable.
+// lightAt() for many places: the linear light of each code is computed once. Immutable.
 class MaskLight {
   public:
     // `mask` outlives it.
@@ -179,11 +177,11 @@ class MaskLight {
     const Mask& mask_;
     std::vector<double> lightOfCode_;
 };
-// The same warp at the centres of so many samples, stored as places: for tools that know nothing
+// The same warp at the centres of a grid of samples, stored as places, for tools that read nothing
 // else.
 [[nodiscard]] Warp resampled(const Warp& warp, glm::ivec2 size);
 
-// A mesh over a projector's picture, as several formats have it.
+// A mesh over a projector's picture, as in several formats.
 struct WarpMesh {
     struct Vertex {
         glm::dvec2 place;   // of the picture, 0 to 1, top left corner at (0, 0)
@@ -193,8 +191,8 @@ struct WarpMesh {
     std::vector<Vertex> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
-// The mesh at the centres of so many samples, linear within triangles; `light` where a mask is
-// wanted, else null. Of triangles that overlap the later wins.
+// The mesh at the centres of a grid of samples, linear within triangles. `light`: receives the
+// blend as a mask, unless null. Where triangles overlap, the later one counts.
 [[nodiscard]] Warp rasterised(const WarpMesh& mesh, glm::ivec2 size, Mask* light = nullptr);
 
 }  // namespace aquarama::formats

@@ -20,7 +20,7 @@ double distanceToSide(glm::dvec2 place, glm::dvec2 from, glm::dvec2 to) {
     return glm::distance(place, from + t * side);
 }
 
-// 0 inside, by the even-odd rule.
+// The distance of a place from a polygon; 0 inside, by the even-odd rule.
 double distanceOutside(const std::vector<glm::dvec2>& corners, glm::dvec2 place) {
     bool isInside = false;
     double distance = std::numeric_limits<double>::infinity();
@@ -34,17 +34,16 @@ double distanceOutside(const std::vector<glm::dvec2>& corners, glm::dvec2 place)
     return isInside ? 0 : distance;
 }
 
-// Which of two pictures a place belongs to: from -1 to 1, even across an overlap, 0 where both pull
-// alike.
+// The position between two pictures, -1 to 1: linear across an overlap, 0 where both have one
+// weight.
 double side(double one, double other) {
     const double a = std::sqrt(one), b = std::sqrt(other);
     return (a - b) / (a + b);
 }
 
-// As water fills vessels of different heights: those that are full drop out, and the rest share
-// what is left until nothing is, or all are full.
-// Hands out `all` in proportion to what each wants, on top of what it was given, and none more than
-// it may have. Returns what is left over.
+// Hands out `all` in proportion to what each part wants, on top of what it was given, up to the
+// most that each may have. Parts that are full drop out; the others share the rest, until nothing
+// is left or all are full. Returns what is left.
 double handOut(double all,
                std::vector<double> wanted,
                const std::vector<double>& most,
@@ -92,8 +91,9 @@ std::optional<double> AdjustedBlend::widthOf(std::size_t one, std::size_t other)
     return width;
 }
 
-// What becomes of the share of one of two channels that blend, as a factor. An overlap's slope of
-// side() tells its width; where it is wider than the limit, the slope is made that of the limit.
+// The factor for the share of the first of two channels that blend. The slope of side() gives the
+// width of their overlap; where it is wider than the limit, the slope is raised to that of the
+// limit.
 double AdjustedBlend::narrowed(std::size_t one,
                                std::size_t other,
                                glm::dvec2 panorama,
@@ -137,7 +137,7 @@ void AdjustedBlend::adjust(std::vector<BlendPart>& parts,
                 limited.back() *= narrowed(part.channel, other.channel, panorama, pulls);
     }
     std::vector<double> given(parts.size());
-    // What a mask takes from a channel goes to others, in spite of limits.
+    // The light that masks take from a channel goes to others, even beyond limits.
     const double left = handOut(all, limited, most, given);
     handOut(left, unlimited, most, given);
     for (std::size_t i = 0; i < parts.size(); ++i) parts[i].share = given[i];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Masks and limits of blends that were set by hand, on top of the shares of light that geometry or
-// wall files give.
+// Masks and limits of blends that were set by hand: they change the shares of light of geometry or
+// wall files.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace aquarama::wall {
 
-// A channel that lights a place: its share of the light there, and what masks leave it at most, 0
+// A channel that lights a place: its share of the light there, and the most that masks leave it, 0
 // to 1.
 struct BlendPart {
     std::size_t channel = 0;
@@ -26,19 +26,19 @@ class AdjustedBlend {
   public:
     explicit AdjustedBlend(const config::Adjustments& adjustments) : adjustments_{adjustments} {}
 
-    // There are neither masks nor limits.
+    // Whether there are neither masks nor limits.
     [[nodiscard]] bool isIdentity() const {
         return adjustments_.masks.empty() && adjustments_.blends.empty();
     }
-    // 0 inside a mask of this channel, 1 beyond its soft edge. Pixels of the channel's picture and
-    // of the panorama.
+    // The light that masks leave this channel: 0 inside a mask, 1 beyond its soft edge. The place
+    // is given in pixels of the channel's picture and of the panorama.
     [[nodiscard]] double mask(std::size_t channel, glm::dvec2 pixel, glm::dvec2 panorama) const;
 
-    // How strongly a channel reaches a place of the panorama, in pixels; 0 at its picture's border
-    // and beyond; nothing where the panorama has no screen.
+    // The weight of a channel at a place of the panorama, in pixels; 0 at its picture's border and
+    // beyond; nothing where the panorama has no screen.
     using Pulls = std::function<std::optional<double>(std::size_t channel, glm::dvec2 panorama)>;
-    // All the parts at a place, together. Their sum stays what it is, but where masks of all of
-    // them leave less.
+    // Adjusts all parts at a place together. Their sum stays the same unless the masks of all leave
+    // less.
     void adjust(std::vector<BlendPart>& parts, glm::dvec2 panorama, const Pulls& pulls) const;
 
   private:

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Control points: what a channel shows is moved by hand, on top of whatever says where it shows it.
+// Control points: they move a channel's picture by hand, on top of its other geometry.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -19,22 +19,21 @@ namespace aquarama::wall {
 
 namespace {
 
-// Of a control point, with its place on the panorama; pixels of that.
+// A control point and its hill; pixels of the panorama.
 struct Anchor {
     glm::dvec2 place{}, wanted{};
     double radius = 0;
     config::SourcePlace source = {};
-    glm::dvec2 weight{};  // of its hill, so that all points together move as is wanted
+    glm::dvec2 weight{};  // of the hill, such that the hills of all points sum to what each wants
 };
 
-// It has an end, and a system of such hills about different places always has a solution while
-// their radii are alike.
-// Wendland's function of second order: 1 in the middle, 0 with all of two derivatives at the radius
-// and beyond.
+// Wendland's function of second order: 1 in the middle; 0, with its first two derivatives, at the
+// radius and beyond. A system of such hills about different places has a solution while their radii
+// are alike.
 double hill(double share) {
     return share < 1 ? std::pow(1 - share, 4) * (4 * share + 1) : 0;
 }
-// Its slope, divided by the share.
+// The slope of hill(), divided by the share.
 double hillSlope(double share) {
     return share < 1 ? -20 * std::pow(1 - share, 3) : 0;
 }
@@ -43,47 +42,37 @@ double hillOf(const Anchor& anchor, glm::dvec2 place) {
     return hill(glm::distance(place, anchor.place) / anchor.radius);
 }
 
-// Solves the square system of `rows` x = `right` by elimination; false where it has no solution
-// that is worth its name.
-bool eliminate(std::vector<std::vector<double>>& rows, std::vector<glm::dvec2>& right) {
-    constexpr double kLeastPivot = 1e-6;  // of hills, which are 1 high
-    const std::size_t count = rows.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        std::size_t best = i;
-        for (std::size_t j = i + 1; j < count; ++j)
-            if (std::abs(rows[j][i]) > std::abs(rows[best][i])) best = j;
-        std::swap(rows[i], rows[best]);
-        std::swap(right[i], right[best]);
-        if (std::abs(rows[i][i]) < kLeastPivot) return false;
-        for (std::size_t j = 0; j < count; ++j) {
-            const double factor = rows[j][i] / rows[i][i];
-            if (j == i || factor == 0) continue;
-            for (std::size_t k = i; k < count; ++k) rows[j][k] -= factor * rows[i][k];
-            right[j] -= factor * right[i];
-        }
+// Solves for the weights with which the hills of all anchors together move each place as wanted.
+// False where the system is singular.
+bool solveWeights(std::vector<Anchor>& anchors) {
+    constexpr double kLeastPivot = 1e-6;  // hills are 1 high
+    const auto count = static_cast<Eigen::Index>(anchors.size());
+    Eigen::MatrixXd hills(count, count);
+    Eigen::MatrixX2d wanted(count, 2);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const Anchor& at = anchors[static_cast<std::size_t>(i)];
+        for (Eigen::Index j = 0; j < count; ++j)
+            hills(i, j) = hillOf(anchors[static_cast<std::size_t>(j)], at.place);
+        wanted.row(i) << at.wanted.x, at.wanted.y;
     }
-    for (std::size_t i = 0; i < count; ++i) right[i] /= rows[i][i];
+    const Eigen::PartialPivLU<Eigen::MatrixXd> factors(hills);
+    if (factors.matrixLU().diagonal().cwiseAbs().minCoeff() < kLeastPivot) return false;
+    const Eigen::MatrixX2d weights = factors.solve(wanted);
+    for (Eigen::Index i = 0; i < count; ++i)
+        anchors[static_cast<std::size_t>(i)].weight = {weights(i, 0), weights(i, 1)};
     return true;
 }
 
-// A smooth move of places of the panorama, in its pixels, that does not fold it: at each point what
-// is wanted there, beyond all radii nothing.
+// A smooth movement of the panorama, in its pixels, that does not fold it: the wanted one at each
+// point, none beyond all radii.
 class SmoothMove {
   public:
-    // Throws Error where there is no such move. `source`: the file that the points stand in.
+    // Throws Error where there is no such movement. `source`: the file of the points.
     SmoothMove(std::vector<Anchor> anchors, const std::string& source)
         : anchors_(std::move(anchors)) {
-        std::vector<std::vector<double>> rows;
-        std::vector<glm::dvec2> right;
-        for (const Anchor& at : anchors_) {
-            std::vector<double>& row = rows.emplace_back();
-            for (const Anchor& of : anchors_) row.push_back(hillOf(of, at.place));
-            right.push_back(at.wanted);
-        }
-        if (!eliminate(rows, right))
+        if (!solveWeights(anchors_))
             refuse(
                 source, anchors_.back(), "two points of one channel lie at one place: remove one");
-        for (std::size_t i = 0; i < anchors_.size(); ++i) anchors_[i].weight = right[i];
         for (const Anchor& anchor : anchors_) checkFold(anchor, source);
     }
 
@@ -92,7 +81,7 @@ class SmoothMove {
             return glm::distance(place, anchor.place) < anchor.radius;
         });
     }
-    // Where a place comes to lie.
+    // The place to which a place moves.
     [[nodiscard]] glm::dvec2 moved(glm::dvec2 place) const {
         glm::dvec2 to = place;
         for (const Anchor& anchor : anchors_) to += anchor.weight * hillOf(anchor, place);
@@ -106,7 +95,7 @@ class SmoothMove {
         glm::dvec2 off = moved(from) - place;
         for (int i = 0; i < kMostSteps && glm::length(off) > kGoodPixels; ++i) {
             glm::dvec2 step = glm::inverse(slopeAt(from)) * off;
-            // Half as far until it is nearer.
+            // Halves the step until it comes nearer.
             for (int half = 0; half < 20; ++half, step /= 2.0)
                 if (glm::length(moved(from - step) - place) < glm::length(off)) break;
             from -= step;
@@ -130,8 +119,7 @@ class SmoothMove {
         }
         return slope;
     }
-    // Looks at places all over a point's circle; a share of the picture's area must be left at
-    // each.
+    // Tests places all over a point's circle: at each, a share of the picture's area must be left.
     void checkFold(const Anchor& anchor, const std::string& source) const {
         constexpr int kSteps = 16;  // from the middle to the radius
         constexpr double kLeastArea = 0.2;
@@ -192,8 +180,8 @@ class AdjustedOptics final : public Optics {
     }
 
   private:
-    // What is to be seen at a point of the screen: the point that was moved there. What would come
-    // from past the screen's edge is what is at the edge.
+    // The point that is shown at a point of the screen: the one that was moved there. Beyond the
+    // screen's edge, the edge is continued.
     [[nodiscard]] glm::dvec3 shownAt(glm::dvec3 point) const {
         const glm::dvec2 place = screen_.unrolled(point) * panorama_;
         if (!move_.moves(place)) return point;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A channel whose warp stands in a file of another program.
+// The optics of a channel whose warp is in a wall file.
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -31,13 +31,13 @@ glm::dvec3 directionIn(const formats::Frustum& frustum, glm::dvec2 place) {
     return formats::worldFromCamera(frustum) * camera;
 }
 
-// What is needed of a map to look into it: one of 4K has another 100 MB of its file's texels.
+// The part of a map that is needed to read it: the texels of a map of 4K are another 100 MB.
 std::optional<formats::Warp> samplesOf(const std::optional<formats::Warp>& warp) {
     if (!warp) return std::nullopt;
     return formats::Warp{.size = warp->size, .sampling = warp->sampling, .samples = warp->samples};
 }
 
-// What the samples of a file's warp mean on a screen.
+// Converts the samples of a file's warp to points of a screen.
 class Meaning {
   public:
     Meaning(glm::dvec3 sweetSpot,
@@ -64,8 +64,8 @@ class Meaning {
     }
 
   private:
-    // Of a projector first through its lens, which leads from its pixels into the picture of its
-    // frustum; the warp is of that picture.
+    // The file's lens maps a projector's pixels into the picture of its frustum, to which the warp
+    // belongs.
     [[nodiscard]] glm::dvec3 sampleAt(glm::dvec2 place) const {
         glm::dvec3 sample(place, 0);
         for (const auto* map : {&lens_, &warp_})
@@ -194,7 +194,7 @@ class CalibratedOptics final : public Optics {
     [[nodiscard]] std::optional<glm::dvec2> pixelOf(glm::dvec3 point) const override {
         return finder_.find(screen_.unrolled(point));
     }
-    // All that is lit, not its border alone: what a file leaves out may have any shape.
+    // All lit points, not the border alone: the unlit part of a file may have any shape.
     [[nodiscard]] std::vector<glm::dvec3> outline(double spill) const override {
         std::vector<glm::dvec3> lit;
         for (double y = 0.5; y < size_.y; ++y)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the channels of a rig make a wall.
+// Checks that the channels of a rig form a wall.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -38,7 +38,7 @@ std::string sideways(double azimuth) {
            (azimuth < 0 ? "left" : "right");
 }
 
-// Of a channel that lights nothing of the screen.
+// The error for a channel that lights nothing of the screen.
 [[noreturn]] void refuseMiss(const config::Channel& channel, const std::string& source) {
     if (channel.wallFile)
         refuse(source,
@@ -163,7 +163,7 @@ void checkEyes(const config::Rig& rig, const Wall& wall, const std::string& sour
             }
 }
 
-// What somebody has measured has ragged edges, and is taken as it is.
+// Measured screens have ragged edges: their dark parts are accepted.
 bool isMeasured(const config::Rig& rig) {
     return rig.screen.shape == config::ScreenShape::Measured ||
            std::ranges::any_of(rig.channels, [](const config::Channel& channel) {

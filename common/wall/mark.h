@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Strips of dark tape that a crew sticks on a screen before a calibration, so that a camera sees
-// where the middle of its edges is. Wall frame, metres.
+// Marks: strips of dark tape on a screen that show a camera the middle of its edges. Wall frame,
+// metres.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ namespace aquarama::wall {
 // A strip of common tape, from the edge of the screen inwards.
 inline constexpr double kMarkWidthMetres = 0.05, kMarkLengthMetres = 0.15;
 
-// Where a strip belongs.
+// The place of a strip.
 struct MarkPlace {
     glm::dvec3 edge{};              // the middle of its end at the screen's edge
     glm::dvec3 inwards{}, along{};  // into the screen, and across the strip; of length one
@@ -23,13 +23,13 @@ struct MarkPlace {
     [[nodiscard]] glm::dvec3 at(double inwardsMetres, double alongMetres) const {
         return edge + inwardsMetres * inwards + alongMetres * along;
     }
-    // Whether a strip that is moved along the edge by so much covers a point of the screen, or the
-    // point is nearer to it than a margin.
+    // Whether a strip, moved along the edge, covers a point of the screen or is nearer to it than a
+    // margin.
     [[nodiscard]] bool covers(glm::dvec3 point, double movedMetres, double marginMetres) const;
 };
 
-// In the middle of the panorama's upper and lower edge, on a screen with four edges and on a dome,
-// whose lower one is its front and whose upper one its back. None on other screens.
+// The places of marks: the middle of the panorama's upper and lower edge, on screens with four
+// edges and on domes (back and front). None on other screens.
 [[nodiscard]] std::vector<MarkPlace> markPlaces(config::ScreenShape shape,
                                                 const ScreenSurface& screen);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A screen as it was measured: triangles.
+// The surface of a measured screen: triangles.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -19,43 +19,18 @@ Lens::Lens(const config::Projector& projector, glm::ivec2 sizePixels)
       focal_(projector.focalPixels),
       principal_(projector.principalPixels),
       size_(sizePixels),
-      radial_(projector.radial) {
+      distortion_(projector.distortion) {
     assert(focal_.x > 0);
     assert(focal_.y > 0);
     for (const glm::dvec2 corner :
          {glm::dvec2(0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1)}) {
-        const glm::dvec2 tangent = undistorted((corner * size_ - principal_) / focal_);
+        const glm::dvec2 tangent = tangentOf(distortion_, (corner * size_ - principal_) / focal_);
         farthestSquared_ = std::max(farthestSquared_, glm::dot(tangent, tangent));
     }
 }
 
-// The least r with r (1 + k1 r^2 + k2 r^4) = the thrown tangent: by Newton's method, within bounds.
-glm::dvec2 Lens::undistorted(glm::dvec2 tangent) const {
-    if (radial_ == glm::dvec2(0)) return tangent;
-    const double thrown = glm::length(tangent);
-    if (thrown == 0) return tangent;
-    constexpr int kSteps = 64;
-    double low = 0, high = thrown / kSteps;
-    // It grows up to the picture's corners, so the first crossing is the one.
-    for (int i = 0; high * stretch(high * high) < thrown && i < 64 * kSteps; ++i) {
-        low = high;
-        high += thrown / kSteps;
-    }
-    double r = (low + high) / 2;
-    for (int i = 0; i < 60 && high - low > 1e-15 * thrown; ++i) {
-        const double square = r * r;
-        const double off = r * stretch(square) - thrown;
-        (off < 0 ? low : high) = r;
-        const double slope = 1 + square * (3 * radial_.x + 5 * square * radial_.y);
-        const double next = r - off / slope;
-        if (std::abs(next - r) < 1e-15 * thrown) break;
-        r = next > low && next < high ? next : (low + high) / 2;
-    }
-    return tangent * (r / thrown);
-}
-
 Ray Lens::ray(glm::dvec2 pixel) const {
-    const glm::dvec2 tangent = undistorted((pixel - principal_) / focal_);
+    const glm::dvec2 tangent = tangentOf(distortion_, (pixel - principal_) / focal_);
     // Rows run down, y runs up.
     return {position_, wallFromProjector_ * glm::dvec3(tangent.x, -tangent.y, -1)};
 }
@@ -64,11 +39,11 @@ std::optional<glm::dvec2> Lens::pixelOf(glm::dvec3 point) const {
     const glm::dvec3 seen = (point - position_) * wallFromProjector_;  // the transpose, applied
     if (seen.z >= 0) return std::nullopt;
     glm::dvec2 tangent = glm::dvec2(seen.x, -seen.y) / -seen.z;
-    if (radial_ != glm::dvec2(0)) {
-        const double square = glm::dot(tangent, tangent);
+    if (distortion_ != BrownLens<double>{}) {
         constexpr double kSlack = 1 + 1e-9;
-        if (square > farthestSquared_ * kSlack) return std::nullopt;  // where the lens may fold
-        tangent *= stretch(square);
+        if (glm::dot(tangent, tangent) > farthestSquared_ * kSlack)
+            return std::nullopt;  // where the lens may fold
+        tangent = imageOf(distortion_, tangent);
     }
     const glm::dvec2 pixel = principal_ + focal_ * tangent;
     const bool inside = pixel.x >= 0 && pixel.y >= 0 && pixel.x <= size_.x && pixel.y <= size_.y;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Patterns of a scan as pure functions of a projector's pixel. A render node draws what these say,
-// and the tests compare its pictures with them.
+// Patterns of a scan as pure functions of a projector's pixel. Render nodes draw them, and tests
+// compare the nodes' pictures with these functions.
 #pragma once
 
 #include <algorithm>
@@ -15,19 +15,19 @@
 
 namespace aquarama::wall {
 
-// Of the cosine: steps of a quarter of a period, and its length. The Gray code's finest stripe is
-// half of a period, so that the two together name every column.
+// The number of phase steps, and the period of the cosine. The finest stripe of the Gray code is
+// half a period, so that both together name every column.
 inline constexpr int kScanPhaseSteps = 4;
 inline constexpr int kScanPeriodPixels = 32;
 
-// Bits of the Gray code of so many pixels with stripes down to `finest`.
+// The number of bits of a Gray code over `pixels` with stripes as fine as `finest`.
 [[nodiscard]] constexpr int scanGrayBits(int pixels, int finest) {
     int bits = 0;
     while ((finest << bits) < pixels) ++bits;
     return bits;
 }
 
-// The exposure of its picture, as a share of that of the others.
+// The exposure of a pattern's picture, as a share of that of the others.
 [[nodiscard]] inline double scanExposure(const config::ScanPattern& pattern) {
     return pattern.kind == config::ScanPattern::Kind::Level ? std::pow(0.25, pattern.step) : 1;
 }
@@ -121,19 +121,18 @@ inline constexpr double kScanDotShare = 1.0 / 120;
                                          std::size_t channel,
                                          glm::ivec2 size,
                                          glm::ivec2 pixel) {
-    using Kind = config::ScanPattern::Kind;
-    if (((pattern.lit >> channel) & 1U) == 0) return glm::vec3(0);
+    if (!config::contains(pattern.lit, channel)) return glm::vec3(0);
     if (pattern.tagged) {
         const auto [cell, corner] = scanTagPlace(size);
         const glm::ivec2 at = pixel - corner;
         if (at.x >= 0 && at.y >= 0 && at.y < cell && at.x < kScanTagCells * cell)
             return scanTagIsLit(at.x / cell, pattern.number) ? pattern.light : glm::vec3(0);
     }
-    if (pattern.kind == Kind::Dots)
+    if (pattern.kind == config::ScanPattern::Kind::Dots)
         return pattern.light * static_cast<float>(scanDotShare(pattern.step, channel, size, pixel));
-    const bool rows = pattern.kind == Kind::GrayRows || pattern.kind == Kind::PhaseRows;
-    return pattern.light * static_cast<float>(rows ? scanShare(pattern, pixel.y, size.y)
-                                                   : scanShare(pattern, pixel.x, size.x));
+    return pattern.light * static_cast<float>(config::isOfRows(pattern.kind)
+                                                  ? scanShare(pattern, pixel.y, size.y)
+                                                  : scanShare(pattern, pixel.x, size.x));
 }
 
 }  // namespace aquarama::wall

@@ -35,7 +35,7 @@ bool isWithinUnit(glm::dvec2 place) {
     return place.x >= 0 && place.y >= 0 && place.x <= 1 && place.y <= 1;
 }
 
-// What unrolls to a rectangle.
+// A surface that unrolls to a rectangle.
 class UnrolledSurface : public ScreenSurface {
   public:
     [[nodiscard]] std::optional<glm::dvec3> at(glm::dvec2 position) const override {
@@ -48,7 +48,7 @@ class UnrolledSurface : public ScreenSurface {
     }
 
   protected:
-    // At a place of the panorama, of the screen that is larger by `spill` metres at each edge.
+    // The point at a place of the panorama, of the screen enlarged by `spill` metres at each edge.
     [[nodiscard]] virtual glm::dvec3 pointAt(glm::dvec2 position, double spill) const = 0;
 };
 
@@ -185,7 +185,7 @@ class Dome final : public ScreenSurface {
     double radius_, halfOpening_;
 };
 
-// A screen that is turned about the x axis, so that what is in front goes down.
+// A screen that is tilted about the x axis, its front downwards.
 class Tilted final : public ScreenSurface {
   public:
     Tilted(std::unique_ptr<const ScreenSurface> upright, double tilt)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The screen, whatever its shape: where light meets it, and how it is unrolled to a panorama. Wall
-// frame, metres.
+// The surface of a screen of any shape: where rays meet it, and how it is unrolled to a panorama.
+// Wall frame, metres.
 #pragma once
 
 #include <memory>
@@ -21,13 +21,13 @@ namespace aquarama::wall {
 // line along it.
 inline constexpr double kSpillMetres = 0.015;
 
-// The direction need not be of unit length.
+// A ray of light; the direction may have any length.
 struct Ray {
     glm::dvec3 origin{};
     glm::dvec3 direction{};
 };
 
-// Where a test pattern lies, for a shader that finds the place of each pixel of a picture itself.
+// The surface of a test pattern, for a shader that computes the place of each pixel itself.
 struct PatternGround {
     enum class Kind : std::uint8_t {
         Cylinder,  // about the local y axis; `size` is its radius
@@ -46,10 +46,11 @@ struct PatternGround {
 class ScreenSurface {
   public:
     virtual ~ScreenSurface() = default;
-    // Where a ray meets that side; nothing where it passes the edges by more than `spillMetres`.
+    // The point where a ray meets that side; nothing where it passes an edge by more than
+    // `spillMetres`.
     [[nodiscard]] virtual std::optional<glm::dvec3> hit(const Ray& ray,
                                                         double spillMetres) const = 0;
-    // Towards the audience, at a point of the screen; of any length.
+    // The normal towards the audience at a point of the screen; of any length.
     [[nodiscard]] virtual glm::dvec3 normalAt(glm::dvec3 point) const = 0;
     // The place in the panorama: u from its left edge (0) to its right (1), v from its top (0) to
     // its bottom (1).
@@ -63,11 +64,11 @@ class ScreenSurface {
 
 // Panels are a surface in pieces. Throws Error where the file of a measured screen cannot be used.
 [[nodiscard]] std::unique_ptr<const ScreenSurface> makeSurface(const config::Rig& rig);
-// Of triangles, from the file of rig.screen: a part of makeSurface().
+// A part of makeSurface(): the surface of triangles in the file of rig.screen.
 [[nodiscard]] std::unique_ptr<const ScreenSurface> makeMeasuredSurface(const config::Rig& rig);
 
-// Whether something at `position` is on the audience's side of the screen at this point of it, so
-// that its light falls there.
+// Whether `position` is on the audience's side of the screen at this point of it, so that light
+// from there falls on the point.
 [[nodiscard]] bool isBefore(const ScreenSurface& screen, glm::dvec3 position, glm::dvec3 point);
 
 // Azimuth of a point about the wall's y axis, in radians: 0 straight ahead, positive to the right.
@@ -79,12 +80,12 @@ class ScreenSurface {
 // radians. From the turned frame to the wall's.
 [[nodiscard]] glm::dmat3 turned(glm::dvec3 yawPitchRollRadians);
 
-// The panorama of surfaces without a natural unrolling: what surrounds an eye, by azimuth and
-// elevation, within the box that holds what it is to show.
+// The panorama of surfaces that cannot be unrolled: the view of an eye by azimuth and elevation,
+// within a box.
 class ViewBox {
   public:
     explicit ViewBox(glm::dvec3 eye) : eye_{eye} {}
-    // Makes the box that holds these points.
+    // Makes the box enclose these points.
     void enclose(std::span<const glm::dvec3> points);
     [[nodiscard]] glm::dvec2 placeOf(glm::dvec3 point) const;
     [[nodiscard]] glm::dvec3 directionAt(glm::dvec2 place) const;

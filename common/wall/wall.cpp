@@ -60,7 +60,7 @@ double Wall::pull(std::size_t channel, glm::dvec3 point) const {
     return pullAt(*pixel, rig_.channels[channel].sizePixels);
 }
 
-// Of a blend that a wall file has: the mean of its colours, between the centres of pixels.
+// The blend of a wall file: the mean of its colours, interpolated between the centres of pixels.
 double Wall::ownWeight(std::size_t channel, glm::dvec2 pixel) const {
     const glm::ivec2 size = rig_.channels[channel].sizePixels;
     const std::vector<glm::vec3>& blend = channels_[channel]->blend();
@@ -77,7 +77,7 @@ double Wall::ownWeight(std::size_t channel, glm::dvec2 pixel) const {
     return glm::mix(above, below, share.y);
 }
 
-// Before masks and limits of blends.
+// The weight before masks and limits of blends.
 double Wall::weightBefore(std::size_t channel, glm::dvec3 point) const {
     const bool isPanel = rig_.channels[channel].panel.has_value();
     if (isPanel || !channels_[channel]->blend().empty()) {
@@ -159,7 +159,7 @@ WarpMap Wall::warp(std::size_t channel) const {
     return map;
 }
 
-// What a wall file says of each pixel, after masks and limits of blends.
+// The data of a wall file for each pixel, after masks and limits of blends.
 void Wall::adjustMasks(std::size_t channel, WarpMap& map) const {
     if (channels_[channel]->blend().empty() && map.black.empty()) return;
     for (std::size_t i = 0; i < map.pointAndWeight.size(); ++i) {
@@ -201,15 +201,15 @@ glm::dmat3 aimedAxes(glm::dvec3 direction) {
     return {right, glm::cross(right, direction), -direction};
 }
 
-// The azimuth of the middle of what is lit, seen from between the eyes, where it does not lie about
-// the back.
+// The azimuth of the middle of the lit points, seen from between the eyes; nothing where they
+// surround the back.
 double azimuthOfMiddle(const std::vector<glm::dvec3>& lit, glm::dvec3 between) {
     const auto [leftmost, rightmost] =
         std::ranges::minmax(lit, {}, [&](glm::dvec3 point) { return azimuthOf(point - between); });
     return (azimuthOf(leftmost - between) + azimuthOf(rightmost - between)) / 2;
 }
 
-// Level where that wastes little: where nothing is very high or low, nor about the back.
+// A level camera where that wastes few pixels: where nothing is very high or low, or behind.
 glm::dmat3 axesFor(const std::vector<glm::dvec3>& lit, glm::dvec3 between) {
     constexpr double kSteepest = 45 * kRadiansPerDegree<double>;
     glm::dvec3 sum(0);
@@ -266,15 +266,15 @@ void takeMargin(ChannelFrustum& frustum,
     frustum.sizePixels = sizePixels + glm::ivec2(margin.before + margin.after);
 }
 
-// What must be lit is so far in front of the eye.
+// Lit points must be this far in front of the eye.
 constexpr double kLeastAheadMetres = 0.1;
 
 }  // namespace
 
 namespace {
 
-// Of what is lit, seen by a camera. Throws Error, which names the channel, where some of it is
-// beside or behind it.
+// The extents of the lit points, seen by a camera. Throws Error, which names the channel, where a
+// point is beside or behind the camera.
 Extents extentsOf(const std::vector<glm::dvec3>& lit,
                   const glm::dmat4& cameraFromWall,
                   const std::string& channel) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The geometry of the whole wall: the eyes of the viewer, the warp and the blend of each channel,
-// and the frustum that it draws. Channels are indices into Rig::channels.
+// The geometry of the whole wall: the viewer's eyes, and the warp, blend and frustum of each
+// channel. Channels are indices into Rig::channels.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@
 
 namespace aquarama::wall {
 
-// The place between the eyes, from where a mono picture is seen; or one of the eyes.
+// One of the viewer's eyes, or the place between them, for mono pictures.
 enum class EyeSide : std::uint8_t { Between, Left, Right };
 
 // Wall frame, metres. The viewer faces the middle of the screen in all channels: so neighbours,
@@ -37,14 +37,14 @@ struct WarpMap {
     glm::ivec2 sizePixels{};
     // Wall frame, metres; all 0 where the ray misses the screen and its spill.
     std::vector<glm::vec4> pointAndWeight;
-    // Of wall files that have them, in linear light: a blend with colours, in place of the weight,
-    // which is one then, and the least light of each pixel. Empty, or one for each pixel.
+    // Of wall files, in linear light: a blend with colours, which replaces the weight (then one),
+    // and the least light of each pixel. Empty, or one value for each pixel.
     std::vector<glm::vec3> blend = {}, black = {};
 };
 
-// An off-axis frustum from an eye that just holds what the channel lights, and a margin. Both eyes
-// and the place between them look the same way. Camera frame: x right, y up, looking along -Z. The
-// extents are tangents, at distance one.
+// An off-axis frustum from an eye that just encloses the area that the channel lights, with a
+// margin. Both eyes and the place between them have one direction. Camera frame: x right, y up,
+// looking along -Z. The extents are tangents, at distance one.
 struct ChannelFrustum {
     glm::dmat4 cameraFromWall{1.0};
     double left = 0, right = 0, bottom = 0, top = 0;
@@ -71,22 +71,22 @@ class Wall {
     [[nodiscard]] const Optics& channel(std::size_t channel) const { return *channels_[channel]; }
     [[nodiscard]] std::size_t channels() const { return channels_.size(); }
 
-    // The share of the light at a point of the screen that a channel gives: smooth, 0 at its
-    // picture's border. The shares of all channels that reach the point sum to one in linear light.
-    // Panels share nothing. Of a wall file with a blend of its own: that. Masks and limits of
-    // blends hand light from one channel to another, and change the sum only where all are masked.
+    // The share of a channel in the light at a point of the screen: smooth, 0 at its picture's
+    // border. In linear light the shares of all channels that reach the point sum to one. Panels
+    // share nothing. The blend of a wall file replaces the share. Masks and limits move light from
+    // one channel to another, and change the sum only where all are masked.
     [[nodiscard]] double weight(std::size_t channel, glm::dvec3 point) const;
     // Cost: each pixel is tested against all channels.
     [[nodiscard]] WarpMap warp(std::size_t channel) const;
-    // Throws Error where the channel lights nothing, or something beside or behind the eye.
+    // Throws Error where the channel lights nothing, or a part beside or behind the eye.
     [[nodiscard]] ChannelFrustum frustum(std::size_t channel,
                                          double marginRadians,
                                          EyeSide eye = EyeSide::Between) const;
     // Whether a mask that was set by hand takes light from a channel there.
     [[nodiscard]] bool isMasked(glm::dvec3 point) const;
     [[nodiscard]] const config::Adjustments& adjustments() const { return adjustments_; }
-    // The angle, seen from the wall's origin, of the finest pixel that any channel throws on the
-    // screen; radians. Samples 5 x 5 pixels of each channel.
+    // The angle, seen from the wall's origin, of the finest pixel of any channel on the screen;
+    // radians. Samples 5 x 5 pixels of each channel.
     [[nodiscard]] double finestPixelRadians() const;
     // From where test patterns are seen as lines of equal azimuth and elevation.
     [[nodiscard]] glm::dvec3 patternOrigin() const;

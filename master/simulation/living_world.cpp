@@ -11,6 +11,7 @@
 #include "capture/capture_repertoire.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/cli/progress.h"
 #include "common/config/scene.h"
 #include "common/config/species.h"
 #include "common/motion/motor.h"
@@ -60,7 +61,7 @@ constexpr std::uint32_t kFishOfAThread = 2000;
 std::vector<capture::RepertoireFile> capturedOnce(
     const std::vector<config::Species>& species,
     const std::function<void(const std::string&)>& tell) {
-    capture::ProgressBar bar("capturing");
+    cli::Progress bar("capturing");
     std::string what;
     int told = -1;  // per cent
     const auto show = [&](double share) {

@@ -180,11 +180,6 @@ std::vector<glm::u8vec4> codesAlong(config::ScanPattern pattern,
     return codes;
 }
 
-bool isOfRows(config::ScanPattern::Kind kind) {
-    return kind == config::ScanPattern::Kind::GrayRows ||
-           kind == config::ScanPattern::Kind::PhaseRows;
-}
-
 }  // namespace
 
 std::vector<glm::u8vec4> scanCodes(const config::ScanPattern& pattern,

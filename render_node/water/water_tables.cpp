@@ -15,6 +15,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/base/derived_cache.h"
+#include "common/base/picture.h"
 #include "render_node/shaders/shader_interface.h"
 #include "render_node/water/water_lobes.h"
 
@@ -250,11 +251,6 @@ glm::dvec3 integrated(const WaterSpectra& water, const Spectrum& light) {
     for (std::size_t band = 0; band < kBands; ++band)
         for (int c = 0; c < 3; ++c) sum[c] += water.weights[c][band] * light[band];
     return sum;
-}
-
-// Of linear Rec. 709.
-double luminance(glm::dvec3 rgb) {
-    return glm::dot(rgb, glm::dvec3{0.2126, 0.7152, 0.0722});
 }
 
 // Columns: what remains of each unit reflectance after this depth and range, in linear Rec. 709.

@@ -107,7 +107,7 @@ TEST(Solve, findsACrookedHallOfItsOwnModel) {
             ++count;
         }
     ASSERT_GT(count, 300);
-    EXPECT_LT(solved.figures.overlapRms, 0.1);
+    EXPECT_LT(solved.figures.overlap.rms, 0.1);
     EXPECT_LT(std::sqrt(sum / count), 0.5);
 }
 

@@ -121,7 +121,7 @@ TEST(TrueHall, thePanoramaIsForTheSweetSpot) {
 
 TEST(TrueHall, aDistortedLensGoesBothWays) {
     LensTruth truth{.focal = {1000, 1000}, .principal = {500, 300}, .size = {1000, 700}};
-    truth.lens = {.radial = {-0.05, 0.02, 0.01}, .tangential = {0.002, -0.003}, .vignetting = 0.2};
+    truth.lens = {.distortion = {-0.05, 0.02, 0.01, 0.002, -0.003}, .vignetting = 0.2};
     truth.keystone = {0.1, -0.05};
     const TrueLens lens(truth);
     for (int y = 0; y <= 700; y += 100)
@@ -162,8 +162,7 @@ TEST(TrueHall, lightFallsOffWithTheSquareOfTheDistance) {
 // of pixels that it gets.
 TEST(TrueHall, noLightIsLostInTheLens) {
     LensTruth truth{.focal = {1000, 1000}, .principal = {500, 300}, .size = {1000, 600}};
-    truth.lens.radial = {0.1, -0.02, 0.03};
-    truth.lens.tangential = {0.01, 0.004};
+    truth.lens.distortion = {0.1, -0.02, 0.03, 0.01, 0.004};
     const TrueLens lens(truth);
     const auto onWall = [&](glm::dvec2 pixel) {
         const wall::Ray ray = lens.ray(pixel);

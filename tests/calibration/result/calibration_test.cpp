@@ -47,12 +47,15 @@ Outcome calibrated(const config::Rig& rig, const config::Hall& hall, bool measur
     const wall::Wall wall(rig);
     const geometry::Solved solved =
         geometry::solveHall(rig, wall, views, [](const std::string&) {});
-    Outcome outcome{.figures = judged(views, solved), .errors = {}, .seams = {}};
-    if (outcome.figures.verdict == Judgement::Refuse) return outcome;
+    Outcome outcome{.figures = {.verdict = judged(views, solved), .solve = solved.figures},
+                    .errors = {},
+                    .seams = {}};
+    if (outcome.figures.verdict.judgement == Judgement::Refuse) return outcome;
     constexpr std::size_t kPoints = 10000;
     const ShadedWall shaded = shadedWallOf(*solved.hall, views.front());
-    setBrightness(outcome.figures, shaded.brightness);
-    setForeseen(outcome.figures, shaded.seams);
+    outcome.figures.verdict = judgedLight(outcome.figures.verdict, shaded.brightness, shaded.seams);
+    outcome.figures.brightness = shaded.brightness;
+    outcome.figures.foreseen = shaded.seams;
     outcome.errors = errorsOf(truth, rig, shaded.file, kPoints);
     if (!measuresSeams) return outcome;
     const std::string path = testing::TempDir() + "aquarama-calibration.mpcdi";
@@ -68,8 +71,8 @@ void print(const std::string& what, const Outcome& outcome) {
         "most %.3f panorama px; seams %.2f, %.2f and %.2f %% at 2, 18 and 100 %% grey, CIEDE2000 "
         "%.2f\n",
         what.c_str(),
-        nameOf(outcome.figures.verdict),
-        outcome.figures.cause.c_str(),
+        nameOf(outcome.figures.verdict.judgement),
+        outcome.figures.verdict.cause.c_str(),
         rootMeanSquare(errors.overlap),
         quantile(errors.overlap, 0.95),
         quantile(errors.overlap, 1),
@@ -96,9 +99,9 @@ TEST(Calibration, ofRandomHallsIsWithinItsBounds) {
         const Outcome outcome = calibrated(rig, hall::randomHall(rig, seed, scale), true);
         print("rig " + std::to_string(seed), outcome);
         // At full size a pixel is a millimetre or two: one rig is within the bounds and warned of.
-        const bool isUnsure = isSoak() && outcome.figures.cause == "place_not_sure";
-        EXPECT_TRUE(outcome.figures.verdict == Judgement::Pass || isUnsure)
-            << "rig " << seed << ": " << outcome.figures.cause;
+        const bool isUnsure = isSoak() && outcome.figures.verdict.cause == "place_not_sure";
+        EXPECT_TRUE(outcome.figures.verdict.judgement == Judgement::Pass || isUnsure)
+            << "rig " << seed << ": " << outcome.figures.verdict.cause;
         EXPECT_GT(outcome.errors.overlap.size(), 500U);
         EXPECT_TRUE(isWithinBounds(outcome.errors)) << "rig " << seed;
         const bool hasLight = outcome.figures.brightness && outcome.figures.foreseen;
@@ -153,8 +156,9 @@ TEST(Calibration, ofChannelsWithoutNeighboursIsWithinItsBounds) {
                 {"position { x_m: -1.2" + lens, "position { x_m: 1.2" + lens})}) {
         const Outcome outcome = calibrated(rig, hall::randomHall(rig, 7, kHallScale));
         print("alone", outcome);
-        EXPECT_EQ(outcome.figures.verdict, Judgement::Pass) << outcome.figures.cause;
-        EXPECT_EQ(outcome.figures.overlapPoints, 0U);
+        EXPECT_EQ(outcome.figures.verdict.judgement, Judgement::Pass)
+            << outcome.figures.verdict.cause;
+        EXPECT_EQ(outcome.figures.overlap().points, 0U);
         EXPECT_TRUE(outcome.errors.overlap.empty());
         EXPECT_LE(rootMeanSquare(outcome.errors.absolute), 1);
         EXPECT_TRUE(outcome.figures.brightness && outcome.figures.foreseen);
@@ -171,8 +175,8 @@ TEST(Calibration, ofADomeOfOneChannelIsWarnedOf) {
               {"position { x_m: 0 y_m: 0 z_m: 0.3 } focal_x_px: 93 focal_y_px: 93"});
     const Outcome outcome = calibrated(rig, hall::randomHall(rig, 7, kHallScale));
     print("dome", outcome);
-    EXPECT_EQ(outcome.figures.verdict, Judgement::Warn);
-    EXPECT_EQ(outcome.figures.cause, "place_not_checked");
+    EXPECT_EQ(outcome.figures.verdict.judgement, Judgement::Warn);
+    EXPECT_EQ(outcome.figures.verdict.cause, "place_not_checked");
 }
 
 // As the guide says: Gray codes of OpenCV with their inverses, white and black, by their names.
@@ -202,10 +206,10 @@ TEST(Calibration, ofOneChannelTakesGrayCodesOfOpenCv) {
     const wall::Wall wall(rig);
     const geometry::Solved solved =
         geometry::solveHall(rig, wall, views, [](const std::string&) {});
-    const Figures figures = judged(views, solved);
-    EXPECT_EQ(figures.cause, "outline_not_seen") << "no picture of the room";
-    ASSERT_EQ(figures.verdict, Judgement::Warn) << figures.cause << ": " << figures.advice;
-    EXPECT_LT(figures.fitRms, 0.3) << "pixels of the projector";
+    const CalibrationVerdict verdict = judged(views, solved);
+    EXPECT_EQ(verdict.cause, "outline_not_seen") << "no picture of the room";
+    ASSERT_EQ(verdict.judgement, Judgement::Warn) << verdict.cause << ": " << verdict.advice;
+    EXPECT_LT(solved.figures.fitRms, 0.3) << "pixels of the projector";
     std::filesystem::remove_all(folder);
 }
 
@@ -258,7 +262,7 @@ PlaceOutcome placed(const config::Rig& rig, const config::Hall& hall) {
             errors.push_back(glm::distance(solved.hall->panoramaPixel(place->point), belongs));
     }
     EXPECT_GT(errors.size(), 1000U);
-    return {rootMeanSquare(errors), judged(views, solved).verdict != Judgement::Pass};
+    return {rootMeanSquare(errors), judged(views, solved).judgement != Judgement::Pass};
 }
 
 // At full size, where a pixel of the panorama is about a millimetre. Without the crew's tape a
@@ -312,10 +316,11 @@ TEST(Calibration, passesNoHallWithAFaultThatItDoesNotSolve) {
             std::string(hall::kHallFaultNames.at(kind)) + " " + std::to_string(draw);
         const Outcome outcome = calibrated(rig, hall);
         print(what, outcome);
-        const bool isNamed = !outcome.figures.cause.empty() && !outcome.figures.advice.empty();
-        EXPECT_TRUE(outcome.figures.verdict == Judgement::Pass || isNamed) << what;
+        const bool isNamed =
+            !outcome.figures.verdict.cause.empty() && !outcome.figures.verdict.advice.empty();
+        EXPECT_TRUE(outcome.figures.verdict.judgement == Judgement::Pass || isNamed) << what;
         const bool isFalse =
-            outcome.figures.verdict == Judgement::Pass && !isWithinBounds(outcome.errors);
+            outcome.figures.verdict.judgement == Judgement::Pass && !isWithinBounds(outcome.errors);
         EXPECT_FALSE(isFalse) << what << " is a false accept";
     }
 }

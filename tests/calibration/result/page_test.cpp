@@ -35,7 +35,7 @@ struct Calibrated {
         hall::SimulatedCamera camera(truth, scan::sequenceOf(rig));
         views = {scan::decode(camera, 0, rig)};
         solved = geometry::solveHall(rig, wall, views, [](const std::string&) {});
-        figures = judged(views, solved);
+        figures = {.verdict = judged(views, solved), .solve = solved.figures};
         const formats::WallFile file = wallFileOf(*solved.hall);
         formats::writeMpcdi(path, file, 2);
     }
@@ -165,8 +165,8 @@ TEST(Page, saysAllThatACrewAsksForAndNeedsNoOtherFile) {
 // Of a scan that is refused there are the cause and what the camera saw.
 TEST(Page, saysWhyACalibrationIsRefused) {
     const Calibrated& it = calibrated();
-    const Figures refused{
-        .verdict = Judgement::Refuse, .cause = "no_overlap", .advice = "let neighbours overlap"};
+    const Figures refused{.verdict = {Judgement::Refuse, "no_overlap", "let neighbours overlap"},
+                          .solve = {}};
     const std::string html = htmlOf({.figures = refused, .solved = it.solved, .views = it.views});
     EXPECT_THAT(html, testing::HasSubstr("refuse: no_overlap"));
     EXPECT_THAT(html, testing::HasSubstr("let neighbours overlap. No wall file was written"));

@@ -19,7 +19,7 @@
 #include <gtest/gtest.h>
 
 #include "calibration/scan/decode.h"
-#include "calibration/scan/tag.h"
+#include "calibration/scan/least_squares.h"
 
 namespace aquarama::scan {
 namespace {

@@ -56,7 +56,7 @@ TEST(Hall, everythingIsRead) {
     const HallProjector& right = hall.projectors[1];
     EXPECT_EQ(right.movedMetres.x, 0.05);
     EXPECT_DOUBLE_EQ(right.focalFactor, 0.98);
-    EXPECT_EQ(right.lens.radial.z, 0.01);
+    EXPECT_EQ(right.lens.distortion.k3, 0.01);
     EXPECT_NEAR(right.gamma->z, 2.3, 1e-6);
     EXPECT_NEAR(right.primaries[1][0], 0.1, 1e-6);  // the first row's second
     EXPECT_EQ(hall.faults.moved->fromPicture, 9U);

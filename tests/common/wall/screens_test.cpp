@@ -201,7 +201,7 @@ TEST(Lens, bendsATangentAsItsFormulaSays) {
     config::Projector projector;
     projector.focalPixels = {500, 400};
     projector.principalPixels = {320, 100};
-    projector.radial = {-0.05, 0.01};
+    projector.distortion = {-0.05, 0.01};
     const Lens lens(projector, {640, 400});
     const glm::dvec2 tangent(0.3, -0.2);
     const double square = 0.09 + 0.04;
@@ -217,7 +217,7 @@ TEST(Lens, bendsATangentAsItsFormulaSays) {
 TEST(Lens, takesTheTangentBeforeAFold) {
     config::Projector projector;
     projector.focalPixels = {100, 100};
-    projector.radial = {0.5, -0.3};
+    projector.distortion = {0.5, -0.3};
     const Lens lens(projector, {120, 10});
     const Ray ray = lens.ray({120, 0});  // thrown at 1.2: 1 + 0.5 - 0.3
     EXPECT_NEAR(ray.direction.x, 1, 1e-12);
@@ -236,7 +236,7 @@ TEST(Lens, leadsEveryPixelBackToItself) {
         config::Projector projector;
         projector.focalPixels = {dice.between(400, 900), dice.between(400, 900)};
         projector.principalPixels = {dice.between(0, 640), dice.between(-200, 600)};
-        projector.radial = {dice.between(-0.05, 0.1), dice.between(-0.005, 0.02)};
+        projector.distortion = {dice.between(-0.05, 0.1), dice.between(-0.005, 0.02)};
         projector.yawPitchRollRadians = {
             dice.between(-3, 3), dice.between(-1, 1), dice.between(-3, 3)};
         const Lens lens(projector, {640, 400});
