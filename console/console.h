@@ -28,6 +28,7 @@
 
 namespace aquarama::console {
 
+// How a console is set up.
 struct ConsoleOptions {
     config::Rig rig;
     ask::AskedMaster master;     // of this rig, with the operator's key where it needs one

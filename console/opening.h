@@ -20,6 +20,7 @@ namespace aquarama::console {
 // Keeps the hours of a rig in its state folder. One thread uses it.
 class Opening {
   public:
+    // Makes the control of one projector; replaced in tests.
     using MakeProjector =
         std::function<std::unique_ptr<SwitchedProjector>(const config::ControlledProjector&)>;
     // A file that cannot be read is logged, and there are no hours; hours() says why.

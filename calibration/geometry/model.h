@@ -31,11 +31,13 @@ using LensParameters = std::array<double, lens::Count>;
 // a rotation as an axis times its angle, then a shift in metres.
 using PoseParameters = std::array<double, 6>;
 
+// Two and three numbers, for doubles and for the solver's derivatives.
 template <class T>
 using Two = std::array<T, 2>;
 template <class T>
 using Three = std::array<T, 3>;
 
+// The scalar product.
 template <class T>
 T dot(const Three<T>& a, const Three<T>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -59,6 +61,7 @@ Three<T> inFrame(const T* pose, const Three<T>& point) {
     return {turned[0] + pose[3], turned[1] + pose[4], turned[2] + pose[5]};
 }
 
+// The pixel in which a lens at a pose images a point of the wall's frame.
 template <class T>
 Two<T> pixelOf(const T* lens, const T* pose, const Three<T>& point) {
     const Three<T> seen = inFrame(pose, point);
@@ -113,6 +116,7 @@ class SmoothField {
     explicit SmoothField(glm::ivec2 cells)
         : cells_{cells}, controls_(static_cast<std::size_t>((cells.x + 3) * (cells.y + 3)), 0.0) {}
 
+    // A cell of the grid, and the place in it.
     struct Cell {
         glm::ivec2 index{};
         glm::dvec2 within{};  // 0 to 1
@@ -140,6 +144,7 @@ class BumpyScreen {
     BumpyScreen(const wall::ScreenSurface& screen, glm::ivec2 cells)
         : screen_{screen}, displacement_{cells} {}
 
+    // A point of the screen, and where it lies on the unrolled one.
     struct Place {
         glm::dvec3 point{};       // on the displaced screen
         glm::dvec3 normal{};      // of the displaced screen, length one
@@ -159,6 +164,7 @@ class BumpyScreen {
     template <class Displacement>
     [[nodiscard]] Place at(glm::dvec2 unrolled, const Displacement& displacement) const;
 
+    // The screen as the rig has it, and its displacement along the normals.
     [[nodiscard]] const wall::ScreenSurface& screen() const { return screen_; }
     [[nodiscard]] SmoothField& displacement() { return displacement_; }
     [[nodiscard]] const SmoothField& displacement() const { return displacement_; }
@@ -172,6 +178,7 @@ class BumpyScreen {
     SmoothField displacement_;
 };
 
+// The point of the bumpy screen over a place of the unrolled one.
 template <class Displacement>
 BumpyScreen::Place BumpyScreen::at(glm::dvec2 unrolled, const Displacement& displacement) const {
     Place place{.unrolled = unrolled};
@@ -194,6 +201,7 @@ BumpyScreen::Place BumpyScreen::at(glm::dvec2 unrolled, const Displacement& disp
     return place;
 }
 
+// Where a ray meets the bumpy screen; nothing where it does not.
 template <class Displacement>
 std::optional<BumpyScreen::Place> BumpyScreen::hit(const wall::Ray& ray,
                                                    const Displacement& displacement) const {

@@ -25,6 +25,7 @@ struct Smoothness {
 // The functions of the first and of the second value.
 struct FieldPair {
     SmoothField first{{1, 1}}, second{{1, 1}};
+    // The correction at a place, as shares of the picture.
     [[nodiscard]] glm::dvec2 at(glm::dvec2 share) const {
         return {first.at(share), second.at(share)};
     }

@@ -15,6 +15,7 @@ namespace aquarama::hall {
 class Chance {
   public:
     explicit Chance(std::uint32_t seed) : seed_{seed} {}
+    // An evenly distributed number.
     [[nodiscard]] double between(double low, double high) {
         return low + (high - low) * static_cast<double>(unitOf(hashOf(seed_, next_++)));
     }

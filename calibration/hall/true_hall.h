@@ -46,6 +46,7 @@ class TrueHall {
     // The light of full white that falls on a surface there; the normal has length one.
     [[nodiscard]] double whiteOn(std::size_t channel, glm::dvec3 point, glm::dvec3 normal) const;
 
+    // How many channels there are.
     [[nodiscard]] std::size_t channels() const { return cables_.size(); }
     // The projector that a channel's cable leads to.
     [[nodiscard]] std::size_t projectorOf(std::size_t channel) const {

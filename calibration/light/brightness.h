@@ -22,6 +22,7 @@ struct BrightnessFigures {
 struct ScreenField {
     glm::ivec2 size{};
     std::vector<float> values;
+    // The value at a place, as shares of the panorama.
     [[nodiscard]] double at(glm::dvec2 share) const;
 };
 

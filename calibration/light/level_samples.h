@@ -24,6 +24,7 @@ class LevelSamples {
   public:
     explicit LevelSamples(const scan::CameraView& view);
 
+    // How many channels there are.
     [[nodiscard]] std::size_t channels() const { return whites_.size(); }
     // Whether there is a black, a white of each channel, and places of each.
     [[nodiscard]] bool isWhole() const;

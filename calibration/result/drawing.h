@@ -20,6 +20,7 @@ struct Field {
     glm::ivec2 sizePixels{};
     std::vector<double> values;
 
+    // The value of a cell.
     [[nodiscard]] double& at(int x, int y) {
         return values[static_cast<std::size_t>(y * sizePixels.x + x)];
     }

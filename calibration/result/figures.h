@@ -16,6 +16,7 @@
 
 namespace aquarama::result {
 
+// What becomes of a calibration, and its word.
 enum class Judgement : std::uint8_t { Pass, Warn, Refuse };
 [[nodiscard]] const char* nameOf(Judgement judgement);
 

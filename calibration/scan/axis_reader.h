@@ -16,6 +16,7 @@ inline constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 struct Reading {
     float place = kUnknown;
     float sigma = kUnknown;
+    // Whether a place was read: it is NaN otherwise.
     [[nodiscard]] bool isKnown() const { return place == place; }
 };
 

@@ -54,6 +54,7 @@ struct AxisSignals {
 };
 
 inline constexpr int kMostBits = 16;  // of a Gray code
+// The signal of each stripe pattern, by its bit.
 using Bits = std::array<float, kMostBits>;
 
 // The contrast of each bit at a pixel, -1 to 1; 0 for bits that the code does not have.

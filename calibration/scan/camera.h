@@ -14,6 +14,7 @@ namespace aquarama::scan {
 struct ExposureRange {
     double shortest = 1;
     double longest = 1;
+    // Whether there is one exposure only.
     [[nodiscard]] bool isFixed() const { return shortest == longest; }
 };
 
@@ -22,6 +23,7 @@ struct ExposureRange {
 class Camera {
   public:
     virtual ~Camera() = default;
+    // The exposures that it can take.
     [[nodiscard]] virtual ExposureRange exposures() const = 0;
     // Takes a picture whose exposure begins after this call; older pictures in the camera or its
     // driver are dropped. Throws Error where no such picture arrives in ten seconds.

@@ -20,6 +20,7 @@ class CameraControls {
     CameraControls(const CameraControls&) = delete;
     CameraControls& operator=(const CameraControls&) = delete;
 
+    // The exposures that the camera can take.
     [[nodiscard]] ExposureRange exposures() const { return range_; }
     // Sets the nearest exposure that the device has. Throws Error where it refuses.
     void expose(double seconds);

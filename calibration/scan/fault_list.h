@@ -27,6 +27,7 @@ class FaultList {
     [[nodiscard]] bool refuses() const { return std::ranges::any_of(faults_, &ScanFault::refuses); }
     [[nodiscard]] const std::vector<ScanFault>& all() const { return faults_; }
 
+    // The name that the rig has for a channel.
     [[nodiscard]] const std::string& channelName(std::size_t channel) const {
         return evidence_.rig.channels[channel].name;
     }

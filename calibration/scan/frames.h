@@ -43,6 +43,7 @@ struct SmallPictures {
     int factor = 1;  // camera pixels along the side of a block
     std::vector<SmallPicture> pictures;
 
+    // The picture of a smaller width.
     [[nodiscard]] Plane shrunk(const Plane& full, int fullWidth) const;
     // The copy of the picture of this index in the scan; null without one.
     [[nodiscard]] const Plane* of(std::size_t index) const;

@@ -14,6 +14,7 @@ namespace aquarama::scan {
 template <std::size_t N>
 class LeastSquares {
   public:
+    // Adds an equation: the row times the unknowns is the value.
     void add(const std::array<double, N>& row, double value) {
         const Eigen::Map<const Vector> terms(row.data());
         matrix_ += terms * terms.transpose();

@@ -28,6 +28,7 @@ namespace aquarama::scan {
 class PictureSource {
   public:
     virtual ~PictureSource() = default;
+    // What the pictures show.
     [[nodiscard]] virtual const config::Scan& scan() const = 0;
     // The picture of this index in the scan, in the codes of the camera. Throws Error where it
     // cannot be read or has another size than the others of its camera.

@@ -30,10 +30,12 @@ class SmallChannels {
   public:
     explicit SmallChannels(const Evidence& evidence);
 
+    // How many channels there are, and one of them.
     [[nodiscard]] std::size_t size() const { return channels_.size(); }
     [[nodiscard]] const SmallChannel& operator[](std::size_t channel) const {
         return channels_[channel];
     }
+    // The picture in which all channels are black.
     [[nodiscard]] const Plane& black() const { return *black_; }
     // The white of a set of channels together, at a pixel.
     [[nodiscard]] float lightAt(std::size_t pixel, std::uint64_t lit) const;

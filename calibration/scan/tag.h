@@ -25,6 +25,7 @@ class TagMap {
     [[nodiscard]] glm::ivec2 high() const { return high_; }
     [[nodiscard]] double cellPixels() const { return cell_; }  // of the channel
 
+    // A sample of the tag in a picture.
     struct Sample {
         glm::ivec2 pixel{};
         glm::dvec2 cell{};

@@ -35,6 +35,7 @@ struct BrownLens {
     friend bool operator==(const BrownLens&, const BrownLens&) = default;
 };
 
+// Where a lens images a direction, as tangents of its angles.
 [[nodiscard]] glm::dvec2 imageOf(const BrownLens<double>& lens, glm::dvec2 tangent);
 // How the image moves with the tangent; symmetric.
 [[nodiscard]] glm::dmat2 imageSlope(const BrownLens<double>& lens, glm::dvec2 tangent);

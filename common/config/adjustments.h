@@ -28,6 +28,7 @@ struct ControlPoint {
     SourcePlace source = {};
 };
 
+// An area of a picture that is dimmed or left out by hand.
 struct MaskedArea {
     std::optional<std::size_t> channel = {};  // nothing: all
     PixelsOf pixelsOf = PixelsOf::Panorama;
@@ -36,6 +37,7 @@ struct MaskedArea {
     SourcePlace source = {};
 };
 
+// How far the blend of two channels may reach into a picture.
 struct BlendLimit {
     std::size_t channel = 0;
     std::optional<std::size_t> with = {};  // nothing: all neighbours
@@ -43,6 +45,7 @@ struct BlendLimit {
     SourcePlace source = {};
 };
 
+// All that a crew has set by hand for a rig.
 struct Adjustments {
     std::vector<ControlPoint> points;
     std::vector<MaskedArea> masks;

@@ -73,18 +73,22 @@ struct HallCamera {
 
 // Faults during a scan. Channels are indices in the rig, pictures indices in the scan.
 struct HallFaults {
+    // Something that stands before the camera.
     struct Block {
         glm::dvec2 place{0.5}, radius{};
     };
+    // A projector that is pushed during the scan.
     struct Move {
         std::size_t channel = 0, fromPicture = 0;
         glm::dvec2 yawPitchRadians{};
     };
+    // A lamp that is switched on during the scan.
     struct Lamp {
         glm::dvec2 place{0.5};
         double radiusMetres = 0, light = 0;
         std::size_t fromPicture = 0;
     };
+    // A projector that shows another picture mode than the rig says.
     struct Mode {
         std::size_t channel = 0;
         glm::ivec2 sizePixels{};

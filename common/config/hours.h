@@ -23,11 +23,13 @@ struct OpenSpan {
     std::string scene, quality;  // empty: as it was
 };
 
+// A day of the calendar.
 struct CivilDate {
     int year = 0, month = 0, day = 0;
     friend auto operator<=>(const CivilDate&, const CivilDate&) = default;
 };
 
+// A day that is not as its weekday.
 struct ExceptionDay {
     CivilDate date;
     std::vector<OpenSpan> open;  // none: closed
@@ -42,6 +44,7 @@ struct ControlledProjector {
 // "192.168.7.21:4352", "[fd00::21]:4352"
 [[nodiscard]] std::string addressOf(const ControlledProjector& projector);
 
+// When the wall is open, and which projectors are switched with it.
 struct Hours {
     std::string zone;
     std::vector<OpenSpan> open;

@@ -27,6 +27,7 @@ void checkCharacters(const std::string& text, const std::string& source);
 class Columns {
   public:
     explicit Columns(const std::string& text);
+    // A place of the text, of lines and columns that protobuf counts from 0.
     [[nodiscard]] SourcePlace placeOf(int line, int column) const;
 
   private:

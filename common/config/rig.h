@@ -34,6 +34,7 @@ enum class QualityTier : std::uint8_t {
 // As command lines name them, in the order of the tiers.
 inline constexpr std::array<std::string_view, 4> kTierNames{"low", "medium", "high", "ultra"};
 
+// The word of a tier in files and command lines.
 [[nodiscard]] constexpr std::string_view nameOf(QualityTier tier) {
     return kTierNames.at(static_cast<std::size_t>(tier));
 }
@@ -105,6 +106,7 @@ enum class StereoMode : std::uint8_t {
 // As the rig's file names it: "SIDE_BY_SIDE".
 [[nodiscard]] std::string nameOf(StereoMode mode);
 
+// How a wall shows two eyes.
 struct Stereo {
     StereoMode mode = StereoMode::Mono;
     double eyeSeparationMetres = 0;
@@ -146,6 +148,7 @@ struct Timing {
 // Of a file that a rig names; never null. Copies of a rig share it: it may be large.
 using FileContent = std::shared_ptr<const std::vector<std::byte>>;
 
+// A whole rig: its wall, its channels, its network, and the files that it names.
 struct Rig {
     std::string text;  // of the file, as it was read: the nodes are sent it
     std::string name;

@@ -25,6 +25,7 @@ enum class RuleFault : std::uint8_t {
 // The pass. Whoever uses it says what becomes of a fault and of the messages inside.
 class RulePass {
   public:
+    // Names of protobuf's types.
     using Message = google::protobuf::Message;
     using Field = google::protobuf::FieldDescriptor;
 

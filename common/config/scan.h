@@ -26,6 +26,7 @@ namespace aquarama::config {
 // The pattern that the channels show in one picture, in the projectors' own pixels, without warp,
 // blend and correction. common/wall/scan_pattern.h has the formula.
 struct ScanPattern {
+    // What a pattern is for.
     enum class Kind : std::uint8_t {
         Level = 1,    // even light
         GrayColumns,  // a bit of the Gray code of the column
@@ -67,6 +68,7 @@ struct ScanPattern {
 
 // A place of the camera. Lens, exposure and focus are the same in all its pictures.
 struct ScanCamera {
+    // How a camera's numbers follow from light.
     enum class Response : std::uint8_t { Srgb = 1, Linear };
     Response response = Response::Srgb;
     std::optional<double> focalPixels = {};  // about

@@ -98,6 +98,7 @@ struct Tissue {
     double muscleContraction = 0;  // share of its length lost at full contraction
 };
 
+// How the water resists the body.
 struct Water {
     double drag = 0;         // mu: force on an advancing face = mu * area * (normal speed)^2
     double frontFactor = 1;  // share of that on the head
@@ -165,6 +166,7 @@ struct Paces {
     double hover = 0, slow = 0.6, medium = 0.3, fast = 0.1;
 };
 
+// What a fish keeps to.
 enum class HomeKind : std::uint8_t { None, School, Place };
 
 // A place of the fish's own, drawn by the seed in the water: it goes about within the radius and

@@ -20,6 +20,7 @@ namespace aquarama::config {
 // "file:line:column: what is wrong: what to do".
 class TextReader {
   public:
+    // The name of protobuf's type.
     using Message = google::protobuf::Message;
 
     // Parses `text` into `message`, which must outlive the reader. `source` is the file's name in

@@ -23,6 +23,7 @@ inline constexpr std::uint64_t kMostArchiveBytes = std::uint64_t{1} << 32;
 // A file for an archive: its name, with '/' between folders, and its content.
 using ArchiveFile = std::pair<std::string, std::vector<std::byte>>;
 
+// A ZIP archive that is read.
 class Archive {
   public:
     // `bytes` must outlive it; `source` names it in errors. Throws Error where the bytes are no

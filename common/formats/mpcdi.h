@@ -38,6 +38,7 @@ inline constexpr std::array<std::string_view, 4> kProfileNames{"2d", "3d", "a3",
 inline constexpr std::array<std::string_view, 4> kOriginNames{
     "unknown", "centerOfMass", "idealEyePoint", "floorCenter"};
 
+// An angle of a frustum, and its name in the file.
 struct AngleName {
     const char* name;
     double Frustum::*angle;

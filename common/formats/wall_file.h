@@ -183,6 +183,7 @@ class MaskLight {
 
 // A mesh over a projector's picture, as in several formats.
 struct WarpMesh {
+    // A corner of the mesh.
     struct Vertex {
         glm::dvec2 place;   // of the picture, 0 to 1, top left corner at (0, 0)
         glm::dvec3 target;  // what it shows

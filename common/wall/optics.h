@@ -65,6 +65,7 @@ class Optics {
     [[nodiscard]] virtual const formats::ChannelColour* colour() const { return nullptr; }
 
   protected:
+    // No points.
     [[nodiscard]] static const std::vector<glm::vec3>& nothing();
 };
 

@@ -36,6 +36,7 @@ namespace pattern {
     return std::exp(-off * off / (2 * kGridSigmaDegrees * kGridSigmaDegrees));
 }
 
+// The light of major and minor lines of a grid at an angle.
 [[nodiscard]] inline double majorAndMinor(double atDegrees, double scale) {
     return std::fmax(kGridMinorLight * pattern::lines(atDegrees, kGridDegrees, scale),
                      pattern::lines(atDegrees, kGridMajorDegrees, scale));
@@ -55,6 +56,7 @@ namespace pattern {
     return std::fmax(pattern::majorAndMinor(azimuth, scale), pattern::majorAndMinor(elevation, 1));
 }
 
+// The light of a test pattern at a place.
 [[nodiscard]] inline double patternLight(TestPattern pattern,
                                          glm::dvec3 direction,
                                          bool isAround = false) {

@@ -65,10 +65,12 @@ inline constexpr glm::ivec2 kScanDots{5, 4};
 inline constexpr int kScanDotCount = kScanDots.x * kScanDots.y;
 inline constexpr double kScanDotShare = 1.0 / 120;
 
+// The place of a dot in a picture of this size, pixels.
 [[nodiscard]] inline glm::dvec2 scanDotPlace(int dot, glm::ivec2 size) {
     return (glm::dvec2(dot % kScanDots.x, dot / kScanDots.x) + 0.5) * glm::dvec2(size) /
            glm::dvec2(kScanDots);
 }
+// The number of a dot among those of all channels.
 [[nodiscard]] constexpr unsigned scanDotNumber(std::size_t channel, int dot) {
     return static_cast<unsigned>(channel) * kScanDotCount + static_cast<unsigned>(dot) + 1;
 }

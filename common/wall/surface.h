@@ -29,6 +29,7 @@ struct Ray {
 
 // The surface of a test pattern, for a shader that computes the place of each pixel itself.
 struct PatternGround {
+    // The form of a screen.
     enum class Kind : std::uint8_t {
         Cylinder,  // about the local y axis; `size` is its radius
         Sphere,    // about the origin; `size` is its radius

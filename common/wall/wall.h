@@ -67,6 +67,7 @@ class Wall {
     Wall(const Wall&) = delete;
     Wall& operator=(const Wall&) = delete;
 
+    // The screen, what shows each channel, and how many channels there are.
     [[nodiscard]] const ScreenSurface& screen() const { return *screen_; }
     [[nodiscard]] const Optics& channel(std::size_t channel) const { return *channels_[channel]; }
     [[nodiscard]] std::size_t channels() const { return channels_.size(); }

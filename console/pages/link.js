@@ -96,6 +96,9 @@ export class Link extends EventTarget {
   sayLook() { this.say({look: this.look}); }
   seen(channel) { this.say({seen: {channel}}); }
 
+  // What the wall shall show, as {black: true}.
+  show(wanted, text) { return this.command({order: {show: wanted}}, text); }
+
   // A command, as {order: {show: {black: true}}}; `text` is shown until it is done. Returns its number in `commands`.
   command(wanted, text) {
     if (this.isStale) return;

@@ -76,7 +76,8 @@ const columns = {
     title=${node.renderer}>${node.renderer.split(' (')[0]}</div>`,
   build: (link, node) => node.otherBuild ? html`<span class="warn">▲ ${node.build}</span>` : node.build || '–',
   act: (link, node) => html`<div class="row">
-    ${holdButton(t('nodes.restart'), () => link.command({order: {restart: {channel: node.name}}}, t('nodes.restarting', {name: node.name})),
+    ${holdButton(t('nodes.restart'), () => link.command({order: {restart: {channel: node.name}}},
+        t('nodes.restarting', {name: node.name})),
       {disabled: !link.may('OPERATOR')})}
     ${button(t('nodes.log'), () => showLog(node.name))}</div>`,
 };
@@ -101,7 +102,8 @@ function machine(link, [name, channels]) {
     && node.condition !== 'absent');
   const act = word => {
     const label = t(`nodes.${word}Of`, {name});
-    return holdButton(label, () => link.command({order: {power: {channel: told.name, word: word.toUpperCase()}}}, label),
+    return holdButton(label, () => link.command({order: {power: {channel: told.name,
+      word: word.toUpperCase()}}}, label),
       {disabled: !link.may('CREW') || !told, of: `${word} ${name}`});
   };
   return html`<div class="row">${act('reboot')}${act('poweroff')}</div>

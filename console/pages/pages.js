@@ -13,12 +13,12 @@ import {QUALITIES, button, channelsOf, chooser, dateTime, filter, holdButton, ms
 function light(link) {
   const disabled = !link.may('OPERATOR');
   const {black, frozen} = link.wall;
-  const undo = () => link.command({order: {show: {black: false}}}, t('wall.light'));
+  const undo = () => link.show({black: false}, t('wall.light'));
   return html`<section class="panel" aria-labelledby="light"><h2 id="light">${t('wall.lightTitle')}</h2>
     <div class="row">${black
       ? html`<button class="primary" ?disabled=${disabled} @click=${undo}>${t('wall.light')}</button>`
-      : holdButton(t('wall.black'), () => link.command({order: {show: {black: true}}}, t('wall.black')), {disabled})}
-    ${button(t(frozen ? 'wall.move' : 'wall.freeze'), () => link.command({order: {show: {freeze: !frozen}}},
+      : holdButton(t('wall.black'), () => link.show({black: true}, t('wall.black')), {disabled})}
+    ${button(t(frozen ? 'wall.move' : 'wall.freeze'), () => link.show({freeze: !frozen},
       t(frozen ? 'wall.move' : 'wall.freeze')),
              {disabled, pressed: frozen ? 'true' : 'false'})}</div>
     <p class="note">${t(black ? 'wall.isBlack' : 'wall.isLit', {percent: link.wall.brightnessPercent})}</p></section>`;
@@ -88,9 +88,9 @@ const wallPage = {
       <p class="note">${t('preview.note')}</p></div>
     <div class="controls">${light(link)}
       <section class="panel" aria-labelledby="shown"><h2 id="shown">${t('wall.shown')}</h2><div class="choosers">
-        ${chooser(link, 'scene', link.known.snapshot.scenes, link.wall.scene, value => link.command({order: {show: {scene: value}}},
+        ${chooser(link, 'scene', link.known.snapshot.scenes, link.wall.scene, value => link.show({scene: value},
           `${t('wall.scene')}: ${word(value)}`))}
-        ${chooser(link, 'quality', QUALITIES, link.wall.quality, value => link.command({order: {show: {quality: value.toUpperCase()}}},
+        ${chooser(link, 'quality', QUALITIES, link.wall.quality, value => link.show({quality: value.toUpperCase()},
         `${t('wall.quality')}: ${word(value)}`))}
         ${patternChooser(link)}
         </div><p class="note">${t('wall.patternNote')}</p></section>

@@ -70,7 +70,7 @@ export function chooser(link, what, values, shown, act) {
     ${holdButton(t('wall.apply'), done, {disabled: !link.may('OPERATOR') || chosen === shown, of: what})}`;
 }
 export const patternChooser = link =>
-  chooser(link, 'pattern', PATTERNS, link.wall.pattern, value => link.command({order: {show: {pattern: value.toUpperCase()}}},
+  chooser(link, 'pattern', PATTERNS, link.wall.pattern, value => link.show({pattern: value.toUpperCase()},
     `${t('wall.pattern')}: ${word(value)}`));
 
 // --- what is said in words

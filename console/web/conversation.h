@@ -31,6 +31,7 @@ namespace aquarama::web {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
+// Names of Boost's types, with the executor of one thread.
 using Tcp = asio::ip::tcp;
 using Executor = asio::io_context::executor_type;
 using Socket = asio::basic_stream_socket<Tcp, Executor>;
@@ -101,6 +102,7 @@ class TopicOutbox final : public Outbox {
     bool isClosed = false;
 };
 
+// A request as Boost has it.
 using BeastRequest = http::request<http::string_body>;
 // Between the types of Beast and the plain ones of the service; defined in server.cpp. `peer`: the
 // address that the connection comes from.

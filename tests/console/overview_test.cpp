@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "console/overview.h"
-#include "tests/support/state_packet.h"
 
 #include <gtest/gtest.h>
+
+#include "tests/support/state_packet.h"
 
 namespace aquarama::console {
 namespace {

@@ -149,7 +149,7 @@ TEST_F(Program, viewWithoutAHallIsTheSnapshotsHall) {
     writeGrid(folder());
     ASSERT_EQ(compose("compose " + kDesk + " " + folder()).status, 0);
     const Outcome outcome = compose("view " + kDesk + " --frame " + folder() +
-                                      " --view hall --out " + folder() + "/seen.png");
+                                    " --view hall --out " + folder() + "/seen.png");
     ASSERT_EQ(outcome.status, 0) << outcome.said;
     EXPECT_EQ(outcome.said, "");
     EXPECT_LT(meanDifference(readPng(folder() + "/seen.png"), readPng(folder() + "/hall.png")),

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "render_node/show/presented.h"
+
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
-
-#include "render_node/show/presented.h"
 
 namespace aquarama::show {
 namespace {
