@@ -17,6 +17,7 @@
 
 #include "commands/commands.h"
 #include "common/ask/request_client.h"
+#include "common/base/characters.h"
 #include "common/base/log.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
@@ -202,9 +203,9 @@ v1::WantedShow::Tier tierIn(const SetOptions& options) {
 void set(const SetOptions& options) {
     v1::Order order;
     if (options.what == "restart")
-        order.mutable_restart()->set_channel(options.value);
+        order.mutable_restart()->set_channel(legible(options.value));
     else if (options.what == "scene")
-        order.mutable_show()->set_scene(options.value);
+        order.mutable_show()->set_scene(legible(options.value));
     else if (options.what == "quality")
         order.mutable_show()->set_quality(tierIn(options));
     else if (options.what == "pattern")

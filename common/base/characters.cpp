@@ -324,13 +324,16 @@ std::string foreignCharacterIn(std::string_view text) {
     return foreignWords(codePointAt(text, static_cast<std::size_t>(found - text.begin())));
 }
 
-std::string legible(std::string_view text) {
+std::string legible(std::string_view text, std::size_t mostBytes) {
     std::string line;
     for (std::size_t at = 0; at < text.size();) {
         const CodePoint point = codePointAt(text, at);
         const bool isShown = point.isUtf8 && !isControl(point.code);
-        line += isShown ? std::string(text.substr(at, point.bytes))
-                        : fmt::format("\\x{:02X}", static_cast<std::uint32_t>(point.code));
+        const std::string shown =
+            isShown ? std::string(text.substr(at, point.bytes))
+                    : fmt::format("\\x{:02X}", static_cast<std::uint32_t>(point.code));
+        if (shown.size() > mostBytes - line.size()) break;
+        line += shown;
         at += point.bytes;
     }
     return line;

@@ -39,8 +39,9 @@ struct CodePoint {
 // what to type instead. Empty where all are ASCII.
 [[nodiscard]] std::string foreignCharacterIn(std::string_view text);
 
-// The text, made safe for one line of a log or terminal: control characters and invalid UTF-8
-// become \xE9 or \x1B.
-[[nodiscard]] std::string legible(std::string_view text);
+// A text for one line of a log, a terminal or a message: what is no UTF-8 and controls come as \xE9
+// or \x1B. It ends before the first character that would make it longer than `mostBytes`.
+[[nodiscard]] std::string legible(std::string_view text,
+                                  std::size_t mostBytes = std::string_view::npos);
 
 }  // namespace aquarama

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/stubs/logging.h>
 
 #include "common/base/units.h"
 #include "common/config/rules.h"
@@ -16,6 +17,8 @@
 
 namespace aquarama::wire {
 namespace {
+
+namespace pb = google::protobuf;
 
 constexpr int kEyeNumbers = 7;  // position and rotation
 // In the order of Input.steering.
@@ -113,33 +116,51 @@ bool isValid(const v1::Envelope& m) {
     }
 }
 
-// In a large packet only these may be large: in the other messages a few bytes of a packet may
-// become a whole object.
-std::size_t mostBytesOf(std::uint32_t field) {
-    const bool mayBeLarge = field == v1::Envelope::kState || field == v1::Envelope::kWelcome ||
-                            field == v1::Envelope::kPrepare || field == v1::Envelope::kBlobChunk;
-    return mayBeLarge ? kMostPacketBytes : kMostSmallPacketBytes;
-}
+// Of a large packet, known or not: a field of two bytes may become a whole object in memory.
+constexpr int kMostFields = 4096;
+constexpr std::uint32_t kDelimited = 2;  // wire type of texts, messages and packed numbers
 
-// Whether a field of an envelope is skipped: fixed64 or a message that is not too large. No
-// envelope of ours has another.
-bool skipField(google::protobuf::io::CodedInputStream& stream, std::uint32_t tag) {
-    constexpr std::uint32_t kFixed64 = 1, kDelimited = 2;
-    if ((tag & 7U) == kFixed64) return stream.Skip(8);
+// Skips a field that is no message of ours. False: it is truncated, or a group, which no release
+// writes.
+bool skipField(pb::io::CodedInputStream& stream, std::uint32_t wireType) {
+    constexpr std::uint32_t kVarint = 0, kFixed64 = 1, kFixed32 = 5;
+    std::uint64_t number = 0;
     std::uint32_t size = 0;
-    return (tag & 7U) == kDelimited && stream.ReadVarint32(&size) &&
-           size <= mostBytesOf(tag >> 3U) && stream.Skip(static_cast<int>(size));
+    if (wireType == kVarint) return stream.ReadVarint64(&number);
+    if (wireType == kFixed64) return stream.Skip(8);
+    if (wireType == kFixed32) return stream.Skip(4);
+    return wireType == kDelimited && stream.ReadVarint32(&size) &&
+           stream.Skip(static_cast<int>(size));
 }
 
-// Whether the packet may be parsed: looks at the sizes of its fields only.
+// Counts the fields of a message and of the messages in it. False: there are more than `left`, or
+// the message is malformed. Packed numbers are one field.
+bool hasAtMost(int& left, pb::io::CodedInputStream& stream, const pb::Descriptor& type) {
+    while (const std::uint32_t tag = stream.ReadTag()) {
+        if (--left < 0) return false;
+        const pb::FieldDescriptor* field = type.FindFieldByNumber(static_cast<int>(tag >> 3U));
+        const bool isMessage = field != nullptr && field->message_type() != nullptr;
+        if (!isMessage || (tag & 7U) != kDelimited) {
+            if (!skipField(stream, tag & 7U)) return false;
+            continue;
+        }
+        std::uint32_t size = 0;
+        if (!stream.ReadVarint32(&size)) return false;
+        const auto outer = stream.PushLimit(static_cast<int>(size));
+        if (!hasAtMost(left, stream, *field->message_type())) return false;
+        stream.PopLimit(outer);
+    }
+    return stream.ConsumedEntireMessage();
+}
+
+// Whether the packet may be parsed. In a small one nothing can take much memory.
 bool isBounded(std::span<const std::byte> packet) {
     if (packet.size() <= kMostSmallPacketBytes) return true;
     if (packet.size() > kMostPacketBytes) return false;
-    google::protobuf::io::CodedInputStream stream(
-        reinterpret_cast<const std::uint8_t*>(packet.data()), static_cast<int>(packet.size()));
-    while (const std::uint32_t tag = stream.ReadTag())
-        if (!skipField(stream, tag)) return false;
-    return stream.ConsumedEntireMessage();
+    pb::io::CodedInputStream stream(reinterpret_cast<const std::uint8_t*>(packet.data()),
+                                    static_cast<int>(packet.size()));
+    int left = kMostFields;
+    return hasAtMost(left, stream, *v1::Envelope::descriptor());
 }
 
 }  // namespace
@@ -154,6 +175,7 @@ Packet encode(std::uint64_t session, v1::Envelope envelope) {
 }
 
 std::optional<v1::Envelope> decode(std::span<const std::byte> packet) {
+    const pb::LogSilencer silencer;  // protobuf would log a line for each text that is no UTF-8
     v1::Envelope envelope;
     if (!isBounded(packet) ||
         !envelope.ParseFromArray(packet.data(), static_cast<int>(packet.size())) ||

@@ -28,15 +28,17 @@ inline constexpr std::uint32_t kProtocolMajor = 5;
 // Bounds that the code keeps to. All bounds of arriving messages are rules of aquarama.proto; a
 // test compares these with them.
 inline constexpr std::size_t kMostNameBytes = 64;
-inline constexpr std::size_t kMostLogBytes = 1000;  // of a line of a node's log
+inline constexpr std::size_t kMostReasonBytes = 1024;
+inline constexpr std::size_t kMostReportBytes = 256;  // of a text of a node's report
+inline constexpr std::size_t kMostLogBytes = 1000;    // of a line of a node's log
 inline constexpr std::size_t kBlobChunkBytes = std::size_t{256} << 10U;
 inline constexpr float kMostInputMetres = 10'000;  // of a position, on each axis
 inline constexpr int kMostExplanationLines = 48;
 inline constexpr std::size_t kMostExplanationLineBytes = 120;
 inline constexpr std::size_t kMostJpegBytes = std::size_t{60} << 10U;
 inline constexpr float kFullLight = 255;  // of Show.brightness
-// All messages but welcomes, states and chunks, which alone hold their content as plain bytes or
-// numbers. Nothing larger goes from a node to the master.
+// The fields of a larger packet are counted before it is parsed. Nothing larger goes from a node to
+// the master.
 inline constexpr std::size_t kMostSmallPacketBytes = std::size_t{64} << 10U;
 inline constexpr std::size_t kMostPacketBytes = std::size_t{64} << 20U;  // two states of kMostFish
 

@@ -9,6 +9,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "common/base/characters.h"
 #include "common/motion/motor.h"
 
 namespace aquarama::conductor {
@@ -398,7 +399,7 @@ v1::Envelope Conductor::status(net::Instant now) const {
     reply.set_pace(static_cast<v1::Pace>(options_.pace));
     reply.set_frame(presentation_.next().value);
     *reply.mutable_show() = shown(now);
-    reply.set_change(orders_.control().waitingFor());
+    reply.set_change(legible(orders_.control().waitingFor(), wire::kMostReasonBytes));
     gauges_.writeStatus(reply, report_, roster_, presentation_.barrier());
     return message;
 }

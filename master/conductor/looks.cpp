@@ -5,6 +5,7 @@
 #include <cassert>
 #include <chrono>
 
+#include "common/base/characters.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 
@@ -99,7 +100,7 @@ void Looks::tellShown() {
     *message.mutable_welcome() = welcome_;
     welcomePacket_ = sender_.packetOf(std::move(message));
     const std::filesystem::path scene = control_.wanted().scene();
-    sceneName_ = scene.stem().string().substr(0, wire::kMostNameBytes);
+    sceneName_ = legible(scene.stem().string(), wire::kMostNameBytes);
 }
 
 config::QualityTier Looks::quality() const {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/base/characters.h"
 #include "common/base/log.h"
 
 namespace aquarama::conductor {
@@ -44,7 +45,7 @@ v1::OrderReply Orders::obey(const std::string& user,
     v1::OrderReply reply;
     reply.set_request(order.request());
     reply.set_outcome(static_cast<v1::OrderReply::Outcome>(answer.outcome));
-    reply.set_reason(answer.reason);
+    reply.set_reason(legible(answer.reason, wire::kMostReasonBytes));
     if (order.has_scan() && answer.outcome == Outcome::Done)
         reply.set_frame(std::ranges::max(roster_.seats(), {}, &NodeSeat::released).released.value);
     return reply;

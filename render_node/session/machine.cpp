@@ -9,6 +9,7 @@
 
 #include <unistd.h>
 
+#include "common/base/characters.h"
 #include "common/base/log.h"
 #include "common/machine/machine_power.h"
 #include "common/net/clock.h"
@@ -41,10 +42,11 @@ float gpuCelsius() {
 }  // namespace
 
 void reportMachine(const NodeFacts& facts, v1::NodeReport& report) {
-    report.set_host(hostName());
+    report.set_host(printable(hostName(), wire::kMostReportBytes));
     report.set_build(facts.build);
-    report.set_renderer(facts.renderer);
-    for (const std::string& monitor : facts.monitors) report.add_monitors(monitor);
+    report.set_renderer(printable(facts.renderer, wire::kMostReportBytes));
+    for (const std::string& monitor : facts.monitors)
+        report.add_monitors(printable(monitor, wire::kMostReportBytes));
     report.set_clock_synchronised(net::isClockSynchronised());
     report.set_takes_power_word(machine::takesPowerWord(machine::powerFolder()));
     if (const float celsius = gpuCelsius(); celsius > 0) report.set_gpu_celsius(celsius);
@@ -67,11 +69,10 @@ v1::Envelope switchMachine(const v1::Order& order) {
     return message;
 }
 
-std::string printable(std::string text) {
-    text.resize(std::min(text.size(), wire::kMostLogBytes));
+std::string printable(std::string text, std::size_t mostBytes) {
     std::ranges::replace_if(
         text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
-    return text;
+    return legible(text, mostBytes);
 }
 
 }  // namespace aquarama::session

@@ -17,8 +17,8 @@ void reportMachine(const NodeFacts& facts, v1::NodeReport& report);
 // reply says why where it is refused.
 [[nodiscard]] v1::Envelope switchMachine(const v1::Order& order);
 
-// As text in a packet may be: control characters become blanks, and it is cut to
-// wire::kMostLogBytes.
-[[nodiscard]] std::string printable(std::string text);
+// As text in a packet may be: control characters become blanks, what is no UTF-8 is shown as bytes,
+// and it is cut to so many bytes.
+[[nodiscard]] std::string printable(std::string text, std::size_t mostBytes = wire::kMostLogBytes);
 
 }  // namespace aquarama::session

@@ -75,8 +75,8 @@ class Measures(unittest.TestCase):
                                            "    int h();", "};"), [])
         self.assertEqual(self.undocumented("// One.", "", "int f();"), ["f"], "a blank line ends a group")
         self.assertEqual(self.undocumented("// One.", "struct A {", "    int g();", "};"), ["g"])
-        self.assertEqual(self.undocumented("// One.", "class A {", "  public:", "    explicit A(int b);", "    int c();",
-                                           "};"), ["c"])
+        self.assertEqual(self.undocumented("// One.", "class A {", "  public:", "    explicit A(int b);",
+                                           "    int c();", "};"), ["c"])
         self.assertEqual(self.undocumented("using A = int;", "", "enum class B { C };"), ["A", "B"])
 
     def test_width(self):

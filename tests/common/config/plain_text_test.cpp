@@ -201,6 +201,14 @@ TEST(Characters, aLineOfALogHasNeitherControlsNorOtherEncodings) {
     EXPECT_EQ(legible(std::string("a\0\xED\xA0\x80", 5)), "a\\x00\\xED\\xA0\\x80");
 }
 
+TEST(Characters, aLineThatIsShortenedEndsWithAWholeCharacter) {
+    EXPECT_EQ(legible("Gr\xC3\xBC", 4), "Gr\xC3\xBC");
+    EXPECT_EQ(legible("Gr\xC3\xBC", 3), "Gr");
+    EXPECT_EQ(legible("Gr\xFC", 5), "Gr");
+    EXPECT_EQ(legible("Gr\xFC", 6), "Gr\\xFC");
+    EXPECT_EQ(legible("a", 0), "");
+}
+
 // Every cut and every two bytes is told as something.
 TEST(Characters, anyBytesAreReadToTheirEnd) {
     for (unsigned first = 0; first < 256; ++first)
