@@ -161,8 +161,12 @@ void runPython(const std::vector<std::string>& modules,
             writeWhole(folder / entry.path().filename(), readWhole(entry.path(), kMostBytes));
 }
 
+// A closed output is intended.
 void say(const std::string& line) {
+    errno = 0;
     std::cout << line << std::endl;
+    if (!std::cout && errno != EBADF)
+        throw Error("standard output: " + whyNotWritten(errno != 0 ? errno : EIO));
 }
 
 }  // namespace aquarama::cli

@@ -33,8 +33,7 @@ void runPython(const std::vector<std::string>& modules,
                const std::vector<std::string>& arguments,
                const std::filesystem::path& folder);
 
-// Writes a line to standard output at once. Whether all lines arrived is checked when the program
-// ends.
+// Writes a line to standard output at once. Throws Error where it cannot be written.
 void say(const std::string& line);
 
 }  // namespace aquarama::cli

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from scipy import stats
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "capture/report"))
+sys.path.append(str(Path(__file__).resolve().parents[2] / "capture/report"))
 from figures import PX, QUIET, markdown_table, plt, read_csv, save
 
 # For each column of adaptation.csv: words with the unit, digits after the point, published value.

@@ -344,7 +344,7 @@ while len(seen) < len(names):
         seen.add(names[message[0]])
 print(*sorted(seen))
 for name in ("left", "right"):
-    print(client.command(snapshot["wall"]["run"], machine={"channel": name, "word": "reboot"})["outcome"])
+    print(client.command(snapshot["wall"]["run"], machine={"channel": name, "word": "REBOOT"})["outcome"])
 """
 
 

@@ -78,7 +78,7 @@ TEST(Overview, aMasterThatPreparesIsNoFault) {
 }
 
 TEST(Overview, whatABrowserMayNotSayIsRefused) {
-    EXPECT_TRUE(readBrowser(R"({"command":{"id":"7","run":"1","black":true}})"));
+    EXPECT_TRUE(readBrowser(R"({"command":{"id":"7","run":"1","order":{"show":{"black":true}}}})"));
     EXPECT_TRUE(readBrowser(R"({"alive":{}})"));
     const std::string deep(20'000, '[');
     for (const std::string& text : {std::string("{"),
@@ -86,7 +86,8 @@ TEST(Overview, whatABrowserMayNotSayIsRefused) {
                                     std::string(R"({"command":{"id":-1}})"),
                                     std::string(R"({"command":{"id":1e99}})"),
                                     std::string(R"({"nothing":1})"),
-                                    std::string(R"({"command":{"black":true,"freeze":true}})"),
+                                    std::string(R"({"command":{"order":{"show":{"quality":"BEST"}}}})"),
+                                    std::string(R"({"command":{"runDoctor":true,"mind":1}})"),
                                     R"({"look":{"topics":)" + deep,
                                     std::string(70'000, ' ')})
         EXPECT_FALSE(readBrowser(text)) << text.substr(0, 60);

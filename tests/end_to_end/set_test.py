@@ -58,7 +58,7 @@ class Set(unittest.TestCase):
         for what, value, why in (("scene", "lagoon", "bait_ball, empty_sea, reef"),
                                  ("scene", "../desk", "without folder"),
                                  ("scene", "reef.txtpb", "without folder"),
-                                 ("quality", "best", "not best"), ("black", "maybe", "on or off"),
+                                 ("quality", "best", "not \"best\""), ("black", "maybe", "on or off"),
                                  ("pattern", "dots", "grid")):
             refused = self.set(what, value)
             self.assertEqual(refused.returncode, 1, what)
