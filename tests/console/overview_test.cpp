@@ -81,15 +81,16 @@ TEST(Overview, whatABrowserMayNotSayIsRefused) {
     EXPECT_TRUE(readBrowser(R"({"command":{"id":"7","run":"1","order":{"show":{"black":true}}}})"));
     EXPECT_TRUE(readBrowser(R"({"alive":{}})"));
     const std::string deep(20'000, '[');
-    for (const std::string& text : {std::string("{"),
-                                    std::string("[]"),
-                                    std::string(R"({"command":{"id":-1}})"),
-                                    std::string(R"({"command":{"id":1e99}})"),
-                                    std::string(R"({"nothing":1})"),
-                                    std::string(R"({"command":{"order":{"show":{"quality":"BEST"}}}})"),
-                                    std::string(R"({"command":{"runDoctor":true,"mind":1}})"),
-                                    R"({"look":{"topics":)" + deep,
-                                    std::string(70'000, ' ')})
+    for (const std::string& text :
+         {std::string("{"),
+          std::string("[]"),
+          std::string(R"({"command":{"id":-1}})"),
+          std::string(R"({"command":{"id":1e99}})"),
+          std::string(R"({"nothing":1})"),
+          std::string(R"({"command":{"order":{"show":{"quality":"BEST"}}}})"),
+          std::string(R"({"command":{"runDoctor":true,"mind":1}})"),
+          R"({"look":{"topics":)" + deep,
+          std::string(70'000, ' ')})
         EXPECT_FALSE(readBrowser(text)) << text.substr(0, 60);
     std::string many = R"({"look":{"topics":["a")";
     for (int i = 0; i < 64; ++i) many += R"(,"a")";
