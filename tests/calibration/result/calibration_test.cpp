@@ -287,7 +287,7 @@ TEST(Calibration, knowsWhereThePictureIsByTheMarksOnTheScreen) {
                     bare.absolute,
                     bare.warns ? ", warned of" : "");
         std::fflush(stdout);
-        // One of twenty is at 1.01, and warned of: docs/calibration.md.
+        // One of twenty is at 1.01, and warned of: docs/appendices/calibration.md.
         EXPECT_TRUE(marked.absolute <= 1.0 || marked.warns) << "rig " << seed;
         beyond += marked.absolute > 1.0 ? 1 : 0;
         EXPECT_TRUE(bare.absolute <= 1.0 || bare.warns) << "rig " << seed;

@@ -174,7 +174,7 @@ TEST_F(Reef, looksOnACalibratedWallAsOnOneThatIsKnownExactly) {
     std::printf("mean FLIP from the sweet spot: %.4f before, %.4f after\n", before, after);
     EXPECT_GT(before, 0.1);
     EXPECT_LT(after, before / 3);
-    // Aimed at is 0.03, here and below; it does not hold: docs/calibration.md.
+    // Aimed at is 0.03, here and below; it does not hold: docs/appendices/calibration.md.
     EXPECT_LE(after, 0.045);
     const hall::TrueHall straight(rig_, hall::plainHall(rig_, 7, scale));
     const Light other = seen(straight, plain);
