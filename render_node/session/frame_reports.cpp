@@ -6,7 +6,9 @@
 namespace aquarama::session {
 namespace {
 
-constexpr net::Duration kRepeat = std::chrono::seconds(1);
+// A report may be lost with its connection, for all nodes at once where a key is revoked: the wall
+// then stands still for as long, so it is less than a node may be silent.
+constexpr net::Duration kRepeat = std::chrono::milliseconds(100);
 constexpr net::Duration kBetweenChecks = std::chrono::seconds(1);
 
 }  // namespace

@@ -26,7 +26,7 @@ class FrameReports {
     // The master has released this frame and all before it.
     void release(Frame frame);
     void forget() { finished_.reset(); }
-    // Ready: after finish(), and again after a second without a release. Empty while none is due.
+    // Ready: after finish(), and again each 100 ms without a release. Empty while none is due.
     // Moments are converted to the master's clock.
     [[nodiscard]] std::optional<v1::Envelope> due(const Pings& clock, net::Moment now);
     [[nodiscard]] Frame lastFinished() const { return lastFinished_; }

@@ -37,8 +37,8 @@ TEST(FrameReports, readyIsSaidAtOnceAndAgainUntilTheFrameIsReleased) {
     ASSERT_TRUE(ready);
     EXPECT_EQ(ready->ready().frame(), 7U);
     EXPECT_EQ(ready->ready().picture_us(), 1500U);
-    EXPECT_FALSE(reports.due({}, kNow + milliseconds(500)));
-    EXPECT_TRUE(reports.due({}, kNow + milliseconds(1100)));
+    EXPECT_FALSE(reports.due({}, kNow + milliseconds(50)));
+    EXPECT_TRUE(reports.due({}, kNow + milliseconds(110)));
     reports.release({6});
     EXPECT_TRUE(reports.due({}, kNow + seconds(3)));
     reports.release({7});
