@@ -90,10 +90,55 @@ struct PectoralFins {
     PectoralFin left, right;
 };
 
+// Where a pectoral fin stands relative to its rest, radians: opened about its hinge, carried about
+// the axis of its stroke, and twisted about its ray, at the tip.
+struct FinPose {
+    double open = 0, stroke = 0, twist = 0;
+};
+// A pose, and its change in a second.
+struct FinMotion {
+    FinPose pose, rate;
+};
+// Both fins of a fish that rows; the left one is told as the mirror image of the right.
+struct RowingControl {
+    bool rows = false;
+    FinMotion left, right;
+};
+
+// How the tissue differs from that of a relaxed fish, as factors of what a species gives it.
+// Damping stays as it is. A fish in a fast start is stiff: relaxed tissue bends, but does not push.
+struct Tone {
+    double stiffness = 1;          // of every unit
+    double tailStiffness = 1;      // further: of the units behind ring 3 that are no muscles
+    double contractStiffness = 1;  // further: of a muscle at activation 1
+    double contraction = 1;        // of BiomechanicalFish::muscleContraction
+    friend bool operator==(const Tone&, const Tone&) = default;
+};
+
 // All actuators of a fish during one step.
 struct MotorControl {
     MuscleActivation muscles;
     PectoralFins fins;
+    RowingControl rowing;
+    Tone tone;
+};
+
+// A pectoral fin of the right side as a blade that rows. Axes: tailwards, up, right; the root from
+// the origin of the body frame.
+struct Blade {
+    glm::dvec3 root{}, hinge{}, stroke{}, ray{}, chord{};  // axes are unit vectors
+    double span = 0;                                       // body lengths
+    double area = 0;
+    // Normal force = pressure * area * (normal speed)^2: half the density of water and a
+    // coefficient; fish masses / body length^3.
+    double pressure = 0;
+};
+
+// What muscles and tissue of a fish do at an instant: the stiffness and the rest length of each
+// unit.
+struct UnitState {
+    double stiffness = 0;   // fish masses / s^2
+    double restLength = 0;  // body lengths
 };
 
 // A unit with the strength that a species gives it. Its damping is BiomechanicalFish::damping.
@@ -121,6 +166,7 @@ struct BiomechanicalFish {
     // Upward force on each node: buoyancy less weight. Zero in every species: like Tu's, the fish
     // is neutrally buoyant everywhere and rights itself with its fins alone. Tests set it.
     std::array<double, body::kNodalPoints> lifts{};
+    Blade blade;
     double finDrag = 0;            // of each pectoral fin: force by normal speed, fish masses / s
     double damping = 0;            // of every unit: force by rate of lengthening, fish masses / s
     double muscleContraction = 0;  // share of the rest length that is lost at activation 1
@@ -155,6 +201,10 @@ void step(const BiomechanicalFish& fish,
           const MotorControl& control,
           double stepSeconds,
           FishState& state);
+
+// The units of a fish under a control, as step() takes them.
+[[nodiscard]] std::array<UnitState, kUnits> unitStates(const BiomechanicalFish& fish,
+                                                       const MotorControl& control);
 
 // The step at which the speeds in the documents were measured: 8 * timeScale steps in a tick of
 // 60 Hz. docs/motion.md says how far figures change with a shorter one.

@@ -26,7 +26,8 @@ namespace {
 
 // Capture. A species has jobs in two groups. The first simulates what it does steadily: each gait
 // straight on, on two curves and on a loop upwards, the retreat, and straight on half-way between
-// two gaits. The second, the two turns and the speed response, starts from the gaits. Within a
+// two gaits. The second, the two turns, the three fast starts and the speed
+// response, starts from the gaits. Within a
 // group the jobs are independent of one another, so they run in parallel.
 
 constexpr std::size_t kGaits = motion::kForwardGaits;  // slow, medium, fast
@@ -36,8 +37,11 @@ constexpr std::size_t kRetreatJob =
     kGaits * kWays;  // job i before: gait i % kGaits, way i / kGaits
 constexpr std::size_t kBetweenJob = kRetreatJob + 1;  // slow and medium; then medium and fast
 constexpr std::size_t kSteadyJobs = kBetweenJob + kGaits - 1;
-constexpr std::size_t kLaterJobs = 3;
-constexpr std::size_t kJobs = kSteadyJobs + kLaterJobs;
+constexpr std::size_t kTurnJob = kSteadyJobs;  // gradual, sharp
+constexpr std::size_t kStartJob = kTurnJob + 2;  // small, middle, large
+constexpr std::size_t kResponseJob = kStartJob + kBendShares.size();
+constexpr std::size_t kJobs = kResponseJob + 1;
+constexpr std::size_t kLaterJobs = kJobs - kSteadyJobs;
 
 // Values of Order::curve and liftRadians. Over all species and gaits a wide curve has a radius of
 // 3.8 to 9.7 body lengths, a tight one of 1.7 to 4.6.
@@ -50,6 +54,7 @@ struct Swum {
     std::array<std::optional<SteadySwimming>, kSteadyJobs> steady;
     std::array<RecordedCycle, 2> leftTurn;                // gradual, sharp
     std::array<std::vector<EnteredTurn>, 2> enteredLeft;  // likewise
+    std::array<std::vector<EnteredTurn>, kBendShares.size()> leftStart;  // the first out of rest
     motion::SpeedResponse response;
     std::array<std::string, kJobs> errors;  // of each job
 
@@ -98,6 +103,14 @@ void recordTurn(const config::Species& species, std::size_t sharp, Swum& swum) {
         turn.periodSeconds);
 }
 
+// A fast start out of rest, and out of the beats of slow and medium swimming.
+void recordStart(const config::Species& species, std::size_t size, Swum& swum) {
+    std::vector<EnteredTurn>& starts = swum.leftStart.at(size);
+    starts = recordEnteredStarts(
+        species, {&*swum.steady.at(0), &*swum.steady.at(1)}, kBendShares.at(size));
+    starts.insert(starts.begin(), capture::recordStart(species, kBendShares.at(size)));
+}
+
 // Throws Error where the simulation fails. A job of the second group does nothing when one of the
 // first has failed; the error of that one is reported instead.
 void runJob(const config::Species& species, std::size_t job, Swum& swum) {
@@ -111,8 +124,10 @@ void runJob(const config::Species& species, std::size_t job, Swum& swum) {
     const auto steady = [&](std::size_t first) -> const SteadySwimming& {
         return *swum.steady.at(first);
     };
-    if (job < kSteadyJobs + 2)
-        recordTurn(species, job - kSteadyJobs, swum);
+    if (job < kStartJob)
+        recordTurn(species, job - kTurnJob, swum);
+    else if (job < kResponseJob)
+        recordStart(species, job - kStartJob, swum);
     else
         swum.response = fitResponse(
             swimTransitions(species, {&steady(0), &steady(1), &steady(2)}, steady(kRetreatJob)));
@@ -133,16 +148,16 @@ void compileGait(const Swum& swum, std::size_t gait, motion::Repertoire& reperto
     segment(Action::DiveSlow) = mirroredTopBottom(segment(Action::ClimbSlow));
 }
 
-// The paths of a left turn by its entries; every other phase of the beat is a blend of the recorded
-// ones about it.
-std::vector<motion::TurnPath> pathsOf(const std::vector<EnteredTurn>& turns, const SwimsOn& on) {
+// The paths of a left turn or fast start by speed and phase of the beat. Every other phase is a blend
+// of the recorded ones about it.
+std::vector<motion::TurnPath> pathsOf(std::span<const EnteredTurn> turns, const SwimsOn& on) {
     constexpr std::size_t kRecorded = kRecordedPhases;
     static_assert(kRecorded * 2 == motion::kEntryPhases);
     std::vector<motion::TurnPath> paths;
-    for (std::size_t speed = 0; speed < motion::kEntrySpeeds; ++speed) {
+    for (std::size_t speed = 0; speed < turns.size() / kRecorded; ++speed) {
         for (std::size_t i = 0; i < kRecorded; ++i) {
             const auto recorded = [&](std::size_t phase) {
-                return compileEntered(turns.at(speed * kRecorded + phase % kRecorded), on);
+                return compileEntered(turns[speed * kRecorded + phase % kRecorded], on);
             };
             paths.push_back(recorded(i));
             paths.push_back(blended(recorded(i), recorded(i + 1)));
@@ -151,8 +166,8 @@ std::vector<motion::TurnPath> pathsOf(const std::vector<EnteredTurn>& turns, con
     return paths;
 }
 
-// Those of the right turn: its mirror image is the left turn half a beat later.
-std::vector<motion::TurnPath> mirroredPaths(const std::vector<motion::TurnPath>& left) {
+// Those to the right: the mirror image is the left one half a beat later.
+std::vector<motion::TurnPath> mirroredPaths(std::span<const motion::TurnPath> left) {
     std::vector<motion::TurnPath> right;
     for (std::size_t i = 0; i < left.size(); ++i) {
         const std::size_t phase = (i + motion::kEntryPhases / 2) % motion::kEntryPhases;
@@ -160,6 +175,47 @@ std::vector<motion::TurnPath> mirroredPaths(const std::vector<motion::TurnPath>&
         right.push_back(mirroredLeftRight(left[speed * motion::kEntryPhases + phase]));
     }
     return right;
+}
+
+// How a fish swims on at a gait.
+SwimsOn swimsOn(const motion::Repertoire& repertoire, motion::Action gait) {
+    const motion::ActionSegment& segment = repertoire.segments.at(indexOf(gait));
+    return {.speed = measure(segment).strideBodyLengths / static_cast<double>(segment.periodSeconds),
+            .drag = static_cast<double>(repertoire.response.swimDrag.at(indexOf(gait)))};
+}
+
+// The turns to the left and, mirrored, to the right.
+void compileTurns(const Swum& swum, motion::Repertoire& repertoire) {
+    using motion::Action;
+    const SwimsOn on = swimsOn(repertoire, Action::ForwardMedium);
+    for (const auto& [toLeft, toRight, sharp] :
+         {std::tuple{Action::TurnLeftGradual, Action::TurnRightGradual, 0U},
+          std::tuple{Action::TurnLeftSharp, Action::TurnRightSharp, 1U}}) {
+        motion::ActionSegment& left = repertoire.segments.at(indexOf(toLeft));
+        motion::ActionSegment& right = repertoire.segments.at(indexOf(toRight));
+        left = compileLeftTurn(swum.leftTurn.at(sharp));
+        left.entered = pathsOf(swum.enteredLeft.at(sharp), on);
+        right = mirroredLeftRight(left);
+        right.entered = mirroredPaths(left.entered);
+    }
+}
+
+// The fast starts to the left and, mirrored, to the right.
+void compileStarts(const Swum& swum, motion::Repertoire& repertoire) {
+    const SwimsOn on = swimsOn(repertoire, motion::Action::ForwardFast);
+    for (std::size_t size = 0; size < kBendShares.size(); ++size) {
+        const std::size_t first = indexOf(motion::Action::StartLeftSmall) + size;
+        motion::ActionSegment& left = repertoire.segments.at(first);
+        motion::ActionSegment& right = repertoire.segments.at(first + kBendShares.size());
+        const std::span starts(swum.leftStart.at(size));
+        left = compileStart(starts.front().turn);
+        left.entered = pathsOf(starts.subspan(1), on);
+        right = mirroredLeftRight(left);
+        right.entered = mirroredPaths(left.entered);
+        const motion::TurnPath outOfRest = compileEntered(starts.front(), on);
+        left.entered.insert(left.entered.begin(), outOfRest);
+        right.entered.insert(right.entered.begin(), mirroredLeftRight(outOfRest));
+    }
 }
 
 // From recordings to a repertoire; right turns are the mirror images of the left ones, the glide is
@@ -171,26 +227,14 @@ motion::Repertoire compile(const config::Species& species, const Swum& swum) {
     repertoire.species = species.name;
     repertoire.recordedLengthMetres = body.typicalLengthMetres;
     repertoire.response = swum.response;
-    const auto segment = [&](Action action) -> motion::ActionSegment& {
-        return repertoire.segments.at(indexOf(action));
-    };
     for (std::size_t gait = 0; gait < kGaits; ++gait) compileGait(swum, gait, repertoire);
-    segment(Action::Retreat) = compileForward(swum.steady.at(kRetreatJob)->beat);
-    const auto medium = indexOf(Action::ForwardMedium);
-    const SwimsOn on{.speed = measure(segment(Action::ForwardMedium)).strideBodyLengths /
-                              static_cast<double>(segment(Action::ForwardMedium).periodSeconds),
-                     .drag = static_cast<double>(swum.response.swimDrag.at(medium))};
-    for (const auto& [left, right, sharp] :
-         {std::tuple{Action::TurnLeftGradual, Action::TurnRightGradual, 0U},
-          std::tuple{Action::TurnLeftSharp, Action::TurnRightSharp, 1U}}) {
-        segment(left) = compileLeftTurn(swum.leftTurn.at(sharp));
-        segment(left).entered = pathsOf(swum.enteredLeft.at(sharp), on);
-        segment(right) = mirroredLeftRight(segment(left));
-        segment(right).entered = mirroredPaths(segment(left).entered);
-    }
+    repertoire.segments.at(indexOf(Action::Retreat)) =
+        compileForward(swum.steady.at(kRetreatJob)->beat);
+    compileTurns(swum, repertoire);
+    compileStarts(swum, repertoire);
     if (species.recordsControlPoints)
         for (int action = 0; action < motion::kCapturedActions; ++action)
-            addControlPoints(body, segment(static_cast<Action>(action)));
+            addControlPoints(body, repertoire.segments.at(static_cast<std::size_t>(action)));
     motion::addGlide(repertoire);
     return repertoire;
 }
@@ -303,7 +347,7 @@ namespace {
 
 // Part of every key: raise it when a change of the simulation or of the compilation changes the
 // repertoires.
-constexpr const char* kCaptureVersion = "aquarama capture 9\n";
+constexpr const char* kCaptureVersion = "aquarama capture 10\n";
 constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 5 MB
 
 // SPECIES-DIGEST.aqrep. The digest covers only the parts of the species file that influence motion:

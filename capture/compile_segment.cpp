@@ -208,6 +208,10 @@ motion::ActionSegment compileLeftTurn(const RecordedCycle& recording) {
     return segmentOf(fadedIn(planar(frameMotionOf(recording))));
 }
 
+motion::ActionSegment compileStart(const RecordedCycle& recording) {
+    return segmentOf(planar(frameMotionOf(recording)));
+}
+
 namespace {
 
 // A horizontal way as a direction in the body frame of a pose.

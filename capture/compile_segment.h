@@ -42,16 +42,18 @@ struct RecordedCycle {
 // A gait on a slope: half a beat later the motion is its mirror image, left and right exchanged.
 [[nodiscard]] motion::ActionSegment compileSlope(const RecordedCycle& recording);
 [[nodiscard]] motion::ActionSegment compileLeftTurn(const RecordedCycle& recording);
+// A fast start: the motion lies in a horizontal plane. It is not closed.
+[[nodiscard]] motion::ActionSegment compileStart(const RecordedCycle& recording);
 
-// A left turn begun in a tail beat, for a given time. What follows is measured while the fish swims
-// on at the medium gait: its way from the end of the turn on, in the world, over some beats.
+// A left turn or fast start, for a given time, begun in a tail beat or out of rest. What follows is
+// measured while the fish swims on at the medium gait, after a fast start at the fast one: its way from the end of the turn on, in the world, over some beats.
 struct EnteredTurn {
     RecordedCycle turn;
     double speedBefore = 0;  // body lengths a second
     glm::dvec3 wayAfter{1, 0, 0};
     double secondsAfter = 0;
 };
-// Medium swimming: its speed p, and its SpeedResponse::swimDrag.
+// The swimming after a turn or a fast start: its speed p, and its SpeedResponse::swimDrag.
 struct SwimsOn {
     double speed = 0;
     double drag = 0;

@@ -165,18 +165,27 @@ namespace {
 constexpr std::array<int, 4> kLeftFinRoot{1, 4, 5, 8};
 constexpr std::array<int, 4> kRightFinRoot{2, 3, 6, 7};
 
-// The current share of the relaxed rest length, by UnitKind and Side.
-using RestShares = std::array<std::array<double, 3>, 5>;
+constexpr int kFirstTailNode = 13;  // the first node of ring 4
 
-RestShares restShares(const MuscleActivation& muscles, double contraction) {
-    const auto left = [&](double activation) {
-        return 1 - contraction * std::clamp(activation, 0.0, 1.0);
-    };
-    return {{{1, 1, 1},
-             {1, 1, 1},
-             {1, left(muscles.frontLeft), left(muscles.frontRight)},
-             {1, left(muscles.middleLeft), left(muscles.middleRight)},
-             {1, left(muscles.backLeft), left(muscles.backRight)}}};
+// Activations, 0 to 1, by UnitKind and Side.
+using Activations = std::array<std::array<double, 3>, 5>;
+
+Activations activationsOf(const MuscleActivation& muscles) {
+    const auto at = [](double activation) { return std::clamp(activation, 0.0, 1.0); };
+    return {{{0, 0, 0},
+             {0, 0, 0},
+             {0, at(muscles.frontLeft), at(muscles.frontRight)},
+             {0, at(muscles.middleLeft), at(muscles.middleRight)},
+             {0, at(muscles.backLeft), at(muscles.backRight)}}};
+}
+
+UnitState stateOf(const Spring& spring, const Unit& unit, double activation, const Tone& tone) {
+    double stiffness = spring.stiffness * tone.stiffness;
+    if (unit.side != Side::Neither)
+        stiffness *= 1 + (tone.contractStiffness - 1) * activation;
+    else if (unit.first >= kFirstTailNode)
+        stiffness *= tone.tailStiffness;
+    return {stiffness, spring.restLength};
 }
 
 // A Voigt unit: spring and damper in parallel, acting along r from the first node to the second:
@@ -184,7 +193,7 @@ RestShares restShares(const MuscleActivation& muscles, double contraction) {
 // where l is the mean of the lengths at the two ends of the step. With |r| in place of l this would
 // be the plain midpoint rule; with l, the work of the spring in the step is the change of its
 // energy exactly, so that stiff springs cannot gain energy from the rule at any step (Greenspan
-// 1984; Simo & Tarnow 1992). `length` is the rest length now, with any contraction.
+// 1984; Simo & Tarnow 1992). `now` has the stiffness and the rest length, with any contraction.
 //
 // The matrix has, with t = stiffness (1 - length / l),
 //     h/2 (stiffness u u^T + g (1 - u u^T)) + damping u u^T,  g = max(0, t).
@@ -192,7 +201,7 @@ RestShares restShares(const MuscleActivation& muscles, double contraction) {
 // any step. So is the change of the damping force with the direction u, which is not symmetric.
 // Both slow the convergence of the iteration a little and leave its limit as it is.
 void addSpring(const Spring& spring,
-               double length,
+               const UnitState& now,
                double damping,
                double halfStep,
                const FishState& middle,
@@ -202,10 +211,10 @@ void addSpring(const Spring& spring,
     const double ends = (glm::length(r - halfStep * v) + glm::length(r + halfStep * v)) / 2;
     const double distance = glm::length(r);
     const glm::dvec3 u = r / distance;
-    const double tension = spring.stiffness * (1 - length / ends);
+    const double tension = now.stiffness * (1 - now.restLength / ends);
     const double rate = damping * glm::dot(u, v) / distance;
     const double geometric = std::max(0.0, tension);
-    const double along = halfStep * (spring.stiffness - geometric) + damping;
+    const double along = halfStep * (now.stiffness - geometric) + damping;
     const glm::dmat3 block = glm::outerProduct(along * u, u) + glm::dmat3(halfStep * geometric);
     const glm::dvec3 force = (tension + rate) * r;
     system.addDiagonalBlock(spring.first, block);
@@ -264,6 +273,80 @@ void addFin(const PectoralFin& fin,
     }
 }
 
+constexpr int kStrips = 4;
+
+glm::dvec3 rotatedAbout(const glm::dvec3& axis, double angle, const glm::dvec3& v) {
+    const double c = std::cos(angle);
+    return c * v + std::sin(angle) * glm::cross(axis, v) + (1 - c) * glm::dot(axis, v) * axis;
+}
+
+// A point of the blade at q of its ray, and its chord there: both from its root, in the body frame.
+struct BladePoint {
+    glm::dvec3 arm, chord;
+};
+BladePoint bladePoint(const Blade& blade, const FinPose& pose, double q, double side) {
+    const auto moved = [&](const glm::dvec3& v) {
+        return rotatedAbout(
+            blade.stroke, pose.stroke, rotatedAbout(blade.hinge, pose.open, v));
+    };
+    const glm::dvec3 mirror{-1, 1, side};
+    return {mirror * moved(q * blade.span * blade.ray),
+            mirror * moved(rotatedAbout(blade.ray, pose.twist * q, blade.chord))};
+}
+
+// The normal force of strips of a blade, distributed over rings 1 and 2 as over a rigid body.
+void addBlade(const Blade& blade,
+              const FinMotion& motion,
+              double side,
+              const glm::dmat3& worldFromBody,
+              const FishState& middle,
+              EnvelopeSystem& system) {
+    constexpr double kInstant = 1e-4;
+    constexpr int kNodes = 8;  // nodes 1 to 8
+    glm::dvec3 centre{}, velocity{};
+    for (std::size_t i = 1; i <= kNodes; ++i) {
+        centre += middle.positions[i] / double{kNodes};
+        velocity += middle.velocities[i] / double{kNodes};
+    }
+    glm::dmat3 inertia(0);
+    glm::dvec3 momentum{};
+    for (std::size_t i = 1; i <= kNodes; ++i) {
+        const glm::dvec3 r = middle.positions[i] - centre;
+        inertia += glm::dmat3(glm::dot(r, r)) - glm::outerProduct(r, r);
+        momentum += glm::cross(r, middle.velocities[i]);
+    }
+    const glm::dmat3 inverse = glm::inverse(inertia);
+    const glm::dvec3 spin = inverse * momentum;
+    const glm::dvec3 origin = frameOf(middle.positions).origin;
+    const glm::dvec3 root =
+        origin + worldFromBody * (glm::dvec3(-1, 1, side) * blade.root);
+    glm::dvec3 force{}, torque{};
+    for (int strip = 0; strip < kStrips; ++strip) {
+        const double q = (strip + 0.5) / kStrips;
+        FinPose later = motion.pose;
+        later.open += kInstant * motion.rate.open;
+        later.stroke += kInstant * motion.rate.stroke;
+        later.twist += kInstant * motion.rate.twist;
+        const BladePoint at = bladePoint(blade, motion.pose, q, side);
+        const BladePoint next = bladePoint(blade, later, q, side);
+        const glm::dvec3 place = root + worldFromBody * at.arm;
+        const glm::dvec3 v = velocity + glm::cross(spin, place - centre) +
+                             worldFromBody * ((next.arm - at.arm) / kInstant);
+        const glm::dvec3 normal =
+            worldFromBody * glm::normalize(glm::cross(at.arm, at.chord));
+        const double normalSpeed = glm::dot(normal, v);
+        const glm::dvec3 f = -blade.pressure * blade.area / kStrips * std::abs(normalSpeed) *
+                             normalSpeed * normal;
+        force += f;
+        torque += glm::cross(place - centre, f);
+    }
+    const glm::dvec3 turn = inverse * torque;
+    for (int i = 1; i <= kNodes; ++i) {
+        const glm::dvec3 r = middle.positions[static_cast<std::size_t>(i)] - centre;
+        system.addToRightSide(i, force / double{kNodes} + glm::cross(turn, r));
+    }
+}
+
 // The equation of the step. With v the velocities at its middle and v0 those at its beginning, the
 // implicit midpoint rule is
 //     2 m / h (v - v0) = force(x0 + h/2 v, v) + lift.
@@ -283,25 +366,27 @@ void addInertia(const BiomechanicalFish& fish,
     }
 }
 
+// What does not change during a step: the fish, its control, and what that makes of its units.
+struct StepInput {
+    const BiomechanicalFish& fish;
+    const MotorControl& control;
+    std::array<UnitState, kUnits> units;
+    double halfStep = 0;
+};
+
 // Forces on the body from within and from the water.
-void addForces(const BiomechanicalFish& fish,
-               const MotorControl& control,
-               double halfStep,
-               const FishState& middle,
-               EnvelopeSystem& system) {
-    const RestShares shares = restShares(control.muscles, fish.muscleContraction);
-    const auto& units = anatomy().units;
-    for (std::size_t i = 0; i < kUnits; ++i) {
-        const Spring& spring = fish.springs[i];
-        const double share = shares.at(static_cast<std::size_t>(units[i].kind))
-                                 .at(static_cast<std::size_t>(units[i].side));
-        const double length = spring.restLength * share;
-        addSpring(spring, length, fish.damping, halfStep, middle, system);
-    }
+void addForces(const StepInput& in, const FishState& middle, EnvelopeSystem& system) {
+    const BiomechanicalFish& fish = in.fish;
+    for (std::size_t i = 0; i < kUnits; ++i)
+        addSpring(fish.springs[i], in.units[i], fish.damping, in.halfStep, middle, system);
     for (const WettedFace& face : fish.faces) addDrag(face, middle, system);
     const glm::dmat3 worldFromBody = frameOf(middle.positions).worldFromBody;
-    addFin(control.fins.left, kLeftFinRoot, fish.finDrag, worldFromBody, middle, system);
-    addFin(control.fins.right, kRightFinRoot, fish.finDrag, worldFromBody, middle, system);
+    if (in.control.rowing.rows) {
+        addBlade(fish.blade, in.control.rowing.left, -1, worldFromBody, middle, system);
+        addBlade(fish.blade, in.control.rowing.right, 1, worldFromBody, middle, system);
+    }
+    addFin(in.control.fins.left, kLeftFinRoot, fish.finDrag, worldFromBody, middle, system);
+    addFin(in.control.fins.right, kRightFinRoot, fish.finDrag, worldFromBody, middle, system);
 }
 
 // The iteration ends when no velocity changed by more than this in its last round, body lengths a
@@ -323,14 +408,10 @@ FishState extrapolated(const FishState& start, double halfStep) {
 }
 
 // One round of Newton's method. Returns the largest change of a velocity.
-double improve(const BiomechanicalFish& fish,
-               const MotorControl& control,
-               double halfStep,
-               const FishState& start,
-               FishState& middle) {
+double improve(const StepInput& in, const FishState& start, FishState& middle) {
     EnvelopeSystem system;
-    addInertia(fish, halfStep, start, middle, system);
-    addForces(fish, control, halfStep, middle, system);
+    addInertia(in.fish, in.halfStep, start, middle, system);
+    addForces(in, middle, system);
     system.solve();
     double most = 0;
     for (int i = 0; i < body::kNodalPoints; ++i) {
@@ -338,22 +419,37 @@ double improve(const BiomechanicalFish& fish,
         const glm::dvec3 change = system.solution(i);
         most = std::max(most, glm::length(change));
         middle.velocities[node] += change;
-        middle.positions[node] = start.positions[node] + halfStep * middle.velocities[node];
+        middle.positions[node] = start.positions[node] + in.halfStep * middle.velocities[node];
     }
     return most;
 }
 
 }  // namespace
 
+std::array<UnitState, kUnits> unitStates(const BiomechanicalFish& fish,
+                                         const MotorControl& control) {
+    const Activations activations = activationsOf(control.muscles);
+    const double contraction = fish.muscleContraction * control.tone.contraction;
+    const auto& units = anatomy().units;
+    std::array<UnitState, kUnits> states;
+    for (std::size_t i = 0; i < kUnits; ++i) {
+        const double activation = activations.at(static_cast<std::size_t>(units[i].kind))
+                                      .at(static_cast<std::size_t>(units[i].side));
+        states[i] = stateOf(fish.springs[i], units[i], activation, control.tone);
+        states[i].restLength *= 1 - contraction * activation;
+    }
+    return states;
+}
+
 void step(const BiomechanicalFish& fish,
           const MotorControl& control,
           double stepSeconds,
           FishState& state) {
     assert(stepSeconds > 0);
-    const double halfStep = stepSeconds / 2;
-    FishState middle = extrapolated(state, halfStep);
+    const StepInput in{fish, control, unitStates(fish, control), stepSeconds / 2};
+    FishState middle = extrapolated(state, in.halfStep);
     for (int round = 0; round < kMostRounds; ++round)
-        if (improve(fish, control, halfStep, state, middle) < kConverged) break;
+        if (improve(in, state, middle) < kConverged) break;
     // The middle is the mean of both ends.
     for (std::size_t i = 0; i < state.positions.size(); ++i) {
         const glm::dvec3 gained = 2.0 * (middle.velocities[i] - state.velocities[i]);

@@ -84,7 +84,9 @@ RecordedCycle quickBeat(const config::Species& species, const config::Gait& gait
         for (int i = 0; i < count; ++i)
             step(fish,
                  {.muscles = swim(species, gait, stepSeconds * (static_cast<double>(done++) + 0.5)),
-                  .fins = {}},
+                  .fins = {},
+                  .rowing = {},
+                  .tone = {}},
                  stepSeconds,
                  state);
     };

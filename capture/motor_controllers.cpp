@@ -98,6 +98,80 @@ double secondsOf(const config::Bend& bend, const config::Species& species) {
 
 namespace {
 
+// Fast starts.
+
+// Times are the fish's own seconds: in which the muscles of the beat before relax, the tissue
+// stiffens, and relaxes after the stroke, and the beat with which it swims on grows.
+constexpr double kRelaxed = 0.022, kStiffened = 0.009, kSoftened = 0.09, kBeats = 0.045;
+
+// A contraction from one time to another.
+double pulse(double t, double from, double to, const config::FastStart& start) {
+    return smoothStep((t - from) / start.riseSeconds) *
+           (1 - smoothStep((t - to) / start.fallSeconds));
+}
+
+// From 1 to a factor.
+double mixed(double factor, double share) {
+    return std::lerp(1.0, factor, share);
+}
+
+}  // namespace
+
+double secondsOf(const config::FastStart& start, double bendShare) {
+    return bendShare * start.bend.seconds + start.stroke.seconds;
+}
+
+double secondsUntilRelaxed(const config::Species& species, double bendShare) {
+    return secondsOf(species.start, bendShare) + kSoftened / species.tissue.timeScale;
+}
+
+MotorControl startLeft(const config::Species& species,
+                       double bendShare,
+                       const MuscleActivation& before,
+                       double seconds) {
+    const config::FastStart& start = species.start;
+    const double own = seconds * species.tissue.timeScale;
+    const double bendEnd = bendShare * start.bend.seconds;
+    const double end = secondsOf(start, bendShare);
+    const double ownAfter = (seconds - end) * species.tissue.timeScale;
+    const double old = 1 - smoothStep(own / kRelaxed);
+    const config::Gait& fast = species.swim.fast;
+    const MuscleActivation on = beatAt(species.swim,
+                                       fast.gain * smoothStep(ownAfter / kBeats),
+                                       start.beatPhase + (seconds - end) * fast.beatHertz);
+    const auto bend = [&](int segment) {
+        const double lag = segment * start.lagSeconds;
+        return pulse(seconds, lag, bendEnd + lag, start);
+    };
+    const auto stroke = [&](int segment) {
+        const double lag = segment * start.lagSeconds;
+        return pulse(seconds, bendEnd + lag, end + lag, start);
+    };
+    const auto most = [&](double then, double now, double pulled) {
+        return std::max(then * old + now, pulled);
+    };
+    const double alert = smoothStep(own / kStiffened) * (1 - smoothStep(ownAfter / kSoftened));
+    return {
+        .muscles = {.frontLeft = most(before.frontLeft, on.frontLeft, start.bend.front * bend(0)),
+                    .frontRight =
+                        most(before.frontRight, on.frontRight, start.stroke.front * stroke(0)),
+                    .middleLeft =
+                        most(before.middleLeft, on.middleLeft, start.bend.middle * bend(1)),
+                    .middleRight =
+                        most(before.middleRight, on.middleRight, start.stroke.middle * stroke(1)),
+                    .backLeft = most(before.backLeft, on.backLeft, start.bend.back * bend(2)),
+                    .backRight =
+                        most(before.backRight, on.backRight, start.stroke.back * stroke(2))},
+        .fins = {},
+        .rowing = {},
+        .tone = {.stiffness = mixed(start.tone, alert),
+                 .tailStiffness = mixed(start.tailTone, alert),
+                 .contractStiffness = mixed(start.muscleTone, alert),
+                 .contraction = mixed(start.contraction, alert)}};
+}
+
+namespace {
+
 // Fins. Angles are PectoralFin::angleRadians.
 
 constexpr double kFlat = std::numbers::pi / 2;  // parallel to the flow: no force

@@ -42,6 +42,17 @@ inline constexpr double kRampOwnSeconds = 1;
 // From the order to turn until all muscles are relaxed, in seconds (not the fish's own).
 [[nodiscard]] double secondsOf(const config::Bend& bend, const config::Species& species);
 
+// A fast start to the left at a time since the order. `bendShare` scales the time of the bend, and
+// with it the angle. `before` are the muscles when the order came. After the stroke the fish swims
+// on at the fast gait.
+[[nodiscard]] MotorControl startLeft(const config::Species& species,
+                                     double bendShare,
+                                     const MuscleActivation& before,
+                                     double seconds);
+// From the order to the end of the stroke, and until the tissue is as before.
+[[nodiscard]] double secondsOf(const config::FastStart& start, double bendShare);
+[[nodiscard]] double secondsUntilRelaxed(const config::Species& species, double bendShare);
+
 // Control of the pectoral fins at each instant.
 
 // Proportional feedback towards a pitch and no roll, for a fish that moves forward: both fins turn

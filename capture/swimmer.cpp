@@ -60,13 +60,13 @@ constexpr double kPitchLeadBeats = 2;
 
 }  // namespace
 
-Swimmer::Swimmer(const BiomechanicalFish& fish, const config::Swim& swim, double stepSeconds)
-    : fish_(fish), swim_(swim), stepSeconds_(stepSeconds), state_(stateAtRest(fish_)) {
+Swimmer::Swimmer(const BiomechanicalFish& fish, const config::Species& species, double stepSeconds)
+    : fish_(fish), species_(species), stepSeconds_(stepSeconds), state_(stateAtRest(fish_)) {
     assert(stepSeconds > 0);
 }
 
 Swimmer::Swimmer(const config::Species& species, double stepSeconds)
-    : Swimmer(makeBiomechanicalFish(species), species.swim, stepSeconds) {}
+    : Swimmer(makeBiomechanicalFish(species), species, stepSeconds) {}
 
 Swimmer::Swimmer(const config::Species& species)
     : Swimmer(species, longestStepSeconds(makeBiomechanicalFish(species))) {}
@@ -91,14 +91,30 @@ void Swimmer::advance(int steps) {
 // midpoint rule asks. The attitude is that sensed after the step before.
 void Swimmer::advanceOne() {
     advanceClocks(stepSeconds_ / 2);
-    const double handedOver = std::min(1.0, ownSecondsOfOrder_ / kHandover);
-    control_ = {.muscles = mix(musclesBefore_, muscleProgram(), handedOver), .fins = finProgram()};
+    control_ = program();
     step(fish_, control_, stepSeconds_, state_);
     ++steps_;
     // The low pass has a time constant of one beat, or of the fish's own second if that is shorter.
     const double hertz = std::max(beating_.beatHertz, fish_.timeScale);
     attitude_ = sense(attitude_, state_, stepSeconds_ * hertz, stepSeconds_);
     advanceClocks(stepSeconds_ / 2);
+}
+
+MotorControl Swimmer::program() const {
+    const double seconds = ownSecondsOfOrder_ / fish_.timeScale;
+    if (order_.controller == Controller::LeftStart)
+        return startLeft(species_, order_.bendShare, musclesBefore_, seconds);
+    if (order_.controller == Controller::RightStart) {
+        MotorControl control =
+            startLeft(species_, order_.bendShare, mirrored(musclesBefore_), seconds);
+        control.muscles = mirrored(control.muscles);
+        return control;
+    }
+    const double handedOver = std::min(1.0, ownSecondsOfOrder_ / kHandover);
+    return {.muscles = mix(musclesBefore_, muscleProgram(), handedOver),
+            .fins = finProgram(),
+            .rowing = {},
+            .tone = {}};
 }
 
 void Swimmer::advanceClocks(double seconds) {
@@ -131,6 +147,8 @@ MuscleActivation Swimmer::muscleProgram() const {
         case Controller::Brake:
             return tailBeat(std::max(0.0, 1 - beatsOfOrder / kLastBeats));
         case Controller::Retreat:
+        case Controller::LeftStart:
+        case Controller::RightStart:
             break;
     }
     return {};
@@ -141,7 +159,7 @@ MuscleActivation Swimmer::muscleProgram() const {
 MuscleActivation Swimmer::tailBeat(double share) const {
     const double grown = std::min(1.0, ownSecondsSwum_ / kRampOwnSeconds);
     const double curve = order_.controller == Controller::ForwardSwim ? order_.curve : 0;
-    return beatAt(swim_, share * beating_.gain * grown, beat_, curve);
+    return beatAt(species_.swim, share * beating_.gain * grown, beat_, curve);
 }
 
 // The attitude with the pitch that the fish will have in kPitchLeadBeats if it pitches on as it
@@ -170,6 +188,8 @@ PectoralFins Swimmer::finProgram() const {
         case Controller::LeftTurn:
         case Controller::RightTurn:
         case Controller::Glide:
+        case Controller::LeftStart:
+        case Controller::RightStart:
             break;
     }
     return {};

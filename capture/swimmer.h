@@ -41,7 +41,10 @@ enum class Controller : std::uint8_t {
     Descend,
     Balance,
     Brake,
-    Retreat
+    Retreat,
+    // Not one of the paper's.
+    LeftStart,
+    RightStart
 };
 
 // A command to the fish, which replaces the one before. A turn is over after secondsOf(bend); then
@@ -52,6 +55,7 @@ struct Order {
     config::Gait gait{};      // ForwardSwim, Ascend, Descend, Balance, Retreat
     config::Bend bend{};      // LeftTurn, RightTurn
     double pitchRadians = 0;  // Ascend, Descend: slope of the body axis, positive in both
+    double bendShare = 1;     // LeftStart, RightStart: of the time of the bend
     // ForwardSwim on a curve: the left muscles pull more by this share, the right ones less.
     double curve = 0;
     // ForwardSwim on a loop: both pectoral fins turn by this from parallel to the flow, radians;
@@ -66,8 +70,8 @@ class Swimmer {
     // A fish of the species; without a step, longestStepSeconds() is used.
     explicit Swimmer(const config::Species& species);
     Swimmer(const config::Species& species, double stepSeconds);
-    // This fish, with the muscle program of the species.
-    Swimmer(const BiomechanicalFish& fish, const config::Swim& swim, double stepSeconds);
+    // This fish, with the muscle programs of the species.
+    Swimmer(const BiomechanicalFish& fish, const config::Species& species, double stepSeconds);
 
     // Holds from the next step on. The phase of the beat continues through all orders. The muscles
     // change from the old program to the new one within a few hundredths of the fish's own second.
@@ -88,6 +92,8 @@ class Swimmer {
     void advanceClocks(double seconds);
     // Whether the present order beats the tail.
     [[nodiscard]] bool swims() const;
+    // What all actuators do at this instant.
+    [[nodiscard]] MotorControl program() const;
     // The wanted state of muscles and fins at this instant under the present order, without the
     // transition from the order before.
     [[nodiscard]] MuscleActivation muscleProgram() const;
@@ -96,7 +102,7 @@ class Swimmer {
     [[nodiscard]] BodyAngles foreseen() const;
 
     BiomechanicalFish fish_;
-    config::Swim swim_;
+    config::Species species_;
     double stepSeconds_;
     std::int64_t steps_ = 0;
     FishState state_;

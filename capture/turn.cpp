@@ -145,28 +145,50 @@ std::vector<NodeVectors> evenPoses(Swimmer& swimmer, double seconds) {
     return poses;
 }
 
-EnteredTurn recordEntered(const config::Species& species,
-                          const SteadySwimming& entry,
-                          const config::Bend& bend,
-                          int onsetPhase,
-                          double seconds) {
-    Swimmer swimmer = entry.swimmer;
-    swimmer.advance(onsetPhase * entry.stepsPerPhase);
-    swimmer.give({.controller = Controller::LeftTurn, .bend = bend});
+// What a swimmer does that swam at a speed on a course: obeys an order for `seconds`, then swims on
+// at a gait.
+EnteredTurn recordEntered(Swimmer swimmer,
+                          const RecordedCycle& before,
+                          const Order& order,
+                          double seconds,
+                          const config::Gait& after) {
+    const double way =
+        before.poses.empty() ? 0
+                             : glm::distance(frameOf(before.poses.back()).origin,
+                                             frameOf(before.poses.front()).origin);
     EnteredTurn entered{.turn = {.periodSeconds = seconds,
                                  .playsToEnd = true,
-                                 .course = entry.beat.course,
+                                 .course = before.course,
                                  .poses = {}},
-                        .speedBefore = glm::distance(frameOf(entry.beat.poses.back()).origin,
-                                                     frameOf(entry.beat.poses.front()).origin) /
-                                       entry.beat.periodSeconds,
-                        .secondsAfter = kBeatsAfter / species.swim.medium.beatHertz};
+                        .speedBefore = way > 0 ? way / before.periodSeconds : 0,
+                        .secondsAfter = kBeatsAfter / after.beatHertz};
+    swimmer.give(order);
     entered.turn.poses = evenPoses(swimmer, seconds);
-    swimmer.give({.controller = Controller::ForwardSwim, .gait = species.swim.medium});
+    swimmer.give({.controller = Controller::ForwardSwim, .gait = after});
     swimmer.advance(static_cast<int>(std::lround(entered.secondsAfter / swimmer.stepSeconds())));
     entered.wayAfter =
         frameOf(swimmer.state().positions).origin - frameOf(entered.turn.poses.back()).origin;
     return entered;
+}
+
+// Begun in the steady swimming of each entry: first by entry and then by kRecordedPhases phases.
+std::vector<EnteredTurn> recordAllEntered(const std::vector<const SteadySwimming*>& entries,
+                                          const Order& order,
+                                          double seconds,
+                                          const config::Gait& after) {
+    std::vector<EnteredTurn> turns;
+    for (const SteadySwimming* entry : entries)
+        for (int i = 0; i < kRecordedPhases; ++i) {
+            Swimmer swimmer = entry->swimmer;
+            swimmer.advance(i * motion::kPhases / kRecordedPhases * entry->stepsPerPhase);
+            turns.push_back(
+                recordEntered(std::move(swimmer), entry->beat, order, seconds, after));
+        }
+    return turns;
+}
+
+Order startOf(double bendShare) {
+    return {.controller = Controller::LeftStart, .bendShare = bendShare};
 }
 
 }  // namespace
@@ -175,12 +197,27 @@ std::vector<EnteredTurn> recordEnteredTurns(const config::Species& species,
                                             const std::vector<const SteadySwimming*>& entries,
                                             const config::Bend& bend,
                                             double seconds) {
-    std::vector<EnteredTurn> turns;
-    for (const SteadySwimming* entry : entries)
-        for (int i = 0; i < kRecordedPhases; ++i)
-            turns.push_back(recordEntered(
-                species, *entry, bend, i * motion::kPhases / kRecordedPhases, seconds));
-    return turns;
+    return recordAllEntered(entries,
+                            {.controller = Controller::LeftTurn, .bend = bend},
+                            seconds,
+                            species.swim.medium);
+}
+
+EnteredTurn recordStart(const config::Species& species, double bendShare) {
+    return recordEntered(Swimmer(species),
+                         {},
+                         startOf(bendShare),
+                         secondsUntilRelaxed(species, bendShare),
+                         species.swim.fast);
+}
+
+std::vector<EnteredTurn> recordEnteredStarts(const config::Species& species,
+                                             const std::vector<const SteadySwimming*>& entries,
+                                             double bendShare) {
+    return recordAllEntered(entries,
+                            startOf(bendShare),
+                            secondsUntilRelaxed(species, bendShare),
+                            species.swim.fast);
 }
 
 RecordedCycle recordTypicalLeftTurn(const config::Species& species,

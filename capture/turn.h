@@ -54,6 +54,20 @@ inline constexpr int kRecordedPhases = 4;
     const config::Bend& bend,
     double seconds);
 
+// Fast starts in the simulation.
+
+// How long the bend of each fast start lasts, from small to large, as shares of the species'.
+inline constexpr std::array kBendShares{0.5, 0.75, 1.0};
+
+// A left fast start out of rest, until the tissue is relaxed.
+[[nodiscard]] EnteredTurn recordStart(const config::Species& species, double bendShare);
+// Those begun in the steady swimming of each entry: first by entry and then by kRecordedPhases
+// phases of the beat. They last as long as that out of rest.
+[[nodiscard]] std::vector<EnteredTurn> recordEnteredStarts(
+    const config::Species& species,
+    const std::vector<const SteadySwimming*>& entries,
+    double bendShare);
+
 // The turn to capture, entered from medium swimming: of the turns begun at kOnsets phases, the one
 // whose angle is nearest to their mean.
 [[nodiscard]] RecordedCycle recordTypicalLeftTurn(const config::Species& species,

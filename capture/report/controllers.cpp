@@ -94,7 +94,7 @@ capture::Swimmer rolled(const config::Species& species, double rollRadians) {
     capture::BiomechanicalFish fish = capture::makeBiomechanicalFish(species);
     for (glm::dvec3& x : fish.restPositions)
         x = {x.x, cosine * x.y + sine * x.z, -sine * x.y + cosine * x.z};
-    return {fish, species.swim, capture::longestStepSeconds(fish)};
+    return {fish, species, capture::longestStepSeconds(fish)};
 }
 
 // Data of the figure.

@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "capture/report/script.h"
+#include "capture/turn.h"
 #include "common/base/units.h"
 #include "common/motion/reconstruct.h"
 #include "common/motion/repertoire.h"
@@ -63,7 +64,7 @@ Replica::Replica(const motion::Repertoire& repertoire)
     states_.resize(1);
     commands_.resize(1);
     motion::setBodyFrame(states_, 0, {});
-    states_.segment[0] = static_cast<std::uint8_t>(motion::Action::ForwardMedium);
+    states_.segment[0] = motion::firstSegmentOf(motion::Action::ForwardMedium);
     motion::setSpeedBodyLengths(
         states_, 0, motion::recordedSpeedBodyLengths(*tables_, motion::Action::ForwardMedium));
 }
@@ -179,8 +180,15 @@ capture::Order orderFor(const config::Species& species, Manoeuvre manoeuvre) {
             return {.controller = capture::Controller::Brake};
         case Manoeuvre::Retreat:
             return {.controller = capture::Controller::Retreat, .gait = swim.slow};
+        default:
+            break;
     }
-    return {};
+    const auto size = static_cast<std::size_t>(manoeuvre) -
+                      static_cast<std::size_t>(Manoeuvre::StartLeftSmall);
+    const bool left = size < capture::kBendShares.size();
+    return {.controller =
+                left ? capture::Controller::LeftStart : capture::Controller::RightStart,
+            .bendShare = capture::kBendShares.at(size % capture::kBendShares.size())};
 }
 
 // A point of a trace from places in the world.

@@ -31,10 +31,19 @@ constexpr std::array kAfterMedium{Choice{Manoeuvre::ForwardSlow, 12},
                                   Choice{Manoeuvre::Ascend, 4},
                                   Choice{Manoeuvre::Descend, 4},
                                   Choice{Manoeuvre::Brake, 4},
-                                  Choice{Manoeuvre::Retreat, 4}};
+                                  Choice{Manoeuvre::Retreat, 4},
+                                  Choice{Manoeuvre::StartLeftSmall, 2},
+                                  Choice{Manoeuvre::StartLeftMiddle, 2},
+                                  Choice{Manoeuvre::StartLeftLarge, 2},
+                                  Choice{Manoeuvre::StartRightSmall, 2},
+                                  Choice{Manoeuvre::StartRightMiddle, 2},
+                                  Choice{Manoeuvre::StartRightLarge, 2}};
 constexpr std::array kAfterSlow{Choice{Manoeuvre::ForwardMedium, 7},
                                 Choice{Manoeuvre::ForwardFast, 2},
-                                Choice{Manoeuvre::Glide, 1}};
+                                Choice{Manoeuvre::Glide, 1},
+                                Choice{Manoeuvre::StartLeftMiddle, 1},
+                                Choice{Manoeuvre::StartRightLarge, 1}};
+constexpr std::array kAfterStart{Choice{Manoeuvre::ForwardFast, 1}};
 constexpr std::array kAfterFast{Choice{Manoeuvre::ForwardMedium, 7},
                                 Choice{Manoeuvre::ForwardSlow, 2},
                                 Choice{Manoeuvre::Glide, 1}};
@@ -55,6 +64,13 @@ std::span<const Choice> choicesAfter(Manoeuvre manoeuvre) {
         case Manoeuvre::Ascend:
         case Manoeuvre::Descend:
             return kAfterSlope;
+        case Manoeuvre::StartLeftSmall:
+        case Manoeuvre::StartLeftMiddle:
+        case Manoeuvre::StartLeftLarge:
+        case Manoeuvre::StartRightSmall:
+        case Manoeuvre::StartRightMiddle:
+        case Manoeuvre::StartRightLarge:
+            return kAfterStart;
         default:
             return kAfterOthers;
     }
@@ -115,9 +131,10 @@ ScriptCommand commandFor(const motion::Repertoire& repertoire,
                          Random& random) {
     ScriptCommand command{.manoeuvre = manoeuvre, .beatTicks = beatTicks(repertoire, manoeuvre)};
     // A turn lasts the whole ticks in which the motor plays its segment.
-    if (isTurn(manoeuvre)) {
+    if (isTurn(manoeuvre) || isStart(manoeuvre)) {
         const long rate = std::lround(65536 / ticksOf(segmentOf(repertoire, manoeuvre)));
-        command.ticks = static_cast<int>(65535 / rate);
+        const long last = isStart(manoeuvre) ? 65535 - 1024 : 65535;
+        command.ticks = static_cast<int>(last / rate);
         return command;
     }
     constexpr double kUnit = 1.0 / 4294967296.0;  // 2^-32: the share is in [0, 1)
@@ -170,6 +187,15 @@ motion::Action actionOf(Manoeuvre manoeuvre) {
             return Action::Glide;
         case Manoeuvre::Retreat:
             return Action::Retreat;
+        case Manoeuvre::StartLeftSmall:
+        case Manoeuvre::StartLeftMiddle:
+        case Manoeuvre::StartLeftLarge:
+        case Manoeuvre::StartRightSmall:
+        case Manoeuvre::StartRightMiddle:
+        case Manoeuvre::StartRightLarge:
+            return static_cast<Action>(indexOf(Action::StartLeftSmall) +
+                                       (static_cast<std::size_t>(manoeuvre) -
+                                        static_cast<std::size_t>(Manoeuvre::StartLeftSmall)));
     }
     return Action::ForwardMedium;
 }

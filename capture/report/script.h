@@ -30,12 +30,21 @@ enum class Manoeuvre : std::uint8_t {
     Balance,
     Brake,
     Retreat,
+    StartLeftSmall,
+    StartLeftMiddle,
+    StartLeftLarge,
+    StartRightSmall,
+    StartRightMiddle,
+    StartRightLarge,
 };
-inline constexpr int kManoeuvres = 13;
+inline constexpr int kManoeuvres = 19;
 // "forward_slow", ..., "ascend", ...; the string is static.
 [[nodiscard]] const char* nameOf(Manoeuvre manoeuvre);
 [[nodiscard]] constexpr bool isTurn(Manoeuvre m) {
     return m >= Manoeuvre::TurnLeftGradual && m <= Manoeuvre::TurnRightSharp;
+}
+[[nodiscard]] constexpr bool isStart(Manoeuvre m) {
+    return m >= Manoeuvre::StartLeftSmall;
 }
 
 // The action that the replica plays for a manoeuvre while its pitch is the wanted one.
@@ -55,7 +64,7 @@ using Script = std::vector<ScriptCommand>;
 
 // A run-in of steady swimming at medium speed, then random commands until they last `seconds` or
 // more; the last one is not cut. A gait lasts some of its beats. A turn follows medium swimming and
-// lasts its segment. After an ascent or a descent the fish balances. Brakes and retreats are rare.
+// lasts its segment; a fast start does too, or follows slow swimming or a brake, and fast swimming follows. After an ascent or a descent the fish balances. Brakes and retreats are rare.
 // A pure function of its arguments.
 [[nodiscard]] Script makeScript(const motion::Repertoire& repertoire,
                                 std::uint64_t seed,

@@ -17,6 +17,7 @@ namespace {
 namespace pb = google::protobuf;
 
 constexpr double kDegree = kRadiansPerDegree<double>;
+constexpr double kMillisecond = 1e-3;
 constexpr float kHead = 0.05F;  // no fin stands before it
 
 static_assert(v1::Habits::PREDATOR - v1::Habits::PREY == static_cast<int>(Role::Predator));
@@ -363,6 +364,26 @@ Bend bendOf(const v1::Bend& in) {
     return {.strength = in.strength(), .tempo = in.tempo()};
 }
 
+StartStage stageOf(const v1::StartStage& in) {
+    return {.front = in.front(),
+            .middle = in.middle(),
+            .back = in.back(),
+            .seconds = in.ms() * kMillisecond};
+}
+
+FastStart startOf(const v1::FastStart& in) {
+    return {.tone = in.tone(),
+            .tailTone = in.tail_tone(),
+            .muscleTone = in.muscle_tone(),
+            .contraction = in.contraction(),
+            .bend = stageOf(in.bend()),
+            .stroke = stageOf(in.stroke()),
+            .lagSeconds = in.lag_ms() * kMillisecond,
+            .riseSeconds = in.rise_ms() * kMillisecond,
+            .fallSeconds = in.fall_ms() * kMillisecond,
+            .beatPhase = in.beat_phase()};
+}
+
 // All that moves the animal, as text.
 std::string motionOf(v1::Species in) {
     in.clear_habits();
@@ -413,6 +434,7 @@ Species parseSpecies(const std::string& text, const std::string& source) {
                      .finDrag = in.water().fin_drag()};
     species.swim = swimOf(in.swim());
     species.turn = {.gradual = bendOf(in.turn().gradual()), .sharp = bendOf(in.turn().sharp())};
+    species.start = startOf(in.fast_start());
     species.habits = habitsOf(file, in.habits(), in.name());
     for (const v1::Paint& paint : in.palette())
         species.palette.push_back(

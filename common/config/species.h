@@ -124,6 +124,25 @@ struct Bend {
     double tempo = 1;     // 1: over in 1.45 of the fish's own seconds
 };
 
+// A stage of a fast start: how hard the muscles of one side contract, 0 to 1, and for how long.
+struct StartStage {
+    double front = 0, middle = 0, back = 0;
+    double seconds = 0;
+};
+
+// A C-start: the body bends to one side, then it beats to the other and swims on. Factors are of
+// what the relaxed tissue has.
+struct FastStart {
+    double tone = 1;         // stiffness of all tissue while it lasts
+    double tailTone = 1;     // further, of the tail
+    double muscleTone = 1;   // further, of a muscle that contracts fully
+    double contraction = 1;  // of Tissue::muscleContraction
+    StartStage bend, stroke;
+    double lagSeconds = 0;                   // from one segment to the next
+    double riseSeconds = 0, fallSeconds = 0;  // of each contraction
+    double beatPhase = 0;                    // 0 to 1, with which it swims on
+};
+
 // The two turns of the repertoire, either to both sides.
 struct Turn {
     Bend gradual, sharp;
@@ -232,6 +251,7 @@ struct Species {
     Water water;
     Swim swim;
     Turn turn;
+    FastStart start;
     Habits habits;
     std::vector<Paint> palette;
     // The repertoire keeps the control points of every frame (eq. 9) beside the nodal points, which

@@ -64,15 +64,18 @@ std::uint64_t foldedRecords(std::size_t count, RecordAt&& recordAt) {
     std::uint64_t hash = mix(count);
     for (std::size_t fish = 0; fish < count; ++fish) {
         const FishRecord r = recordAt(fish);
-        // Four words that do not depend on each other, so the processor works on them side by side;
+        // Five words that do not depend on each other, so the processor works on them side by side;
         // only the last line waits for the fish before.
         const std::int32_t phases = r.phase | static_cast<std::int32_t>(wide(r.fromPhase) << 16U);
         const std::uint64_t place = mix(pair(r.x, r.y)) + 3 * mix(pair(r.z, phases));
         const std::uint64_t turn = mix(wide(r.orientationLow) | wide(r.orientationHigh) << 32U);
-        const std::uint64_t warp = wide(r.segment) | wide(r.fromSegment) << 8U |
-                                   wide(r.warpFrame) << 16U | wide(r.warpLength) << 24U |
-                                   wide(r.speedAndSpread) << 32U;
-        hash = hash * 0x9E3779B97F4A7C15U + (place + 5 * turn + 7 * mix(warp + 1));
+        const std::uint64_t played =
+            wide(r.segment) | wide(r.fromSegment) << 16U | wide(r.speedAndSpread) << 32U;
+        const std::uint64_t warp = wide(r.warpFrame) | wide(r.warpLength) << 8U |
+                                   wide(r.mouth) << 16U | wide(r.gaze) << 24U |
+                                   wide(r.skin) << 32U;
+        hash = hash * 0x9E3779B97F4A7C15U +
+               (place + 5 * turn + 7 * mix(played + 1) + 9 * mix(warp + 2));
     }
     return mix(hash);
 }
@@ -84,11 +87,9 @@ void MotionStates::resize(std::size_t fish) {
         column->resize(fish);
     }
     speed.resize(fish);
-    for (auto* column : {&phase, &fromPhase}) column->resize(fish);
-    for (auto* column :
-         {&orientationLargest, &segment, &fromSegment, &warpFrame, &warpLength, &spread}) {
+    for (auto* column : {&phase, &fromPhase, &segment, &fromSegment}) column->resize(fish);
+    for (auto* column : {&orientationLargest, &warpFrame, &warpLength, &spread})
         column->resize(fish);
-    }
 }
 
 std::size_t MotionStates::bytes() const {
@@ -123,9 +124,9 @@ FishRecord recordOf(const MotionStates& states, std::size_t fish) {
             .fromPhase = states.fromPhase[fish],
             .segment = states.segment[fish],
             .fromSegment = states.fromSegment[fish],
+            .speedAndSpread = packedSpeedAndSpread(states.speed[fish], states.spread[fish]),
             .warpFrame = states.warpFrame[fish],
-            .warpLength = states.warpLength[fish],
-            .speedAndSpread = packedSpeedAndSpread(states.speed[fish], states.spread[fish])};
+            .warpLength = states.warpLength[fish]};
 }
 
 PackedOrientation orientationOf(const FishRecord& record) {
@@ -158,7 +159,8 @@ void setFromRecord(MotionStates& states, std::size_t fish, const FishRecord& rec
 bool isPlayable(const FishRecord& record) {
     return record.segment < kSegments && record.fromSegment < kSegments &&
            record.warpFrame <= record.warpLength && speedOf(record) <= kFastestUnits &&
-           speedOf(record) >= -kFastestUnits && record.orientationHigh >> 30U == 0;
+           speedOf(record) >= -kFastestUnits && record.orientationHigh >> 30U == 0 &&
+           record.mouth == 0 && record.gaze == 0 && record.skin == 0;
 }
 
 BodyFrame bodyFrameOf(const FishRecord& record) {

@@ -136,11 +136,11 @@ struct MotionStates {
     // Which of w, x, y, z (0 to 3) is left out; it is >= 0.
     std::vector<std::uint8_t> orientationLargest;
     std::vector<std::uint16_t> phase;
-    std::vector<std::uint8_t> segment;  // below kSegments
+    std::vector<std::uint16_t> segment;  // below kSegments
     // A motion warp goes from a frozen pose of one segment to the first pose of the next (section
     // 4.2).
     std::vector<std::uint16_t> fromPhase;
-    std::vector<std::uint8_t> fromSegment;
+    std::vector<std::uint16_t> fromSegment;
     // From 0 to warpLength, which is K, the number of interpolated frames; equal when no warp is
     // under way.
     std::vector<std::uint8_t> warpFrame;
@@ -194,12 +194,16 @@ struct FishRecord {
     // The low and high half of a | b << 20 | c << 40 | largest << 60 (20-bit two's complement).
     std::uint32_t orientationLow = 0, orientationHigh = 0;
     std::uint16_t phase = 0, fromPhase = 0;
-    std::uint8_t segment = 0, fromSegment = 0, warpFrame = 0, warpLength = 0;
+    std::uint16_t segment = 0, fromSegment = 0;
     // Low 24 bits: the speed in two's complement; high 8: the spread.
     std::uint32_t speedAndSpread = 0;
+    std::uint8_t warpFrame = 0, warpLength = 0;
+    // Zero: not used yet.
+    std::uint8_t mouth = 0, gaze = 0;
+    std::uint32_t skin = 0;
     friend bool operator==(const FishRecord&, const FishRecord&) = default;
 };
-static_assert(sizeof(FishRecord) == 32);
+static_assert(sizeof(FishRecord) == 40);
 
 // FishRecord::speedAndSpread of its two parts, and back.
 [[nodiscard]] inline std::uint32_t packedSpeedAndSpread(std::int32_t speed, std::uint8_t spread) {
@@ -242,8 +246,8 @@ void setSpeedBodyLengths(MotionStates& states, std::size_t fish, float speed);
 [[nodiscard]] bool isAway(const MotionStates& states, std::size_t fish);
 void setAway(MotionStates& states, std::size_t fish);
 
-// Folds every bit of the state into one number: equal worlds have equal hashes. Cost: four multiply
-// chains for each fish.
+// Folds every bit of the state into one number: equal worlds have equal hashes. Cost: five
+// multiply chains for each fish.
 [[nodiscard]] std::uint64_t hashOf(const MotionStates& states);
 // The same hash from records of the same fish.
 [[nodiscard]] std::uint64_t hashOf(std::span<const FishRecord> records);

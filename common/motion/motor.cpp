@@ -100,10 +100,10 @@ float speedAfter(const SpeedLoss& loss,
                  float v,
                  float pathAtStart,
                  float pathAtEnd,
-                 std::uint8_t segment,
+                 std::uint16_t segment,
                  std::uint32_t phase,
                  float brake) {
-    constexpr std::uint8_t kGlide = firstSegmentOf(Action::Glide);
+    constexpr std::uint16_t kGlide = firstSegmentOf(Action::Glide);
     const bool glides = segment == kGlide || pathAtEnd == 0.0F;
     const float carried =
         bounded(std::max(v + (pathAtEnd - pathAtStart), std::min(v, 0.0F)), kFastest);
@@ -193,7 +193,7 @@ Repertoire selfTestRepertoire() {
     for (std::size_t a = 0; a < kCapturedActions; ++a) {
         ActionSegment& segment = repertoire.segments[a];
         segment.periodSeconds = 0.5F + static_cast<float>(a) / 64;
-        segment.playsToEnd = isTurn(static_cast<Action>(a));
+        segment.playsToEnd = entriesOf(static_cast<Action>(a)) > 0;
         const float yaw = static_cast<float>(a % 5) / 1024 - 0.002F;
         for (std::size_t k = 0; k < kPhases; ++k) {
             segment.increments[k] = {glm::normalize(glm::quat(1, 0, yaw, yaw / 4)),
@@ -224,7 +224,7 @@ void MotorStep::runReference() const {
 }
 
 Quaternion swayOf(const MotorTables& tables, const MotionStates& states, std::size_t fish) {
-    const auto swayIn = [&](std::uint8_t segment, std::uint16_t phase) {
+    const auto swayIn = [&](std::uint16_t segment, std::uint16_t phase) {
         return swayAt(tables.segments[segment], phase);
     };
     const Quaternion played = swayIn(states.segment[fish], states.phase[fish]);

@@ -300,6 +300,11 @@ HWY_INLINE IntLanes bytesAt(const std::vector<std::uint8_t>& column, std::size_t
     return hn::PromoteTo(kInts, hn::LoadU(bytes, column.data() + fish));
 }
 
+HWY_INLINE IntLanes segmentsAt(const std::vector<std::uint16_t>& column, std::size_t fish) {
+    const hn::Rebind<std::uint16_t, Ints> shorts;
+    return hn::PromoteTo(kInts, hn::LoadU(shorts, column.data() + fish));
+}
+
 // spreadAfter() of a vector of fish.
 HWY_INLINE void follow(std::vector<std::uint8_t>& spread, IntLanes brake, std::size_t fish) {
     const hn::Rebind<std::uint8_t, Ints> bytes;

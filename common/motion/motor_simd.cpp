@@ -102,7 +102,7 @@ HWY_INLINE FishSet playOn(const MotorTables& tables,
         const std::size_t fish = first + lane;
         const IntLanes phase = hn::PromoteTo(kInts, hn::LoadU(shorts, columns.phase + fish));
         const IntLanes commanded = hn::PromoteTo(kInts, hn::LoadU(rates, columns.phaseRate + fish));
-        const IntLanes segment = bytesAt(columns.segment + fish);
+        const IntLanes segment = hn::PromoteTo(kInts, hn::LoadU(shorts, columns.segment + fish));
         const IntLanes action = hn::GatherIndex(kInts, tables.action.data(), segment);
         const IntLanes turnRate = hn::GatherIndex(kInts, tables.turnRate.data(), segment);
         const IntLanes wanted = bytesAt(columns.wanted + fish);
@@ -111,7 +111,7 @@ HWY_INLINE FishSet playOn(const MotorTables& tables,
         const auto isToldATurn = hn::Gt(wanted, hn::Set(kInts, kFirstTurn - 1));
         const IntLanes rate = hn::IfThenElse(hn::And(turns, isToldAnother), turnRate, commanded);
         const IntLanes to = hn::Add(phase, rate);
-        const auto ends = hn::Gt(to, hn::Set(kInts, 0xFFFF));
+        const auto ends = hn::Gt(to, hn::GatherIndex(kInts, tables.lastPhase.data(), segment));
         const auto leaves =
             hn::Or(hn::And(turns, ends), hn::AndNot(hn::AndNot(isToldATurn, turns), isToldAnother));
         const auto warps =
@@ -246,7 +246,7 @@ HWY_INLINE void changeSpeed(const MotorStep& step,
                    hn::ConvertTo(kFloats, hn::LoadU(kInts, s.speed.data() + fish)),
                    pathSpeed(left.speed, rate),
                    pathAtEnd,
-                   bytesAt(s.segment, fish),
+                   segmentsAt(s.segment, fish),
                    hn::ShiftRight<1>(hn::Add(hn::Load(kInts, block.from + lane),
                                              hn::Load(kInts, block.to + lane))),
                    hn::Mul(hn::ConvertTo(kFloats, brake), hn::Set(kFloats, kBrakeUnit)));

@@ -251,29 +251,39 @@ void enterFromMedium(const SegmentTables& medium, SegmentTables& turn) {
     turn.path.front().translationAndSpeed[3] = speed / static_cast<float>(turn.phaseRate);
 }
 
-// All segments of a turn.
-void fillTurn(const ActionSegment& turn, std::size_t first, MotorTables& tables) {
-    fill(turn, pathOf(turn), tables.segments[first]);
-    enterFromMedium(tables.segments[indexOf(Action::ForwardMedium)], tables.segments[first]);
-    for (std::size_t entry = 0; entry < kTurnEntries; ++entry) {
-        SegmentTables& entered = tables.segments[first + 1 + entry];
-        if (turn.entered.empty())
-            entered = tables.segments[first];
-        else
-            fill(turn, pathOf(turn.entered[entry], turn.periodSeconds), entered);
+// The tables of a turn or a fast start by entry, from `entered` on.
+void fillEntries(const ActionSegment& turn, std::int32_t lastPhase, SegmentTables* entered) {
+    for (const TurnPath& path : turn.entered) {
+        SegmentTables& tables = *entered++;
+        fill(turn, pathOf(path, turn.periodSeconds), tables);
+        tables.lastPhase = lastPhase;
     }
+}
+
+// All segments of a turn or a fast start.
+void fillToEnd(const ActionSegment& segment, Action action, MotorTables& tables) {
+    SegmentTables* const first = &tables.segments[firstSegmentOf(action)];
+    fill(segment, pathOf(segment), *first);
+    if (isStart(action)) {
+        first->lastPhase = (kPhases - 1) << kPhaseCellBits;
+    } else {
+        enterFromMedium(tables.segments[indexOf(Action::ForwardMedium)], *first);
+    }
+    const int segments = isStart(action) ? kStartSegments : kTurnSegments;
+    std::fill(first + 1, first + segments, *first);
+    fillEntries(segment, first->lastPhase, isStart(action) ? first : first + 1);
 }
 
 // Borders half-way between the speeds at which a turn was entered. Where the speeds do not rise, no
 // fish reaches the border.
-void setEntryBorders(const ActionSegment& turn, MotorTables& tables) {
-    if (turn.entered.empty()) return;
-    for (std::size_t border = 0; border < tables.entryBorders.size(); ++border) {
+void setBorders(std::span<const TurnPath> entered, std::span<std::int32_t> borders) {
+    if (entered.empty()) return;
+    for (std::size_t border = 0; border < borders.size(); ++border) {
         const auto speedOfEntry = [&](std::size_t speed) {
-            return static_cast<double>(turn.entered[speed * kEntryPhases].speedBefore);
+            return static_cast<double>(entered[speed * kEntryPhases].speedBefore);
         };
         const double between = 0.5 * (speedOfEntry(border) + speedOfEntry(border + 1));
-        tables.entryBorders[border] = static_cast<std::int32_t>(
+        borders[border] = static_cast<std::int32_t>(
             roundToEven(between * static_cast<double>(kSpeedUnitsPerBodyLength)));
     }
 }
@@ -321,12 +331,13 @@ Pose poseAt(const Cycle& cycle, unsigned phase) {
     return pose;
 }
 
-// The longest distance that any nodal point moves in a tick of any segment: a warp of such steps is
-// no faster than the fish's other motion.
+// The longest distance that any nodal point moves in a tick of any segment but a fast start: a warp
+// of such steps is no faster than the fish's other motion.
 float largestStep(const std::vector<Cycle>& cycles,
                   const std::array<std::int16_t, kActions>& phaseRates) {
     float most = kSmallestStepBodyLengths * kSmallestStepBodyLengths;
     for (std::size_t action = 0; action < cycles.size(); ++action) {
+        if (isStart(static_cast<Action>(action))) continue;
         for (unsigned k = 0; k < kPhases; ++k) {
             const Pose next = poseAt(
                 cycles[action], (k << kPhaseCellBits) + static_cast<unsigned>(phaseRates[action]));
@@ -385,9 +396,13 @@ WarpPlan planToStroke(const Travels& travels, std::size_t cell, float step, std:
     return plan;
 }
 
+// A fast start is not delayed: as many frames lead to it at most.
+constexpr int kMostFramesToStart = 2;
+
 // A turn plays from the first frame of the warp on, at its phase rate: the first phase to which all
-// steps are within `step`, or the last one that a warp can reach.
-WarpPlan planToTurn(const Travels& travels, std::size_t cell, float step, std::int16_t rate) {
+// steps are within `step`, or the last one that a warp of so many frames can reach.
+WarpPlan planToTurn(
+    const Travels& travels, std::size_t cell, float step, std::int16_t rate, int mostFrames) {
     int ticks = 0;
     float steps = 0;
     do {
@@ -397,7 +412,8 @@ WarpPlan planToTurn(const Travels& travels, std::size_t cell, float step, std::i
         steps = std::sqrt(std::max(travelFromCell(travels, cell, next),
                                    travelFromCell(travels, cell, next + 1))) /
                 step;
-    } while (steps > static_cast<float>(ticks) && ticks < 256 && (ticks + 1) * rate <= 0xFFFF);
+    } while (steps > static_cast<float>(ticks) && ticks <= mostFrames &&
+             (ticks + 1) * rate <= 0xFFFF);
     return {static_cast<std::uint16_t>(ticks * rate), static_cast<std::uint8_t>(ticks - 1)};
 }
 
@@ -436,9 +452,10 @@ std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire)
     std::array<std::int16_t, kActions> phaseRates{};
     for (std::size_t i = 0; i < kActions; ++i) {
         const ActionSegment& segment = repertoire.segments[i];
-        const std::size_t first = firstSegmentOf(static_cast<Action>(i));
+        const auto action = static_cast<Action>(i);
+        const std::size_t first = firstSegmentOf(action);
         if (segment.playsToEnd)
-            fillTurn(segment, first, *tables);
+            fillToEnd(segment, action, *tables);
         else
             fill(segment, pathOf(segment), tables->segments[first]);
         phaseRates[i] = tables->segments[first].phaseRate;
@@ -447,8 +464,11 @@ std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire)
         const SegmentTables& made = tables->segments[segment];
         tables->action[segment] = static_cast<std::int32_t>(actionOf(segment));
         tables->turnRate[segment] = made.playsToEnd ? made.phaseRate : 0;
+        tables->lastPhase[segment] = made.playsToEnd ? made.lastPhase : 0;
     }
-    setEntryBorders(repertoire.segments[kFirstTurn], *tables);
+    setBorders(repertoire.segments[kFirstTurn].entered, tables->turnBorders);
+    const std::span starts(repertoire.segments[kFirstStart].entered);
+    setBorders(starts.empty() ? starts : starts.subspan(1), tables->startBorders);
     const SegmentTables& climb = tables->segments[indexOf(Action::ClimbMedium)];
     tables->pitchRate = 2.0F * climb.meanHalfTurn[2] * static_cast<float>(climb.phaseRate);
     tables->loss = lossOf(repertoire.response, tables->segments);
@@ -482,7 +502,11 @@ WarpPlans planWarps(const Repertoire& repertoire,
         for (std::size_t cell = 0; cell < kPhases; ++cell) {
             WarpPlan& plan = plans[from][cell][to];
             if (repertoire.segments[to].playsToEnd)
-                plan = planToTurn(travels, cell, step, phaseRates[to]);
+                plan = planToTurn(travels,
+                                  cell,
+                                  step,
+                                  phaseRates[to],
+                                  isStart(next) ? kMostFramesToStart : 255);
             else if (next == Action::Retreat)
                 plan = planToStroke(travels, cell, step, phaseRates[to]);
             else

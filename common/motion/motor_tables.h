@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -46,7 +47,7 @@ struct GaitPath {
 // The same of a turn begun in a tail beat. Its speeds at the ends are those of TurnPath.
 [[nodiscard]] GaitPath pathOf(const TurnPath& turn, float periodSeconds);
 
-// The motor step's tables of a species: about 1.2 MB, of which a steady school reads 36 kB. So the
+// The motor step's tables of a species: about 1.9 MB, of which a steady school reads 36 kB. So the
 // segments that are played stay in the processor's cache.
 
 inline constexpr unsigned kPhaseCellBits = 10;  // a phase of 16 bits is 6 of cell, 10 of fraction
@@ -81,6 +82,9 @@ struct SegmentTables {
     float turnRate = 0.0F;
     std::int16_t phaseRate = 0;
     bool playsToEnd = false;
+    // The phase beyond which a segment that plays to its end is left. A fast start does not end as
+    // it begins: it is left at its last sample.
+    std::int32_t lastPhase = 0xFFFF;
 };
 
 // SpeedResponse in the motor's units: by how many speed units the speed changes in a tick.
@@ -107,11 +111,13 @@ class MotorTables {
   public:
     std::array<SegmentTables, kSegments> segments;
     WarpPlans warps;
-    // Columns that the vectorised step gathers from: the action of a segment, and its recorded
-    // phase rate if it is a turn, else 0.
-    std::array<std::int32_t, kSegments> action{}, turnRate{};
-    // The speeds, in speed units, half-way between those at which turns were entered.
-    std::array<std::int32_t, kEntrySpeeds - 1> entryBorders{};
+    // Columns that the vectorised step gathers from: the action of a segment; its recorded phase
+    // rate and its lastPhase if it plays to its end, else 0.
+    std::array<std::int32_t, kSegments> action{}, turnRate{}, lastPhase{};
+    // The speeds, in speed units, half-way between those at which turns and fast starts were
+    // entered.
+    std::array<std::int32_t, kEntrySpeeds - 1> turnBorders{};
+    std::array<std::int32_t, kStartSpeeds - 1> startBorders{};
     SpeedLoss loss;
     // The most that a fish pitches in addition to the played motion, radians in a tick: what it
     // does on the captured loop at the medium gait.
@@ -155,8 +161,8 @@ struct MotorColumns {
     const std::uint8_t* wanted;
     const std::int16_t* phaseRate;
     const std::int32_t* speed;
-    std::uint16_t *phase, *fromPhase;
-    std::uint8_t *segment, *fromSegment, *warpFrame, *warpLength;
+    std::uint16_t *phase, *fromPhase, *segment, *fromSegment;
+    std::uint8_t *warpFrame, *warpLength;
 };
 
 // Pointers to the columns, valid until one is resized.
@@ -208,19 +214,22 @@ struct Travel {
     return static_cast<float>(phase & 1023U) * kPhaseCellUnit;
 }
 
-// The segment of a turn for fish i: the one that was captured at the nearest speed and phase of the
-// beat, or out of a glide where the fish does not beat its tail.
-[[nodiscard]] inline std::uint8_t entryOf(const MotorTables& tables,
-                                          const MotorColumns& fish,
-                                          std::size_t i,
-                                          Action turn) {
+// The segment of a turn or a fast start for fish i: the one that was captured at the nearest speed
+// and phase of the beat, or out of a glide where the fish does not beat its tail.
+[[nodiscard]] inline std::uint16_t entryOf(const MotorTables& tables,
+                                           const MotorColumns& fish,
+                                           std::size_t i,
+                                           Action turn) {
     if (!swims(actionOf(fish.segment[i]))) return firstSegmentOf(turn);
     std::size_t entry = 0;
-    for (const std::int32_t border : tables.entryBorders)
-        entry += fish.speed[i] > border ? kEntryPhases : 0;
+    const auto passes = [&](std::span<const std::int32_t> borders) {
+        for (const std::int32_t border : borders)
+            entry += fish.speed[i] > border ? kEntryPhases : 0;
+    };
+    isStart(turn) ? passes(tables.startBorders) : passes(tables.turnBorders);
     constexpr std::uint32_t kStep = 65536 / kEntryPhases;
     entry += (fish.phase[i] + kStep / 2) / kStep % kEntryPhases;
-    return static_cast<std::uint8_t>(firstSegmentOf(turn) + 1 + entry);
+    return static_cast<std::uint16_t>(firstSegmentOf(turn) + 1 + entry);
 }
 
 // Leaves the segment of fish i for the commanded one, by the plan for its phase cell.
@@ -228,8 +237,8 @@ inline void startWarp(const MotorTables& tables, const MotorColumns& fish, std::
     const auto next = static_cast<Action>(fish.wanted[i]);
     const std::size_t action = indexOf(actionOf(fish.segment[i]));
     const WarpPlan plan = tables.warps[action][fish.phase[i] >> kPhaseCellBits][indexOf(next)];
-    const std::uint8_t segment =
-        isTurn(next) ? entryOf(tables, fish, i, next) : firstSegmentOf(next);
+    const std::uint16_t segment =
+        entriesOf(next) > 0 ? entryOf(tables, fish, i, next) : firstSegmentOf(next);
     fish.fromSegment[i] = fish.segment[i];
     fish.fromPhase[i] = fish.phase[i];
     fish.segment[i] = segment;
@@ -246,9 +255,9 @@ struct Playing {
 };
 
 // Advances segment, phase and warp counter of fish i by a tick. The commanded rate is that of the
-// commanded action: while a turn plays that is no longer commanded, it plays as recorded. A turn is
-// left at its end, and by a warp even if the same turn follows, or where it is broken off; every
-// other segment is left at once. A command for an action that does not exist starts no warp.
+// commanded action: while a turn plays that is no longer commanded, it plays as recorded. A turn or
+// a fast start is left at its end, and by a warp even if the same follows, or where it is broken
+// off; every other segment is left at once. A command for an action that does not exist starts no warp.
 [[nodiscard]] inline Playing advanceSegment(const MotorTables& tables,
                                             const MotorColumns& fish,
                                             std::size_t i) {
@@ -263,7 +272,7 @@ struct Playing {
     const std::int32_t phase = fish.phase[i];
     const std::int32_t rate = leaves ? playing.phaseRate : fish.phaseRate[i];
     const bool mayEnter = fish.wanted[i] < kActions;
-    const bool ends = phase + rate > 0xFFFF || breaksOff(action, wanted);
+    const bool ends = phase + rate > playing.lastPhase || breaksOff(action, wanted);
     if (mayEnter && (playing.playsToEnd ? ends : leaves)) {
         startWarp(tables, fish, i);
         return {};

@@ -17,7 +17,7 @@ namespace {
 
 // The head of the file, and the bounds of its numbers.
 constexpr std::string_view kMagic = "AQREP";
-constexpr std::uint16_t kVersion = 5;
+constexpr std::uint16_t kVersion = 6;
 constexpr std::size_t kLongestSpecies = 64;
 constexpr std::size_t kHeadBytes = 11;  // name, version, length of the whole file
 constexpr std::size_t kDigestBytes = 32;
@@ -93,10 +93,14 @@ FrameIncrement readIncrement(ByteReader& in) {
 
 // The sizes of a segment and of the paths by entry of a turn in the file.
 constexpr std::size_t kIncrementsBytes = kPhases * 7 * sizeof(float);
-constexpr std::size_t kEntriesBytes = kTurnEntries * (8 * sizeof(float) + kIncrementsBytes);
+constexpr std::size_t kEntryBytes = 8 * sizeof(float) + kIncrementsBytes;
 constexpr std::size_t bytesOfSegment(bool withControlPoints) {
     const std::size_t points = body::kNodalPoints + (withControlPoints ? body::kControlPoints : 0);
     return sizeof(float) + 1 + kIncrementsBytes + kPhases * points * 3 * sizeof(std::int16_t);
+}
+
+std::size_t entryCount(Action action) {
+    return static_cast<std::size_t>(entriesOf(action));
 }
 
 // Written so that a NaN is not in bounds.
@@ -126,8 +130,8 @@ std::array<float*, kResponses> numbersOf(SpeedResponse& response) {
     return {&slow, &medium, &fast, &response.retreatDrag, &response.glideDrag, &response.brakeRate};
 }
 
-// The fault of a segment; empty where there is none.
-std::optional<std::string> faultOf(const ActionSegment& segment) {
+// The fault of the segment of an action; empty where there is none.
+std::optional<std::string> faultOf(const ActionSegment& segment, Action action) {
     if (!(segment.periodSeconds >= kShortestPeriodSeconds &&
           segment.periodSeconds <= kLongestPeriodSeconds)) {
         return "has a period outside 0.02 to 60 s";
@@ -135,7 +139,7 @@ std::optional<std::string> faultOf(const ActionSegment& segment) {
     if (!segment.controlPoints.empty() && segment.controlPoints.size() != kPhases) {
         return "has control points for some phases only";
     }
-    if (!segment.entered.empty() && segment.entered.size() != kTurnEntries) {
+    if (!segment.entered.empty() && segment.entered.size() != entryCount(action)) {
         return "has paths for some of its entries only";
     }
     if (!std::ranges::all_of(segment.entered, hasItsCourses)) {
@@ -167,9 +171,9 @@ std::optional<std::string> faultOf(const Repertoire& repertoire) {
     if (!std::ranges::all_of(numbersOf(response), isDrag))
         return "has a drag outside 0 to 1000 per body length or second";
     for (int action = 0; action < kCapturedActions; ++action) {
-        if (const auto fault = faultOf(repertoire.segments[static_cast<std::size_t>(action)])) {
-            return std::string("segment ") + nameOf(static_cast<Action>(action)) + " " + *fault;
-        }
+        const auto named = static_cast<Action>(action);
+        if (const auto fault = faultOf(repertoire.segments[indexOf(named)], named))
+            return std::string("segment ") + nameOf(named) + " " + *fault;
     }
     return std::nullopt;
 }
@@ -179,42 +183,48 @@ std::optional<std::string> faultOf(const Repertoire& repertoire) {
     throw Error(source + ": repertoire " + fault + "; capture the species again");
 }
 
-// The parts of a segment in a file, beside its poses of nodes. Bit a of 32: segment a has control
-// points; bit kCapturedActions + t: turn t has paths by entry.
-class Contents {
-  public:
-    explicit Contents(std::uint32_t bits) : bits_(bits) {}
-    explicit Contents(const Repertoire& repertoire) {
-        for (unsigned action = 0; action < kCapturedActions; ++action) {
-            const ActionSegment& segment = repertoire.segments[action];
-            if (!segment.controlPoints.empty()) bits_ |= 1U << action;
-            if (!segment.entered.empty()) bits_ |= 1U << entryBit(action);
-        }
-    }
+// The parts of a segment in a file, beside its poses of nodes: one byte for each action.
+struct Parts {
+    static constexpr std::uint8_t kControlPoints = 1, kEntries = 2;
+    std::uint8_t bits = 0;
 
-    [[nodiscard]] std::uint32_t bits() const { return bits_; }
-    [[nodiscard]] bool isPossible() const { return bits_ >> (kCapturedActions + kTurns) == 0; }
-    [[nodiscard]] bool hasControlPoints(unsigned action) const {
-        return (bits_ >> action & 1U) != 0;
-    }
-    [[nodiscard]] bool hasEntries(unsigned action) const {
-        return action >= kFirstTurn && (bits_ >> entryBit(action) & 1U) != 0;
-    }
-    // Memory of all segments.
-    [[nodiscard]] std::size_t bytes() const {
-        std::size_t bytes = 0;
-        for (unsigned action = 0; action < kCapturedActions; ++action)
-            bytes +=
-                bytesOfSegment(hasControlPoints(action)) + (hasEntries(action) ? kEntriesBytes : 0);
-        return bytes;
-    }
-
-  private:
-    static constexpr unsigned entryBit(unsigned action) {
-        return kCapturedActions + action - kFirstTurn;
-    }
-    std::uint32_t bits_ = 0;
+    [[nodiscard]] bool hasControlPoints() const { return (bits & kControlPoints) != 0; }
+    [[nodiscard]] bool hasEntries() const { return (bits & kEntries) != 0; }
 };
+using Contents = std::array<Parts, kCapturedActions>;
+
+Contents contentsOf(const Repertoire& repertoire) {
+    Contents contents;
+    for (std::size_t action = 0; action < contents.size(); ++action) {
+        const ActionSegment& segment = repertoire.segments[action];
+        const bool hasPoints = !segment.controlPoints.empty();
+        const bool hasEntries = !segment.entered.empty();
+        contents[action].bits = static_cast<std::uint8_t>((hasPoints ? Parts::kControlPoints : 0) |
+                                                          (hasEntries ? Parts::kEntries : 0));
+    }
+    return contents;
+}
+
+// Whether each action has parts that it can have.
+bool arePossible(const Contents& contents) {
+    for (std::size_t action = 0; action < contents.size(); ++action) {
+        const bool mayHaveEntries = entryCount(static_cast<Action>(action)) > 0;
+        const int most = Parts::kControlPoints | (mayHaveEntries ? Parts::kEntries : 0);
+        if ((contents[action].bits & ~most) != 0) return false;
+    }
+    return true;
+}
+
+// Memory of all segments.
+std::size_t bytesOf(const Contents& contents) {
+    std::size_t bytes = 0;
+    for (std::size_t action = 0; action < contents.size(); ++action) {
+        const std::size_t entries =
+            contents[action].hasEntries() ? entryCount(static_cast<Action>(action)) : 0;
+        bytes += bytesOfSegment(contents[action].hasControlPoints()) + entries * kEntryBytes;
+    }
+    return bytes;
+}
 
 void readIncrements(ByteReader& in, FrameIncrements& increments) {
     for (FrameIncrement& step : increments) step = readIncrement(in);
@@ -227,24 +237,26 @@ Repertoire readContent(ByteReader& in, const std::string& source) {
     repertoire.species = in.characters(in.unsignedNumber<std::uint8_t>());
     repertoire.recordedLengthMetres = in.float32();
     for (float* number : numbersOf(repertoire.response)) *number = in.float32();
-    const Contents contents(in.unsignedNumber<std::uint32_t>());
-    if (!in.ok() || !contents.isPossible() || in.remaining() != contents.bytes()) {
+    Contents contents;
+    for (Parts& parts : contents) parts.bits = in.unsignedNumber<std::uint8_t>();
+    if (!in.ok() || !arePossible(contents) || in.remaining() != bytesOf(contents)) {
         refuse(source, "is not as long as its head says");
     }
-    for (unsigned action = 0; action < kCapturedActions; ++action) {
+    for (std::size_t action = 0; action < contents.size(); ++action) {
         ActionSegment& segment = repertoire.segments[action];
         segment.periodSeconds = in.float32();
         const auto playsToEnd = in.unsignedNumber<std::uint8_t>();
         if (playsToEnd > 1) refuse(source, "has a mark that is neither 0 nor 1");
         segment.playsToEnd = playsToEnd == 1;
         readIncrements(in, segment.increments);
-        segment.entered.resize(contents.hasEntries(action) ? kTurnEntries : 0);
+        segment.entered.resize(
+            contents[action].hasEntries() ? entryCount(static_cast<Action>(action)) : 0);
         for (TurnPath& path : segment.entered) {
             for (float* number : headOf(path)) *number = in.float32();
             readIncrements(in, path.increments);
         }
         for (NodalPose& pose : segment.nodes) readPose(in, pose);
-        segment.controlPoints.resize(contents.hasControlPoints(action) ? kPhases : 0);
+        segment.controlPoints.resize(contents[action].hasControlPoints() ? kPhases : 0);
         for (ControlPointPose& pose : segment.controlPoints) readPose(in, pose);
     }
     return repertoire;
@@ -289,25 +301,31 @@ const char* nameOf(Action action) {
                                                        "turn_left_sharp",
                                                        "turn_right_gradual",
                                                        "turn_right_sharp",
+                                                       "start_left_small",
+                                                       "start_left_middle",
+                                                       "start_left_large",
+                                                       "start_right_small",
+                                                       "start_right_middle",
+                                                       "start_right_large",
                                                        "glide"};
     return kNames.at(static_cast<std::size_t>(action));
 }
 
 std::vector<std::byte> encodeRepertoire(const Repertoire& repertoire) {
     if (const auto fault = faultOf(repertoire)) refuse(repertoire.species, *fault);
-    const Contents contents(repertoire);
+    const Contents contents = contentsOf(repertoire);
     ByteWriter out;
     out.characters(kMagic);
     out.unsignedNumber(kVersion);
     out.unsignedNumber(static_cast<std::uint32_t>(kHeadBytes + 1 + repertoire.species.size() +
-                                                  (1 + kResponses) * sizeof(float) + 4 +
-                                                  contents.bytes() + kDigestBytes));
+                                                  (1 + kResponses) * sizeof(float) + contents.size() +
+                                                  bytesOf(contents) + kDigestBytes));
     out.unsignedNumber(static_cast<std::uint8_t>(repertoire.species.size()));
     out.characters(repertoire.species);
     out.float32(repertoire.recordedLengthMetres);
     SpeedResponse response = repertoire.response;
     for (const float* number : numbersOf(response)) out.float32(*number);
-    out.unsignedNumber(contents.bits());
+    for (const Parts parts : contents) out.unsignedNumber(parts.bits);
     for (std::size_t action = 0; action < kCapturedActions; ++action)
         writeSegment(out, repertoire.segments[action]);
     out.characters(digestOf(out.written()).bytes);

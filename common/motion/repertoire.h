@@ -124,11 +124,17 @@ enum class Action : std::uint8_t {
     TurnLeftSharp,
     TurnRightGradual,
     TurnRightSharp,
+    StartLeftSmall,
+    StartLeftMiddle,
+    StartLeftLarge,
+    StartRightSmall,
+    StartRightMiddle,
+    StartRightLarge,
     Glide,
 };
 // All but the last are captured; the first kForwardGaits of them are gaits.
-inline constexpr int kCapturedActions = 26;
-inline constexpr int kActions = 27;
+inline constexpr int kCapturedActions = 32;
+inline constexpr int kActions = 33;
 inline constexpr int kForwardGaits = 3;
 // The first kSwimmingActions beat the tail: a gait straight on, on a curve or on a slope. Action a
 // of them is of gait a % kForwardGaits.
@@ -153,26 +159,32 @@ inline constexpr int kSwimmingActions = 21;
 [[nodiscard]] constexpr bool isSlope(Action action) {
     return action >= Action::ClimbSlow && action <= Action::DiveFast;
 }
-// A turn is played from its first phase to its last; the other actions are cycles.
+// Turns and fast starts are played from their first phase to their last; the other actions are
+// cycles.
 [[nodiscard]] constexpr bool isTurn(Action action) {
     return action >= Action::TurnLeftGradual && action <= Action::TurnRightSharp;
 }
-// Whether a turn leads to the left.
+[[nodiscard]] constexpr bool isStart(Action action) {
+    return action >= Action::StartLeftSmall && action <= Action::StartRightLarge;
+}
+// Whether a turn or a fast start leads to the left.
 [[nodiscard]] constexpr bool isLeft(Action turn) {
-    return turn <= Action::TurnLeftSharp;
+    return turn <= Action::TurnLeftSharp ||
+           (isStart(turn) && turn <= Action::StartLeftLarge);
 }
 [[nodiscard]] constexpr bool isSharp(Action action) {
     return action == Action::TurnLeftSharp || action == Action::TurnRightSharp;
 }
-// The gait of an action that swims; medium for every other.
+// The gait of an action that swims; of a fast start the fast one, medium for every other.
 [[nodiscard]] constexpr Action gaitOf(Action action) {
-    return swims(action) ? static_cast<Action>(indexOf(action) % kForwardGaits)
-                         : Action::ForwardMedium;
+    if (swims(action)) return static_cast<Action>(indexOf(action) % kForwardGaits);
+    return isStart(action) ? Action::ForwardFast : Action::ForwardMedium;
 }
-// Whether a turn under way is broken off for another action: a sharp one for a sharp one to the
-// other side.
+// Whether a turn under way is broken off for another action: for a fast start, and a sharp one for a
+// sharp one to the other side. A fast start is never broken off.
 [[nodiscard]] constexpr bool breaksOff(Action turn, Action wanted) {
-    return isSharp(turn) && isSharp(wanted) && isLeft(wanted) != isLeft(turn);
+    return (isTurn(turn) && isStart(wanted)) ||
+           (isSharp(turn) && isSharp(wanted) && isLeft(wanted) != isLeft(turn));
 }
 // The gait of an action that swims, straight on, on a curve or on a slope; every other action
 // itself.
@@ -184,28 +196,47 @@ inline constexpr int kSwimmingActions = 21;
     return static_cast<Action>(indexOf(slow) + indexOf(gait));
 }
 
-// A fish plays segments. An action has one, but a turn has kTurnSegments: the first begins in the
-// pose of a glide, the others in a tail beat, speed by speed and phase by phase. Their poses are
-// the same, their paths differ. The numbers are part of the wire: those of the first actions, then
-// those of the turns, and last that of the glide.
-inline constexpr int kEntrySpeeds = 5;  // of the gaits, and half-way between them
+// A fish plays segments. An action has one, but a turn and a fast start have one for each entry
+// beside: the first begins in the pose of a glide, the others in a tail beat, speed by speed and
+// phase by phase. Their poses are the same, their paths differ. The numbers are part of the wire:
+// those of the first actions, then those of the turns and of the fast starts, and last that of the
+// glide.
 inline constexpr int kEntryPhases = 8;  // of the beat, from 0 on, evenly spaced
+inline constexpr int kEntrySpeeds = 5;  // of a turn: of the gaits, and half-way between them
 inline constexpr int kTurnEntries = kEntrySpeeds * kEntryPhases;
 inline constexpr int kTurnSegments = 1 + kTurnEntries;
 inline constexpr int kTurns = 4;
+inline constexpr int kStartSpeeds = 2;  // of a fast start: slow and medium
+inline constexpr int kStartEntries = 1 + kStartSpeeds * kEntryPhases;
+inline constexpr int kStartSegments = kStartEntries;
+inline constexpr int kStarts = 6;
 inline constexpr int kFirstTurn = static_cast<int>(Action::TurnLeftGradual);
-inline constexpr int kSegments = kFirstTurn + kTurns * kTurnSegments + 1;
+inline constexpr int kFirstStart = static_cast<int>(Action::StartLeftSmall);
+inline constexpr int kFirstStartSegment = kFirstTurn + kTurns * kTurnSegments;
+inline constexpr int kSegments = kFirstStartSegment + kStarts * kStartSegments + 1;
+// The paths by entry of an action. Those of a turn are beside that of its first segment; the first of
+// a fast start is its first segment's, out of rest.
+[[nodiscard]] constexpr int entriesOf(Action action) {
+    return isTurn(action) ? kTurnEntries : isStart(action) ? kStartEntries : 0;
+}
 // The first segment of an action, and the action of a segment.
-[[nodiscard]] constexpr std::uint8_t firstSegmentOf(Action action) {
-    const int turns = static_cast<int>(action) - kFirstTurn;
-    return static_cast<std::uint8_t>(turns < 0 ? static_cast<int>(action)
-                                               : kFirstTurn + turns * kTurnSegments);
+[[nodiscard]] constexpr std::uint16_t firstSegmentOf(Action action) {
+    const int number = static_cast<int>(action);
+    if (isTurn(action))
+        return static_cast<std::uint16_t>(kFirstTurn + (number - kFirstTurn) * kTurnSegments);
+    if (isStart(action))
+        return static_cast<std::uint16_t>(kFirstStartSegment +
+                                          (number - kFirstStart) * kStartSegments);
+    return static_cast<std::uint16_t>(action == Action::Glide ? kSegments - 1 : number);
 }
 [[nodiscard]] constexpr Action actionOf(std::uint32_t segment) {
-    return static_cast<Action>(
-        segment < kFirstTurn ? segment : kFirstTurn + (segment - kFirstTurn) / kTurnSegments);
+    const int number = static_cast<int>(segment);
+    if (number < kFirstTurn) return static_cast<Action>(number);
+    if (number < kFirstStartSegment)
+        return static_cast<Action>(kFirstTurn + (number - kFirstTurn) / kTurnSegments);
+    return static_cast<Action>(kFirstStart + (number - kFirstStartSegment) / kStartSegments);
 }
-static_assert(firstSegmentOf(Action::Glide) == kSegments - 1 && kSegments <= 256);
+static_assert(actionOf(kSegments - 1) == Action::Glide && kSegments <= 65536);
 
 // The change of the body frame from one phase to the next, in the body frame at its start: B' = B *
 // increment (eq. 6 and 7, corrected: the rotation is one of the body frame, R' = R * rotation).
@@ -225,14 +256,14 @@ inline constexpr float kPoseUnit = 1.0F / 32767.0F;
 // A frame increment for each phase.
 using FrameIncrements = std::array<FrameIncrement, kPhases>;
 
-// A turn as begun in a tail beat. The courses are unit vectors in the body frame at its first and
+// A turn or a fast start as begun in a tail beat. The courses are unit vectors in the body frame at its first and
 // at its last phase; speeds are body lengths a second.
 struct TurnPath {
-    // Course and speed of the fish before the turn.
+    // Course and speed of the fish before it.
     glm::vec3 courseBefore{1, 0, 0};
     float speedBefore = 0.0F;
-    // Course and speed after the turn: with these, a fish at the medium gait arrives where the
-    // simulated one does.
+    // Course and speed after it: with these, a fish at the medium gait, after a fast start at the
+    // fast one, arrives where the simulated one does.
     glm::vec3 courseAfter{1, 0, 0};
     float speedAfter = 0.0F;
     FrameIncrements increments{};
@@ -242,13 +273,15 @@ struct TurnPath {
 struct ActionSegment {
     // Time of one cycle.
     float periodSeconds = 0.0F;
-    // A turn is entered at phase 0 and left at its end; all other segments anywhere.
+    // A turn or a fast start is entered at phase 0 and left at its end; all other segments
+    // anywhere.
     bool playsToEnd = false;
-    // From phase k to k + 1; the last leads to the end of the cycle. A turn: from the pose of a
-    // glide.
+    // From phase k to k + 1; the last leads to the end of the cycle. A turn or a fast start: from
+    // the pose of a glide.
     FrameIncrements increments{};
-    // The paths of a turn begun in a tail beat: kTurnEntries, those of the lowest speed first and
-    // each speed by the phase of the beat; or none, if they are all like `increments`.
+    // The paths of a turn or a fast start by entry: entriesOf(), of a fast start first that out of
+    // rest; then those begun in a tail beat, of the lowest speed first and each speed by the phase
+    // of the beat. Or none, if they are all like `increments`.
     std::vector<TurnPath> entered;
     // Deformation d at phase k (eq. 8).
     std::array<NodalPose, kPhases> nodes{};
@@ -265,7 +298,7 @@ struct ActionSegment {
 // in all, fins that are spread to a share s also brake by s * brakeRate * v. (The paper leaves
 // this open; the law is ours.)
 struct SpeedResponse {
-    // 1 / body length. Turns have that of medium. On a curve or slope the gait's times (q / p)^2,
+    // 1 / body length. Turns have that of medium, fast starts that of fast. On a curve or slope the gait's times (q / p)^2,
     // where q is its speed straight on: the thrust is the same and the drag of the body is more.
     std::array<float, kForwardGaits> swimDrag{};
     float retreatDrag = 0.0F;  // 1 / body length

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The state of the world as it crosses the wire, as plain data, and its codec: packed records of
-// 32 bytes a fish and 8 bytes a particle of food, each checked on arrival. No protobuf type leaves
+// 40 bytes a fish and 8 bytes a particle of food, each checked on arrival. No protobuf type leaves
 // the .cpp file; the small control packets are in messages.h.
 #pragma once
 

@@ -367,7 +367,7 @@ SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) cons
                   course.openToChange};
     // A turn will be played to its end, unless a turn to the other side is chosen: what is chosen
     // comes after it.
-    const std::uint8_t playing = states->segment[fish];
+    const std::uint16_t playing = states->segment[fish];
     const motion::Action action = motion::actionOf(playing);
     // It plays during the warp that leads to its phase.
     const bool warps = states->warpFrame[fish] != states->warpLength[fish];

@@ -61,6 +61,7 @@ Posed posedAt(uint species, uint action, float phase, uint point) {
 vec2 turnOf(uint action) {
     const float kSharp = 1.0, kGradual = 0.4, kTight = 0.3, kWide = 0.15;
     uint curve = (action - kFirstCurve) / 3u, turn = action - kFirstTurn;
+    if (action >= kFirstStart && action < kFirstStart + 6u) return vec2(kSharp);  // both fins fold
     float much = action >= kFirstCurve && curve < 4u ? (curve % 2u == 0u ? kWide : kTight)
                  : action >= kFirstTurn && turn < 4u ? (turn % 2u == 0u ? kGradual : kSharp)
                                                       : 0.0;

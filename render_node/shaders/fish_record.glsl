@@ -1,4 +1,4 @@
-// The school as the wire has it (FishRecord of common/motion/motion_state.h, 32 bytes): before and
+// The school as the wire has it (FishRecord of common/motion/motion_state.h, 40 bytes): before and
 // after a tick, and where each fish is between them. present() of common/motion/reconstruct.h is the
 // reference. Gives place in world metres, length in metres, rotation as a quaternion from body to
 // world, phases in cycles.
@@ -7,10 +7,11 @@
 #include "record_units.h"
 #include "shader_interface.h"
 
-// Two words of four numbers a fish: place and the low orientation; the high one, phases, segments
-// and warp, speed in 24 bits and spread in 8.
-layout(std430, binding = kBeforeStorage) readonly buffer Before { uvec4 before[]; };
-layout(std430, binding = kAfterStorage) readonly buffer After { uvec4 after[]; };
+// Five words of two numbers a fish: x, y; z, the low orientation; the high one, phases; segments, speed
+// in 24 bits and spread in 8; warp, mouth and gaze, skin.
+const uint kWords = 5u;
+layout(std430, binding = kBeforeStorage) readonly buffer Before { uvec2 before[]; };
+layout(std430, binding = kAfterStorage) readonly buffer After { uvec2 after[]; };
 layout(std430, binding = kTraitsStorage) readonly buffer Traits { uvec2 traits[]; };  // id, length in millimetres
 layout(location = kFractionLocation) uniform float fraction;                             // of the way to `after`
 
@@ -18,23 +19,24 @@ float lengthMetresOf(uint i) { return float(traits[i].y) * 0.001; }
 
 // Body lengths a second; backwards is negative.
 float speedOf(uint i) {
-    ivec2 units = ivec2(before[2u * i + 1u].w, after[2u * i + 1u].w) << 8 >> 8;
+    ivec2 units = ivec2(before[kWords * i + 3u].y, after[kWords * i + 3u].y) << 8 >> 8;
     return mix(float(units.x), float(units.y), fraction) / kSpeedUnitsPerBodyLength;
 }
 
 // Of the pectoral fins, 0 to 1.
 float spreadOf(uint i) {
-    uvec2 spread = uvec2(before[2u * i + 1u].w, after[2u * i + 1u].w) >> 24;
+    uvec2 spread = uvec2(before[kWords * i + 3u].y, after[kWords * i + 3u].y) >> 24;
     return mix(float(spread.x), float(spread.y), fraction) / kMostSpread;
 }
 
 // Whether the fish is away at one of the ticks, and so not drawn.
 bool isAway(uint i) {
-    return int(before[2u * i].y) < kAwayBelow || int(after[2u * i].y) < kAwayBelow;
+    return int(before[kWords * i].y) < kAwayBelow || int(after[kWords * i].y) < kAwayBelow;
 }
 
 vec3 placeMetresOf(uint i) {
-    ivec3 from = ivec3(before[2u * i].xyz), to = ivec3(after[2u * i].xyz);
+    ivec3 from = ivec3(before[kWords * i], before[kWords * i + 1u].x);
+    ivec3 to = ivec3(after[kWords * i], after[kWords * i + 1u].x);
     return (vec3(from) + fraction * vec3(to - from)) * kPositionUnitMetres;
 }
 
@@ -52,8 +54,8 @@ vec4 unpackRotation(uint low, uint high) {
 
 // Normalised linear interpolation by the shorter way.
 vec4 rotationOf(uint i) {
-    vec4 from = unpackRotation(before[2u * i].w, before[2u * i + 1u].x);
-    vec4 to = unpackRotation(after[2u * i].w, after[2u * i + 1u].x);
+    vec4 from = unpackRotation(before[kWords * i + 1u].y, before[kWords * i + 2u].x);
+    vec4 to = unpackRotation(after[kWords * i + 1u].y, after[kWords * i + 2u].x);
     if (dot(from, to) < 0.0) to = -to;
     return normalize(from * (1.0 - fraction) + to * fraction);
 }
@@ -64,7 +66,9 @@ struct Motion {
 };
 
 uint actionOf(uint segment) {
-    return segment < kFirstTurn ? segment : kFirstTurn + (segment - kFirstTurn) / kTurnSegments;
+    if (segment < kFirstTurn) return segment;
+    if (segment < kFirstStartSegment) return kFirstTurn + (segment - kFirstTurn) / kTurnSegments;
+    return kFirstStart + (segment - kFirstStartSegment) / kStartSegments;
 }
 
 float phaseBetween(uint from, uint to) {
@@ -72,23 +76,24 @@ float phaseBetween(uint from, uint to) {
     return (phase < 65536.0 ? phase : phase - 65536.0) * kPhaseUnit;
 }
 
-float weightOf(uint motion) { return float((motion >> 16 & 255u) + 1u) / float((motion >> 24) + 1u); }
+float weightOf(uint warp) { return float((warp & 255u) + 1u) / float((warp >> 8 & 255u) + 1u); }
 
 // Phase, segment and warp between the ticks. A warp that has just begun fades in from the segment
 // that was left.
 Motion motionOf(uint i) {
-    uvec2 from = before[2u * i + 1u].yz, to = after[2u * i + 1u].yz;
-    uint segment = to.y & 255u, fromSegment = to.y >> 8 & 255u, lastSegment = from.y & 255u;
-    Motion m = Motion(float(to.x & 65535u) * kPhaseUnit, float(to.x >> 16) * kPhaseUnit,
-                      weightOf(to.y), actionOf(segment), actionOf(fromSegment));
-    bool wasWarping = (from.y >> 16 & 255u) != from.y >> 24;
-    bool hasJustLeft = (to.y >> 16 & 255u) == 0u && lastSegment == fromSegment &&
-                       (from.x & 65535u) == to.x >> 16 && lastSegment != segment && !wasWarping;
+    uint phases = after[kWords * i + 2u].y, segments = after[kWords * i + 3u].x, warp = after[kWords * i + 4u].x;
+    uint lastPhase = before[kWords * i + 2u].y & 65535u, lastSegment = before[kWords * i + 3u].x & 65535u;
+    uint lastWarp = before[kWords * i + 4u].x, segment = segments & 65535u;
+    Motion m = Motion(float(phases & 65535u) * kPhaseUnit, float(phases >> 16) * kPhaseUnit, weightOf(warp),
+                      actionOf(segment), actionOf(segments >> 16));
+    bool wasWarping = (lastWarp & 255u) != (lastWarp >> 8 & 255u);
+    bool hasJustLeft = (warp & 255u) == 0u && lastSegment == segments >> 16 && lastPhase == phases >> 16 &&
+                       lastSegment != segment && !wasWarping;
     if (hasJustLeft) {
         m.warpWeight *= fraction;
     } else if (lastSegment == segment) {
-        m.phase = phaseBetween(from.x & 65535u, to.x & 65535u);
-        m.warpWeight = mix(weightOf(from.y), weightOf(to.y), fraction);
+        m.phase = phaseBetween(lastPhase, phases & 65535u);
+        m.warpWeight = mix(weightOf(lastWarp), weightOf(warp), fraction);
     }
     return m;
 }

@@ -28,7 +28,10 @@ static_assert(shaders::kControlPoints == body::kControlPoints &&
               shaders::kPhases == motion::kPhases && shaders::kActions == motion::kActions &&
               shaders::kFirstCurve == indexOf(motion::Action::CurveLeftWideSlow) &&
               shaders::kFirstTurn == motion::kFirstTurn &&
-              shaders::kTurnSegments == motion::kTurnSegments);
+              shaders::kTurnSegments == motion::kTurnSegments &&
+              shaders::kFirstStart == motion::kFirstStart &&
+              shaders::kFirstStartSegment == motion::kFirstStartSegment &&
+              shaders::kStartSegments == motion::kStartSegments);
 
 template <class Enum>
 constexpr bool isAt(std::uint32_t number, Enum value) {

@@ -37,7 +37,7 @@ double energyOf(const BiomechanicalFish& fish, const FishState& state) {
 
 MotorControl swimming(double seconds) {
     return {.muscles = beatAt(test::scad().swim, 1, test::scad().swim.medium.beatHertz * seconds),
-            .fins = {}};
+            .fins = {}, .rowing = {}, .tone = {}};
 }
 
 TEST(Momentum, isKeptInAVacuumToRoundingWhateverTheMusclesDo) {
@@ -89,7 +89,7 @@ TEST(Energy, neverGrowsInWaterHoweverTheFinsStand) {
             FishState state = disturbed(fish);
             double energy = energyOf(fish, state);
             for (int i = 0; i < 300; ++i) {
-                step(fish, {.muscles = {}, .fins = fins}, seconds, state);
+                step(fish, {.muscles = {}, .fins = fins, .rowing = {}, .tone = {}}, seconds, state);
                 const double now = energyOf(fish, state);
                 ASSERT_LE(now, energy * (1 + 1e-12)) << "step " << i << " of " << seconds << " s";
                 energy = now;
@@ -116,12 +116,12 @@ void balanceStep(const BiomechanicalFish& fish,
     const double seconds = longestStepSeconds(fish);
     balance.muscles += elasticEnergyOf(fish, now, state) - elasticEnergyOf(fish, before, state);
     FishState middle = state;
-    step(fish, {.muscles = now, .fins = {}}, seconds, state);
+    step(fish, {.muscles = now, .fins = {}, .rowing = {}, .tone = {}}, seconds, state);
     for (std::size_t i = 0; i < middle.positions.size(); ++i) {
         middle.velocities.at(i) = (state.positions.at(i) - middle.positions.at(i)) / seconds;
         middle.positions.at(i) += seconds / 2 * middle.velocities.at(i);
     }
-    const PlainForces forces = forcesOn(fish, {.muscles = now, .fins = {}}, middle);
+    const PlainForces forces = forcesOn(fish, {.muscles = now, .fins = {}, .rowing = {}, .tone = {}}, middle);
     balance.tissue -= seconds * powerOf(forces.dampers, middle.velocities);
     balance.water -= seconds * powerOf(forces.water, middle.velocities);
 }
@@ -139,7 +139,7 @@ EnergyBalance balanceOf(const config::Species& species, const config::Gait& gait
     for (glm::dvec3& velocity : state.velocities) velocity.x = 0.6 * gait.beatHertz;
     int i = 0;
     for (; i < 12 * stepsInABeat; ++i)
-        step(fish, {.muscles = musclesAt(i), .fins = {}}, longestStepSeconds(fish), state);
+        step(fish, {.muscles = musclesAt(i), .fins = {}, .rowing = {}, .tone = {}}, longestStepSeconds(fish), state);
     const auto energyNow = [&] {
         return kineticEnergyOf(fish, state) + elasticEnergyOf(fish, musclesAt(i - 1), state);
     };

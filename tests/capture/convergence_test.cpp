@@ -29,7 +29,9 @@ MotorControl everythingMoves(double seconds) {
     return {
         .muscles = beatAt(swim, grown * grown * (3 - 2 * grown), swim.medium.beatHertz * seconds),
         .fins = {.left = {.angleRadians = 1.2 + std::sin(9 * seconds), .sweepSpeed = 0.3},
-                 .right = {.angleRadians = 2.4}}};
+                 .right = {.angleRadians = 2.4}},
+        .rowing = {},
+        .tone = {}};
 }
 
 FishState swimmingOff(const BiomechanicalFish& fish) {
@@ -130,7 +132,7 @@ Swum swum(const config::Species& species, const config::Gait& gait, int parts) {
         for (int i = 0; i < steps; ++i, ++done)
             step(fish,
                  {.muscles = beatAt(species.swim, gait.gain, (done + 0.5) / (steps * kPhases)),
-                  .fins = {}},
+                  .fins = {}, .rowing = {}, .tone = {}},
                  phase / steps,
                  state);
     };

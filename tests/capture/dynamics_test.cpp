@@ -99,8 +99,8 @@ TEST(Dynamics, exchangedMusclesSwimTheMirroredPathInEverySpecies) {
                 mix(beatAt(species.swim, 1, species.swim.medium.beatHertz * seconds),
                     bendLeft(species.turn.gradual, seconds * fish.timeScale),
                     std::min(1.0, seconds));
-            step(fish, {.muscles = muscles, .fins = {}}, longestStepSeconds(fish), left);
-            step(fish, {.muscles = mirrored(muscles), .fins = {}}, longestStepSeconds(fish), right);
+            step(fish, {.muscles = muscles, .fins = {}, .rowing = {}, .tone = {}}, longestStepSeconds(fish), left);
+            step(fish, {.muscles = mirrored(muscles), .fins = {}, .rowing = {}, .tone = {}}, longestStepSeconds(fish), right);
         }
         for (int i = 0; i < body::kNodalPoints; ++i) {
             const glm::dvec3 image =
@@ -120,7 +120,7 @@ TEST(Dynamics, swimsInAPlane) {
              {.muscles = beatAt(test::scad().swim,
                                 1,
                                 test::scad().swim.fast.beatHertz * i * longestStepSeconds(fish)),
-              .fins = {}},
+              .fins = {}, .rowing = {}, .tone = {}},
              longestStepSeconds(fish),
              state);
     for (int i = 0; i < body::kNodalPoints; ++i) {

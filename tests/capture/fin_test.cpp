@@ -28,7 +28,7 @@ glm::dvec3 forceOf(const PectoralFins& fins, double speed) {
     const BiomechanicalFish fish = finsAlone();
     FishState state = stateAtRest(fish);
     for (glm::dvec3& velocity : state.velocities) velocity = {speed, 0, 0};
-    step(fish, {.muscles = {}, .fins = fins}, kInstant, state);
+    step(fish, {.muscles = {}, .fins = fins, .rowing = {}, .tone = {}}, kInstant, state);
     glm::dvec3 momentum{};
     for (std::size_t i = 0; i < state.velocities.size(); ++i)
         momentum += fish.masses.at(i) * state.velocities.at(i);
@@ -66,7 +66,7 @@ TEST(PectoralFins, rollTheFishTowardsTheFinThatStandsLower) {
     for (glm::dvec3& velocity : state.velocities) velocity = {2, 0, 0};
     const PectoralFins leftUp{.left = {.angleRadians = 2}, .right = {.angleRadians = 1.14}};
     for (int i = 0; i < 100; ++i)
-        step(fish, {.muscles = {}, .fins = leftUp}, longestStepSeconds(fish), state);
+        step(fish, {.muscles = {}, .fins = leftUp, .rowing = {}, .tone = {}}, longestStepSeconds(fish), state);
     EXPECT_LT(frameOf(state.positions).worldFromBody[2].y, -0.1) << "right side down";
 }
 

@@ -31,7 +31,7 @@ Swimmer rolled(const config::Species& species, double radians) {
         x = {x.x,
              std::cos(radians) * x.y + std::sin(radians) * x.z,
              -std::sin(radians) * x.y + std::cos(radians) * x.z};
-    return {fish, species.swim, longestStepSeconds(fish)};
+    return {fish, species, longestStepSeconds(fish)};
 }
 
 TEST(AscendAndDescend, holdThePitchThatIsAskedForAndRiseOrFallInEverySpecies) {
@@ -122,7 +122,7 @@ TEST(Retreat, holdsItsHeadingThoughTheFishIsNotSymmetric) {
     BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
     for (WettedFace& face : fish.faces)
         if (face.nodes[0] % 4 == 0) face.drag *= 1.1;
-    Swimmer swimmer(fish, test::scad().swim, longestStepSeconds(fish));
+    Swimmer swimmer(fish, test::scad(), longestStepSeconds(fish));
     swimmer.give(with(Controller::Retreat, test::scad()));
     const Course course = overBeats(swimmer, test::scad(), 60);
     EXPECT_LT(course.velocity.x, -0.3);

@@ -53,10 +53,10 @@ class EveryGait : public testing::TestWithParam<SpeciesAndGait> {
   protected:
     // Steps that divide the beat, so that poses of one phase can be compared.
     static Swimmer balancing(const BiomechanicalFish& fish,
-                             const config::Swim& swim,
+                             const config::Species& species,
                              const config::Gait& gait) {
         const double steps = std::ceil(1 / (gait.beatHertz * longestStepSeconds(fish)));
-        Swimmer swimmer(fish, swim, 1 / (gait.beatHertz * steps));
+        Swimmer swimmer(fish, species, 1 / (gait.beatHertz * steps));
         swimmer.give({.controller = Controller::Balance, .gait = gait});
         return swimmer;
     }
@@ -67,7 +67,7 @@ TEST_P(EveryGait, isSwumOnAndOnUprightAtOneSpeedInOnePose) {
     const config::Species& species = test::allSpecies().at(index);
     const config::Gait& gait = species.swim.*which;
     const BiomechanicalFish fish = crooked(species);
-    Swimmer swimmer = balancing(fish, species.swim, gait);
+    Swimmer swimmer = balancing(fish, species, gait);
     const double ownSecond = 1 / fish.timeScale;
     const auto beatsIn = [&](double ownSeconds) {
         return std::ceil(ownSeconds * ownSecond * gait.beatHertz) / gait.beatHertz;

@@ -21,11 +21,11 @@ inline std::vector<motion::FishRecord> sampleRecords(std::uint32_t fish) {
              ~i >> 2U,
              static_cast<std::uint16_t>(i * 31),
              static_cast<std::uint16_t>(i * 57),
-             static_cast<std::uint8_t>(i % motion::kSegments),
-             static_cast<std::uint8_t>((i + 3) % motion::kSegments),
+             static_cast<std::uint16_t>(i % motion::kSegments),
+             static_cast<std::uint16_t>((i + 3) % motion::kSegments),
+             motion::packedSpeedAndSpread(1000 - n * 77, static_cast<std::uint8_t>(i * 3)),
              static_cast<std::uint8_t>(i % 8),
-             8,
-             motion::packedSpeedAndSpread(1000 - n * 77, static_cast<std::uint8_t>(i * 3))});
+             8});
     }
     return records;
 }

@@ -68,6 +68,7 @@ CagePose poseAt(const body::FishBody& body, const motion::ActionSegment& segment
 float turnOf(std::uint32_t segment, std::size_t side) {
     using motion::Action;
     const auto action = static_cast<Action>(segment);
+    if (isStart(action)) return 1;  // both fins fold
     if (isTurn(action)) {
         const bool left = action < Action::TurnRightGradual;
         const bool gradual =
