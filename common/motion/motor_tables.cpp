@@ -265,7 +265,7 @@ void fillToEnd(const ActionSegment& segment, Action action, MotorTables& tables)
     SegmentTables* const first = &tables.segments[firstSegmentOf(action)];
     fill(segment, pathOf(segment), *first);
     if (isStart(action)) {
-        first->lastPhase = (kPhases - 1) << kPhaseCellBits;
+        first->lastPhase = lastPhaseOf(action);
     } else {
         enterFromMedium(tables.segments[indexOf(Action::ForwardMedium)], *first);
     }

@@ -238,6 +238,12 @@ inline constexpr int kSegments = kFirstStartSegment + kStarts * kStartSegments +
 }
 static_assert(actionOf(kSegments - 1) == Action::Glide && kSegments <= 65536);
 
+// The phase, 1/65536 of a cycle, beyond which a segment that plays to its end is left. A fast start
+// does not end as it begins: it is left at its last sample.
+[[nodiscard]] constexpr std::int32_t lastPhaseOf(Action action) {
+    return isStart(action) ? (kPhases - 1) * (65536 / kPhases) : 0xFFFF;
+}
+
 // The change of the body frame from one phase to the next, in the body frame at its start: B' = B *
 // increment (eq. 6 and 7, corrected: the rotation is one of the body frame, R' = R * rotation).
 // Translation in body lengths.

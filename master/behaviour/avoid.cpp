@@ -118,6 +118,38 @@ float dread(const fish::SpeciesParameters& parameters, const fish::Feelings& fee
     return std::clamp(more / std::max(1 - parameters.habits.fearAlone, 0.01F), 0.0F, 1.0F);
 }
 
+// A fish is startled by a predator that would reach it within this time, and by a startled schoolmate
+// within so many of its own body lengths: so alarm runs through a school faster than the predator.
+constexpr float kLoomingSeconds = 0.9F;
+constexpr float kAlarmBodyLengths = 2.0F;
+
+// Whether a rushing predator comes so near so fast.
+bool looms(const Situation& situation, const Sighting& predator) {
+    const fish::FishView& view = *situation.environment.view;
+    const bool rushes = predator.hunting && view.stage[predator.object] ==
+                                                static_cast<std::uint8_t>(HuntStage::Rush);
+    if (!rushes) return false;
+    const glm::vec3 theirs = view.heading(predator.object) * view.fish[predator.object].speed;
+    const glm::vec3 own = situation.senses.heading * situation.senses.speed;
+    const float approach = -place::dot(theirs - own, predator.offset) / predator.distance;
+    const float toMouth =
+        predator.distance - fish::kNoseBodyLengths * view.fish[predator.object].length;
+    return approach * kLoomingSeconds > toMouth - situation.senses.length;
+}
+
+bool isStartled(const Situation& situation) {
+    const Senses& senses = situation.senses;
+    const auto predators = std::span(senses.predators).first(senses.predatorCount);
+    if (std::ranges::any_of(predators, [&](const Sighting& one) { return looms(situation, one); }))
+        return true;
+    const float reach = kAlarmBodyLengths * senses.length;
+    for (std::size_t i = 0; i < senses.schoolmates.count; ++i)
+        if (senses.schoolmates.distanceSquared[i] < reach * reach &&
+            situation.environment.view->shows(senses.schoolmates.fish[i], fish::kStartled))
+            return true;
+    return false;
+}
+
 }  // namespace
 
 fish::Course avoidFish(const Situation& situation, const fish::Mind& mind) {
@@ -203,6 +235,7 @@ fish::Course escape(const Situation& situation, const fish::Mind& mind) {
             place::directionOf(together + (course.direction - together) * alone, course.direction));
     }
     course.urgency = std::max(course.urgency, kSharpStart);
+    course.isStartled = isStartled(situation);
     return course;
 }
 

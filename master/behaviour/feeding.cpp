@@ -187,6 +187,11 @@ fish::Course eat(const Situation& situation, fish::Mind& mind, DeferredEvents& e
     return pursue(situation, fromMouth, situation.parameters.medium);
 }
 
+bool isRushing(const fish::Mind& mind) {
+    return mind.intention == fish::Intention::Eat &&
+           mind.stage == static_cast<std::uint8_t>(HuntStage::Rush);
+}
+
 fish::Course hunt(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
     assert(situation.senses.prey.seen());
     const Senses& senses = situation.senses;

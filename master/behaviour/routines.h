@@ -62,6 +62,8 @@ using DeferredEvents = std::vector<fish::DeferredEvent>;
 
 // Values of Mind::stage while a predator hunts.
 enum class HuntStage : std::uint8_t { Stalk, Rush };
+// Whether a predator rushes at its prey.
+[[nodiscard]] bool isRushing(const fish::Mind& mind);
 // Hunting (section 5.6.5): a predator approaches its prey slowly, rushes at it from near, and snaps
 // when it is at the mouth. Prey that turns more sharply escapes. The fish must see prey.
 [[nodiscard]] fish::Course hunt(const Situation& situation,

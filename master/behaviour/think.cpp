@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/think.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cstdint>
 
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/perceive.h"
@@ -21,7 +23,12 @@ void think(const Environment& environment,
     const fish::SpeciesParameters& parameters =
         environment.speciesParameters[environment.view->kind[fish]];
     fish::Mind mind = minds[fish];
-    fish::passTime(parameters, mind);
+    // The first thought of a mind is as long after its beginning as any other.
+    const std::uint64_t since = environment.tick.value - mind.thoughtAt;
+    fish::passTime(parameters,
+                   static_cast<std::uint32_t>(std::min(since, fish::kTicksBetweenThoughts)),
+                   mind);
+    mind.thoughtAt = environment.tick.value;
     const Senses senses = perceive(environment, parameters, fish, mind);
     const fish::Feelings feelings = feel(parameters, mind, senses);
     remember(mind, decide(parameters, mind, senses, feelings));

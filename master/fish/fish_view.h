@@ -48,6 +48,8 @@ enum Sign : std::uint8_t {
     kFemale = 4,
     kHunting = 8,
     kSchooling = 16,  // swims in a school
+    kStartled = 32,   // makes a fast start
+    kAlarmed = 64,    // heeds its fear
 };
 
 // Position and motion of one fish. It is 32 bytes long and aligned, so that all of it lies in one

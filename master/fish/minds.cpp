@@ -29,6 +29,7 @@ std::uint64_t Minds::hash() const {
     fold(&Mind::likes);
     fold(&Mind::stage);
     fold(&Mind::sinceStage);
+    fold(&Mind::thoughtAt);
     return hash;
 }
 
@@ -91,14 +92,14 @@ bool mates(const SpeciesParameters& parameters) {
            parameters.habits.libidoPerSecond > 0;
 }
 
-void passTime(const SpeciesParameters& parameters, Mind& mind) {
-    for (std::uint32_t* ticks : {&mind.pursued,
+void passTime(const SpeciesParameters& parameters, std::uint32_t ticks, Mind& mind) {
+    for (std::uint32_t* clock : {&mind.pursued,
                                  &mind.sinceRemembered,
                                  &mind.sinceMeal,
                                  &mind.sinceSpawning,
                                  &mind.sinceChase,
                                  &mind.sinceStage})
-        if (*ticks < kLongAgo) *ticks += kTicksBetweenThoughts;
+        if (*clock < kLongAgo) *clock += ticks;
     if (undigested(parameters, mind) <= 0) mind.eaten = 0;
 }
 
@@ -131,7 +132,8 @@ void showMood(const SpeciesParameters& parameters,
         const bool schools =
             mind.intention == Intention::School || mind.remembered == Intention::School;
         view.signs[fish] = static_cast<std::uint8_t>(
-            away | moodOf(mind.likes, schools ? Intention::School : mind.intention));
+            away | moodOf(mind.likes, schools ? Intention::School : mind.intention) |
+            (mind.alarm == Alarm::Calm ? 0U : unsigned{kAlarmed}));
         return;
     }
     const Aim aim = aimOf(mind);

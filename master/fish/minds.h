@@ -64,6 +64,8 @@ struct Mind {
     std::uint8_t stage = 0;
     // Ticks in that stage.
     std::uint32_t sinceStage = 0;
+    // Tick of the last thought.
+    std::uint64_t thoughtAt = 0;
 };
 
 // Habits of a single fish, drawn at its beginning (behaviour::likesOf()), as bits of Mind::likes. A
@@ -162,9 +164,9 @@ inline constexpr float kHysteresis = 0.8F;
 // Whether the species mates: only pacifists do (Tu & Terzopoulos 1994).
 [[nodiscard]] bool mates(const SpeciesParameters& parameters);
 
-// Advances all clocks of the mind by one thought (kTicksBetweenThoughts); forgets a meal that is
+// Advances all clocks of the mind by the ticks since its last thought; forgets a meal that is
 // digested. Called once per thought, before perception.
-void passTime(const SpeciesParameters& parameters, Mind& mind);
+void passTime(const SpeciesParameters& parameters, std::uint32_t ticks, Mind& mind);
 
 // Sets stomach and clocks so that inner hunger and libido have the given values, both 0 to 1. A
 // scene may begin a fish so. A libido above 1 - hunger cannot be reached.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "common/base/digest.h"
 #include "common/base/random_streams.h"
@@ -77,6 +78,9 @@ constexpr float kHoverBelow = 0.25F;  // of the slow gait's speed
 constexpr float kHoverBrakeGain = 4.0F;
 // A forward gait is kept for at least so long, unless there is danger.
 constexpr std::uint64_t kShortestGaitTicks = 36;
+// A fish makes a fast start at most so often, and does not brake for so long after it began one.
+constexpr std::uint64_t kRecoveryTicks = 90;
+constexpr std::uint64_t kBurstTicks = 60;
 // How far a recommended segment may differ from the wanted speed and course.
 constexpr float kSpeedMayDiffer = 0.9F;
 constexpr float kCourseMayDiffer = 40.0F * kRadiansPerDegree<float>;
@@ -271,10 +275,11 @@ void ControllerMemory::resize(std::size_t fish) {
     chosenAt.resize(fish);
     heldUntil.resize(fish);
     patience.resize(fish);
+    recoversAt.resize(fish);
 }
 
 std::size_t ControllerMemory::bytes() const {
-    return bytesIn(chosenAt, heldUntil, patience);
+    return bytesIn(chosenAt, heldUntil, patience, recoversAt);
 }
 
 float tempoOf(std::uint32_t seed, std::size_t fish) {
@@ -297,6 +302,7 @@ void startCommands(const Gaits& gaits,
         commands.brake[fish] = 0;
         memory.chosenAt[fish] = 0;
         memory.heldUntil[fish] = 0;
+        memory.recoversAt[fish] = 0;
         memory.patience[fish] = patienceOf(seed, fish, 0);
     }
 }
@@ -306,23 +312,24 @@ void SecondaryController::run(std::size_t first, std::size_t last) const {
     assert(view != nullptr);
     assert(courses != nullptr);
     assert(states != nullptr);
+    assert(thought != nullptr);
     assert(commands != nullptr);
     assert(memory != nullptr);
     assert(first <= last);
     assert(last <= courses->size());
     assert(last <= states->size());
     for (std::size_t fish = first; fish < last; ++fish)
-        if (thinksAt(tick, fish) || endsTurn(fish)) decide(fish);
+        if (std::exchange((*thought)[fish], 0) != 0 || endsTurn(fish)) decide(fish);
 }
 
 bool SecondaryController::endsTurn(std::size_t fish) const {
     const motion::Action playing = motion::actionOf(states->segment[fish]);
-    if (!isTurn(playing)) return false;  // one byte is read of most fish
+    if (motion::entriesOf(playing) == 0) return false;  // one number is read of most fish
     // The motor plays the turn at the commanded rate if the turn is still commanded, else at the
-    // recorded rate. The turn ends when the 16-bit phase overflows.
+    // recorded rate.
     const bool goesOn = static_cast<motion::Action>(commands->action[fish]) == playing;
     const int rate = goesOn ? commands->phaseRate[fish] : gaits->phaseRate[indexOf(playing)];
-    return states->phase[fish] + rate > 0xffff;
+    return states->phase[fish] + rate > motion::lastPhaseOf(playing);
 }
 
 void SecondaryController::decide(std::size_t fish) const {
@@ -340,10 +347,10 @@ void SecondaryController::decide(std::size_t fish) const {
                        kUnitsOfPitchSine,
                    -32767.0F,
                    32767.0F));
-    const bool steers = !isTurn(chosen);
+    const bool steers = !isTurn(chosen) && !isStart(chosen);
     to.yawRate[fish] =
         steers ? yawRateFor(*gaits, moment, chosen, to.yawRate[fish]) : std::int16_t{0};
-    to.brake[fish] = steers ? brakeFor(*gaits, moment, to.brake[fish]) : std::uint8_t{0};
+    to.brake[fish] = steers && !isBursting(fish) ? brakeFor(*gaits, moment, to.brake[fish]) : std::uint8_t{0};
 }
 
 bool SecondaryController::isKept(std::size_t fish,
@@ -375,7 +382,7 @@ SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) cons
                                      static_cast<float>(states->warpLength[fish] + 1)
                                : 1.0F;
     const float toCome = 1 - warped * static_cast<float>(states->phase[fish]) / 65536.0F;
-    moment.yawError -= isTurn(action) ? gaits->turn[playing] * toCome
+    moment.yawError -= motion::entriesOf(action) > 0 ? gaits->turn[playing] * toCome
                                       : gaits->yawRate[indexOf(action)] * kLeadSeconds;
     return moment;
 }
@@ -384,6 +391,7 @@ SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) cons
 // taken if the course is open to it and it serves. A gait is then held for a while; a turn is
 // played to its end anyway. Without recommendations this is turnOrSwim().
 motion::Action SecondaryController::choose(std::size_t fish, const Moment& moment) const {
+    if (const auto start = startFor(fish, moment)) return *start;
     const motion::Action chosen = turnOrSwim(*gaits, moment);
     if (tick.value < memory->heldUntil[fish])
         return moment.isOpen && !isSharp(chosen) ? held(*gaits, moment) : chosen;
@@ -400,6 +408,31 @@ motion::Action SecondaryController::choose(std::size_t fish, const Moment& momen
     return recommended;
 }
 
+// The fast start whose turn is nearest to the wanted one. After it the fish swims on as it asks; a
+// course that hardly differs asks for none.
+std::optional<motion::Action> SecondaryController::startFor(std::size_t fish,
+                                                            const Moment& moment) const {
+    using motion::Action;
+    if (!(*courses)[fish].isStartled || tick.value < memory->recoversAt[fish]) return std::nullopt;
+    const auto first = indexOf(moment.yawError > 0 ? Action::StartLeftSmall : Action::StartRightSmall);
+    const float wanted = std::abs(moment.yawError);
+    const auto off = [&](std::size_t size) {
+        const auto start = static_cast<Action>(first + size);
+        return std::abs(std::abs(gaits->turn[motion::firstSegmentOf(start)]) - wanted);
+    };
+    std::size_t nearest = 0;
+    for (std::size_t size = 1; size < motion::kStarts / 2; ++size)
+        if (off(size) < off(nearest)) nearest = size;
+    if (wanted < off(nearest)) return std::nullopt;  // straight on is nearer
+    memory->recoversAt[fish] = tick.value + kRecoveryTicks;
+    return static_cast<Action>(first + nearest);
+}
+
+// A fish that has made a fast start coasts.
+bool SecondaryController::isBursting(std::size_t fish) const {
+    return memory->recoversAt[fish] > tick.value + kRecoveryTicks - kBurstTicks;
+}
+
 // A gait is played faster or slower to reach the wanted speed, and a turn in danger faster; the
 // rate stays within kRateMargin of the recording and kTempoMargin of the fish's own tempo.
 std::int16_t SecondaryController::phaseRateFor(std::size_t fish,
@@ -410,6 +443,7 @@ std::int16_t SecondaryController::phaseRateFor(std::size_t fish,
     const float tempo = tempoOf(seed, fish);
     const float least = std::max(1 - kRateMargin, tempo - kTempoMargin);
     const float most = std::min(1 + kRateMargin, tempo + kTempoMargin);
+    if (isStart(chosen)) return gaits->phaseRate[action];
     const float turns = moment.urgency > 1 ? most : tempo;
     const float rate = swims(chosen) ? moment.speed / gaits->speed[action] : turns;
     const float present =

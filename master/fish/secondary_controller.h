@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -18,11 +19,12 @@
 
 namespace aquarama::fish {
 
-// A fish thinks every eighth tick (Reynolds 2006). Its index shifts the tick, so that an eighth of
-// all fish think at each tick.
+// A fish thinks every eighth tick (Reynolds 2006), an alarmed one every fourth. Its index shifts the
+// tick, so that an eighth of all fish think at each tick.
 inline constexpr std::uint64_t kTicksBetweenThoughts = 8;
-[[nodiscard]] constexpr bool thinksAt(Tick tick, std::size_t fish) {
-    return (tick.value + fish) % kTicksBetweenThoughts == 0;
+inline constexpr std::uint64_t kTicksOfAlarm = 4;
+[[nodiscard]] constexpr bool thinksAt(Tick tick, std::size_t fish, bool isAlarmed = false) {
+    return (tick.value + fish) % (isAlarmed ? kTicksOfAlarm : kTicksBetweenThoughts) == 0;
 }
 
 // The course that a mind asks of its motor: direction, speed and urgency (the motor controller
@@ -34,6 +36,8 @@ struct Course {
     float speed = 0;
     // 0 in open water; from 1 on the fish turns sharply.
     float urgency = 0;
+    // Whether the fish is startled: it begins with a fast start.
+    bool isStartled = false;
     // Whether the controller may try another swim pattern for a while. think() sets it after the
     // routine, alike for all routines.
     bool openToChange = false;
@@ -76,6 +80,8 @@ struct ControllerMemory {
     std::vector<std::uint64_t> heldUntil;
     // Ticks of one segment after which another is recommended.
     std::vector<std::uint16_t> patience;
+    // Tick after which the fish can make a fast start again.
+    std::vector<std::uint64_t> recoversAt;
 
     // Gives each of so many fish an element of every column.
     void resize(std::size_t fish);
@@ -96,13 +102,15 @@ void startCommands(const Gaits& gaits,
 // would look cloned.
 [[nodiscard]] float tempoOf(std::uint32_t seed, std::size_t fish);
 
-// Decides for the fish of one species that think at this tick. Points to columns of the world, owns
+// Decides for the fish of one species that have thought at this tick. Points to columns of the world, owns
 // nothing; run() may be called from several threads for disjoint ranges.
 struct SecondaryController {
     const Gaits* gaits = nullptr;
     const FishView* view = nullptr;
     const Courses* courses = nullptr;
     const motion::MotionStates* states = nullptr;
+    // Marks of the fish that have thought at this tick; run() takes them back.
+    std::vector<std::uint8_t>* thought = nullptr;
     std::uint32_t seed = 0;
     Tick tick;
     motion::MotorCommands* commands = nullptr;
@@ -115,16 +123,20 @@ struct SecondaryController {
     struct Moment;
 
   private:
-    // Whether the fish's turn ends in this tick. Then it decides at once, also between two
+    // Whether the fish's turn or fast start ends in this tick. Then it decides at once, also between two
     // thoughts, so that the next segment begins without a gap.
     [[nodiscard]] bool endsTurn(std::size_t fish) const;
     void decide(std::size_t fish) const;
+    [[nodiscard]] bool isBursting(std::size_t fish) const;
     // Whether the command stands although another was chosen. With anything in its way a fish does
     // not break a turn off: the side from which it is pushed changes as it turns, and it would turn
     // to neither.
     [[nodiscard]] bool isKept(std::size_t fish, const Moment& moment, motion::Action asked) const;
     [[nodiscard]] Moment momentOf(std::size_t fish) const;
     [[nodiscard]] motion::Action choose(std::size_t fish, const Moment& moment) const;
+    // The fast start that a startled fish makes; nothing where it is not startled or not recovered.
+    [[nodiscard]] std::optional<motion::Action> startFor(std::size_t fish,
+                                                         const Moment& moment) const;
     [[nodiscard]] std::int16_t phaseRateFor(std::size_t fish,
                                             motion::Action chosen,
                                             const Moment& moment) const;

@@ -89,6 +89,9 @@ void SpeciesLog::noteFish(const world::World& world, std::size_t fish, bool glan
     seen.intention = world.minds()[fish].intention;
     seen.eaten = world.minds()[fish].eaten;
     seen.sinceMeal = world.minds()[fish].sinceMeal;
+    const bool startles = world.view().shows(fish, fish::kStartled);
+    tally.fastStarts += startles && !seen.startles ? 1 : 0;
+    seen.startles = startles;
     seen.isNew = false;
 }
 
@@ -123,6 +126,7 @@ SpeciesTally SpeciesLog::all() const {
         sum.meals += tally.meals;
         sum.flights += tally.flights;
         sum.courtships += tally.courtships;
+        sum.fastStarts += tally.fastStarts;
         for (std::size_t i = 0; i < sum.meanSlip.size(); ++i) {
             sum.meanSlip.at(i) += tally.meanSlip.at(i);
             sum.bodySlip.at(i) += tally.bodySlip.at(i);

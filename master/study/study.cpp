@@ -59,7 +59,8 @@ void addSpecies(std::ostream& text, const std::string& name, const SpeciesTally&
     slip(tally.meanSlip);
     slip(tally.bodySlip);
     text << " | " << static_cast<double>(tally.changes) / tally.fishSeconds << " | " << tally.meals
-         << " | " << tally.flights << " | " << tally.courtships << " |\n";
+         << " | " << tally.flights << " | " << tally.fastStarts << " | " << tally.courtships
+         << " |\n";
 }
 
 }  // namespace
@@ -183,8 +184,8 @@ std::string speciesText(const SpeciesLog& log, std::span<const world::WorldSpeci
     text << std::fixed << std::setprecision(1)
          << "| species | turning by captured segments, % | path against captured motion, degrees: "
             "median / 99 % | path against the body | changes of command a second | meals | flights "
-            "that began | courtships that began |\n"
-            "|---|---|---|---|---|---|---|---|\n";
+            "that began | fast starts | courtships that began |\n"
+            "|---|---|---|---|---|---|---|---|---|\n";
     for (std::size_t kind = 0; kind < cast.size(); ++kind)
         addSpecies(text, cast[kind].name, log.byKind()[kind]);
     const SpeciesTally all = log.all();

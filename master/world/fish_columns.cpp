@@ -13,6 +13,7 @@ FishColumns::FishColumns(std::vector<motion::FishTraits> ofFish) : traits(std::m
     minds.resize(traits.size());
     courses.resize(traits.size());
     memory.resize(traits.size());
+    thought.resize(traits.size());
     view.resize(traits.size());
 }
 
@@ -30,9 +31,11 @@ std::uint64_t FishColumns::hash(Tick tick) const {
     fold(&fish::Course::speed);
     fold(&fish::Course::urgency);
     fold(&fish::Course::openToChange);
+    fold(&fish::Course::isStartled);
     hash = folded(hash, memory.chosenAt);
     hash = folded(hash, memory.heldUntil);
     hash = folded(hash, memory.patience);
+    hash = folded(hash, memory.recoversAt);
     // The only place where kAway is kept as a sign.
     return folded(hash, view.signs);
 }

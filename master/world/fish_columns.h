@@ -25,6 +25,7 @@ struct FishColumns {
     fish::Minds minds;
     fish::Courses courses;
     fish::ControllerMemory memory;
+    std::vector<std::uint8_t> thought;  // in this tick; all 0 between two ticks
     // What others see of the fish, as it was when the last tick began.
     fish::FishView view;
 

@@ -13,6 +13,7 @@
 #include "common/motion/headings.h"
 #include "common/place/place.h"
 #include "master/behaviour/routines.h"
+#include "master/behaviour/routines.h"
 #include "master/behaviour/think.h"
 #include "master/fish/minds.h"
 #include "master/world/beginning.h"
@@ -56,6 +57,9 @@ constexpr std::size_t kFishInChunk = 512;
 constexpr std::size_t kSlotsInSlice = 1024;
 // A thinker is prefetched this many thoughts ahead.
 constexpr std::size_t kFetchedAhead = 3;
+// Fish that a predator hunts see from so far that it begins to rush; and of so many predators.
+constexpr float kRushSeenMetres = 4.0F;
+constexpr std::size_t kMostRushes = 64;
 
 // Mean length of the school's fish; of a scad where there is no cast.
 float meanLengthMetres(const WorldOptions& options) {
@@ -198,14 +202,14 @@ void World::begin(const WorldOptions& options) {
         columns_.courses[fish] = {columns_.view.heading(fish), 1, 0};
 }
 
-// Reserves room for the events of a tick, so that thoughts allocate nothing: an eighth of the fish
-// think at a tick, and each reports one event at most.
+// Reserves room for the events of a tick, so that thoughts allocate nothing: where a predator begins
+// to rush all fish may think at a tick, and each reports one event at most.
 void World::makeRoomForEvents() {
-    constexpr std::size_t kSlack = 32;
     slices_.resize((columns_.traits.size() + kSlotsInSlice - 1) / kSlotsInSlice);
     for (behaviour::DeferredEvents& slice : slices_)
-        slice.reserve(kSlotsInSlice / fish::kTicksBetweenThoughts * 2);
-    events_.reserve(columns_.traits.size() / fish::kTicksBetweenThoughts + kSlack);
+        slice.reserve(kSlotsInSlice);
+    events_.reserve(columns_.traits.size());
+    rushes_.reserve(kMostRushes);
 }
 
 void World::apply(const WorldInput& input) {
@@ -242,6 +246,7 @@ void World::advance() {
     moveSubmarine();
     beginTick();
     advanceMeals(meals_, columns_.view, surroundings_.food, tick_);
+    findRushes();
     thinkAll();
     pool_.run(chunks_.size(), [this](std::size_t i) { swim(chunks_[i]); });
     performEvents();
@@ -291,6 +296,8 @@ void World::look(const Kind& kind, std::size_t first, std::size_t last) {
                 length};
             fish::showMood(
                 parameters, columns_.minds, static_cast<std::uint32_t>(fish), columns_.view);
+            if (motion::isStart(motion::actionOf(columns_.states.segment[fish])))
+                columns_.view.signs[fish] |= fish::kStartled;
         }
     }
 }
@@ -322,7 +329,7 @@ void World::thinkAll() {
         for (std::size_t slot = first; slot < last; ++slot) {
             // Collected without a branch: the next slot overwrites a fish that does not think now.
             thinkers[count] = grid.index()[slot];
-            count += fish::thinksAt(tick_, thinkers[count]) ? 1 : 0;
+            count += thinks(thinkers[count]) ? 1 : 0;
         }
         behaviour::DeferredEvents& events = slices_[i];
         events.clear();
@@ -330,8 +337,36 @@ void World::thinkAll() {
             if (t + kFetchedAhead < count)
                 fetch(columns_.minds, columns_.view, columns_.courses, thinkers[t + kFetchedAhead]);
             behaviour::think(around, thinkers[t], columns_.minds, columns_.courses, events);
+            columns_.thought[thinkers[t]] = 1;
         }
     });
+}
+
+// Every few ticks, and at once where a predator near it has begun to rush.
+bool World::thinks(std::uint32_t fish) const {
+    const bool isAlarmed = columns_.view.shows(fish, fish::kAlarmed);
+    if (fish::thinksAt(tick_, fish, isAlarmed)) return true;
+    return std::ranges::any_of(rushes_, [&](std::uint32_t predator) {
+        const std::uint64_t hunts = speciesParameters_[columns_.view.kind[predator]].hunts;
+        const glm::vec3 apart =
+            columns_.view.position(fish) - columns_.view.position(predator);
+        return (hunts >> columns_.view.kind[fish] & 1U) != 0 &&
+               place::dot(apart, apart) < kRushSeenMetres * kRushSeenMetres;
+    });
+}
+
+// The predators that began to rush at the last tick.
+void World::findRushes() {
+    rushes_.clear();
+    for (const fish::SpeciesParameters& parameters : speciesParameters_) {
+        if (parameters.habits.role != config::Role::Predator) continue;
+        for (std::uint32_t fish = parameters.first; fish < parameters.last; ++fish) {
+            const fish::Mind& mind = columns_.minds[fish];
+            if (mind.sinceStage == 0 && mind.thoughtAt + 1 == tick_.value &&
+                behaviour::isRushing(mind) && rushes_.size() < kMostRushes)
+                rushes_.push_back(fish);
+        }
+    }
 }
 
 // Commands and moves the fish of one chunk; chunks are independent.
@@ -341,6 +376,7 @@ void World::swim(const Chunk& chunk) {
                               &columns_.view,
                               &columns_.courses,
                               &columns_.states,
+                              &columns_.thought,
                               seed_,
                               tick_,
                               &columns_.commands,
@@ -361,7 +397,7 @@ void World::performEvents() {
     events_.clear();
     for (const behaviour::DeferredEvents& slice : slices_)
         events_.insert(events_.end(), slice.begin(), slice.end());
-    assert(events_.size() <= columns_.traits.size() / fish::kTicksBetweenThoughts + 1);
+    assert(events_.size() <= columns_.traits.size());
     std::ranges::sort(events_, {}, &fish::DeferredEvent::fish);
     for (const fish::DeferredEvent& event : events_) perform(event);
 }

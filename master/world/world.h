@@ -173,6 +173,8 @@ class World {
     void look(const Kind& kind, std::size_t first, std::size_t last);
     void makeRoomForEvents();
     void thinkAll();
+    void findRushes();
+    [[nodiscard]] bool thinks(std::uint32_t fish) const;
     void swim(const Chunk& chunk);
     void performEvents();
     void perform(const fish::DeferredEvent& event);
@@ -190,6 +192,7 @@ class World {
     std::vector<Chunk> chunks_;
     std::vector<behaviour::DeferredEvents> slices_;  // events of parts of the fish, in grid order
     behaviour::DeferredEvents events_;               // of all slices together
+    std::vector<std::uint32_t> rushes_;              // predators that began to rush at the last tick
     FishColumns columns_;
     surroundings::Surroundings surroundings_;
     surroundings::Voyage voyage_;
