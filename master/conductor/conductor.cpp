@@ -95,10 +95,15 @@ Conductor::Conductor(const config::Rig& rig,
              sender_},
       keeper_{options_.keptAt, options_.kept},
       gauges_{roster_, isLockstep() ? std::uint16_t{0} : rig.metricsPort},
-      presentation_{
-          limitsOf(rig.timing, options_), roster_, sender_, *channels_, gauges_, report_, *this},
+      presentation_{limitsOf(rig.timing, options_),
+                    roster_,
+                    sender_,
+                    *channels_,
+                    gauges_,
+                    report_,
+                    *this,
+                    net::monotonicNow()},
       visitors_{sender_, [this] { channels_->wake(); }},
-      watchdog_{options_.service},
       simulation_{&simulation},
       windowsEndShow_{rig.windowsEndShow} {
     visitors_.enter(nullptr, static_cast<std::uint32_t>(school.size()));
@@ -117,7 +122,7 @@ ShowReport Conductor::run() {
             "no real-time priority: frames are late where this machine is busy; "
             "docs/cluster.md says how to allow it");
     startSimulation(visitors_.fish());
-    watchdog_.ready();
+    if (options_.service != nullptr) options_.service->ready();
     while (!isOver_ && !stopped_ && !presentation_.isOver()) {
         const net::Instant now = net::monotonicNow();
         hear(now);
@@ -130,10 +135,11 @@ ShowReport Conductor::run() {
                 now, report_, visitors_.fish(), wanted.black(), roster_, presentation_.barrier()))
             for (NodeSeat& seat : roster_.seats()) seat.logLines = 0;
         const bool isStill = isLockstep() || wanted.freeze();
-        watchdog_.turn(now, presentation_.newestTick(), isStill, report_.frames);
-        channels_->wait(presentation_.untilDue());
+        const bool isAlive = watchdog_.isAlive(now, presentation_.newestTick(), isStill);
+        if (isAlive && options_.service != nullptr) options_.service->alive(report_.frames);
+        channels_->wait(presentation_.untilDue(net::monotonicNow()));
     }
-    watchdog_.stopping();
+    if (options_.service != nullptr) options_.service->stopping();
     visitors_.enter(nullptr, visitors_.fish());
     simulationThread_.reset();
     sayFarewell();
@@ -240,7 +246,7 @@ void Conductor::takeOfNode(std::size_t node, const v1::Envelope& message, net::I
         case v1::Envelope::kBlobRequest:
             return giveChunk(seat.peer, message.blob_request());
         case v1::Envelope::kPrepared:
-            return prepared(node, message.prepared());
+            return prepared(node, message.prepared(), now);
         case v1::Envelope::kNodeReport:
             seat.report = std::make_shared<const v1::NodeReport>(message.node_report());
             return;
@@ -336,12 +342,12 @@ void Conductor::note(NodeSeat& seat, const v1::LogLine& line) const {
                         line.text());
 }
 
-void Conductor::prepared(std::size_t node, const v1::Prepared& prepared) {
+void Conductor::prepared(std::size_t node, const v1::Prepared& prepared, net::Instant now) {
     NodeSeat& seat = roster_.seats()[node];
     seat.builtLook = prepared.look();
     if (prepared.look() == orders_.control().look()) {
         if (!looks_.shown().has_quality()) seat.bears = config::tierAt(prepared.quality());
-        return admit(node);
+        return admit(node, now);
     }
     if (seat.prepared) return;  // the next one, or one that was given up
     // It was built while the wall went on to another.
@@ -350,12 +356,12 @@ void Conductor::prepared(std::size_t node, const v1::Prepared& prepared) {
     seat.prepared = false;
 }
 
-void Conductor::admit(std::size_t node) {
+void Conductor::admit(std::size_t node, net::Instant now) {
     NodeSeat& seat = roster_.seats()[node];
     if (seat.prepared) return;
     looks_.prepareAgain();  // if another look is being prepared, this node has to build it as well
     seat.prepared = true;
-    const Frame first = presentation_.admit(node);
+    const Frame first = presentation_.admit(node, now);
     v1::Envelope message;
     message.mutable_joined()->set_first_frame(first.value);
     sender_.say(seat.peer, std::move(message));

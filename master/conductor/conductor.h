@@ -15,6 +15,7 @@
 
 #include "common/base/log.h"
 #include "common/config/rig.h"
+#include "common/machine/service_notifier.h"
 #include "common/net/channels.h"
 #include "master/conductor/gauges.h"
 #include "master/conductor/looks.h"
@@ -85,8 +86,8 @@ class Conductor final : private FrameSource {
     // A line of a node's log, into the log of the show.
     void note(NodeSeat& seat, const v1::LogLine& line) const;
     // The node has built a look. The one that is shown: from the next frame on it is waited for.
-    void prepared(std::size_t node, const v1::Prepared& prepared);
-    void admit(std::size_t node);
+    void prepared(std::size_t node, const v1::Prepared& prepared, net::Instant now);
+    void admit(std::size_t node, net::Instant now);
     void leave(std::size_t node);
     void giveChunk(const net::PeerId& peer, const v1::BlobRequest& request);
     void obey(const net::FromPeer& from, const v1::Order& order, net::Instant now);

@@ -142,22 +142,10 @@ void Gauges::writeStatus(v1::StatusReply& reply,
     }
 }
 
-void Watchdog::ready() const {
-    if (service_ != nullptr) service_->ready();
-}
-
-void Watchdog::turn(net::Instant now,
-                    std::optional<Tick> newest,
-                    bool isStill,
-                    std::uint64_t frames) {
+bool Watchdog::isAlive(net::Instant now, std::optional<Tick> newest, bool isStill) {
     constexpr net::Instant kLongestTick = std::chrono::seconds(2);
-    if (service_ == nullptr) return;
     if (isStill || newest != std::exchange(lastTick_, newest)) lastTickAt_ = now;
-    if (now - lastTickAt_ < kLongestTick) service_->alive(frames);
-}
-
-void Watchdog::stopping() const {
-    if (service_ != nullptr) service_->stopping();
+    return now - lastTickAt_ < kLongestTick;
 }
 
 }  // namespace aquarama::conductor

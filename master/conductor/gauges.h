@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "common/machine/service_notifier.h"
 #include "common/net/metrics.h"
 #include "common/wire/messages.h"
 #include "common/wire/state_codec.h"
@@ -71,21 +70,16 @@ class Gauges {
     net::Instant lastCount_{};
 };
 
-// Tells the service manager at every turn of the frame loop that the show is alive, as long as
-// ticks come: a tick that does not come is a hang of this process too.
+// Tells whether the show is alive, which it is as long as ticks come: a tick that does not come is
+// a hang of this process too. The service manager restarts a show that is not.
 class Watchdog {
   public:
-    // Null: nobody is told. `service` outlives this.
-    explicit Watchdog(machine::ServiceNotifier* service) : service_{service} {}
-
-    // The show serves, and ends.
-    void ready() const;
-    // `isStill`: no tick has to come, as the world stands still.
-    void turn(net::Instant now, std::optional<Tick> newest, bool isStill, std::uint64_t frames);
-    void stopping() const;
+    // At each turn of the frame loop. `newest`: the last tick that has come; nothing: none has.
+    // `isStill`: no tick has to come, as the world stands still. False: none has come for two
+    // seconds.
+    [[nodiscard]] bool isAlive(net::Instant now, std::optional<Tick> newest, bool isStill);
 
   private:
-    machine::ServiceNotifier* service_;
     std::optional<Tick> lastTick_;  // that has come, and when
     net::Instant lastTickAt_{};
 };

@@ -50,7 +50,8 @@ Presentation::Presentation(const PresentationLimits& limits,
                            net::MasterChannels& channels,
                            Gauges& gauges,
                            ShowReport& report,
-                           FrameSource& source)
+                           FrameSource& source,
+                           net::Instant start)
     : limits_{limits},
       roster_{roster},
       sender_{sender},
@@ -58,7 +59,7 @@ Presentation::Presentation(const PresentationLimits& limits,
       gauges_{gauges},
       report_{report},
       source_{source},
-      barrier_{roster.seats().size(), limits.barrier, net::monotonicNow()},
+      barrier_{roster.seats().size(), limits.barrier, start},
       trace_{openTrace(limits.traceDirectory)},
       beacon_{beaconOf(sender)},
       isOver_{limits.frames == 0U} {
@@ -126,8 +127,8 @@ void Presentation::beginNext(net::Instant now) {
     if (isDrawing_) barrier_.begin(next_);
 }
 
-net::Instant Presentation::untilDue() const {
-    const net::Instant due = lastRelease_ - kPublishLead - net::monotonicNow();
+net::Instant Presentation::untilDue(net::Instant now) const {
+    const net::Instant due = lastRelease_ - kPublishLead - now;
     return isDrawing_ || isLockstep() || due < net::Instant{0} ? kLongestWait
                                                                : std::min(due, kLongestWait);
 }
@@ -177,10 +178,10 @@ bool Presentation::publish(Frame frame, net::Instant now) {
     state->motionHash = motion::hashOf(state->after);
     const wire::Packet& packet = published_[frame] = wire::encodeState(sender_.session(), *state);
     channels_.publishState(packet);
-    lastPublished_ = lastRepeat_ = net::monotonicNow();
+    lastPublished_ = lastRepeat_ = now;
     repeatAfter_ = isLockstep() ? kRepeat : limits_.barrier.deadline;
     if (trace_.isOpen())
-        trace_.appendOrLog(fmt::format("{},{},,\n", frame.value, lastPublished_.count()));
+        trace_.appendOrLog(fmt::format("{},{},,\n", frame.value, net::monotonicNow().count()));
     gauges_.published(*state, packet.size());
     if (published_.size() > 2) published_.erase(published_.begin());
     unpublished_ = {frame.value + 1};
@@ -204,10 +205,10 @@ void Presentation::sendBeacon(net::Instant now) {
     lastPublished_ = now;
 }
 
-Frame Presentation::admit(std::size_t node) {
+Frame Presentation::admit(std::size_t node, net::Instant now) {
     const Frame first = isLockstep() ? next_ : unpublished_;
     barrier_.join(node, first);
-    if (isLockstep()) publishAgain(net::monotonicNow());
+    if (isLockstep()) publishAgain(now);
     return first;
 }
 

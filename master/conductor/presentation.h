@@ -41,17 +41,19 @@ struct PresentationLimits {
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
 };
 
-// Of the conductor's thread.
+// Of the conductor's thread. `now` is the begin of a turn of its loop, by the master's clock.
 class Presentation {
   public:
     // All that is referred to outlives this. Throws Error where the trace cannot be written.
+    // `start`: of the show; nodes that never come are silent since then.
     Presentation(const PresentationLimits& limits,
                  Roster& roster,
                  const Sender& sender,
                  net::MasterChannels& channels,
                  Gauges& gauges,
                  ShowReport& report,
-                 FrameSource& source);
+                 FrameSource& source,
+                 net::Instant start);
 
     // Frames and ticks that are due, at one turn of the loop that began at `now`.
     void turn(net::Instant now);
@@ -60,7 +62,7 @@ class Presentation {
     // Why the show cannot go on: a node of a lockstep show is silent; empty: it can.
     [[nodiscard]] const std::string& failure() const { return failure_; }
     // How long the loop may sleep where nothing is heard.
-    [[nodiscard]] net::Instant untilDue() const;
+    [[nodiscard]] net::Instant untilDue(net::Instant now) const;
 
     // Which nodes are waited for.
     [[nodiscard]] PresentBarrier& barrier() { return barrier_; }
@@ -74,7 +76,7 @@ class Presentation {
 
     // The node at this seat has built the look that is shown. Returns the first frame in which it
     // is waited for: in lockstep the one that is drawn now, live the first that it surely sees.
-    Frame admit(std::size_t node);
+    Frame admit(std::size_t node, net::Instant now);
     // The node's picture of a frame is finished, and it has let go of an earlier one.
     void ready(std::size_t node, const v1::Ready& ready, net::Instant now);
 

@@ -143,52 +143,6 @@ v1::Envelope setBlack(std::uint64_t request, bool black = true) {
     return message;
 }
 
-// What each key allows; a window of a node is a visitor's.
-TEST(Users, maySayWhatTheirRoleIsFor) {
-    using config::KeyRole;
-    const auto input = [](v1::InputKind kind) {
-        v1::Envelope message;
-        message.mutable_input()->set_kind(kind);
-        return message;
-    };
-    const auto allowed = [](KeyRole role, const v1::Envelope& message) {
-        return maySay({role, role == KeyRole::Node ? "left" : ""}, message);
-    };
-    const std::vector<KeyRole> all{KeyRole::Master,
-                                   KeyRole::Node,
-                                   KeyRole::Watcher,
-                                   KeyRole::Visitor,
-                                   KeyRole::Operator,
-                                   KeyRole::Crew};
-    const auto whoMay = [&](const v1::Envelope& message) {
-        std::string names;
-        for (const KeyRole role : all)
-            if (allowed(role, message)) names += std::string(config::nameOf(role)) + " ";
-        return names;
-    };
-    EXPECT_EQ(whoMay(test::hello("left")), "node ");
-    EXPECT_EQ(whoMay(test::hello("right")), "") << "that is another's channel";
-    EXPECT_EQ(whoMay(test::ready(1)), "node ");
-    EXPECT_EQ(whoMay(test::prepared(config::QualityTier::Low)), "node ");
-    EXPECT_EQ(whoMay(test::statusRequest()), "watcher operator crew ");
-    EXPECT_EQ(whoMay(input(v1::INPUT_STEER)), "node visitor operator crew ");
-    EXPECT_EQ(whoMay(input(v1::INPUT_DROP_FOOD)), "node visitor operator crew ");
-    EXPECT_EQ(whoMay(input(v1::INPUT_QUIT)), "operator crew ");
-    EXPECT_EQ(whoMay(setBlack(1)), "operator crew ");
-    v1::Envelope ofTheMaster;
-    ofTheMaster.mutable_present()->set_frame(1);
-    EXPECT_EQ(whoMay(ofTheMaster), "") << "nobody but the master says it";
-}
-
-TEST(Users, areNamedByRoleAndName) {
-    const auto user = userIn(userOf(config::KeyRole::Node, "left"));
-    ASSERT_TRUE(user);
-    EXPECT_EQ(user->role, config::KeyRole::Node);
-    EXPECT_EQ(user->name, "left");
-    for (const char* wrong : {"", "node", "king left", " left"})
-        EXPECT_FALSE(userIn(wrong)) << wrong;
-}
-
 TEST_F(Reception, aNodeIsAskedToMakeWayOnceForEachRequest) {
     const test::StageMaster master(ConductorOptions{}, net_.master());
     Peer node(net_), asker(net_);
