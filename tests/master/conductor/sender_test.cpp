@@ -11,7 +11,7 @@ namespace {
 
 // A node ignores what another run of the master says.
 TEST(Sender, namesTheRunOfTheMasterInEachMessage) {
-    const test::Parts parts;
+    test::Parts parts;
     EXPECT_EQ(parts.sender.session(), test::kRun);
     parts.sender.say("left", test::farewell());
     parts.sender.send("right", parts.sender.packetOf(test::beacon()));
@@ -24,7 +24,7 @@ TEST(Sender, namesTheRunOfTheMasterInEachMessage) {
 }
 
 TEST(Sender, tellsAPeerWhyItIsDismissed) {
-    const test::Parts parts;
+    test::Parts parts;
     parts.sender.dismiss("left", "you were silent for too long");
     ASSERT_EQ(parts.sent.size(), 1U);
     EXPECT_EQ(parts.sent[0].message.dismissed().reason(), "you were silent for too long");
