@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "common/base/log.h"
 #include "console/console.h"
 
 namespace aquarama::console {
@@ -112,18 +113,22 @@ HttpReply Console::look(const HttpRequest& request) {
         return {.type = "text/plain; version=0.0.4",
                 .body = metricsOf(state_.wall, state_.opening.projectors(), server_->cutOff()) +
                         ownMetrics(unixNow())};
-    if (request.target == "/bundle.tar") {
-        std::string events;
-        const browser::EventList list = state_.events.list();
-        for (const browser::Event& event : list.events())
-            events += fmt::format("{:.0f} {}: {}\n", event.at_s(), event.who(), event.what());
-        browser::ToBrowser status;
-        *status.mutable_wall() = state_.wall;
-        return {.type = "application/x-tar",
-                .body = bundleOf(state_.rigFile,
-                                 {{"events.txt", events}, {"status.json", jsonOf(status)}}),
-                .headers = {{"Content-Disposition", "attachment; filename=\"aquarama.tar\""}}};
-    }
+    if (request.target == "/bundle.tar")  // of 0.2.0
+        return {.status = 308, .headers = {{"Location", "/bundle.zip"}}};
+    if (request.target == "/bundle.zip") try {
+            std::string events;
+            const browser::EventList list = state_.events.list();
+            for (const browser::Event& event : list.events())
+                events += fmt::format("{:.0f} {}: {}\n", event.at_s(), event.who(), event.what());
+            browser::ToBrowser status;
+            *status.mutable_wall() = state_.wall;
+            return {.type = "application/zip",
+                    .body = bundleOf(state_.rigFile,
+                                     {{"events.txt", events}, {"status.json", jsonOf(status)}}),
+                    .headers = {{"Content-Disposition", "attachment; filename=\"aquarama.zip\""}}};
+        } catch (const Error& problem) {
+            return refused(500, problem.what());
+        }
     return {.status = 404, .body = "there is no such page\n"};
 }
 

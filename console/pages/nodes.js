@@ -117,7 +117,7 @@ function service(link) {
     <div class="row">${held ? button(t('hours.goOn'), () => link.command({holdHours: 0}, t('hours.goOn')),
     {disabled: !link.may('OPERATOR')})
       : button(t('hours.hold'), () => link.command({holdHours: 2}, t('hours.hold')), {disabled: !link.may('OPERATOR')})}
-      <a class="button" href="/bundle.tar" download>${t('log.bundle')}</a></div>
+      <a class="button" href="/bundle.zip" download>${t('log.bundle')}</a></div>
     <p class="note">${t('nodes.serviceNote')}</p>
     <div class="row">${power(link, 'reboot')}${power(link, 'poweroff')}</div>
     <p class="note">${t(link.known.snapshot.hasPower ? 'nodes.powerNote' : 'nodes.noPower')}</p>

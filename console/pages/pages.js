@@ -159,7 +159,7 @@ const logPage = {
       .value=${filter.logText} @input=${event => change('logText', event.target.value)}>
       ${button(t('log.problems'), () => change('logProblemsOnly', !filter.logProblemsOnly),
       {pressed: String(filter.logProblemsOnly)})}
-      <a class="button" href="/bundle.tar" download>${t('log.bundle')}</a></div>
+      <a class="button" href="/bundle.zip" download>${t('log.bundle')}</a></div>
       ${log.problem ? html`<p class="warn">${log.problem}</p>` : nothing}
       <div class="scroll" tabindex="0" role="region" aria-label=${t('page.log')}><table
         class="log"><thead><tr>${['time', 'node', 'severity', 'frame',
