@@ -169,7 +169,7 @@ Answer Commands::tellWall(const Holder& holder, Visitor* visitor, const v1::Orde
     if (order.run() != state_.wall.run())
         return refused("the show was started again meanwhile: look, and say it once more");
     waiting_[order.request()] = {visitor, holder.name, textOf(order)};
-    link_->give(order);
+    master_->give(order);
     return {Outcome::Waiting, ""};
 }
 
@@ -211,14 +211,14 @@ void Commands::keepHours() {
     if (!due || opened_ || !state_.wall.heard()) return;
     const v1::Order order = orderOfHours(*due);
     opened_ = {order.request(), *due};
-    link_->give(order);
+    master_->give(order);
 }
 
 // The master ends it by itself three seconds after the last word.
 void Commands::keepScan() {
     if (scan_.visitor == nullptr) return;
     if (scan_.visitor->ticksToLook > 0 && scan_.visitor->wants("calibrations"))
-        return link_->give(orderOf(scan_.held));
+        return master_->give(orderOf(scan_.held));
     scan_.visitor->holdsScan = false;  // the page was left
     scan_ = {};
 }
@@ -241,7 +241,7 @@ std::string Commands::carryOutHere(const Holder& holder, Visitor* visitor, const
             if (visitor != nullptr) visitors_.askFish(*visitor, command.point_at());
             return {};
         case What::kMind:
-            link_->explain(command.mind());
+            master_->explain(command.mind());
             return {};
         default:
             return carryOutOfHall(holder, command);

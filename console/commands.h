@@ -26,8 +26,8 @@ class Commands {
     Commands(State& state, Visitors& visitors, Errands& errands)
         : state_{state}, visitors_{visitors}, errands_{errands} {}
 
-    // The way to the master; null: none.
-    void reach(ShowLink* link) { link_ = link; }
+    // The way to the master, which outlives the commands; before it no wall is heard.
+    void reach(MasterProxy* master) { master_ = master; }
 
     // Carries a command out, or begins it; said again, it is answered again. `visitor`: whose page
     // gives it; null: a program does.
@@ -89,7 +89,7 @@ class Commands {
     State& state_;
     Visitors& visitors_;
     Errands& errands_;
-    ShowLink* link_ = nullptr;
+    MasterProxy* master_ = nullptr;
     ask::OrderBook book_;
     std::map<std::uint64_t, Waiting> waiting_;
     ShownScan scan_;

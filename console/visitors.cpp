@@ -332,14 +332,14 @@ std::uint32_t Visitors::wantedWidth(int channel) const {
 
 // Asked once more after a second without an answer.
 void Visitors::askPictures() {
-    if (hub_ == nullptr) return;
+    if (nodes_ == nullptr) return;
     for (int channel = 0; channel < static_cast<int>(state_.rig.channels.size()); ++channel) {
         PictureState& state = pictures_[channel];
         if (state.ticksToAsk > 0 && --state.ticksToAsk > 0) continue;
         const std::uint32_t width = wantedWidth(channel);
         if (width == 0) continue;
         state = {kTicksASecond, ++number_};
-        hub_->askPicture(
+        nodes_->askPicture(
             state_.rig.channels[static_cast<std::size_t>(channel)].name, number_, width);
     }
 }
@@ -354,7 +354,7 @@ void Visitors::takeLook(Visitor& visitor, const browser::Look& look) {
 
 // The answer comes by heardFish(); of too many questions the oldest is lost.
 void Visitors::askFish(Visitor& visitor, const browser::PointAt& at) {
-    if (hub_ == nullptr || !isPlace(at) || channelIndexOf(at.channel()) < 0) return;
+    if (nodes_ == nullptr || !isPlace(at) || channelIndexOf(at.channel()) < 0) return;
     constexpr std::size_t kMostAsked = 64;
     if (fishAsked_.size() >= kMostAsked) fishAsked_.erase(fishAsked_.begin());
     fishAsked_[++number_] = &visitor;
@@ -363,7 +363,7 @@ void Visitors::askFish(Visitor& visitor, const browser::PointAt& at) {
     request.set_frame(at.frame());
     request.set_x(at.x());
     request.set_y(at.y());
-    hub_->askFish(at.channel(), request);
+    nodes_->askFish(at.channel(), request);
 }
 
 }  // namespace aquarama::console

@@ -45,8 +45,8 @@ class Visitors {
     // `state` outlives this.
     explicit Visitors(State& state) : state_{state} {}
 
-    // Where pictures and fish are asked for; null: nowhere.
-    void watch(PictureHub* hub) { hub_ = hub; }
+    // Where pictures and fish are asked for; null: nowhere. `nodes` outlives the visitors.
+    void watch(NodeProxy* nodes) { nodes_ = nodes; }
     // A visitor comes, gets a whole snapshot before all else, and goes.
     void add(Visitor& visitor);
     void remove(Visitor& visitor);
@@ -107,7 +107,7 @@ class Visitors {
     [[nodiscard]] bool isWatched(const Visitor& visitor, int channel) const;
 
     State& state_;
-    PictureHub* hub_ = nullptr;
+    NodeProxy* nodes_ = nullptr;
     std::set<Visitor*> visitors_;
     std::map<int, PictureState> pictures_;
     std::map<std::uint64_t, Visitor*> fishAsked_;  // by the number of the question
