@@ -28,9 +28,11 @@ struct PictureListener {
 class NodeProxy {
   public:
     virtual ~NodeProxy() = default;
+    // A picture of the channel; PictureListener::picture has it, with this number.
     virtual void askPicture(const std::string& channel,
                             std::uint64_t number,
                             std::uint32_t widthPixels) = 0;
+    // The fish at a place; PictureListener::fish has the answer.
     virtual void askFish(const std::string& channel, const v1::FishRequest& request) = 0;
 };
 
@@ -50,6 +52,7 @@ class PictureHub final : public NodeProxy {
                     std::uint64_t number,
                     std::uint32_t widthPixels) override;
     void askFish(const std::string& channel, const v1::FishRequest& request) override;
+    // Where it listens, with the port that was chosen.
     [[nodiscard]] std::string address() const { return channels_->controlAddress(); }
 
   private:

@@ -33,8 +33,11 @@ struct ShowListener {
 class MasterProxy {
   public:
     virtual ~MasterProxy() = default;
-    virtual void give(v1::Order order) = 0;  // its request names it in ShowListener::said
+    // An order, which its request names in ShowListener::said.
+    virtual void give(v1::Order order) = 0;
+    // How the submarine is steered; only the newest counts.
     virtual void steer(const Steering& steering) = 0;
+    // Asks what goes on in the mind of a fish; ShowListener::explained has the answer.
     virtual void explain(std::uint32_t fish) = 0;
 };
 
