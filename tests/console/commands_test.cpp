@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/console/parts.h"
+#include "tests/support/await.h"
 
 namespace aquarama::console {
 namespace {
@@ -80,13 +81,13 @@ class DeskCommands : public testing::Test {
     Errands errands{parts.state,
                     {.askDoctor =
                          [ended = ended](const std::string&) {
-                             ended.wait();
+                             ended.wait_for(test::kPatience);
                              return browser::DoctorReport();
                          },
                      .calibrationsOf = {},
                      .useCalibration =
                          [ended = ended](const std::string&, const std::string&) {
-                             ended.wait();
+                             ended.wait_for(test::kPatience);
                              return std::string();
                          }}};
     Commands commands{parts.state, parts.visitors, errands};

@@ -2,8 +2,10 @@
 #include "console/errands.h"
 
 #include <atomic>
+#include <future>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -40,14 +42,15 @@ class HeldErrands : public testing::Test {
     }
     void hold(std::atomic<int>& count) {
         ++count;
-        isLetGo.wait(false);
+        ended.wait_for(test::kPatience);
     }
     void letGo() {
-        isLetGo = true;
-        isLetGo.notify_all();
+        if (!std::exchange(isLetGo, true)) end.set_value();
     }
 
-    std::atomic<bool> isLetGo = false;
+    bool isLetGo = false;
+    std::promise<void> end;
+    const std::shared_future<void> ended = end.get_future().share();
     std::atomic<int> doctors = 0, readings = 0, uses = 0;
     test::ConsoleParts parts;
     Errands errands{parts.state, work()};
