@@ -120,6 +120,16 @@ class Screen {
         return std::move(lines_);
     }
 
+    // The values of a fish that is not away, with the lines.
+    [[nodiscard]] conductor::Explanation explained() {
+        return {.lines = drawn(),
+                .intention = of_.mind.intention,
+                .target = targetOf(of_.mind.intention, of_.mind.target),
+                .pursuedSeconds = static_cast<float>(seconds(of_.mind.pursued)),
+                .feelings = of_.feelings,
+                .seen = sightings()};
+    }
+
   private:
     // Appends a line, cut to the width of the screen.
     void add(const char* head, const std::string& text) {
@@ -139,7 +149,31 @@ class Screen {
     // Number and species; the number alone where there is no such fish.
     [[nodiscard]] std::string named(std::uint32_t fish) const {
         if (fish >= others_.view.size()) return format("#{}", fish);
-        return format("#{} {}", fish, speciesOf(fish));
+        return format("#{} {}", fish, speciesOf(fish)).substr(0, kScreenColumns);
+    }
+
+    [[nodiscard]] static std::string particle(std::uint32_t number) {
+        return format("particle {}", number);
+    }
+
+    // The nearest of each kind in sight.
+    [[nodiscard]] std::vector<conductor::NearestSeen> sightings() const {
+        using Kind = conductor::NearestSeen::Kind;
+        std::vector<conductor::NearestSeen> seen;
+        const auto note = [&](Kind kind, const behaviour::Sighting& one, std::string name) {
+            if (!one.seen()) return;
+            const double distance = lengths(static_cast<double>(one.distance));
+            const double right = -degreesLeft(of_.senses.heading, one.offset);
+            seen.push_back(
+                {kind, std::move(name), static_cast<float>(distance), static_cast<float>(right)});
+        };
+        const behaviour::Senses& senses = of_.senses;
+        if (senses.predatorCount > 0)
+            note(Kind::Predator, senses.predators[0], named(senses.predators[0].object));
+        note(Kind::Food, senses.food, particle(senses.food.object));
+        note(Kind::Mate, senses.mate, named(senses.mate.object));
+        note(Kind::Prey, senses.prey, named(senses.prey.object));
+        return seen;
     }
 
     // A sighting in words: who, how far in body lengths (L), and where.
@@ -192,7 +226,7 @@ class Screen {
         add("SEES", "schoolmates " + listed(senses.schoolmates));
         add("", "others      " + listed(senses.others));
         add("", "predator    " + predators());
-        add("", "food        " + at(senses.food, format("particle {}", senses.food.object)));
+        add("", "food        " + at(senses.food, particle(senses.food.object)));
         add("", "mate        " + fishSeen(senses.mate) + "   prey " + fishSeen(senses.prey));
         add("",
             format("submarine   {:.1f} m   light {:.0f} %   water {:.1f} C",
@@ -215,14 +249,18 @@ class Screen {
         add("", "fear   " + bar(of_.feelings.fear));
     }
 
-    // The target is a particle for those that eat food, a fish for all others.
-    [[nodiscard]] std::string targeted(fish::Intention intention, std::uint32_t target) const {
-        if (target == fish::kNobody) return wordFor(intention);
+    // The target is a particle for those that eat food, a fish for all others; empty where there
+    // is none.
+    [[nodiscard]] std::string targetOf(fish::Intention intention, std::uint32_t target) const {
+        if (target == fish::kNobody) return {};
         const bool isParticle = intention == fish::Intention::Eat &&
                                 of_.parameters.habits.role != config::Role::Predator;
-        return format("{} {}",
-                      wordFor(intention),
-                      isParticle ? format("particle {}", target) : named(target));
+        return isParticle ? particle(target) : named(target);
+    }
+
+    [[nodiscard]] std::string targeted(fish::Intention intention, std::uint32_t target) const {
+        const std::string what = targetOf(intention, target);
+        return what.empty() ? wordFor(intention) : format("{} {}", wordFor(intention), what);
     }
 
     // The intention, and the aim that it interrupted, if any.
@@ -339,9 +377,10 @@ void Screen::why() {
 
 }  // namespace
 
-std::vector<std::string> linesOf(const Insight& insight, const Acquaintances& others) {
+conductor::Explanation explanationOf(const Insight& insight, const Acquaintances& others) {
     assert(insight.fish < others.view.size());
-    return Screen(insight, others).drawn();
+    Screen screen(insight, others);
+    return insight.away ? conductor::Explanation{.lines = screen.drawn()} : screen.explained();
 }
 
 }  // namespace aquarama::simulation

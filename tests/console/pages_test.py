@@ -538,6 +538,8 @@ class Pages(unittest.TestCase):
         wait_until(lambda: "mind of fish 7" in self.text("main"), 10, "the fish")
         wait_until(lambda: re.search(r"\b7\b", self.text("pre")), 10, "what it has in mind")
         self.assertEqual(len(self.driver.find_elements(By.CSS_SELECTOR, "meter")), 3)
+        intended = self.text(".intends").split(", its aim")[0]
+        self.assertIn(f"INTENDS  {intended}, its aim", self.text("pre"), "drawn from fields, as the lines have it")
         # The fish at a place of a picture: the node says which, of the frame that is shown.
         wait_until(lambda: "frame" in self.text("figcaption"), 15, "a picture")
         self.find(self.driver, "figure.whole canvas").click()
