@@ -246,7 +246,8 @@ browser::Hours Visitors::hoursFor(const Visitor& visitor) const {
     hours.clear_text();
     if (!hours.problem().empty())
         hours.set_problem("only crew may see where");  // it quotes the text
-    for (browser::ControlledProjector& one : *hours.mutable_projectors()) one.clear_password();
+    for (v1::ControlledProjector& one : *hours.mutable_form()->mutable_projectors())
+        one.clear_password();
     return hours;
 }
 
