@@ -81,7 +81,9 @@ class Commands {
                                            const Command& command);
     [[nodiscard]] std::string carryOutOfHall(const Holder& holder, const Command& command);
     [[nodiscard]] std::string acknowledge(const Holder& holder, const std::string& alert);
-    [[nodiscard]] std::string takeHours(const Holder& holder, const std::string& text);
+    [[nodiscard]] std::string takeHours(const Holder& holder,
+                                        Visitor* visitor,
+                                        const Command& command);
     [[nodiscard]] std::string switchMachine(const Holder& holder, const std::string& word);
     [[nodiscard]] std::string sendAway(const Holder& holder, const std::string& person);
     void saidOfHours(const ask::Answer& answer);

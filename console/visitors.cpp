@@ -89,14 +89,11 @@ bool Visitors::wantCalibrations() const {
     });
 }
 
-std::optional<std::uint32_t> Visitors::heardFish(const std::string& channel,
-                                                 const v1::FishReply& reply) {
+std::optional<std::uint32_t> Visitors::heardFish(const v1::FishReply& reply) {
     const auto asked = fishAsked_.find(reply.number());
     if (asked == fishAsked_.end()) return std::nullopt;
     browser::ToBrowser message;
     browser::Mind& mind = *message.mutable_mind();
-    mind.set_channel(channel);
-    mind.set_frame(reply.frame());
     mind.set_fish(reply.has_fish() ? static_cast<int>(reply.fish()) : -1);
     sendTo(*asked->second, "mind", message);
     fishAsked_.erase(asked);
@@ -249,7 +246,8 @@ browser::Hours Visitors::hoursFor(const Visitor& visitor) const {
     hours.clear_text();
     if (!hours.problem().empty())
         hours.set_problem("only crew may see where");  // it quotes the text
-    for (browser::ControlledProjector& one : *hours.mutable_projectors()) one.clear_password();
+    for (v1::ControlledProjector& one : *hours.mutable_form()->mutable_projectors())
+        one.clear_password();
     return hours;
 }
 
@@ -299,8 +297,7 @@ void Visitors::heardMind(const v1::Explanation& explanation) {
     browser::ToBrowser message;
     browser::Mind& mind = *message.mutable_mind();
     mind.set_fish(static_cast<int>(explanation.fish()));
-    mind.set_tick(explanation.tick());
-    for (const std::string& line : explanation.lines()) mind.add_lines(line);
+    *mind.mutable_explanation() = explanation;
     for (Visitor* visitor : visitors_)
         if (visitor->wants("mind")) sendTo(*visitor, "mind", message);
 }

@@ -66,8 +66,7 @@ class Visitors {
 
     // From a node: a picture, and the fish at a place. Returns the fish, whose mind is asked for.
     void heardPicture(const std::string& channel, const v1::FramePicture& picture);
-    [[nodiscard]] std::optional<std::uint32_t> heardFish(const std::string& channel,
-                                                         const v1::FishReply& reply);
+    [[nodiscard]] std::optional<std::uint32_t> heardFish(const v1::FishReply& reply);
     void heardMind(const v1::Explanation& explanation);
 
     // Ten times a second: forgets old looks, asks for pictures.

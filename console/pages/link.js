@@ -62,17 +62,9 @@ export class Link extends EventTarget {
       for (const part of ['wall', 'events', 'alerts', 'hours', 'projectors']) this.known[part] = content[part];
     }
     if (topic === 'done') this.#done(content);
-    if (topic === 'mind') this.known.mind = {...this.known.mind, ...this.#mindOf(content)};
-    else this.known[topic] = content;
+    this.known[topic] = content;
     if (topic === 'wall' || topic === 'snapshot') this.dispatchEvent(new Event('wall'));
     this.#tell();
-  }
-
-  // Where the fish was found comes first, what goes on in it later.
-  #mindOf(mind) {
-    return mind.channel ? {channel: mind.channel, frame: mind.frame, fish: mind.fish, lines: mind.fish < 0 ? []
-      : undefined}
-                        : {fish: mind.fish, tick: mind.tick, lines: mind.lines};
   }
 
   #picture(buffer) {

@@ -171,53 +171,39 @@ const logPage = {
   },
 };
 
-// --- mind, drawn from the lines that aquarama explain prints
+// --- mind: the values of an Explanation (aquarama.proto) are drawn, its lines are shown below
 
-const SECTORS = {ahead: 0, 'ahead right': 45, right: 90, 'behind right': 135, behind: 180, 'behind left': 225,
-  left: 270, 'ahead left': 315};
-const SEEN = {predator: '▲', food: '•', mate: '♥', prey: '◆'};
-// What it sees and where: [{kind, what, distance in body lengths, degrees to the right of its heading}].
-export function sightingsIn(lines) {
-  const found = [];
-  for (const kind of Object.keys(SEEN)) {
-    const line = lines.find(one => new RegExp(`\\b${kind}\\s`).test(one.slice(9)));
-    const sectors = Object.keys(SECTORS).sort((one, other) => other.length - one.length).join('|');
-    const match = line?.slice(9).match(new RegExp(`${kind} +([^ -].*?), ([\\d.]+) L (${sectors})`));
-    if (match) found.push({kind, what: match[1], distance: Number(match[2]), degrees: SECTORS[match[3]]});
-  }
-  return found;
-}
-function compass(lines) {
+const SEEN = {PREDATOR: '▲', FOOD: '•', MATE: '♥', PREY: '◆'};
+// What the fish sees and where, its nose up.
+function compass(seen) {
   const place = one => {
-    const reach = 90 * Math.min(1, Math.log1p(one.distance) / Math.log1p(60)), turn = one.degrees * Math.PI / 180;
+    const reach = 90 * Math.min(1, Math.log1p(one.distanceLengths) / Math.log1p(60));
+    const turn = one.degreesRight * Math.PI / 180;
     return [100 + reach * Math.sin(turn), 100 - reach * Math.cos(turn)];
   };
-  const seen = sightingsIn(lines);
-  const text = seen.map(one => `${t(`mind.${one.kind}`)}: ${one.what}, ${one.distance} L`).join('; ')
-    || t('mind.seesNothing');
+  const text = seen.map(one => `${t(`mind.sees.${one.kind}`)}: ${one.name}, ${one.distanceLengths.toFixed(1)} L`)
+    .join('; ') || t('mind.seesNothing');
   const mark = one => { const [x, y] = place(one);
     return svg`<text x=${x} y=${y + 5} text-anchor="middle">${SEEN[one.kind]}</text><text class="small" x=${x}
-      y=${y + 18} text-anchor="middle">${t(`mind.${one.kind}`)}</text>`; };
+      y=${y + 18} text-anchor="middle">${t(`mind.sees.${one.kind}`)}</text>`; };
   return html`<svg class="compass" viewBox="-30 0 260 205" role="img" aria-label=${text}><circle cx="100" cy="100"
   r="90"></circle><circle cx="100" cy="100" r="45"></circle>
     <path d="M100 84 L106 112 L100 107 L94 112 Z"></path>${seen.map(mark)}</svg>`;
 }
-const feeling = (lines, name) =>
-  Number(lines.find(line => new RegExp(`${name}\\s+\\[`).test(line))?.match(/\]\s+([\d.]+)/)?.[1] ?? 0);
-function drawnMind(lines) {
-  const intends = lines.find(line => line.startsWith('INTENDS'))?.slice(9) ?? '';
-  return html`<div class="drawn"><div>${compass(lines)}<p class="note">${t('mind.compass')}</p></div>
+function drawnMind(mind) {
+  const intends = mind.intention && t('mind.aim', {what: `${t(`mind.intends.${mind.intention}`)} ${mind.target}`.trim(),
+    seconds: mind.pursuedS.toFixed(1)});
+  return html`<div class="drawn"><div>${compass(mind.seen ?? [])}<p class="note">${t('mind.compass')}</p></div>
     <div><p class="intends">${intends || t('mind.away')}</p>${['hunger', 'libido',
       'fear'].map(name => html`<p class="row"><span class="name" id=${`feels-${name}`}>${t(`mind.${name}`)}</span>
       <meter aria-labelledby=${`feels-${name}`} min="0" max="1"
-      value=${feeling(lines, name)}></meter> ${Math.round(100 * feeling(lines, name))} %</p>`)}</div></div>`;
+      value=${mind[name] ?? 0}></meter> ${Math.round(100 * (mind[name] ?? 0))} %</p>`)}</div></div>`;
 }
-
 
 const mindPage = {
   look: link => ({topics: ['mind', 'panorama'], channels: namesOf(link), widthPx: 480}),
   view: link => {
-    const mind = link.known.mind;
+    const mind = link.known.mind, explained = mind?.explanation;
     const point = (channel, {frame, x, y}) => link.command({pointAt: {channel: channel.name, frame, x, y}},
       t('mind.asking'));
     const ask = event => { event.preventDefault(); link.command({mind: Number(event.target.fish.value)},
@@ -227,8 +213,8 @@ const mindPage = {
       <form class="row" @submit=${ask}><label for="fish">${t('mind.number')}</label><input id="fish" name="fish"
         type="number" min="0" max="99999" value="0">
         <button ?disabled=${!link.may('WATCHER')}>${t('mind.ask')}</button></form>
-      <div role="status">${!mind ? t('mind.none') : mind.fish < 0 ? t('mind.noFish') : html`${mind.lines?.length
-        ? drawnMind(mind.lines) : nothing}<pre>${(mind.lines ?? []).join('\n')}</pre>`}</div></section></div>`;
+      <div role="status">${!mind ? t('mind.none') : mind.fish < 0 ? t('mind.noFish') : html`${explained?.lines?.length
+        ? drawnMind(explained) : nothing}<pre>${(explained?.lines ?? []).join('\n')}</pre>`}</div></section></div>`;
   },
 };
 

@@ -174,13 +174,39 @@ class Doors(unittest.TestCase):
                 told.append(client.hear_until(lambda message: isinstance(message, dict)
                                               and "hours" in message)["hours"])
                 for hours in told:
-                    self.assertEqual(hours["projectors"][0].get("password", ""), secret)
+                    self.assertEqual(hours["form"]["projectors"][0].get("password", ""), secret)
                     self.assertEqual(hours.get("text", ""), text if secret else "")
                 client.close()
         finally:
             crew.command(run, hoursText="")
             crew.command(run, holdHours=0)
             crew.close()
+
+    def test_the_hours_are_set_as_a_message_and_mistakes_come_by_field(self):
+        crew = Socket(self.desk, Origin=None, **self.bearer(self.crew))
+        hours = {"zone": "UTC", "exceptions": [{"date": "2026-12-24"}, {"date": "2026-12-24"}],
+                 "projectors": [{"name": "left", "address": "beamer"}]}
+        crew.say({"command": {"id": "77", "hours": hours}})
+        heard = {}
+        while not {"mistakes", "done"} <= heard.keys():  # in either order
+            heard |= crew.hear_until(lambda message: isinstance(message, dict))
+        told, done = heard["mistakes"], heard["done"]
+        self.assertEqual(told["request"], "77")
+        self.assertEqual([one["field"] for one in told["mistakes"]], ["exceptions.1.date", "projectors.0.address"])
+        self.assertIn("is there already", told["mistakes"][0]["what"])
+        self.assertEqual(done["outcome"], "REFUSED")
+        self.assertTrue(done["reason"].startswith("exceptions.1.date: "), done)
+        hours["exceptions"].pop()
+        hours["projectors"].pop()
+        self.assertEqual(crew.command(0, holdHours=1)["outcome"], "done")
+        self.assertEqual(crew.command(0, hours=hours)["outcome"], "done")
+        crew.say({"look": {"topics": ["hours"]}})
+        kept = crew.hear_until(lambda message: isinstance(message, dict) and "hours" in message)["hours"]
+        self.assertEqual([day["date"] for day in kept["form"]["exceptions"]], ["2026-12-24"])
+        self.assertIn('date: "2026-12-24"', kept["text"])
+        crew.command(0, hoursText="")
+        crew.command(0, holdHours=0)
+        crew.close()
 
     def test_projectors_of_a_hall_are_switched_whatever_their_manners(self):
         """One in lower case that closes after each answer and is asked for its password each time; one that is slow,

@@ -414,8 +414,8 @@ class Pages(unittest.TestCase):
         wait_until(lambda: "service" in self.text("header"), 5, "a hold that is seen")
         self.button("Add hours").click()
         self.button("Sun").click()
-        for field, value in (("spans-0-from", "19:00"), ("spans-0-to", "01:30"), ("spans-0-scene", "reef"),
-                             ("spans-0-quality", "low"), ("zone", "Europe/Berlin")):
+        for field, value in (("open-0-from", ""), ("open-0-to", "01:30"), ("open-0-scene", "reef"),
+                             ("open-0-quality", "low"), ("zone", "Europe/Berlin")):
             self.set_field(field, value)
         for _ in range(2):
             self.button("Add a day").click()
@@ -423,27 +423,30 @@ class Pages(unittest.TestCase):
         for field, value in (("exceptions-0-date", "2026-12-24"), ("exceptions-1-date", "2026-12-24"),
                              ("projectors-0-name", "left"), ("projectors-0-address", "beamer")):
             self.set_field(field, value)
-        # One mistake after the other, each where it is.
-        for field, words, value in (("exceptions-1-date", "is there already", "2026-12-31"),
-                                    ("projectors-0-address", "is a number", "127.0.0.1:1")):
+        # Each mistake where it is: those that the schema knows first, then those in values, all at once.
+        for mistakes in ((("open-0-from", "is empty", "19:00"),),
+                         (("exceptions-1-date", "is there already", "2026-12-31"),
+                          ("projectors-0-address", "is a number", "127.0.0.1:1"))):
             self.button("Save").click()
-            wait_until(lambda: words in self.text(f"#h-{field}-wrong"), 5, f"what is wrong, at {field}")
+            for field, words, _ in mistakes:
+                wait_until(lambda: words in self.text(f"#h-{field}-wrong"), 5, f"what is wrong, at {field}")
             self.assertEqual([one.get_attribute("id")
                               for one in self.driver.find_elements(By.CSS_SELECTOR, "[aria-invalid=true]")],
-                             [f"h-{field}"])
-            self.set_field(field, value)
+                             [f"h-{field}" for field, *_ in mistakes])
+            for field, _, value in mistakes:
+                self.set_field(field, value)
         self.assertIn("not saved yet", self.text("main"))
         self.button("Save").click()
         wait_until(lambda: "not saved yet" not in self.text("main"), 5, "saved hours")
         self.assertIn("Sunday: 19:00", self.find(self.driver, "svg.week").get_attribute("aria-label"))
         self.find(self.driver, "summary").click()
         text = self.find(self.driver, "#hours")
-        self.assertEqual(text.get_property("value").splitlines(), [
-            'zone: "Europe/Berlin"',
+        self.assertEqual(text.get_property("value").split(), (
+            'zone: "Europe/Berlin" '
             'open { days: [TUESDAY, WEDNESDAY, THURSDAY, FRIDAY, SUNDAY] from: "19:00" to: "01:30" scene: "reef" '
-            'quality: "low" }',
-            'exceptions { date: "2026-12-24" }', 'exceptions { date: "2026-12-31" }',
-            'projectors { name: "left" address: "127.0.0.1:1" }'])
+            'quality: "low" } '
+            'exceptions { date: "2026-12-24" } exceptions { date: "2026-12-31" } '
+            'projectors { name: "left" address: "127.0.0.1:1" }').split())
         wait_until(lambda: "no answer" in self.text("main"), 10, "a projector that does not answer")
         self.assertRegex(self.text("table.cards tbody"), r"(?s)no answer.*unknown", "its shutter and its lamp")
         # The same as text, with its mistakes by line and column.
@@ -538,6 +541,8 @@ class Pages(unittest.TestCase):
         wait_until(lambda: "mind of fish 7" in self.text("main"), 10, "the fish")
         wait_until(lambda: re.search(r"\b7\b", self.text("pre")), 10, "what it has in mind")
         self.assertEqual(len(self.driver.find_elements(By.CSS_SELECTOR, "meter")), 3)
+        intended = self.text(".intends").split(", its aim")[0]
+        self.assertIn(f"INTENDS  {intended}, its aim", self.text("pre"), "drawn from fields, as the lines have it")
         # The fish at a place of a picture: the node says which, of the frame that is shown.
         wait_until(lambda: "frame" in self.text("figcaption"), 15, "a picture")
         self.find(self.driver, "figure.whole canvas").click()

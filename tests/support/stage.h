@@ -53,8 +53,14 @@ class CountingWorld final : public conductor::Simulation {
                 .fish = {fish, fish, fish},
                 .food = {kFoodOrigin, food_}};
     }
-    std::vector<std::string> explain(std::uint32_t /*fish*/) const override {
-        return {"at tick " + std::to_string(tick_.value)};
+    conductor::Explanation explain(std::uint32_t /*fish*/) const override {
+        using Kind = conductor::NearestSeen::Kind;
+        return {.lines = {"at tick " + std::to_string(tick_.value)},
+                .intention = fish::Intention::AvoidFish,
+                .target = "#1 tang",
+                .pursuedSeconds = 1.5F,
+                .feelings = {.hunger = 0.25F, .libido = 0.5F, .fear = 0.75F},
+                .seen = {{Kind::Food, "particle 7", 4, -90}, {Kind::Prey, "#1 tang", 2, 30}}};
     }
     static float daylightAt(Tick tick) { return 1.0F / static_cast<float>(1 + tick.value); }
     static constexpr glm::vec3 kFoodOrigin{1, 2, 3};

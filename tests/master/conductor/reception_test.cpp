@@ -293,6 +293,18 @@ TEST_F(Reception, tellsAnybodyOfAMindAlsoWhileTheShowWaits) {
     EXPECT_EQ(explanation.school(), 3U);
     ASSERT_EQ(explanation.lines_size(), 1);
     EXPECT_EQ(explanation.lines(0), "at tick " + std::to_string(explanation.tick()));
+    EXPECT_EQ(explanation.intention(), v1::Explanation::AVOID_FISH);
+    EXPECT_EQ(explanation.target(), "#1 tang");
+    EXPECT_EQ(explanation.pursued_s(), 1.5F);
+    EXPECT_EQ(explanation.hunger(), 0.25F);
+    EXPECT_EQ(explanation.libido(), 0.5F);
+    EXPECT_EQ(explanation.fear(), 0.75F);
+    ASSERT_EQ(explanation.seen_size(), 2);
+    EXPECT_EQ(explanation.seen(0).kind(), v1::Sighting::FOOD);
+    EXPECT_EQ(explanation.seen(0).name(), "particle 7");
+    EXPECT_EQ(explanation.seen(0).distance_lengths(), 4);
+    EXPECT_EQ(explanation.seen(0).degrees_right(), -90);
+    EXPECT_EQ(explanation.seen(1).kind(), v1::Sighting::PREY);
 }
 
 // What is dropped is in the world from one of the next ticks on; lockstep runs a few ahead.
