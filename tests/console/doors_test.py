@@ -411,12 +411,12 @@ class OtherMachines(unittest.TestCase):
         cls.desk.start_node("right", AQUARAMA_POWER_FOLDER=str(cls.nowhere))
         cls.crew = Socket(cls.desk, Origin=None, Authorization=f"Bearer {cls.desk.token('crew')}")
         cls.run_number = cls.crew.hear()["snapshot"]["wall"]["run"]
-        cls.wall(lambda nodes: all(node["host"] for node in nodes.values()))
+        cls.wall(lambda nodes: all(node.get("report") for node in nodes.values()))
 
     @classmethod
     def wall(cls, wanted):
         """The nodes by name, as soon as they are as they should be."""
-        nodes = lambda message: {node["name"]: node for node in message["wall"]["nodes"]}
+        nodes = lambda message: {node["name"]: node for node in message["wall"]["status"]["nodes"]}
         return nodes(cls.crew.hear_until(lambda message: isinstance(message, dict) and "wall" in message
                                          and wanted(nodes(message)), 60))
 
@@ -453,8 +453,8 @@ class OtherMachines(unittest.TestCase):
         self.assertEqual(list(self.pit.iterdir()), [])
 
     def test_a_machine_that_is_not_set_up_says_so_and_does_nothing(self):
-        nodes = self.wall(lambda nodes: "takesPower" in nodes["left"])
-        self.assertEqual([nodes[name]["takesPower"] for name in ("left", "right")], [True, False])
+        nodes = self.wall(lambda nodes: "takesPowerWord" in nodes["left"]["report"])
+        self.assertEqual([nodes[name]["report"]["takesPowerWord"] for name in ("left", "right")], [True, False])
         refused = self.switch("right", "POWEROFF")
         self.assertEqual(refused["reason"], "the machine of right takes no such word; set up aquarama-power.path there")
         self.assertFalse(self.nowhere.exists())
@@ -467,7 +467,7 @@ class OtherMachines(unittest.TestCase):
         finally:
             self.nowhere.rename(self.pit)
         self.assertEqual(list(self.pit.iterdir()), [])
-        self.wall(lambda nodes: nodes["left"]["takesPower"])
+        self.wall(lambda nodes: nodes["left"]["report"]["takesPowerWord"])
 
 
 if __name__ == "__main__":
