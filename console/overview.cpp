@@ -2,7 +2,6 @@
 #include "console/overview.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <google/protobuf/util/json_util.h>
 #include <spdlog/fmt/fmt.h>
@@ -247,70 +246,6 @@ browser::History FigureRings::history() const {
 browser::History FigureRings::lastSecond() const {
     constexpr std::size_t kTenths = 25, kMinutes = 2;
     return newest(kTenths, kMinutes);
-}
-
-namespace {
-
-// As Prometheus has it between quotation marks.
-std::string labelOf(const std::string& name, const std::string& value) {
-    std::string text = "{" + name + "=\"";
-    for (const char c : value) {
-        if (c == '"' || c == '\\') text += '\\';
-        text += c == '\n' ? ' ' : c;
-    }
-    return text + "\"}";
-}
-
-// One sample.
-void addFigure(std::string& text, const std::string& name, double value) {
-    text += fmt::format("aquarama_console_{} {}\n", name, value);
-}
-
-// One that there is only while it is known.
-void addKnown(std::string& text, bool isKnown, const std::string& name, double value) {
-    if (isKnown) addFigure(text, name, value);
-}
-
-// Of a projector.
-void addFigures(std::string& text, const browser::ProjectorState& one) {
-    const std::string label = labelOf("projector", one.name());
-    addFigure(text, "projector_answers" + label, one.reach() == "answers");
-    addKnown(text, one.power() != "unknown", "projector_on" + label, one.power() == "on");
-    addKnown(text, one.has_shut(), "projector_shut" + label, one.shut());
-    addKnown(text, one.has_lamp_hours(), "projector_lamp_hours" + label, one.lamp_hours());
-    addKnown(text, one.tells_problems(), "projector_problems" + label, one.problems_size());
-}
-
-}  // namespace
-
-// Of the wall as a whole, so that one address tells of all machines.
-std::string metricsOf(const browser::Wall& wall,
-                      const browser::ProjectorList& projectors,
-                      std::uint64_t cutOff) {
-    std::string text;
-    const v1::StatusReply& status = wall.status();
-    const auto one = [&](const std::string& name, double value) { addFigure(text, name, value); };
-    one("master_answers", wall.heard() ? 1 : 0);
-    one("frame", static_cast<double>(status.frame()));
-    one("frame_median_ms", static_cast<double>(status.frame_median_ms()));
-    one("skew_p99_ms", static_cast<double>(status.skew_p99_ms()));
-    one("black", status.show().black() ? 1 : 0);
-    one("browsers", wall.watching());
-    one("refused_requests_total", static_cast<double>(wall.refused_requests()));
-    one("cut_off_connections_total", static_cast<double>(cutOff));
-    for (const v1::NodeStatus& node : status.nodes()) {
-        const std::string label = labelOf("node", node.name());
-        one("node_in_step" + label, node.condition() == v1::NODE_IN_STEP);
-        one("node_late_total" + label, static_cast<double>(node.late()));
-        one("node_dropped_total" + label, static_cast<double>(node.dropped()));
-        one("node_hash_mismatches_total" + label, static_cast<double>(node.hash_mismatches()));
-        one("node_picture_median_ms" + label,
-            static_cast<double>(node.report().picture_median_ms()));
-        one("node_gpu_celsius" + label, static_cast<double>(node.report().gpu_celsius()));
-    }
-    for (const browser::ProjectorState& projector : projectors.projectors())
-        addFigures(text, projector);
-    return text;
 }
 
 // A zero is said: a page need not know what is left out.

@@ -71,11 +71,6 @@ class ProjectorBook {
     std::map<std::string, Page> pages_;  // by name
 };
 
-// For Prometheus, text format 0.0.4. What is unknown has no sample.
-[[nodiscard]] std::string metricsOf(const browser::Wall& wall,
-                                    const browser::ProjectorList& projectors,
-                                    std::uint64_t cutOff);
-
 // protobuf's JSON, numbers that are zero included.
 [[nodiscard]] std::string jsonOf(const browser::ToBrowser& message);
 // Empty where the text is malformed, has unknown fields, or exceeds a bound.

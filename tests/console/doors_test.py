@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import re
 import resource
 import secrets
 import signal
@@ -296,7 +297,7 @@ class Doors(unittest.TestCase):
             client.close()
         self.cut_frames()
         status = self.desk.request("GET", "/metrics", **self.bearer(self.watcher))[2]
-        cut_off = int(float(status.split("aquarama_console_cut_off_connections_total ")[1].split()[0]))
+        cut_off = int(re.search(r"^aquarama_console_cut_off_connections_total (\d+)$", status, re.M)[1])
         self.assertGreater(cut_off, 100)
         after = self.desk.status()
         self.assertEqual((after["late"], after["dropped"]), (before["late"], before["dropped"]))

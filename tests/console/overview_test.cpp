@@ -209,28 +209,6 @@ TEST(Overview, ofAProjectorWhatIsKnownToBeWrongIsAFault) {
     EXPECT_EQ(faultsOf(broken).at(0).text, "projector left: lamp: error");
 }
 
-TEST(Overview, figuresOfProjectorsHaveNoSampleForWhatIsUnknown) {
-    const auto figuresOf = [](const browser::ProjectorList& list) {
-        const std::string text = metricsOf({}, list, 0);
-        const std::size_t at = text.find("aquarama_console_projector");
-        return at == std::string::npos ? "" : text.substr(at);
-    };
-    EXPECT_EQ(figuresOf({}), "");
-    EXPECT_EQ(figuresOf(listOf("no answer", "unknown")),
-              "aquarama_console_projector_answers{projector=\"left\"} 0\n");
-    browser::ProjectorList list = listOf("answers", "off");
-    list.mutable_projectors(0)->set_name("a \"b\"\\");
-    list.mutable_projectors(0)->set_shut(false);
-    list.mutable_projectors(0)->set_lamp_hours(7);
-    list.mutable_projectors(0)->set_tells_problems(true);
-    const std::string label = R"({projector="a \"b\"\\"} )";
-    EXPECT_EQ(figuresOf(list),
-              "aquarama_console_projector_answers" + label + "1\naquarama_console_projector_on" +
-                  label + "0\naquarama_console_projector_shut" + label +
-                  "0\naquarama_console_projector_lamp_hours" + label +
-                  "7\naquarama_console_projector_problems" + label + "0\n");
-}
-
 TEST(Overview, whatProjectorsComeToIsToldOnceItHolds) {
     ProjectorBook book;
     const auto told = [&](const browser::ProjectorList& list, double from, double to) {
