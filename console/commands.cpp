@@ -111,13 +111,6 @@ v1::Order orderOf(const v1::HeldScan& scan) {
     return order;
 }
 
-// The shutters of projectors wait for that.
-bool isInStep(const browser::Wall& wall) {
-    return wall.heard() && std::ranges::all_of(wall.nodes(), [](const browser::Node& node) {
-               return node.condition() == "in step";
-           });
-}
-
 v1::OrderReply replyOf(std::uint64_t request, const Answer& answer) {
     v1::OrderReply reply;
     reply.set_request(request);
