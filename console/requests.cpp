@@ -108,10 +108,7 @@ std::string Console::metrics(UnixSeconds now) const {
 // For whoever is let in; the pages themselves are for everybody.
 HttpReply Console::look(const HttpRequest& request) {
     if (request.target == "/metrics")
-<<<<<<< HEAD
-        return {.type = "text/plain; version=0.0.4",
-                .body = metricsOf(state_.wall, state_.opening.projectors(), server_->cutOff()) +
-                        ownMetrics(unixNow())};
+        return {.type = "text/plain; version=0.0.4", .body = metrics(unixNow())};
     if (request.target == "/bundle.tar")  // of 0.2.0
         return {.status = 308, .headers = {{"Location", "/bundle.zip"}}};
     if (request.target == "/bundle.zip") try {
@@ -128,21 +125,6 @@ HttpReply Console::look(const HttpRequest& request) {
         } catch (const Error& problem) {
             return refused(500, problem.what());
         }
-=======
-        return {.type = "text/plain; version=0.0.4", .body = metrics(unixNow())};
-    if (request.target == "/bundle.tar") {
-        std::string events;
-        const browser::EventList list = state_.events.list();
-        for (const browser::Event& event : list.events())
-            events += fmt::format("{:.0f} {}: {}\n", event.at_s(), event.who(), event.what());
-        browser::ToBrowser status;
-        *status.mutable_wall() = state_.wall;
-        return {.type = "application/x-tar",
-                .body = bundleOf(state_.rigFile,
-                                 {{"events.txt", events}, {"status.json", jsonOf(status)}}),
-                .headers = {{"Content-Disposition", "attachment; filename=\"aquarama.tar\""}}};
-    }
->>>>>>> status
     return {.status = 404, .body = "there is no such page\n"};
 }
 
