@@ -113,13 +113,6 @@ v1::Order orderOf(const v1::HeldScan& scan) {
     return order;
 }
 
-// The shutters of projectors wait for that.
-bool isInStep(const browser::Wall& wall) {
-    return wall.heard() && std::ranges::all_of(wall.nodes(), [](const browser::Node& node) {
-               return node.condition() == "in step";
-           });
-}
-
 browser::ToBrowser mistakesOf(std::uint64_t request, const config::FileError& error) {
     browser::ToBrowser message;
     message.mutable_mistakes()->set_request(request);

@@ -20,6 +20,8 @@ export class Link extends EventTarget {
   get age() { return performance.now() - this.heardAt; }
   get isStale() { return this.age > STALE_MS; }
   get wall() { return this.known.wall ?? {}; }
+  get status() { return this.wall.status ?? {}; }  // StatusReply of aquarama.proto; its 64-bit integers are strings
+  get shown() { return this.status.show ?? {}; }   // Show of aquarama.proto: what the wall shows
   get role() { return this.known.snapshot?.role ?? 'WATCHER'; }
   may(role) {
     const order = ['WATCHER', 'OPERATOR', 'CREW'];

@@ -4,15 +4,15 @@ import {html, nothing, svg} from '/vendor/lit-html.js';
 import {calibrationPage} from '/calibration.js';
 import {nodesPage} from '/nodes.js';
 import {schedulePage} from '/schedule.js';
-import {QUALITIES, button, channelsOf, chooser, dateTime, filter, holdButton, ms, namesOf, patternChooser, state, t,
-  time, views, wholeWall, word} from '/widgets.js';
+import {QUALITIES, button, channelsOf, chooser, conditionOf, dateTime, filter, holdButton, ms, namesOf,
+  patternChooser, patternOf, qualityOf, state, t, time, views, wholeWall, word} from '/widgets.js';
 
 // --- the wall
 
 // Black is held; the way back is one tap, in the same place.
 function light(link) {
   const disabled = !link.may('OPERATOR');
-  const {black, frozen} = link.wall;
+  const {black, frozen} = link.shown;
   const undo = () => link.show({black: false}, t('wall.light'));
   return html`<section class="panel" aria-labelledby="light"><h2 id="light">${t('wall.lightTitle')}</h2>
     <div class="row">${black
@@ -21,7 +21,8 @@ function light(link) {
     ${button(t(frozen ? 'wall.move' : 'wall.freeze'), () => link.show({freeze: !frozen},
       t(frozen ? 'wall.move' : 'wall.freeze')),
              {disabled, pressed: frozen ? 'true' : 'false'})}</div>
-    <p class="note">${t(black ? 'wall.isBlack' : 'wall.isLit', {percent: link.wall.brightnessPercent})}</p></section>`;
+    <p class="note">${t(black ? 'wall.isBlack' : 'wall.isLit',
+      {percent: Math.round((link.shown.brightness ?? 0) * 100 / 255)})}</p></section>`;
 }
 
 // --- the helm
@@ -63,22 +64,25 @@ function pad(link) {
 function helmPanel(link) {
   const toggle = () => { helm.taken = !helm.taken; letGo(link); link.dispatchEvent(new Event('change')); };
   return html`<section class="panel" aria-labelledby="helm"><h2 id="helm">${t('helm.title')}</h2>
-    <p>${link.wall.pilot ? t('helm.pilot', {pilot: link.wall.pilot}) : t('helm.nobody')} ·
-       ${t('helm.place', {depth: (link.wall.depthM ?? 0).toFixed(1), speed: (link.wall.speedMS ?? 0).toFixed(1)})}</p>
+    <p>${link.shown.pilot ? t('helm.pilot', {pilot: link.shown.pilot}) : t('helm.nobody')} ·
+       ${t('helm.place', {depth: (-(link.status.eye?.[1] ?? 0)).toFixed(1),
+         speed: (link.status.speedMS ?? 0).toFixed(1)})}</p>
     <div class="row">${button(t(helm.taken ? 'helm.leave' : 'helm.take'), toggle, {disabled: !link.may('OPERATOR'),
       pressed: String(helm.taken)})}</div>
     ${helm.taken ? pad(link) : nothing}</section>`;
 }
 
-function figures(wall) {
+function figures(link) {
+  const {status, shown} = link;
   return html`<section class="panel figures" aria-labelledby="figures"><h2 id="figures">${t('wall.now')}</h2><dl>
-    <dt>${t('wall.scene')}</dt><dd>${word(wall.scene)}</dd><dt>${t('wall.quality')}</dt><dd>${word(wall.quality)}</dd>
-    <dt>${t('wall.pattern')}</dt><dd>${word(wall.pattern)}</dd>
-    <dt>${t('wall.frame')}</dt><dd>${wall.frame} · ${t('wall.tick')} ${wall.tick}</dd>
-    <dt>${t('wall.frameTime')}</dt><dd>${ms(wall.frameMedianMs)} · 99 % ${ms(wall.frameP99Ms)}</dd>
-    <dt>${t('wall.skew')}</dt><dd>${ms(wall.skewMedianMs, 2)} · 99 % ${ms(wall.skewP99Ms, 2)}</dd>
-    <dt>${t('wall.nodes')}</dt><dd>${(wall.nodes ?? []).map(node => html`<span
-      class="whole-word">${node.name} ${state(node.condition)}</span> `)}</dd></dl></section>`;
+    <dt>${t('wall.scene')}</dt><dd>${word(shown.scene)}</dd>
+    <dt>${t('wall.quality')}</dt><dd>${word(qualityOf(link))}</dd>
+    <dt>${t('wall.pattern')}</dt><dd>${word(patternOf(link))}</dd>
+    <dt>${t('wall.frame')}</dt><dd>${status.frame} · ${t('wall.tick')} ${status.tick}</dd>
+    <dt>${t('wall.frameTime')}</dt><dd>${ms(status.frameMedianMs)} · 99 % ${ms(status.frameP99Ms)}</dd>
+    <dt>${t('wall.skew')}</dt><dd>${ms(status.skewMedianMs, 2)} · 99 % ${ms(status.skewP99Ms, 2)}</dd>
+    <dt>${t('wall.nodes')}</dt><dd>${(status.nodes ?? []).map(node => html`<span
+      class="whole-word">${node.name} ${state(conditionOf(node))}</span> `)}</dd></dl></section>`;
 }
 
 const wallPage = {
@@ -88,13 +92,13 @@ const wallPage = {
       <p class="note">${t('preview.note')}</p></div>
     <div class="controls">${light(link)}
       <section class="panel" aria-labelledby="shown"><h2 id="shown">${t('wall.shown')}</h2><div class="choosers">
-        ${chooser(link, 'scene', link.known.snapshot.scenes, link.wall.scene, value => link.show({scene: value},
+        ${chooser(link, 'scene', link.known.snapshot.scenes, link.shown.scene, value => link.show({scene: value},
           `${t('wall.scene')}: ${word(value)}`))}
-        ${chooser(link, 'quality', QUALITIES, link.wall.quality, value => link.show({quality: value.toUpperCase()},
+        ${chooser(link, 'quality', QUALITIES, qualityOf(link), value => link.show({quality: value.toUpperCase()},
         `${t('wall.quality')}: ${word(value)}`))}
         ${patternChooser(link)}
         </div><p class="note">${t('wall.patternNote')}</p></section>
-      ${helmPanel(link)}</div>${figures(link.wall)}</div>`,
+      ${helmPanel(link)}</div>${figures(link)}</div>`,
 };
 
 // --- doctor

@@ -187,7 +187,7 @@ function standing(link) {
       ? html`<strong class="warn">▲ ${t('hours.held', {time: time(link.wall.heldUntilS)})}</strong>`
       : hours.problem ? html`<strong class="bad">✖ ${t('hours.unreadable')}</strong> ${hours.problem}`
       : hours.present ? html`<strong class=${hours.open ? 'good' : 'quiet'}>${hours.open ? '●'
-        : '○'} ${t(hours.open ? 'hours.isOpen' : link.wall.black ? 'hours.isClosed' : 'hours.isLitByHand')}</strong> ${
+        : '○'} ${t(hours.open ? 'hours.isOpen' : link.shown.black ? 'hours.isClosed' : 'hours.isLitByHand')}</strong> ${
           next}` : t('hours.none')}</p>
     <div class="row">${held ? button(t('hours.goOn'), () => link.command({holdHours: 0}, t('hours.goOn')),
     {disabled: !link.may('OPERATOR')})

@@ -19,7 +19,7 @@ namespace aquarama::conductor {
 // The world at one tick, as it is sent: one record a fish, in the order of the school.
 struct Snapshot {
     Tick tick;
-    net::Instant due{};  // live: when the world was like this; set by the tick thread
+    net::Moment due{};  // live: when the world was like this; set by the tick thread
     std::uint64_t hash = 0;
     wire::Eye eye;
     float daylight = 1.0F;  // of the sky, 0 to 1

@@ -9,7 +9,7 @@ namespace aquarama::conductor {
 namespace {
 
 // Between two inputs of food from one visitor.
-constexpr net::Instant kBetweenPinches = std::chrono::milliseconds(200);
+constexpr net::Duration kBetweenPinches = std::chrono::milliseconds(200);
 constexpr float kReachMetres = 8.0F;  // from the eye
 
 // The enums of the schema are in the order of the code's; their first value says nothing.
@@ -49,22 +49,22 @@ void VisitorInputs::enter(SimulationThread* world, std::uint32_t fish) {
 bool VisitorInputs::feed(NodeSeat& seat,
                          const v1::Input& input,
                          const wire::Eye& eye,
-                         net::Instant now) {
+                         net::Moment now) {
     return feed(seat.lastFed, input, eye, now);
 }
 
 bool VisitorInputs::feed(const std::string& user,
                          const v1::Input& input,
                          const wire::Eye& eye,
-                         net::Instant now) {
+                         net::Moment now) {
     return feed(lastFed_[user], input, eye, now);
 }
 
 // The world bounds the number of pellets; here the rate of a visitor is bounded, and the reach.
-bool VisitorInputs::feed(net::Instant& lastFed,
+bool VisitorInputs::feed(net::Moment& lastFed,
                          const v1::Input& input,
                          const wire::Eye& eye,
-                         net::Instant now) {
+                         net::Moment now) {
     if (now - lastFed < kBetweenPinches || world_ == nullptr) return true;
     const glm::vec3 at{input.position(0), input.position(1), input.position(2)};
     const auto drop = [at](Simulation& simulation) {
@@ -76,7 +76,7 @@ bool VisitorInputs::feed(net::Instant& lastFed,
     return true;
 }
 
-bool VisitorInputs::steer(const net::PeerId& peer, const v1::Input& input, net::Instant now) {
+bool VisitorInputs::steer(const net::PeerId& peer, const v1::Input& input, net::Moment now) {
     const Steering steering = wire::steeringOf(input);
     if (world_ == nullptr || !arbitration_.accepts(peer, steering, now)) return true;
     return world_->betweenTicks([steering](Simulation& simulation) { simulation.apply(steering); });

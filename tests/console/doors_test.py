@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import re
 import resource
 import secrets
 import signal
@@ -324,7 +325,7 @@ class Doors(unittest.TestCase):
             client.close()
         self.cut_frames()
         status = self.desk.request("GET", "/metrics", **self.bearer(self.watcher))[2]
-        cut_off = int(float(status.split("aquarama_console_cut_off_connections_total ")[1].split()[0]))
+        cut_off = int(re.search(r"^aquarama_console_cut_off_connections_total (\d+)$", status, re.M)[1])
         self.assertGreater(cut_off, 100)
         after = self.desk.status()
         self.assertEqual((after["late"], after["dropped"]), (before["late"], before["dropped"]))
@@ -439,12 +440,12 @@ class OtherMachines(unittest.TestCase):
         cls.desk.start_node("right", AQUARAMA_POWER_FOLDER=str(cls.nowhere))
         cls.crew = Socket(cls.desk, Origin=None, Authorization=f"Bearer {cls.desk.token('crew')}")
         cls.run_number = cls.crew.hear()["snapshot"]["wall"]["run"]
-        cls.wall(lambda nodes: all(node["host"] for node in nodes.values()))
+        cls.wall(lambda nodes: all(node.get("report") for node in nodes.values()))
 
     @classmethod
     def wall(cls, wanted):
         """The nodes by name, as soon as they are as they should be."""
-        nodes = lambda message: {node["name"]: node for node in message["wall"]["nodes"]}
+        nodes = lambda message: {node["name"]: node for node in message["wall"]["status"]["nodes"]}
         return nodes(cls.crew.hear_until(lambda message: isinstance(message, dict) and "wall" in message
                                          and wanted(nodes(message)), 60))
 
@@ -481,8 +482,8 @@ class OtherMachines(unittest.TestCase):
         self.assertEqual(list(self.pit.iterdir()), [])
 
     def test_a_machine_that_is_not_set_up_says_so_and_does_nothing(self):
-        nodes = self.wall(lambda nodes: "takesPower" in nodes["left"])
-        self.assertEqual([nodes[name]["takesPower"] for name in ("left", "right")], [True, False])
+        nodes = self.wall(lambda nodes: "takesPowerWord" in nodes["left"]["report"])
+        self.assertEqual([nodes[name]["report"]["takesPowerWord"] for name in ("left", "right")], [True, False])
         refused = self.switch("right", "POWEROFF")
         self.assertEqual(refused["reason"], "the machine of right takes no such word; set up aquarama-power.path there")
         self.assertFalse(self.nowhere.exists())
@@ -495,7 +496,7 @@ class OtherMachines(unittest.TestCase):
         finally:
             self.nowhere.rename(self.pit)
         self.assertEqual(list(self.pit.iterdir()), [])
-        self.wall(lambda nodes: nodes["left"]["takesPower"])
+        self.wall(lambda nodes: nodes["left"]["report"]["takesPowerWord"])
 
 
 if __name__ == "__main__":

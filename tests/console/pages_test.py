@@ -9,6 +9,7 @@ import os
 import re
 import shutil
 import signal
+import socket
 import sys
 import time
 import unittest
@@ -161,7 +162,19 @@ class Pages(unittest.TestCase):
         rows = [row.split()[0] for row in self.text("tbody").splitlines() if row.split()
                 and row.split()[0] in ("left", "middle", "right")]
         self.assertEqual(rows, ["left", "middle", "right"])
+        column = lambda head: self.driver.execute_script(
+            "return [...document.querySelectorAll(arguments[0])].map(cell => cell.innerText)", f"td[data-head={head}]")
+        wait_until(lambda: [cell.split("\n")[0] for cell in column("Machine")] == 3 * [socket.gethostname()], 15,
+                   "a report of each node")
+        console_build = self.text("footer").splitlines()[0].removeprefix("console ")
+        for build in column("Build"):
+            self.assertRegex(build, r"\d+\.\d+\.\d+ \w+")
+            self.assertEqual(build.startswith("▲"), build != console_build, "another build is marked")
+        self.assertRegex(self.find(self.driver, "svg.bars").get_attribute("aria-label"),
+                         r"≤ 0.05 ms: \d+, .*≤ ∞ ms: \d+")
         self.open("wall")
+        self.assertIn("100 % of the light", self.text("section[aria-labelledby=light]"))
+        self.assertRegex(self.text("section[aria-labelledby=helm]"), r"depth [1-9]\d*\.\d m, \d+\.\d m/s")
         shown = self.desk.status()
         figures = self.text("section[aria-labelledby=figures]")
         for value in (shown["scene"], shown["quality"], shown["pattern"]):

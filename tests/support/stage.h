@@ -150,8 +150,8 @@ class Cable {
         std::optional<net::ByteVector> receiveState() override {
             return *cut_ ? std::nullopt : inner_->receiveState();
         }
-        void wait(net::Instant atMost) override {
-            if (*cut_) std::this_thread::sleep_for(std::min(atMost, net::Instant{5'000'000}));
+        void wait(net::Duration atMost) override {
+            if (*cut_) std::this_thread::sleep_for(std::min(atMost, net::Duration{5'000'000}));
             if (!*cut_) inner_->wait(atMost);
         }
         void wake() override { inner_->wake(); }
@@ -177,9 +177,9 @@ inline std::filesystem::path freshDirectory() {
 class StageNode {
   public:
     struct Habits {
-        net::Instant drawing{};   // a frame
-        net::Instant starting{};  // before it says hello at all
-        net::Instant building{};  // between welcome and prepared
+        net::Duration drawing{};   // a frame
+        net::Duration starting{};  // before it says hello at all
+        net::Duration building{};  // between welcome and prepared
     };
 
     StageNode(std::string name, net::Connect connect, Journal& journal)

@@ -70,7 +70,8 @@ TEST_F(DeskGauges, framesAreMeasuredByTheirReleases) {
 TEST_F(DeskGauges, theSkewIsBetweenTheFirstAndTheLastNodeOfAFrame) {
     for (std::uint64_t frame = 0; frame < 20; ++frame)
         for (const std::int64_t lateNs : {0, 150'000})
-            gauges.nodeReleased(test::kStart, {frame}, 1'000'000 + lateNs);
+            gauges.nodeReleased(
+                test::kStart, {frame}, net::Moment{std::chrono::nanoseconds{1'000'000 + lateNs}});
     EXPECT_NEAR(status().skew_median_ms(), 0.15, 1e-6);
     EXPECT_NEAR(status().skew_peak_ms(), 0.15, 1e-6);
     EXPECT_GT(status().skew_counts(2), 0U) << "up to 0.2 ms";

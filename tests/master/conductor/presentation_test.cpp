@@ -29,7 +29,7 @@ class Source final : public FrameSource {
         world_.advance();
         return snapshot;
     }
-    const v1::Show& showOf(Frame /*frame*/, net::Instant /*now*/) override { return show_; }
+    const v1::Show& showOf(Frame /*frame*/, net::Moment /*now*/) override { return show_; }
     void onReleased(Frame frame) override { released.push_back(frame.value); }
 
     int ticks = 1000;

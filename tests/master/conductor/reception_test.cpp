@@ -35,7 +35,7 @@ class Peer {
         return await(
             kind, [&] { return channels_->receiveControl(); }, seconds(5));
     }
-    bool hearsNo(v1::Envelope::MessageCase kind, net::Instant within) {
+    bool hearsNo(v1::Envelope::MessageCase kind, net::Duration within) {
         return !await(
             kind, [&] { return channels_->receiveControl(); }, within);
     }
@@ -68,8 +68,8 @@ class Peer {
     template <class Receive>
     std::optional<v1::Envelope> await(v1::Envelope::MessageCase kind,
                                       Receive receive,
-                                      net::Instant within) {
-        const net::Instant end = net::monotonicNow() + within;
+                                      net::Duration within) {
+        const net::Moment end = net::monotonicNow() + within;
         while (net::monotonicNow() < end) {
             while (const auto bytes = receive()) {
                 auto message = wire::decode(*bytes);
@@ -228,7 +228,7 @@ TEST_F(MachineSwitch, thatIsNotAnsweredSaysSoAndIsNotSaidAgain) {
     EXPECT_EQ(ask(1).outcome(), v1::OrderReply::WAITING);
     ASSERT_TRUE(node.hear(v1::Envelope::kOrder));
     v1::OrderReply reply;
-    const net::Instant end = net::monotonicNow() + seconds(10);
+    const net::Moment end = net::monotonicNow() + seconds(10);
     while ((reply = ask(1)).outcome() == v1::OrderReply::WAITING && net::monotonicNow() < end)
         EXPECT_TRUE(node.hearsNo(v1::Envelope::kOrder, milliseconds(200)));
     EXPECT_EQ(reply.outcome(), v1::OrderReply::LOST);
