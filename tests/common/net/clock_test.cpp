@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <random>
 #include <thread>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -16,6 +17,9 @@ namespace {
 
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
+
+// Where one is taken for the other, the build fails.
+static_assert(!std::is_convertible_v<Duration, Moment> && !std::is_convertible_v<Moment, Duration>);
 
 TEST(ClockOffset, isUnknownBeforeTheFirstRoundTrip) {
     EXPECT_FALSE(ClockOffset{}.offset({}));
