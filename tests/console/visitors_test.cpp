@@ -184,17 +184,17 @@ TEST_F(DeskPages, theFishAtAPlaceIsToldToTheOneWhoAsks) {
     reply.set_number(parts.nodes.fish[0].number());
     reply.set_frame(9);
     reply.set_fish(12);
-    EXPECT_EQ(visitors.heardFish("left", reply), 12U);
+    EXPECT_EQ(visitors.heardFish(reply), 12U);
     EXPECT_EQ(watcher.outbox.last("mind").mind().fish(), 12);
     EXPECT_EQ(crew.outbox.count("mind"), 0);
-    EXPECT_FALSE(visitors.heardFish("left", reply)) << "said twice";
+    EXPECT_FALSE(visitors.heardFish(reply)) << "said twice";
 }
 
 TEST_F(DeskPages, waterIsToldAsNoFish) {
     visitors.askFish(watcher.visitor, place("left", 0.25F));
     v1::FishReply reply;
     reply.set_number(parts.nodes.fish.at(0).number());
-    EXPECT_FALSE(visitors.heardFish("left", reply));
+    EXPECT_FALSE(visitors.heardFish(reply));
     EXPECT_EQ(watcher.outbox.last("mind").mind().fish(), -1);
 }
 
@@ -211,7 +211,7 @@ TEST_F(DeskPages, aFishIsToldToNobodyWhereThePageHasGone) {
     v1::FishReply reply;
     reply.set_number(parts.nodes.fish.at(0).number());
     reply.set_fish(12);
-    EXPECT_FALSE(visitors.heardFish("left", reply));
+    EXPECT_FALSE(visitors.heardFish(reply));
     EXPECT_EQ(watcher.outbox.count("mind"), 0);
 }
 
@@ -221,9 +221,9 @@ TEST_F(DeskPages, ofManyQuestionsTheOldestIsForgotten) {
     v1::FishReply reply;
     reply.set_fish(12);
     reply.set_number(parts.nodes.fish.at(0).number());
-    EXPECT_FALSE(visitors.heardFish("left", reply));
+    EXPECT_FALSE(visitors.heardFish(reply));
     reply.set_number(parts.nodes.fish.at(1).number());
-    EXPECT_TRUE(visitors.heardFish("left", reply));
+    EXPECT_TRUE(visitors.heardFish(reply));
 }
 
 TEST_F(DeskPages, aMindIsSentToThosePagesThatShowOne) {
