@@ -164,7 +164,7 @@ void explainReplay(const ExplainOptions& options) {
     if (playback.difference())
         std::cerr << options.recording << ": from tick " << playback.difference()->tick.value
                   << " on this is another world than the recorded one\n";
-    print(options.fish, world.world().traits().size(), world.explain(options.fish));
+    print(options.fish, world.world().traits().size(), world.explain(options.fish).lines);
 }
 
 // Uses the recording where one is given, else the running master.

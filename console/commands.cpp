@@ -9,6 +9,7 @@
 #include "common/ask/request_client.h"
 #include "common/base/log.h"
 #include "common/config/rules.h"
+#include "common/config/text_file.h"
 #include "common/machine/machine_power.h"
 #include "common/wire/wanted_show.h"
 
@@ -33,6 +34,7 @@ std::optional<ConsoleRole> roleFor(const browser::Command& command) {
                                                     {What::kHoldHours, ConsoleRole::Operator},
                                                     {What::kScan, ConsoleRole::Operator},
                                                     {What::kHoursText, ConsoleRole::Crew},
+                                                    {What::kHours, ConsoleRole::Crew},
                                                     {What::kNewCode, ConsoleRole::Crew},
                                                     {What::kRevoke, ConsoleRole::Crew},
                                                     {What::kProjector, ConsoleRole::Crew},
@@ -111,11 +113,15 @@ v1::Order orderOf(const v1::HeldScan& scan) {
     return order;
 }
 
-// The shutters of projectors wait for that.
-bool isInStep(const browser::Wall& wall) {
-    return wall.heard() && std::ranges::all_of(wall.nodes(), [](const browser::Node& node) {
-               return node.condition() == "in step";
-           });
+browser::ToBrowser mistakesOf(std::uint64_t request, const config::FileError& error) {
+    browser::ToBrowser message;
+    message.mutable_mistakes()->set_request(request);
+    for (const config::FileMistake& from : error.mistakes) {
+        browser::Mistake& mistake = *message.mutable_mistakes()->add_mistakes();
+        mistake.set_field(from.field);
+        mistake.set_what(from.why);
+    }
+    return message;
 }
 
 v1::OrderReply replyOf(std::uint64_t request, const Answer& answer) {
@@ -169,7 +175,7 @@ Answer Commands::tellWall(const Holder& holder, Visitor* visitor, const v1::Orde
     if (order.run() != state_.wall.run())
         return refused("the show was started again meanwhile: look, and say it once more");
     waiting_[order.request()] = {visitor, holder.name, textOf(order)};
-    link_->give(order);
+    master_->give(order);
     return {Outcome::Waiting, ""};
 }
 
@@ -211,14 +217,14 @@ void Commands::keepHours() {
     if (!due || opened_ || !state_.wall.heard()) return;
     const v1::Order order = orderOfHours(*due);
     opened_ = {order.request(), *due};
-    link_->give(order);
+    master_->give(order);
 }
 
 // The master ends it by itself three seconds after the last word.
 void Commands::keepScan() {
     if (scan_.visitor == nullptr) return;
     if (scan_.visitor->ticksToLook > 0 && scan_.visitor->wants("calibrations"))
-        return link_->give(orderOf(scan_.held));
+        return master_->give(orderOf(scan_.held));
     scan_.visitor->holdsScan = false;  // the page was left
     scan_ = {};
 }
@@ -241,8 +247,11 @@ std::string Commands::carryOutHere(const Holder& holder, Visitor* visitor, const
             if (visitor != nullptr) visitors_.askFish(*visitor, command.point_at());
             return {};
         case What::kMind:
-            link_->explain(command.mind());
+            master_->explain(command.mind());
             return {};
+        case What::kHoursText:
+        case What::kHours:
+            return takeHours(holder, visitor, command);
         default:
             return carryOutOfHall(holder, command);
     }
@@ -255,7 +264,7 @@ std::string Commands::acknowledge(const Holder& holder, const std::string& alert
     return {};
 }
 
-// Hours, projectors, and people.
+// Projectors, machines, people, and whether the hours hold.
 std::string Commands::carryOutOfHall(const Holder& holder, const Command& command) {
     switch (command.what_case()) {
         case What::kHoldHours:
@@ -264,8 +273,6 @@ std::string Commands::carryOutOfHall(const Holder& holder, const Command& comman
                 holder.name,
                 command.hold_hours() > 0 ? "the schedule is held" : "the schedule goes on");
             return {};
-        case What::kHoursText:
-            return takeHours(holder, command.hours_text());
         case What::kProjector:
             if (!state_.opening.setProjector(command.projector()))
                 return "there is no such projector";
@@ -295,10 +302,17 @@ std::string Commands::switchMachine(const Holder& holder, const std::string& wor
     return {};
 }
 
-// A mistake is answered with its place in the text.
-std::string Commands::takeHours(const Holder& holder, const std::string& text) {
+// A page is told all mistakes by field. The reply has the first: of a form by its field, of a text
+// by its place.
+std::string Commands::takeHours(const Holder& holder, Visitor* visitor, const Command& command) {
     try {
-        state_.opening.setText(text);
+        command.has_hours() ? state_.opening.setForm(command.hours())
+                            : state_.opening.setText(command.hours_text());
+    } catch (const config::FileError& error) {
+        if (visitor != nullptr)
+            visitors_.sendTo(*visitor, "mistakes", mistakesOf(command.id(), error));
+        const config::FileMistake& first = error.mistakes.front();
+        return command.has_hours() ? first.field + ": " + first.why : error.what();
     } catch (const Error& problem) {
         return problem.what();
     }

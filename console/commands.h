@@ -26,8 +26,8 @@ class Commands {
     Commands(State& state, Visitors& visitors, Errands& errands)
         : state_{state}, visitors_{visitors}, errands_{errands} {}
 
-    // The way to the master; null: none.
-    void reach(ShowLink* link) { link_ = link; }
+    // The way to the master, which outlives the commands; before it no wall is heard.
+    void reach(MasterProxy* master) { master_ = master; }
 
     // Carries a command out, or begins it; said again, it is answered again. `visitor`: whose page
     // gives it; null: a program does.
@@ -81,7 +81,9 @@ class Commands {
                                            const Command& command);
     [[nodiscard]] std::string carryOutOfHall(const Holder& holder, const Command& command);
     [[nodiscard]] std::string acknowledge(const Holder& holder, const std::string& alert);
-    [[nodiscard]] std::string takeHours(const Holder& holder, const std::string& text);
+    [[nodiscard]] std::string takeHours(const Holder& holder,
+                                        Visitor* visitor,
+                                        const Command& command);
     [[nodiscard]] std::string switchMachine(const Holder& holder, const std::string& word);
     [[nodiscard]] std::string sendAway(const Holder& holder, const std::string& person);
     void saidOfHours(const ask::Answer& answer);
@@ -89,7 +91,7 @@ class Commands {
     State& state_;
     Visitors& visitors_;
     Errands& errands_;
-    ShowLink* link_ = nullptr;
+    MasterProxy* master_ = nullptr;
     ask::OrderBook book_;
     std::map<std::uint64_t, Waiting> waiting_;
     ShownScan scan_;

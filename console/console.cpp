@@ -42,18 +42,17 @@ void Console::begin(web::WebServer& server, Doors doors) {
             PictureListener{[=, this](const std::string& channel, const v1::FramePicture& picture) {
                                 here([=, this] { visitors_.heardPicture(channel, picture); });
                             },
-                            [=, this](const std::string& channel, const v1::FishReply& reply) {
+                            [=, this](const std::string& /*channel*/, const v1::FishReply& reply) {
                                 here([=, this] {
                                     // The fish is asked for what goes on in it at once.
-                                    if (const auto fish = visitors_.heardFish(channel, reply))
+                                    if (const auto fish = visitors_.heardFish(reply))
                                         link_->explain(*fish);
                                 });
                             }});
     link_ = std::make_unique<ShowLink>(
         options_.master,
         ShowListener{[=, this](const v1::StatusReply& status, std::uint64_t run) {
-                         here(
-                             [this, wall = wallOf(status, run, state_.build)] { heardWall(wall); });
+                         here([this, wall = wallOf(status, run)] { heardWall(wall); });
                      },
                      [=, this](const std::string& preparing) {
                          here([=, this] { wallIsSilent(preparing); });
@@ -150,7 +149,7 @@ void Console::tendCertificate(UnixSeconds now) {
 }
 
 std::vector<Fault> Console::faultsNow(UnixSeconds now) const {
-    std::vector<Fault> faults = faultsOf(state_.wall, now);
+    std::vector<Fault> faults = faultsOf(state_.wall, state_.build, now);
     for (Fault& fault : faultsOf(state_.opening.projectors())) faults.push_back(std::move(fault));
     if (!state_.opening.problem().empty())
         faults.push_back({"hours",

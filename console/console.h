@@ -72,7 +72,7 @@ class Console final : public web::Service {
     web::HttpReply pair(const web::HttpRequest& request);
     web::HttpReply leave(const web::HttpRequest& request);
     web::HttpReply look(const web::HttpRequest& request);
-    [[nodiscard]] std::string ownMetrics(UnixSeconds now) const;
+    [[nodiscard]] std::string metrics(UnixSeconds now) const;
     web::HttpReply obey(const web::HttpRequest& request, const Holder& holder);
     web::HttpReply refused(int status, const std::string& why);
     // In the log: a code for the first browser.

@@ -17,7 +17,7 @@ bool isReady(const std::future<Result>& future) {
 void Errands::runDoctor() {
     if (doctor_.valid()) return;
     state_.doctor.set_running(true);
-    doctor_ = std::async(std::launch::async, [rig = state_.rigFile] { return askDoctor(rig); });
+    doctor_ = std::async(std::launch::async, work_.askDoctor, state_.rigFile);
 }
 
 void Errands::wantCalibrations(int ticks) {
@@ -25,16 +25,13 @@ void Errands::wantCalibrations(int ticks) {
     const bool isDue = !state_.calibrations || ticks >= readingDue_;
     if (!isDue || reading_.valid()) return;
     readingDue_ = ticks + kTicksBetween;
-    reading_ =
-        std::async(std::launch::async, [rig = state_.rigFile] { return calibrationsOf(rig); });
+    reading_ = std::async(std::launch::async, work_.calibrationsOf, state_.rigFile);
 }
 
 bool Errands::use(const std::string& calibration, std::uint64_t command) {
     if (using_.valid()) return false;
     command_ = command;
-    using_ = std::async(std::launch::async, [rig = state_.rigFile, calibration] {
-        return useCalibration(rig, calibration);
-    });
+    using_ = std::async(std::launch::async, work_.useCalibration, state_.rigFile, calibration);
     return true;
 }
 

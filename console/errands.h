@@ -4,20 +4,32 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <future>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "console/console.pb.h"
+#include "console/files_of_show.h"
 #include "console/state.h"
 
 namespace aquarama::console {
+
+// How errands are done, each on a thread of its own; otherwise in tests.
+struct ErrandWork {
+    std::function<browser::DoctorReport(const std::string& rigPath)> askDoctor = console::askDoctor;
+    std::function<browser::Calibrations(const std::string& rigPath)> calibrationsOf =
+        console::calibrationsOf;
+    std::function<std::string(const std::string& rigPath, const std::string& name)> useCalibration =
+        console::useCalibration;
+};
 
 // Of the server's thread, which never waits for them.
 class Errands {
   public:
     // `state` outlives this, and is told what is found.
-    explicit Errands(State& state) : state_{state} {}
+    explicit Errands(State& state, ErrandWork work = {}) : state_{state}, work_{std::move(work)} {}
 
     // One at a time.
     void runDoctor();
@@ -38,6 +50,7 @@ class Errands {
 
   private:
     State& state_;
+    ErrandWork work_;
     std::future<browser::DoctorReport> doctor_;
     std::future<browser::Calibrations> reading_;
     int readingDue_ = 0;  // tick

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <span>
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
@@ -25,6 +26,7 @@
 #include "common/cli/command_line.h"
 #include "common/config/rig.h"
 #include "common/config/text_file.h"
+#include "common/formats/archive.h"
 
 namespace aquarama::console {
 
@@ -211,34 +213,6 @@ Said runAquarama(std::vector<std::string> arguments, bool withErrors) {
     return said;
 }
 
-// Numbers of tar are octal text with zeros before.
-void addOctal(std::string& header, std::size_t at, std::size_t digits, std::uint64_t value) {
-    const std::string text = fmt::format("{:0{}o}", value, digits);
-    header.replace(at, digits, text);
-}
-
-// Fields of POSIX's ustar: name, mode, size, time, checksum, kind, magic.
-std::string tarHeader(const std::string& name, std::size_t bytes) {
-    constexpr std::size_t kBlock = 512, kMostName = 99;
-    std::string header(kBlock, '\0');
-    const std::string kept = name.substr(0, kMostName);
-    header.replace(0, kept.size(), kept);
-    addOctal(header, 100, 7, 0644);
-    addOctal(header, 108, 7, 0);
-    addOctal(header, 116, 7, 0);
-    addOctal(header, 124, 11, bytes);
-    addOctal(header, 136, 11, static_cast<std::uint64_t>(unixNow()));
-    header.replace(148, 8, "        ");
-    header[156] = '0';
-    header.replace(257, 5, "ustar");
-    header.replace(263, 2, "00");
-    unsigned sum = 0;
-    for (const char c : header) sum += static_cast<unsigned char>(c);
-    addOctal(header, 148, 6, sum);
-    header[154] = '\0';
-    return header;
-}
-
 }  // namespace
 
 // Beside the master's own, by the same name of the rig.
@@ -325,19 +299,6 @@ std::string useCalibration(const std::string& rigPath, const std::string& name) 
     return lines.empty() ? "it could not be put in place" : lines.back();
 }
 
-// Each file is filled up to whole blocks; two empty ones end it.
-std::string tarOf(const std::vector<std::pair<std::string, std::string>>& files) {
-    constexpr std::size_t kBlock = 512;
-    std::string archive;
-    for (const auto& [name, content] : files) {
-        archive += tarHeader(name, content.size());
-        archive += content;
-        archive.append((kBlock - content.size() % kBlock) % kBlock, '\0');
-    }
-    archive.append(2 * kBlock, '\0');
-    return archive;
-}
-
 // What somebody needs who helps from afar.
 std::string bundleOf(const std::string& rigPath,
                      std::vector<std::pair<std::string, std::string>> files) {
@@ -349,7 +310,13 @@ std::string bundleOf(const std::string& rigPath,
             files.emplace_back("log/" + one.filename().string(), endOf(one, kMostBytes));
     }
     files.emplace_back(fs::path(rigPath).filename().string(), endOf(rigPath, kMostBytes));
-    return tarOf(files);
+    std::vector<formats::ArchiveFile> archive;
+    for (const auto& [name, text] : files) {
+        const auto bytes = std::as_bytes(std::span{text});
+        archive.emplace_back(name, std::vector(bytes.begin(), bytes.end()));
+    }
+    const std::vector<std::byte> bytes = formats::encodeArchive(archive);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 // What cannot be read of the file is left out.

@@ -37,9 +37,8 @@ namespace aquarama::console {
 // seconds. Why not, where it is refused.
 [[nodiscard]] std::string useCalibration(const std::string& rigPath, const std::string& name);
 
-// Files as one archive (ustar). Each may have some megabytes; names up to 99 bytes.
-[[nodiscard]] std::string tarOf(const std::vector<std::pair<std::string, std::string>>& files);
-// The logs of a show, its rig, and these other files.
+// A zip archive of the logs of a show (the last 8 MiB of each), its rig, and these other files,
+// each a name and a text. Throws Error where a name is twice, or none for an archive.
 [[nodiscard]] std::string bundleOf(const std::string& rigPath,
                                    std::vector<std::pair<std::string, std::string>> files);
 

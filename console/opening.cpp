@@ -38,38 +38,6 @@ std::string clockOf(int minute) {
     return fmt::format("{:02}:{:02}", minute / kHourMinutes % kDayHours, minute % kHourMinutes);
 }
 
-// As a form has them.
-void addSpans(google::protobuf::RepeatedPtrField<browser::OpenSpan>& out,
-              const std::vector<config::OpenSpan>& spans) {
-    for (const config::OpenSpan& from : spans) {
-        browser::OpenSpan& span = *out.Add();
-        for (const int day : from.weekdays) span.add_weekdays(static_cast<std::uint32_t>(day));
-        span.set_from(clockOf(from.from));
-        span.set_to(clockOf(from.to));
-        span.set_scene(from.scene);
-        span.set_quality(from.quality);
-    }
-}
-
-// All that the text says.
-void addForm(browser::Hours& message, const config::Hours& hours) {
-    message.set_zone(hours.zone);
-    addSpans(*message.mutable_spans(), hours.open);
-    for (const config::ExceptionDay& from : hours.exceptions) {
-        browser::ExceptionDay& day = *message.add_exceptions();
-        const auto [year, month, number] = from.date;
-        day.set_date(fmt::format("{:04}-{:02}-{:02}", year, month, number));
-        addSpans(*day.mutable_spans(), from.open);
-    }
-    for (const config::ControlledProjector& from : hours.projectors) {
-        browser::ControlledProjector& projector = *message.add_projectors();
-        projector.set_name(from.name);
-        projector.set_address(config::addressOf(from));
-        projector.set_password(from.password);
-        projector.set_input(from.input);
-    }
-}
-
 // Whether its lamp is known to be on its way. One that is gone, or does not say so, is not waited
 // for.
 bool comesOn(const ProjectorFacts& facts) {
@@ -97,7 +65,7 @@ void Opening::readHours() {
     try {
         if (!std::filesystem::exists(path)) return;
         text_ = config::readTextFile(path.string());
-        hours_ = config::parseHours(text_, kHoursFile);
+        hours_ = config::parseHours(text_, kHoursFile, &form_);
     } catch (const std::exception& problem) {
         problem_ = problem.what();
         logWarning("{} (in {}); there are no hours, and nothing is switched, until that is mended",
@@ -150,13 +118,21 @@ void Opening::keep() const {
 // First read, then kept: a mistake changes nothing.
 void Opening::setText(const std::string& text) {
     std::optional<config::Hours> hours;
-    if (!text.empty()) hours = config::parseHours(text, kHoursFile);
+    v1::Hours form;
+    if (!text.empty()) hours = config::parseHours(text, kHoursFile, &form);
     write(folder_ / kHoursFile, text);
     if (text.empty()) std::filesystem::remove(folder_ / kHoursFile);
     text_ = text;
     problem_.clear();
     hours_ = std::move(hours);
+    form_ = std::move(form);
     watchProjectors();
+}
+
+// An empty text would end the hours; an empty form is a mistake.
+void Opening::setForm(const v1::Hours& form) {
+    const std::string text = config::textOf(form);
+    setText(text.empty() ? "\n" : text);
 }
 
 // Ends by itself: somebody forgets it.
@@ -284,7 +260,7 @@ browser::Hours Opening::hours(UnixSeconds now) const {
     message.set_present(hours_.has_value());
     message.set_next("stays");
     if (!hours_) return message;
-    addForm(message, *hours_);
+    *message.mutable_form() = form_;
     const config::WantedHours wanted = wantedIn(now);
     message.set_open(wanted.isOpen);
     message.set_scene(wanted.scene);

@@ -29,6 +29,8 @@ class Opening {
 
     // Takes another text and keeps it; empty: no hours any more. Throws Error, as parseHours().
     void setText(const std::string& text);
+    // Takes the message of a form and keeps it as a text. Throws Error, as parseHours().
+    void setForm(const v1::Hours& form);
     // The schedule rests for so long, ten hours at most; 0: it goes on.
     void hold(double forHours, UnixSeconds now);
     [[nodiscard]] UnixSeconds heldUntil(UnixSeconds now) const;
@@ -70,6 +72,7 @@ class Opening {
     MakeProjector make_;
     std::string text_;
     std::string problem_;  // why there are no hours although there is a text
+    v1::Hours form_;       // the message of the text, where there are hours
     std::optional<config::Hours> hours_;
     std::optional<config::WantedHours> done_;  // what was last brought about
     UnixSeconds heldUntil_ = 0;

@@ -2,7 +2,6 @@
 #include "console/overview.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <google/protobuf/util/json_util.h>
 #include <spdlog/fmt/fmt.h>
@@ -27,42 +26,6 @@ std::string causeOf(const v1::NodeStatus& node) {
     }
 }
 
-// A node that has not reported yet has empty fields.
-void addNode(browser::Wall& wall, const v1::NodeStatus& from, const std::string& build) {
-    const v1::NodeReport& report = from.report();
-    browser::Node& node = *wall.add_nodes();
-    node.set_name(from.name());
-    node.set_condition(wire::wordFor(from.condition()));
-    node.set_cause(causeOf(from));
-    node.set_late(from.late());
-    node.set_dropped(from.dropped());
-    node.set_hash_mismatches(from.hash_mismatches());
-    node.set_host(report.host());
-    node.set_build(report.build());
-    node.set_other_build(!report.build().empty() && report.build() != build);
-    node.set_renderer(report.renderer());
-    for (const std::string& monitor : report.monitors()) node.add_monitors(monitor);
-    node.set_picture_ms(from.picture_ms());
-    node.set_picture_median_ms(report.picture_median_ms());
-    node.set_picture_p99_ms(report.picture_p99_ms());
-    node.set_round_trip_ms(report.round_trip_median_ms());
-    node.set_celsius(report.gpu_celsius());
-    node.set_drift_ppm(report.clock_drift_ppm());
-    node.set_takes_power(report.takes_power_word());
-}
-
-// What is wanted, and how much light there is on the way to it.
-void takeShow(browser::Wall& wall, const wire::Show& show) {
-    wall.set_scene(show.scene);
-    wall.set_quality(std::string(config::nameOf(show.quality)));
-    wall.set_pattern(std::string(wire::nameOf(show.pattern)));
-    wall.set_black(show.black);
-    wall.set_frozen(show.frozen);
-    wall.set_pilot(show.pilot);
-    wall.set_brightness_percent(
-        static_cast<std::uint32_t>(std::lround(100 * std::clamp(show.brightness, 0.0F, 1.0F))));
-}
-
 // Of FigureRings.
 constexpr std::uint32_t kTenthsOfMinute = 600;
 constexpr std::uint16_t kNothingHeard = 65535;
@@ -79,32 +42,25 @@ std::string bytesOf(const std::deque<std::uint16_t>& values, std::size_t most) {
 
 }  // namespace
 
-// Names what the master numbers.
-browser::Wall wallOf(const v1::StatusReply& status, std::uint64_t run, const std::string& build) {
+// The causes stand beside the status, which stays as it came.
+browser::Wall wallOf(const v1::StatusReply& status, std::uint64_t run) {
     browser::Wall wall;
     wall.set_heard(true);
     wall.set_run(run);
-    wall.set_frame(status.frame());
-    wall.set_tick(status.tick());
-    wall.set_pace(status.pace() == v1::PACE_LIVE ? "live" : "lockstep");
-    takeShow(wall, wire::readShow(status.show()).value_or(wire::Show{}));
-    wall.set_change(status.change());
-    wall.set_frame_median_ms(status.frame_median_ms());
-    wall.set_frame_p99_ms(status.frame_p99_ms());
-    wall.set_skew_median_ms(status.skew_median_ms());
-    wall.set_skew_p99_ms(status.skew_p99_ms());
-    wall.set_frame_peak_ms(status.frame_peak_ms());
-    wall.set_skew_peak_ms(status.skew_peak_ms());
-    for (const std::uint32_t count : status.skew_counts()) wall.add_skew_counts(count);
-    wall.set_refused_packets(status.refused_packets());
-    for (const v1::NodeStatus& node : status.nodes()) addNode(wall, node, build);
-    if (const auto eye = wire::readEye(status.eye())) wall.set_depth_m(-eye->positionMetres.y);
-    wall.set_speed_m_s(status.speed_m_s());
+    *wall.mutable_status() = status;
+    for (const v1::NodeStatus& node : status.nodes()) wall.add_causes(causeOf(node));
     return wall;
 }
 
+bool isInStep(const browser::Wall& wall) {
+    return wall.heard() &&
+           std::ranges::all_of(wall.status().nodes(), [](const v1::NodeStatus& node) {
+               return node.condition() == v1::NODE_IN_STEP;
+           });
+}
+
 // A silent master hides everything else: it is the one fault then.
-std::vector<Fault> faultsOf(const browser::Wall& wall, UnixSeconds now) {
+std::vector<Fault> faultsOf(const browser::Wall& wall, const std::string& build, UnixSeconds now) {
     constexpr double kSilence = 3, kStart = 60, kOutOfStep = 10, kHot = 30;
     constexpr float kHotCelsius = 85;
     if (!wall.heard() && !wall.preparing().empty()) return {};
@@ -113,18 +69,22 @@ std::vector<Fault> faultsOf(const browser::Wall& wall, UnixSeconds now) {
                  "the master does not answer: no show runs, or it hangs",
                  wall.heard_s() > 0 ? kSilence : kStart}};
     std::vector<Fault> faults;
-    for (const browser::Node& node : wall.nodes()) {
+    for (const v1::NodeStatus& node : wall.status().nodes()) {
         const std::string name = "node " + node.name();
-        if (node.condition() != "in step")
+        const v1::NodeReport& report = node.report();
+        if (node.condition() != v1::NODE_IN_STEP)
             faults.push_back(
-                {name, name + " is " + node.condition() + ": " + node.cause(), kOutOfStep});
+                {name,
+                 name + " is " + wire::wordFor(node.condition()) + ": " + causeOf(node),
+                 kOutOfStep});
         if (node.hash_mismatches() > 0)
             faults.push_back({name + " hash", name + " shows other fish than were sent", 0});
-        if (node.celsius() >= kHotCelsius)
-            faults.push_back({name + " hot",
-                              fmt::format("{}: its card has {:.0f} degrees", name, node.celsius()),
-                              kHot});
-        if (node.other_build())
+        if (report.gpu_celsius() >= kHotCelsius)
+            faults.push_back(
+                {name + " hot",
+                 fmt::format("{}: its card has {:.0f} degrees", name, report.gpu_celsius()),
+                 kHot});
+        if (!report.build().empty() && report.build() != build)
             faults.push_back({name + " build", name + " is of another build", kOutOfStep});
     }
     return faults;
@@ -220,15 +180,19 @@ std::vector<std::string> changesOf(const browser::Wall& before, const browser::W
     const auto note = [&](bool hasChanged, std::string line) {
         if (hasChanged) lines.push_back(std::move(line));
     };
-    if (before.run() != after.run()) return {"the show has begun: scene " + after.scene()};
-    note(before.black() != after.black(), after.black() ? "the wall is black" : "light again");
-    note(before.frozen() != after.frozen(), after.frozen() ? "frozen" : "the world moves again");
-    note(before.scene() != after.scene(), "scene " + after.scene());
-    note(before.pattern() != after.pattern(), "pattern " + after.pattern());
-    note(before.quality() != after.quality(), "quality " + after.quality());
-    for (int i = 0; i < std::min(before.nodes_size(), after.nodes_size()); ++i)
-        note(before.nodes(i).condition() != after.nodes(i).condition(),
-             "node " + after.nodes(i).name() + " is " + after.nodes(i).condition());
+    const auto was = wire::readShow(before.status().show()).value_or(wire::Show{});
+    const auto is = wire::readShow(after.status().show()).value_or(wire::Show{});
+    if (before.run() != after.run()) return {"the show has begun: scene " + is.scene};
+    note(was.black != is.black, is.black ? "the wall is black" : "light again");
+    note(was.frozen != is.frozen, is.frozen ? "frozen" : "the world moves again");
+    note(was.scene != is.scene, "scene " + is.scene);
+    note(was.pattern != is.pattern, fmt::format("pattern {}", wire::nameOf(is.pattern)));
+    note(was.quality != is.quality, fmt::format("quality {}", config::nameOf(is.quality)));
+    const auto& nodesBefore = before.status().nodes();
+    const auto& nodes = after.status().nodes();
+    for (int i = 0; i < std::min(nodesBefore.size(), nodes.size()); ++i)
+        note(nodesBefore[i].condition() != nodes[i].condition(),
+             "node " + nodes[i].name() + " is " + wire::wordFor(nodes[i].condition()));
     return lines;
 }
 
@@ -250,12 +214,13 @@ void FigureRings::add(const std::string& name, float ms, bool isHeard) {
 // Minutes are counted by the calls. Of a master that is silent the places stay empty.
 void FigureRings::add(const browser::Wall& wall) {
     ++tenths_;
-    add("frame", wall.frame_peak_ms(), wall.heard());
-    add("skew", wall.skew_peak_ms(), wall.heard());
-    for (const browser::Node& node : wall.nodes())
+    add("frame", wall.status().frame_peak_ms(), wall.heard());
+    add("skew", wall.status().skew_peak_ms(), wall.heard());
+    for (const v1::NodeStatus& node : wall.status().nodes())
         add("node " + node.name(),
             node.picture_ms(),
-            wall.heard() && node.condition() != "absent" && node.condition() != "preparing");
+            wall.heard() && node.condition() != v1::NODE_ABSENT &&
+                node.condition() != v1::NODE_PREPARING);
 }
 
 // In the order of their names.
@@ -281,68 +246,6 @@ browser::History FigureRings::history() const {
 browser::History FigureRings::lastSecond() const {
     constexpr std::size_t kTenths = 25, kMinutes = 2;
     return newest(kTenths, kMinutes);
-}
-
-namespace {
-
-// As Prometheus has it between quotation marks.
-std::string labelOf(const std::string& name, const std::string& value) {
-    std::string text = "{" + name + "=\"";
-    for (const char c : value) {
-        if (c == '"' || c == '\\') text += '\\';
-        text += c == '\n' ? ' ' : c;
-    }
-    return text + "\"}";
-}
-
-// One sample.
-void addFigure(std::string& text, const std::string& name, double value) {
-    text += fmt::format("aquarama_console_{} {}\n", name, value);
-}
-
-// One that there is only while it is known.
-void addKnown(std::string& text, bool isKnown, const std::string& name, double value) {
-    if (isKnown) addFigure(text, name, value);
-}
-
-// Of a projector.
-void addFigures(std::string& text, const browser::ProjectorState& one) {
-    const std::string label = labelOf("projector", one.name());
-    addFigure(text, "projector_answers" + label, one.reach() == "answers");
-    addKnown(text, one.power() != "unknown", "projector_on" + label, one.power() == "on");
-    addKnown(text, one.has_shut(), "projector_shut" + label, one.shut());
-    addKnown(text, one.has_lamp_hours(), "projector_lamp_hours" + label, one.lamp_hours());
-    addKnown(text, one.tells_problems(), "projector_problems" + label, one.problems_size());
-}
-
-}  // namespace
-
-// Of the wall as a whole, so that one address tells of all machines.
-std::string metricsOf(const browser::Wall& wall,
-                      const browser::ProjectorList& projectors,
-                      std::uint64_t cutOff) {
-    std::string text;
-    const auto one = [&](const std::string& name, double value) { addFigure(text, name, value); };
-    one("master_answers", wall.heard() ? 1 : 0);
-    one("frame", static_cast<double>(wall.frame()));
-    one("frame_median_ms", static_cast<double>(wall.frame_median_ms()));
-    one("skew_p99_ms", static_cast<double>(wall.skew_p99_ms()));
-    one("black", wall.black() ? 1 : 0);
-    one("browsers", wall.watching());
-    one("refused_requests_total", static_cast<double>(wall.refused_requests()));
-    one("cut_off_connections_total", static_cast<double>(cutOff));
-    for (const browser::Node& node : wall.nodes()) {
-        const std::string label = labelOf("node", node.name());
-        one("node_in_step" + label, node.condition() == "in step" ? 1 : 0);
-        one("node_late_total" + label, static_cast<double>(node.late()));
-        one("node_dropped_total" + label, static_cast<double>(node.dropped()));
-        one("node_hash_mismatches_total" + label, static_cast<double>(node.hash_mismatches()));
-        one("node_picture_median_ms" + label, static_cast<double>(node.picture_median_ms()));
-        one("node_gpu_celsius" + label, static_cast<double>(node.celsius()));
-    }
-    for (const browser::ProjectorState& projector : projectors.projectors())
-        addFigures(text, projector);
-    return text;
 }
 
 // A zero is said: a page need not know what is left out.

@@ -14,13 +14,17 @@
 
 namespace aquarama::console {
 
-// `build`: of the console, against which those of the nodes are held.
-[[nodiscard]] browser::Wall wallOf(const v1::StatusReply& status,
-                                   std::uint64_t run,
-                                   const std::string& build);
+// A wall whose master has just answered, with the cause for each node. `run`: of that master.
+[[nodiscard]] browser::Wall wallOf(const v1::StatusReply& status, std::uint64_t run);
 
-// What is wrong with a wall that was heard of at wall.heard_s; `now` as there.
-[[nodiscard]] std::vector<Fault> faultsOf(const browser::Wall& wall, UnixSeconds now);
+// Whether the master answers and all nodes are in step.
+[[nodiscard]] bool isInStep(const browser::Wall& wall);
+
+// What is wrong with a wall that was heard of at wall.heard_s; `now` as there. `build`: of the
+// console; a node of another build is a fault.
+[[nodiscard]] std::vector<Fault> faultsOf(const browser::Wall& wall,
+                                          const std::string& build,
+                                          UnixSeconds now);
 // What is wrong with projectors, as far as they tell: of what is unknown nothing is said.
 [[nodiscard]] std::vector<Fault> faultsOf(const browser::ProjectorList& projectors);
 
@@ -66,11 +70,6 @@ class ProjectorBook {
 
     std::map<std::string, Page> pages_;  // by name
 };
-
-// For Prometheus, text format 0.0.4. What is unknown has no sample.
-[[nodiscard]] std::string metricsOf(const browser::Wall& wall,
-                                    const browser::ProjectorList& projectors,
-                                    std::uint64_t cutOff);
 
 // protobuf's JSON, numbers that are zero included.
 [[nodiscard]] std::string jsonOf(const browser::ToBrowser& message);

@@ -24,21 +24,35 @@ struct PictureListener {
     std::function<void(const std::string& channel, const v1::FishReply&)> fish;
 };
 
+// What the console asks the nodes. From any thread; a node that is not there is asked nothing.
+class NodeProxy {
+  public:
+    virtual ~NodeProxy() = default;
+    // A picture of the channel; PictureListener::picture has it, with this number.
+    virtual void askPicture(const std::string& channel,
+                            std::uint64_t number,
+                            std::uint32_t widthPixels) = 0;
+    // The fish at a place; PictureListener::fish has the answer.
+    virtual void askFish(const std::string& channel, const v1::FishRequest& request) = 0;
+};
+
 // Asks the nodes for their pictures and for the fish at a place. The socket belongs to a thread of
 // its own.
-class PictureHub {
+class PictureHub final : public NodeProxy {
   public:
     // Throws Error where it cannot listen at the address. `keys`: past the loopback.
     PictureHub(const std::string& watchAddress,
                const std::optional<net::MasterKeys>& keys,
                PictureListener listener);
-    ~PictureHub();
+    ~PictureHub() override;
     PictureHub(const PictureHub&) = delete;
     PictureHub& operator=(const PictureHub&) = delete;
 
-    // From any thread. A node that is not there is asked nothing.
-    void askPicture(const std::string& channel, std::uint64_t number, std::uint32_t widthPixels);
-    void askFish(const std::string& channel, const v1::FishRequest& request);
+    void askPicture(const std::string& channel,
+                    std::uint64_t number,
+                    std::uint32_t widthPixels) override;
+    void askFish(const std::string& channel, const v1::FishRequest& request) override;
+    // Where it listens, with the port that was chosen.
     [[nodiscard]] std::string address() const { return channels_->controlAddress(); }
 
   private:

@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "common/base/log.h"
 #include "console/console.h"
+#include "console/metrics.h"
 
 namespace aquarama::console {
 
@@ -96,34 +98,33 @@ HttpReply Console::answer(const HttpRequest& request) {
     return holder ? look(request) : refused(401, "not paired");
 }
 
-// Of this machine's clock, and of the certificate where the server has one.
-std::string Console::ownMetrics(UnixSeconds now) const {
-    std::string text =
-        fmt::format("aquarama_console_clock_wrong {}\n", state_.doubtOfClock.empty() ? 0 : 1);
+std::string Console::metrics(UnixSeconds now) const {
+    OwnFigures own{.cutOff = server_->cutOff(), .isClockWrong = !state_.doubtOfClock.empty()};
     if (options_.certificate != nullptr)
-        text += fmt::format("aquarama_console_certificate_days {:.1f}\n",
-                            (options_.certificate->validity().until - now) / kSecondsOfDay);
-    return text;
+        own.certificateDays = (options_.certificate->validity().until - now) / kSecondsOfDay;
+    return metricsOf(state_.wall, state_.opening.projectors(), own);
 }
 
 // For whoever is let in; the pages themselves are for everybody.
 HttpReply Console::look(const HttpRequest& request) {
     if (request.target == "/metrics")
-        return {.type = "text/plain; version=0.0.4",
-                .body = metricsOf(state_.wall, state_.opening.projectors(), server_->cutOff()) +
-                        ownMetrics(unixNow())};
-    if (request.target == "/bundle.tar") {
-        std::string events;
-        const browser::EventList list = state_.events.list();
-        for (const browser::Event& event : list.events())
-            events += fmt::format("{:.0f} {}: {}\n", event.at_s(), event.who(), event.what());
-        browser::ToBrowser status;
-        *status.mutable_wall() = state_.wall;
-        return {.type = "application/x-tar",
-                .body = bundleOf(state_.rigFile,
-                                 {{"events.txt", events}, {"status.json", jsonOf(status)}}),
-                .headers = {{"Content-Disposition", "attachment; filename=\"aquarama.tar\""}}};
-    }
+        return {.type = "text/plain; version=0.0.4", .body = metrics(unixNow())};
+    if (request.target == "/bundle.tar")  // of 0.2.0
+        return {.status = 308, .headers = {{"Location", "/bundle.zip"}}};
+    if (request.target == "/bundle.zip") try {
+            std::string events;
+            const browser::EventList list = state_.events.list();
+            for (const browser::Event& event : list.events())
+                events += fmt::format("{:.0f} {}: {}\n", event.at_s(), event.who(), event.what());
+            browser::ToBrowser status;
+            *status.mutable_wall() = state_.wall;
+            return {.type = "application/zip",
+                    .body = bundleOf(state_.rigFile,
+                                     {{"events.txt", events}, {"status.json", jsonOf(status)}}),
+                    .headers = {{"Content-Disposition", "attachment; filename=\"aquarama.zip\""}}};
+        } catch (const Error& problem) {
+            return refused(500, problem.what());
+        }
     return {.status = 404, .body = "there is no such page\n"};
 }
 

@@ -29,19 +29,30 @@ struct ShowListener {
     std::function<void(const v1::Explanation&)> explained;
 };
 
+// What the console tells the master. From any thread; no function waits.
+class MasterProxy {
+  public:
+    virtual ~MasterProxy() = default;
+    // An order, which its request names in ShowListener::said.
+    virtual void give(v1::Order order) = 0;
+    // How the submarine is steered; only the newest counts.
+    virtual void steer(const Steering& steering) = 0;
+    // Asks what goes on in the mind of a fish; ShowListener::explained has the answer.
+    virtual void explain(std::uint32_t fish) = 0;
+};
+
 // Asks the master for its state, and tells it what is wanted, on a thread of its own.
-class ShowLink {
+class ShowLink final : public MasterProxy {
   public:
     // Throws Error where the master's address or the key cannot be read.
     ShowLink(const ask::AskedMaster& master, ShowListener listener);
-    ~ShowLink();
+    ~ShowLink() override;
     ShowLink(const ShowLink&) = delete;
     ShowLink& operator=(const ShowLink&) = delete;
 
-    // From any thread; none waits.
-    void give(v1::Order order);  // its request names it in what is said
-    void steer(const Steering& steering);
-    void explain(std::uint32_t fish);
+    void give(v1::Order order) override;
+    void steer(const Steering& steering) override;
+    void explain(std::uint32_t fish) override;
 
   private:
     void run();

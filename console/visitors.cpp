@@ -89,14 +89,11 @@ bool Visitors::wantCalibrations() const {
     });
 }
 
-std::optional<std::uint32_t> Visitors::heardFish(const std::string& channel,
-                                                 const v1::FishReply& reply) {
+std::optional<std::uint32_t> Visitors::heardFish(const v1::FishReply& reply) {
     const auto asked = fishAsked_.find(reply.number());
     if (asked == fishAsked_.end()) return std::nullopt;
     browser::ToBrowser message;
     browser::Mind& mind = *message.mutable_mind();
-    mind.set_channel(channel);
-    mind.set_frame(reply.frame());
     mind.set_fish(reply.has_fish() ? static_cast<int>(reply.fish()) : -1);
     sendTo(*asked->second, "mind", message);
     fishAsked_.erase(asked);
@@ -249,7 +246,8 @@ browser::Hours Visitors::hoursFor(const Visitor& visitor) const {
     hours.clear_text();
     if (!hours.problem().empty())
         hours.set_problem("only crew may see where");  // it quotes the text
-    for (browser::ControlledProjector& one : *hours.mutable_projectors()) one.clear_password();
+    for (v1::ControlledProjector& one : *hours.mutable_form()->mutable_projectors())
+        one.clear_password();
     return hours;
 }
 
@@ -299,8 +297,7 @@ void Visitors::heardMind(const v1::Explanation& explanation) {
     browser::ToBrowser message;
     browser::Mind& mind = *message.mutable_mind();
     mind.set_fish(static_cast<int>(explanation.fish()));
-    mind.set_tick(explanation.tick());
-    for (const std::string& line : explanation.lines()) mind.add_lines(line);
+    *mind.mutable_explanation() = explanation;
     for (Visitor* visitor : visitors_)
         if (visitor->wants("mind")) sendTo(*visitor, "mind", message);
 }
@@ -332,14 +329,14 @@ std::uint32_t Visitors::wantedWidth(int channel) const {
 
 // Asked once more after a second without an answer.
 void Visitors::askPictures() {
-    if (hub_ == nullptr) return;
+    if (nodes_ == nullptr) return;
     for (int channel = 0; channel < static_cast<int>(state_.rig.channels.size()); ++channel) {
         PictureState& state = pictures_[channel];
         if (state.ticksToAsk > 0 && --state.ticksToAsk > 0) continue;
         const std::uint32_t width = wantedWidth(channel);
         if (width == 0) continue;
         state = {kTicksASecond, ++number_};
-        hub_->askPicture(
+        nodes_->askPicture(
             state_.rig.channels[static_cast<std::size_t>(channel)].name, number_, width);
     }
 }
@@ -354,7 +351,7 @@ void Visitors::takeLook(Visitor& visitor, const browser::Look& look) {
 
 // The answer comes by heardFish(); of too many questions the oldest is lost.
 void Visitors::askFish(Visitor& visitor, const browser::PointAt& at) {
-    if (hub_ == nullptr || !isPlace(at) || channelIndexOf(at.channel()) < 0) return;
+    if (nodes_ == nullptr || !isPlace(at) || channelIndexOf(at.channel()) < 0) return;
     constexpr std::size_t kMostAsked = 64;
     if (fishAsked_.size() >= kMostAsked) fishAsked_.erase(fishAsked_.begin());
     fishAsked_[++number_] = &visitor;
@@ -363,7 +360,7 @@ void Visitors::askFish(Visitor& visitor, const browser::PointAt& at) {
     request.set_frame(at.frame());
     request.set_x(at.x());
     request.set_y(at.y());
-    hub_->askFish(at.channel(), request);
+    nodes_->askFish(at.channel(), request);
 }
 
 }  // namespace aquarama::console

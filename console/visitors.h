@@ -45,8 +45,8 @@ class Visitors {
     // `state` outlives this.
     explicit Visitors(State& state) : state_{state} {}
 
-    // Where pictures and fish are asked for; null: nowhere.
-    void watch(PictureHub* hub) { hub_ = hub; }
+    // Where pictures and fish are asked for; null: nowhere. `nodes` outlives the visitors.
+    void watch(NodeProxy* nodes) { nodes_ = nodes; }
     // A visitor comes, gets a whole snapshot before all else, and goes.
     void add(Visitor& visitor);
     void remove(Visitor& visitor);
@@ -66,8 +66,7 @@ class Visitors {
 
     // From a node: a picture, and the fish at a place. Returns the fish, whose mind is asked for.
     void heardPicture(const std::string& channel, const v1::FramePicture& picture);
-    [[nodiscard]] std::optional<std::uint32_t> heardFish(const std::string& channel,
-                                                         const v1::FishReply& reply);
+    [[nodiscard]] std::optional<std::uint32_t> heardFish(const v1::FishReply& reply);
     void heardMind(const v1::Explanation& explanation);
 
     // Ten times a second: forgets old looks, asks for pictures.
@@ -107,7 +106,7 @@ class Visitors {
     [[nodiscard]] bool isWatched(const Visitor& visitor, int channel) const;
 
     State& state_;
-    PictureHub* hub_ = nullptr;
+    NodeProxy* nodes_ = nullptr;
     std::set<Visitor*> visitors_;
     std::map<int, PictureState> pictures_;
     std::map<std::uint64_t, Visitor*> fishAsked_;  // by the number of the question

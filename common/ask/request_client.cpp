@@ -56,9 +56,9 @@ void RequestClient::steer(const Steering& steering) {
 }
 
 v1::Envelope RequestClient::ask(const v1::Envelope& question, v1::Envelope::MessageCase reply) {
-    constexpr net::Instant kPatience = std::chrono::seconds(2);
-    constexpr net::Instant kRepeat = std::chrono::milliseconds(50);
-    const net::Instant giveUp = net::monotonicNow() + kPatience;
+    constexpr net::Duration kPatience = std::chrono::seconds(2);
+    constexpr net::Duration kRepeat = std::chrono::milliseconds(50);
+    const net::Moment giveUp = net::monotonicNow() + kPatience;
     preparing_.clear();
     while (net::monotonicNow() < giveUp) {
         channels_->sendControl(wire::encode(0, question));

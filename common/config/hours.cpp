@@ -277,55 +277,75 @@ const OpenSpan* leftOutSpanAt(const Hours& hours, long long now, const ClockChan
     return isLeftOut ? span : nullptr;
 }
 
-}  // namespace
-
-namespace {
-
-// Each of them once.
-void takeExceptions(const TextReader& file, const v1::Hours& in, Hours& hours) {
-    for (const v1::ExceptionDay& day : in.exceptions()) {
-        ExceptionDay exception = exceptionOf(file, day);
-        if (std::ranges::count(hours.exceptions, exception.date, &ExceptionDay::date) > 0)
-            file.refuse(day, "date", "the day is there already: put its spans together");
-        hours.exceptions.push_back(std::move(exception));
+// Carries out `take`, and keeps the mistakes that it refuses.
+template <typename Take>
+void collect(std::vector<FileMistake>& mistakes, const Take& take) {
+    try {
+        take();
+    } catch (const FileError& error) {
+        mistakes.insert(mistakes.end(), error.mistakes.begin(), error.mistakes.end());
     }
+}
+
+// Each day once.
+void takeException(const TextReader& file, const v1::ExceptionDay& day, Hours& hours) {
+    ExceptionDay exception = exceptionOf(file, day);
+    if (std::ranges::count(hours.exceptions, exception.date, &ExceptionDay::date) > 0)
+        file.refuse(day, "date", "the day is there already: put its spans together");
+    hours.exceptions.push_back(std::move(exception));
 }
 
 // Two of one name or address would be switched as one, or each against the other.
-void takeProjectors(const TextReader& file, const v1::Hours& in, Hours& hours) {
-    for (const v1::ControlledProjector& one : in.projectors()) {
-        const ControlledProjector projector = projectorOf(file, one);
-        for (const ControlledProjector& other : hours.projectors) {
-            if (other.name == projector.name)
-                file.refuse(one, "name", "there is a projector of that name already: give another");
-            if (addressOf(other) == addressOf(projector))
-                file.refuse(one,
-                            "address",
-                            "projector " + other.name + " has that address already: remove one");
-        }
-        hours.projectors.push_back(projector);
+void takeProjector(const TextReader& file, const v1::ControlledProjector& one, Hours& hours) {
+    const ControlledProjector projector = projectorOf(file, one);
+    for (const ControlledProjector& other : hours.projectors) {
+        if (other.name == projector.name)
+            file.refuse(one, "name", "there is a projector of that name already: give another");
+        if (addressOf(other) == addressOf(projector))
+            file.refuse(one,
+                        "address",
+                        "projector " + other.name + " has that address already: remove one");
     }
+    hours.projectors.push_back(projector);
 }
 
 }  // namespace
 
-Hours parseHours(const std::string& text, const std::string& source) {
+Hours parseHours(const std::string& text, const std::string& source, v1::Hours* form) {
     v1::Hours in;
     TextReader file(text, source, in);
     file.check();
     Hours hours{in.zone(), {}, {}, {}};
-    if (!isZone(in.zone()))
-        file.refuse(
-            in,
-            "zone",
-            "zone \"" + in.zone() + "\" is none of this machine: write Europe/Berlin or UTC");
-    for (const v1::OpenSpan& span : in.open()) {
-        if (span.days_size() == 0) file.refuse(span, "say on which days: days: [MONDAY, SUNDAY]");
-        hours.open.push_back(spanOf(file, span));
-    }
-    takeExceptions(file, in, hours);
-    takeProjectors(file, in, hours);
+    std::vector<FileMistake> mistakes;
+    collect(mistakes, [&] {
+        if (!isZone(in.zone()))
+            file.refuse(
+                in,
+                "zone",
+                "zone \"" + in.zone() + "\" is none of this machine: write Europe/Berlin or UTC");
+    });
+    for (const auto& span : in.open())
+        collect(mistakes, [&] {
+            if (span.days_size() == 0)
+                file.refuse(span, "days", "say on which days: days: [MONDAY, SUNDAY]");
+            hours.open.push_back(spanOf(file, span));
+        });
+    for (const auto& day : in.exceptions())
+        collect(mistakes, [&] { takeException(file, day, hours); });
+    for (const auto& one : in.projectors())
+        collect(mistakes, [&] { takeProjector(file, one, hours); });
+    if (!mistakes.empty()) throw FileError(source, std::move(mistakes));
+    if (form != nullptr) *form = std::move(in);
     return hours;
+}
+
+std::string textOf(const v1::Hours& form) {
+    google::protobuf::TextFormat::Printer printer;
+    printer.SetUseUtf8StringEscaping(true);
+    printer.SetUseShortRepeatedPrimitives(true);
+    std::string text;
+    printer.PrintToString(form, &text);
+    return text;
 }
 
 // An IPv6 address stands in brackets before its port.

@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+namespace aquarama::v1 {
+class Hours;  // hours.proto
+}
+
 namespace aquarama::config {
 
 // A moment as the clock on the wall of a hall shows it.
@@ -59,9 +63,14 @@ struct WantedHours {
     friend bool operator==(const WantedHours&, const WantedHours&) = default;
 };
 
-// Holds the text to hours.proto: throws Error with file:line:column. `source` is the file's name in
-// errors.
-[[nodiscard]] Hours parseHours(const std::string& text, const std::string& source);
+// Checks the text against hours.proto: throws Error with file:line:column, which for a mistake in a
+// field is a FileError (text_file.h). `source`: the file's name in errors. `form`: gets the message
+// of the text, where it is wanted.
+[[nodiscard]] Hours parseHours(const std::string& text,
+                               const std::string& source,
+                               v1::Hours* form = nullptr);
+// The text of a message, without comments.
+[[nodiscard]] std::string textOf(const v1::Hours& form);
 
 // The clock of a zone at a moment of Unix time. Changes the process's idea of local time: one
 // thread calls it, and what follows. A zone that the system does not know is UTC.

@@ -4,6 +4,10 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include "common/base/log.h"
 
 namespace aquarama::config {
 
@@ -17,6 +21,21 @@ struct SourcePlace {
 [[nodiscard]] std::string placed(const std::string& source,
                                  SourcePlace place,
                                  const std::string& why);
+
+// A mistake in a file.
+struct FileMistake {
+    std::string field;  // its path, as "open.0.from"; empty: the file as a whole
+    SourcePlace place;
+    std::string why;  // what is wrong and what to do
+};
+
+// The mistakes of one file, at least one. Its line is of the first, with the place.
+struct FileError : Error {
+    FileError(const std::string& source, std::vector<FileMistake> mistakesFound)
+        : Error{placed(source, mistakesFound.at(0).place, mistakesFound.at(0).why)},
+          mistakes{std::move(mistakesFound)} {}
+    std::vector<FileMistake> mistakes;  // in the order in which they were found
+};
 
 // The whole file as UTF-8, without a byte order mark and with '\n' at the ends of lines. Throws
 // Error when it is of another encoding, cannot be read or is larger than a master may send to its

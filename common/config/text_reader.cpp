@@ -121,6 +121,15 @@ const pb::FieldDescriptor& fieldNamed(const pb::Message& message, const std::str
     return *field;
 }
 
+std::string lacks(const std::string& part, const std::string& field) {
+    return part + " lacks " + field + ": add it";
+}
+
+// The path of a field of a part, as "open.0.from".
+std::string pathOf(const std::string& part, const std::string& field) {
+    return part.empty() ? field : part + "." + field;
+}
+
 // Errors in the text are its reader's to report.
 class IgnoredErrors : public pb::io::ErrorCollector {
     void AddError(int /*line*/, int /*column*/, const std::string& /*why*/) override {}
@@ -225,10 +234,12 @@ TextReader::TextReader(Message& message, const std::string& text, std::string so
     if (!parser.ParseFromString(text, &message)) throw Error(error.text());
 }
 
-// The pass over a file: notes where each part of the message stands, and refuses the first fault.
+// The pass over a file: notes where each part of the message stands, and its mistakes.
 class TextReader::FilePass : public RulePass {
   public:
     explicit FilePass(TextReader& reader) : reader_{reader} {}
+
+    std::vector<FileMistake> mistakes;
 
   private:
     void fault(const Message& message,
@@ -251,8 +262,10 @@ class TextReader::FilePass : public RulePass {
 void TextReader::check() {
     assert(parts_.empty() && "a file is checked once");
     fillDefaults(*message_);
-    parts_.emplace(message_, Part{&tree_, {1, 1}, "the file"});
-    FilePass(*this).look(*message_);
+    parts_.emplace(message_, Part{&tree_, {1, 1}, "the file", ""});
+    FilePass pass(*this);
+    pass.look(*message_);
+    if (!pass.mistakes.empty()) throw FileError(source_, std::move(pass.mistakes));
 }
 
 void TextReader::fillDefaults(Message& message) {
@@ -278,47 +291,50 @@ void TextReader::FilePass::enter(const Message& message,
                                  const Field& field,
                                  int index,
                                  const Message& inner) {
-    const Tree* tree = reader_.partOf(message).tree;
+    const Part& outer = reader_.partOf(message);
+    const Tree* tree = outer.tree;
     if (tree != nullptr) tree = tree->GetTreeForNested(&field, field.is_repeated() ? index : -1);
+    const std::string path = pathOf(outer.path, field.name());
     reader_.parts_.emplace(&inner,
-                           Part{tree, reader_.placeOf(message, field.name(), index), field.name()});
+                           Part{tree,
+                                reader_.placeOf(message, field.name(), index),
+                                field.name(),
+                                field.is_repeated() ? path + "." + std::to_string(index) : path});
     look(inner);
 }
 
 void TextReader::FilePass::fault(
     const Message& message, const Field& field, const v1::Rule& rule, int index, RuleFault what) {
     const std::string& name = field.name();
+    const std::string& part = reader_.partOf(message).name;
+    std::string why;
     switch (what) {
         case RuleFault::Missing:
-            reader_.require(message, name);
-            return;
+            why = lacks(part, name);
+            break;
         case RuleFault::Count: {
             const int count = message.GetReflection()->FieldSize(message, &field);
             const bool few = rule.has_least() && count < rule.least();
             const std::string had = count == 0 ? " lacks " : " has " + std::to_string(count) + " ";
-            reader_.refuse(message,
-                           name,
-                           reader_.partOf(message).name + had + name + ": give " + countsOf(rule),
-                           few ? 0 : static_cast<int>(rule.most()));
+            why = part + had + name + ": give " + countsOf(rule);
+            index = few ? 0 : static_cast<int>(rule.most());
+            break;
         }
         case RuleFault::Text: {
             const std::string text = textIn(message, field, index);
-            std::string why = text.empty() ? "is empty: fill it in" : faultOfQuoted(text);
-            if (why.empty()) why = "is too long: shorten it";
-            reader_.refuse(message, name, name + " " + why, index);
+            why = text.empty() ? "is empty: fill it in" : faultOfQuoted(text);
+            why = name + " " + (why.empty() ? "is too long: shorten it" : why);
+            break;
         }
         case RuleFault::Choice:
-            reader_.refuse(message,
-                           name,
-                           name + " is " + field.enum_type()->value(0)->name() + ": write " +
-                               choicesOf(*field.enum_type()),
-                           index);
+            why = name + " is " + field.enum_type()->value(0)->name() + ": write " +
+                  choicesOf(*field.enum_type());
+            break;
         case RuleFault::Number:
-            reader_.refuse(message,
-                           name,
-                           name + " is " + shown(numberIn(message, field)) + ": it must be from " +
-                               shown(rule.least()) + " to " + shown(rule.most()));
+            why = name + " is " + shown(numberIn(message, field)) + ": it must be from " +
+                  shown(rule.least()) + " to " + shown(rule.most());
     }
+    mistakes.push_back(reader_.mistakeIn(message, name, why, index));
 }
 
 const TextReader::Part& TextReader::partOf(const Message& message) const {
@@ -341,18 +357,25 @@ SourcePlace TextReader::placeOf(const Message& part, const std::string& name, in
 
 void TextReader::require(const Message& part, const std::string& name) const {
     if (!part.GetReflection()->HasField(part, &fieldNamed(part, name)))
-        refuse(part, partOf(part).name + " lacks " + name + ": add it");
+        refuse(part, name, lacks(partOf(part).name, name));
+}
+
+FileMistake TextReader::mistakeIn(const Message& part,
+                                  const std::string& name,
+                                  const std::string& why,
+                                  int index) const {
+    return {pathOf(partOf(part).path, name), placeOf(part, name, index), why};
 }
 
 void TextReader::refuse(const Message& part, const std::string& why) const {
-    throw Error(placed(source_, placeOf(part), why));
+    throw FileError(source_, {{partOf(part).path, placeOf(part), why}});
 }
 
 void TextReader::refuse(const Message& part,
                         const std::string& name,
                         const std::string& why,
                         int index) const {
-    throw Error(placed(source_, placeOf(part, name, index), why));
+    throw FileError(source_, {mistakeIn(part, name, why, index)});
 }
 
 }  // namespace aquarama::config

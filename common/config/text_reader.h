@@ -17,7 +17,7 @@ namespace aquarama::config {
 
 // First check() the message, then make a struct of it; what no single field can tell is refused
 // meanwhile, by a reference to the part of the message where it is wrong. Every error is an Error
-// "file:line:column: what is wrong: what to do".
+// "file:line:column: what is wrong: what to do"; from check() on it is a FileError with the fields.
 class TextReader {
   public:
     // The name of protobuf's type.
@@ -29,8 +29,8 @@ class TextReader {
     TextReader(const std::string& text, const std::string& source, Message& message);
 
     // Fills in the defaults of what is left out and holds every field to its rule: required fields,
-    // bounds, numbers of entries; no text is empty and no choice unspecified. Once, before all
-    // that follows.
+    // bounds, numbers of entries; no text is empty and no choice unspecified. Throws all mistakes
+    // at once. Once, before all that follows.
     void check();
 
     // `part` is the checked message or one inside it; a field is named as in the schema.
@@ -59,11 +59,17 @@ class TextReader {
         const Tree* tree = nullptr;  // null where a default was filled in
         SourcePlace place;
         std::string name;  // as a reader of the file knows it
+        std::string path;  // "open.0"; empty: the whole file
     };
 
     class FilePass;
     static void fillDefaults(Message& message);
     [[nodiscard]] const Part& partOf(const Message& message) const;
+    // A mistake in a field; of a repeated one, at its entry `index`.
+    [[nodiscard]] FileMistake mistakeIn(const Message& part,
+                                        const std::string& field,
+                                        const std::string& why,
+                                        int index = 0) const;
 
     std::string source_;
     Message* message_;

@@ -14,7 +14,7 @@
 namespace aquarama::net {
 
 Moment monotonicNow() {
-    return std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::steady_clock::now();
 }
 
 bool runInRealTime(bool wanted) {

@@ -15,11 +15,9 @@ namespace aquarama::net {
 
 // A point in time, since the epoch of CLOCK_MONOTONIC of this machine, or of the master's where the
 // name says so.
-using Moment = std::chrono::nanoseconds;
+using Moment = std::chrono::steady_clock::time_point;
 // The time between two moments.
 using Duration = std::chrono::nanoseconds;
-// One of the two, in code that does not tell them apart.
-using Instant = std::chrono::nanoseconds;
 
 // A duration in seconds, for figures.
 [[nodiscard]] inline double secondsIn(Duration duration) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of the calibration: what was measured, the way back to an earlier one, drift, and patterns for the eye.
 import {html, nothing} from '/vendor/lit-html.js';
-import {button, channelsOf, holdButton, language, namesOf, patternChooser, state, t, views, word} from '/widgets.js';
+import {button, channelsOf, holdButton, language, namesOf, patternChooser, patternOf, state, t, views,
+  word} from '/widgets.js';
 
 // "2026-11-24T210301" as people write it, in their own time.
 function dateOf(name) {
@@ -87,6 +88,6 @@ export const calibrationPage = {
       class="note">${t('wall.patternNote')}</p></section>
       ${scanPanel(link, list?.heldScan)}</div>
       <section class="panel seen"><h2>${t('calibration.seen')}</h2>${views(channelsOf(link))}<p
-        class="note">${t('calibration.now', {pattern: word(link.wall.pattern)})}</p></section>`;
+        class="note">${t('calibration.now', {pattern: word(patternOf(link))})}</p></section>`;
   },
 };

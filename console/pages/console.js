@@ -3,7 +3,7 @@
 import {html, nothing, render} from '/vendor/lit-html.js';
 import {Link} from '/link.js';
 import {pages, standing} from '/pages.js';
-import {button, language, languages, loadTexts, showPicture, t, word} from '/widgets.js';
+import {button, language, languages, loadTexts, patternOf, showPicture, t, word} from '/widgets.js';
 
 const link = new Link();
 const root = document.getElementById('root');
@@ -11,16 +11,17 @@ const pageName = () => location.hash.slice(1) in pages ? location.hash.slice(1) 
 
 // What is on, as a shape and a word.
 function headline() {
-  const wall = link.wall;
+  const {wall, shown} = link;
   if (link.isStale) return ['◌', t('head.stale'), 'bad'];
   if (!wall.heard && wall.preparing) return ['◔', t('head.preparing'), 'warn'];
   if (!wall.heard) return ['✖', t('head.noMaster'), 'bad'];
   if (wall.heldUntilS > 0) return ['▲', t('head.held'), 'warn'];
-  if (wall.black && link.known.hours?.present && !link.known.hours.open) return ['○', t('head.closed'), 'quiet'];
-  if (wall.black) return ['■', t('head.black'), 'warn'];
-  if (wall.pattern !== 'world') return ['▦', t('head.pattern', {pattern: word(wall.pattern)}), 'warn'];
-  if (wall.frozen) return ['‖', t('head.frozen'), 'warn'];
-  return ['●', t('head.on', {scene: word(wall.scene)}), 'good'];
+  if (shown.black && link.known.hours?.present && !link.known.hours.open) return ['○', t('head.closed'), 'quiet'];
+  if (shown.black) return ['■', t('head.black'), 'warn'];
+  const pattern = patternOf(link);
+  if (pattern !== 'world') return ['▦', t('head.pattern', {pattern: word(pattern)}), 'warn'];
+  if (shown.frozen) return ['‖', t('head.frozen'), 'warn'];
+  return ['●', t('head.on', {scene: word(shown.scene)}), 'good'];
 }
 
 // One line that is always there: what is wrong, what is waited for, what was done.
@@ -33,7 +34,7 @@ function strip() {
   const last = [...link.commands.values()].at(-1);
   const shown = last && (last.outcome !== 'done' || performance.now() - last.at < 6000);
   const text = !shown ? '' : `${last.text}: ${t(`done.${last.outcome}`)}${last.reason ? ` – ${last.reason}` : ''}`;
-  const change = link.wall.change ? t('strip.change', {change: link.wall.change}) : link.wall.preparing ?? '';
+  const change = link.status.change ? t('strip.change', {change: link.status.change}) : link.wall.preparing ?? '';
   const kind = shown && last.outcome === 'refused' ? 'lost' : text || change ? 'wait' : '';
   return html`<p class="strip ${kind}" role="status">${text || change || t('strip.calm')}</p>`;
 }

@@ -20,6 +20,8 @@ export class Link extends EventTarget {
   get age() { return performance.now() - this.heardAt; }
   get isStale() { return this.age > STALE_MS; }
   get wall() { return this.known.wall ?? {}; }
+  get status() { return this.wall.status ?? {}; }  // StatusReply of aquarama.proto; its 64-bit integers are strings
+  get shown() { return this.status.show ?? {}; }   // Show of aquarama.proto: what the wall shows
   get role() { return this.known.snapshot?.role ?? 'WATCHER'; }
   may(role) {
     const order = ['WATCHER', 'OPERATOR', 'CREW'];
@@ -62,17 +64,9 @@ export class Link extends EventTarget {
       for (const part of ['wall', 'events', 'alerts', 'hours', 'projectors']) this.known[part] = content[part];
     }
     if (topic === 'done') this.#done(content);
-    if (topic === 'mind') this.known.mind = {...this.known.mind, ...this.#mindOf(content)};
-    else this.known[topic] = content;
+    this.known[topic] = content;
     if (topic === 'wall' || topic === 'snapshot') this.dispatchEvent(new Event('wall'));
     this.#tell();
-  }
-
-  // Where the fish was found comes first, what goes on in it later.
-  #mindOf(mind) {
-    return mind.channel ? {channel: mind.channel, frame: mind.frame, fish: mind.fish, lines: mind.fish < 0 ? []
-      : undefined}
-                        : {fish: mind.fish, tick: mind.tick, lines: mind.lines};
   }
 
   #picture(buffer) {

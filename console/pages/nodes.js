@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of the nodes: how each is, and how they were.
 import {html, nothing} from '/vendor/lit-html.js';
-import {Plot, button, channelsOf, filter, holdButton, ms, skewBars, state, t, time, word} from '/widgets.js';
+import {Plot, button, channelsOf, conditionOf, filter, holdButton, ms, skewBars, state, t, time,
+  word} from '/widgets.js';
 
 // --- figures of the last ten minutes and of the last day
 
@@ -61,20 +62,23 @@ function showLog(name) {
   filter.logNode = name;
   location.hash = 'log';
 }
+// The cells of a row. `node`: a NodeStatus, without a report before the node's first. `cause`: one of Wall.causes.
 const columns = {
-  condition: (link, node) =>
-    html`${state(node.condition)}${node.cause ? html`<div class="note">${word(node.cause)}</div>` : nothing}`,
-  picture: (link, node) => html`${ms(node.pictureMedianMs)}<div class="note">99 % ${ms(node.pictureP99Ms)}</div>`,
+  condition: (link, node, cause) =>
+    html`${state(conditionOf(node))}${cause ? html`<div class="note">${word(cause)}</div>` : nothing}`,
+  picture: (link, {report}) =>
+    html`${ms(report?.pictureMedianMs)}<div class="note">99 % ${ms(report?.pictureP99Ms)}</div>`,
   late: (link, node) => node.late,
   dropped: (link, node) => node.dropped,
   fish: (link, node) => Number(node.hashMismatches) ? html`<span class="bad">✖ ${t('nodes.differs')}</span>`
     : html`<span class="good">● ${t('nodes.same')}</span>`,
-  roundTrip: (link, node) => ms(node.roundTripMs, 2),
-  celsius: (link, node) => node.celsius ? `${node.celsius.toFixed(0)} °C` : '–',
-  monitors: (link, node) => (node.monitors ?? []).join(', ') || '–',
-  machine: (link, node) => html`${node.host || '–'}<div class="note"
-    title=${node.renderer}>${node.renderer.split(' (')[0]}</div>`,
-  build: (link, node) => node.otherBuild ? html`<span class="warn">▲ ${node.build}</span>` : node.build || '–',
+  roundTrip: (link, {report}) => ms(report?.roundTripMedianMs, 2),
+  celsius: (link, {report}) => report?.gpuCelsius ? `${report.gpuCelsius.toFixed(0)} °C` : '–',
+  monitors: (link, {report}) => report?.monitors?.join(', ') || '–',
+  machine: (link, {report}) => html`${report?.host || '–'}<div class="note"
+    title=${report?.renderer}>${report?.renderer?.split(' (')[0]}</div>`,
+  build: (link, {report}) => report?.build && report.build !== link.known.snapshot.build
+    ? html`<span class="warn">▲ ${report.build}</span>` : report?.build || '–',
   act: (link, node) => html`<div class="row">
     ${holdButton(t('nodes.restart'), () => link.command({order: {restart: {channel: node.name}}},
         t('nodes.restarting', {name: node.name})),
@@ -83,9 +87,9 @@ const columns = {
 };
 const numbers = ['picture', 'late', 'dropped', 'roundTrip', 'celsius'];
 const kind = name => numbers.includes(name) ? 'n' : '';
-const nodeRow = link => node => html`<tr><th scope="row">${node.name}</th>
+const nodeRow = link => (node, i) => html`<tr><th scope="row">${node.name}</th>
   ${Object.entries(columns).map(([name, cell]) => html`<td class=${kind(name)}
-    data-head=${t(`nodes.${name}`)}>${cell(link, node)}</td>`)}</tr>`;
+    data-head=${t(`nodes.${name}`)}>${cell(link, node, link.wall.causes?.[i])}</td>`)}</tr>`;
 
 const power = (link, word) => holdButton(t(`nodes.${word}`), () => link.command({power: word}, t(`nodes.${word}`)),
                                          {disabled: !link.may('CREW') || !link.known.snapshot.hasPower, of: word});
@@ -98,8 +102,8 @@ function machinesOf(link) {
 }
 // Told through any of its nodes that is there.
 function machine(link, [name, channels]) {
-  const told = (link.wall.nodes ?? []).find(node => channels.includes(node.name) && node.takesPower
-    && node.condition !== 'absent');
+  const told = (link.status.nodes ?? []).find(node => channels.includes(node.name) && node.report?.takesPowerWord
+    && node.condition !== 'NODE_ABSENT');
   const act = word => {
     const label = t(`nodes.${word}Of`, {name});
     return holdButton(label, () => link.command({order: {power: {channel: told.name,
@@ -117,7 +121,7 @@ function service(link) {
     <div class="row">${held ? button(t('hours.goOn'), () => link.command({holdHours: 0}, t('hours.goOn')),
     {disabled: !link.may('OPERATOR')})
       : button(t('hours.hold'), () => link.command({holdHours: 2}, t('hours.hold')), {disabled: !link.may('OPERATOR')})}
-      <a class="button" href="/bundle.tar" download>${t('log.bundle')}</a></div>
+      <a class="button" href="/bundle.zip" download>${t('log.bundle')}</a></div>
     <p class="note">${t('nodes.serviceNote')}</p>
     <div class="row">${power(link, 'reboot')}${power(link, 'poweroff')}</div>
     <p class="note">${t(link.known.snapshot.hasPower ? 'nodes.powerNote' : 'nodes.noPower')}</p>
@@ -132,9 +136,9 @@ export const nodesPage = {
       aria-label=${t('page.nodes')}><table class="cards"><caption>${t('page.nodes')}</caption>
       <thead><tr><th scope="col">${t('nodes.node')}</th>${Object.keys(columns).map(name => html`<th scope="col"
       class=${kind(name)}>${t(`nodes.${name}`)}</th>`)}</tr></thead>
-      <tbody>${(link.wall.nodes ?? []).map(nodeRow(link))}</tbody></table></div></section>
+      <tbody>${(link.status.nodes ?? []).map(nodeRow(link))}</tbody></table></div></section>
       <div class="panels"><section
-        class="panel"><h2>${t('skew.title')}</h2>${skewBars(link.wall.skewCounts)}</section>${service(link)}</div>
+        class="panel"><h2>${t('skew.title')}</h2>${skewBars(link.status.skewCounts)}</section>${service(link)}</div>
       <div class="panels plots">${plots.map(([plot], i) => html`<section class="panel"><h2>${t(['nodes.tenMinutes',
       'nodes.tenMinutesSkew', 'nodes.day', 'nodes.daySkew'][i])}</h2>${plot.element}
         ${plot.isEmpty ? html`<p class="note">${t('nodes.noFigures')}</p>` : nothing}</section>`)}</div>`;

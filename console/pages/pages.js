@@ -4,15 +4,15 @@ import {html, nothing, svg} from '/vendor/lit-html.js';
 import {calibrationPage} from '/calibration.js';
 import {nodesPage} from '/nodes.js';
 import {schedulePage} from '/schedule.js';
-import {QUALITIES, button, channelsOf, chooser, dateTime, filter, holdButton, ms, namesOf, patternChooser, state, t,
-  time, views, wholeWall, word} from '/widgets.js';
+import {QUALITIES, button, channelsOf, chooser, conditionOf, dateTime, filter, holdButton, ms, namesOf,
+  patternChooser, patternOf, qualityOf, state, t, time, views, wholeWall, word} from '/widgets.js';
 
 // --- the wall
 
 // Black is held; the way back is one tap, in the same place.
 function light(link) {
   const disabled = !link.may('OPERATOR');
-  const {black, frozen} = link.wall;
+  const {black, frozen} = link.shown;
   const undo = () => link.show({black: false}, t('wall.light'));
   return html`<section class="panel" aria-labelledby="light"><h2 id="light">${t('wall.lightTitle')}</h2>
     <div class="row">${black
@@ -21,7 +21,8 @@ function light(link) {
     ${button(t(frozen ? 'wall.move' : 'wall.freeze'), () => link.show({freeze: !frozen},
       t(frozen ? 'wall.move' : 'wall.freeze')),
              {disabled, pressed: frozen ? 'true' : 'false'})}</div>
-    <p class="note">${t(black ? 'wall.isBlack' : 'wall.isLit', {percent: link.wall.brightnessPercent})}</p></section>`;
+    <p class="note">${t(black ? 'wall.isBlack' : 'wall.isLit',
+      {percent: Math.round((link.shown.brightness ?? 0) * 100 / 255)})}</p></section>`;
 }
 
 // --- the helm
@@ -63,22 +64,25 @@ function pad(link) {
 function helmPanel(link) {
   const toggle = () => { helm.taken = !helm.taken; letGo(link); link.dispatchEvent(new Event('change')); };
   return html`<section class="panel" aria-labelledby="helm"><h2 id="helm">${t('helm.title')}</h2>
-    <p>${link.wall.pilot ? t('helm.pilot', {pilot: link.wall.pilot}) : t('helm.nobody')} ·
-       ${t('helm.place', {depth: (link.wall.depthM ?? 0).toFixed(1), speed: (link.wall.speedMS ?? 0).toFixed(1)})}</p>
+    <p>${link.shown.pilot ? t('helm.pilot', {pilot: link.shown.pilot}) : t('helm.nobody')} ·
+       ${t('helm.place', {depth: (-(link.status.eye?.[1] ?? 0)).toFixed(1),
+         speed: (link.status.speedMS ?? 0).toFixed(1)})}</p>
     <div class="row">${button(t(helm.taken ? 'helm.leave' : 'helm.take'), toggle, {disabled: !link.may('OPERATOR'),
       pressed: String(helm.taken)})}</div>
     ${helm.taken ? pad(link) : nothing}</section>`;
 }
 
-function figures(wall) {
+function figures(link) {
+  const {status, shown} = link;
   return html`<section class="panel figures" aria-labelledby="figures"><h2 id="figures">${t('wall.now')}</h2><dl>
-    <dt>${t('wall.scene')}</dt><dd>${word(wall.scene)}</dd><dt>${t('wall.quality')}</dt><dd>${word(wall.quality)}</dd>
-    <dt>${t('wall.pattern')}</dt><dd>${word(wall.pattern)}</dd>
-    <dt>${t('wall.frame')}</dt><dd>${wall.frame} · ${t('wall.tick')} ${wall.tick}</dd>
-    <dt>${t('wall.frameTime')}</dt><dd>${ms(wall.frameMedianMs)} · 99 % ${ms(wall.frameP99Ms)}</dd>
-    <dt>${t('wall.skew')}</dt><dd>${ms(wall.skewMedianMs, 2)} · 99 % ${ms(wall.skewP99Ms, 2)}</dd>
-    <dt>${t('wall.nodes')}</dt><dd>${(wall.nodes ?? []).map(node => html`<span
-      class="whole-word">${node.name} ${state(node.condition)}</span> `)}</dd></dl></section>`;
+    <dt>${t('wall.scene')}</dt><dd>${word(shown.scene)}</dd>
+    <dt>${t('wall.quality')}</dt><dd>${word(qualityOf(link))}</dd>
+    <dt>${t('wall.pattern')}</dt><dd>${word(patternOf(link))}</dd>
+    <dt>${t('wall.frame')}</dt><dd>${status.frame} · ${t('wall.tick')} ${status.tick}</dd>
+    <dt>${t('wall.frameTime')}</dt><dd>${ms(status.frameMedianMs)} · 99 % ${ms(status.frameP99Ms)}</dd>
+    <dt>${t('wall.skew')}</dt><dd>${ms(status.skewMedianMs, 2)} · 99 % ${ms(status.skewP99Ms, 2)}</dd>
+    <dt>${t('wall.nodes')}</dt><dd>${(status.nodes ?? []).map(node => html`<span
+      class="whole-word">${node.name} ${state(conditionOf(node))}</span> `)}</dd></dl></section>`;
 }
 
 const wallPage = {
@@ -88,13 +92,13 @@ const wallPage = {
       <p class="note">${t('preview.note')}</p></div>
     <div class="controls">${light(link)}
       <section class="panel" aria-labelledby="shown"><h2 id="shown">${t('wall.shown')}</h2><div class="choosers">
-        ${chooser(link, 'scene', link.known.snapshot.scenes, link.wall.scene, value => link.show({scene: value},
+        ${chooser(link, 'scene', link.known.snapshot.scenes, link.shown.scene, value => link.show({scene: value},
           `${t('wall.scene')}: ${word(value)}`))}
-        ${chooser(link, 'quality', QUALITIES, link.wall.quality, value => link.show({quality: value.toUpperCase()},
+        ${chooser(link, 'quality', QUALITIES, qualityOf(link), value => link.show({quality: value.toUpperCase()},
         `${t('wall.quality')}: ${word(value)}`))}
         ${patternChooser(link)}
         </div><p class="note">${t('wall.patternNote')}</p></section>
-      ${helmPanel(link)}</div>${figures(link.wall)}</div>`,
+      ${helmPanel(link)}</div>${figures(link)}</div>`,
 };
 
 // --- doctor
@@ -159,7 +163,7 @@ const logPage = {
       .value=${filter.logText} @input=${event => change('logText', event.target.value)}>
       ${button(t('log.problems'), () => change('logProblemsOnly', !filter.logProblemsOnly),
       {pressed: String(filter.logProblemsOnly)})}
-      <a class="button" href="/bundle.tar" download>${t('log.bundle')}</a></div>
+      <a class="button" href="/bundle.zip" download>${t('log.bundle')}</a></div>
       ${log.problem ? html`<p class="warn">${log.problem}</p>` : nothing}
       <div class="scroll" tabindex="0" role="region" aria-label=${t('page.log')}><table
         class="log"><thead><tr>${['time', 'node', 'severity', 'frame',
@@ -171,53 +175,39 @@ const logPage = {
   },
 };
 
-// --- mind, drawn from the lines that aquarama explain prints
+// --- mind: the values of an Explanation (aquarama.proto) are drawn, its lines are shown below
 
-const SECTORS = {ahead: 0, 'ahead right': 45, right: 90, 'behind right': 135, behind: 180, 'behind left': 225,
-  left: 270, 'ahead left': 315};
-const SEEN = {predator: '▲', food: '•', mate: '♥', prey: '◆'};
-// What it sees and where: [{kind, what, distance in body lengths, degrees to the right of its heading}].
-export function sightingsIn(lines) {
-  const found = [];
-  for (const kind of Object.keys(SEEN)) {
-    const line = lines.find(one => new RegExp(`\\b${kind}\\s`).test(one.slice(9)));
-    const sectors = Object.keys(SECTORS).sort((one, other) => other.length - one.length).join('|');
-    const match = line?.slice(9).match(new RegExp(`${kind} +([^ -].*?), ([\\d.]+) L (${sectors})`));
-    if (match) found.push({kind, what: match[1], distance: Number(match[2]), degrees: SECTORS[match[3]]});
-  }
-  return found;
-}
-function compass(lines) {
+const SEEN = {PREDATOR: '▲', FOOD: '•', MATE: '♥', PREY: '◆'};
+// What the fish sees and where, its nose up.
+function compass(seen) {
   const place = one => {
-    const reach = 90 * Math.min(1, Math.log1p(one.distance) / Math.log1p(60)), turn = one.degrees * Math.PI / 180;
+    const reach = 90 * Math.min(1, Math.log1p(one.distanceLengths) / Math.log1p(60));
+    const turn = one.degreesRight * Math.PI / 180;
     return [100 + reach * Math.sin(turn), 100 - reach * Math.cos(turn)];
   };
-  const seen = sightingsIn(lines);
-  const text = seen.map(one => `${t(`mind.${one.kind}`)}: ${one.what}, ${one.distance} L`).join('; ')
-    || t('mind.seesNothing');
+  const text = seen.map(one => `${t(`mind.sees.${one.kind}`)}: ${one.name}, ${one.distanceLengths.toFixed(1)} L`)
+    .join('; ') || t('mind.seesNothing');
   const mark = one => { const [x, y] = place(one);
     return svg`<text x=${x} y=${y + 5} text-anchor="middle">${SEEN[one.kind]}</text><text class="small" x=${x}
-      y=${y + 18} text-anchor="middle">${t(`mind.${one.kind}`)}</text>`; };
+      y=${y + 18} text-anchor="middle">${t(`mind.sees.${one.kind}`)}</text>`; };
   return html`<svg class="compass" viewBox="-30 0 260 205" role="img" aria-label=${text}><circle cx="100" cy="100"
   r="90"></circle><circle cx="100" cy="100" r="45"></circle>
     <path d="M100 84 L106 112 L100 107 L94 112 Z"></path>${seen.map(mark)}</svg>`;
 }
-const feeling = (lines, name) =>
-  Number(lines.find(line => new RegExp(`${name}\\s+\\[`).test(line))?.match(/\]\s+([\d.]+)/)?.[1] ?? 0);
-function drawnMind(lines) {
-  const intends = lines.find(line => line.startsWith('INTENDS'))?.slice(9) ?? '';
-  return html`<div class="drawn"><div>${compass(lines)}<p class="note">${t('mind.compass')}</p></div>
+function drawnMind(mind) {
+  const intends = mind.intention && t('mind.aim', {what: `${t(`mind.intends.${mind.intention}`)} ${mind.target}`.trim(),
+    seconds: mind.pursuedS.toFixed(1)});
+  return html`<div class="drawn"><div>${compass(mind.seen ?? [])}<p class="note">${t('mind.compass')}</p></div>
     <div><p class="intends">${intends || t('mind.away')}</p>${['hunger', 'libido',
       'fear'].map(name => html`<p class="row"><span class="name" id=${`feels-${name}`}>${t(`mind.${name}`)}</span>
       <meter aria-labelledby=${`feels-${name}`} min="0" max="1"
-      value=${feeling(lines, name)}></meter> ${Math.round(100 * feeling(lines, name))} %</p>`)}</div></div>`;
+      value=${mind[name] ?? 0}></meter> ${Math.round(100 * (mind[name] ?? 0))} %</p>`)}</div></div>`;
 }
-
 
 const mindPage = {
   look: link => ({topics: ['mind', 'panorama'], channels: namesOf(link), widthPx: 480}),
   view: link => {
-    const mind = link.known.mind;
+    const mind = link.known.mind, explained = mind?.explanation;
     const point = (channel, {frame, x, y}) => link.command({pointAt: {channel: channel.name, frame, x, y}},
       t('mind.asking'));
     const ask = event => { event.preventDefault(); link.command({mind: Number(event.target.fish.value)},
@@ -227,8 +217,8 @@ const mindPage = {
       <form class="row" @submit=${ask}><label for="fish">${t('mind.number')}</label><input id="fish" name="fish"
         type="number" min="0" max="99999" value="0">
         <button ?disabled=${!link.may('WATCHER')}>${t('mind.ask')}</button></form>
-      <div role="status">${!mind ? t('mind.none') : mind.fish < 0 ? t('mind.noFish') : html`${mind.lines?.length
-        ? drawnMind(mind.lines) : nothing}<pre>${(mind.lines ?? []).join('\n')}</pre>`}</div></section></div>`;
+      <div role="status">${!mind ? t('mind.none') : mind.fish < 0 ? t('mind.noFish') : html`${explained?.lines?.length
+        ? drawnMind(explained) : nothing}<pre>${(explained?.lines ?? []).join('\n')}</pre>`}</div></section></div>`;
   },
 };
 

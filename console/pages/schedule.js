@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of the schedule: hours as a form. What is saved is the text of it, which the console holds to its schema;
-// what is wrong stands beside the field that it is wrong in.
+// The page of the schedule: hours as a form. The form is an aquarama.v1.Hours (hours.proto), which the console checks.
+// Each mistake is shown beside its field.
 import {html, nothing, svg} from '/vendor/lit-html.js';
 import {QUALITIES, button, holdButton, language, t, time, word} from '/widgets.js';
 
@@ -8,114 +8,76 @@ const DAYS = ['MONDAY', 'TUESDAY', 'WEDNESDAY', 'THURSDAY', 'FRIDAY', 'SATURDAY'
 const dayName = (number, style) => new Date(Date.UTC(2024, 0, number)).toLocaleDateString(language(),
   {weekday: style, timeZone: 'UTC'});  // 2024 began with a Monday
 
-// --- the text of a form
-
-const quoted = text => `"${String(text).replace(/[\\"]/g, '\\$&').replace(/[\u0000-\u001f]/g, ' ')}"`;
-// And where each field begins in it: [{line, column, field}], both from 1, in the order of the text.
-export function textOf(form) {
-  const places = [];
-  let line = '', lines = [];
-  const at = (field, piece) => { places.push({line: lines.length + 1, column: line.length + 1, field});
-    line += piece; };
-  const end = () => { lines.push(line); line = ''; };
-  const put = (prefix, object, names) => {
-    for (const name of names) if (object[name]) at(`${prefix}.${name}`, ` ${name}: ${quoted(object[name])}`);
-  };
-  // Times stand there even when they are empty: that is a mistake, and is said where it is.
-  const span = (prefix, one) => {
-    for (const name of ['from', 'to']) at(`${prefix}.${name}`, ` ${name}: ${quoted(one[name])}`);
-    put(prefix, one, ['scene', 'quality']);
-  };
-  at('zone', `zone: ${quoted(form.zone)}`);
-  end();
-  form.spans.forEach((one, i) => {
-    at(`spans.${i}.weekdays`, 'open {');
-    at(`spans.${i}.weekdays`, ` days: [${one.weekdays.map(day => DAYS[day - 1]).join(', ')}]`);
-    span(`spans.${i}`, one);
-    line += ' }';
-    end();
-  });
-  form.exceptions.forEach((day, i) => {
-    at(`exceptions.${i}.date`, 'exceptions {');
-    at(`exceptions.${i}.date`, ` date: ${quoted(day.date)}`);
-    day.spans.forEach((one, j) => {
-      at(`exceptions.${i}.spans.${j}.from`, ' open {');
-      span(`exceptions.${i}.spans.${j}`, one);
-      line += ' }';
-    });
-    line += ' }';
-    end();
-  });
-  form.projectors.forEach((one, i) => {
-    at(`projectors.${i}.name`, 'projectors {');
-    for (const name of ['name', 'address']) at(`projectors.${i}.${name}`, ` ${name}: ${quoted(one[name])}`);
-    put(`projectors.${i}`, one, ['password', 'input']);
-    line += ' }';
-    end();
-  });
-  return {text: `${lines.join('\n')}\n`, places};
-}
-// Of "hours.txtpb:3:25: what is wrong": the field, and what is wrong in it.
-export function mistakeIn(reason, places) {
-  const found = reason.match(/^hours\.txtpb:(\d+):(\d+): (.*)$/s);
-  if (!found) return {field: '', what: reason};
-  const [line, column] = [Number(found[1]), Number(found[2])];
-  const before = places.filter(place => place.line === line && place.column <= column);
-  return {field: (before.at(-1) ?? places.filter(place => place.line <= line).at(-1))?.field ?? '', what: found[3]};
-}
-
 // --- what is being written
 
 let form = null;       // null: as it is kept
-let sent = null;       // {id, places} of the last that was saved
+let sent = null;       // the number of the command that saves it
 let textDraft = null;  // of the text
-const formOf = hours => ({zone: hours.zone || Intl.DateTimeFormat().resolvedOptions().timeZone,
-  spans: structuredClone(hours.spans ?? []),
-                          exceptions: structuredClone(hours.exceptions ?? []),
-                          projectors: structuredClone(hours.projectors ?? [])});
+const formOf = ({form: kept = {}}) => ({zone: kept.zone || Intl.DateTimeFormat().resolvedOptions().timeZone,
+  open: structuredClone(kept.open ?? []), exceptions: structuredClone(kept.exceptions ?? []),
+  projectors: structuredClone(kept.projectors ?? [])});
 const redraw = link => link.dispatchEvent(new Event('change'));
 function edit(link, change) {
   form ??= formOf(link.known.hours ?? {});
   change(form);
   redraw(link);
 }
-const freshSpan = () => ({weekdays: [2, 3, 4, 5], from: '10:00', to: '18:00', scene: '', quality: ''});
+const freshSpan = () => ({from: '10:00', to: '18:00'});
+const freshWeekSpan = () => ({days: ['TUESDAY', 'WEDNESDAY', 'THURSDAY', 'FRIDAY'], ...freshSpan()});
 function save(link) {
-  const {text, places} = textOf(form ?? formOf(link.known.hours ?? {}));
-  sent = {id: link.command({hoursText: text}, t('hours.save')), places};
+  sent = link.command({hours: form ?? formOf(link.known.hours ?? {})}, t('hours.save'));
 }
-function mistake(link) {
-  const command = sent && link.commands.get(sent.id);
+// What is wrong, by the path of the field; by an empty path what is of no field.
+function mistakes(link) {
+  const command = link.commands.get(sent);
   if (command?.outcome === 'done') { form = null; sent = null; }
-  return command?.outcome === 'refused' ? mistakeIn(command.reason, sent.places) : null;
+  if (command?.outcome !== 'refused') return new Map();
+  const told = link.known.mistakes;
+  return new Map(told?.request === sent ? told.mistakes.map(({field, what}) => [field, what])
+    : [['', command.reason]]);
 }
 
 // --- fields
 
-// A field with its name above and what is wrong with it below. `wrong`: of mistake().
+// What is wrong in a field, taken out of mistakes(): what stays is shown below the form.
+function take(wrong, path) {
+  const what = wrong.get(path);
+  wrong.delete(path);
+  return what;
+}
+// A field with its name above and what is wrong with it below. `wrong`: of mistakes().
 function field(name, label, wrong, input) {
-  const isWrong = wrong?.field === name;
+  const what = take(wrong, name);
+  const isWrong = what !== undefined;
   const id = `h-${name.replaceAll('.', '-')}`;
   return html`<span class="field"><label for=${id}>${label}</label>${input({id, invalid: isWrong ? 'true' : nothing,
     about: isWrong ? `${id}-wrong` : nothing})}
-    ${isWrong ? html`<span class="bad" role="alert" id=${`${id}-wrong`}>✖ ${wrong.what}</span>` : nothing}</span>`;
+    ${isWrong ? html`<span class="bad" role="alert" id=${`${id}-wrong`}>✖ ${what}</span>` : nothing}</span>`;
 }
+const OPTIONAL = ['scene', 'quality', 'password', 'input'];  // left out while empty
+function put(object, name, value) {
+  if (value === '' && OPTIONAL.includes(name)) delete object[name];
+  else object[name] = value;
+}
+// "9:30" and "24:00" as an input of the type `time` takes them.
+const clock = text => text === '24:00' ? '00:00' : text.split(':').map(part => part.padStart(2, '0')).join(':');
 function write(link, wrong, object, name, path, label, type = 'text') {
+  const value = object[name] ?? '';
   return field(path, label, wrong, ({id, invalid, about}) => html`<input id=${id} type=${type}
-    .value=${object[name] ?? ''} ?disabled=${!link.may('CREW')}
+    .value=${type === 'time' && value ? clock(value) : value} ?disabled=${!link.may('CREW')}
     aria-invalid=${invalid} aria-describedby=${about} autocomplete="off"
-    @change=${event => edit(link, now => { at(now, path)[name] = event.target.value; })}>`);
+    @change=${event => edit(link, now => put(at(now, path), name, event.target.value))}>`);
 }
 function choose(link, wrong, object, name, path, label, values) {
   const known = values.includes(object[name]) || !object[name] ? values : [...values, object[name]];
   return field(path, label, wrong, ({id, invalid, about}) => html`<select id=${id} ?disabled=${!link.may('CREW')}
     aria-invalid=${invalid} aria-describedby=${about}
-    @change=${event => edit(link, now => { at(now, path)[name] = event.target.value; })}>
+    @change=${event => edit(link, now => put(at(now, path), name, event.target.value))}>
     <option value="" ?selected=${!object[name]}>${t('hours.asItWas')}</option>
     ${known.map(value => html`<option value=${value}
       ?selected=${value === object[name]}>${word(value)}</option>`)}</select>`);
 }
-// The part of a form that a path such as spans.0.from is in.
+// The part of a form that a path such as open.0.from is in.
 const at = (form, path) => path.split('.').slice(0, -1).reduce((part, name) => part[name], form);
 
 function spanFields(link, wrong, one, path) {
@@ -126,16 +88,15 @@ function spanFields(link, wrong, one, path) {
 }
 function days(link, wrong, one, path) {
   const toggle = day => edit(link, now => {
-    const span = at(now, `${path}.weekdays`);
-    span.weekdays = span.weekdays.includes(day) ? span.weekdays.filter(other => other !== day) : [...span.weekdays,
-      day].sort();
+    const span = at(now, `${path}.days`);
+    span.days = DAYS.filter(other => (other === day) !== span.days.includes(other));
   });
-  const isWrong = wrong?.field === `${path}.weekdays`;
+  const what = take(wrong, `${path}.days`);
   return html`<span class="field"><span class="label">${t('hours.days')}</span><span class="days" role="group"
-    aria-label=${t('hours.days')}>${DAYS.map((_, i) => html`<button type="button"
-    aria-pressed=${String(one.weekdays.includes(i + 1))} aria-label=${dayName(i + 1, 'long')}
-    ?disabled=${!link.may('CREW')} @click=${() => toggle(i + 1)}>${dayName(i + 1, 'short')}</button>`)}</span>
-    ${isWrong ? html`<span class="bad" role="alert">✖ ${wrong.what}</span>` : nothing}</span>`;
+    aria-label=${t('hours.days')}>${DAYS.map((day, i) => html`<button type="button"
+    aria-pressed=${String(one.days.includes(day))} aria-label=${dayName(i + 1, 'long')}
+    ?disabled=${!link.may('CREW')} @click=${() => toggle(day)}>${dayName(i + 1, 'short')}</button>`)}</span>
+    ${what ? html`<span class="bad" role="alert">✖ ${what}</span>` : nothing}</span>`;
 }
 const remove = (link, path, what) => button(t(what === 'exception' ? 'hours.removeDay' : 'hours.remove'),
   () => edit(link, now => { at(now, path).splice(Number(path.split('.').at(-1)), 1); }),
@@ -146,13 +107,14 @@ const add = (link, label, change) => button(label, () => edit(link, change), {di
 function week(hours) {
   const minute = text => { const [h, m] = (text || '0:0').split(':').map(Number); return 60 * h + m; };
   const bars = [];
-  for (const span of hours.spans) for (const day of span.weekdays) {
+  for (const span of hours.open) for (const name of span.days) {
+    const day = DAYS.indexOf(name);
     const from = minute(span.from), to = minute(span.to) > from ? minute(span.to) : minute(span.to) + 1440;
-    bars.push([day - 1, from, Math.min(to, 1440)]);
-    if (to > 1440) bars.push([day % 7, 0, to - 1440]);
+    bars.push([day, from, Math.min(to, 1440)]);
+    if (to > 1440) bars.push([(day + 1) % 7, 0, to - 1440]);
   }
-  const said = hours.spans.map(span =>
-    `${span.weekdays.map(day => dayName(day, 'long')).join(', ')}: ${span.from} – ${span.to}`).join('; ');
+  const said = hours.open.map(span =>
+    `${span.days.map(day => dayName(DAYS.indexOf(day) + 1, 'long')).join(', ')}: ${span.from} – ${span.to}`).join('; ');
   const x = minutes => 40 + minutes / 1440 * 560;
   return html`<svg class="week" viewBox="0 0 610 150" role="img" aria-label=${said || t('hours.alwaysClosed')}>
     ${[0, 6, 12, 18, 24].map(hour => svg`<line x1=${x(60 * hour)} x2=${x(60 * hour)} y1="4" y2="132"></line><text
@@ -163,23 +125,23 @@ function week(hours) {
 }
 
 function hoursForm(link) {
-  const wrong = mistake(link);
+  const wrong = mistakes(link);
   const now = form ?? formOf(link.known.hours ?? {});
   const isCrew = link.may('CREW');
   const hasComments = /^\s*#|[^"]#/m.test(link.known.hours?.text ?? '');
   return html`<section class="panel hours" aria-labelledby="week"><h2 id="week">${t('hours.week')}</h2>${week(now)}
-    <ol class="spans">${now.spans.map((one, i) => html`<li>${days(link, wrong, one, `spans.${i}`)}${spanFields(link,
-      wrong, one, `spans.${i}`)}${remove(link, `spans.${i}`, 'span')}</li>`)}</ol>
-    <div class="row">${add(link, t('hours.addSpan'), form => form.spans.push(freshSpan()))}</div>
+    <ol class="spans">${now.open.map((one, i) => html`<li>${days(link, wrong, one, `open.${i}`)}${spanFields(link,
+      wrong, one, `open.${i}`)}${remove(link, `open.${i}`, 'span')}</li>`)}</ol>
+    <div class="row">${add(link, t('hours.addSpan'), form => form.open.push(freshWeekSpan()))}</div>
     <h2>${t('hours.exceptions')}</h2>
     <ol class="spans">${now.exceptions.map((day, i) =>
       html`<li>${write(link, wrong, day, 'date', `exceptions.${i}.date`, t('hours.date'), 'date')}
-      ${day.spans.length ? nothing : html`<span class="note">${t('hours.closedAllDay')}</span>`}
-      ${day.spans.map((one, j) => html`<span class="inner">${spanFields(link, wrong, one,
-        `exceptions.${i}.spans.${j}`)}${remove(link, `exceptions.${i}.spans.${j}`, 'span of a day')}</span>`)}
-      ${add(link, t('hours.addSpanOfDay'), form => form.exceptions[i].spans.push(freshSpan()))}${remove(link,
+      ${day.open.length ? nothing : html`<span class="note">${t('hours.closedAllDay')}</span>`}
+      ${day.open.map((one, j) => html`<span class="inner">${spanFields(link, wrong, one,
+        `exceptions.${i}.open.${j}`)}${remove(link, `exceptions.${i}.open.${j}`, 'span of a day')}</span>`)}
+      ${add(link, t('hours.addSpanOfDay'), form => form.exceptions[i].open.push(freshSpan()))}${remove(link,
       `exceptions.${i}`, 'exception')}</li>`)}</ol>
-    <div class="row">${add(link, t('hours.addException'), form => form.exceptions.push({date: '', spans: []}))}</div>
+    <div class="row">${add(link, t('hours.addException'), form => form.exceptions.push({date: '', open: []}))}</div>
     <h2>${t('projector.title')}</h2><p class="note">${t('hours.projectorNote')}</p>
     <ol class="spans">${now.projectors.map((one, i) =>
       html`<li>${write(link, wrong, one, 'name', `projectors.${i}.name`, t('projector.name'))}
@@ -188,9 +150,9 @@ function hoursForm(link) {
       ${isCrew ? write(link, wrong, one, 'password', `projectors.${i}.password`, t('projector.password'))
         : nothing}${remove(link, `projectors.${i}`, 'projector')}</li>`)}</ol>
     <div class="row">${add(link, t('hours.addProjector'),
-    form => form.projectors.push({name: '', address: '', password: '', input: ''}))}</div>
+    form => form.projectors.push({name: '', address: ''}))}</div>
     <h2>${t('hours.clock')}</h2>${write(link, wrong, now, 'zone', 'zone', t('hours.zone'))}
-    ${wrong && !wrong.field ? html`<p class="bad" role="alert">✖ ${wrong.what}</p>` : nothing}
+    ${[...wrong.values()].map(what => html`<p class="bad" role="alert">✖ ${what}</p>`)}
     <div class="row save"><button class="primary" ?disabled=${!isCrew || (form === null && link.known.hours?.present)}
       @click=${() => save(link)}>${t('hours.save')}</button>
       ${button(t('hours.discard'), () => { form = null; sent = null; redraw(link); }, {disabled: form === null})}
@@ -225,7 +187,7 @@ function standing(link) {
       ? html`<strong class="warn">▲ ${t('hours.held', {time: time(link.wall.heldUntilS)})}</strong>`
       : hours.problem ? html`<strong class="bad">✖ ${t('hours.unreadable')}</strong> ${hours.problem}`
       : hours.present ? html`<strong class=${hours.open ? 'good' : 'quiet'}>${hours.open ? '●'
-        : '○'} ${t(hours.open ? 'hours.isOpen' : link.wall.black ? 'hours.isClosed' : 'hours.isLitByHand')}</strong> ${
+        : '○'} ${t(hours.open ? 'hours.isOpen' : link.shown.black ? 'hours.isClosed' : 'hours.isLitByHand')}</strong> ${
           next}` : t('hours.none')}</p>
     <div class="row">${held ? button(t('hours.goOn'), () => link.command({holdHours: 0}, t('hours.goOn')),
     {disabled: !link.may('OPERATOR')})

@@ -53,6 +53,11 @@ export const button = (label, act, {disabled = false, pressed, of = nothing} = {
 
 export const QUALITIES = ['low', 'medium', 'high', 'ultra', 'auto'];
 export const PATTERNS = ['world', 'grid', 'grey'];
+// The quality and the pattern that the wall shows, as in the lists above; undefined before a master was heard.
+export const qualityOf = link => QUALITIES[link.shown.quality];
+export const patternOf = link => link.shown.pattern?.replace('PATTERN_', '').toLowerCase();
+// The condition of a NodeStatus, as in SHAPES: NODE_IN_STEP is "in step".
+export const conditionOf = node => node.condition.replace('NODE_', '').toLowerCase().replace('_', ' ');
 export const channelsOf = link => link.known.snapshot?.channels ?? [];
 export const namesOf = link => channelsOf(link).map(channel => channel.name);
 // What the page of the log shows; the nodes' page sets it too.
@@ -70,7 +75,7 @@ export function chooser(link, what, values, shown, act) {
     ${holdButton(t('wall.apply'), done, {disabled: !link.may('OPERATOR') || chosen === shown, of: what})}`;
 }
 export const patternChooser = link =>
-  chooser(link, 'pattern', PATTERNS, link.wall.pattern, value => link.show({pattern: value.toUpperCase()},
+  chooser(link, 'pattern', PATTERNS, patternOf(link), value => link.show({pattern: value.toUpperCase()},
     `${t('wall.pattern')}: ${word(value)}`));
 
 // --- what is said in words

@@ -20,10 +20,10 @@ using Phase = ShowControl::Phase;
 // Of one turn of the loop: a flood of packets never stops the frames.
 constexpr int kMostPackets = 256;
 // A node whose name comes up again is taken for dead after so much silence.
-constexpr net::Instant kSilenceOfTheDead = std::chrono::milliseconds(250);
+constexpr net::Duration kSilenceOfTheDead = std::chrono::milliseconds(250);
 
-net::Instant fromSeconds(double seconds) {
-    return std::chrono::duration_cast<net::Instant>(std::chrono::duration<double>(seconds));
+net::Duration fromSeconds(double seconds) {
+    return std::chrono::duration_cast<net::Duration>(std::chrono::duration<double>(seconds));
 }
 
 PresentationLimits limitsOf(const config::Timing& timing, const ConductorOptions& options) {
@@ -95,10 +95,15 @@ Conductor::Conductor(const config::Rig& rig,
              sender_},
       keeper_{options_.keptAt, options_.kept},
       gauges_{roster_, isLockstep() ? std::uint16_t{0} : rig.metricsPort},
-      presentation_{
-          limitsOf(rig.timing, options_), roster_, sender_, *channels_, gauges_, report_, *this},
+      presentation_{limitsOf(rig.timing, options_),
+                    roster_,
+                    sender_,
+                    *channels_,
+                    gauges_,
+                    report_,
+                    *this,
+                    net::monotonicNow()},
       visitors_{sender_, [this] { channels_->wake(); }},
-      watchdog_{options_.service},
       simulation_{&simulation},
       windowsEndShow_{rig.windowsEndShow} {
     visitors_.enter(nullptr, static_cast<std::uint32_t>(school.size()));
@@ -117,9 +122,9 @@ ShowReport Conductor::run() {
             "no real-time priority: frames are late where this machine is busy; "
             "docs/cluster.md says how to allow it");
     startSimulation(visitors_.fish());
-    watchdog_.ready();
+    if (options_.service != nullptr) options_.service->ready();
     while (!isOver_ && !stopped_ && !presentation_.isOver()) {
-        const net::Instant now = net::monotonicNow();
+        const net::Moment now = net::monotonicNow();
         hear(now);
         visitors_.answer();
         changeShow(now);
@@ -130,10 +135,11 @@ ShowReport Conductor::run() {
                 now, report_, visitors_.fish(), wanted.black(), roster_, presentation_.barrier()))
             for (NodeSeat& seat : roster_.seats()) seat.logLines = 0;
         const bool isStill = isLockstep() || wanted.freeze();
-        watchdog_.turn(now, presentation_.newestTick(), isStill, report_.frames);
-        channels_->wait(presentation_.untilDue());
+        const bool isAlive = watchdog_.isAlive(now, presentation_.newestTick(), isStill);
+        if (isAlive && options_.service != nullptr) options_.service->alive(report_.frames);
+        channels_->wait(presentation_.untilDue(net::monotonicNow()));
     }
-    watchdog_.stopping();
+    if (options_.service != nullptr) options_.service->stopping();
     visitors_.enter(nullptr, visitors_.fish());
     simulationThread_.reset();
     sayFarewell();
@@ -142,8 +148,8 @@ ShowReport Conductor::run() {
     return report_;
 }
 
-void Conductor::nameMissing(net::Instant now) {
-    constexpr net::Instant kBetweenRolls = std::chrono::seconds(5);
+void Conductor::nameMissing(net::Moment now) {
+    constexpr net::Duration kBetweenRolls = std::chrono::seconds(5);
     if (now - lastRoll_ < kBetweenRolls) return;
     lastRoll_ = now;
     std::string missing;
@@ -158,14 +164,14 @@ void Conductor::nameMissing(net::Instant now) {
 // Repeats the farewell until every node has answered, two seconds at most: closing a connection
 // while a node still sends would discard our last message to it.
 void Conductor::sayFarewell() {
-    constexpr net::Instant kLongest = std::chrono::seconds(2);
-    constexpr net::Instant kFarewellRepeat = std::chrono::milliseconds(100);
-    const net::Instant begin = net::monotonicNow();
-    net::Instant lastSaid = begin - kFarewellRepeat;
+    constexpr net::Duration kLongest = std::chrono::seconds(2);
+    constexpr net::Duration kFarewellRepeat = std::chrono::milliseconds(100);
+    const net::Moment begin = net::monotonicNow();
+    net::Moment lastSaid = begin - kFarewellRepeat;
     v1::Envelope farewell;
     farewell.mutable_farewell();
     while (!roster_.isEmpty()) {
-        const net::Instant now = net::monotonicNow();
+        const net::Moment now = net::monotonicNow();
         if (now - begin > kLongest) return;
         if (now - lastSaid >= kFarewellRepeat) {
             for (const NodeSeat& seat : roster_.seats())
@@ -177,7 +183,7 @@ void Conductor::sayFarewell() {
     }
 }
 
-void Conductor::hear(net::Instant now) {
+void Conductor::hear(net::Moment now) {
     report_.refusedPackets += channels_->discardNoise();
     for (int packet = 0; packet < kMostPackets; ++packet) {
         const auto from = channels_->receiveControl();
@@ -191,7 +197,7 @@ void Conductor::hear(net::Instant now) {
 }
 
 // Without keys anybody on this machine may ask, steer and feed; the rest is for nodes of this run.
-void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net::Instant now) {
+void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net::Moment now) {
     const auto user = userIn(from.user);
     if (user && !maySay(*user, message)) {
         countRefused(false);
@@ -230,7 +236,7 @@ void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net
     }
 }
 
-void Conductor::takeOfNode(std::size_t node, const v1::Envelope& message, net::Instant now) {
+void Conductor::takeOfNode(std::size_t node, const v1::Envelope& message, net::Moment now) {
     NodeSeat& seat = roster_.seats()[node];
     switch (message.message_case()) {
         case v1::Envelope::kPing:
@@ -240,7 +246,7 @@ void Conductor::takeOfNode(std::size_t node, const v1::Envelope& message, net::I
         case v1::Envelope::kBlobRequest:
             return giveChunk(seat.peer, message.blob_request());
         case v1::Envelope::kPrepared:
-            return prepared(node, message.prepared());
+            return prepared(node, message.prepared(), now);
         case v1::Envelope::kNodeReport:
             seat.report = std::make_shared<const v1::NodeReport>(message.node_report());
             return;
@@ -260,7 +266,7 @@ void Conductor::takeOfNode(std::size_t node, const v1::Envelope& message, net::I
 void Conductor::takeInput(const net::FromPeer& from,
                           std::optional<std::size_t> node,
                           const v1::Input& input,
-                          net::Instant now) {
+                          net::Moment now) {
     switch (input.kind()) {
         case v1::INPUT_QUIT:
             isOver_ = isOver_ || windowsEndShow_;
@@ -296,7 +302,7 @@ std::string Conductor::objectionTo(const v1::Hello& hello) const {
            roster_.listed([](const NodeSeat&) { return true; });
 }
 
-void Conductor::greet(const net::PeerId& peer, const v1::Hello& hello, net::Instant now) {
+void Conductor::greet(const net::PeerId& peer, const v1::Hello& hello, net::Moment now) {
     if (const std::string objection = objectionTo(hello); !objection.empty()) {
         countRefused(false);
         if (roster_.isFirstObjection(objection))
@@ -323,7 +329,7 @@ void Conductor::greet(const net::PeerId& peer, const v1::Hello& hello, net::Inst
 void Conductor::pong(const net::PeerId& peer, std::int64_t sentNs) const {
     v1::Envelope message;
     message.mutable_pong()->set_sent_ns(sentNs);
-    message.mutable_pong()->set_master_ns(net::monotonicNow().count());
+    message.mutable_pong()->set_master_ns(net::monotonicNow().time_since_epoch().count());
     sender_.say(peer, std::move(message));
 }
 
@@ -336,12 +342,12 @@ void Conductor::note(NodeSeat& seat, const v1::LogLine& line) const {
                         line.text());
 }
 
-void Conductor::prepared(std::size_t node, const v1::Prepared& prepared) {
+void Conductor::prepared(std::size_t node, const v1::Prepared& prepared, net::Moment now) {
     NodeSeat& seat = roster_.seats()[node];
     seat.builtLook = prepared.look();
     if (prepared.look() == orders_.control().look()) {
         if (!looks_.shown().has_quality()) seat.bears = config::tierAt(prepared.quality());
-        return admit(node);
+        return admit(node, now);
     }
     if (seat.prepared) return;  // the next one, or one that was given up
     // It was built while the wall went on to another.
@@ -350,12 +356,12 @@ void Conductor::prepared(std::size_t node, const v1::Prepared& prepared) {
     seat.prepared = false;
 }
 
-void Conductor::admit(std::size_t node) {
+void Conductor::admit(std::size_t node, net::Moment now) {
     NodeSeat& seat = roster_.seats()[node];
     if (seat.prepared) return;
     looks_.prepareAgain();  // if another look is being prepared, this node has to build it as well
     seat.prepared = true;
-    const Frame first = presentation_.admit(node);
+    const Frame first = presentation_.admit(node, now);
     v1::Envelope message;
     message.mutable_joined()->set_first_frame(first.value);
     sender_.say(seat.peer, std::move(message));
@@ -384,7 +390,7 @@ void Conductor::giveChunk(const net::PeerId& peer, const v1::BlobRequest& reques
 }
 
 // Whoever shows no key is an account of this machine.
-void Conductor::obey(const net::FromPeer& from, const v1::Order& order, net::Instant now) {
+void Conductor::obey(const net::FromPeer& from, const v1::Order& order, net::Moment now) {
     const std::string user = from.user.empty() ? "somebody here" : from.user;
     v1::Envelope message;
     *message.mutable_order_reply() = orders_.obey(user, order, presentation_.unpublished(), now);
@@ -393,7 +399,7 @@ void Conductor::obey(const net::FromPeer& from, const v1::Order& order, net::Ins
     sender_.say(from.peer, std::move(message));
 }
 
-v1::Envelope Conductor::status(net::Instant now) const {
+v1::Envelope Conductor::status(net::Moment now) const {
     v1::Envelope message;
     v1::StatusReply& reply = *message.mutable_status_reply();
     reply.set_pace(static_cast<v1::Pace>(options_.pace));
@@ -404,7 +410,7 @@ v1::Envelope Conductor::status(net::Instant now) const {
     return message;
 }
 
-void Conductor::changeShow(net::Instant now) {
+void Conductor::changeShow(net::Moment now) {
     ShowControl& control = orders_.control();
     orders_.giveUpTheSilent(now);
     looks_.step(now);
@@ -440,7 +446,7 @@ std::optional<Snapshot> Conductor::takeTick() {
 }
 
 // On the way to the next scene it is noted when light went, for the log, and which frame is black.
-const v1::Show& Conductor::showOf(Frame frame, net::Instant now) {
+const v1::Show& Conductor::showOf(Frame frame, net::Moment now) {
     ShowControl& control = orders_.control();
     if (options_.log != nullptr) options_.log->masterFrame = frame.value;
     if (!isLockstep()) brightness_ = control.brightness(now);
@@ -457,7 +463,7 @@ void Conductor::onReleased(Frame frame) {
     if (black_ && *black_ <= frame) orders_.control().blackShown();
 }
 
-v1::Show Conductor::shown(net::Instant now) const {
+v1::Show Conductor::shown(net::Moment now) const {
     const ShowControl& control = orders_.control();
     const auto& scan = orders_.scan().pattern();
     v1::Show show;
@@ -476,7 +482,7 @@ v1::Show Conductor::shown(net::Instant now) const {
     return show;
 }
 
-std::string Conductor::pilotName(net::Instant now) const {
+std::string Conductor::pilotName(net::Moment now) const {
     const auto pilot = visitors_.pilot(now);
     if (!pilot) return {};
     const auto seat = roster_.of(*pilot);

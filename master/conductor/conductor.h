@@ -15,6 +15,7 @@
 
 #include "common/base/log.h"
 #include "common/config/rig.h"
+#include "common/machine/service_notifier.h"
 #include "common/net/channels.h"
 #include "master/conductor/gauges.h"
 #include "master/conductor/looks.h"
@@ -42,7 +43,7 @@ struct ConductorOptions {
     LogFile* log = nullptr;                // of the whole show; null: none
     machine::ServiceNotifier* service = nullptr;  // hears of every turn of the loop; null: nobody
     // Lockstep: silence of a node that ends the show.
-    net::Instant patience = std::chrono::seconds(60);
+    net::Duration patience = std::chrono::seconds(60);
 };
 
 // Conducts one show in the thread that calls run(); the world advances in a thread of its own.
@@ -67,42 +68,42 @@ class Conductor final : private FrameSource {
 
   private:
     std::optional<Snapshot> takeTick() override;
-    const v1::Show& showOf(Frame frame, net::Instant now) override;
+    const v1::Show& showOf(Frame frame, net::Moment now) override;
     void onReleased(Frame frame) override;
 
     // Messages. `node` is a place in the roster.
-    void hear(net::Instant now);  // all that has arrived, within bounds
-    void take(const net::FromPeer& from, const v1::Envelope& message, net::Instant now);
-    void takeOfNode(std::size_t node, const v1::Envelope& message, net::Instant now);
+    void hear(net::Moment now);  // all that has arrived, within bounds
+    void take(const net::FromPeer& from, const v1::Envelope& message, net::Moment now);
+    void takeOfNode(std::size_t node, const v1::Envelope& message, net::Moment now);
     void takeInput(const net::FromPeer& from,
                    std::optional<std::size_t> node,
                    const v1::Input& input,
-                   net::Instant now);
+                   net::Moment now);
     // Answers a hello: welcome, refusal, or a dismissal while another node has the channel.
-    void greet(const net::PeerId& peer, const v1::Hello& hello, net::Instant now);
+    void greet(const net::PeerId& peer, const v1::Hello& hello, net::Moment now);
     [[nodiscard]] std::string objectionTo(const v1::Hello& hello) const;
     void pong(const net::PeerId& peer, std::int64_t sentNs) const;
     // A line of a node's log, into the log of the show.
     void note(NodeSeat& seat, const v1::LogLine& line) const;
     // The node has built a look. The one that is shown: from the next frame on it is waited for.
-    void prepared(std::size_t node, const v1::Prepared& prepared);
-    void admit(std::size_t node);
+    void prepared(std::size_t node, const v1::Prepared& prepared, net::Moment now);
+    void admit(std::size_t node, net::Moment now);
     void leave(std::size_t node);
     void giveChunk(const net::PeerId& peer, const v1::BlobRequest& request);
-    void obey(const net::FromPeer& from, const v1::Order& order, net::Instant now);
-    [[nodiscard]] v1::Envelope status(net::Instant now) const;
+    void obey(const net::FromPeer& from, const v1::Order& order, net::Moment now);
+    [[nodiscard]] v1::Envelope status(net::Moment now) const;
     // A packet counts as refused unless it was accepted.
     void countRefused(bool isAccepted) { report_.refusedPackets += isAccepted ? 0U : 1U; }
 
     // A step of the change that is under way.
-    void changeShow(net::Instant now);
+    void changeShow(net::Moment now);
     void startSimulation(std::uint32_t fish);
     // What the wall shows now, with the brightness of the last frame.
-    [[nodiscard]] v1::Show shown(net::Instant now) const;
+    [[nodiscard]] v1::Show shown(net::Moment now) const;
     // The channel of the window that steers, "pilot" for anybody else, empty for nobody.
-    [[nodiscard]] std::string pilotName(net::Instant now) const;
+    [[nodiscard]] std::string pilotName(net::Moment now) const;
     // In the log, every few seconds: nodes of other machines are started by other hands.
-    void nameMissing(net::Instant now);
+    void nameMissing(net::Moment now);
     void sayFarewell();
     [[nodiscard]] bool isLockstep() const { return options_.pace == wire::Pace::Lockstep; }
 
@@ -124,10 +125,10 @@ class Conductor final : private FrameSource {
     bool windowsEndShow_;
     std::atomic<bool> stopped_ = false;
     bool isOver_ = false;
-    net::Instant lastRoll_ = net::monotonicNow();         // when missing nodes were last named
+    net::Moment lastRoll_ = net::monotonicNow();          // when missing nodes were last named
     v1::Show shown_;                                      // of the frame that was last published
     float brightness_ = 1.0F;                             // of that frame
-    std::optional<net::Instant> dimmedSince_;             // on the way to the next scene
+    std::optional<net::Moment> dimmedSince_;              // on the way to the next scene
     std::optional<Frame> black_;                          // the first without light, on that way
     std::unique_ptr<SimulationThread> simulationThread_;  // last: it uses all of the above
 };

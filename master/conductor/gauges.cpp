@@ -11,14 +11,14 @@ namespace aquarama::conductor {
 namespace {
 
 // Of StatusReply.skew_counts.
-constexpr std::array<net::Instant, 8> kSkewEdges{std::chrono::microseconds(50),
-                                                 std::chrono::microseconds(100),
-                                                 std::chrono::microseconds(200),
-                                                 std::chrono::microseconds(500),
-                                                 std::chrono::milliseconds(1),
-                                                 std::chrono::milliseconds(2),
-                                                 std::chrono::milliseconds(5),
-                                                 std::chrono::milliseconds(10)};
+constexpr std::array<net::Duration, 8> kSkewEdges{std::chrono::microseconds(50),
+                                                  std::chrono::microseconds(100),
+                                                  std::chrono::microseconds(200),
+                                                  std::chrono::microseconds(500),
+                                                  std::chrono::milliseconds(1),
+                                                  std::chrono::milliseconds(2),
+                                                  std::chrono::milliseconds(5),
+                                                  std::chrono::milliseconds(10)};
 
 v1::NodeCondition conditionOf(const NodeSeat& seat, bool isWaitedFor) {
     if (seat.peer.empty()) return v1::NODE_ABSENT;
@@ -61,14 +61,14 @@ Gauges::NodeFigures Gauges::figuresOf(const NodeSeat& seat) {
                            node)};
 }
 
-void Gauges::released(net::Instant now, net::Instant interval) {
+void Gauges::released(net::Moment now, net::Duration interval) {
     frameTimes_.add(interval);
     framePeak_.add(now, interval);
     frameSeconds_(net::secondsIn(interval));
 }
 
-void Gauges::nodeReleased(net::Instant now, Frame frame, std::int64_t atNs) {
-    const auto skew = skew_.add(frame, atNs);
+void Gauges::nodeReleased(net::Moment now, Frame frame, net::Moment at) {
+    const auto skew = skew_.add(frame, at);
     if (!skew) return;
     skewSeconds_(net::secondsIn(*skew));
     skewPeak_.add(now, *skew);
@@ -84,7 +84,7 @@ void Gauges::published(const wire::StateView& state, std::size_t bytes) {
     eye_ = state.eye;
 }
 
-bool Gauges::count(net::Instant now,
+bool Gauges::count(net::Moment now,
                    const ShowReport& report,
                    std::uint32_t fish,
                    bool isBlack,
@@ -142,22 +142,10 @@ void Gauges::writeStatus(v1::StatusReply& reply,
     }
 }
 
-void Watchdog::ready() const {
-    if (service_ != nullptr) service_->ready();
-}
-
-void Watchdog::turn(net::Instant now,
-                    std::optional<Tick> newest,
-                    bool isStill,
-                    std::uint64_t frames) {
-    constexpr net::Instant kLongestTick = std::chrono::seconds(2);
-    if (service_ == nullptr) return;
+bool Watchdog::isAlive(net::Moment now, std::optional<Tick> newest, bool isStill) {
+    constexpr net::Duration kLongestTick = std::chrono::seconds(2);
     if (isStill || newest != std::exchange(lastTick_, newest)) lastTickAt_ = now;
-    if (now - lastTickAt_ < kLongestTick) service_->alive(frames);
-}
-
-void Watchdog::stopping() const {
-    if (service_ != nullptr) service_->stopping();
+    return now - lastTickAt_ < kLongestTick;
 }
 
 }  // namespace aquarama::conductor

@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "common/machine/service_notifier.h"
 #include "common/net/metrics.h"
 #include "common/wire/messages.h"
 #include "common/wire/state_codec.h"
@@ -31,16 +30,16 @@ class Gauges {
     Gauges(const Roster& roster, std::uint16_t port);
 
     // A frame is released `interval` after the one before.
-    void released(net::Instant now, net::Instant interval);
-    // A node let go of this frame, in nanoseconds of the master's clock.
-    void nodeReleased(net::Instant now, Frame frame, std::int64_t atNs);
+    void released(net::Moment now, net::Duration interval);
+    // A node released this frame at a moment of the master's clock.
+    void nodeReleased(net::Moment now, Frame frame, net::Moment at);
     // A state of so many bytes is published.
     void published(const wire::StateView& state, std::size_t bytes);
     // Where the eye was in the last state that was published.
     [[nodiscard]] const wire::Eye& eye() const { return eye_; }
 
     // For Prometheus; once a second, else nothing. True: it has counted.
-    bool count(net::Instant now,
+    bool count(net::Moment now,
                const ShowReport& report,
                std::uint32_t fish,
                bool isBlack,
@@ -68,26 +67,21 @@ class Gauges {
     double eyeTicks_ = 0;  // when it was there, in ticks and parts of them
     float speedMetresPerSecond_ = 0;
     std::uint64_t publishedBytes_ = 0;
-    net::Instant lastCount_{};
+    net::Moment lastCount_{};
 };
 
-// Tells the service manager at every turn of the frame loop that the show is alive, as long as
-// ticks come: a tick that does not come is a hang of this process too.
+// Tells whether the show is alive, which it is as long as ticks come: a tick that does not come is
+// a hang of this process too. The service manager restarts a show that is not.
 class Watchdog {
   public:
-    // Null: nobody is told. `service` outlives this.
-    explicit Watchdog(machine::ServiceNotifier* service) : service_{service} {}
-
-    // The show serves, and ends.
-    void ready() const;
-    // `isStill`: no tick has to come, as the world stands still.
-    void turn(net::Instant now, std::optional<Tick> newest, bool isStill, std::uint64_t frames);
-    void stopping() const;
+    // At each turn of the frame loop. `newest`: the last tick that has come; nothing: none has.
+    // `isStill`: no tick has to come, as the world stands still. False: none has come for two
+    // seconds.
+    [[nodiscard]] bool isAlive(net::Moment now, std::optional<Tick> newest, bool isStill);
 
   private:
-    machine::ServiceNotifier* service_;
     std::optional<Tick> lastTick_;  // that has come, and when
-    net::Instant lastTickAt_{};
+    net::Moment lastTickAt_{};
 };
 
 }  // namespace aquarama::conductor

@@ -14,9 +14,9 @@ namespace {
 
 using Phase = ShowControl::Phase;
 
-constexpr net::Instant kRepeat = std::chrono::seconds(1);
+constexpr net::Duration kRepeat = std::chrono::seconds(1);
 // To build a look; software OpenGL on a busy machine takes some ten seconds.
-constexpr net::Instant kMostPreparing = std::chrono::seconds(120);
+constexpr net::Duration kMostPreparing = std::chrono::seconds(120);
 
 template <class Result>
 bool isReady(const std::future<Result>& future) {
@@ -112,14 +112,14 @@ net::Blob Looks::blob(const Digest& digest) const {
     return blob == blobs_.end() ? nullptr : blob->second;
 }
 
-void Looks::step(net::Instant now) {
+void Looks::step(net::Moment now) {
     if (control_.phase() == Phase::Steady) watchRigFiles(now);
     if (control_.phase() == Phase::Making) makeNextWorld();
     if (control_.phase() == Phase::Preparing) prepareNodes(now);
 }
 
-void Looks::watchRigFiles(net::Instant now) {
-    constexpr net::Instant kBetween = std::chrono::seconds(1);
+void Looks::watchRigFiles(net::Moment now) {
+    constexpr net::Duration kBetween = std::chrono::seconds(1);
     if (!sources_.changedRig) return;
     if (!rereading_.valid() && now - lastReread_ > kBetween) {
         lastReread_ = now;
@@ -168,7 +168,7 @@ void Looks::makeNextWorld() {
     }
 }
 
-void Looks::announceNext(net::Instant now) {
+void Looks::announceNext(net::Moment now) {
     next_ = made_ ? lookOf(made_->assets, made_->school) : shown();
     nameRigFiles(*next_, nextRigFiles_.value_or(rigFiles_));
     next_->set_number(control_.nextLook());
@@ -184,7 +184,7 @@ void Looks::announceNext(net::Instant now) {
 
 // Nodes that take part are waited for; one that comes later builds the look before it is shown, or
 // joins again after that.
-void Looks::prepareNodes(net::Instant now) {
+void Looks::prepareNodes(net::Moment now) {
     if (!next_) announceNext(now);
     const bool isDue = now - lastPrepare_ > kRepeat;
     if (isDue) lastPrepare_ = now;

@@ -83,7 +83,7 @@ class Looks {
     [[nodiscard]] net::Blob blob(const Digest& digest) const;
 
     // Watches the rig's files, and goes on with the change that is under way. Once a turn.
-    void step(net::Instant now);
+    void step(net::Moment now);
     // Tells nodes of the next look once more at the next step: one has come that did not hear it.
     void prepareAgain() { lastPrepare_ = {}; }
     // In phase Switching: the next look is shown from now on. Returns its world; nothing where it
@@ -94,10 +94,10 @@ class Looks {
     using RigFiles = std::map<std::string, Digest>;  // that the rig names, by name
     using ReadFiles = std::map<std::string, std::pair<Digest, net::Blob>>;
 
-    void watchRigFiles(net::Instant now);
+    void watchRigFiles(net::Moment now);
     void makeNextWorld();
-    void announceNext(net::Instant now);
-    void prepareNodes(net::Instant now);
+    void announceNext(net::Moment now);
+    void prepareNodes(net::Moment now);
     void giveUpNext(const std::string& missing);
     // Large, and asked for no more: what `old` names and `kept` does not.
     void forgetRigFiles(const RigFiles& old, const RigFiles& kept);
@@ -116,12 +116,12 @@ class Looks {
     RigFiles rigFiles_;                     // of the look that is shown
     std::optional<RigFiles> nextRigFiles_;  // of the next one, where they are others
     std::future<ReadFiles> rereading_;
-    net::Instant lastReread_{};
+    net::Moment lastReread_{};
     std::future<NextWorld> making_;
     std::optional<NextWorld> made_;
     std::optional<v1::Look> next_;  // that nodes are told to build
     wire::Packet prepare_;          // tells it
-    net::Instant preparingSince_{}, lastPrepare_{};
+    net::Moment preparingSince_{}, lastPrepare_{};
 };
 
 // Keeps on the disk what was set of a show, beside the frames: a disk may take its time.

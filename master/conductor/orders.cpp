@@ -13,7 +13,7 @@ namespace aquarama::conductor {
 namespace {
 
 // A node answers at once; its network may lose the order or the answer.
-constexpr net::Instant kNodesPatience = std::chrono::seconds(3);
+constexpr net::Duration kNodesPatience = std::chrono::seconds(3);
 
 Answer refused(std::string why) {
     return {Outcome::Refused, std::move(why)};
@@ -30,7 +30,7 @@ Orders::Orders(OrderLimits limits, Roster& roster, const Sender& sender)
 v1::OrderReply Orders::obey(const std::string& user,
                             const v1::Order& order,
                             Frame unpublished,
-                            net::Instant now) {
+                            net::Moment now) {
     Answer answer;
     if (order.run() != 0 && order.run() != sender_.session())
         answer = refused("the show was started again meanwhile: look, and say it once more");
@@ -84,7 +84,7 @@ std::string Orders::objectionToScene(const std::string& scene) const {
 Answer Orders::hold(const std::string& user,
                     const v1::HeldScan& scan,
                     Frame unpublished,
-                    net::Instant now) {
+                    net::Moment now) {
     if (!scan.has_pattern()) {
         scan_.end(scan.holder());
         return {};
@@ -152,7 +152,7 @@ std::string Orders::objectionToPower(const std::string& channel) const {
 }
 
 // Passed on once: a power order that was lost must not come later.
-Answer Orders::power(const std::string& user, const v1::Order& order, net::Instant now) {
+Answer Orders::power(const std::string& user, const v1::Order& order, net::Moment now) {
     const std::string& channel = order.power().channel();
     if (std::string objection = objectionToPower(channel); !objection.empty())
         return refused(std::move(objection));
@@ -173,7 +173,7 @@ void Orders::hear(std::size_t node, const v1::OrderReply& reply) {
     book_.enter(reply.request(), {static_cast<Outcome>(reply.outcome()), reply.reason()});
 }
 
-void Orders::giveUpTheSilent(net::Instant now) {
+void Orders::giveUpTheSilent(net::Moment now) {
     if (scan_.expires(now)) logWarning("a scan has fallen silent: the wall shows what it did");
     std::erase_if(passedOn_, [&](const PassedOn& order) {
         if (now - order.said < kNodesPatience) return false;

@@ -35,11 +35,11 @@ class Orders {
     [[nodiscard]] v1::OrderReply obey(const std::string& user,
                                       const v1::Order& order,
                                       Frame unpublished,
-                                      net::Instant now);
+                                      net::Moment now);
     // What the node at this seat says of an order that was passed on to it.
     void hear(std::size_t node, const v1::OrderReply& reply);
     // Gives up nodes that do not answer and a scan that has fallen silent.
-    void giveUpTheSilent(net::Instant now);
+    void giveUpTheSilent(net::Moment now);
 
     // What the wall shows or changes to, and who holds it for a scan.
     [[nodiscard]] ShowControl& control() { return control_; }
@@ -51,15 +51,15 @@ class Orders {
     struct PassedOn {
         std::uint64_t request = 0;
         std::size_t node = 0;
-        net::Instant said{};
+        net::Moment said{};
     };
     [[nodiscard]] Answer change(const std::string& user, const v1::Order& order);
     [[nodiscard]] Answer hold(const std::string& user,
                               const v1::HeldScan& scan,
                               Frame unpublished,
-                              net::Instant now);
+                              net::Moment now);
     [[nodiscard]] Answer restart(const std::string& user, const v1::Order& order);
-    [[nodiscard]] Answer power(const std::string& user, const v1::Order& order, net::Instant now);
+    [[nodiscard]] Answer power(const std::string& user, const v1::Order& order, net::Moment now);
     // Why an order is refused; empty where it is not.
     [[nodiscard]] std::string objectionTo(const v1::WantedShow& show) const;
     [[nodiscard]] std::string objectionToScene(const std::string& scene) const;

@@ -25,7 +25,7 @@ std::string Preparation::tell(const std::string& what) {
 
 // What strangers say to the state channel is thrown away here as well.
 void Preparation::run() {
-    constexpr net::Instant kLongestWait = std::chrono::milliseconds(100);
+    constexpr net::Duration kLongestWait = std::chrono::milliseconds(100);
     while (!isOver_) {
         channels_.wait(kLongestWait);
         static_cast<void>(channels_.discardNoise());

@@ -7,12 +7,12 @@
 
 namespace aquarama::conductor {
 
-PresentBarrier::PresentBarrier(std::size_t nodes, const BarrierLimits& limits, net::Instant start)
+PresentBarrier::PresentBarrier(std::size_t nodes, const BarrierLimits& limits, net::Moment start)
     : limits_(limits), nodes_(nodes) {
     for (Node& node : nodes_) node.lastHeard = start;
 }
 
-void PresentBarrier::heard(std::size_t node, net::Instant now) {
+void PresentBarrier::heard(std::size_t node, net::Moment now) {
     assert(node < nodes_.size());
     nodes_[node].lastHeard = now;
 }
@@ -31,7 +31,7 @@ void PresentBarrier::leave(std::size_t node) {
     nodes_[node].readyFor.reset();
 }
 
-std::vector<std::size_t> PresentBarrier::expelSilent(net::Instant now) {
+std::vector<std::size_t> PresentBarrier::expelSilent(net::Moment now) {
     std::vector<std::size_t> expelled;
     if (limits_.lockstep) return expelled;
     for (std::size_t node = 0; node < nodes_.size(); ++node) {
@@ -48,7 +48,7 @@ void PresentBarrier::begin(Frame frame) {
     deadline_.reset();
 }
 
-void PresentBarrier::ready(std::size_t node, Frame frame, net::Instant now) {
+void PresentBarrier::ready(std::size_t node, Frame frame, net::Moment now) {
     Node& speaker = nodes_[node];
     if (!frame_ || !speaker.member) return;
     const bool isAhead = frame.value == frame_->value + 1;
@@ -84,11 +84,11 @@ bool PresentBarrier::hasMembers() const {
     return std::ranges::any_of(nodes_, &Node::member);
 }
 
-PresentBarrier::Decision PresentBarrier::decide(net::Instant now) {
+PresentBarrier::Decision PresentBarrier::decide(net::Moment now) {
     return limits_.lockstep ? decideLockstep(now) : decideLive(now);
 }
 
-PresentBarrier::Decision PresentBarrier::decideLive(net::Instant now) {
+PresentBarrier::Decision PresentBarrier::decideLive(net::Moment now) {
     std::size_t waitedFor = 0;
     std::size_t missing = 0;
     for (std::size_t node = 0; node < nodes_.size(); ++node) {
@@ -110,10 +110,10 @@ PresentBarrier::Decision PresentBarrier::decideLive(net::Instant now) {
     return {Verdict::Present, {}, 0};
 }
 
-PresentBarrier::Decision PresentBarrier::decideLockstep(net::Instant now) const {
+PresentBarrier::Decision PresentBarrier::decideLockstep(net::Moment now) const {
     const auto quietest = std::ranges::min_element(nodes_, {}, &Node::lastHeard);
     if (quietest == nodes_.end()) return {};
-    const net::Instant end = quietest->lastHeard + limits_.patience;
+    const net::Moment end = quietest->lastHeard + limits_.patience;
     const auto name = static_cast<std::size_t>(quietest - nodes_.begin());
     const bool allReady =
         std::ranges::all_of(nodes_, [&](const Node& node) { return isReady(node); });
@@ -124,43 +124,44 @@ PresentBarrier::Decision PresentBarrier::decideLockstep(net::Instant now) const 
 
 namespace {
 
-// Instants at which to release: from `begin` on for `length`, and again every period.
+// When to release: from `begin` on for `length`, and again every period.
 struct Gap {
-    net::Instant begin{}, length{};
+    net::Moment begin{};
+    net::Duration length{};
 };
 
 // The time to the next blank.
-net::Instant toNextBlank(const net::Blanks& display, net::Instant from) {
-    const net::Instant since = (from - display.last) % display.period;
-    return since > net::Instant{0} ? display.period - since : -since;
+net::Duration toNextBlank(const net::Blanks& display, net::Moment from) {
+    const net::Duration since = (from - display.last) % display.period;
+    return since > net::Duration{0} ? display.period - since : -since;
 }
 
 // From a display's next blank to the first of any other.
 Gap gapAfter(const net::Blanks& display,
-             net::Instant from,
-             net::Instant period,
+             net::Moment from,
+             net::Duration period,
              std::span<const net::Blanks> displays) {
-    const net::Instant begin = toNextBlank(display, from);
-    net::Instant length = period;
+    const net::Duration toBegin = toNextBlank(display, from);
+    net::Duration length = period;
     for (const net::Blanks& other : displays) {
-        const net::Instant after = (toNextBlank(other, from) - begin + 2 * period) % period;
-        if (after > net::Instant{0}) length = std::min(length, after);
+        const net::Duration after = (toNextBlank(other, from) - toBegin + 2 * period) % period;
+        if (after > net::Duration{0}) length = std::min(length, after);
     }
-    return {from + begin, length};
+    return {from + toBegin, length};
 }
 
 // The widest gap; but that of `last` as long as no other is much wider: between two gaps of one
 // width there is no going to and fro.
-Gap gapFor(net::Instant last,
-           net::Instant from,
-           net::Instant period,
+Gap gapFor(net::Moment last,
+           net::Moment from,
+           net::Duration period,
            std::span<const net::Blanks> displays) {
     Gap best;
-    net::Instant most{};
+    net::Duration most{};
     for (const net::Blanks& display : displays) {
         const Gap gap = gapAfter(display, from, period, displays);
-        const net::Instant place = ((last - gap.begin) % period + period) % period;
-        const net::Instant worth = place < gap.length ? gap.length * 5 / 4 : gap.length;
+        const net::Duration place = ((last - gap.begin) % period + period) % period;
+        const net::Duration worth = place < gap.length ? gap.length * 5 / 4 : gap.length;
         if (worth > most) best = gap;
         most = std::max(most, worth);
     }
@@ -175,12 +176,12 @@ Gap guarded(const Gap& gap) {
 
 }  // namespace
 
-net::Instant releaseTime(net::Instant earliest,
-                         net::Instant last,
-                         net::Instant refresh,
-                         std::span<const net::Blanks> displays) {
+net::Moment releaseTime(net::Moment earliest,
+                        net::Moment last,
+                        net::Duration refresh,
+                        std::span<const net::Blanks> displays) {
     if (displays.empty()) return std::max(earliest, last + refresh);
-    net::Instant period{};
+    net::Duration period{};
     for (const net::Blanks& display : displays)
         period += display.period / static_cast<std::int64_t>(displays.size());
     Gap gap = guarded(gapFor(last, earliest, period, displays));
@@ -191,20 +192,20 @@ net::Instant releaseTime(net::Instant earliest,
     return std::max(gap.begin, earliest);
 }
 
-std::optional<net::Instant> SkewMeter::add(Frame frame, std::int64_t atNs) {
+std::optional<net::Duration> SkewMeter::add(Frame frame, net::Moment at) {
     const auto span = std::ranges::find(spans_, frame, &Span::frame);
     if (span != spans_.end()) {
-        span->earliestNs = std::min(span->earliestNs, atNs);
-        span->latestNs = std::max(span->latestNs, atNs);
+        span->earliest = std::min(span->earliest, at);
+        span->latest = std::max(span->latest, at);
         ++span->nodes;
         return std::nullopt;
     }
-    spans_.push_back({frame, atNs, atNs, 1});
+    spans_.push_back({frame, at, at, 1});
     if (spans_.size() <= kOpen) return std::nullopt;
     const Span closed = spans_.front();
     spans_.pop_front();
     if (closed.nodes < 2) return std::nullopt;
-    const net::Instant skew{closed.latestNs - closed.earliestNs};
+    const net::Duration skew = closed.latest - closed.earliest;
     skews_.add(skew);
     return skew;
 }

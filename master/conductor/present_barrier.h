@@ -21,10 +21,10 @@ using net::RecentTimes;
 // How long the barrier waits.
 struct BarrierLimits {
     bool lockstep = false;
-    net::Instant deadline = std::chrono::microseconds(16667);  // live: how long the first that is
-                                                               // ready waits for the others
-    net::Instant membership = std::chrono::milliseconds(250);  // live: silence that ends membership
-    net::Instant patience = std::chrono::seconds(60);  // lockstep: silence that ends the show
+    net::Duration deadline = std::chrono::microseconds(16667);  // live: how long the first that is
+                                                                // ready waits for the others
+    net::Duration membership = std::chrono::milliseconds(250);  // live: silence that ends it
+    net::Duration patience = std::chrono::seconds(60);  // lockstep: silence that ends the show
 };
 
 // Nodes are numbered by their channel's place in the rig.
@@ -37,19 +37,19 @@ struct BarrierLimits {
 // Lockstep: every node is waited for; one that is silent for `patience` ends the show.
 class PresentBarrier {
   public:
-    PresentBarrier(std::size_t nodes, const BarrierLimits& limits, net::Instant start);
+    PresentBarrier(std::size_t nodes, const BarrierLimits& limits, net::Moment start);
 
     // The node has said something.
-    void heard(std::size_t node, net::Instant now);
+    void heard(std::size_t node, net::Moment now);
     // The node is prepared and sees every state from `first` on.
     void join(std::size_t node, Frame first);
     void leave(std::size_t node);
     // Live: members that fell silent; they are none from now on.
-    [[nodiscard]] std::vector<std::size_t> expelSilent(net::Instant now);
+    [[nodiscard]] std::vector<std::size_t> expelSilent(net::Moment now);
 
     // This frame is drawn now. Members that see its state are waited for, except late ones.
     void begin(Frame frame);
-    void ready(std::size_t node, Frame frame, net::Instant now);
+    void ready(std::size_t node, Frame frame, net::Moment now);
 
     // What becomes of the frame that is drawn.
     enum class Verdict : std::uint8_t {
@@ -61,11 +61,11 @@ class PresentBarrier {
     // A verdict with what belongs to it.
     struct Decision {
         Verdict verdict = Verdict::Idle;
-        std::optional<net::Instant> until;
+        std::optional<net::Moment> until;
         std::size_t node = 0;
     };
     // What becomes of the frame at this moment.
-    [[nodiscard]] Decision decide(net::Instant now);
+    [[nodiscard]] Decision decide(net::Moment now);
 
     // Of one node, and of all: whether it takes part, whether the frame waits for it, whether all
     // have joined, whether any takes part.
@@ -86,20 +86,20 @@ class PresentBarrier {
         bool late = false;  // out of the wait set since it missed a deadline
         std::optional<Frame> readyFor;
         Frame first;
-        net::Instant lastHeard{};
+        net::Moment lastHeard{};
         std::uint64_t timesLate = 0;
     };
     [[nodiscard]] bool isReady(const Node& node) const {
         return node.member && node.readyFor && node.readyFor == frame_;
     }
-    [[nodiscard]] Decision decideLive(net::Instant now);
-    [[nodiscard]] Decision decideLockstep(net::Instant now) const;
+    [[nodiscard]] Decision decideLive(net::Moment now);
+    [[nodiscard]] Decision decideLockstep(net::Moment now) const;
 
     BarrierLimits limits_;
     std::vector<Node> nodes_;
     std::optional<Frame> frame_;
     bool anyReady_ = false;
-    std::optional<net::Instant> deadline_;  // of frame_, as soon as anybody is ready for it
+    std::optional<net::Moment> deadline_;  // of frame_, as soon as anybody is ready for it
 };
 
 // When a frame is released that could be shown from `earliest` on; pure. Each display shows it at
@@ -108,25 +108,25 @@ class PresentBarrier {
 // the displays are not locked to each other. Each frame has a gap of its own, the first after that
 // of `last`; in it, the release is as early as it can. All in the master's clock. Without displays:
 // one `refresh` after `last`, at the earliest.
-[[nodiscard]] net::Instant releaseTime(net::Instant earliest,
-                                       net::Instant last,
-                                       net::Instant refresh,
-                                       std::span<const net::Blanks> displays);
+[[nodiscard]] net::Moment releaseTime(net::Moment earliest,
+                                      net::Moment last,
+                                      net::Duration refresh,
+                                      std::span<const net::Blanks> displays);
 // A release keeps this distance from blanks, for whom it reaches a little early or late.
-inline constexpr net::Instant kBlankGuard = std::chrono::milliseconds(1);
+inline constexpr net::Duration kBlankGuard = std::chrono::milliseconds(1);
 
 // Release skew of a frame: the latest node's release minus the earliest's.
 class SkewMeter {
   public:
-    // A node let go of this frame, in nanoseconds of the master's clock. The skew of the frame for
-    // which no more is waited, if any.
-    std::optional<net::Instant> add(Frame frame, std::int64_t atNs);
+    // A node released this frame at a moment of the master's clock. Returns the skew of the frame
+    // for which no more reports are awaited, if any.
+    std::optional<net::Duration> add(Frame frame, net::Moment at);
     [[nodiscard]] const RecentTimes& skews() const { return skews_; }
 
   private:
     struct Span {
         Frame frame;
-        std::int64_t earliestNs, latestNs;
+        net::Moment earliest, latest;
         int nodes;
     };
     static constexpr std::size_t kOpen = 8;  // frames whose reports may still be on their way

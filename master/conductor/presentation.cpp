@@ -18,15 +18,15 @@ namespace {
 using std::chrono::milliseconds;
 
 // Time for a release to reach every node: ten times the median of a busy machine's loopback.
-constexpr net::Instant kLead = milliseconds(2);
+constexpr net::Duration kLead = milliseconds(2);
 // A state is published so long before the release of the frame before it: nodes begin to draw then.
-constexpr net::Instant kPublishLead = milliseconds(3);
+constexpr net::Duration kPublishLead = milliseconds(3);
 // A frame shows the world as it was so long before its release, which is a refresh after the one
 // before: the two ticks on either side are simulated when it is published.
-constexpr net::Instant kShownAge = 2 * kTickPeriod + kPublishLead + milliseconds(1);
-constexpr net::Instant kBeacon = milliseconds(50);
-constexpr net::Instant kRepeat = std::chrono::seconds(1);
-constexpr net::Instant kLongestWait = milliseconds(10);
+constexpr net::Duration kShownAge = 2 * kTickPeriod + kPublishLead + milliseconds(1);
+constexpr net::Duration kBeacon = milliseconds(50);
+constexpr net::Duration kRepeat = std::chrono::seconds(1);
+constexpr net::Duration kLongestWait = milliseconds(10);
 constexpr std::size_t kMostNodes = 64;  // as many as a rig has channels
 
 GrowingFile openTrace(const std::filesystem::path& directory) {
@@ -50,7 +50,8 @@ Presentation::Presentation(const PresentationLimits& limits,
                            net::MasterChannels& channels,
                            Gauges& gauges,
                            ShowReport& report,
-                           FrameSource& source)
+                           FrameSource& source,
+                           net::Moment start)
     : limits_{limits},
       roster_{roster},
       sender_{sender},
@@ -58,14 +59,14 @@ Presentation::Presentation(const PresentationLimits& limits,
       gauges_{gauges},
       report_{report},
       source_{source},
-      barrier_{roster.seats().size(), limits.barrier, net::monotonicNow()},
+      barrier_{roster.seats().size(), limits.barrier, start},
       trace_{openTrace(limits.traceDirectory)},
       beacon_{beaconOf(sender)},
       isOver_{limits.frames == 0U} {
     assert(roster.seats().size() <= kMostNodes);
 }
 
-void Presentation::turn(net::Instant now) {
+void Presentation::turn(net::Moment now) {
     takeTicks();
     expelSilent(now);
     conduct(now);
@@ -85,7 +86,7 @@ void Presentation::takeTicks() {
     }
 }
 
-void Presentation::expelSilent(net::Instant now) {
+void Presentation::expelSilent(net::Moment now) {
     for (const std::size_t node : barrier_.expelSilent(now)) {
         NodeSeat& seat = roster_.seats()[node];
         ++seat.dropped;
@@ -95,7 +96,7 @@ void Presentation::expelSilent(net::Instant now) {
     }
 }
 
-void Presentation::conduct(net::Instant now) {
+void Presentation::conduct(net::Moment now) {
     const auto decision = barrier_.decide(now);
     if (decision.verdict == PresentBarrier::Verdict::Silent) {
         failure_ = "node \"" + roster_.seats()[decision.node].name + "\" has been silent for " +
@@ -118,7 +119,7 @@ void Presentation::conduct(net::Instant now) {
     if (now - lastRepeat_ > repeatAfter_) publishAgain(now);
 }
 
-void Presentation::beginNext(net::Instant now) {
+void Presentation::beginNext(net::Moment now) {
     const bool mayBegin = isLockstep()
                               ? barrier_.allPrepared()
                               : barrier_.hasMembers() && now + kPublishLead >= lastRelease_;
@@ -126,14 +127,14 @@ void Presentation::beginNext(net::Instant now) {
     if (isDrawing_) barrier_.begin(next_);
 }
 
-net::Instant Presentation::untilDue() const {
-    const net::Instant due = lastRelease_ - kPublishLead - net::monotonicNow();
-    return isDrawing_ || isLockstep() || due < net::Instant{0} ? kLongestWait
-                                                               : std::min(due, kLongestWait);
+net::Duration Presentation::untilDue(net::Moment now) const {
+    const net::Duration due = lastRelease_ - kPublishLead - now;
+    return isDrawing_ || isLockstep() || due < net::Duration{0} ? kLongestWait
+                                                                : std::min(due, kLongestWait);
 }
 
-net::Instant Presentation::nextRelease(net::Instant now) const {
-    constexpr net::Instant kBelieved = std::chrono::seconds(2);
+net::Moment Presentation::nextRelease(net::Moment now) const {
+    constexpr net::Duration kBelieved = std::chrono::seconds(2);
     std::array<net::Blanks, kMostNodes> displays;
     std::size_t count = 0;
     for (std::size_t node = 0; node < roster_.seats().size(); ++node) {
@@ -146,15 +147,15 @@ net::Instant Presentation::nextRelease(net::Instant now) const {
 }
 
 // Of the frame that is drawn, or of the one after it.
-net::Instant Presentation::releaseOf(Frame frame, net::Instant now) const {
-    return nextRelease(now) + (next_ < frame ? limits_.refresh : net::Instant{0});
+net::Moment Presentation::releaseOf(Frame frame, net::Moment now) const {
+    return nextRelease(now) + (next_ < frame ? limits_.refresh : net::Duration{0});
 }
 
-void Presentation::release(net::Instant now) {
-    const net::Instant at = nextRelease(now);
+void Presentation::release(net::Moment now) {
+    const net::Moment at = nextRelease(now);
     v1::Envelope message;
     message.mutable_present()->set_frame(next_.value);
-    message.mutable_present()->set_at_ns(isLockstep() ? 0 : at.count());
+    message.mutable_present()->set_at_ns(isLockstep() ? 0 : at.time_since_epoch().count());
     lastPresent_.emplace(next_, sender_.packetOf(std::move(message)));
     for (const NodeSeat& seat : roster_.seats())
         if (seat.prepared) sender_.send(seat.peer, lastPresent_->second);
@@ -167,7 +168,7 @@ void Presentation::release(net::Instant now) {
     if (!isOver_) beginNext(now);
 }
 
-bool Presentation::publish(Frame frame, net::Instant now) {
+bool Presentation::publish(Frame frame, net::Moment now) {
     if (frame < unpublished_) return true;
     takeTicks();
     auto state = isLockstep() ? snapshots_.showing(frame, Tick{frame.value})
@@ -177,10 +178,11 @@ bool Presentation::publish(Frame frame, net::Instant now) {
     state->motionHash = motion::hashOf(state->after);
     const wire::Packet& packet = published_[frame] = wire::encodeState(sender_.session(), *state);
     channels_.publishState(packet);
-    lastPublished_ = lastRepeat_ = net::monotonicNow();
+    lastPublished_ = lastRepeat_ = now;
     repeatAfter_ = isLockstep() ? kRepeat : limits_.barrier.deadline;
     if (trace_.isOpen())
-        trace_.appendOrLog(fmt::format("{},{},,\n", frame.value, lastPublished_.count()));
+        trace_.appendOrLog(
+            fmt::format("{},{},,\n", frame.value, net::monotonicNow().time_since_epoch().count()));
     gauges_.published(*state, packet.size());
     if (published_.size() > 2) published_.erase(published_.begin());
     unpublished_ = {frame.value + 1};
@@ -191,27 +193,27 @@ bool Presentation::publish(Frame frame, net::Instant now) {
 
 // Where all wait for a state that was lost on its way, it must come again; less and less often, as
 // they may just be slow.
-void Presentation::publishAgain(net::Instant now) {
+void Presentation::publishAgain(net::Moment now) {
     for (const auto& [frame, packet] : published_) channels_.publishState(packet);
     lastRepeat_ = now;
     repeatAfter_ = std::min(2 * repeatAfter_, kRepeat);
 }
 
 // So that a fresh subscriber knows that it hears the channel.
-void Presentation::sendBeacon(net::Instant now) {
+void Presentation::sendBeacon(net::Moment now) {
     if (now - lastPublished_ <= kBeacon) return;
     channels_.publishState(beacon_);
     lastPublished_ = now;
 }
 
-Frame Presentation::admit(std::size_t node) {
+Frame Presentation::admit(std::size_t node, net::Moment now) {
     const Frame first = isLockstep() ? next_ : unpublished_;
     barrier_.join(node, first);
-    if (isLockstep()) publishAgain(net::monotonicNow());
+    if (isLockstep()) publishAgain(now);
     return first;
 }
 
-void Presentation::ready(std::size_t node, const v1::Ready& ready, net::Instant now) {
+void Presentation::ready(std::size_t node, const v1::Ready& ready, net::Moment now) {
     const Frame frame{ready.frame()};
     NodeSeat& seat = roster_.seats()[node];
     barrier_.ready(node, frame, now);
@@ -221,7 +223,8 @@ void Presentation::ready(std::size_t node, const v1::Ready& ready, net::Instant 
         seat.pictures.add(now, std::chrono::microseconds(ready.picture_us()));
     if (ready.has_released_frame()) {
         seat.released = std::max(seat.released, Frame{ready.released_frame()});
-        gauges_.nodeReleased(now, {ready.released_frame()}, ready.released_ns());
+        gauges_.nodeReleased(
+            now, {ready.released_frame()}, net::Moment{net::Duration{ready.released_ns()}});
     }
     // It asks again for a release that never came.
     if (lastPresent_ && frame <= lastPresent_->first) sender_.send(seat.peer, lastPresent_->second);
@@ -229,8 +232,9 @@ void Presentation::ready(std::size_t node, const v1::Ready& ready, net::Instant 
 
 // A display of quite another rate cannot be kept in step with the wall.
 std::optional<net::Blanks> Presentation::blanksIn(const v1::Ready& ready) const {
-    const net::Blanks blanks{net::Instant{ready.blank_ns()}, net::Instant{ready.blank_period_ns()}};
-    const net::Instant apart = blanks.period - limits_.refresh;
+    const net::Blanks blanks{net::Moment{net::Duration{ready.blank_ns()}},
+                             net::Duration{ready.blank_period_ns()}};
+    const net::Duration apart = blanks.period - limits_.refresh;
     const bool isBelieved = ready.has_blank_ns() && apart < limits_.refresh / 50 &&
                             -apart < limits_.refresh / 50 && blanks.last < net::monotonicNow();
     return isBelieved ? std::optional(blanks) : std::nullopt;

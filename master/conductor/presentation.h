@@ -28,7 +28,7 @@ class FrameSource {
     // The next tick of the world, in order; nothing where it is not simulated yet.
     [[nodiscard]] virtual std::optional<Snapshot> takeTick() = 0;
     // What the wall shows in a frame that is published now; valid until the next call.
-    [[nodiscard]] virtual const v1::Show& showOf(Frame frame, net::Instant now) = 0;
+    [[nodiscard]] virtual const v1::Show& showOf(Frame frame, net::Moment now) = 0;
     // All nodes are told to present this frame.
     virtual void onReleased(Frame frame) = 0;
 };
@@ -36,31 +36,33 @@ class FrameSource {
 // When frames are presented, and how many.
 struct PresentationLimits {
     BarrierLimits barrier;
-    net::Instant refresh{};                // of the displays
+    net::Duration refresh{};               // of the displays
     std::optional<std::uint64_t> frames;   // the show ends after so many
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
 };
 
-// Of the conductor's thread.
+// Of the conductor's thread. `now` is the begin of a turn of its loop, by the master's clock.
 class Presentation {
   public:
     // All that is referred to outlives this. Throws Error where the trace cannot be written.
+    // `start`: of the show; nodes that never come are silent since then.
     Presentation(const PresentationLimits& limits,
                  Roster& roster,
                  const Sender& sender,
                  net::MasterChannels& channels,
                  Gauges& gauges,
                  ShowReport& report,
-                 FrameSource& source);
+                 FrameSource& source,
+                 net::Moment start);
 
     // Frames and ticks that are due, at one turn of the loop that began at `now`.
-    void turn(net::Instant now);
+    void turn(net::Moment now);
     // The last frame is released.
     [[nodiscard]] bool isOver() const { return isOver_; }
     // Why the show cannot go on: a node of a lockstep show is silent; empty: it can.
     [[nodiscard]] const std::string& failure() const { return failure_; }
     // How long the loop may sleep where nothing is heard.
-    [[nodiscard]] net::Instant untilDue() const;
+    [[nodiscard]] net::Duration untilDue(net::Moment now) const;
 
     // Which nodes are waited for.
     [[nodiscard]] PresentBarrier& barrier() { return barrier_; }
@@ -74,27 +76,27 @@ class Presentation {
 
     // The node at this seat has built the look that is shown. Returns the first frame in which it
     // is waited for: in lockstep the one that is drawn now, live the first that it surely sees.
-    Frame admit(std::size_t node);
+    Frame admit(std::size_t node, net::Moment now);
     // The node's picture of a frame is finished, and it has let go of an earlier one.
-    void ready(std::size_t node, const v1::Ready& ready, net::Instant now);
+    void ready(std::size_t node, const v1::Ready& ready, net::Moment now);
 
   private:
     [[nodiscard]] bool isLockstep() const { return limits_.barrier.lockstep; }
     [[nodiscard]] bool isLast(Frame frame) const;
     void takeTicks();
-    void expelSilent(net::Instant now);
-    void conduct(net::Instant now);
-    void beginNext(net::Instant now);  // as soon as there is somebody to draw it
-    void release(net::Instant now);    // the frame that is drawn, to all prepared nodes
+    void expelSilent(net::Moment now);
+    void conduct(net::Moment now);
+    void beginNext(net::Moment now);  // as soon as there is somebody to draw it
+    void release(net::Moment now);    // the frame that is drawn, to all prepared nodes
     // True where the frame's state has been published, now or earlier.
-    bool publish(Frame frame, net::Instant now);
+    bool publish(Frame frame, net::Moment now);
     // Sends the last two states again, for nodes that missed them.
-    void publishAgain(net::Instant now);
-    void sendBeacon(net::Instant now);
+    void publishAgain(net::Moment now);
+    void sendBeacon(net::Moment now);
     // When a frame that is ready now is shown, not before the release can have reached every node:
     // releaseTime() for the displays of those who are waited for.
-    [[nodiscard]] net::Instant nextRelease(net::Instant now) const;
-    [[nodiscard]] net::Instant releaseOf(Frame frame, net::Instant now) const;
+    [[nodiscard]] net::Moment nextRelease(net::Moment now) const;
+    [[nodiscard]] net::Moment releaseOf(Frame frame, net::Moment now) const;
     // Of a node's display, where they can be believed.
     [[nodiscard]] std::optional<net::Blanks> blanksIn(const v1::Ready& ready) const;
 
@@ -113,10 +115,11 @@ class Presentation {
     bool isDrawing_ = false;  // next_ is drawn
     Frame unpublished_;
     std::map<Frame, wire::Packet> published_;  // the last two: sent again to whoever may lack them
-    net::Instant lastPublished_{};             // of anything, also of a beacon
-    net::Instant lastRepeat_{}, repeatAfter_{};
+    net::Moment lastPublished_{};              // of anything, also of a beacon
+    net::Moment lastRepeat_{};
+    net::Duration repeatAfter_{};
     std::optional<std::pair<Frame, wire::Packet>> lastPresent_;
-    net::Instant lastRelease_{};
+    net::Moment lastRelease_{};
     bool isOver_ = false;
     std::string failure_;
 };

@@ -131,7 +131,7 @@ config::QualityTier Roster::finestTier() const {
     return least.value_or(config::QualityTier::Low);
 }
 
-bool Roster::isWithinRate(const std::string& user, net::Instant now) {
+bool Roster::isWithinRate(const std::string& user, net::Moment now) {
     constexpr int kMostASecond = 200;
     if (user.empty()) return true;
     Rate& rate = rates_[user];  // as many as there are keys

@@ -43,12 +43,12 @@ struct NodeSeat {
     bool prepared = false;                          // the node takes part
     std::uint32_t builtLook = 0;                    // the newest that the node has built
     std::optional<config::QualityTier> bears = {};  // the finest tier that it has kept up with
-    net::Instant lastHeard = {};
+    net::Moment lastHeard = {};
     std::uint64_t dropped = 0;                          // how often it fell silent
     std::uint64_t mismatches = 0;                       // states decoded to another hash
     std::shared_ptr<const v1::NodeReport> report = {};  // the node's last
     std::optional<net::Blanks> blanks = {};             // of its display, in the master's clock
-    net::Instant lastFed = {};                          // when food was last dropped in its window
+    net::Moment lastFed = {};                           // when food was last dropped in its window
     std::uint64_t logLines = 0;                         // of the node, in this second
     net::RecentPeak pictures = {};                      // how long those of the node take
     Frame released = {};                                // the newest that the node has shown
@@ -83,14 +83,14 @@ class Roster {
     [[nodiscard]] config::QualityTier finestTier() const;
 
     // Whether the holder of a key may ask or be welcomed once more in this second.
-    [[nodiscard]] bool isWithinRate(const std::string& user, net::Instant now);
+    [[nodiscard]] bool isWithinRate(const std::string& user, net::Moment now);
     // True the first time: what a user may not say, and why a node is refused, is logged once.
     [[nodiscard]] bool isFirstRefusalOf(const std::string& user);
     [[nodiscard]] bool isFirstObjection(const std::string& objection);
 
   private:
     struct Rate {
-        net::Instant since{};
+        net::Moment since{};
         int count = 0;
     };
 

@@ -39,7 +39,7 @@ bool isWorld(const v1::WantedShow& show) {
 bool ScanHold::hold(std::uint64_t holder,
                     const config::ScanPattern& pattern,
                     Frame next,
-                    net::Instant now) {
+                    net::Moment now) {
     if (pattern_ && holder != holder_) return false;
     holder_ = holder;
     heard_ = now;
@@ -56,7 +56,7 @@ void ScanHold::end(std::uint64_t holder) {
     ++changes_;
 }
 
-bool ScanHold::expires(net::Instant now) {
+bool ScanHold::expires(net::Moment now) {
     if (!pattern_ || now - heard_ <= kPatience) return false;
     end(holder_);
     return true;
@@ -163,9 +163,9 @@ void ShowControl::settle(const Answer& answer) {
     if (const std::uint64_t request = std::exchange(underWay_, 0)) book_.enter(request, answer);
 }
 
-float ShowControl::brightness(net::Instant now) {
+float ShowControl::brightness(net::Moment now) {
     const std::chrono::duration<float> passed =
-        brightnessAt_ == net::Instant{} ? net::Instant{} : now - brightnessAt_;
+        brightnessAt_ == net::Moment{} ? net::Duration{} : now - brightnessAt_;
     brightnessAt_ = now;
     const bool isDark = wanted_.black() || phase_ == Phase::Fading || phase_ == Phase::Switching;
     const float step = passed / kFade;

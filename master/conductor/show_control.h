@@ -21,18 +21,18 @@ using ask::Outcome;
 // wanted. Nothing of it is kept on disk.
 class ScanHold {
   public:
-    static constexpr net::Instant kPatience = std::chrono::seconds(3);
+    static constexpr net::Duration kPatience = std::chrono::seconds(3);
 
     // Also where the holder says the same again. `next`: the first frame that is still to be
     // published. False: another holds the wall.
     [[nodiscard]] bool hold(std::uint64_t holder,
                             const config::ScanPattern& pattern,
                             Frame next,
-                            net::Instant now);
+                            net::Moment now);
     // Nothing where another holds the wall.
     void end(std::uint64_t holder);
     // True: its holder was silent for too long, and holds no more.
-    [[nodiscard]] bool expires(net::Instant now);
+    [[nodiscard]] bool expires(net::Moment now);
 
     // Nothing where nobody holds the wall.
     [[nodiscard]] const std::optional<config::ScanPattern>& pattern() const { return pattern_; }
@@ -45,7 +45,7 @@ class ScanHold {
     std::uint64_t holder_ = 0;
     std::optional<config::ScanPattern> pattern_;
     Frame first_;
-    net::Instant heard_{};
+    net::Moment heard_{};
     std::uint64_t changes_ = 0;
 };
 
@@ -102,7 +102,7 @@ class ShowControl {
     [[nodiscard]] std::uint64_t version() const { return version_; }
     // Share of the light at a moment that is never earlier than at the call before: half a second
     // from black to full light. The first frame of a look that follows black is black.
-    [[nodiscard]] float brightness(net::Instant now);
+    [[nodiscard]] float brightness(net::Moment now);
 
   private:
     Answer begin(std::uint64_t request, const v1::WantedShow& goal, const v1::WantedShow& change);
@@ -118,7 +118,7 @@ class ShowControl {
     std::uint64_t underWay_ = 0;  // request; 0: of nobody
     std::string waitingFor_;
     float brightness_;
-    net::Instant brightnessAt_{};
+    net::Moment brightnessAt_{};
 };
 
 }  // namespace aquarama::conductor

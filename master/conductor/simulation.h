@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "common/motion/motion_state.h"
 #include "common/net/clock.h"
 #include "common/wire/state_codec.h"
+#include "master/fish/minds.h"
 #include "master/world/events.h"
 
 namespace aquarama::conductor {
@@ -17,12 +19,34 @@ namespace aquarama::conductor {
 // The world at one tick, as it is sent: one record a fish, in the order of the school.
 struct Snapshot {
     Tick tick;
-    net::Instant due{};  // live: when the world was like this; set by the tick thread
+    net::Moment due{};  // live: when the world was like this; set by the tick thread
     std::uint64_t hash = 0;
     wire::Eye eye;
     float daylight = 1.0F;  // of the sky, 0 to 1
     std::vector<motion::FishRecord> fish;
     wire::FoodCloud food;
+};
+
+// The nearest thing of a kind that a fish sees.
+struct NearestSeen {
+    // What it is to the fish.
+    enum class Kind : std::uint8_t { Predator, Food, Mate, Prey };
+    Kind kind = Kind::Predator;
+    std::string name;           // "#12 tang", "particle 7"
+    float distanceLengths = 0;  // in body lengths of the fish that sees it
+    float degreesRight = 0;     // from its heading about the vertical, -180 to 180
+};
+
+// What goes on in the mind of a fish, within the bounds of v1::Explanation. All texts are printable
+// ASCII.
+struct Explanation {
+    std::vector<std::string> lines = {};  // none: there is no such fish
+    // The values in the lines. A fish that is away has no intention, and the others are empty.
+    std::optional<fish::Intention> intention = {};
+    std::string target = {};   // of the intention: "#12 tang", "particle 7"; empty: none
+    float pursuedSeconds = 0;  // how long it has had the intention
+    fish::Feelings feelings = {};
+    std::vector<NearestSeen> seen = {};
 };
 
 // Called from the tick thread only.
@@ -36,9 +60,7 @@ class Simulation {
     // Hash of all that the next tick depends on.
     [[nodiscard]] virtual std::uint64_t hash() const = 0;
     [[nodiscard]] virtual Snapshot snapshot() const = 0;
-    // What goes on in the mind of a fish, as lines of printable ASCII within the bounds of
-    // a reply (kMostExplanationLines of common/wire/messages.h).
-    [[nodiscard]] virtual std::vector<std::string> explain(std::uint32_t fish) const = 0;
+    [[nodiscard]] virtual Explanation explain(std::uint32_t fish) const = 0;
 };
 
 }  // namespace aquarama::conductor

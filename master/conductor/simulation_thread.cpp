@@ -16,7 +16,7 @@ namespace {
 
 // Ticks that are overdue by less are simulated at once, one after the other; beyond it the world
 // has lost time for good, and we say so.
-constexpr net::Instant kMostCatchUp = 15 * kTickPeriod;
+constexpr net::Duration kMostCatchUp = 15 * kTickPeriod;
 // Between two ticks: nobody who asks for more holds up the world.
 constexpr std::size_t kMostJobs = 64;
 
@@ -61,7 +61,7 @@ std::optional<wire::StateView> SnapshotBuffer::showing(Frame frame, Tick tick) c
     return showingOne(frame, *found);
 }
 
-std::optional<wire::StateView> SnapshotBuffer::showing(Frame frame, net::Instant moment) const {
+std::optional<wire::StateView> SnapshotBuffer::showing(Frame frame, net::Moment moment) const {
     if (snapshots_.empty()) return std::nullopt;
     const auto after = std::ranges::lower_bound(snapshots_, moment, {}, &Snapshot::due);
     if (after == snapshots_.end()) return showingOne(frame, snapshots_.back());
@@ -69,7 +69,7 @@ std::optional<wire::StateView> SnapshotBuffer::showing(Frame frame, net::Instant
     const Snapshot& before = *std::prev(after);
     // After it was frozen two ticks lie far apart; the world stood still until one period before
     // the second.
-    const net::Instant sinceBefore = moment - (after->due - kTickPeriod);
+    const net::Duration sinceBefore = moment - (after->due - kTickPeriod);
     const float fraction = static_cast<float>(sinceBefore.count()) / float{kTickPeriod.count()};
     if (fraction <= 0.0F) return showingOne(frame, before);
     if (fraction >= 1.0F) return showingOne(frame, *after);
@@ -155,7 +155,7 @@ void SimulationThread::serveUntilStopped() {
 }
 
 // Waits while the queue is full. False: stopped.
-bool SimulationThread::put(net::Instant due) {
+bool SimulationThread::put(net::Moment due) {
     Snapshot snapshot = simulation_.snapshot();
     snapshot.due = due;
     const bool taken = snapshots_.put(std::move(snapshot));
@@ -169,40 +169,39 @@ void SimulationThread::run(wire::Pace pace) {
 }
 
 void SimulationThread::runLockstep() {
-    while (awaitRoom() && put(net::Instant{})) {
+    while (awaitRoom() && put(net::Moment{})) {
         if (lastTick_ && simulation_.tick() >= *lastTick_) return serveUntilStopped();
         simulation_.advance();
     }
 }
 
-bool SimulationThread::sleepUntil(net::Instant due, net::Instant& frozenFor) {
+bool SimulationThread::sleepUntil(net::Moment due, net::Duration& frozenFor) {
     std::unique_lock lock(mutex_);
-    const auto when = std::chrono::steady_clock::time_point(due);
     const auto disturbed = [&] { return stopped_ || frozen_ || !jobs_.empty(); };
-    while (changed_.wait_until(lock, when, disturbed) && !stopped_ && !frozen_) {
+    while (changed_.wait_until(lock, due, disturbed) && !stopped_ && !frozen_) {
         serve(lock);
         if (net::monotonicNow() >= due) break;
     }
-    const net::Instant begin = net::monotonicNow();
+    const net::Moment begin = net::monotonicNow();
     const bool wasFrozen = frozen_;
     while (frozen_ && !stopped_) {
         serve(lock);
         changed_.wait(lock, [&] { return stopped_ || !frozen_ || !jobs_.empty(); });
     }
-    frozenFor = wasFrozen ? net::monotonicNow() - begin : net::Instant{};
+    frozenFor = wasFrozen ? net::monotonicNow() - begin : net::Duration{};
     return !stopped_;
 }
 
 // Tick k is due at start + k / 60 s, not counting when it is frozen and what could not be caught
 // up.
 void SimulationThread::runLive() {
-    net::Instant due = net::monotonicNow();
+    net::Moment due = net::monotonicNow();
     while (put(due)) {
         due += kTickPeriod;
-        net::Instant frozenFor{};
+        net::Duration frozenFor{};
         if (!sleepUntil(due, frozenFor)) return;
         due += frozenFor;
-        const net::Instant overdue = net::monotonicNow() - due;
+        const net::Duration overdue = net::monotonicNow() - due;
         if (overdue > kMostCatchUp) {
             logWarning("the world is {} ms behind and goes on from here",
                        std::chrono::duration_cast<std::chrono::milliseconds>(overdue).count());

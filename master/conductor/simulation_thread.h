@@ -15,7 +15,7 @@
 
 namespace aquarama::conductor {
 
-inline constexpr net::Instant kTickPeriod{1'000'000'000 / 60};
+inline constexpr net::Duration kTickPeriod{1'000'000'000 / 60};
 static_assert(kTicksPerSecond == 60.0);
 
 // The last few ticks, and what a frame shows of them. Of the conductor's thread.
@@ -29,7 +29,7 @@ class SnapshotBuffer {
     // Lockstep: the tick itself. Empty: not there.
     [[nodiscard]] std::optional<wire::StateView> showing(Frame frame, Tick tick) const;
     // Live: the moment, held between the oldest and the newest tick. Empty: no tick yet.
-    [[nodiscard]] std::optional<wire::StateView> showing(Frame frame, net::Instant moment) const;
+    [[nodiscard]] std::optional<wire::StateView> showing(Frame frame, net::Moment moment) const;
 
     static constexpr std::size_t kKept = 8;
 
@@ -64,14 +64,14 @@ class SimulationThread {
     void run(wire::Pace pace);
     void runLive();
     void runLockstep();
-    bool put(net::Instant due);
+    bool put(net::Moment due);
     // Does the jobs that wait; others may be given meanwhile.
     void serve(std::unique_lock<std::mutex>& lock);
     // Serves until there is room for a snapshot. False: stopped.
     bool awaitRoom();
     void serveUntilStopped();
     // False: stopped. True: the instant has come, and `frozenFor` it came later than planned.
-    bool sleepUntil(net::Instant due, net::Instant& frozenFor);
+    bool sleepUntil(net::Moment due, net::Duration& frozenFor);
 
     Simulation& simulation_;
     std::optional<Tick> lastTick_;

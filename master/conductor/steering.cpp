@@ -14,9 +14,9 @@ namespace aquarama::conductor {
 
 namespace {
 
-constexpr net::Instant kSilence = kTicksOfAHand * kTickPeriod;
+constexpr net::Duration kSilence = kTicksOfAHand * kTickPeriod;
 // A window reports its steering thirty times a second; what comes much more often is ignored.
-constexpr net::Instant kBetween = std::chrono::milliseconds(8);
+constexpr net::Duration kBetween = std::chrono::milliseconds(8);
 constexpr std::size_t kMostPilots = 256;
 
 constexpr int kNotches = 4;  // to either side
@@ -62,17 +62,17 @@ std::int8_t moved(std::int8_t axis, int notches) {
 
 }  // namespace
 
-bool InputArbitration::holds(const HeldInput& input, net::Instant now) {
+bool InputArbitration::holds(const HeldInput& input, net::Moment now) {
     return input.holds && now - input.heard < kSilence;
 }
 
-void InputArbitration::forgetTheSilent(net::Instant now) {
+void InputArbitration::forgetTheSilent(net::Moment now) {
     std::erase_if(inputs_, [&](const auto& one) { return now - one.second.heard >= kSilence; });
 }
 
 bool InputArbitration::accepts(const net::PeerId& pilot,
                                const Steering& steering,
-                               net::Instant now) {
+                               net::Moment now) {
     forgetTheSilent(now);
     const bool holdsNow = steering != Steering{};
     const auto known = inputs_.find(pilot);
@@ -87,7 +87,7 @@ bool InputArbitration::accepts(const net::PeerId& pilot,
     return holder_ == pilot && (holdsNow || held);
 }
 
-std::optional<net::PeerId> InputArbitration::pilot(net::Instant now) const {
+std::optional<net::PeerId> InputArbitration::pilot(net::Moment now) const {
     const auto holder = inputs_.find(holder_);
     if (holder == inputs_.end() || !holds(holder->second, now)) return std::nullopt;
     return holder_;

@@ -18,19 +18,17 @@ namespace aquarama::conductor {
 class InputArbitration {
   public:
     // The input of a pilot. True: it is applied to the submarine.
-    [[nodiscard]] bool accepts(const net::PeerId& pilot,
-                               const Steering& steering,
-                               net::Instant now);
+    [[nodiscard]] bool accepts(const net::PeerId& pilot, const Steering& steering, net::Moment now);
     // Who has control; empty: nobody.
-    [[nodiscard]] std::optional<net::PeerId> pilot(net::Instant now) const;
+    [[nodiscard]] std::optional<net::PeerId> pilot(net::Moment now) const;
 
   private:
     struct HeldInput {
         bool holds = false;
-        net::Instant heard{};
+        net::Moment heard{};
     };
-    [[nodiscard]] static bool holds(const HeldInput& input, net::Instant now);
-    void forgetTheSilent(net::Instant now);
+    [[nodiscard]] static bool holds(const HeldInput& input, net::Moment now);
+    void forgetTheSilent(net::Moment now);
 
     std::map<net::PeerId, HeldInput> inputs_;
     net::PeerId holder_;

@@ -9,8 +9,32 @@ namespace aquarama::conductor {
 namespace {
 
 // Between two inputs of food from one visitor.
-constexpr net::Instant kBetweenPinches = std::chrono::milliseconds(200);
+constexpr net::Duration kBetweenPinches = std::chrono::milliseconds(200);
 constexpr float kReachMetres = 8.0F;  // from the eye
+
+// The enums of the schema are in the order of the code's; their first value says nothing.
+static_assert(v1::Explanation::AVOID_OBSTACLE ==
+              static_cast<int>(fish::Intention::AvoidObstacle) + 1);
+static_assert(v1::Sighting::PREY == static_cast<int>(NearestSeen::Kind::Prey) + 1);
+
+void write(const Explanation& from, v1::Explanation& message) {
+    for (const std::string& line : from.lines) message.add_lines(line);
+    if (!from.intention) return;
+    message.set_intention(
+        static_cast<v1::Explanation::Intention>(static_cast<int>(*from.intention) + 1));
+    message.set_target(from.target);
+    message.set_pursued_s(from.pursuedSeconds);
+    message.set_hunger(from.feelings.hunger);
+    message.set_libido(from.feelings.libido);
+    message.set_fear(from.feelings.fear);
+    for (const NearestSeen& one : from.seen) {
+        v1::Sighting& sighting = *message.add_seen();
+        sighting.set_kind(static_cast<v1::Sighting::Kind>(static_cast<int>(one.kind) + 1));
+        sighting.set_name(one.name);
+        sighting.set_distance_lengths(one.distanceLengths);
+        sighting.set_degrees_right(one.degreesRight);
+    }
+}
 
 }  // namespace
 
@@ -25,22 +49,22 @@ void VisitorInputs::enter(SimulationThread* world, std::uint32_t fish) {
 bool VisitorInputs::feed(NodeSeat& seat,
                          const v1::Input& input,
                          const wire::Eye& eye,
-                         net::Instant now) {
+                         net::Moment now) {
     return feed(seat.lastFed, input, eye, now);
 }
 
 bool VisitorInputs::feed(const std::string& user,
                          const v1::Input& input,
                          const wire::Eye& eye,
-                         net::Instant now) {
+                         net::Moment now) {
     return feed(lastFed_[user], input, eye, now);
 }
 
 // The world bounds the number of pellets; here the rate of a visitor is bounded, and the reach.
-bool VisitorInputs::feed(net::Instant& lastFed,
+bool VisitorInputs::feed(net::Moment& lastFed,
                          const v1::Input& input,
                          const wire::Eye& eye,
-                         net::Instant now) {
+                         net::Moment now) {
     if (now - lastFed < kBetweenPinches || world_ == nullptr) return true;
     const glm::vec3 at{input.position(0), input.position(1), input.position(2)};
     const auto drop = [at](Simulation& simulation) {
@@ -52,7 +76,7 @@ bool VisitorInputs::feed(net::Instant& lastFed,
     return true;
 }
 
-bool VisitorInputs::steer(const net::PeerId& peer, const v1::Input& input, net::Instant now) {
+bool VisitorInputs::steer(const net::PeerId& peer, const v1::Input& input, net::Moment now) {
     const Steering steering = wire::steeringOf(input);
     if (world_ == nullptr || !arbitration_.accepts(peer, steering, now)) return true;
     return world_->betweenTicks([steering](Simulation& simulation) { simulation.apply(steering); });
@@ -67,7 +91,7 @@ bool VisitorInputs::ask(const net::PeerId& peer, std::uint32_t fish) {
         explanation.set_fish(fish);
         explanation.set_school(fish_);
         explanation.set_tick(simulation.tick().value);
-        for (const std::string& line : simulation.explain(fish)) explanation.add_lines(line);
+        write(simulation.explain(fish), explanation);
         explanations_.tryPut({peer, sender_.packetOf(std::move(message))});
         wake_();
     });

@@ -32,33 +32,30 @@ class VisitorInputs {
     [[nodiscard]] bool feed(NodeSeat& seat,
                             const v1::Input& input,
                             const wire::Eye& eye,
-                            net::Instant now);
+                            net::Moment now);
     // Food from somebody who is no node.
     [[nodiscard]] bool feed(const std::string& user,
                             const v1::Input& input,
                             const wire::Eye& eye,
-                            net::Instant now);
-    [[nodiscard]] bool steer(const net::PeerId& peer, const v1::Input& input, net::Instant now);
+                            net::Moment now);
+    [[nodiscard]] bool steer(const net::PeerId& peer, const v1::Input& input, net::Moment now);
     // A question about a mind; answer() sends what comes back.
     [[nodiscard]] bool ask(const net::PeerId& peer, std::uint32_t fish);
     void answer();
     // Who steers; nothing: nobody does.
-    [[nodiscard]] std::optional<net::PeerId> pilot(net::Instant now) const {
+    [[nodiscard]] std::optional<net::PeerId> pilot(net::Moment now) const {
         return arbitration_.pilot(now);
     }
 
   private:
-    bool feed(net::Instant& lastFed,
-              const v1::Input& input,
-              const wire::Eye& eye,
-              net::Instant now);
+    bool feed(net::Moment& lastFed, const v1::Input& input, const wire::Eye& eye, net::Moment now);
 
     const Sender& sender_;
     std::function<void()> wake_;
     SimulationThread* world_ = nullptr;
     std::uint32_t fish_ = 0;
     InputArbitration arbitration_;
-    std::map<std::string, net::Instant> lastFed_;  // by user that is no node
+    std::map<std::string, net::Moment> lastFed_;  // by user that is no node
     // Written by the tick thread. A full queue drops the answer, and the client asks again.
     net::BoundedQueue<std::pair<net::PeerId, wire::Packet>> explanations_{256};
 };

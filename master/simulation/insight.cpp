@@ -88,9 +88,8 @@ double degreesLeft(glm::vec3 heading, glm::vec3 direction) {
     return static_cast<double>(place::yawBetween(heading, direction)) * kDegreesPerRadian;
 }
 
-// Where an offset lies, in words: eight sectors about the heading.
-std::string whereabouts(glm::vec3 heading, glm::vec3 offset) {
-    const double degrees = degreesLeft(heading, offset);
+// Where something lies so far to the left of the heading, in words: eight sectors.
+std::string whereabouts(double degrees) {
     const double aside = std::abs(degrees);
     const char* side = degrees > 0 ? "left" : "right";
     if (aside < 25) return "ahead";
@@ -105,25 +104,27 @@ class Screen {
   public:
     Screen(const Insight& insight, const Acquaintances& others) : of_(insight), others_(others) {}
 
-    std::vector<std::string> drawn() {
+    conductor::Explanation explained() {
         title();
         if (of_.away) {
             add("", "it is away: eaten, or not yet come. Nobody sees it, and it thinks nothing.");
-            return std::move(lines_);
+            return std::move(told_);
         }
         sees();
         feels();
         intends();
         does();
         why();
-        assert(lines_.size() <= kScreenLines);
-        return std::move(lines_);
+        assert(told_.lines.size() <= kScreenLines);
+        return std::move(told_);
     }
 
   private:
+    using Kind = conductor::NearestSeen::Kind;
+
     // Appends a line, cut to the width of the screen.
     void add(const char* head, const std::string& text) {
-        lines_.push_back(format("{:<9}{}", head, text).substr(0, kScreenColumns));
+        told_.lines.push_back(format("{:<9}{}", head, text).substr(0, kScreenColumns));
     }
 
     // In body lengths of the fish; its length may be 0 in an empty insight.
@@ -139,17 +140,23 @@ class Screen {
     // Number and species; the number alone where there is no such fish.
     [[nodiscard]] std::string named(std::uint32_t fish) const {
         if (fish >= others_.view.size()) return format("#{}", fish);
-        return format("#{} {}", fish, speciesOf(fish));
+        return format("#{} {}", fish, speciesOf(fish)).substr(0, kScreenColumns);
     }
 
-    // A sighting in words: who, how far in body lengths (L), and where.
-    [[nodiscard]] std::string at(const behaviour::Sighting& sighting,
-                                 const std::string& who) const {
+    [[nodiscard]] static std::string particle(std::uint32_t number) {
+        return format("particle {}", number);
+    }
+
+    // A sighting in words: its name, how far it is in body lengths (L), and where. Noted as a
+    // value.
+    [[nodiscard]] std::string at(Kind kind,
+                                 const behaviour::Sighting& sighting,
+                                 const std::string& name) {
         if (!sighting.seen()) return "-";
-        return format("{}, {:.1f} L {}",
-                      who,
-                      lengths(static_cast<double>(sighting.distance)),
-                      whereabouts(of_.senses.heading, sighting.offset));
+        const double distance = lengths(static_cast<double>(sighting.distance));
+        const double left = degreesLeft(of_.senses.heading, sighting.offset);
+        told_.seen.push_back({kind, name, static_cast<float>(distance), static_cast<float>(-left)});
+        return format("{}, {:.1f} L {}", name, distance, whereabouts(left));
     }
 
     void title() {
@@ -175,16 +182,16 @@ class Screen {
     }
 
     // The nearest predator, and how many more are in sight.
-    [[nodiscard]] std::string predators() const {
+    [[nodiscard]] std::string predators() {
         const behaviour::Senses& senses = of_.senses;
         if (senses.predatorCount == 0) return "-";
         const std::string others =
             senses.predatorCount > 1 ? format(" and {} more", senses.predatorCount - 1) : "";
-        return at(senses.predators[0], named(senses.predators[0].object)) + others;
+        return fishSeen(Kind::Predator, senses.predators[0]) + others;
     }
 
-    [[nodiscard]] std::string fishSeen(const behaviour::Sighting& sighting) const {
-        return at(sighting, named(sighting.object));
+    [[nodiscard]] std::string fishSeen(Kind kind, const behaviour::Sighting& sighting) {
+        return at(kind, sighting, named(sighting.object));
     }
 
     void sees() {
@@ -192,8 +199,9 @@ class Screen {
         add("SEES", "schoolmates " + listed(senses.schoolmates));
         add("", "others      " + listed(senses.others));
         add("", "predator    " + predators());
-        add("", "food        " + at(senses.food, format("particle {}", senses.food.object)));
-        add("", "mate        " + fishSeen(senses.mate) + "   prey " + fishSeen(senses.prey));
+        add("", "food        " + at(Kind::Food, senses.food, particle(senses.food.object)));
+        const std::string mate = fishSeen(Kind::Mate, senses.mate);
+        add("", "mate        " + mate + "   prey " + fishSeen(Kind::Prey, senses.prey));
         add("",
             format("submarine   {:.1f} m   light {:.0f} %   water {:.1f} C",
                    senses.submarineMetres,
@@ -210,24 +218,32 @@ class Screen {
     }
 
     void feels() {
+        told_.feelings = of_.feelings;
         add("FEELS", "hunger " + bar(of_.feelings.hunger));
         add("", "libido " + bar(of_.feelings.libido));
         add("", "fear   " + bar(of_.feelings.fear));
     }
 
-    // The target is a particle for those that eat food, a fish for all others.
-    [[nodiscard]] std::string targeted(fish::Intention intention, std::uint32_t target) const {
-        if (target == fish::kNobody) return wordFor(intention);
+    // The target is a particle for those that eat food, a fish for all others; empty where there
+    // is none.
+    [[nodiscard]] std::string targetOf(fish::Intention intention, std::uint32_t target) const {
+        if (target == fish::kNobody) return {};
         const bool isParticle = intention == fish::Intention::Eat &&
                                 of_.parameters.habits.role != config::Role::Predator;
-        return format("{} {}",
-                      wordFor(intention),
-                      isParticle ? format("particle {}", target) : named(target));
+        return isParticle ? particle(target) : named(target);
+    }
+
+    [[nodiscard]] std::string targeted(fish::Intention intention, std::uint32_t target) const {
+        const std::string what = targetOf(intention, target);
+        return what.empty() ? wordFor(intention) : format("{} {}", wordFor(intention), what);
     }
 
     // The intention, and the aim that it interrupted, if any.
     void intends() {
         const fish::Mind& mind = of_.mind;
+        told_.intention = mind.intention;
+        told_.target = targetOf(mind.intention, mind.target);
+        told_.pursuedSeconds = static_cast<float>(seconds(mind.pursued));
         add("INTENDS",
             format("{}, its aim for {:.1f} s",
                    targeted(mind.intention, mind.target),
@@ -269,7 +285,7 @@ class Screen {
     static constexpr std::size_t kListColumns = 54;
     const Insight& of_;
     const Acquaintances& others_;
-    std::vector<std::string> lines_;
+    conductor::Explanation told_;
 };
 
 // Words for rules, indexed by PriorityRule.
@@ -339,9 +355,9 @@ void Screen::why() {
 
 }  // namespace
 
-std::vector<std::string> linesOf(const Insight& insight, const Acquaintances& others) {
+conductor::Explanation explanationOf(const Insight& insight, const Acquaintances& others) {
     assert(insight.fish < others.view.size());
-    return Screen(insight, others).drawn();
+    return Screen(insight, others).explained();
 }
 
 }  // namespace aquarama::simulation

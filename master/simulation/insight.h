@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A look into one mind: what the fish senses, feels, intends and does at this tick, and why it does
 // nothing else. It repeats the stages of a thought on the present world and writes nothing to it.
-// The text is for `aquarama explain`.
+// The lines are for `aquarama explain`, the values for the console.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +16,7 @@
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/perceive.h"
 #include "master/behaviour/think.h"
+#include "master/conductor/simulation.h"
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
 #include "master/fish/secondary_controller.h"
@@ -63,7 +64,8 @@ struct Acquaintances {
     std::span<const std::string> species;
 };
 
-// The lines of the screen, without line ends.
-[[nodiscard]] std::vector<std::string> linesOf(const Insight& insight, const Acquaintances& others);
+// The lines of the screen, without line ends, and the values in them.
+[[nodiscard]] conductor::Explanation explanationOf(const Insight& insight,
+                                                   const Acquaintances& others);
 
 }  // namespace aquarama::simulation

@@ -115,9 +115,9 @@ conductor::Snapshot LivingWorld::snapshot() const {
     return snapshot;
 }
 
-std::vector<std::string> LivingWorld::explain(std::uint32_t fish) const {
+conductor::Explanation LivingWorld::explain(std::uint32_t fish) const {
     const auto insight = insightInto(world_, fish);
-    return insight ? linesOf(*insight, {world_.view(), species_}) : std::vector<std::string>{};
+    return insight ? explanationOf(*insight, {world_.view(), species_}) : conductor::Explanation{};
 }
 
 Assets readAssets(const std::string& scenePath, const AssetChoice& choice) {

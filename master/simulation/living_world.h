@@ -25,7 +25,7 @@ class LivingWorld : public conductor::Simulation {
     [[nodiscard]] Tick tick() const override { return world_.tick(); }
     [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
     [[nodiscard]] conductor::Snapshot snapshot() const override;
-    [[nodiscard]] std::vector<std::string> explain(std::uint32_t fish) const override;
+    [[nodiscard]] conductor::Explanation explain(std::uint32_t fish) const override;
 
     // The world itself, for measurements.
     [[nodiscard]] const world::World& world() const { return world_; }

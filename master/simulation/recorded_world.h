@@ -23,7 +23,7 @@ class SimulationDecorator : public conductor::Simulation {
     [[nodiscard]] Tick tick() const override { return world_.tick(); }
     [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
     [[nodiscard]] conductor::Snapshot snapshot() const override { return world_.snapshot(); }
-    [[nodiscard]] std::vector<std::string> explain(std::uint32_t fish) const override {
+    [[nodiscard]] conductor::Explanation explain(std::uint32_t fish) const override {
         return world_.explain(fish);
     }
 

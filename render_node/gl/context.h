@@ -103,7 +103,7 @@ class Context {
     // On the drawing thread, with the context current.
     struct VerticalBlank {
         std::uint64_t count;
-        std::chrono::nanoseconds at;  // CLOCK_MONOTONIC
+        std::chrono::steady_clock::time_point at;
     };
     [[nodiscard]] virtual std::optional<VerticalBlank> lastBlank() const { return std::nullopt; }
     // Width and height of framebuffer 0, in pixels; may be read by any thread.

@@ -53,8 +53,9 @@ class WindowContext final : public Context {
         std::int64_t microseconds = 0, blanks = 0, swaps = 0;
         const auto told = glXGetSyncValuesOML(native_.x, window, &microseconds, &blanks, &swaps);
         if (told == False || blanks <= 0) return std::nullopt;
-        return VerticalBlank{static_cast<std::uint64_t>(blanks),
-                             std::chrono::microseconds(microseconds)};
+        return VerticalBlank{
+            static_cast<std::uint64_t>(blanks),
+            std::chrono::steady_clock::time_point{std::chrono::microseconds(microseconds)}};
     }
     [[nodiscard]] glm::ivec2 framebufferPixels() const override {
         return window_.framebufferPixels();

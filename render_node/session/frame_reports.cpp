@@ -42,7 +42,7 @@ std::optional<v1::Envelope> FrameReports::due(const Pings& clock, net::Moment no
     ready.set_picture_us(
         static_cast<std::uint32_t>(finished_->took / std::chrono::microseconds(1)));
     const auto masters = [&](net::Moment own) {
-        return (own + clock.offset(own).value_or(net::Duration{})).count();
+        return (own + clock.offset(own).value_or(net::Duration{})).time_since_epoch().count();
     };
     if (const auto& released = finished_->released) {
         ready.set_released_frame(released->frame.value);

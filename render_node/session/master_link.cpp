@@ -242,7 +242,7 @@ void MasterLink::takeRelease(const v1::Present& present) {
     const net::Moment now = net::monotonicNow();
     net::Moment at = now;
     const auto ahead = pings_.offset(now);
-    if (present.at_ns() != 0 && ahead) at = net::Moment{present.at_ns()} - *ahead;
+    if (present.at_ns() != 0 && ahead) at = net::Moment{net::Duration{present.at_ns()}} - *ahead;
     if (at > now + kFarthest) at = now;
     frames_.release(frame);
     mailbox_.release({frame, at});

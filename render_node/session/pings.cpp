@@ -17,7 +17,7 @@ constexpr std::size_t kKept = 200;                            // of ten seconds
 std::optional<v1::Envelope> Pings::due(net::Moment now) {
     if (now - last_ < kInterval) return std::nullopt;
     v1::Envelope message;
-    message.mutable_ping()->set_sent_ns(now.count());
+    message.mutable_ping()->set_sent_ns(now.time_since_epoch().count());
     last_ = now;
     sent_.emplace_back(now, std::nullopt);
     if (sent_.size() > kKept) sent_.pop_front();
@@ -25,8 +25,8 @@ std::optional<v1::Envelope> Pings::due(net::Moment now) {
 }
 
 void Pings::hear(const v1::Pong& pong, net::Moment now) {
-    const net::Moment sent{pong.sent_ns()};
-    clock_.add(sent, net::Moment{pong.master_ns()}, now);
+    const net::Moment sent{net::Duration{pong.sent_ns()}};
+    clock_.add(sent, net::Moment{net::Duration{pong.master_ns()}}, now);
     const auto ping = std::ranges::find(sent_, sent, [](const auto& p) { return p.first; });
     if (ping != sent_.end()) ping->second = now - sent;
 }

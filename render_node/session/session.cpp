@@ -197,7 +197,7 @@ class LinkSession final : public Session {
         if (order->frame != frame && !std::exchange(skipped_, true)) return Release::Skip;
         // A node that is always late shows late pictures, which is better than none.
         skipped_ = false;
-        std::this_thread::sleep_until(std::chrono::steady_clock::time_point(order->at));
+        std::this_thread::sleep_until(order->at);
         released_ = ReleaseReport{frame, net::monotonicNow()};
         return Release::Present;
     }
@@ -213,7 +213,8 @@ class LinkSession final : public Session {
     void freeze(bool frozen) override {
         v1::Envelope message;
         v1::Order& order = *message.mutable_order();
-        order.set_request(static_cast<std::uint64_t>(net::monotonicNow().count()));
+        order.set_request(
+            static_cast<std::uint64_t>(net::monotonicNow().time_since_epoch().count()));
         order.mutable_show()->set_freeze(frozen);
         link_.post(message);
     }

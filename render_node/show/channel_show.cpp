@@ -14,11 +14,6 @@ namespace aquarama::show {
 
 namespace {
 
-// On CLOCK_MONOTONIC, as FrameTimes.
-std::chrono::nanoseconds now() {
-    return std::chrono::steady_clock::now().time_since_epoch();
-}
-
 // Copies a texture into framebuffer 0 of a window, scaled to fit, with black margins.
 void copyToWindow(const gl::Target& picture, glm::ivec2 window, GLenum buffer) {
     const auto [corner, size] = fitInto(window, picture.sizePixels());
@@ -177,13 +172,13 @@ session::Release ChannelShow::play() {
             fillWindow();
         }
         // Ready is reported only after the GPU has finished the picture.
-        times.ready = now();
+        times.ready = net::monotonicNow();
         const session::Release release = session_.readyThenWait(state->frame);
         if (release == session::Release::Rejoin || release == session::Release::Quit)
             return release;
         if (release == session::Release::Skip) continue;
         if (seen) context_.swap();
-        times.present = now();
+        times.present = net::monotonicNow();
         service_.alive(++framesShown_);
         watchBlanks(state->frame);
         trace_.write(state->frame, times);
@@ -227,8 +222,9 @@ void ChannelShow::watchBlanks(Frame frame) {
     if (frame.value % kEvery != 0) return;
     const auto blank = context_.lastBlank();
     if (!blank) return;
-    const bool isOurClock = blank->at <= now() && now() - blank->at < std::chrono::seconds(1);
-    if (isOurClock) session_.sawBlank(blank->count, blank->at);
+    const net::Duration age = net::monotonicNow() - blank->at;
+    if (age >= net::Duration{0} && age < std::chrono::seconds(1))
+        session_.sawBlank(blank->count, blank->at);
 }
 
 // A lost context takes all textures and programs with it. The node ends; a new process builds
@@ -291,8 +287,8 @@ std::optional<glm::vec2> ChannelShow::pixelAt(const WindowPlace& place) const {
 // any time and the text must stay long enough to be read.
 std::optional<WatchedMind> ChannelShow::watchMind(const wire::StateFrame& frame) {
     constexpr std::chrono::milliseconds kBetweenQuestions{250};
-    if (now() - askedAt_ >= kBetweenQuestions) {
-        askedAt_ = now();
+    if (net::monotonicNow() - askedAt_ >= kBetweenQuestions) {
+        askedAt_ = net::monotonicNow();
         const auto pixel = pixelAt(controls_.pointer()).value_or(pointing_->middle());
         watched_ = stage_->picture().fishNearest(frame, pixel);
         if (watched_) session_.askMind(*watched_);

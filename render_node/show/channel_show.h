@@ -2,7 +2,6 @@
 // The drawing thread of a node: it draws and shows the frames of one channel that the master sends.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <future>
@@ -13,6 +12,7 @@
 #include "common/config/rig.h"
 #include "common/machine/service_notifier.h"
 #include "common/net/channels.h"
+#include "common/net/clock.h"
 #include "common/wire/state_codec.h"
 #include "render_node/gl/context.h"
 #include "render_node/session/session.h"
@@ -104,7 +104,7 @@ class ChannelShow {
     // The fish whose mind is shown, as its index in the school.
     std::optional<std::uint32_t> watched_;
     // When the fish was last chosen and the master asked.
-    std::chrono::nanoseconds askedAt_{};
+    net::Moment askedAt_{};
     // Whether a frame of this show has been presented, and how many since the node started.
     bool shown_ = false;
     std::uint64_t framesShown_ = 0;

@@ -62,7 +62,7 @@ void Controls::press(char key) {
 void Controls::end() {
     if (!endsShow_) {
         const std::lock_guard lock(mutex_);
-        hintUntil_ = std::chrono::steady_clock::now() + kHint;
+        hintUntil_ = net::monotonicNow() + kHint;
         return;
     }
     if (std::exchange(quitAsked_, true)) session_.stop();
@@ -78,7 +78,7 @@ void Controls::point(WindowPlace place) {
     pointer_ = place;
 }
 
-void Controls::hold(const gl::Hands& hands, std::chrono::nanoseconds now) {
+void Controls::hold(const gl::Hands& hands, net::Moment now) {
     if (const auto steering = pace_.due(steeringOf(hands), now)) session_.steer(*steering);
 }
 
@@ -90,7 +90,7 @@ void Controls::drop(const Pinch& pinch) {
 Overlays Controls::overlays() const {
     const std::lock_guard lock(mutex_);
     Overlays shown = overlays_;
-    shown.endRefused = std::chrono::steady_clock::now() < hintUntil_;
+    shown.endRefused = net::monotonicNow() < hintUntil_;
     return shown;
 }
 
@@ -169,7 +169,7 @@ Steering steeringOf(const gl::Hands& hands) {
         .tilt = axisOf(between(hands, gl::HeldKey::Home, gl::HeldKey::End) + drag.y + right.y)};
 }
 
-std::optional<Steering> SteeringPace::due(const Steering& wanted, std::chrono::nanoseconds now) {
+std::optional<Steering> SteeringPace::due(const Steering& wanted, net::Moment now) {
     assert(!saidAt_ || now >= *saidAt_);
     const bool changed = wanted != said_;
     const bool held = wanted != Steering{};

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -18,6 +17,7 @@
 
 #include "common/base/units.h"
 #include "common/config/rig.h"
+#include "common/net/clock.h"
 #include "common/wall/wall.h"
 #include "common/wire/state_codec.h"
 #include "render_node/gl/context.h"
@@ -40,11 +40,11 @@ class SteeringPace {
   public:
     // The steering to send now; empty where nothing is due. now: of a monotonic clock, never
     // earlier than at the call before.
-    [[nodiscard]] std::optional<Steering> due(const Steering& wanted, std::chrono::nanoseconds now);
+    [[nodiscard]] std::optional<Steering> due(const Steering& wanted, net::Moment now);
 
   private:
     Steering said_;
-    std::optional<std::chrono::nanoseconds> saidAt_;
+    std::optional<net::Moment> saidAt_;
 };
 
 // Keys and mouse of a window act on the whole show, through the master, and on what this window
@@ -108,7 +108,7 @@ class Controls {
     // Where the pointer is now.
     void point(WindowPlace place);
     // Sends the steering that the hands ask for, when it is due.
-    void hold(const gl::Hands& hands, std::chrono::nanoseconds now);
+    void hold(const gl::Hands& hands, net::Moment now);
 
     // What the wall shows: a key that changes it asks for the other value. May be called by any
     // thread.
@@ -133,7 +133,7 @@ class Controls {
     // Guards all members below. Those above belong to the main thread.
     mutable std::mutex mutex_;
     Overlays overlays_;
-    std::chrono::steady_clock::time_point hintUntil_{};
+    net::Moment hintUntil_{};
     WindowPlace pointer_;
     std::deque<Pinch> pinches_;
 };

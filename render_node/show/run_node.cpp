@@ -85,7 +85,7 @@ bool runNode(const NodeOptions& options) {
         while (const std::optional<char> key = context->nextKey()) controls.press(*key);
         while (const auto place = context->nextClick()) controls.click(*place);
         controls.point(context->pointer());
-        controls.hold(context->hands(), std::chrono::steady_clock::now().time_since_epoch());
+        controls.hold(context->hands(), net::monotonicNow());
     }
     drawing.get();
     return session->isToRestart();

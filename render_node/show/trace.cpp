@@ -15,9 +15,9 @@ void Trace::write(Frame frame, const FrameTimes& times) {
     if (!file_.isOpen()) return;
     file_.appendOrLog(fmt::format("{},{},{},{}\n",
                                   frame.value,
-                                  times.state.count(),
-                                  times.ready.count(),
-                                  times.present.count()));
+                                  times.state.time_since_epoch().count(),
+                                  times.ready.time_since_epoch().count(),
+                                  times.present.time_since_epoch().count()));
 }
 
 }  // namespace aquarama::show

@@ -2,22 +2,22 @@
 // A file of the times of each frame that a node has shown.
 #pragma once
 
-#include <chrono>
 #include <string>
 
 #include "common/base/output_file.h"
 #include "common/base/units.h"
+#include "common/net/clock.h"
 
 namespace aquarama::show {
 
-// The times of one frame. On CLOCK_MONOTONIC, which all processes of a machine share.
+// The times of one frame. All processes of a machine share their clock.
 struct FrameTimes {
     // When its state arrived.
-    std::chrono::nanoseconds state{};
+    net::Moment state{};
     // When its picture was finished.
-    std::chrono::nanoseconds ready{};
+    net::Moment ready{};
     // When the swap had returned; without a display, when the frame was released.
-    std::chrono::nanoseconds present{};
+    net::Moment present{};
 };
 
 // Writes a line for each frame that was presented: frame,state_ns,ready_ns,present_ns.

@@ -72,7 +72,7 @@ BENCHMARK(decodeFish)->Name("decode")->ArgName("fish")->Arg(51)->Arg(1000)->Arg(
 // Shows in which nodes sleep instead of drawing; when each let go of each frame.
 class Releases {
   public:
-    void attend(session::Session& session, net::Instant drawing) {
+    void attend(session::Session& session, net::Duration drawing) {
         while (session.join()) {
             session.prepared(1, config::QualityTier::Low);
             while (const auto state = session.nextFrame()) {
@@ -98,7 +98,7 @@ class Releases {
 
   private:
     std::mutex mutex_;
-    std::map<std::uint64_t, std::vector<net::Instant>> times_;
+    std::map<std::uint64_t, std::vector<net::Moment>> times_;
 };
 
 constexpr std::uint64_t kFrames = 300;
@@ -153,7 +153,8 @@ class Hand {
     void see(float aheadMetres) {
         const std::int64_t since = movedNs_;
         if (since == 0 || aheadMetres == before_) return;
-        refreshes.push_back(net::secondsIn(net::monotonicNow() - net::Instant{since}) * 60);
+        refreshes.push_back(
+            net::secondsIn(net::monotonicNow() - net::Moment{net::Duration{since}}) * 60);
         movedNs_ = 0;
     }
     std::vector<double> refreshes;  // of 60 Hz, from the hand to the release
@@ -166,7 +167,7 @@ class Hand {
             if (movedNs_ != 0) continue;
             before_ = ahead;
             ahead = static_cast<std::int8_t>(150 - ahead);
-            movedNs_ = net::monotonicNow().count();
+            movedNs_ = net::monotonicNow().time_since_epoch().count();
             session_.steer({.ahead = ahead});
         }
     }

@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import re
 import resource
 import secrets
 import signal
@@ -91,7 +92,9 @@ class Doors(unittest.TestCase):
                 (421, "POST", "/pair", {"code": "x"}, {"Host": "evil.example", "Origin": "http://evil.example"}),
                 (404, "GET", "/../etc/passwd", None, {"Cookie": self.cookie}),
                 (401, "GET", "/metrics", None, {}),
-                (401, "GET", "/bundle.tar", None, {}),
+                (401, "GET", "/bundle.zip", None, {}),
+                (200, "GET", "/bundle.zip", None, self.bearer(self.watcher)),
+                (308, "GET", "/bundle.tar", None, {"Cookie": self.cookie}),
                 (401, "GET", "/metrics", None, self.bearer("0" * 32)),
                 (401, "GET", "/metrics", None, {"Cookie": self.cookie[:-1] + ("0" if self.cookie[-1] != "0" else "1")}),
                 (200, "GET", "/metrics", None, self.bearer(self.watcher)),
@@ -172,13 +175,39 @@ class Doors(unittest.TestCase):
                 told.append(client.hear_until(lambda message: isinstance(message, dict)
                                               and "hours" in message)["hours"])
                 for hours in told:
-                    self.assertEqual(hours["projectors"][0].get("password", ""), secret)
+                    self.assertEqual(hours["form"]["projectors"][0].get("password", ""), secret)
                     self.assertEqual(hours.get("text", ""), text if secret else "")
                 client.close()
         finally:
             crew.command(run, hoursText="")
             crew.command(run, holdHours=0)
             crew.close()
+
+    def test_the_hours_are_set_as_a_message_and_mistakes_come_by_field(self):
+        crew = Socket(self.desk, Origin=None, **self.bearer(self.crew))
+        hours = {"zone": "UTC", "exceptions": [{"date": "2026-12-24"}, {"date": "2026-12-24"}],
+                 "projectors": [{"name": "left", "address": "beamer"}]}
+        crew.say({"command": {"id": "77", "hours": hours}})
+        heard = {}
+        while not {"mistakes", "done"} <= heard.keys():  # in either order
+            heard |= crew.hear_until(lambda message: isinstance(message, dict))
+        told, done = heard["mistakes"], heard["done"]
+        self.assertEqual(told["request"], "77")
+        self.assertEqual([one["field"] for one in told["mistakes"]], ["exceptions.1.date", "projectors.0.address"])
+        self.assertIn("is there already", told["mistakes"][0]["what"])
+        self.assertEqual(done["outcome"], "REFUSED")
+        self.assertTrue(done["reason"].startswith("exceptions.1.date: "), done)
+        hours["exceptions"].pop()
+        hours["projectors"].pop()
+        self.assertEqual(crew.command(0, holdHours=1)["outcome"], "done")
+        self.assertEqual(crew.command(0, hours=hours)["outcome"], "done")
+        crew.say({"look": {"topics": ["hours"]}})
+        kept = crew.hear_until(lambda message: isinstance(message, dict) and "hours" in message)["hours"]
+        self.assertEqual([day["date"] for day in kept["form"]["exceptions"]], ["2026-12-24"])
+        self.assertIn('date: "2026-12-24"', kept["text"])
+        crew.command(0, hoursText="")
+        crew.command(0, holdHours=0)
+        crew.close()
 
     def test_projectors_of_a_hall_are_switched_whatever_their_manners(self):
         """One in lower case that closes after each answer and is asked for its password each time; one that is slow,
@@ -296,7 +325,7 @@ class Doors(unittest.TestCase):
             client.close()
         self.cut_frames()
         status = self.desk.request("GET", "/metrics", **self.bearer(self.watcher))[2]
-        cut_off = int(float(status.split("aquarama_console_cut_off_connections_total ")[1].split()[0]))
+        cut_off = int(re.search(r"^aquarama_console_cut_off_connections_total (\d+)$", status, re.M)[1])
         self.assertGreater(cut_off, 100)
         after = self.desk.status()
         self.assertEqual((after["late"], after["dropped"]), (before["late"], before["dropped"]))
@@ -411,12 +440,12 @@ class OtherMachines(unittest.TestCase):
         cls.desk.start_node("right", AQUARAMA_POWER_FOLDER=str(cls.nowhere))
         cls.crew = Socket(cls.desk, Origin=None, Authorization=f"Bearer {cls.desk.token('crew')}")
         cls.run_number = cls.crew.hear()["snapshot"]["wall"]["run"]
-        cls.wall(lambda nodes: all(node["host"] for node in nodes.values()))
+        cls.wall(lambda nodes: all(node.get("report") for node in nodes.values()))
 
     @classmethod
     def wall(cls, wanted):
         """The nodes by name, as soon as they are as they should be."""
-        nodes = lambda message: {node["name"]: node for node in message["wall"]["nodes"]}
+        nodes = lambda message: {node["name"]: node for node in message["wall"]["status"]["nodes"]}
         return nodes(cls.crew.hear_until(lambda message: isinstance(message, dict) and "wall" in message
                                          and wanted(nodes(message)), 60))
 
@@ -453,8 +482,8 @@ class OtherMachines(unittest.TestCase):
         self.assertEqual(list(self.pit.iterdir()), [])
 
     def test_a_machine_that_is_not_set_up_says_so_and_does_nothing(self):
-        nodes = self.wall(lambda nodes: "takesPower" in nodes["left"])
-        self.assertEqual([nodes[name]["takesPower"] for name in ("left", "right")], [True, False])
+        nodes = self.wall(lambda nodes: "takesPowerWord" in nodes["left"]["report"])
+        self.assertEqual([nodes[name]["report"]["takesPowerWord"] for name in ("left", "right")], [True, False])
         refused = self.switch("right", "POWEROFF")
         self.assertEqual(refused["reason"], "the machine of right takes no such word; set up aquarama-power.path there")
         self.assertFalse(self.nowhere.exists())
@@ -467,7 +496,7 @@ class OtherMachines(unittest.TestCase):
         finally:
             self.nowhere.rename(self.pit)
         self.assertEqual(list(self.pit.iterdir()), [])
-        self.wall(lambda nodes: nodes["left"]["takesPower"])
+        self.wall(lambda nodes: nodes["left"]["report"]["takesPowerWord"])
 
 
 if __name__ == "__main__":

@@ -2,12 +2,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <span>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "common/base/log.h"
 #include "common/config/text_file.h"
+#include "common/formats/archive.h"
 #include "console/files_of_show.h"
 #include "tests/support/source_folder.h"
 
@@ -30,14 +32,28 @@ class FilesTest : public testing::Test {
     fs::path folder_;
 };
 
-TEST_F(FilesTest, anArchiveIsReadByTar) {
-    const std::string large(100'000, 'x');
-    write("bundle.tar", tarOf({{"a.txt", "one\n"}, {"log/b.jsonl", large}, {"empty", ""}}));
-    const std::string command = "cd " + folder_.string() + " && tar xf bundle.tar";
-    ASSERT_EQ(std::system(command.c_str()), 0);
-    EXPECT_EQ(fs::file_size(folder_ / "a.txt"), 4U);
-    EXPECT_EQ(fs::file_size(folder_ / "log/b.jsonl"), large.size());
-    EXPECT_EQ(fs::file_size(folder_ / "empty"), 0U);
+TEST_F(FilesTest, theArchiveHasLogsAndRigAndWhatTheConsoleKnows) {
+    setenv("XDG_STATE_HOME", folder_.c_str(), 1);
+    const std::string rig = write("hall.txtpb", "name: \"hall\"\n").string();
+    fs::create_directories(logOf(rig).parent_path());
+    constexpr std::size_t kMostBytes = std::size_t{8} << 20U;
+    std::ofstream(logOf(rig)) << std::string(kMostBytes, 'x') << "\nthe last line\n";
+    std::ofstream(logOf(rig).string() + ".1") << "before\n";
+    const std::string bytes = bundleOf(rig, {{"events.txt", "one\n"}, {"empty.txt", ""}});
+    formats::Archive archive(std::as_bytes(std::span{bytes}), "the archive");
+    const auto textOf = [&](const std::string& name) {
+        const auto content = archive.read(name);
+        return std::string(reinterpret_cast<const char*>(content.data()), content.size());
+    };
+    EXPECT_EQ(archive.names(),
+              (std::vector<std::string>{
+                  "events.txt", "empty.txt", "log/hall.jsonl", "log/hall.jsonl.1", "hall.txtpb"}));
+    EXPECT_EQ(textOf("events.txt"), "one\n");
+    EXPECT_EQ(textOf("empty.txt"), "");
+    EXPECT_EQ(textOf("log/hall.jsonl"), "the last line\n") << "whole lines of the last 8 MiB";
+    EXPECT_EQ(textOf("log/hall.jsonl.1"), "before\n");
+    EXPECT_EQ(textOf("hall.txtpb"), "name: \"hall\"\n");
+    EXPECT_THROW(static_cast<void>(bundleOf(rig, {{"hall.txtpb", "twice"}})), Error);
 }
 
 TEST_F(FilesTest, aLogIsFilteredAndWhatIsNoLineOfItIsLeftOut) {

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "common/base/log.h"
+#include "common/config/text_file.h"
 #include "console/overview.h"
 
 namespace aquarama::console {
@@ -106,18 +107,40 @@ TEST_F(OpeningTest, theTextIsToldAsAFormHasIt) {
         "exceptions { date: \"2026-12-31\" open { from: \"10:00\" to: \"14:00\" } }\n"
         "projectors { name: \"left\" address: \"192.168.7.21\" password: \"secret\" }\n");
     const browser::Hours hours = opening.hours(kTen);
-    EXPECT_EQ(hours.zone(), "UTC");
-    ASSERT_EQ(hours.spans_size(), 2);
-    EXPECT_EQ(hours.spans(0).weekdays(1), 6U);
-    EXPECT_EQ(hours.spans(0).from() + hours.spans(0).to() + hours.spans(0).quality(),
-              "19:0001:30low");
-    EXPECT_EQ(hours.spans(1).from() + hours.spans(1).to() + hours.spans(1).scene(),
-              "09:0500:00reef");
-    ASSERT_EQ(hours.exceptions_size(), 1);
-    EXPECT_EQ(hours.exceptions(0).date(), "2026-12-31");
-    EXPECT_EQ(hours.exceptions(0).spans(0).to(), "14:00");
-    EXPECT_EQ(hours.projectors(0).address(), "192.168.7.21:4352");
-    EXPECT_EQ(hours.projectors(0).password(), "secret");
+    const v1::Hours& form = hours.form();
+    EXPECT_EQ(form.zone(), "UTC");
+    ASSERT_EQ(form.open_size(), 2);
+    EXPECT_EQ(form.open(0).days(1), v1::OpenSpan::SATURDAY);
+    EXPECT_EQ(form.open(0).from() + form.open(0).to() + form.open(0).quality(), "19:0001:30low");
+    EXPECT_EQ(form.open(1).to() + form.open(1).scene(), "24:00reef");
+    ASSERT_EQ(form.exceptions_size(), 1);
+    EXPECT_EQ(form.exceptions(0).date(), "2026-12-31");
+    EXPECT_EQ(form.exceptions(0).open(0).to(), "14:00");
+    EXPECT_EQ(form.projectors(0).address(), "192.168.7.21");
+    EXPECT_EQ(form.projectors(0).password(), "secret");
+}
+
+TEST_F(OpeningTest, aFormIsKeptAsText) {
+    Opening opening(folder_);
+    opening.setText(kText);
+    v1::Hours form = opening.hours(kTen).form();
+    form.mutable_open(0)->set_scene("röhre \"1\"");
+    opening.setForm(form);
+    Opening again(folder_);
+    EXPECT_EQ(again.hours(kTen).form().SerializeAsString(), form.SerializeAsString())
+        << "the text says the same";
+    EXPECT_NE(again.hours(kTen).text().find("röhre"), std::string::npos);
+}
+
+TEST_F(OpeningTest, aFormWithAMistakeChangesNothing) {
+    Opening opening(folder_);
+    opening.setText(kText);
+    v1::Hours form = opening.hours(kTen).form();
+    form.mutable_open(0)->set_to("25:00");
+    EXPECT_THROW(opening.setForm(form), config::FileError);
+    EXPECT_THROW(opening.setForm({}), config::FileError);
+    EXPECT_EQ(opening.hours(kTen).text(), kText);
+    EXPECT_EQ(opening.hours(kTen).form().open(0).to(), "18:00");
 }
 
 TEST_F(OpeningTest, aTextWithAMistakeChangesNothing) {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "console/overview.h"
 
+#include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/state_packet.h"
 
 namespace aquarama::console {
 namespace {
+
+constexpr const char* kBuild = "0.1.0 abc";
 
 v1::StatusReply statusWith(v1::NodeCondition condition) {
     v1::StatusReply status;
@@ -19,23 +22,24 @@ v1::StatusReply statusWith(v1::NodeCondition condition) {
     v1::NodeStatus& node = *status.add_nodes();
     node.set_name("left");
     node.set_condition(condition);
-    node.mutable_report()->set_build("0.1.0 abc");
+    node.set_late(0);
+    node.mutable_report()->set_build(kBuild);
     return status;
 }
 
 browser::Wall heardWall(v1::NodeCondition condition) {
-    browser::Wall wall = wallOf(statusWith(condition), 7, "0.1.0 abc");
+    browser::Wall wall = wallOf(statusWith(condition), 7);
     wall.set_heard_s(100);
     return wall;
 }
 
 TEST(Overview, aWallInStepHasNoFaults) {
-    EXPECT_TRUE(faultsOf(heardWall(v1::NODE_IN_STEP), 101).empty());
+    EXPECT_TRUE(faultsOf(heardWall(v1::NODE_IN_STEP), kBuild, 101).empty());
 }
 
 TEST(Overview, aNodeThatIsNotInStepIsAFaultWithItsCause) {
     for (const auto condition : {v1::NODE_ABSENT, v1::NODE_PREPARING, v1::NODE_LATE}) {
-        const auto faults = faultsOf(heardWall(condition), 101);
+        const auto faults = faultsOf(heardWall(condition), kBuild, 101);
         ASSERT_EQ(faults.size(), 1U);
         EXPECT_TRUE(faults[0].text.starts_with("node left is ")) << faults[0].text;
         EXPECT_GT(faults[0].text.size(), std::string("node left is preparing: ").size());
@@ -43,7 +47,7 @@ TEST(Overview, aNodeThatIsNotInStepIsAFaultWithItsCause) {
 }
 
 TEST(Overview, aMasterThatIsSilentIsOneFaultWhateverItsNodesWere) {
-    const auto faults = faultsOf(heardWall(v1::NODE_ABSENT), 104);
+    const auto faults = faultsOf(heardWall(v1::NODE_ABSENT), kBuild, 104);
     ASSERT_EQ(faults.size(), 1U);
     EXPECT_EQ(faults[0].key, "master");
 }
@@ -52,9 +56,32 @@ TEST(Overview, anotherBuildHotCardsAndOtherFishAreFaults) {
     v1::StatusReply status = statusWith(v1::NODE_IN_STEP);
     status.mutable_nodes(0)->mutable_report()->set_gpu_celsius(90);
     status.mutable_nodes(0)->set_hash_mismatches(1);
-    browser::Wall wall = wallOf(status, 7, "0.2.0 def");
+    browser::Wall wall = wallOf(status, 7);
     wall.set_heard_s(100);
-    EXPECT_EQ(faultsOf(wall, 101).size(), 3U);
+    EXPECT_EQ(faultsOf(wall, "0.2.0 def", 101).size(), 3U);
+}
+
+TEST(Overview, theStatusIsPassedOnAsItCameWithACauseForEachNode) {
+    v1::StatusReply status = statusWith(v1::NODE_IN_STEP);
+    v1::NodeStatus& absent = *status.add_nodes();
+    absent.set_name("right");
+    absent.set_condition(v1::NODE_ABSENT);
+    absent.set_machine("pit");
+    const browser::Wall wall = wallOf(status, 7);
+    EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(wall.status(), status));
+    EXPECT_EQ(wall.run(), 7U);
+    ASSERT_EQ(wall.causes_size(), 2);
+    EXPECT_EQ(wall.causes(0), "");
+    EXPECT_EQ(wall.causes(1), "nothing is heard of machine pit");
+}
+
+TEST(Overview, aWallIsInStepWhereTheMasterAnswersAndAllNodesAre) {
+    browser::Wall wall = heardWall(v1::NODE_IN_STEP);
+    EXPECT_TRUE(isInStep(wall));
+    wall.set_heard(false);
+    EXPECT_FALSE(isInStep(wall));
+    for (const auto condition : {v1::NODE_ABSENT, v1::NODE_PREPARING, v1::NODE_LATE})
+        EXPECT_FALSE(isInStep(heardWall(condition)));
 }
 
 TEST(Overview, numbersThatAreZeroAndLargeOnesReachTheBrowser) {
@@ -64,17 +91,19 @@ TEST(Overview, numbersThatAreZeroAndLargeOnesReachTheBrowser) {
     EXPECT_NE(json.find(R"("frame":"1000000000000")"), std::string::npos) << json;
     EXPECT_NE(json.find(R"("black":true)"), std::string::npos);
     EXPECT_NE(json.find(R"("late":"0")"), std::string::npos);
+    EXPECT_NE(json.find(R"("condition":"NODE_IN_STEP")"), std::string::npos);
+    EXPECT_NE(json.find(R"("causes":[""])"), std::string::npos);
 }
 
 TEST(Overview, aMasterThatPreparesIsNoFault) {
     browser::Wall wall;
     wall.set_heard(false);
-    EXPECT_EQ(faultsOf(wall, 100).size(), 1U) << "no show runs";
+    EXPECT_EQ(faultsOf(wall, kBuild, 100).size(), 1U) << "no show runs";
     wall.set_preparing("the master prepares: capturing 3 of 7 species, 20 %");
-    EXPECT_TRUE(faultsOf(wall, 100).empty());
+    EXPECT_TRUE(faultsOf(wall, kBuild, 100).empty());
     wall.set_preparing("");
     wall.set_heard_s(90);
-    EXPECT_EQ(faultsOf(wall, 100).size(), 1U) << "it has died";
+    EXPECT_EQ(faultsOf(wall, kBuild, 100).size(), 1U) << "it has died";
 }
 
 TEST(Overview, whatABrowserMayNotSayIsRefused) {
@@ -111,7 +140,8 @@ TEST(Overview, ringsKeepTenMinutesByTenthsOfASecondAndADayByTheLargestOfEachMinu
     browser::Wall wall = heardWall(v1::NODE_IN_STEP);
     for (int tenth = 1; tenth <= 1500 * 600; ++tenth) {
         const int minute = tenth / 600;
-        wall.set_frame_peak_ms(static_cast<float>(tenth % 600 == 300 ? 2 + minute % 500 : 1));
+        wall.mutable_status()->set_frame_peak_ms(
+            static_cast<float>(tenth % 600 == 300 ? 2 + minute % 500 : 1));
         rings.add(wall);
     }
     const browser::History history = rings.history();
@@ -127,7 +157,7 @@ TEST(Overview, ringsKeepTenMinutesByTenthsOfASecondAndADayByTheLargestOfEachMinu
 TEST(Overview, aMasterThatIsSilentLeavesPlacesEmptyAndTheLastSecondIsTheEndOfAll) {
     FigureRings rings;
     browser::Wall wall = heardWall(v1::NODE_IN_STEP);
-    wall.set_frame_peak_ms(700);  // more than fits
+    wall.mutable_status()->set_frame_peak_ms(700);  // more than fits
     for (int tenth = 0; tenth < 50; ++tenth) rings.add(wall);
     wall.set_heard(false);
     for (int tenth = 0; tenth < 7; ++tenth) rings.add(wall);
@@ -142,7 +172,7 @@ TEST(Overview, aMasterThatIsSilentLeavesPlacesEmptyAndTheLastSecondIsTheEndOfAll
 TEST(Overview, whatChangesIsSaidInWords) {
     browser::Wall before = heardWall(v1::NODE_IN_STEP);
     browser::Wall after = heardWall(v1::NODE_LATE);
-    after.set_black(false);
+    after.mutable_status()->mutable_show()->set_black(false);
     EXPECT_EQ(changesOf(before, after),
               (std::vector<std::string>{"light again", "node left is late"}));
     EXPECT_TRUE(changesOf(before, before).empty());
@@ -177,28 +207,6 @@ TEST(Overview, ofAProjectorWhatIsKnownToBeWrongIsAFault) {
     browser::ProjectorList broken = listOf("answers", "on");
     broken.mutable_projectors(0)->add_problems("lamp: error");
     EXPECT_EQ(faultsOf(broken).at(0).text, "projector left: lamp: error");
-}
-
-TEST(Overview, figuresOfProjectorsHaveNoSampleForWhatIsUnknown) {
-    const auto figuresOf = [](const browser::ProjectorList& list) {
-        const std::string text = metricsOf({}, list, 0);
-        const std::size_t at = text.find("aquarama_console_projector");
-        return at == std::string::npos ? "" : text.substr(at);
-    };
-    EXPECT_EQ(figuresOf({}), "");
-    EXPECT_EQ(figuresOf(listOf("no answer", "unknown")),
-              "aquarama_console_projector_answers{projector=\"left\"} 0\n");
-    browser::ProjectorList list = listOf("answers", "off");
-    list.mutable_projectors(0)->set_name("a \"b\"\\");
-    list.mutable_projectors(0)->set_shut(false);
-    list.mutable_projectors(0)->set_lamp_hours(7);
-    list.mutable_projectors(0)->set_tells_problems(true);
-    const std::string label = R"({projector="a \"b\"\\"} )";
-    EXPECT_EQ(figuresOf(list),
-              "aquarama_console_projector_answers" + label + "1\naquarama_console_projector_on" +
-                  label + "0\naquarama_console_projector_shut" + label +
-                  "0\naquarama_console_projector_lamp_hours" + label +
-                  "7\naquarama_console_projector_problems" + label + "0\n");
 }
 
 TEST(Overview, whatProjectorsComeToIsToldOnceItHolds) {

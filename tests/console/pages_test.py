@@ -9,6 +9,7 @@ import os
 import re
 import shutil
 import signal
+import socket
 import sys
 import time
 import unittest
@@ -161,7 +162,19 @@ class Pages(unittest.TestCase):
         rows = [row.split()[0] for row in self.text("tbody").splitlines() if row.split()
                 and row.split()[0] in ("left", "middle", "right")]
         self.assertEqual(rows, ["left", "middle", "right"])
+        column = lambda head: self.driver.execute_script(
+            "return [...document.querySelectorAll(arguments[0])].map(cell => cell.innerText)", f"td[data-head={head}]")
+        wait_until(lambda: [cell.split("\n")[0] for cell in column("Machine")] == 3 * [socket.gethostname()], 15,
+                   "a report of each node")
+        console_build = self.text("footer").splitlines()[0].removeprefix("console ")
+        for build in column("Build"):
+            self.assertRegex(build, r"\d+\.\d+\.\d+ \w+")
+            self.assertEqual(build.startswith("▲"), build != console_build, "another build is marked")
+        self.assertRegex(self.find(self.driver, "svg.bars").get_attribute("aria-label"),
+                         r"≤ 0.05 ms: \d+, .*≤ ∞ ms: \d+")
         self.open("wall")
+        self.assertIn("100 % of the light", self.text("section[aria-labelledby=light]"))
+        self.assertRegex(self.text("section[aria-labelledby=helm]"), r"depth [1-9]\d*\.\d m, \d+\.\d m/s")
         shown = self.desk.status()
         figures = self.text("section[aria-labelledby=figures]")
         for value in (shown["scene"], shown["quality"], shown["pattern"]):
@@ -414,8 +427,8 @@ class Pages(unittest.TestCase):
         wait_until(lambda: "service" in self.text("header"), 5, "a hold that is seen")
         self.button("Add hours").click()
         self.button("Sun").click()
-        for field, value in (("spans-0-from", "19:00"), ("spans-0-to", "01:30"), ("spans-0-scene", "reef"),
-                             ("spans-0-quality", "low"), ("zone", "Europe/Berlin")):
+        for field, value in (("open-0-from", ""), ("open-0-to", "01:30"), ("open-0-scene", "reef"),
+                             ("open-0-quality", "low"), ("zone", "Europe/Berlin")):
             self.set_field(field, value)
         for _ in range(2):
             self.button("Add a day").click()
@@ -423,27 +436,30 @@ class Pages(unittest.TestCase):
         for field, value in (("exceptions-0-date", "2026-12-24"), ("exceptions-1-date", "2026-12-24"),
                              ("projectors-0-name", "left"), ("projectors-0-address", "beamer")):
             self.set_field(field, value)
-        # One mistake after the other, each where it is.
-        for field, words, value in (("exceptions-1-date", "is there already", "2026-12-31"),
-                                    ("projectors-0-address", "is a number", "127.0.0.1:1")):
+        # Each mistake where it is: those that the schema knows first, then those in values, all at once.
+        for mistakes in ((("open-0-from", "is empty", "19:00"),),
+                         (("exceptions-1-date", "is there already", "2026-12-31"),
+                          ("projectors-0-address", "is a number", "127.0.0.1:1"))):
             self.button("Save").click()
-            wait_until(lambda: words in self.text(f"#h-{field}-wrong"), 5, f"what is wrong, at {field}")
+            for field, words, _ in mistakes:
+                wait_until(lambda: words in self.text(f"#h-{field}-wrong"), 5, f"what is wrong, at {field}")
             self.assertEqual([one.get_attribute("id")
                               for one in self.driver.find_elements(By.CSS_SELECTOR, "[aria-invalid=true]")],
-                             [f"h-{field}"])
-            self.set_field(field, value)
+                             [f"h-{field}" for field, *_ in mistakes])
+            for field, _, value in mistakes:
+                self.set_field(field, value)
         self.assertIn("not saved yet", self.text("main"))
         self.button("Save").click()
         wait_until(lambda: "not saved yet" not in self.text("main"), 5, "saved hours")
         self.assertIn("Sunday: 19:00", self.find(self.driver, "svg.week").get_attribute("aria-label"))
         self.find(self.driver, "summary").click()
         text = self.find(self.driver, "#hours")
-        self.assertEqual(text.get_property("value").splitlines(), [
-            'zone: "Europe/Berlin"',
+        self.assertEqual(text.get_property("value").split(), (
+            'zone: "Europe/Berlin" '
             'open { days: [TUESDAY, WEDNESDAY, THURSDAY, FRIDAY, SUNDAY] from: "19:00" to: "01:30" scene: "reef" '
-            'quality: "low" }',
-            'exceptions { date: "2026-12-24" }', 'exceptions { date: "2026-12-31" }',
-            'projectors { name: "left" address: "127.0.0.1:1" }'])
+            'quality: "low" } '
+            'exceptions { date: "2026-12-24" } exceptions { date: "2026-12-31" } '
+            'projectors { name: "left" address: "127.0.0.1:1" }').split())
         wait_until(lambda: "no answer" in self.text("main"), 10, "a projector that does not answer")
         self.assertRegex(self.text("table.cards tbody"), r"(?s)no answer.*unknown", "its shutter and its lamp")
         # The same as text, with its mistakes by line and column.
@@ -538,6 +554,8 @@ class Pages(unittest.TestCase):
         wait_until(lambda: "mind of fish 7" in self.text("main"), 10, "the fish")
         wait_until(lambda: re.search(r"\b7\b", self.text("pre")), 10, "what it has in mind")
         self.assertEqual(len(self.driver.find_elements(By.CSS_SELECTOR, "meter")), 3)
+        intended = self.text(".intends").split(", its aim")[0]
+        self.assertIn(f"INTENDS  {intended}, its aim", self.text("pre"), "drawn from fields, as the lines have it")
         # The fish at a place of a picture: the node says which, of the frame that is shown.
         wait_until(lambda: "frame" in self.text("figcaption"), 15, "a picture")
         self.find(self.driver, "figure.whole canvas").click()

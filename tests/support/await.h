@@ -17,7 +17,7 @@ inline constexpr std::chrono::seconds kPatience{30};
 // Waits until the condition holds. False: it did not within half a minute.
 template <typename Condition>
 [[nodiscard]] bool comesTrue(const Condition& condition) {
-    const net::Instant end = net::monotonicNow() + kPatience;
+    const net::Moment end = net::monotonicNow() + kPatience;
     while (!condition()) {
         if (net::monotonicNow() > end) return false;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kStateQueue = 8;
 
 struct Parcel {
-    net::Instant due;
+    net::Moment due;
     net::PeerId peer;
     net::ByteVector bytes;
 };
@@ -24,8 +24,8 @@ struct Inbox {
     bool subscribed = false;
     bool woken = false;
 
-    [[nodiscard]] std::optional<net::Instant> earliest() const {
-        std::optional<net::Instant> due;
+    [[nodiscard]] std::optional<net::Moment> earliest() const {
+        std::optional<net::Moment> due;
         for (const auto* queue : {&control, &states}) {
             if (!queue->empty() && (!due || queue->front().due < *due)) due = queue->front().due;
         }
@@ -72,12 +72,12 @@ struct MemoryNet::Hub {
         return first;
     }
 
-    void wait(const net::PeerId& owner, net::Instant atMost) {
+    void wait(const net::PeerId& owner, net::Duration atMost) {
         std::unique_lock lock(mutex);
-        const net::Instant end = net::monotonicNow() + atMost;
+        const net::Moment end = net::monotonicNow() + atMost;
         Inbox& inbox = inboxes[owner];
         while (!inbox.woken) {
-            const net::Instant now = net::monotonicNow();
+            const net::Moment now = net::monotonicNow();
             const auto due = inbox.earliest();
             if (now >= end || (due && *due <= now)) break;
             changed.wait_for(lock, (due ? std::min(*due, end) : end) - now);
@@ -128,7 +128,7 @@ class MemoryMaster final : public net::MasterChannels {
     }
     void publishState(net::ByteView bytes) override { hub_->publish(bytes); }
     std::size_t discardNoise() override { return 0; }
-    void wait(net::Instant atMost) override { hub_->wait("", atMost); }
+    void wait(net::Duration atMost) override { hub_->wait("", atMost); }
     void wake() override { hub_->wake(""); }
     [[nodiscard]] std::string controlAddress() const override { return "memory:control"; }
     [[nodiscard]] std::string stateAddress() const override { return "memory:state"; }
@@ -158,7 +158,7 @@ class MemoryNode final : public net::NodeChannels {
         hub_->inboxes[name_].subscribed = true;
     }
     std::optional<net::ByteVector> receiveState() override { return taken(&Inbox::states); }
-    void wait(net::Instant atMost) override { hub_->wait(name_, atMost); }
+    void wait(net::Duration atMost) override { hub_->wait(name_, atMost); }
     void wake() override { hub_->wake(name_); }
 
   private:

@@ -9,7 +9,7 @@
 namespace aquarama::test {
 
 struct MemoryNetFaults {
-    net::Instant delay{};          // of every message
+    net::Duration delay{};         // of every message
     unsigned lostStatesPer64 = 0;  // control is as reliable as TCP; states are not
     std::uint32_t seed = 1;        // of what is lost
 };

@@ -53,8 +53,14 @@ class CountingWorld final : public conductor::Simulation {
                 .fish = {fish, fish, fish},
                 .food = {kFoodOrigin, food_}};
     }
-    std::vector<std::string> explain(std::uint32_t /*fish*/) const override {
-        return {"at tick " + std::to_string(tick_.value)};
+    conductor::Explanation explain(std::uint32_t /*fish*/) const override {
+        using Kind = conductor::NearestSeen::Kind;
+        return {.lines = {"at tick " + std::to_string(tick_.value)},
+                .intention = fish::Intention::AvoidFish,
+                .target = "#1 tang",
+                .pursuedSeconds = 1.5F,
+                .feelings = {.hunger = 0.25F, .libido = 0.5F, .fear = 0.75F},
+                .seen = {{Kind::Food, "particle 7", 4, -90}, {Kind::Prey, "#1 tang", 2, 30}}};
     }
     static float daylightAt(Tick tick) { return 1.0F / static_cast<float>(1 + tick.value); }
     static constexpr glm::vec3 kFoodOrigin{1, 2, 3};
@@ -144,8 +150,8 @@ class Cable {
         std::optional<net::ByteVector> receiveState() override {
             return *cut_ ? std::nullopt : inner_->receiveState();
         }
-        void wait(net::Instant atMost) override {
-            if (*cut_) std::this_thread::sleep_for(std::min(atMost, net::Instant{5'000'000}));
+        void wait(net::Duration atMost) override {
+            if (*cut_) std::this_thread::sleep_for(std::min(atMost, net::Duration{5'000'000}));
             if (!*cut_) inner_->wait(atMost);
         }
         void wake() override { inner_->wake(); }
@@ -171,9 +177,9 @@ inline std::filesystem::path freshDirectory() {
 class StageNode {
   public:
     struct Habits {
-        net::Instant drawing{};   // a frame
-        net::Instant starting{};  // before it says hello at all
-        net::Instant building{};  // between welcome and prepared
+        net::Duration drawing{};   // a frame
+        net::Duration starting{};  // before it says hello at all
+        net::Duration building{};  // between welcome and prepared
     };
 
     StageNode(std::string name, net::Connect connect, Journal& journal)

@@ -6,10 +6,13 @@
 #include <map>
 #include <random>
 #include <string>
+#include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/base/log.h"
+#include "common/config/text_file.h"
 
 namespace aquarama::config {
 namespace {
@@ -330,6 +333,66 @@ TEST(Hours, aMistakeIsNamedWithItsPlaceAndWhatToDo) {
     }
     EXPECT_THROW(static_cast<void>(parseHours("zone: \"Nowhere\"", "x")), Error);
     EXPECT_THROW(static_cast<void>(parseHours("zone: \"../etc/passwd\"", "x")), Error);
+}
+
+// The mistakes of a text as "field: what is wrong", in order.
+std::vector<std::string> mistakesIn(const std::string& text) {
+    std::vector<std::string> list;
+    try {
+        static_cast<void>(parseHours(text, "hours.txtpb"));
+    } catch (const FileError& error) {
+        EXPECT_TRUE(std::string(error.what()).ends_with(error.mistakes.front().why));
+        for (const FileMistake& mistake : error.mistakes)
+            list.push_back(mistake.field + ": " + mistake.why);
+    }
+    return list;
+}
+
+TEST(Hours, everyMistakeThatTheSchemaKnowsNamesItsField) {
+    EXPECT_THAT(mistakesIn(R"(
+        open { days: [MONDAY, WEEKDAY_UNSPECIFIED] from: "" to: "18:00" }
+        open { days: [MONDAY, MONDAY, MONDAY, MONDAY, MONDAY, MONDAY, MONDAY, MONDAY] from: "1" }
+        exceptions { date: "2026-12-24" }
+        exceptions { open { from: "10:00" to: "11:00" } open { from: "10:00" scene: "" } }
+        projectors { name: "left" })"),
+                testing::ElementsAre(testing::StartsWith("zone: the file lacks zone"),
+                                     testing::StartsWith("open.0.days: days is WEEKDAY"),
+                                     "open.0.from: from is empty: fill it in",
+                                     testing::StartsWith("open.1.days: open has 8 days"),
+                                     "open.1.to: open lacks to: add it",
+                                     "exceptions.1.date: exceptions lacks date: add it",
+                                     "exceptions.1.open.1.to: open lacks to: add it",
+                                     "exceptions.1.open.1.scene: scene is empty: fill it in",
+                                     "projectors.0.address: projectors lacks address: add it"));
+}
+
+TEST(Hours, everyMistakeInAValueNamesItsField) {
+    EXPECT_THAT(mistakesIn(R"(zone: "Nowhere"
+        open { from: "10:00" to: "18:00" }
+        open { days: [MONDAY] from: "10:00" to: "25:00" }
+        open { days: [MONDAY] from: "10:00" to: "18:00" quality: "best" }
+        exceptions { date: "2026-12-24" open { days: [MONDAY] from: "10:00" to: "18:00" } }
+        exceptions { date: "2026-12-25" open { from: "1000" to: "18:00" } }
+        exceptions { date: "2026-12-26" }
+        exceptions { date: "2026-12-26" }
+        exceptions { date: "2026-13-01" }
+        projectors { name: "left" address: "10.0.0.1" }
+        projectors { name: "left" address: "10.0.0.2" }
+        projectors { name: "right" address: "10.0.0.1:4352" }
+        projectors { name: "top" address: "top.local" }
+        projectors { name: "top" address: "10.0.0.3" input: "HDMI" })"),
+                testing::ElementsAre(testing::StartsWith("zone: zone \"Nowhere\" is none"),
+                                     testing::StartsWith("open.0.days: say on which days"),
+                                     testing::StartsWith("open.1.to: to \"25:00\" is no time"),
+                                     testing::StartsWith("open.2.quality: quality is low"),
+                                     testing::StartsWith("exceptions.0.open.0.days: an exception"),
+                                     testing::StartsWith("exceptions.1.open.0.from: from \"1000\""),
+                                     testing::StartsWith("exceptions.3.date: the day is there"),
+                                     testing::StartsWith("exceptions.4.date: date \"2026-13-01\""),
+                                     testing::StartsWith("projectors.1.name: there is a projector"),
+                                     testing::StartsWith("projectors.2.address: projector left"),
+                                     testing::StartsWith("projectors.3.address: address is a"),
+                                     testing::StartsWith("projectors.4.input: input \"HDMI\"")));
 }
 
 TEST(Hours, addressesAndInputsOfProjectorsAreRead) {

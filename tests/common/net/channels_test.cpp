@@ -65,7 +65,7 @@ Pair inMemory() {
 // Waits at `end` until `take` yields something; empty after ten seconds.
 template <class End, class Take>
 auto await(End& end, Take take) -> decltype(take()) {
-    const Instant giveUp = monotonicNow() + seconds(10);
+    const Moment giveUp = monotonicNow() + seconds(10);
     while (monotonicNow() < giveUp) {
         if (auto item = take()) return item;
         end.wait(milliseconds(20));
@@ -140,7 +140,7 @@ TEST_P(BothChannels, anotherThreadEndsTheWait) {
 }
 
 TEST(MemoryChannels, loseAsManyStatesAsAsked) {
-    test::MemoryNet net({Instant{0}, 16, 7});
+    test::MemoryNet net({Duration{0}, 16, 7});
     const auto master = net.master();
     const auto node = net.node();
     node->subscribeState("");
@@ -179,8 +179,8 @@ class Keyed : public testing::Test {
         allowed_ = allowed;
     }
     // Whether the master hears a node within so long.
-    bool hears(NodeChannels& node, Instant within = milliseconds(500)) {
-        const Instant giveUp = monotonicNow() + within;
+    bool hears(NodeChannels& node, Duration within = milliseconds(500)) {
+        const Moment giveUp = monotonicNow() + within;
         while (monotonicNow() < giveUp) {
             node.sendControl(bytes("hello"));
             master_->wait(milliseconds(10));
@@ -265,7 +265,7 @@ class RawConnection {
     }
     // Whether the other end hangs up within so long; what it says is thrown away.
     [[nodiscard]] bool isCutOffWithin(milliseconds within) const {
-        const Instant giveUp = monotonicNow() + within;
+        const Moment giveUp = monotonicNow() + within;
         while (monotonicNow() < giveUp) {
             pollfd poll{socket_, POLLIN, 0};
             if (::poll(&poll, 1, 50) <= 0) continue;
@@ -303,7 +303,7 @@ TEST_F(Keyed, aTooLongMessageCutsOffItsSenderAlone) {
     ASSERT_TRUE(hears(*right, seconds(10)));
     left->sendControl(ByteVector(PacketLimits{}.toMaster + 1));
     EXPECT_TRUE(hears(*right, seconds(10)));
-    const Instant end = monotonicNow() + milliseconds(300);
+    const Moment end = monotonicNow() + milliseconds(300);
     while (monotonicNow() < end) {
         master_->wait(milliseconds(10));
         while (const auto heard = master_->receiveControl())
@@ -372,7 +372,7 @@ TEST_F(Keyed, aRevokedKeyIsCutOffAndTheOthersAreNot) {
     };
     EXPECT_TRUE(stateOf(*left));
     allow({{right_.publicKey, "node right"}});
-    const Instant giveUp = monotonicNow() + seconds(6);
+    const Moment giveUp = monotonicNow() + seconds(6);
     bool heardLeft = true;
     while (heardLeft && monotonicNow() < giveUp) {
         while (master_->receiveControl()) {
@@ -470,7 +470,7 @@ TEST(ZmqChannels, aStrangersNoiseOnTheStatePortIsCountedAndChangesNothing) {
     Stranger stranger(zmq::socket_type::xsub, master->stateAddress());
     std::mt19937 random(3);
     std::size_t noise = 0;
-    const Instant giveUp = monotonicNow() + seconds(10);
+    const Moment giveUp = monotonicNow() + seconds(10);
     while (noise < 500 && monotonicNow() < giveUp) {
         ByteVector packet(2 + random() % 100);
         for (std::byte& byte : packet) byte = static_cast<std::byte>(random());
@@ -521,7 +521,7 @@ TEST(ZmqChannels, aStrangersFloodDoesNotFillTheMastersMemory) {
     const auto node = connectNode(control);
     const std::size_t before = residentBytes();
     std::size_t noise = 0;
-    const Instant giveUp = monotonicNow() + seconds(10);
+    const Moment giveUp = monotonicNow() + seconds(10);
     while (noise < 3000 && monotonicNow() < giveUp) {
         master->wait(milliseconds(1));
         noise += master->discardNoise();

@@ -225,6 +225,23 @@ inline v1::Envelope sampleStatus() {
     return message;
 }
 
+inline v1::Envelope sampleExplanation() {
+    v1::Envelope message = test::explanation(59, 60, 7200, {"59  bigeye_scad", "", "~"});
+    v1::Explanation& explanation = *message.mutable_explanation();
+    explanation.set_intention(v1::Explanation::EAT);
+    explanation.set_target("particle 7");
+    explanation.set_pursued_s(1.5F);
+    explanation.set_hunger(0.75F);
+    explanation.set_libido(0);
+    explanation.set_fear(1);
+    v1::Sighting& seen = *explanation.add_seen();
+    seen.set_kind(v1::Sighting::FOOD);
+    seen.set_name("particle 7");
+    seen.set_distance_lengths(2.5F);
+    seen.set_degrees_right(-170);
+    return message;
+}
+
 // Orders for a node and its machine, and the report that allows one.
 inline std::vector<v1::Envelope> samplePower() {
     std::vector<v1::Envelope> messages(3);
@@ -275,30 +292,29 @@ inline std::vector<Packet> samplePackets() {
                                            test::blobChunk(digest, 50, 200, chunk),
                                            test::prepared(config::QualityTier::High, 3),
                                            test::joined(65)};
-    const std::vector<v1::Envelope> after{
-        test::beacon(),
-        test::ready(12, 11, -5),
-        test::ready(13),
-        readyWithBlanks(),
-        test::present(12, 123456789012345),
-        test::dismissed("silent"),
-        test::farewell(),
-        test::ping(-1),
-        test::pong(-1, 77),
-        test::input(v1::INPUT_QUIT),
-        test::dropFood({0.5F, -6.25F, -2.5F}),
-        test::steer({127, -127, 0, 1, -64}),
-        test::statusRequest(),
-        sampleStatus(),
-        test::explainRequest(59),
-        test::explanation(59, 60, 7200, {"59  bigeye_scad", "", "~"}),
-        samplePrepare(),
-        sampleOrder(),
-        sampleOrderReply(),
-        sampleNodeReport(),
-        sampleLogLine(),
-        sampleScan(),
-        sampleScanReply()};
+    const std::vector<v1::Envelope> after{test::beacon(),
+                                          test::ready(12, 11, -5),
+                                          test::ready(13),
+                                          readyWithBlanks(),
+                                          test::present(12, 123456789012345),
+                                          test::dismissed("silent"),
+                                          test::farewell(),
+                                          test::ping(-1),
+                                          test::pong(-1, 77),
+                                          test::input(v1::INPUT_QUIT),
+                                          test::dropFood({0.5F, -6.25F, -2.5F}),
+                                          test::steer({127, -127, 0, 1, -64}),
+                                          test::statusRequest(),
+                                          sampleStatus(),
+                                          test::explainRequest(59),
+                                          sampleExplanation(),
+                                          samplePrepare(),
+                                          sampleOrder(),
+                                          sampleOrderReply(),
+                                          sampleNodeReport(),
+                                          sampleLogLine(),
+                                          sampleScan(),
+                                          sampleScanReply()};
     std::vector<Packet> packets;
     for (const v1::Envelope& message : before) packets.push_back(encode(kSession, message));
     packets.push_back(test::packetOf(kSession, sampleState(5)));

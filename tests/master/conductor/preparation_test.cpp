@@ -19,7 +19,7 @@ constexpr const char* kAny = "tcp://127.0.0.1:*";
 
 // The next message to this peer, five seconds at most; until then it says this.
 std::optional<v1::Envelope> nextMessage(net::NodeChannels& node, const wire::Packet& question) {
-    const net::Instant end = net::monotonicNow() + std::chrono::seconds(5);
+    const net::Moment end = net::monotonicNow() + std::chrono::seconds(5);
     while (net::monotonicNow() < end) {
         node.sendControl(question);  // lost where the connection does not stand yet
         node.wait(std::chrono::milliseconds(200));
@@ -74,7 +74,7 @@ TEST(Preparation, aNodeIsDismissedWithThatAndAFloodOfInputsIsNotAnswered) {
     // The channels are free for the conductor then.
     preparation.reset();
     node->sendControl(wire::encode(0, hello));
-    const net::Instant end = net::monotonicNow() + std::chrono::seconds(5);
+    const net::Moment end = net::monotonicNow() + std::chrono::seconds(5);
     std::optional<net::FromPeer> from;
     while (!from && net::monotonicNow() < end) {
         channels->wait(std::chrono::milliseconds(50));

@@ -13,6 +13,7 @@
 namespace aquarama::conductor {
 namespace {
 
+using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using Verdict = PresentBarrier::Verdict;
 
@@ -24,14 +25,14 @@ BarrierLimits limits(bool lockstep) {
 }
 
 PresentBarrier drawing(Frame frame, bool lockstep) {
-    PresentBarrier barrier(3, limits(lockstep), milliseconds(0));
+    PresentBarrier barrier(3, limits(lockstep), {});
     for (const std::size_t node : {kLeft, kMiddle, kRight}) barrier.join(node, frame);
     barrier.begin(frame);
     return barrier;
 }
 
-net::Instant at(int ms) {
-    return milliseconds(ms);
+net::Moment at(int ms) {
+    return net::Moment{milliseconds(ms)};
 }
 
 TEST(PresentBarrier, presentsOnlyWhenTheLastIsReady) {
@@ -381,30 +382,30 @@ class UnlockedDisplays {
     // Hertz of each; phases, and all that wavers, are drawn from the seed.
     UnlockedDisplays(unsigned seed, const std::vector<double>& hertz) : random_(seed) {
         for (const double rate : hertz)
-            blanks_.push_back(
-                {net::Instant{uniform(0, 16'000'000)}, net::Instant{std::llround(1e9 / rate)}});
+            blanks_.push_back({net::Moment{uniform(milliseconds(0), milliseconds(16))},
+                               net::Duration{std::llround(1e9 / rate)}});
     }
 
     // As they are reported: up to half a second old, and 0.1 ms beside the truth.
-    std::vector<net::Blanks> reported(net::Instant now) {
+    std::vector<net::Blanks> reported(net::Moment now) {
         std::vector<net::Blanks> all = blanks_;
         for (net::Blanks& display : all) {
-            const net::Instant moment = now - net::Instant{uniform(0, 500'000'000)};
-            display.last =
-                next(display, moment) - display.period + net::Instant{uniform(-100'000, 100'000)};
+            const net::Moment moment = now - uniform(milliseconds(0), milliseconds(500));
+            display.last = next(display, moment) - display.period +
+                           uniform(microseconds(-100), microseconds(100));
         }
         return all;
     }
     // Shows the next frame everywhere. Swaps are up to 0.5 ms late.
-    void release(net::Instant at) {
-        std::vector<net::Instant> shown;
+    void release(net::Moment at) {
+        std::vector<net::Moment> shown;
         for (const net::Blanks& display : blanks_)
-            shown.push_back(next(display, at + net::Instant{uniform(0, 500'000)}));
+            shown.push_back(next(display, at + uniform(microseconds(0), microseconds(500))));
         shownAt_.push_back(std::move(shown));
     }
     // The latest display's blank of a frame after the earliest's, the worst of all frames.
-    net::Instant worstSpread() const {
-        net::Instant worst{};
+    net::Duration worstSpread() const {
+        net::Duration worst{};
         for (const auto& shown : shownAt_) {
             const auto [first, last] = std::ranges::minmax(shown);
             worst = std::max(worst, last - first);
@@ -419,31 +420,28 @@ class UnlockedDisplays {
                 if (shownAt_[frame][i] - shownAt_[frame - 1][i] != blanks_[i].period) ++count;
         return count;
     }
-    net::Instant uniform(net::Instant least, net::Instant most) {
-        return net::Instant{uniform(least.count(), most.count())};
+    net::Duration uniform(net::Duration least, net::Duration most) {
+        return net::Duration{std::uniform_int_distribution(least.count(), most.count())(random_)};
     }
 
   private:
-    std::int64_t uniform(std::int64_t least, std::int64_t most) {
-        return std::uniform_int_distribution(least, most)(random_);
-    }
-    static net::Instant next(const net::Blanks& display, net::Instant after) {
+    static net::Moment next(const net::Blanks& display, net::Moment after) {
         return display.last +
                ((after - display.last) / display.period + 1) * display.period;  // after > last
     }
 
     std::mt19937_64 random_;
     std::vector<net::Blanks> blanks_;
-    std::vector<std::vector<net::Instant>> shownAt_;
+    std::vector<std::vector<net::Moment>> shownAt_;
 };
 
-constexpr net::Instant kRefresh{16'666'667};
+constexpr net::Duration kRefresh{16'666'667};
 
 // A minute. All are ready 3 to 12 ms after the last release, and a release needs 2 ms.
 void playMinute(UnlockedDisplays& displays, bool knowsPhases) {
-    net::Instant last = std::chrono::seconds(1);
-    while (last < std::chrono::seconds(61)) {
-        const net::Instant earliest = last + displays.uniform(milliseconds(5), milliseconds(14));
+    net::Moment last{std::chrono::seconds(1)};
+    while (last < at(61000)) {
+        const net::Moment earliest = last + displays.uniform(milliseconds(5), milliseconds(14));
         const auto phases = knowsPhases ? displays.reported(earliest) : std::vector<net::Blanks>{};
         last = releaseTime(earliest, last, kRefresh, phases);
         displays.release(last);
@@ -452,7 +450,7 @@ void playMinute(UnlockedDisplays& displays, bool knowsPhases) {
 
 // Of three phases two neighbours are a third of the circle apart or more; a gap is kept until
 // another is a quarter wider.
-constexpr net::Instant kSpreadOfThree = kRefresh - kRefresh * 4 / 15 + milliseconds(1);
+constexpr net::Duration kSpreadOfThree = kRefresh - kRefresh * 4 / 15 + milliseconds(1);
 
 TEST(ReleaseTime, framesNeverMixOnUnlockedDisplaysOfOneRate) {
     for (unsigned seed = 0; seed < 40; ++seed) {
@@ -482,22 +480,21 @@ TEST(ReleaseTime, withoutPhasesFramesDoMixInTheSameSimulation) {
 }
 
 TEST(ReleaseTime, isOneRefreshAfterTheLastWhereNoDisplayTellsItsPhase) {
-    EXPECT_EQ(releaseTime(milliseconds(105), milliseconds(100), kRefresh, {}),
-              milliseconds(100) + kRefresh);
-    EXPECT_EQ(releaseTime(milliseconds(130), milliseconds(100), kRefresh, {}), milliseconds(130));
+    EXPECT_EQ(releaseTime(at(105), at(100), kRefresh, {}), at(100) + kRefresh);
+    EXPECT_EQ(releaseTime(at(130), at(100), kRefresh, {}), at(130));
 }
 
 // Blanks at 0 and 4 ms of each 16: the gap is from 5 to 15.
 TEST(ReleaseTime, isTheFirstMomentInTheWidestGap) {
-    const std::vector<net::Blanks> displays{{milliseconds(160), milliseconds(16)},
-                                            {milliseconds(164), milliseconds(16)}};
+    const std::vector<net::Blanks> displays{{at(160), milliseconds(16)},
+                                            {at(164), milliseconds(16)}};
     const auto release = [&](int earliest, int last) {
-        return releaseTime(milliseconds(earliest), milliseconds(last), kRefresh, displays);
+        return releaseTime(at(earliest), at(last), kRefresh, displays);
     };
-    EXPECT_EQ(release(161, 149), milliseconds(165));  // waits for the gap
-    EXPECT_EQ(release(168, 149), milliseconds(168));  // is in it
-    EXPECT_EQ(release(176, 149), milliseconds(181));  // is past it
-    EXPECT_EQ(release(168, 166), milliseconds(181));  // this gap has its frame
+    EXPECT_EQ(release(161, 149), at(165));  // waits for the gap
+    EXPECT_EQ(release(168, 149), at(168));  // is in it
+    EXPECT_EQ(release(176, 149), at(181));  // is past it
+    EXPECT_EQ(release(168, 166), at(181));  // this gap has its frame
 }
 
 TEST(RecentTimes, giveQuantilesOfTheLastTenSeconds) {
@@ -512,16 +509,16 @@ TEST(RecentTimes, giveQuantilesOfTheLastTenSeconds) {
 TEST(SkewMeter, measuresLatestMinusEarliestOfEachFrameInAnyOrder) {
     SkewMeter meter;
     for (std::uint64_t frame = 0; frame < 20; ++frame) {
-        meter.add({frame}, 2'000'000);
-        meter.add({frame}, 5'000'000);
-        if (frame > 0) meter.add({frame - 1}, 1'000'000);  // a late report
+        meter.add({frame}, at(2));
+        meter.add({frame}, at(5));
+        if (frame > 0) meter.add({frame - 1}, at(1));  // a late report
     }
     EXPECT_FLOAT_EQ(meter.skews().quantileMs(0.5), 4.0F);
 }
 
 TEST(SkewMeter, oneNodeAloneHasNoSkew) {
     SkewMeter meter;
-    for (std::uint64_t frame = 0; frame < 20; ++frame) meter.add({frame}, 7);
+    for (std::uint64_t frame = 0; frame < 20; ++frame) meter.add({frame}, at(7));
     EXPECT_EQ(meter.skews().quantileMs(1.0), 0.0F);
 }
 

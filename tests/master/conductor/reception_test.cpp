@@ -35,7 +35,7 @@ class Peer {
         return await(
             kind, [&] { return channels_->receiveControl(); }, seconds(5));
     }
-    bool hearsNo(v1::Envelope::MessageCase kind, net::Instant within) {
+    bool hearsNo(v1::Envelope::MessageCase kind, net::Duration within) {
         return !await(
             kind, [&] { return channels_->receiveControl(); }, within);
     }
@@ -68,8 +68,8 @@ class Peer {
     template <class Receive>
     std::optional<v1::Envelope> await(v1::Envelope::MessageCase kind,
                                       Receive receive,
-                                      net::Instant within) {
-        const net::Instant end = net::monotonicNow() + within;
+                                      net::Duration within) {
+        const net::Moment end = net::monotonicNow() + within;
         while (net::monotonicNow() < end) {
             while (const auto bytes = receive()) {
                 auto message = wire::decode(*bytes);
@@ -141,52 +141,6 @@ v1::Envelope setBlack(std::uint64_t request, bool black = true) {
     message.mutable_order()->set_request(request);
     message.mutable_order()->mutable_show()->set_black(black);
     return message;
-}
-
-// What each key allows; a window of a node is a visitor's.
-TEST(Users, maySayWhatTheirRoleIsFor) {
-    using config::KeyRole;
-    const auto input = [](v1::InputKind kind) {
-        v1::Envelope message;
-        message.mutable_input()->set_kind(kind);
-        return message;
-    };
-    const auto allowed = [](KeyRole role, const v1::Envelope& message) {
-        return maySay({role, role == KeyRole::Node ? "left" : ""}, message);
-    };
-    const std::vector<KeyRole> all{KeyRole::Master,
-                                   KeyRole::Node,
-                                   KeyRole::Watcher,
-                                   KeyRole::Visitor,
-                                   KeyRole::Operator,
-                                   KeyRole::Crew};
-    const auto whoMay = [&](const v1::Envelope& message) {
-        std::string names;
-        for (const KeyRole role : all)
-            if (allowed(role, message)) names += std::string(config::nameOf(role)) + " ";
-        return names;
-    };
-    EXPECT_EQ(whoMay(test::hello("left")), "node ");
-    EXPECT_EQ(whoMay(test::hello("right")), "") << "that is another's channel";
-    EXPECT_EQ(whoMay(test::ready(1)), "node ");
-    EXPECT_EQ(whoMay(test::prepared(config::QualityTier::Low)), "node ");
-    EXPECT_EQ(whoMay(test::statusRequest()), "watcher operator crew ");
-    EXPECT_EQ(whoMay(input(v1::INPUT_STEER)), "node visitor operator crew ");
-    EXPECT_EQ(whoMay(input(v1::INPUT_DROP_FOOD)), "node visitor operator crew ");
-    EXPECT_EQ(whoMay(input(v1::INPUT_QUIT)), "operator crew ");
-    EXPECT_EQ(whoMay(setBlack(1)), "operator crew ");
-    v1::Envelope ofTheMaster;
-    ofTheMaster.mutable_present()->set_frame(1);
-    EXPECT_EQ(whoMay(ofTheMaster), "") << "nobody but the master says it";
-}
-
-TEST(Users, areNamedByRoleAndName) {
-    const auto user = userIn(userOf(config::KeyRole::Node, "left"));
-    ASSERT_TRUE(user);
-    EXPECT_EQ(user->role, config::KeyRole::Node);
-    EXPECT_EQ(user->name, "left");
-    for (const char* wrong : {"", "node", "king left", " left"})
-        EXPECT_FALSE(userIn(wrong)) << wrong;
 }
 
 TEST_F(Reception, aNodeIsAskedToMakeWayOnceForEachRequest) {
@@ -274,7 +228,7 @@ TEST_F(MachineSwitch, thatIsNotAnsweredSaysSoAndIsNotSaidAgain) {
     EXPECT_EQ(ask(1).outcome(), v1::OrderReply::WAITING);
     ASSERT_TRUE(node.hear(v1::Envelope::kOrder));
     v1::OrderReply reply;
-    const net::Instant end = net::monotonicNow() + seconds(10);
+    const net::Moment end = net::monotonicNow() + seconds(10);
     while ((reply = ask(1)).outcome() == v1::OrderReply::WAITING && net::monotonicNow() < end)
         EXPECT_TRUE(node.hearsNo(v1::Envelope::kOrder, milliseconds(200)));
     EXPECT_EQ(reply.outcome(), v1::OrderReply::LOST);
@@ -339,6 +293,18 @@ TEST_F(Reception, tellsAnybodyOfAMindAlsoWhileTheShowWaits) {
     EXPECT_EQ(explanation.school(), 3U);
     ASSERT_EQ(explanation.lines_size(), 1);
     EXPECT_EQ(explanation.lines(0), "at tick " + std::to_string(explanation.tick()));
+    EXPECT_EQ(explanation.intention(), v1::Explanation::AVOID_FISH);
+    EXPECT_EQ(explanation.target(), "#1 tang");
+    EXPECT_EQ(explanation.pursued_s(), 1.5F);
+    EXPECT_EQ(explanation.hunger(), 0.25F);
+    EXPECT_EQ(explanation.libido(), 0.5F);
+    EXPECT_EQ(explanation.fear(), 0.75F);
+    ASSERT_EQ(explanation.seen_size(), 2);
+    EXPECT_EQ(explanation.seen(0).kind(), v1::Sighting::FOOD);
+    EXPECT_EQ(explanation.seen(0).name(), "particle 7");
+    EXPECT_EQ(explanation.seen(0).distance_lengths(), 4);
+    EXPECT_EQ(explanation.seen(0).degrees_right(), -90);
+    EXPECT_EQ(explanation.seen(1).kind(), v1::Sighting::PREY);
 }
 
 // What is dropped is in the world from one of the next ticks on; lockstep runs a few ahead.

@@ -14,7 +14,7 @@ namespace {
 using std::chrono::milliseconds;
 using Phase = ShowControl::Phase;
 
-constexpr net::Instant kStart = std::chrono::seconds(100);
+constexpr net::Moment kStart{std::chrono::seconds(100)};
 
 v1::WantedShow scene(const std::string& name) {
     v1::WantedShow change;
@@ -208,17 +208,17 @@ TEST(ScanHold, endsWhenItsHolderFallsSilent) {
     using std::chrono::seconds;
     ScanHold hold;
     const config::ScanPattern pattern{.number = 3};
-    EXPECT_FALSE(hold.expires(seconds(100)));
-    EXPECT_TRUE(hold.hold(7, pattern, Frame{40}, seconds(100)));
-    EXPECT_TRUE(hold.hold(7, pattern, Frame{80}, seconds(102)));
+    EXPECT_FALSE(hold.expires(kStart));
+    EXPECT_TRUE(hold.hold(7, pattern, Frame{40}, kStart));
+    EXPECT_TRUE(hold.hold(7, pattern, Frame{80}, kStart + seconds(2)));
     EXPECT_EQ(hold.first(), Frame{40}) << "the same, said again";
-    EXPECT_FALSE(hold.hold(8, pattern, Frame{80}, seconds(102)));
-    EXPECT_FALSE(hold.expires(seconds(105)));
+    EXPECT_FALSE(hold.hold(8, pattern, Frame{80}, kStart + seconds(2)));
+    EXPECT_FALSE(hold.expires(kStart + seconds(5)));
     EXPECT_EQ(hold.pattern(), pattern);
-    EXPECT_TRUE(hold.expires(seconds(106)));
+    EXPECT_TRUE(hold.expires(kStart + seconds(6)));
     EXPECT_FALSE(hold.pattern());
     EXPECT_EQ(hold.changes(), 2U);
-    EXPECT_TRUE(hold.hold(8, pattern, Frame{90}, seconds(106)));
+    EXPECT_TRUE(hold.hold(8, pattern, Frame{90}, kStart + seconds(6)));
     EXPECT_EQ(hold.first(), Frame{90});
 }
 

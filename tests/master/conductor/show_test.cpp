@@ -338,7 +338,7 @@ class Overheard final : public net::NodeChannels {
     std::optional<net::ByteVector> receiveControl() override { return inner_->receiveControl(); }
     void subscribeState(const std::string& address) override { inner_->subscribeState(address); }
     std::optional<net::ByteVector> receiveState() override { return inner_->receiveState(); }
-    void wait(net::Instant atMost) override { inner_->wait(atMost); }
+    void wait(net::Duration atMost) override { inner_->wait(atMost); }
     void wake() override { inner_->wake(); }
 
   private:

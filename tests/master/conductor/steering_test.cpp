@@ -21,7 +21,7 @@ class InputArbitrationTest : public testing::Test {
         return arbitration_.accepts(who, what, now_);
     }
     InputArbitration arbitration_;
-    net::Instant now_ = milliseconds(1000);
+    net::Moment now_{milliseconds(1000)};
 };
 
 TEST_F(InputArbitrationTest, oneHandIsHeardUntilItLetsGo) {

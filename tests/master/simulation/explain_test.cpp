@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 
 #include "common/wire/messages.h"
 #include "master/simulation/insight.h"
@@ -31,7 +34,8 @@ TEST(Explain, lookingIntoAMindChangesNothing) {
     Lived watched(options, 200);
     Lived alone(options, 200);
     for (int tick = 0; tick < 60; ++tick) {
-        for (std::uint32_t fish = 0; fish < 41; ++fish) ASSERT_FALSE(watched.explain(fish).empty());
+        for (std::uint32_t fish = 0; fish < 41; ++fish)
+            ASSERT_FALSE(watched.explain(fish).lines.empty());
         ASSERT_EQ(watched.hash(), alone.hash()) << tick;
         watched.advance();
         alone.advance();
@@ -44,7 +48,7 @@ TEST(Explain, everyMindFitsOnAScreenOfPlainText) {
     for (int tick = 0; tick < 300; ++tick) {
         world.advance();
         for (std::uint32_t fish = 0; fish < 41; ++fish) {
-            const std::vector<std::string> lines = world.explain(fish);
+            const std::vector<std::string> lines = world.explain(fish).lines;
             ASSERT_LE(lines.size(), kScreenLines);
             for (const std::string& line : lines) {
                 ASSERT_LE(line.size(), kScreenColumns) << line;
@@ -58,7 +62,7 @@ TEST(Explain, everyMindFitsOnAScreenOfPlainText) {
 
 TEST(Explain, aFishThatIsNotThereHasNoLines) {
     const Lived world(worldOptionsOf(test::syntheticAssets()), 1);
-    EXPECT_TRUE(world.explain(41).empty());
+    EXPECT_TRUE(world.explain(41).lines.empty());
 }
 
 // Exactly one rule wins; whatever is after it has lost, each for a reason that is printed.
@@ -71,7 +75,7 @@ TEST(Explain, oneIntentionWinsAndEveryOtherSaysWhyItLost) {
             std::ranges::count(
                 insight->reasoning.rules, behaviour::Verdict::Wins, &behaviour::Weighed::verdict),
             1);
-        const std::vector<std::string> lines = world.explain(fish);
+        const std::vector<std::string> lines = world.explain(fish).lines;
         const auto why = std::ranges::find_if(
             lines, [](const std::string& line) { return line.starts_with("WHY"); });
         ASSERT_EQ(lines.end() - why, static_cast<std::ptrdiff_t>(behaviour::kPriorityRules));
@@ -91,11 +95,51 @@ TEST(Explain, aFrightenedFishIsSaidToFlee) {
     const auto insight = insightInto(world.world(), 0);
     ASSERT_TRUE(insight);
     EXPECT_GT(insight->feelings.fear, 0.25F);
-    const std::vector<std::string> lines = world.explain(0);
+    const std::vector<std::string> lines = world.explain(0).lines;
     EXPECT_THAT(lines, Contains(HasSubstr("blacktip_reef_shark, ")));
     EXPECT_THAT(lines, Contains(AllOf(HasSubstr("INTENDS"), HasSubstr("escape"))));
     EXPECT_THAT(lines, Contains(HasSubstr("comes after fear")));
-    EXPECT_THAT(world.explain(1), Contains(HasSubstr("predator")));
+    EXPECT_THAT(world.explain(1).lines, Contains(HasSubstr("predator")));
+}
+
+// As the lines say where something is.
+std::string sectorOf(float degreesRight) {
+    const float aside = std::abs(degreesRight);
+    const std::string side = degreesRight < 0 ? "left" : "right";
+    if (aside >= 65 && aside < 115) return side;
+    const std::string depth = aside < 65 ? "ahead" : "behind";
+    return aside < 25 || aside >= 155 ? depth : depth + " " + side;
+}
+
+TEST(Explain, theValuesAreThoseOfTheLines) {
+    constexpr std::array kIntentions{
+        "wander", "leave", "school", "eat", "mate", "escape", "avoid fish", "avoid obstacle"};
+    constexpr std::array kSightings{"predator    ", "food        ", "mate        ", "prey "};
+    Lived world(worldOptionsOf(test::syntheticAssets()), 300);
+    int sightings = 0;
+    for (std::uint32_t fish = 0; fish < 41; ++fish) {
+        const conductor::Explanation one = world.explain(fish);
+        const std::string text = testing::PrintToString(one.lines);
+        ASSERT_TRUE(one.intention);
+        const std::string target = one.target.empty() ? "" : " " + one.target;
+        EXPECT_THAT(text,
+                    HasSubstr(fmt::format("INTENDS  {}{}, its aim for {:.1f} s",
+                                          kIntentions.at(static_cast<std::size_t>(*one.intention)),
+                                          target,
+                                          one.pursuedSeconds)));
+        for (const float feeling : {one.feelings.hunger, one.feelings.libido, one.feelings.fear})
+            EXPECT_THAT(text, HasSubstr(fmt::format("] {:.2f}", feeling)));
+        for (const conductor::NearestSeen& seen : one.seen) {
+            ++sightings;
+            EXPECT_THAT(text,
+                        HasSubstr(fmt::format("{}{}, {:.1f} L {}",
+                                              kSightings.at(static_cast<std::size_t>(seen.kind)),
+                                              seen.name,
+                                              seen.distanceLengths,
+                                              sectorOf(seen.degreesRight))));
+        }
+    }
+    EXPECT_GT(sightings, 0);
 }
 
 TEST(Explain, anEatenFishIsSaidToBeAway) {
@@ -104,7 +148,9 @@ TEST(Explain, anEatenFishIsSaidToBeAway) {
     fish::FishView view;
     view.resize(1);
     const std::vector<std::string> names{"scad"};
-    EXPECT_THAT(linesOf(insight, {view, names}), Contains(HasSubstr("away")));
+    const conductor::Explanation explanation = explanationOf(insight, {view, names});
+    EXPECT_THAT(explanation.lines, Contains(HasSubstr("away")));
+    EXPECT_FALSE(explanation.intention);
 }
 
 }  // namespace

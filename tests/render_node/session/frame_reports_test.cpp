@@ -12,7 +12,7 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr net::Moment kNow = seconds(100);
+constexpr net::Moment kNow{seconds(100)};
 
 FinishedFrame finished(std::uint64_t frame, net::Duration took = milliseconds(3)) {
     return {.frame = {frame}, .released = {}, .blanks = {}, .took = took};
@@ -23,8 +23,8 @@ Pings aMinuteAhead() {
     Pings pings;
     EXPECT_TRUE(pings.due(kNow));
     v1::Pong pong;
-    pong.set_sent_ns(kNow.count());
-    pong.set_master_ns((kNow + seconds(60)).count());
+    pong.set_sent_ns(kNow.time_since_epoch().count());
+    pong.set_master_ns((kNow + seconds(60)).time_since_epoch().count());
     pings.hear(pong, kNow);
     return pings;
 }
@@ -64,8 +64,9 @@ TEST(FrameReports, momentsAreOfTheMastersClock) {
     reports.finish(frame);
     const v1::Ready ready = reports.due(aMinuteAhead(), kNow).value().ready();
     EXPECT_EQ(ready.released_frame(), 7U);
-    EXPECT_EQ(net::Moment{ready.released_ns()}, kNow + seconds(60) - milliseconds(9));
-    EXPECT_EQ(net::Moment{ready.blank_ns()}, kNow + seconds(60) - milliseconds(2));
+    EXPECT_EQ(net::Moment{net::Duration{ready.released_ns()}},
+              kNow + seconds(60) - milliseconds(9));
+    EXPECT_EQ(net::Moment{net::Duration{ready.blank_ns()}}, kNow + seconds(60) - milliseconds(2));
     EXPECT_EQ(ready.blank_period_ns(), 16'000'000U);
 }
 

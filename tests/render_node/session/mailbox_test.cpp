@@ -13,7 +13,7 @@ namespace {
 ArrivedState stateOf(std::uint64_t frame) {
     wire::StateFrame state;
     state.frame = {frame};
-    return {state, net::Moment{static_cast<std::int64_t>(frame)}};
+    return {state, net::Moment{std::chrono::seconds(frame)}};
 }
 
 std::uint64_t taken(Mailbox& mailbox) {
@@ -68,15 +68,15 @@ TEST(Mailbox, keepsOnlyTheLastFewStates) {
 
 TEST(Mailbox, theNewestReleaseCounts) {
     Mailbox mailbox;
-    mailbox.release({{5}, net::Moment{50}});
-    mailbox.release({{4}, net::Moment{40}});
+    mailbox.release({{5}, net::Moment{std::chrono::seconds(50)}});
+    mailbox.release({{4}, net::Moment{std::chrono::seconds(40)}});
     EXPECT_EQ(mailbox.awaitRelease({3})->frame, Frame{5});
-    EXPECT_EQ(mailbox.awaitRelease({5})->at, net::Moment{50});
+    EXPECT_EQ(mailbox.awaitRelease({5})->at, net::Moment{std::chrono::seconds(50)});
 }
 
 TEST(Mailbox, aReleaseThatHasComeIsGivenBeforeTheEnd) {
     Mailbox mailbox;
-    mailbox.release({{5}, net::Moment{50}});
+    mailbox.release({{5}, net::Moment{std::chrono::seconds(50)}});
     mailbox.interrupt(Release::Quit);
     EXPECT_TRUE(mailbox.awaitRelease({5}));
     EXPECT_FALSE(mailbox.awaitRelease({6}));

@@ -66,7 +66,7 @@ class ScriptedMaster {
                 peer_ = from->peer;
                 if (message->has_ping()) {
                     say(test::pong(message->ping().sent_ns(),
-                                   (net::monotonicNow() + clockAhead).count()));
+                                   (net::monotonicNow() + clockAhead).time_since_epoch().count()));
                 }
                 if (message->message_case() == kind) return message;
             }
@@ -313,7 +313,7 @@ TEST_F(SessionTest, saysReadyAndWaitsForTheRelease) {
     EXPECT_EQ(release.wait_for(milliseconds(50)), std::future_status::timeout);
     master_.say(test::present(7, 0));
     EXPECT_EQ(release.get(), Release::Present);
-    EXPECT_GT(session_->stateArrival(), net::Moment{0});
+    EXPECT_GT(session_->stateArrival(), net::Moment{});
 }
 
 TEST_F(SessionTest, letsGoAtTheAppointedTimeOfTheMastersClock) {
@@ -325,7 +325,7 @@ TEST_F(SessionTest, letsGoAtTheAppointedTimeOfTheMastersClock) {
     auto release = readying(0);
     ASSERT_TRUE(master_.hear(v1::Envelope::kReady));
     const net::Moment at = net::monotonicNow() + milliseconds(200);
-    master_.say(test::present(0, (at + master_.clockAhead).count()));
+    master_.say(test::present(0, (at + master_.clockAhead).time_since_epoch().count()));
     EXPECT_EQ(release.get(), Release::Present);
     // Never before; but the clock's offset is known to half the shortest round trip of twelve.
     EXPECT_GE(net::monotonicNow(), at - milliseconds(50));
@@ -337,7 +337,8 @@ TEST_F(SessionTest, letsGoAtTheAppointedTimeOfTheMastersClock) {
     const v1::Ready& ready = message->ready();
     ASSERT_TRUE(ready.has_released_frame());
     EXPECT_EQ(ready.released_frame(), 0U);
-    EXPECT_GE(net::Moment{ready.released_ns()}, at + master_.clockAhead - milliseconds(100));
+    EXPECT_GE(net::Moment{net::Duration{ready.released_ns()}},
+              at + master_.clockAhead - milliseconds(100));
     session_->stop();
     release.get();
 }

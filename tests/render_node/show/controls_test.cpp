@@ -105,12 +105,12 @@ TEST_F(ControlsTest, keysThatSteerSwitchNothing) {
 TEST_F(ControlsTest, whatHandsHoldGoesToTheSubmarine) {
     using std::chrono::milliseconds;
     gl::Hands hands;
-    controls_.hold(hands, milliseconds(0));
+    controls_.hold(hands, net::Moment{milliseconds(0)});
     EXPECT_TRUE(session_.steerings_.empty());
     hands.hold(gl::HeldKey::W);
-    controls_.hold(hands, milliseconds(20));
-    controls_.hold(hands, milliseconds(40));
-    controls_.hold({}, milliseconds(60));
+    controls_.hold(hands, net::Moment{milliseconds(20)});
+    controls_.hold(hands, net::Moment{milliseconds(40)});
+    controls_.hold({}, net::Moment{milliseconds(60)});
     EXPECT_EQ(session_.steerings_, (std::vector<Steering>{{.ahead = 127}, {}}));
 }
 

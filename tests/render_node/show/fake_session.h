@@ -45,8 +45,8 @@ class FakeSession : public session::Session {
         if (script_.empty()) return std::nullopt;
         return script_.front().first;
     }
-    [[nodiscard]] std::chrono::nanoseconds stateArrival() const override {
-        return std::chrono::nanoseconds(1);
+    [[nodiscard]] net::Moment stateArrival() const override {
+        return net::Moment{net::Duration{1}};
     }
     [[nodiscard]] session::Release interruption() const override { return session::Release::Quit; }
     session::Release readyThenWait(Frame frame) override {
@@ -55,7 +55,7 @@ class FakeSession : public session::Session {
         script_.pop_front();
         return answer;
     }
-    void sawBlank(std::uint64_t /*count*/, std::chrono::nanoseconds /*at*/) override {}
+    void sawBlank(std::uint64_t /*count*/, net::Moment /*at*/) override {}
     void quit() override { events_.emplace_back("quit"); }
     bool isToRestart() const override { return false; }
     void freeze(bool frozen) override { events_.emplace_back(frozen ? "freeze" : "thaw"); }

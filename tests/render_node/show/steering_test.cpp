@@ -78,18 +78,19 @@ TEST(Steering, eachStickAndTriggerDoesItsOwn) {
 
 TEST(SteeringPace, nothingIsSaidOfHandsThatHoldNothing) {
     SteeringPace pace;
-    for (int ms = 0; ms < 5000; ms += 10) EXPECT_FALSE(pace.due({}, milliseconds(ms)));
+    for (int ms = 0; ms < 5000; ms += 10) EXPECT_FALSE(pace.due({}, net::Moment{milliseconds(ms)}));
 }
 
 TEST(SteeringPace, aChangeGoesOutAtOnceAndWhatIsHeldIsRepeated) {
     SteeringPace pace;
     const Steering ahead{.ahead = 127};
-    EXPECT_EQ(pace.due(ahead, milliseconds(1000)), ahead);
+    EXPECT_EQ(pace.due(ahead, net::Moment{milliseconds(1000)}), ahead);
     int said = 0;
-    for (int ms = 1010; ms <= 2000; ms += 10) said += pace.due(ahead, milliseconds(ms)) ? 1 : 0;
+    for (int ms = 1010; ms <= 2000; ms += 10)
+        said += pace.due(ahead, net::Moment{milliseconds(ms)}) ? 1 : 0;
     EXPECT_EQ(said, 10);
-    EXPECT_EQ(pace.due({}, milliseconds(2035)), Steering{}) << "letting go is said";
-    EXPECT_FALSE(pace.due({}, milliseconds(4000)));
+    EXPECT_EQ(pace.due({}, net::Moment{milliseconds(2035)}), Steering{}) << "letting go is said";
+    EXPECT_FALSE(pace.due({}, net::Moment{milliseconds(4000)}));
 }
 
 TEST(SteeringPace, handsThatNeverRestSpeakThirtyTimesASecond) {
@@ -97,7 +98,7 @@ TEST(SteeringPace, handsThatNeverRestSpeakThirtyTimesASecond) {
     int said = 0;
     for (int ms = 0; ms < 1000; ++ms) {
         const Steering trembling{.turn = static_cast<std::int8_t>(1 + ms % 100)};
-        said += pace.due(trembling, milliseconds(ms)) ? 1 : 0;
+        said += pace.due(trembling, net::Moment{milliseconds(ms)}) ? 1 : 0;
     }
     EXPECT_LE(said, 31);
     EXPECT_GE(said, 29);
