@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "common/base/log.h"
+#include "common/body/fins.h"
 
 namespace aquarama::capture {
 
@@ -218,6 +219,21 @@ double stiffnessOf(const Unit& unit, const config::Tissue& tissue) {
     return stiffness * tissue.timeScale * tissue.timeScale;
 }
 
+Blade bladeOf(const config::Species& species) {
+    const body::PectoralFin fin = body::pectoralFinOf(species);
+    const double ring2 = species.skeleton.rings[1].s;
+    return {.root = glm::dvec3(fin.root) - glm::dvec3(ring2, 0, 0),
+            .hinge = fin.hinge,
+            .stroke = fin.stroke,
+            .ray = fin.ray,
+            .chord = fin.chord,
+            .span = static_cast<double>(fin.span),
+            .area = static_cast<double>(fin.area),
+            .rowing = static_cast<double>(fin.rowing),
+            .folded = static_cast<double>(fin.folded),
+            .drag = species.water.drag};
+}
+
 }  // namespace
 
 BiomechanicalFish makeBiomechanicalFish(const config::Species& species) {
@@ -235,6 +251,7 @@ BiomechanicalFish makeBiomechanicalFish(const config::Species& species) {
     fish.finDrag = species.water.finDrag * species.tissue.timeScale;
     fish.damping = species.tissue.damping * species.tissue.timeScale;
     fish.muscleContraction = species.tissue.muscleContraction;
+    fish.blade = bladeOf(species);
     for (std::size_t i = 0; i < fish.springs.size(); ++i) {
         const Unit& unit = anatomy().units.at(i);
         fish.springs.at(i) = {.first = unit.first,

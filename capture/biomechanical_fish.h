@@ -90,16 +90,12 @@ struct PectoralFins {
     PectoralFin left, right;
 };
 
-// Where a pectoral fin stands relative to its rest, radians: opened about its hinge, carried about
-// the axis of its stroke, and twisted about its ray, at the tip.
-struct FinPose {
-    double open = 0, stroke = 0, twist = 0;
-};
-// A pose, and its change in a second.
+// A pose of a pectoral fin (body::FinPose), and its change in a second; radians.
 struct FinMotion {
-    FinPose pose, rate;
+    glm::dvec3 pose{}, rate{};  // open, stroke, twist
 };
-// Both fins of a fish that rows; the left one is told as the mirror image of the right.
+// Both pectoral fins as blades that the water resists; the left one is told as the mirror image of
+// the right. A fish that does not row has none: its fins are the plates of PectoralFins.
 struct RowingControl {
     bool rows = false;
     FinMotion left, right;
@@ -123,15 +119,16 @@ struct MotorControl {
     Tone tone;
 };
 
-// A pectoral fin of the right side as a blade that rows. Axes: tailwards, up, right; the root from
-// the origin of the body frame.
+// The pectoral fin of the right side as a blade (body::PectoralFin).
 struct Blade {
-    glm::dvec3 root{}, hinge{}, stroke{}, ray{}, chord{};  // axes are unit vectors
-    double span = 0;                                       // body lengths
-    double area = 0;
-    // Normal force = pressure * area * (normal speed)^2: half the density of water and a
-    // coefficient; fish masses / body length^3.
-    double pressure = 0;
+    // Axes are unit vectors: tailwards, up, right. The root is seen from the origin of the body
+    // frame.
+    glm::dvec3 root{}, hinge{}, stroke{}, ray{}, chord{};
+    double span = 0, area = 0;  // body lengths, and squared
+    double rowing = 0, folded = 0;  // how far it is opened, radians
+    // Water resists its motion along its normal, to either side, as it resists a face of the body:
+    // force = drag * area * (normal speed)^2.
+    double drag = 0;
 };
 
 // What muscles and tissue of a fish do at an instant: the stiffness and the rest length of each

@@ -284,14 +284,13 @@ glm::dvec3 rotatedAbout(const glm::dvec3& axis, double angle, const glm::dvec3& 
 struct BladePoint {
     glm::dvec3 arm, chord;
 };
-BladePoint bladePoint(const Blade& blade, const FinPose& pose, double q, double side) {
+BladePoint bladePoint(const Blade& blade, const glm::dvec3& pose, double q, double side) {
     const auto moved = [&](const glm::dvec3& v) {
-        return rotatedAbout(
-            blade.stroke, pose.stroke, rotatedAbout(blade.hinge, pose.open, v));
+        return rotatedAbout(blade.stroke, pose.y, rotatedAbout(blade.hinge, pose.x, v));
     };
     const glm::dvec3 mirror{-1, 1, side};
     return {mirror * moved(q * blade.span * blade.ray),
-            mirror * moved(rotatedAbout(blade.ray, pose.twist * q, blade.chord))};
+            mirror * moved(rotatedAbout(blade.ray, pose.z * q, blade.chord))};
 }
 
 // The normal force of strips of a blade, distributed over rings 1 and 2 as over a rigid body.
@@ -323,19 +322,16 @@ void addBlade(const Blade& blade,
     glm::dvec3 force{}, torque{};
     for (int strip = 0; strip < kStrips; ++strip) {
         const double q = (strip + 0.5) / kStrips;
-        FinPose later = motion.pose;
-        later.open += kInstant * motion.rate.open;
-        later.stroke += kInstant * motion.rate.stroke;
-        later.twist += kInstant * motion.rate.twist;
         const BladePoint at = bladePoint(blade, motion.pose, q, side);
-        const BladePoint next = bladePoint(blade, later, q, side);
+        const BladePoint next =
+            bladePoint(blade, motion.pose + kInstant * motion.rate, q, side);
         const glm::dvec3 place = root + worldFromBody * at.arm;
         const glm::dvec3 v = velocity + glm::cross(spin, place - centre) +
                              worldFromBody * ((next.arm - at.arm) / kInstant);
         const glm::dvec3 normal =
             worldFromBody * glm::normalize(glm::cross(at.arm, at.chord));
         const double normalSpeed = glm::dot(normal, v);
-        const glm::dvec3 f = -blade.pressure * blade.area / kStrips * std::abs(normalSpeed) *
+        const glm::dvec3 f = -blade.drag * blade.area / kStrips * std::abs(normalSpeed) *
                              normalSpeed * normal;
         force += f;
         torque += glm::cross(place - centre, f);

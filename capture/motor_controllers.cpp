@@ -214,6 +214,24 @@ PectoralFins brake() {
     return {.left = at(kAcross), .right = at(kAcross)};
 }
 
+FinMotion strokeAt(const config::Rowing& rowing,
+                   const Stroke& stroke,
+                   double open,
+                   double beatHertz,
+                   double beat) {
+    const double rate = 2 * std::numbers::pi * beatHertz;
+    const double phase = 2 * std::numbers::pi * beat;
+    const double travel = stroke.share * static_cast<double>(rowing.strokeRadians);
+    const double feather =
+        stroke.share * stroke.drive * static_cast<double>(rowing.featherRadians);
+    const double twisted = phase + static_cast<double>(rowing.leadRadians);
+    return {.pose = {open,
+                     static_cast<double>(rowing.middleRadians) + travel * std::sin(phase),
+                     static_cast<double>(rowing.twistRadians) + stroke.trim +
+                         feather * std::cos(twisted)},
+            .rate = {0, rate * travel * std::cos(phase), -rate * feather * std::sin(twisted)}};
+}
+
 PectoralFins row(const config::Gait& gait,
                  double stroke,
                  const BodyAngles& attitude,

@@ -67,6 +67,19 @@ inline constexpr double kRampOwnSeconds = 1;
 // Both fins perpendicular to the flow (Tu & Terzopoulos 1994, brake-MC).
 [[nodiscard]] PectoralFins brake();
 
+// How one pectoral fin rows. Drive 1 rows ahead, -1 back, 0 neither; the trim is added to its twist,
+// radians; share scales the stroke.
+struct Stroke {
+    double drive = 1, trim = 0, share = 1;
+};
+// The pose of a fin that rows, at a phase of the beat in beats, and its change (Rowing of
+// species.proto). `open`: how far it is opened, radians.
+[[nodiscard]] FinMotion strokeAt(const config::Rowing& rowing,
+                                 const Stroke& stroke,
+                                 double open,
+                                 double beatHertz,
+                                 double beat);
+
 // Swimming backward by rowing, at a phase of the stroke from 0 to 1. The power stroke goes forward
 // with the fins broadside, the recovery stroke back with the fins feathered. In the power stroke
 // one fin moves faster than the other, to keep the fish at `headingRadians`; in the recovery stroke

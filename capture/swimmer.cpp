@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <glm/geometric.hpp>
+
 #include "capture/dynamics.h"
 #include "capture/motor_controllers.h"
 
@@ -58,6 +60,12 @@ constexpr double kHandover = 0.04;
 // and without a lead it overshot a commanded slope by 70 %. Times of the low pass, a beat each.
 constexpr double kPitchLeadBeats = 2;
 
+// Rowing: trim by pitch, radians by radian, and by its sum over beats; and the drive by the speed.
+constexpr double kTrimGain = 1.2, kTrimIntegral = 0.3, kMostTrim = 0.8;
+constexpr double kDriveIntegral = 0.4;
+// Of a curve, by which the inner fin rows less.
+constexpr double kInnerFin = 2.5;
+
 }  // namespace
 
 Swimmer::Swimmer(const BiomechanicalFish& fish, const config::Species& species, double stepSeconds)
@@ -76,7 +84,10 @@ void Swimmer::give(const Order& order) {
     // After an order without a tail beat no beat is left that a glide or a brake could fade out.
     if (!swims()) beating_.gain = 0;
     order_ = order;
-    if (swims() || order.controller == Controller::Retreat) beating_ = order.gait;
+    const bool beatsFins = order.controller == Controller::Retreat ||
+                           order.controller == Controller::Hover ||
+                           order.controller == Controller::LeftPivot;
+    if (swims() || beatsFins) beating_ = order.gait;
     ownSecondsOfOrder_ = 0;
     headingOfOrder_ = attitude_.headingRadians;
     musclesBefore_ = control_.muscles;
@@ -97,7 +108,72 @@ void Swimmer::advanceOne() {
     // The low pass has a time constant of one beat, or of the fish's own second if that is shorter.
     const double hertz = std::max(beating_.beatHertz, fish_.timeScale);
     attitude_ = sense(attitude_, state_, stepSeconds_ * hertz, stepSeconds_);
+    if (rows()) adjustRowing();
     advanceClocks(stepSeconds_ / 2);
+}
+
+bool Swimmer::rows() const {
+    if (!species_.finMotion.rowing.rows()) return false;
+    switch (order_.controller) {
+        case Controller::Hover:
+        case Controller::LeftPivot:
+        case Controller::Retreat:
+            return true;
+        default:
+            return swims() && beating_.rows > 0;
+    }
+}
+
+// Both fins row alike ahead or back; on a curve the inner one less, and against the other in a
+// pivot.
+RowingControl Swimmer::rowingProgram() const {
+    const double grown = std::min(1.0, ownSecondsOfOrder_ / kRampOwnSeconds);
+    const double trim = trim_ + order_.liftRadians;
+    double left = 1;
+    double right = 1;
+    double share = beating_.rows;
+    switch (order_.controller) {
+        case Controller::Hover:
+            left = right = drive_;
+            share = 1;
+            break;
+        case Controller::LeftPivot:
+            left = -1;
+            share = 1;
+            break;
+        case Controller::Retreat:
+            left = right = -1;
+            share = 1;
+            break;
+        default:
+            left = 1 - kInnerFin * order_.curve;
+            break;
+    }
+    const auto at = [&](double drive) {
+        return strokeAt(species_.finMotion.rowing,
+                        {.drive = drive, .trim = trim, .share = share * grown},
+                        fish_.blade.rowing,
+                        beating_.beatHertz,
+                        beat_);
+    };
+    return {.rows = true, .left = at(left), .right = at(right)};
+}
+
+// Proportional and integral feedback: on the pitch by the twist of both fins, unless the order
+// lifts; and in a hover on the speed by their drive.
+void Swimmer::adjustRowing() {
+    const double beats = stepSeconds_ * beating_.beatHertz;
+    if (order_.liftRadians == 0) {
+        pitchSum_ = std::clamp(pitchSum_ - kTrimIntegral * attitude_.pitchRadians * beats,
+                               -kMostTrim,
+                               kMostTrim);
+        trim_ = std::clamp(pitchSum_ - kTrimGain * foreseen().pitchRadians, -kMostTrim, kMostTrim);
+    }
+    if (order_.controller != Controller::Hover) return;
+    const PoseFrame frame = frameOf(state_.positions);
+    const double ahead = glm::dot(frame.worldFromBody[0], state_.velocities[5]);
+    ahead_ += (ahead - ahead_) * std::min(1.0, beats);
+    drive_ = std::clamp(drive_ - kDriveIntegral * ahead_ * beats, -1.0, 1.0);
 }
 
 MotorControl Swimmer::program() const {
@@ -111,9 +187,10 @@ MotorControl Swimmer::program() const {
         return control;
     }
     const double handedOver = std::min(1.0, ownSecondsOfOrder_ / kHandover);
+    const bool rowing = rows();
     return {.muscles = mix(musclesBefore_, muscleProgram(), handedOver),
-            .fins = finProgram(),
-            .rowing = {},
+            .fins = rowing ? PectoralFins{} : finProgram(),
+            .rowing = rowing ? rowingProgram() : RowingControl{},
             .tone = {}};
 }
 
@@ -149,6 +226,8 @@ MuscleActivation Swimmer::muscleProgram() const {
         case Controller::Retreat:
         case Controller::LeftStart:
         case Controller::RightStart:
+        case Controller::Hover:
+        case Controller::LeftPivot:
             break;
     }
     return {};
@@ -190,6 +269,8 @@ PectoralFins Swimmer::finProgram() const {
         case Controller::Glide:
         case Controller::LeftStart:
         case Controller::RightStart:
+        case Controller::Hover:
+        case Controller::LeftPivot:
             break;
     }
     return {};

@@ -42,9 +42,11 @@ enum class Controller : std::uint8_t {
     Balance,
     Brake,
     Retreat,
-    // Not one of the paper's.
+    // Not of the paper's nine.
     LeftStart,
-    RightStart
+    RightStart,
+    Hover,     // in its place, by rowing
+    LeftPivot  // turns in its place, by rowing
 };
 
 // A command to the fish, which replaces the one before. A turn is over after secondsOf(bend); then
@@ -99,6 +101,10 @@ class Swimmer {
     [[nodiscard]] MuscleActivation muscleProgram() const;
     [[nodiscard]] MuscleActivation tailBeat(double share) const;
     [[nodiscard]] PectoralFins finProgram() const;
+    // Whether the fins row under the present order, and how they do.
+    [[nodiscard]] bool rows() const;
+    [[nodiscard]] RowingControl rowingProgram() const;
+    void adjustRowing();
     [[nodiscard]] BodyAngles foreseen() const;
 
     BiomechanicalFish fish_;
@@ -113,6 +119,10 @@ class Swimmer {
     double ownSecondsOfOrder_ = 0;
     double ownSecondsSwum_ = 0;
     config::Gait beating_{};     // of the tail, or of the fins in a retreat
+    double trim_ = 0;            // of the twist of rowing fins, which keeps the pitch; radians
+    double pitchSum_ = 0;        // part of the trim
+    double drive_ = 0;           // of rowing fins, which keeps the place in a hover
+    double ahead_ = 0;           // speed along the body axis, as sensed; body lengths a second
     double beat_ = 0;            // phase of the beat, 0 to 1
     double headingOfOrder_ = 0;  // sensed when the order came, radians: what a retreat keeps
     BodyAngles attitude_;        // as sensed

@@ -13,15 +13,13 @@ namespace aquarama::body {
 AQUARAMA_CONSTANT float kWholeTurn = 6.2831853F;  // radians
 // The period of all fin motion that depends on the time: all rates are whole tenths of a hertz.
 AQUARAMA_CONSTANT float kFinSeconds = 10.0F;
-// Phase lags, in radians and in cycles: the margin of a membrane follows its root by a sixth of a
-// beat, the tip of a rowing fin follows its root by an eighth.
+// The margin of a membrane follows its root by a sixth of a beat, radians.
 AQUARAMA_CONSTANT float kMarginLag = kWholeTurn / 6.0F;
-AQUARAMA_CONSTANT float kTipLag = 0.12F;
 // Below the first speed a fish stands, above the second it swims. Body lengths a second.
 AQUARAMA_CONSTANT float kStands = 0.2F;
 AQUARAMA_CONSTANT float kSwims = 0.6F;
 AQUARAMA_CONSTANT float kFolded = 1.5F;  // above it pelvic fins lie as near to the belly as they go
-AQUARAMA_CONSTANT float kFoldBand = 0.2F;  // of the speed at which fins fold, to either side
+AQUARAMA_CONSTANT float kMostFinAngle = 3.2767F;  // radians: of a captured pose of a pectoral fin, 16 bits
 AQUARAMA_CONSTANT float kTrimGain = 3.0F;  // a slope of a third is steep
 
 #ifdef __cplusplus

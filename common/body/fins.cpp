@@ -85,33 +85,33 @@ float flankAt(const config::Species& species, const config::Fin& fin) {
         species.profile.stations, species.profile.halfWidth, FinPatch(fin).at(0.5F, 0).x);
 }
 
-FinStyle styleOf(const config::Species& species, const Hinge& hinge) {
+// Of a patch, by its cells.
+float areaOf(const FinPatch& patch) {
+    constexpr int kCells = 24;
+    const auto at = [&](int i, int j) {
+        return patch.at(static_cast<float>(i) / kCells, static_cast<float>(j) / kCells);
+    };
+    float area = 0;
+    for (int i = 0; i < kCells; ++i)
+        for (int j = 0; j < kCells; ++j) {
+            const glm::vec2 a = at(i + 1, j + 1) - at(i, j);
+            const glm::vec2 b = at(i, j + 1) - at(i + 1, j);
+            area += std::abs(a.x * b.y - a.y * b.x) / 2;
+        }
+    return area;
+}
+
+FinStyle styleOf(const config::Species& species, const PectoralFin& fin) {
     const config::FinMotion& motion = species.finMotion;
-    const config::Rowing& rowing = motion.rowing;
-    const float rest = species.fins.pectoral.angleRadians;
     FinStyle style;
-    style.hinge = hinge.axis;
-    style.ray = hinge.ray;
-    if (rowing.foldAbove > 0) {
-        style.open = rowing.openRadians - rest;
-        style.fold = std::min(kFlatRadians - rest, 0.0F);
-        const bool rows = rowing.strokeRadians > 0;
-        style.spread = rows ? std::max(kSpreadRadians - rest, style.open) : style.open;
-        const glm::vec3 open = rotated(hinge.axis, style.open, hinge.ray);
-        const glm::vec3 lifts = glm::normalize(glm::cross(open, glm::vec3(0, 1, 0)));
-        style.stroke = glm::normalize(std::cos(rowing.flapRadians) * hinge.axis +
-                                      std::sin(rowing.flapRadians) * lifts);
-        // The front of the fin leads the stroke.
-        const glm::vec3 beaten = glm::cross(style.stroke, open);
-        const glm::vec3 chord = rotated(hinge.axis, style.open, hinge.chord);
-        const bool leads = glm::dot(glm::cross(open, chord), beaten) > 0;
-        style.strokeAngle = rowing.strokeRadians;
-        style.featherAngle = leads ? rowing.featherRadians : -rowing.featherRadians;
-        style.trimAngle = leads ? rowing.trimRadians : -rowing.trimRadians;
-        style.rowHertz = tenths(rowing.beatHertz);
-        style.alternateBelow = rowing.alternateBelow;
-        style.foldAbove = rowing.foldAbove;
-    }
+    style.hinge = fin.hinge;
+    style.ray = fin.ray;
+    style.stroke = fin.stroke;
+    style.spread = fin.spread;
+    // A twist that lifts the front of the fin.
+    const glm::vec3 open = rotated(fin.hinge, fin.rowing, fin.ray);
+    const glm::vec3 chord = rotated(fin.hinge, fin.rowing, fin.chord);
+    style.trim = glm::cross(open, chord).y > 0 ? motion.rowing.trimRadians : -motion.rowing.trimRadians;
     style.pelvicFold = motion.pelvicFoldRadians;
     style.swimRipple = motion.swimming.amplitude;
     style.swimWaves = motion.swimming.waves;
@@ -145,38 +145,23 @@ float swayOf(const config::Fin& fin, glm::vec2 at) {
     return fin.flex * span * std::pow(at.y, 1.5F);
 }
 
-// 0 well below a speed, 1 well above it.
-float beyond(float speed, float limit) {
-    const float band = kFoldBand * limit + 1e-4F;
-    return glm::smoothstep(limit - band, limit + band, std::abs(speed) + 1e-3F);
-}
-
 // A phase offset, by which a fish differs from others.
 float ownCycles(std::uint32_t id) {
     return glm::fract(0.37F * static_cast<float>(id));
 }
 
-// The displacement of a point of a pectoral fin, right side: feathering about the ray, opening
-// about the hinge, the stroke. Fast swimming and the outer side of a turn fold the fin, which then
-// rests; a fish that brakes holds it across the water.
+// The displacement of a point of a pectoral fin, right side: its captured pose, with a twist that
+// balances; a fish that brakes holds it across the water.
 glm::vec3 rowed(const FinStyle& style, const FinPoint& point, const FinDrive& drive) {
     const bool isRight = point.side > 0;
-    const float apart = isRight ? 0.0F : 0.5F * (1 - beyond(drive.speed, style.alternateBelow));
-    const float beat = style.rowHertz * drive.seconds + ownCycles(drive.id) + apart;
-    // On the outer side of a turn the fin lies on the flank.
-    const float outer = drive.turning[isRight ? 0 : 1];
-    const float opens = (1 - beyond(drive.speed, style.foldAbove)) * (1 - outer);
-    const float rows = opens * (1 - drive.spread);
-    // Lift on both sides of a fish that climbs, and on the lower side of one that balances.
-    const float lift = drive.climb - (isRight ? drive.tilt : -drive.tilt);
-    const float twist = rows * style.featherAngle * std::cos(kWholeTurn * beat) +
-                        style.trimAngle * std::clamp(kTrimGain * lift, -1.0F, 1.0F);
-    const float angle =
-        rows * style.strokeAngle * std::sin(kWholeTurn * (beat - kTipLag * point.q));
+    const FinPose& pose = isRight ? drive.right : drive.left;
+    const float rows = 1 - drive.spread;
+    const float lift = isRight ? -drive.tilt : drive.tilt;  // on the lower side
+    const float twist =
+        rows * pose.twist + style.trim * std::clamp(kTrimGain * lift, -1.0F, 1.0F);
     glm::vec3 arm = rotated(style.ray, twist * point.q, point.arm);
-    const float opened = glm::mix(style.fold, style.open, opens);
-    arm = rotated(style.hinge, glm::mix(opened, style.spread, drive.spread), arm);
-    return rotated(style.stroke, angle, arm) - point.arm;
+    arm = rotated(style.hinge, glm::mix(pose.open, style.spread, drive.spread), arm);
+    return rotated(style.stroke, rows * pose.stroke, arm) - point.arm;
 }
 
 // The displacement to the right of a point of a median fin: the wave of swimming, locked to the
@@ -223,10 +208,31 @@ float FinPatch::rayAtStation(float s) const {
     return interpolate(baseS_, p_, s);
 }
 
+PectoralFin pectoralFinOf(const config::Species& species) {
+    const config::Rowing& rowing = species.finMotion.rowing;
+    const config::Fin& drawn = species.fins.pectoral;
+    const FinPatch patch(drawn);
+    const Hinge hinge = hingeOf(drawn, 0.97F * flankAt(species, drawn));
+    PectoralFin fin{.root = hinge.root,
+                    .hinge = hinge.axis,
+                    .ray = hinge.ray,
+                    .chord = glm::normalize(glm::vec3(patch.baseRear() - patch.baseFront(), 0)),
+                    .span = glm::distance(patch.at(0.5F, 0), patch.at(0.5F, 1)),
+                    .area = areaOf(patch),
+                    .rowing = rowing.openRadians - drawn.angleRadians,
+                    .folded = rowing.rows() ? std::min(kFlatRadians - drawn.angleRadians, 0.0F) : 0};
+    fin.spread = rowing.rows() ? std::max(kSpreadRadians - drawn.angleRadians, fin.rowing) : 0;
+    const glm::vec3 open = rotated(fin.hinge, fin.rowing, fin.ray);
+    const glm::vec3 lifts = glm::normalize(glm::cross(open, glm::vec3(0, 1, 0)));
+    fin.stroke = glm::normalize(std::cos(rowing.flapRadians) * fin.hinge +
+                                std::sin(rowing.flapRadians) * lifts);
+    return fin;
+}
+
 FinTable makeFinTable(const config::Species& species, const ControlCage& cage) {
     const config::Fins& fins = species.fins;
     assert(cage.vertices.size() == kControlPoints);
-    const Hinge pectoral = hingeOf(fins.pectoral, 0.97F * flankAt(species, fins.pectoral));
+    const PectoralFin pectoral = pectoralFinOf(species);
     const Hinge pelvic = hingeOf(fins.pelvic, 0.35F * flankAt(species, fins.pelvic));
     FinTable table{.style = styleOf(species, pectoral), .points = {}};
     for (const CageVertex& vertex : cage.vertices) {

@@ -48,6 +48,20 @@ class FinPatch {
 // a node knows about a fish. This is the reference that fish_fins.glsl is tested against.
 // (docs/appendices/look.md, "Fins")
 
+// The pectoral fin of the right side. Axes are unit vectors: tailwards, up, right; the root is in
+// (s, y, z) of the rest shape.
+struct PectoralFin {
+    glm::vec3 root{};    // its middle
+    glm::vec3 hinge{};   // about it the fin leaves the flank
+    glm::vec3 ray{};     // from the root to the middle of the margin, at rest
+    glm::vec3 chord{};   // along the root
+    glm::vec3 stroke{};  // about it the fin beats
+    float span = 0, area = 0;  // body lengths, and squared
+    // FinPose::open of a fin that rows, that lies on the flank, and that brakes.
+    float rowing = 0, folded = 0, spread = 0;
+};
+[[nodiscard]] PectoralFin pectoralFinOf(const config::Species& species);
+
 // The constants of the motion of a species' fins. cage: of this species at rest.
 [[nodiscard]] FinTable makeFinTable(const config::Species& species, const ControlCage& cage);
 
@@ -55,10 +69,9 @@ class FinPatch {
 struct FinDrive {
     float seconds = 0;               // of the show, modulo kFinSeconds
     float speed = 0;                 // body lengths a second; backwards is negative
-    float climb = 0;                 // sine of its pitch, up is positive
-    float tilt = 0;                  // height of its right side: sine of its roll to the left
-    float spread = 0;                // 0 to 1: how far its pectoral fins brake
-    std::array<float, 2> turning{};  // 0 to 1: how far it is in a turn to the left, to the right
+    float tilt = 0;    // height of its right side: sine of its roll to the left
+    float spread = 0;  // 0 to 1: how far its pectoral fins brake
+    FinPose left{}, right{};  // of its pectoral fins, as captured
     // Id of the fish, which gives each its own phase.
     std::uint32_t id = 0;
     // Phase of its tail beat and of the beat that a motion warp leaves, in cycles; weight is the

@@ -19,18 +19,10 @@ namespace aquarama::body {
 // from the body. The left side is the mirror image.
 struct FinStyle {
     glm::vec3 hinge{};   // of the pectoral fin: about it the fin opens
-    float open = 0;      // from the rest angle to the middle of the stroke
+    float spread = 0;    // of a pectoral fin that brakes, from the rest angle
     glm::vec3 stroke{};  // about it the fin beats
-    float fold = 0;      // from the rest angle to the flank
-    glm::vec3 ray{};     // the fin's own axis, about which it feathers
-    // Amplitudes of the beat about `stroke` and of the twist about `ray`; the largest twist with
-    // which a fish that climbs, dives or balances trims.
-    float strokeAngle = 0;
-    float featherAngle = 0, trimAngle = 0;
-    // Beats of the pectoral fins a second.
-    float rowHertz = 0;
-    // Below the first speed left and right beat in turn, above the second both lie folded.
-    float alternateBelow = 0, foldAbove = 0;
+    float trim = 0;      // the largest twist with which a fish balances
+    glm::vec3 ray{};     // the fin's own axis, about which it twists
     // From the rest angle to the belly, at speed.
     float pelvicFold = 0;
     // The ripple of the median fins, swimming and hovering: amplitude in ray lengths, waves along
@@ -40,10 +32,15 @@ struct FinStyle {
     float opposed = 0;  // phase of the anal fin against the dorsal
     // How far the middle rays of the tail fin bend against its lobes, for each unit of drift.
     float cupping = 0;
-    float spread = 0;           // of a pectoral fin that brakes, from the rest angle
-    float padding[2] = {0, 0};  // to whole vectors
+    float padding = 0;  // to whole vectors
 };
-static_assert(sizeof(FinStyle) == 112);
+static_assert(sizeof(FinStyle) == 80);
+
+// Where a pectoral fin stands relative to its rest, radians: twisted about its ray, at the tip, then
+// opened about its hinge, then carried about the axis of its stroke.
+struct FinPose {
+    float open = 0, stroke = 0, twist = 0;
+};
 
 // A control point as the fin shader reads it.
 struct FinPoint {

@@ -144,9 +144,10 @@ FinMotion finMotionOf(const v1::FinMotion& in) {
                        .featherRadians = radians(rowing.feather_deg()),
                        .openRadians = radians(rowing.open_deg()),
                        .flapRadians = radians(rowing.flap_deg()),
-                       .trimRadians = radians(rowing.trim_deg()),
-                       .alternateBelow = real(rowing.alternate_below()),
-                       .foldAbove = real(rowing.fold_above())},
+                       .leadRadians = radians(rowing.lead_deg()),
+                       .twistRadians = radians(rowing.twist_deg()),
+                       .middleRadians = radians(rowing.middle_deg()),
+                       .trimRadians = radians(rowing.trim_deg())},
             .swimming = rippleOf(in.swimming()),
             .hovering = rippleOf(in.hovering()),
             .cuppingRadians = radians(in.cupping_deg()),
@@ -348,7 +349,7 @@ Tissue tissueOf(const v1::Tissue& in) {
 }
 
 Gait gaitOf(const v1::Gait& in) {
-    return {.beatHertz = in.beat_hz(), .gain = in.gain()};
+    return {.beatHertz = in.beat_hz(), .gain = in.gain(), .rows = in.rows()};
 }
 
 Swim swimOf(const v1::Swim& in) {
@@ -388,7 +389,9 @@ FastStart startOf(const v1::FastStart& in) {
 std::string motionOf(v1::Species in) {
     in.clear_habits();
     in.clear_palette();
+    const v1::Rowing rowing = in.fin_motion().rowing();
     in.clear_fin_motion();
+    *in.mutable_fin_motion()->mutable_rowing() = rowing;
     in.clear_threads();
     in.clear_eye();
     std::string kept;

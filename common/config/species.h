@@ -40,11 +40,13 @@ struct Fins {
     Fin anal, caudal, pelvic, pectoral;
 };
 
-// How fins move beside the body, at their most; all zero: they keep still (species.proto).
+// How the pectoral fins row and trim, at their most; all zero: they keep still (species.proto).
 struct Rowing {
     float beatHertz = 0;
-    float strokeRadians = 0, featherRadians = 0, openRadians = 0, flapRadians = 0, trimRadians = 0;
-    float alternateBelow = 0, foldAbove = 0;  // body lengths a second
+    float strokeRadians = 0, featherRadians = 0, openRadians = 0, flapRadians = 0;
+    float leadRadians = 0, twistRadians = 0, middleRadians = 0;
+    float trimRadians = 0;
+    [[nodiscard]] bool rows() const { return strokeRadians > 0; }
 };
 // Of the median fins, from their front to their end.
 struct Ripple {
@@ -109,6 +111,7 @@ struct Water {
 struct Gait {
     double beatHertz = 0;
     double gain = 1;
+    double rows = 0;  // share of the stroke of the pectoral fins
 };
 
 // The muscles of the middle and the back beat left against right, the back ones later.

@@ -110,4 +110,25 @@ void nodalPose(const Repertoire& repertoire, const PresentedFish& fish, body::No
     }
 }
 
+std::array<body::FinPose, 2> finPoses(const Repertoire& repertoire, const PresentedFish& fish) {
+    std::array<body::FinPose, 2> poses;
+    const auto posed = [](const ActionSegment& segment, float phase, std::size_t side) {
+        const PhaseSample sample = sampleAt(phase);
+        const auto at = [&](std::size_t k) {
+            const FinAngles& angles = segment.fins[k][side];
+            return glm::vec3(angles[0], angles[1], angles[2]) * kFinUnit;
+        };
+        return glm::mix(at(sample.before), at(sample.after), sample.share);
+    };
+    for (std::size_t side = 0; side < poses.size(); ++side) {
+        glm::vec3 pose = posed(segmentOf(repertoire, fish.action), fish.phase, side);
+        if (fish.warpWeight < 1.0F)
+            pose = glm::mix(posed(segmentOf(repertoire, fish.fromAction), fish.fromPhase, side),
+                            pose,
+                            fish.warpWeight);
+        poses[side] = {pose.x, pose.y, pose.z};
+    }
+    return poses;
+}
+
 }  // namespace aquarama::motion

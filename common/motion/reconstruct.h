@@ -45,5 +45,8 @@ static_assert(sizeof(PresentedFish) == 64);
 // The nodal points in the body frame, in body lengths (eq. 12 before R and o), interpolated between
 // samples and, in a warp, between segments.
 void nodalPose(const Repertoire& repertoire, const PresentedFish& fish, body::NodalPoints& nodes);
+// The pectoral fins likewise, left and right.
+[[nodiscard]] std::array<body::FinPose, 2> finPoses(const Repertoire& repertoire,
+                                                    const PresentedFish& fish);
 
 }  // namespace aquarama::motion

@@ -74,6 +74,7 @@ void writeSegment(ByteWriter& out, const ActionSegment& segment) {
         writeIncrements(out, path.increments);
     }
     for (const NodalPose& pose : segment.nodes) writePose(out, pose);
+    for (const FinAnglePair& fins : segment.fins) writePose(out, fins);
     for (const ControlPointPose& pose : segment.controlPoints) writePose(out, pose);
 }
 
@@ -95,7 +96,9 @@ FrameIncrement readIncrement(ByteReader& in) {
 constexpr std::size_t kIncrementsBytes = kPhases * 7 * sizeof(float);
 constexpr std::size_t kEntryBytes = 8 * sizeof(float) + kIncrementsBytes;
 constexpr std::size_t bytesOfSegment(bool withControlPoints) {
-    const std::size_t points = body::kNodalPoints + (withControlPoints ? body::kControlPoints : 0);
+    // And of both fins.
+    const std::size_t points =
+        body::kNodalPoints + 2 + (withControlPoints ? body::kControlPoints : 0);
     return sizeof(float) + 1 + kIncrementsBytes + kPhases * points * 3 * sizeof(std::int16_t);
 }
 
@@ -256,6 +259,7 @@ Repertoire readContent(ByteReader& in, const std::string& source) {
             readIncrements(in, path.increments);
         }
         for (NodalPose& pose : segment.nodes) readPose(in, pose);
+        for (FinAnglePair& fins : segment.fins) readPose(in, fins);
         segment.controlPoints.resize(contents[action].hasControlPoints() ? kPhases : 0);
         for (ControlPointPose& pose : segment.controlPoints) readPose(in, pose);
     }
@@ -383,6 +387,7 @@ void addGlide(Repertoire& repertoire) {
     const ActionSegment& right =
         repertoire.segments[static_cast<std::size_t>(Action::TurnRightGradual)];
     glide.nodes.fill(meanOf(left.nodes.back(), right.nodes.back()));
+    glide.fins.fill(meanOf(left.fins.back(), right.fins.back()));
     if (medium.controlPoints.empty()) return;
     glide.controlPoints.assign(kPhases,
                                meanOf(left.controlPoints.back(), right.controlPoints.back()));

@@ -259,6 +259,12 @@ using NodalPose = std::array<std::array<std::int16_t, 3>, body::kNodalPoints>;
 // Poses are 16-bit: a position in the body frame, in body lengths, is component * kPoseUnit.
 inline constexpr float kPoseUnit = 1.0F / 32767.0F;
 
+// How the pectoral fins stand: opened, carried by the stroke, twisted; in units of kFinUnit
+// (body::FinPose). Left, then right.
+using FinAngles = std::array<std::int16_t, 3>;
+using FinAnglePair = std::array<FinAngles, 2>;
+inline constexpr float kFinUnit = 1e-4F;  // radians
+
 // A frame increment for each phase.
 using FrameIncrements = std::array<FrameIncrement, kPhases>;
 
@@ -291,6 +297,8 @@ struct ActionSegment {
     std::vector<TurnPath> entered;
     // Deformation d at phase k (eq. 8).
     std::array<NodalPose, kPhases> nodes{};
+    // The pectoral fins at phase k.
+    std::array<FinAnglePair, kPhases> fins{};
     // The surface s at phase k (eq. 9): kPhases poses, or none.
     std::vector<ControlPointPose> controlPoints;
 };

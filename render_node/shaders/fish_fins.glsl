@@ -10,15 +10,13 @@
 // is the mirror image of the right.
 struct FinStyle {
     vec3 hinge;
-    float open;
+    float spread;
     vec3 stroke;
-    float fold;
+    float trim;
     vec3 ray;
-    float strokeAngle;
-    float featherAngle, trimAngle, rowHertz, alternateBelow;
-    float foldAbove, pelvicFold, swimRipple, swimWaves;
-    float hoverRipple, hoverWaves, hoverHertz, opposed;
-    float cupping, spread;
+    float pelvicFold;
+    float swimRipple, swimWaves, hoverRipple, hoverWaves;
+    float hoverHertz, opposed, cupping;
 };
 struct FinPoint {
     vec3 arm;
@@ -27,11 +25,12 @@ struct FinPoint {
     uint part;
 };
 
-// The inputs of the motion of one fish's fins.
+// The inputs of the motion of one fish's fins. A pectoral fin's pose is how far it is opened, carried by
+// its stroke, and twisted.
 struct FinDrive {
-    float seconds, speed, climb;
+    float seconds, speed;
     float tilt, spread;
-    vec2 turning;  // how far it is in a turn to the left, to the right
+    vec3 left, right;
     float own;     // the fish's phase offset, cycles
     float phase, fromPhase, weight;
 };
@@ -41,30 +40,17 @@ vec3 rotatedAbout(vec3 axis, float angle, vec3 v) {
     return c * v + sin(angle) * cross(axis, v) + (1.0 - c) * dot(axis, v) * axis;
 }
 
-// 0 well below a speed, 1 well above it.
-float beyondSpeed(float speed, float limit) {
-    float band = kFoldBand * limit + 1.0e-4;
-    return smoothstep(limit - band, limit + band, abs(speed) + 1.0e-3);
-}
-
-// A pectoral fin rows with its stroke and feathers its blade. Fast fish fold it, and a fish that brakes
-// holds it across the water. Its twist gives lift, for a slope and for balance. Below the speed
-// `alternateBelow` the left fin is half a cycle behind the right one.
+// A pectoral fin stands as it was captured, with a twist that balances; a fish that brakes holds it
+// across the water.
 vec3 rowedFin(FinStyle style, FinPoint point, FinDrive drive) {
     bool isRight = point.side > 0.0;
-    float apart = isRight ? 0.0 : 0.5 * (1.0 - beyondSpeed(drive.speed, style.alternateBelow));
-    float beat = style.rowHertz * drive.seconds + drive.own + apart;
-    float outer = isRight ? drive.turning.x : drive.turning.y;
-    float opens = (1.0 - beyondSpeed(drive.speed, style.foldAbove)) * (1.0 - outer);
-    float rows = opens * (1.0 - drive.spread);
-    float lift = drive.climb - (isRight ? drive.tilt : -drive.tilt);
-    float twist = rows * style.featherAngle * cos(kWholeTurn * beat) +
-                  style.trimAngle * clamp(kTrimGain * lift, -1.0, 1.0);
-    float angle = rows * style.strokeAngle * sin(kWholeTurn * (beat - kTipLag * point.q));
+    vec3 pose = isRight ? drive.right : drive.left;
+    float rows = 1.0 - drive.spread;
+    float lift = isRight ? -drive.tilt : drive.tilt;
+    float twist = rows * pose.z + style.trim * clamp(kTrimGain * lift, -1.0, 1.0);
     vec3 arm = rotatedAbout(style.ray, twist * point.q, point.arm);
-    float opened = mix(style.fold, style.open, opens);
-    arm = rotatedAbout(style.hinge, mix(opened, style.spread, drive.spread), arm);
-    return rotatedAbout(style.stroke, angle, arm) - point.arm;
+    arm = rotatedAbout(style.hinge, mix(pose.x, style.spread, drive.spread), arm);
+    return rotatedAbout(style.stroke, rows * pose.y, arm) - point.arm;
 }
 
 float finWave(FinPoint point, float cycles, float waves) {

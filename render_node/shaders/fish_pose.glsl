@@ -9,27 +9,48 @@
 #include "fish_fins.glsl"
 
 const uint kPoses = kActions * kPhases * kControlPoints;
-const uint kFinNumbers = 7u * 2u + kControlPoints * 2u * 2u;  // of a FinStyle, and of FinPoints
+const uint kFinPoses = kActions * kPhases * 2u;               // left and right, of pectoral fins
+const uint kFinNumbers = 5u * 2u + kControlPoints * 2u * 2u;  // of a FinStyle, and of FinPoints
+const uint kSpeciesWords = kPoses + kFinPoses + kFinNumbers;
 // Species by species. First by action and phase the points: 3 x 16 bits, body lengths, then a heading,
-// half turns; the fins follow in the same buffer, as OpenGL guarantees no more buffers.
+// half turns; then by action and phase the poses of the fins: 3 x 16 bits; the fins follow in the same
+// buffer, as OpenGL guarantees no more buffers.
 layout(std430, binding = kRecordedStorage) readonly buffer Recorded { uvec2 recorded[]; };
 
 vec4 finNumbers(uint species, uint vector) {
-    uint k = species * (kPoses + kFinNumbers) + kPoses + 2u * vector;
+    uint k = species * kSpeciesWords + kPoses + kFinPoses + 2u * vector;
     return uintBitsToFloat(uvec4(recorded[k], recorded[k + 1u]));
 }
 
 FinPoint finPointOf(uint species, uint i) {
-    vec4 arm = finNumbers(species, 7u + 2u * i), place = finNumbers(species, 8u + 2u * i);
+    vec4 arm = finNumbers(species, 5u + 2u * i), place = finNumbers(species, 6u + 2u * i);
     return FinPoint(arm.xyz, arm.w, place.x, place.y, place.z, floatBitsToUint(place.w));
 }
 
 FinStyle finStyleOf(uint species) {
     vec4 a = finNumbers(species, 0u), b = finNumbers(species, 1u), c = finNumbers(species, 2u);
-    vec4 d = finNumbers(species, 3u), e = finNumbers(species, 4u), f = finNumbers(species, 5u);
-    vec4 g = finNumbers(species, 6u);
-    return FinStyle(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.x, d.y, d.z, d.w, e.x, e.y, e.z, e.w, f.x,
-                    f.y, f.z, f.w, g.x, g.y);
+    vec4 d = finNumbers(species, 3u), e = finNumbers(species, 4u);
+    return FinStyle(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.x, d.y, d.z, d.w, e.x, e.y, e.z);
+}
+
+// Radians; side 0 is left.
+vec3 recordedFin(uint species, uint action, uint phase, uint side) {
+    uvec2 bits = recorded[species * kSpeciesWords + kPoses + (action * kPhases + phase) * 2u + side];
+    return vec3(unpackSnorm2x16(bits.x), unpackSnorm2x16(bits.y).x) * kMostFinAngle;
+}
+
+// A fin between two recorded phases.
+vec3 finAt(uint species, uint action, float phase, uint side) {
+    float sampled = phase * float(kPhases);
+    uint before = uint(floor(sampled)) % kPhases;
+    return mix(recordedFin(species, action, before, side),
+               recordedFin(species, action, (before + 1u) % kPhases, side), fract(sampled));
+}
+
+vec3 finOf(Fish self, uint side) {
+    vec3 fin = finAt(self.species, self.action, self.phase, side);
+    if (self.warpWeight == 1.0) return fin;
+    return mix(finAt(self.species, self.fromAction, self.fromPhase, side), fin, self.warpWeight);
 }
 
 struct Posed {
@@ -40,7 +61,7 @@ struct Posed {
 
 vec4 recordedPoint(uint species, uint action, uint phase, uint point) {
     uint pose = action * kPhases + phase;
-    uvec2 bits = recorded[species * (kPoses + kFinNumbers) + pose * kControlPoints + point];
+    uvec2 bits = recorded[species * kSpeciesWords + pose * kControlPoints + point];
     return vec4(unpackSnorm2x16(bits.x), unpackSnorm2x16(bits.y));
 }
 
@@ -56,24 +77,10 @@ Posed posedAt(uint species, uint action, float phase, uint point) {
     return Posed(here.xyz, heading, dot(to.xyz - from.xyz, right) * float(kPhases) / kWholeTurn);
 }
 
-// How far an action is a turn to the left, to the right: a curve less than a turn. Actions of
-// common/motion/repertoire.h, by the gait within each curve.
-vec2 turnOf(uint action) {
-    const float kSharp = 1.0, kGradual = 0.4, kTight = 0.3, kWide = 0.15;
-    uint curve = (action - kFirstCurve) / 3u, turn = action - kFirstTurn;
-    if (action >= kFirstStart && action < kFirstStart + 6u) return vec2(kSharp);  // both fins fold
-    float much = action >= kFirstCurve && curve < 4u ? (curve % 2u == 0u ? kWide : kTight)
-                 : action >= kFirstTurn && turn < 4u ? (turn % 2u == 0u ? kGradual : kSharp)
-                                                      : 0.0;
-    bool left = action >= kFirstTurn ? turn < 2u : curve < 2u;
-    return left ? vec2(much, 0.0) : vec2(0.0, much);
-}
-
 FinDrive finDriveOf(Fish self) {
-    return FinDrive(mod(eyeAndTime.w, kFinSeconds), self.speed, rotate(self.rotation, vec3(1.0, 0.0, 0.0)).y,
-                    rotate(self.rotation, vec3(0.0, 0.0, 1.0)).y, self.spread,
-                    mix(turnOf(self.fromAction), turnOf(self.action), self.warpWeight),
-                    fract(0.37 * float(self.id)), self.phase, self.fromPhase, self.warpWeight);
+    return FinDrive(mod(eyeAndTime.w, kFinSeconds), self.speed, rotate(self.rotation, vec3(0.0, 0.0, 1.0)).y,
+                    self.spread, finOf(self, 0u), finOf(self, 1u), fract(0.37 * float(self.id)), self.phase,
+                    self.fromPhase, self.warpWeight);
 }
 
 vec3 controlPointOf(Fish self, uint i) {

@@ -96,7 +96,15 @@ void addHeadings(const body::FishBody& body,
             std::lround(headings.at(i) / std::numbers::pi_v<float> * 32767.0F));
 }
 
-// Appends the fin tables behind the points of a species, as raw bytes: fish_pose.glsl reads them
+// Appends the captured poses of the pectoral fins, by action and phase, left and right.
+void addFinPoses(const motion::Repertoire& repertoire, std::vector<RecordedPoint>& points) {
+    for (const motion::ActionSegment& segment : repertoire.segments)
+        for (const motion::FinAnglePair& fins : segment.fins)
+            for (const auto& [open, stroke, twist] : fins)
+                points.push_back({open, stroke, twist, 0});
+}
+
+// Appends the fin tables behind the poses of a species, as raw bytes: fish_pose.glsl reads them
 // from the same buffer because OpenGL guarantees only eight storage blocks.
 void addFins(const body::FinTable& fins, std::vector<RecordedPoint>& points) {
     const auto add = [&](std::span<const std::byte> bytes) {
@@ -197,6 +205,7 @@ class Gatherer {
         SpeciesTables tables;
         const std::vector<RecordedPoint> points = recordedPoints(species.body, species.repertoire);
         append<RecordedPoint>(all_.recorded, points);
+        addFinPoses(species.repertoire, all_.recorded);
         addFins(species.body.fins, all_.recorded);
         tables.area.w = reachOf(points);
         skin::LimitTable coarser = skin::makeLimitTable(species.body, 0);
