@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
@@ -28,6 +29,7 @@ struct FrameMotion {
     std::array<glm::dquat, kCount> rotation{};
     std::array<glm::dvec3, kCount> translation{};
     std::array<NodeVectors, kCount + 1> poses{};  // in the body frame
+    std::array<std::array<glm::dvec3, 2>, kCount + 1> fins{};
 };
 
 // A reflection in a plane through the body axis: `partner` gives the node that takes a node's
@@ -68,6 +70,7 @@ FrameMotion frameMotionOf(const RecordedCycle& recording) {
                            recording.course, frameOf(recording.poses.front()).worldFromBody[0])};
     for (std::size_t k = 0; k <= kCount; ++k)
         motion.poses.at(k) = inBodyFrame(recording.poses.at(k));
+    if (!recording.fins.empty()) std::ranges::copy(recording.fins, motion.fins.begin());
     for (std::size_t k = 0; k < kCount; ++k) {
         const PoseFrame now = frameOf(recording.poses.at(k));
         const PoseFrame next = frameOf(recording.poses.at(k + 1));
@@ -144,6 +147,16 @@ std::array<std::int16_t, 3> quantised(const glm::vec3& point) {
     return integers;
 }
 
+// To units of kFinUnit; no fin turns by more than 3.2 radians.
+motion::FinAngles quantisedAngles(const glm::dvec3& pose) {
+    motion::FinAngles angles{};
+    for (std::size_t c = 0; c < 3; ++c)
+        angles.at(c) = static_cast<std::int16_t>(
+            std::lround(std::clamp(pose[static_cast<int>(c)], -3.2, 3.2) /
+                        static_cast<double>(motion::kFinUnit)));
+    return angles;
+}
+
 // Back to body lengths. Control points are computed from the quantised nodes, since these are what
 // a reader of the repertoire has.
 body::NodalPoints nodesOf(const motion::NodalPose& pose) {
@@ -167,6 +180,8 @@ motion::ActionSegment segmentOf(const FrameMotion& motion) {
     segment.increments = incrementsOf(motion);
     for (std::size_t k = 0; k < kCount; ++k)
         std::ranges::transform(motion.poses.at(k), segment.nodes.at(k).begin(), quantised);
+    for (std::size_t k = 0; k < kCount; ++k)
+        std::ranges::transform(motion.fins.at(k), segment.fins.at(k).begin(), quantisedAngles);
     return segment;
 }
 
@@ -186,6 +201,12 @@ motion::ActionSegment reflected(const motion::ActionSegment& segment, const Mirr
                 image.nodes.at(k).at(static_cast<std::size_t>(i)).at(c) = static_cast<std::int16_t>(
                     mirror.signs[static_cast<int>(c)] *
                     segment.nodes.at(k).at(static_cast<std::size_t>(mirror.partner(i))).at(c));
+    // Left and right fins change places; upside down, they twist the other way.
+    for (motion::FinAnglePair& fins : image.fins) {
+        if (mirror.signs.z < 0) std::swap(fins[0], fins[1]);
+        if (mirror.signs.y < 0)
+            for (motion::FinAngles& fin : fins) fin[2] = static_cast<std::int16_t>(-fin[2]);
+    }
     image.controlPoints.clear();
     return image;
 }

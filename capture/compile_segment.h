@@ -22,6 +22,9 @@ struct RecordedCycle {
     glm::dvec3 course{1, 0, 0};
     // Poses in body lengths, at the phases 0 to kPhases, both included: kPhases + 1 of them.
     std::vector<NodeVectors> poses;
+    // The pectoral fins at the same phases, left and right: opened, carried by the stroke, twisted,
+    // radians. Empty: they lie at rest.
+    std::vector<std::array<glm::dvec3, 2>> fins;
 };
 
 // The angle from one horizontal vector to the other, about the vertical, left positive, -pi .. pi.

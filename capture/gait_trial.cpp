@@ -91,7 +91,7 @@ RecordedCycle quickBeat(const config::Species& species, const config::Gait& gait
                  state);
     };
     advance(kWarmUpBeats * motion::kPhases * steps);
-    RecordedCycle beat{.periodSeconds = period, .poses = {state.positions}};
+    RecordedCycle beat{.periodSeconds = period, .poses = {state.positions}, .fins = {}};
     for (int phase = 0; phase < motion::kPhases; ++phase) {
         advance(steps);
         beat.poses.push_back(state.positions);

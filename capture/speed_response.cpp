@@ -28,10 +28,13 @@ int stepsPerPhaseOf(const config::Species& species, double periodSeconds) {
 
 // Advances the swimmer by one beat and records it.
 RecordedCycle recordBeat(Swimmer& swimmer, double periodSeconds, int stepsPerPhase) {
-    RecordedCycle beat{.periodSeconds = periodSeconds, .poses = {swimmer.state().positions}};
+    RecordedCycle beat{.periodSeconds = periodSeconds,
+                       .poses = {swimmer.state().positions},
+                       .fins = {swimmer.fins()}};
     for (int phase = 0; phase < motion::kPhases; ++phase) {
         swimmer.advance(stepsPerPhase);
         beat.poses.push_back(swimmer.state().positions);
+        beat.fins.push_back(swimmer.fins());
     }
     beat.course =
         glm::normalize(frameOf(beat.poses.back()).origin - frameOf(beat.poses.front()).origin);

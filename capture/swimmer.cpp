@@ -112,6 +112,14 @@ void Swimmer::advanceOne() {
     advanceClocks(stepSeconds_ / 2);
 }
 
+std::array<glm::dvec3, 2> Swimmer::fins() const {
+    if (control_.rowing.rows) return {control_.rowing.left.pose, control_.rowing.right.pose};
+    const auto trimmed = [&](const PectoralFin& fin) {
+        return glm::dvec3(fish_.blade.folded, 0, fin.angleRadians - std::numbers::pi / 2);
+    };
+    return {trimmed(control_.fins.left), trimmed(control_.fins.right)};
+}
+
 bool Swimmer::rows() const {
     if (!species_.finMotion.rowing.rows()) return false;
     switch (order_.controller) {

@@ -3,6 +3,7 @@
 // orders that it obeys, and the simulation that runs both.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "capture/biomechanical_fish.h"
@@ -87,6 +88,9 @@ class Swimmer {
     [[nodiscard]] double seconds() const { return stepSeconds_ * static_cast<double>(steps_); }
     [[nodiscard]] const FishState& state() const { return state_; }
     [[nodiscard]] const MotorControl& control() const { return control_; }  // of the last step
+    // How the pectoral fins stand, left and right: opened, carried by the stroke, twisted, radians.
+    // A fin that does not row lies on the flank, twisted by what it trims.
+    [[nodiscard]] std::array<glm::dvec3, 2> fins() const;
 
   private:
     void advanceOne();

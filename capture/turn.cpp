@@ -96,8 +96,10 @@ RecordedCycle recordTurn(const config::Species& species,
         .periodSeconds = swimmer.stepSeconds() * static_cast<double>(poses.size() - 1),
         .playsToEnd = true,
         .course = entry.beat.course,
-        .poses = {}};
+        .poses = {},
+        .fins = {}};
     for (std::size_t i = 0; i < poses.size(); i += stride) turn.poses.push_back(poses[i]);
+    turn.fins.assign(turn.poses.size(), swimmer.fins());  // they do not move in a turn
     return turn;
 }
 
@@ -159,11 +161,13 @@ EnteredTurn recordEntered(Swimmer swimmer,
     EnteredTurn entered{.turn = {.periodSeconds = seconds,
                                  .playsToEnd = true,
                                  .course = before.course,
-                                 .poses = {}},
+                                 .poses = {},
+                                 .fins = {}},
                         .speedBefore = way > 0 ? way / before.periodSeconds : 0,
                         .secondsAfter = kBeatsAfter / after.beatHertz};
     swimmer.give(order);
     entered.turn.poses = evenPoses(swimmer, seconds);
+    entered.turn.fins.assign(entered.turn.poses.size(), swimmer.fins());
     swimmer.give({.controller = Controller::ForwardSwim, .gait = after});
     swimmer.advance(static_cast<int>(std::lround(entered.secondsAfter / swimmer.stepSeconds())));
     entered.wayAfter =
