@@ -147,8 +147,8 @@ class Screen {
         return format("particle {}", number);
     }
 
-    // A sighting in words: its name, how far it is in body lengths (L), and where. Noted as a
-    // value.
+    // A sighting in words: its name, how far it is in body lengths (L), and where. Adds it to the
+    // values.
     [[nodiscard]] std::string at(Kind kind,
                                  const behaviour::Sighting& sighting,
                                  const std::string& name) {
