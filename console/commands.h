@@ -26,7 +26,7 @@ class Commands {
     Commands(State& state, Visitors& visitors, Errands& errands)
         : state_{state}, visitors_{visitors}, errands_{errands} {}
 
-    // The way to the master, which outlives the commands; before it no wall is heard.
+    // Sets the way to the master, which outlives the commands. No wall is heard before.
     void reach(MasterProxy* master) { master_ = master; }
 
     // Carries a command out, or begins it; said again, it is answered again. `visitor`: whose page

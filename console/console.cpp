@@ -42,7 +42,7 @@ void Console::begin(web::WebServer& server, Doors doors) {
             PictureListener{[=, this](const std::string& channel, const v1::FramePicture& picture) {
                                 here([=, this] { visitors_.heardPicture(channel, picture); });
                             },
-                            [=, this](const std::string& /*channel*/, const v1::FishReply& reply) {
+                            [=, this](const v1::FishReply& reply) {
                                 here([=, this] {
                                     // The fish is asked for what goes on in it at once.
                                     if (const auto fish = visitors_.heardFish(reply))

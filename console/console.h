@@ -73,6 +73,7 @@ class Console final : public web::Service {
     web::HttpReply leave(const web::HttpRequest& request);
     web::HttpReply look(const web::HttpRequest& request);
     [[nodiscard]] std::string metrics(UnixSeconds now) const;
+    web::HttpReply bundle();  // all logs, for whoever helps from afar
     web::HttpReply obey(const web::HttpRequest& request, const Holder& holder);
     web::HttpReply refused(int status, const std::string& why);
     // In the log: a code for the first browser.

@@ -16,7 +16,7 @@
 
 namespace aquarama::console {
 
-// How errands are done, each on a thread of its own; otherwise in tests.
+// The work of the errands; each is done on a thread of its own. Tests put their own in place.
 struct ErrandWork {
     std::function<browser::DoctorReport(const std::string& rigPath)> askDoctor = console::askDoctor;
     std::function<browser::Calibrations(const std::string& rigPath)> calibrationsOf =

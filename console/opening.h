@@ -13,7 +13,7 @@
 #include "common/config/hours.h"
 #include "console/access.h"
 #include "console/console.pb.h"
-#include "console/projector.h"
+#include "console/projectors/projector.h"
 
 namespace aquarama::console {
 

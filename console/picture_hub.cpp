@@ -96,7 +96,7 @@ void PictureHub::hear(const net::FromPeer& from) {
     const auto known = channelOf_.find(from.peer);
     if (known == channelOf_.end()) return;
     if (message->has_frame_picture()) listener_.picture(known->second, message->frame_picture());
-    if (message->has_fish_reply()) listener_.fish(known->second, message->fish_reply());
+    if (message->has_fish_reply()) listener_.fish(message->fish_reply());
 }
 
 // Nodes know the master's public key already; so the console shows the same.

@@ -21,7 +21,7 @@ namespace aquarama::console {
 // Called from the hub's thread.
 struct PictureListener {
     std::function<void(const std::string& channel, const v1::FramePicture&)> picture;
-    std::function<void(const std::string& channel, const v1::FishReply&)> fish;
+    std::function<void(const v1::FishReply&)> fish;
 };
 
 // What the console asks the nodes. From any thread; a node that is not there is asked nothing.

@@ -109,23 +109,27 @@ std::string Console::metrics(UnixSeconds now) const {
 HttpReply Console::look(const HttpRequest& request) {
     if (request.target == "/metrics")
         return {.type = "text/plain; version=0.0.4", .body = metrics(unixNow())};
-    if (request.target == "/bundle.tar")  // of 0.2.0
+    if (request.target == "/bundle.zip") return bundle();
+    if (request.target == "/bundle.tar")  // the link of 0.2.0
         return {.status = 308, .headers = {{"Location", "/bundle.zip"}}};
-    if (request.target == "/bundle.zip") try {
-            std::string events;
-            const browser::EventList list = state_.events.list();
-            for (const browser::Event& event : list.events())
-                events += fmt::format("{:.0f} {}: {}\n", event.at_s(), event.who(), event.what());
-            browser::ToBrowser status;
-            *status.mutable_wall() = state_.wall;
-            return {.type = "application/zip",
-                    .body = bundleOf(state_.rigFile,
-                                     {{"events.txt", events}, {"status.json", jsonOf(status)}}),
-                    .headers = {{"Content-Disposition", "attachment; filename=\"aquarama.zip\""}}};
-        } catch (const Error& problem) {
-            return refused(500, problem.what());
-        }
     return {.status = 404, .body = "there is no such page\n"};
+}
+
+HttpReply Console::bundle() {
+    std::string events;
+    const browser::EventList list = state_.events.list();
+    for (const browser::Event& event : list.events())
+        events += fmt::format("{:.0f} {}: {}\n", event.at_s(), event.who(), event.what());
+    browser::ToBrowser status;
+    *status.mutable_wall() = state_.wall;
+    try {
+        return {.type = "application/zip",
+                .body = bundleOf(state_.rigFile,
+                                 {{"events.txt", events}, {"status.json", jsonOf(status)}}),
+                .headers = {{"Content-Disposition", "attachment; filename=\"aquarama.zip\""}}};
+    } catch (const Error& problem) {
+        return refused(500, problem.what());
+    }
 }
 
 // Forms of other pages cannot send JSON without asking the browser first.

@@ -44,8 +44,6 @@ std::optional<Insight> insightInto(const world::World& world, std::uint32_t fish
 
 namespace {
 
-using fmt::format;
-
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 
 double seconds(std::uint32_t ticks) {
@@ -93,9 +91,9 @@ std::string whereabouts(double degrees) {
     const double aside = std::abs(degrees);
     const char* side = degrees > 0 ? "left" : "right";
     if (aside < 25) return "ahead";
-    if (aside < 65) return format("ahead {}", side);
+    if (aside < 65) return fmt::format("ahead {}", side);
     if (aside < 115) return side;
-    return aside < 155 ? format("behind {}", side) : std::string("behind");
+    return aside < 155 ? fmt::format("behind {}", side) : std::string("behind");
 }
 
 // Composes the screen section by section. The title of a section stands in the left margin of its
@@ -124,7 +122,7 @@ class Screen {
 
     // Appends a line, cut to the width of the screen.
     void add(const char* head, const std::string& text) {
-        told_.lines.push_back(format("{:<9}{}", head, text).substr(0, kScreenColumns));
+        told_.lines.push_back(fmt::format("{:<9}{}", head, text).substr(0, kScreenColumns));
     }
 
     // In body lengths of the fish; its length may be 0 in an empty insight.
@@ -139,16 +137,16 @@ class Screen {
 
     // Number and species; the number alone where there is no such fish.
     [[nodiscard]] std::string named(std::uint32_t fish) const {
-        if (fish >= others_.view.size()) return format("#{}", fish);
-        return format("#{} {}", fish, speciesOf(fish)).substr(0, kScreenColumns);
+        if (fish >= others_.view.size()) return fmt::format("#{}", fish);
+        return fmt::format("#{} {}", fish, speciesOf(fish)).substr(0, kScreenColumns);
     }
 
     [[nodiscard]] static std::string particle(std::uint32_t number) {
-        return format("particle {}", number);
+        return fmt::format("particle {}", number);
     }
 
-    // A sighting in words: its name, how far it is in body lengths (L), and where. Noted as a
-    // value.
+    // A sighting in words: its name, how far it is in body lengths (L), and where. Adds it to the
+    // values.
     [[nodiscard]] std::string at(Kind kind,
                                  const behaviour::Sighting& sighting,
                                  const std::string& name) {
@@ -156,16 +154,16 @@ class Screen {
         const double distance = lengths(static_cast<double>(sighting.distance));
         const double left = degreesLeft(of_.senses.heading, sighting.offset);
         told_.seen.push_back({kind, name, static_cast<float>(distance), static_cast<float>(-left)});
-        return format("{}, {:.1f} L {}", name, distance, whereabouts(left));
+        return fmt::format("{}, {:.1f} L {}", name, distance, whereabouts(left));
     }
 
     void title() {
-        add("FISH", format("{} {}   tick {}", of_.fish, speciesOf(of_.fish), of_.tick.value));
+        add("FISH", fmt::format("{} {}   tick {}", of_.fish, speciesOf(of_.fish), of_.tick.value));
         add("",
-            format("{:.3f} m long (1 L), {}, {}",
-                   of_.lengthMetres,
-                   wordFor(of_.parameters.habits.role),
-                   likesOf(of_.mind)));
+            fmt::format("{:.3f} m long (1 L), {}, {}",
+                        of_.lengthMetres,
+                        wordFor(of_.parameters.habits.role),
+                        likesOf(of_.mind)));
     }
 
     // As many neighbours as fit into kListColumns, nearest first.
@@ -174,7 +172,7 @@ class Screen {
         for (std::size_t i = 0; i < near.count; ++i) {
             const double distance = std::sqrt(static_cast<double>(near.distanceSquared[i]));
             const std::string one =
-                format("{}#{} {:.1f}", i == 0 ? "" : "  ", near.fish[i], lengths(distance));
+                fmt::format("{}#{} {:.1f}", i == 0 ? "" : "  ", near.fish[i], lengths(distance));
             if (list.size() + one.size() > kListColumns) return list + "  ..";
             list += one;
         }
@@ -186,7 +184,7 @@ class Screen {
         const behaviour::Senses& senses = of_.senses;
         if (senses.predatorCount == 0) return "-";
         const std::string others =
-            senses.predatorCount > 1 ? format(" and {} more", senses.predatorCount - 1) : "";
+            senses.predatorCount > 1 ? fmt::format(" and {} more", senses.predatorCount - 1) : "";
         return fishSeen(Kind::Predator, senses.predators[0]) + others;
     }
 
@@ -203,10 +201,10 @@ class Screen {
         const std::string mate = fishSeen(Kind::Mate, senses.mate);
         add("", "mate        " + mate + "   prey " + fishSeen(Kind::Prey, senses.prey));
         add("",
-            format("submarine   {:.1f} m   light {:.0f} %   water {:.1f} C",
-                   senses.submarineMetres,
-                   100 * static_cast<double>(senses.light),
-                   senses.celsius));
+            fmt::format("submarine   {:.1f} m   light {:.0f} %   water {:.1f} C",
+                        senses.submarineMetres,
+                        100 * static_cast<double>(senses.light),
+                        senses.celsius));
     }
 
     // A bar of 20 cells for a value of 0 to 1.
@@ -214,7 +212,7 @@ class Screen {
         constexpr std::size_t kCells = 20;
         const auto full =
             static_cast<std::size_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * float{kCells}));
-        return format("[{:.<{}}] {:.2f}", std::string(full, '#'), kCells, value);
+        return fmt::format("[{:.<{}}] {:.2f}", std::string(full, '#'), kCells, value);
     }
 
     void feels() {
@@ -235,7 +233,7 @@ class Screen {
 
     [[nodiscard]] std::string targeted(fish::Intention intention, std::uint32_t target) const {
         const std::string what = targetOf(intention, target);
-        return what.empty() ? wordFor(intention) : format("{} {}", wordFor(intention), what);
+        return what.empty() ? wordFor(intention) : fmt::format("{} {}", wordFor(intention), what);
     }
 
     // The intention, and the aim that it interrupted, if any.
@@ -245,14 +243,14 @@ class Screen {
         told_.target = targetOf(mind.intention, mind.target);
         told_.pursuedSeconds = static_cast<float>(seconds(mind.pursued));
         add("INTENDS",
-            format("{}, its aim for {:.1f} s",
-                   targeted(mind.intention, mind.target),
-                   seconds(mind.pursued)));
+            fmt::format("{}, its aim for {:.1f} s",
+                        targeted(mind.intention, mind.target),
+                        seconds(mind.pursued)));
         if (mind.remembered != fish::Intention::Wander)
             add("",
-                format("remembers: {}, {:.1f} s ago",
-                       targeted(mind.remembered, mind.rememberedTarget),
-                       seconds(mind.sinceRemembered)));
+                fmt::format("remembers: {}, {:.1f} s ago",
+                            targeted(mind.remembered, mind.rememberedTarget),
+                            seconds(mind.sinceRemembered)));
     }
 
     // What the body plays and what the course asks of it. Angles are relative to the heading.
@@ -263,18 +261,18 @@ class Screen {
             kDegreesPerRadian;
         const double left = degreesLeft(of_.senses.heading, course.direction);
         add("DOES",
-            format("{} at {:.0f} %, swims {:.2f} L/s, urgency {:.2f}",
-                   motion::nameOf(of_.segment),
-                   100 * static_cast<double>(of_.phase),
-                   of_.swims,
-                   course.urgency));
+            fmt::format("{} at {:.0f} %, swims {:.2f} L/s, urgency {:.2f}",
+                        motion::nameOf(of_.segment),
+                        100 * static_cast<double>(of_.phase),
+                        of_.swims,
+                        course.urgency));
         add("",
-            format("wants {:.0f} degrees {}, {:.0f} {}, {:.2f} L/s",
-                   std::abs(left),
-                   left < 0 ? "right" : "left",
-                   std::abs(climb),
-                   climb < 0 ? "down" : "up",
-                   course.speed));
+            fmt::format("wants {:.0f} degrees {}, {:.0f} {}, {:.2f} L/s",
+                        std::abs(left),
+                        left < 0 ? "right" : "left",
+                        std::abs(climb),
+                        climb < 0 ? "down" : "up",
+                        course.speed));
     }
 
     [[nodiscard]] std::string verdictOn(behaviour::PriorityRule rule,
@@ -313,23 +311,23 @@ std::string Screen::verdictOn(behaviour::PriorityRule rule,
         rule == behaviour::PriorityRule::Fear && weighed.intention == fish::Intention::School;
     switch (weighed.verdict) {
         case behaviour::Verdict::Wins:
-            return format("WINS: {}{}",
-                          targeted(weighed.intention, weighed.target),
-                          shelters ? ", for shelter" : "");
+            return fmt::format("WINS: {}{}",
+                               targeted(weighed.intention, weighed.target),
+                               shelters ? ", for shelter" : "");
         case behaviour::Verdict::Outranked:
-            return format("{}: comes after {}",
-                          targeted(weighed.intention, weighed.target),
-                          kPriorityRuleNames[static_cast<std::size_t>(of_.reasoning.winner)]);
+            return fmt::format("{}: comes after {}",
+                               targeted(weighed.intention, weighed.target),
+                               kPriorityRuleNames[static_cast<std::size_t>(of_.reasoning.winner)]);
         case behaviour::Verdict::AgainstHabits:
             return "not in its nature";
         case behaviour::Verdict::TooWeak:
-            return format("too weak, {:.2f} of {:.2f}", weighed.value, weighed.threshold);
+            return fmt::format("too weak, {:.2f} of {:.2f}", weighed.value, weighed.threshold);
         case behaviour::Verdict::NoTarget:
             return notInView(rule);
         case behaviour::Verdict::Nothing:
             return "nothing was interrupted";
         case behaviour::Verdict::TooOld:
-            return format(
+            return fmt::format(
                 "forgotten: {:.1f} s ago, more than {:.0f}", weighed.value, weighed.threshold);
         case behaviour::Verdict::Resting:
             return "rests from the last chase";
@@ -345,9 +343,10 @@ void Screen::why() {
     const bool changes = of_.reasoning.decision.intention != of_.mind.intention;
     for (std::size_t i = 0; i < behaviour::kPriorityRules; ++i)
         add(i == 0 ? "WHY" : "",
-            format("{:<12}{}",
-                   kPriorityRuleNames[i],
-                   verdictOn(static_cast<behaviour::PriorityRule>(i), of_.reasoning.rules[i])) +
+            fmt::format(
+                "{:<12}{}",
+                kPriorityRuleNames[i],
+                verdictOn(static_cast<behaviour::PriorityRule>(i), of_.reasoning.rules[i])) +
                 (changes && i == static_cast<std::size_t>(of_.reasoning.winner)
                      ? ", at its next thought"
                      : ""));

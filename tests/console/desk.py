@@ -24,7 +24,7 @@ class Desk:
 
     # Three nodes share two cores with a browser: a slow wall leaves them room.
     # `machines`: channel -> name of the machine that shows it, whose nodes a test starts (start_node).
-    def __init__(self, *arguments, refresh_hz=15, calibrated=False, machines=None):
+    def __init__(self, *arguments, refresh_hz=6, calibrated=False, machines=None):
         self.folder = temporary_folder()
         elsewhere = [(f'name: "{channel}"', f'name: "{channel}" machine: "{machine}"')
                      for channel, machine in (machines or {}).items()]

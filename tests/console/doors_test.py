@@ -238,7 +238,7 @@ class Doors(unittest.TestCase):
 
     def test_two_desks_on_one_machine_know_nothing_of_each_other(self):
         state = os.environ["XDG_STATE_HOME"]  # a desk brings one of its own
-        other = Desk("--pattern", "grid", refresh_hz=6)
+        other = Desk("--pattern", "grid")
         try:
             cookie = other.pair(other.code())
             self.assertNotEqual(cookie.split("=")[0], self.cookie.split("=")[0], "browsers know no ports of cookies")
@@ -432,7 +432,7 @@ class OtherMachines(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.desk = Desk("--pattern", "grid", refresh_hz=6, machines={"left": "pit", "right": "balcony"})
+        cls.desk = Desk("--pattern", "grid", machines={"left": "pit", "right": "balcony"})
         cls.addClassCleanup(cls.desk.close)
         cls.pit, cls.nowhere = (Path(cls.desk.folder.name) / name for name in ("pit", "nowhere"))
         cls.pit.mkdir()

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/console/parts.h"
+
 namespace aquarama::console {
 namespace {
 
@@ -73,23 +75,14 @@ TEST(Metrics, withoutMasterAndCertificateThereAreTheConsolesOwnFigures) {
     EXPECT_EQ(samplesOf(text, "node"), "");
 }
 
-browser::ProjectorList listOf(const std::string& reach, const std::string& power) {
-    browser::ProjectorList list;
-    browser::ProjectorState& one = *list.add_projectors();
-    one.set_name("left");
-    one.set_reach(reach);
-    one.set_power(power);
-    return list;
-}
-
 TEST(Metrics, figuresOfProjectorsHaveNoSampleForWhatIsUnknown) {
     const auto figuresOf = [](const browser::ProjectorList& list) {
         return samplesOf(metricsOf({}, list, {}), "projector");
     };
     EXPECT_EQ(figuresOf({}), "");
-    EXPECT_EQ(figuresOf(listOf("no answer", "unknown")),
+    EXPECT_EQ(figuresOf(test::projectorWith("no answer", "unknown")),
               "aquarama_console_projector_answers{projector=\"left\"} 0\n");
-    browser::ProjectorList list = listOf("answers", "off");
+    browser::ProjectorList list = test::projectorWith("answers", "off");
     list.mutable_projectors(0)->set_name("a \"b\"\\");
     list.mutable_projectors(0)->set_shut(false);
     list.mutable_projectors(0)->set_lamp_hours(7);

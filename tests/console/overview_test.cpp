@@ -4,6 +4,7 @@
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
+#include "tests/console/parts.h"
 #include "tests/support/state_packet.h"
 
 namespace aquarama::console {
@@ -178,18 +179,9 @@ TEST(Overview, whatChangesIsSaidInWords) {
     EXPECT_TRUE(changesOf(before, before).empty());
 }
 
-browser::ProjectorList listOf(const std::string& reach, const std::string& power) {
-    browser::ProjectorList list;
-    browser::ProjectorState& one = *list.add_projectors();
-    one.set_name("left");
-    one.set_reach(reach);
-    one.set_power(power);
-    return list;
-}
-
 TEST(Overview, ofAProjectorWhatIsKnownToBeWrongIsAFault) {
     const auto faultOf = [](const std::string& reach, const std::string& power, bool wanted) {
-        browser::ProjectorList list = listOf(reach, power);
+        browser::ProjectorList list = test::projectorWith(reach, power);
         list.mutable_projectors(0)->set_wanted_power(wanted);
         const auto faults = faultsOf(list);
         return faults.empty() ? "" : faults[0].text.substr(0, faults[0].text.find(':'));
@@ -204,7 +196,7 @@ TEST(Overview, ofAProjectorWhatIsKnownToBeWrongIsAFault) {
     EXPECT_EQ(faultOf("refuses the password", "unknown", true),
               "projector left refuses the password");
     EXPECT_EQ(faultOf("wants a password", "unknown", true), "projector left wants a password");
-    browser::ProjectorList broken = listOf("answers", "on");
+    browser::ProjectorList broken = test::projectorWith("answers", "on");
     broken.mutable_projectors(0)->add_problems("lamp: error");
     EXPECT_EQ(faultsOf(broken).at(0).text, "projector left: lamp: error");
 }
@@ -218,16 +210,18 @@ TEST(Overview, whatProjectorsComeToIsToldOnceItHolds) {
                 lines += who + ": " + what + "; ";
         return lines;
     };
-    EXPECT_EQ(told(listOf("not asked yet", "unknown"), 0, 100), "");
-    EXPECT_EQ(told(listOf("answers", "off"), 100, 200), "projector left: power off; ");
-    EXPECT_EQ(told(listOf("answers", "unknown"), 200, 210), "") << "for a moment";
-    EXPECT_EQ(told(listOf("answers", "off"), 210, 300), "");
-    EXPECT_EQ(told(listOf("answers", "unknown"), 300, 400), "projector left: power unknown; ");
-    browser::ProjectorList lit = listOf("answers", "on");
+    EXPECT_EQ(told(test::projectorWith("not asked yet", "unknown"), 0, 100), "");
+    EXPECT_EQ(told(test::projectorWith("answers", "off"), 100, 200), "projector left: power off; ");
+    EXPECT_EQ(told(test::projectorWith("answers", "unknown"), 200, 210), "") << "for a moment";
+    EXPECT_EQ(told(test::projectorWith("answers", "off"), 210, 300), "");
+    EXPECT_EQ(told(test::projectorWith("answers", "unknown"), 300, 400),
+              "projector left: power unknown; ");
+    browser::ProjectorList lit = test::projectorWith("answers", "on");
     EXPECT_EQ(told(lit, 400, 500), "projector left: power on, shutter unknown; ");
     lit.mutable_projectors(0)->set_shut(true);
     EXPECT_EQ(told(lit, 500, 600), "projector left: power on, shut; ");
-    EXPECT_EQ(told(listOf("no answer", "unknown"), 600, 700), "projector left: no answer; ");
+    EXPECT_EQ(told(test::projectorWith("no answer", "unknown"), 600, 700),
+              "projector left: no answer; ");
 }
 
 }  // namespace

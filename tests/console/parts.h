@@ -55,6 +55,16 @@ struct PageOutbox final : web::Outbox {
     }
 };
 
+// One projector, "left", of which this is known.
+inline browser::ProjectorList projectorWith(const std::string& reach, const std::string& power) {
+    browser::ProjectorList list;
+    browser::ProjectorState& one = *list.add_projectors();
+    one.set_name("left");
+    one.set_reach(reach);
+    one.set_power(power);
+    return list;
+}
+
 // A page that somebody has open.
 struct Page {
     explicit Page(console::ConsoleRole role, const std::string& name = "anna")

@@ -58,7 +58,7 @@ class KeyedHub : public testing::Test {
                                         const std::lock_guard lock(mutex_);
                                         heard_.insert({channel, picture.number()});
                                     },
-                                    [](const std::string&, const v1::FishReply&) {}}};
+                                    [](const v1::FishReply&) {}}};
 };
 
 TEST_F(KeyedHub, aNodeIsHeardForItsOwnChannelAndStrangersForNone) {

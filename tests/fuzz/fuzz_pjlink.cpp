@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <string>
 
-#include "console/projector.h"
+#include "console/projectors/projector.h"
 #include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "console/pjlink.h"
+#include "console/projectors/pjlink.h"
 
 #include <algorithm>
 #include <array>

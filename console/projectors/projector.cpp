@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "console/projector.h"
+#include "console/projectors/projector.h"
 
 #include <algorithm>
 #include <utility>

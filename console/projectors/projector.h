@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "common/config/hours.h"
-#include "console/pjlink.h"
+#include "console/projectors/pjlink.h"
 
 namespace aquarama::console {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Projectors with the habits of real ones, against two days of hours in quickened time: what was
 // on, open and shut, minute by minute. Without clock or socket.
-#include "console/projector.h"
+#include "console/projectors/projector.h"
 
 #include <cmath>
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Against pretended projectors, each with a quirk that real ones have.
-#include "console/pjlink.h"
+#include "console/projectors/pjlink.h"
 
 #include <array>
 #include <atomic>
@@ -15,7 +15,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "console/projector.h"
+#include "console/projectors/projector.h"
 
 namespace aquarama::console {
 namespace {
