@@ -80,9 +80,6 @@ struct PectoralFin {
     // parallel to the flow. At a larger angle it lifts the head of a fish that swims forward. At pi
     // it is perpendicular to the flow and brakes.
     double angleRadians = std::numbers::pi / 2;
-    // Speed of the fin relative to the body, forward positive, body lengths a second: for rowing,
-    // which Tu's fins do not do.
-    double sweepSpeed = 0;
 };
 
 // Both fins. They have no mass and no state of their own.
@@ -95,7 +92,7 @@ struct FinMotion {
     glm::dvec3 pose{}, rate{};  // open, stroke, twist
 };
 // Both pectoral fins as blades that the water resists; the left one is told as the mirror image of
-// the right. A fish that does not row has none: its fins are the plates of PectoralFins.
+// the right. While a fish rows they take the place of the plates of PectoralFins.
 struct RowingControl {
     bool rows = false;
     FinMotion left, right;
@@ -111,11 +108,17 @@ struct Tone {
     friend bool operator==(const Tone&, const Tone&) = default;
 };
 
+// Radians / (the fish's own second)^2: how quickly a fish that rights itself turns upright at most.
+inline constexpr double kMostRighting = 4;
+
 // All actuators of a fish during one step.
 struct MotorControl {
     MuscleActivation muscles;
     PectoralFins fins;
     RowingControl rowing;
+    // Whether a moment rights the body, at most kMostRighting: that of the pelvic, the median and the
+    // tail fins of a fish that stays in its place, which are not simulated.
+    bool rightsItself = false;
     Tone tone;
 };
 

@@ -26,16 +26,19 @@ namespace {
 
 // Capture. A species has jobs in two groups. The first simulates what it does steadily: each gait
 // straight on, on two curves and on a loop upwards, the retreat, and straight on half-way between
-// two gaits. The second, the two turns, the three fast starts and the speed
-// response, starts from the gaits. Within a
-// group the jobs are independent of one another, so they run in parallel.
+// two gaits; and what it does in its place. The second, the two turns, the three fast starts and
+// the speed response, starts from the gaits. Within a group the jobs are independent of one another,
+// so they run in parallel.
 
 constexpr std::size_t kGaits = motion::kForwardGaits;  // slow, medium, fast
 enum class Way : std::uint8_t { Straight, WideCurve, TightCurve, Loop };
 constexpr std::size_t kWays = 4;
 constexpr std::size_t kRetreatJob =
     kGaits * kWays;  // job i before: gait i % kGaits, way i / kGaits
-constexpr std::size_t kBetweenJob = kRetreatJob + 1;  // slow and medium; then medium and fast
+constexpr std::size_t kInPlaceJob = kRetreatJob + 1;  // hover, pivot, pitch
+constexpr std::array kInPlace{Controller::Hover, Controller::LeftPivot, Controller::PitchUp};
+constexpr std::size_t kBetweenJob =
+    kInPlaceJob + kInPlace.size();  // slow and medium; then medium and fast
 constexpr std::size_t kSteadyJobs = kBetweenJob + kGaits - 1;
 constexpr std::size_t kTurnJob = kSteadyJobs;  // gradual, sharp
 constexpr std::size_t kStartJob = kTurnJob + 2;  // small, middle, large
@@ -64,7 +67,9 @@ struct Swum {
 };
 
 Order orderOf(const config::Species& species, std::size_t job) {
-    if (job == kRetreatJob) return retreatOf(species);
+    if (job == kRetreatJob) return rowingOrder(species, Controller::Retreat);
+    if (job >= kInPlaceJob && job < kBetweenJob)
+        return rowingOrder(species, kInPlace.at(job - kInPlaceJob));
     const std::array gaits{&species.swim.slow, &species.swim.medium, &species.swim.fast};
     if (job >= kBetweenJob) {
         const config::Gait& slower = *gaits.at(job - kBetweenJob);
@@ -79,9 +84,11 @@ Order orderOf(const config::Species& species, std::size_t job) {
             break;
         case Way::WideCurve:
             order.curve = kWideCurve;
+            order.bankRadians = kBankRadians / 2;
             break;
         case Way::TightCurve:
             order.curve = kTightCurve;
+            order.bankRadians = kBankRadians;
             break;
         case Way::Loop:
             order.liftRadians = kLoopLiftRadians;
@@ -134,17 +141,19 @@ void runJob(const config::Species& species, std::size_t job, Swum& swum) {
 }
 
 // The segments of one gait: those to the right and downwards are mirror images.
-void compileGait(const Swum& swum, std::size_t gait, motion::Repertoire& repertoire) {
+void compileGait(const Swum& swum, std::size_t gait, bool rows, motion::Repertoire& repertoire) {
     using motion::Action;
     const auto segment = [&](Action slow) -> motion::ActionSegment& {
         return repertoire.segments.at(indexOf(atGait(slow, static_cast<Action>(gait))));
     };
-    segment(Action::ForwardSlow) = compileForward(swum.beat(gait, Way::Straight));
+    const RecordedCycle& straight = swum.beat(gait, Way::Straight);
+    const RecordedCycle& loop = swum.beat(gait, Way::Loop);
+    segment(Action::ForwardSlow) = rows ? compileRowed(straight) : compileForward(straight);
     segment(Action::CurveLeftWideSlow) = compileCurve(swum.beat(gait, Way::WideCurve));
     segment(Action::CurveLeftTightSlow) = compileCurve(swum.beat(gait, Way::TightCurve));
     segment(Action::CurveRightWideSlow) = mirroredLeftRight(segment(Action::CurveLeftWideSlow));
     segment(Action::CurveRightTightSlow) = mirroredLeftRight(segment(Action::CurveLeftTightSlow));
-    segment(Action::ClimbSlow) = compileSlope(swum.beat(gait, Way::Loop));
+    segment(Action::ClimbSlow) = rows ? compileRowedSlope(loop) : compileSlope(loop);
     segment(Action::DiveSlow) = mirroredTopBottom(segment(Action::ClimbSlow));
 }
 
@@ -175,6 +184,21 @@ std::vector<motion::TurnPath> mirroredPaths(std::span<const motion::TurnPath> le
         right.push_back(mirroredLeftRight(left[speed * motion::kEntryPhases + phase]));
     }
     return right;
+}
+
+// What a fish does with its pectoral fins alone.
+void compileInPlace(const Swum& swum, motion::Repertoire& repertoire) {
+    using motion::Action;
+    const auto segment = [&](Action action) -> motion::ActionSegment& {
+        return repertoire.segments.at(indexOf(action));
+    };
+    const auto recorded = [&](std::size_t job) { return swum.steady.at(job)->beat; };
+    segment(Action::Retreat) = compileRowed(recorded(kRetreatJob));
+    segment(Action::Hover) = compileHover(recorded(kInPlaceJob));
+    segment(Action::PivotLeft) = compilePivot(recorded(kInPlaceJob + 1));
+    segment(Action::PivotRight) = mirroredLeftRight(segment(Action::PivotLeft));
+    segment(Action::PitchUp) = compilePitch(recorded(kInPlaceJob + 2));
+    segment(Action::PitchDown) = mirroredTopBottom(segment(Action::PitchUp));
 }
 
 // How a fish swims on at a gait.
@@ -227,9 +251,10 @@ motion::Repertoire compile(const config::Species& species, const Swum& swum) {
     repertoire.species = species.name;
     repertoire.recordedLengthMetres = body.typicalLengthMetres;
     repertoire.response = swum.response;
-    for (std::size_t gait = 0; gait < kGaits; ++gait) compileGait(swum, gait, repertoire);
-    repertoire.segments.at(indexOf(Action::Retreat)) =
-        compileForward(swum.steady.at(kRetreatJob)->beat);
+    const std::array gaits{&species.swim.slow, &species.swim.medium, &species.swim.fast};
+    for (std::size_t gait = 0; gait < kGaits; ++gait)
+        compileGait(swum, gait, gaits.at(gait)->rows > 0, repertoire);
+    compileInPlace(swum, repertoire);
     compileTurns(swum, repertoire);
     compileStarts(swum, repertoire);
     if (species.recordsControlPoints)

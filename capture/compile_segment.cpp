@@ -60,20 +60,39 @@ NodeVectors blended(const NodeVectors& a, const NodeVectors& b, double shareOfB)
     return mean;
 }
 
+// How a body frame is taken from a pose in the world.
+using FrameOf = PoseFrame (*)(const NodeVectors&);
+
+// The body frame without its roll: of a fish that banks, the roll is in the pose.
+PoseFrame uprightFrameOf(const NodeVectors& pose) {
+    PoseFrame frame = frameOf(pose);
+    const glm::dvec3 x = frame.worldFromBody[0];
+    const glm::dvec3 z = glm::normalize(glm::cross(x, {0, 1, 0}));
+    frame.worldFromBody = {x, glm::cross(z, x), z};
+    return frame;
+}
+
+NodeVectors inFrame(const NodeVectors& pose, const PoseFrame& frame) {
+    NodeVectors inside{};
+    for (std::size_t i = 0; i < pose.size(); ++i)
+        inside.at(i) = glm::transpose(frame.worldFromBody) * (pose.at(i) - frame.origin);
+    return inside;
+}
+
 // Eq. 6-8, with the rotation in the body frame: R' = R * dR (the paper's eq. 6 is in world axes,
 // which is right only for a fish that swims level).
-FrameMotion frameMotionOf(const RecordedCycle& recording) {
+FrameMotion frameMotionOf(const RecordedCycle& recording, FrameOf frameAt = frameOf) {
     assert(recording.poses.size() == kCount + 1);
     FrameMotion motion{.periodSeconds = recording.periodSeconds,
                        .playsToEnd = recording.playsToEnd,
                        .yawOffCourse = yawRadians(
                            recording.course, frameOf(recording.poses.front()).worldFromBody[0])};
     for (std::size_t k = 0; k <= kCount; ++k)
-        motion.poses.at(k) = inBodyFrame(recording.poses.at(k));
+        motion.poses.at(k) = inFrame(recording.poses.at(k), frameAt(recording.poses.at(k)));
     if (!recording.fins.empty()) std::ranges::copy(recording.fins, motion.fins.begin());
     for (std::size_t k = 0; k < kCount; ++k) {
-        const PoseFrame now = frameOf(recording.poses.at(k));
-        const PoseFrame next = frameOf(recording.poses.at(k + 1));
+        const PoseFrame now = frameAt(recording.poses.at(k));
+        const PoseFrame next = frameAt(recording.poses.at(k + 1));
         const glm::dmat3 bodyFromWorld = glm::transpose(now.worldFromBody);
         motion.rotation.at(k) = glm::normalize(glm::quat_cast(bodyFromWorld * next.worldFromBody));
         motion.translation.at(k) = bodyFromWorld * (next.origin - now.origin);
@@ -102,8 +121,27 @@ FrameMotion symmetric(const FrameMotion& motion, const Mirror& mirror, std::size
 FrameMotion planar(const FrameMotion& motion) {
     return symmetric(motion, kTopBottom, 0);
 }
+// The path alone is level; the poses stay as they are.
+FrameMotion level(const FrameMotion& motion) {
+    FrameMotion path = planar(motion);
+    path.poses = motion.poses;
+    return path;
+}
+// The same at any time: left and right move alike.
+FrameMotion twinned(const FrameMotion& motion) {
+    return symmetric(motion, kLeftRight, 0);
+}
 FrameMotion straightened(const FrameMotion& motion) {
     return symmetric(motion, kLeftRight, kCount / 2);
+}
+
+// Without the way of the whole cycle.
+FrameMotion inPlace(const FrameMotion& motion) {
+    glm::dvec3 way{};
+    for (const glm::dvec3& step : motion.translation) way += step;
+    FrameMotion still = motion;
+    for (glm::dvec3& step : still.translation) step -= way / double{kCount};
+    return still;
 }
 
 // The weight of the correction at a phase: 1 at phase 0, falling smoothly to 0 at kEntryShare of
@@ -217,8 +255,28 @@ motion::ActionSegment compileForward(const RecordedCycle& recording) {
     return segmentOf(straightened(planar(frameMotionOf(recording))));
 }
 
+motion::ActionSegment compileRowed(const RecordedCycle& recording) {
+    return segmentOf(twinned(level(frameMotionOf(recording))));
+}
+
+motion::ActionSegment compileRowedSlope(const RecordedCycle& recording) {
+    return segmentOf(twinned(frameMotionOf(recording)));
+}
+
+motion::ActionSegment compileHover(const RecordedCycle& recording) {
+    return segmentOf(inPlace(twinned(level(frameMotionOf(recording)))));
+}
+
+motion::ActionSegment compilePivot(const RecordedCycle& recording) {
+    return segmentOf(inPlace(level(frameMotionOf(recording, uprightFrameOf))));
+}
+
+motion::ActionSegment compilePitch(const RecordedCycle& recording) {
+    return segmentOf(inPlace(twinned(frameMotionOf(recording))));
+}
+
 motion::ActionSegment compileCurve(const RecordedCycle& recording) {
-    return segmentOf(planar(frameMotionOf(recording)));
+    return segmentOf(level(frameMotionOf(recording, uprightFrameOf)));
 }
 
 motion::ActionSegment compileSlope(const RecordedCycle& recording) {
@@ -226,7 +284,7 @@ motion::ActionSegment compileSlope(const RecordedCycle& recording) {
 }
 
 motion::ActionSegment compileLeftTurn(const RecordedCycle& recording) {
-    return segmentOf(fadedIn(planar(frameMotionOf(recording))));
+    return segmentOf(fadedIn(level(frameMotionOf(recording, uprightFrameOf))));
 }
 
 motion::ActionSegment compileStart(const RecordedCycle& recording) {
@@ -277,7 +335,7 @@ motion::TurnPath compileEntered(const EnteredTurn& entered, const SwimsOn& on) {
             .speedBefore = static_cast<float>(entered.speedBefore),
             .courseAfter = directionIn(poses.back(), entered.wayAfter),
             .speedAfter = static_cast<float>(std::max(0.0, on.speed + faster)),
-            .increments = incrementsOf(planar(frameMotionOf(entered.turn)))};
+            .increments = incrementsOf(level(frameMotionOf(entered.turn, uprightFrameOf)))};
 }
 
 motion::TurnPath blended(const motion::TurnPath& a, const motion::TurnPath& b) {

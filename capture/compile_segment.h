@@ -40,7 +40,15 @@ struct RecordedCycle {
 // A gait straight on or backwards: the motion lies in a horizontal plane, and half a beat later it
 // is its mirror image.
 [[nodiscard]] motion::ActionSegment compileForward(const RecordedCycle& recording);
-// A gait on a curve: the motion lies in a horizontal plane.
+// A gait straight on or backwards by rowing: the path is level, and left and right move alike. On a slope: they move alike.
+[[nodiscard]] motion::ActionSegment compileRowed(const RecordedCycle& recording);
+[[nodiscard]] motion::ActionSegment compileRowedSlope(const RecordedCycle& recording);
+// A fish that hovers, turns or pitches in one place by rowing: as above, but a pivot's left and right differ. What it
+// drifts in a cycle is taken from it.
+[[nodiscard]] motion::ActionSegment compileHover(const RecordedCycle& recording);
+[[nodiscard]] motion::ActionSegment compilePivot(const RecordedCycle& recording);
+[[nodiscard]] motion::ActionSegment compilePitch(const RecordedCycle& recording);
+// A gait on a curve: the path is level; a roll into the bend is in the poses. So it is in a turn.
 [[nodiscard]] motion::ActionSegment compileCurve(const RecordedCycle& recording);
 // A gait on a slope: half a beat later the motion is its mirror image, left and right exchanged.
 [[nodiscard]] motion::ActionSegment compileSlope(const RecordedCycle& recording);

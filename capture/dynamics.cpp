@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -250,8 +251,7 @@ void addDrag(const WettedFace& face, const FishState& middle, EnvelopeSystem& sy
 }
 
 // -drag (n.v) n, linear in speed as Tu's law. v is the mean velocity of the four nodes at the fin's
-// root, plus the sweep of the fin along the body's x axis; a quarter of the force acts on each of
-// those nodes. Tu distributes it over rings 1 to 3; over the first two rings alone it pitches the
+// root; a quarter of the force acts on each of those nodes. Tu distributes it over rings 1 to 3; over the first two rings alone it pitches the
 // fish twice as much. `worldFromBody` is the body frame at the middle of the step.
 void addFin(const PectoralFin& fin,
             const std::array<int, 4>& root,
@@ -264,7 +264,7 @@ void addFin(const PectoralFin& fin,
     const glm::dmat3 block = glm::outerProduct(drag / 16 * normal, normal);
     glm::dvec3 velocity{};
     for (const int node : root) velocity += middle.velocities[static_cast<std::size_t>(node)] / 4.0;
-    const double normalSpeed = glm::dot(normal, velocity) + fin.sweepSpeed * across;
+    const double normalSpeed = glm::dot(normal, velocity);
     for (std::size_t i = 0; i < root.size(); ++i) {
         system.addDiagonalBlock(root[i], block);
         for (std::size_t j = i + 1; j < root.size(); ++j)
@@ -273,74 +273,117 @@ void addFin(const PectoralFin& fin,
     }
 }
 
+// A blade is cut into strips across its ray, each with the speed of its middle.
 constexpr int kStrips = 4;
+// The nodes that a blade pushes, 1 to kBladeNodes: rings 1 and 2.
+constexpr std::size_t kBladeNodes = 8;
+// Each by as much.
+constexpr std::array<double, body::kNodalPoints> kAlike = [] {
+    std::array<double, body::kNodalPoints> masses{};
+    masses.fill(1.0 / kBladeNodes);
+    return masses;
+}();
 
 glm::dvec3 rotatedAbout(const glm::dvec3& axis, double angle, const glm::dvec3& v) {
     const double c = std::cos(angle);
     return c * v + std::sin(angle) * glm::cross(axis, v) + (1 - c) * glm::dot(axis, v) * axis;
 }
 
-// A point of the blade at q of its ray, and its chord there: both from its root, in the body frame.
+// A point of the right blade at a share q of its ray, and its chord there: both from its root, tailwards, up, right.
 struct BladePoint {
     glm::dvec3 arm, chord;
 };
-BladePoint bladePoint(const Blade& blade, const glm::dvec3& pose, double q, double side) {
+BladePoint bladePoint(const Blade& blade, const glm::dvec3& pose, double q) {
     const auto moved = [&](const glm::dvec3& v) {
         return rotatedAbout(blade.stroke, pose.y, rotatedAbout(blade.hinge, pose.x, v));
     };
-    const glm::dvec3 mirror{-1, 1, side};
-    return {mirror * moved(q * blade.span * blade.ray),
-            mirror * moved(rotatedAbout(blade.ray, pose.z * q, blade.chord))};
+    return {moved(q * blade.span * blade.ray),
+            moved(rotatedAbout(blade.ray, pose.z * q, blade.chord))};
 }
 
-// The normal force of strips of a blade, distributed over rings 1 and 2 as over a rigid body.
+// Nodes as one rigid body: where it is, how it moves.
+struct RigidBody {
+    glm::dvec3 centre{}, velocity{}, spin{};
+    glm::dmat3 inverseInertia{};
+};
+// Of the nodes `first` to `last`, each with its mass; the masses count relative to each other.
+RigidBody rigidBody(const FishState& state,
+                    const std::array<double, body::kNodalPoints>& masses,
+                    std::size_t first,
+                    std::size_t last) {
+    RigidBody rigid;
+    double all = 0;
+    for (std::size_t i = first; i <= last; ++i) {
+        all += masses[i];
+        rigid.centre += masses[i] * state.positions[i];
+        rigid.velocity += masses[i] * state.velocities[i];
+    }
+    rigid.centre /= all;
+    rigid.velocity /= all;
+    glm::dmat3 inertia(0);
+    glm::dvec3 momentum{};
+    for (std::size_t i = first; i <= last; ++i) {
+        const glm::dvec3 r = state.positions[i] - rigid.centre;
+        inertia += masses[i] * (glm::dmat3(glm::dot(r, r)) - glm::outerProduct(r, r));
+        momentum += masses[i] * glm::cross(r, state.velocities[i]);
+    }
+    rigid.inverseInertia = glm::inverse(inertia);
+    rigid.spin = rigid.inverseInertia * momentum;
+    return rigid;
+}
+
+// A moment that turns the body upright, as a spring with damper does: the angular acceleration is
+// kRighting^2 (y x up) - 2 damping kRighting spin, without the spin about y, the body's own up; at most kMostRighting.
+void addRighting(const BiomechanicalFish& fish, const FishState& middle, EnvelopeSystem& system) {
+    constexpr double kRighting = 2 * std::numbers::pi * 0.8;  // radians in the fish's own second
+    constexpr double kDamping = 0.7;                          // of the critical one
+    const double rate = kRighting * fish.timeScale;
+    const RigidBody whole = rigidBody(middle, fish.masses, 0, body::kNodalPoints - 1);
+    const glm::dvec3 up = frameOf(middle.positions).worldFromBody[1];
+    const glm::dvec3 spin = whole.spin - glm::dot(whole.spin, up) * up;
+    glm::dvec3 turn = rate * rate * glm::cross(up, {0, 1, 0}) - 2 * kDamping * rate * spin;
+    const double most = kMostRighting * fish.timeScale * fish.timeScale;
+    turn *= std::min(1.0, most / std::max(glm::length(turn), 1e-12));
+    for (std::size_t i = 0; i < fish.masses.size(); ++i)
+        system.addToRightSide(
+            static_cast<int>(i),
+            fish.masses[i] * glm::cross(turn, middle.positions[i] - whole.centre));
+}
+
+// -drag area |n.v| (n.v) n on each strip: the law of the faces of the body, but to either side. The sum of the strips'
+// forces and torques is distributed over rings 1 and 2 as over a rigid body. `side`: 1 right, -1 left. The derivatives
+// are left out of the matrix, which slows the iteration only.
 void addBlade(const Blade& blade,
               const FinMotion& motion,
               double side,
-              const glm::dmat3& worldFromBody,
+              const RigidBody& rings,
+              const PoseFrame& frame,
               const FishState& middle,
               EnvelopeSystem& system) {
-    constexpr double kInstant = 1e-4;
-    constexpr int kNodes = 8;  // nodes 1 to 8
-    glm::dvec3 centre{}, velocity{};
-    for (std::size_t i = 1; i <= kNodes; ++i) {
-        centre += middle.positions[i] / double{kNodes};
-        velocity += middle.velocities[i] / double{kNodes};
-    }
-    glm::dmat3 inertia(0);
-    glm::dvec3 momentum{};
-    for (std::size_t i = 1; i <= kNodes; ++i) {
-        const glm::dvec3 r = middle.positions[i] - centre;
-        inertia += glm::dmat3(glm::dot(r, r)) - glm::outerProduct(r, r);
-        momentum += glm::cross(r, middle.velocities[i]);
-    }
-    const glm::dmat3 inverse = glm::inverse(inertia);
-    const glm::dvec3 spin = inverse * momentum;
-    const glm::dvec3 origin = frameOf(middle.positions).origin;
-    const glm::dvec3 root =
-        origin + worldFromBody * (glm::dvec3(-1, 1, side) * blade.root);
+    constexpr double kInstant = 1e-4;  // seconds, over which the speed of the fin is taken
+    const glm::dmat3 worldFromBlade{
+        -frame.worldFromBody[0], frame.worldFromBody[1], side * frame.worldFromBody[2]};
+    const glm::dvec3 root = frame.origin + worldFromBlade * blade.root;
     glm::dvec3 force{}, torque{};
     for (int strip = 0; strip < kStrips; ++strip) {
         const double q = (strip + 0.5) / kStrips;
-        const BladePoint at = bladePoint(blade, motion.pose, q, side);
-        const BladePoint next =
-            bladePoint(blade, motion.pose + kInstant * motion.rate, q, side);
-        const glm::dvec3 place = root + worldFromBody * at.arm;
-        const glm::dvec3 v = velocity + glm::cross(spin, place - centre) +
-                             worldFromBody * ((next.arm - at.arm) / kInstant);
-        const glm::dvec3 normal =
-            worldFromBody * glm::normalize(glm::cross(at.arm, at.chord));
-        const double normalSpeed = glm::dot(normal, v);
-        const glm::dvec3 f = -blade.drag * blade.area / kStrips * std::abs(normalSpeed) *
-                             normalSpeed * normal;
-        force += f;
-        torque += glm::cross(place - centre, f);
+        const BladePoint at = bladePoint(blade, motion.pose, q);
+        const BladePoint next = bladePoint(blade, motion.pose + kInstant * motion.rate, q);
+        const glm::dvec3 arm = root + worldFromBlade * at.arm - rings.centre;
+        const glm::dvec3 velocity = rings.velocity + glm::cross(rings.spin, arm) +
+                                    worldFromBlade * ((next.arm - at.arm) / kInstant);
+        const glm::dvec3 normal = worldFromBlade * glm::normalize(glm::cross(at.arm, at.chord));
+        const double normalSpeed = glm::dot(normal, velocity);
+        const glm::dvec3 onStrip = -blade.drag * blade.area / kStrips * std::abs(normalSpeed) *
+                                   normalSpeed * normal;
+        force += onStrip;
+        torque += glm::cross(arm, onStrip);
     }
-    const glm::dvec3 turn = inverse * torque;
-    for (int i = 1; i <= kNodes; ++i) {
-        const glm::dvec3 r = middle.positions[static_cast<std::size_t>(i)] - centre;
-        system.addToRightSide(i, force / double{kNodes} + glm::cross(turn, r));
-    }
+    const glm::dvec3 turn = rings.inverseInertia * torque;
+    for (std::size_t i = 1; i <= kBladeNodes; ++i)
+        system.addToRightSide(static_cast<int>(i),
+                              (force + glm::cross(turn, middle.positions[i] - rings.centre)) /
+                                  double{kBladeNodes});
 }
 
 // The equation of the step. With v the velocities at its middle and v0 those at its beginning, the
@@ -376,13 +419,16 @@ void addForces(const StepInput& in, const FishState& middle, EnvelopeSystem& sys
     for (std::size_t i = 0; i < kUnits; ++i)
         addSpring(fish.springs[i], in.units[i], fish.damping, in.halfStep, middle, system);
     for (const WettedFace& face : fish.faces) addDrag(face, middle, system);
-    const glm::dmat3 worldFromBody = frameOf(middle.positions).worldFromBody;
+    if (in.control.rightsItself) addRighting(fish, middle, system);
+    const PoseFrame frame = frameOf(middle.positions);
     if (in.control.rowing.rows) {
-        addBlade(fish.blade, in.control.rowing.left, -1, worldFromBody, middle, system);
-        addBlade(fish.blade, in.control.rowing.right, 1, worldFromBody, middle, system);
+        const RigidBody rings = rigidBody(middle, kAlike, 1, kBladeNodes);
+        addBlade(fish.blade, in.control.rowing.left, -1, rings, frame, middle, system);
+        addBlade(fish.blade, in.control.rowing.right, 1, rings, frame, middle, system);
+        return;
     }
-    addFin(in.control.fins.left, kLeftFinRoot, fish.finDrag, worldFromBody, middle, system);
-    addFin(in.control.fins.right, kRightFinRoot, fish.finDrag, worldFromBody, middle, system);
+    addFin(in.control.fins.left, kLeftFinRoot, fish.finDrag, frame.worldFromBody, middle, system);
+    addFin(in.control.fins.right, kRightFinRoot, fish.finDrag, frame.worldFromBody, middle, system);
 }
 
 // The iteration ends when no velocity changed by more than this in its last round, body lengths a

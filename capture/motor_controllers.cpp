@@ -82,6 +82,10 @@ MuscleActivation bendLeft(const config::Bend& bend, double ownSeconds) {
             .backLeft = pullAt(kBack, bend.strength, own)};
 }
 
+double bankShare(const config::Bend& bend, double ownSeconds) {
+    return pullAt(kMiddle, 1, ownSeconds * bend.tempo) / kMiddle.strength;
+}
+
 MuscleActivation swim(const config::Species& species, const config::Gait& gait, double seconds) {
     const double ramp = std::min(1.0, seconds * species.tissue.timeScale / kRampOwnSeconds);
     return beatAt(species.swim, gait.gain * ramp, gait.beatHertz * seconds);
@@ -184,11 +188,6 @@ constexpr double kPitchGain = 1.5;
 constexpr double kRollGain = 1;
 constexpr double kMostCorrection = 0.8;  // of each correction: radians of fin angle, or its share
 
-// The travel of the middle of a fin that is a fifth of a body length long and sweeps through 90
-// degrees.
-constexpr double kStrokeBodyLengths = 0.15;
-constexpr double kHeadingGain = 2;  // share of the stroke by radian of heading error
-
 double bounded(double correction) {
     return std::clamp(correction, -kMostCorrection, kMostCorrection);
 }
@@ -200,9 +199,9 @@ PectoralFin at(double angleRadians) {
 
 }  // namespace
 
-PectoralFins hold(const BodyAngles& attitude, double pitchRadians) {
+PectoralFins hold(const BodyAngles& attitude, double pitchRadians, double rollRadians) {
     const double lift = bounded(kPitchGain * (pitchRadians - attitude.pitchRadians));
-    const double level = bounded(kRollGain * attitude.rollRadians);
+    const double level = bounded(kRollGain * (attitude.rollRadians - rollRadians));
     return {.left = at(kFlat + lift + level), .right = at(kFlat + lift - level)};
 }
 
@@ -215,8 +214,7 @@ PectoralFins brake() {
 }
 
 FinMotion strokeAt(const config::Rowing& rowing,
-                   const Stroke& stroke,
-                   double open,
+                   const FinStroke& stroke,
                    double beatHertz,
                    double beat) {
     const double rate = 2 * std::numbers::pi * beatHertz;
@@ -225,35 +223,11 @@ FinMotion strokeAt(const config::Rowing& rowing,
     const double feather =
         stroke.share * stroke.drive * static_cast<double>(rowing.featherRadians);
     const double twisted = phase + static_cast<double>(rowing.leadRadians);
-    return {.pose = {open,
+    return {.pose = {stroke.openRadians,
                      static_cast<double>(rowing.middleRadians) + travel * std::sin(phase),
-                     static_cast<double>(rowing.twistRadians) + stroke.trim +
+                     static_cast<double>(rowing.twistRadians) - stroke.drive * stroke.lift +
                          feather * std::cos(twisted)},
             .rate = {0, rate * travel * std::cos(phase), -rate * feather * std::sin(twisted)}};
-}
-
-PectoralFins row(const config::Gait& gait,
-                 double stroke,
-                 const BodyAngles& attitude,
-                 double headingRadians) {
-    // The derivative of a sinusoidal sweep whose travel from end to end is the stroke times the
-    // gain.
-    const double speed = std::numbers::pi * kStrokeBodyLengths * gait.gain * gait.beatHertz *
-                         std::sin(2 * std::numbers::pi * stroke);
-    const bool isPower = speed > 0;
-    // The flow comes from behind, so hold()'s corrections, which assume forward motion, change
-    // sign.
-    PectoralFins fins = isPower ? brake()
-                                : hold({.headingRadians = 0,
-                                        .pitchRadians = -attitude.pitchRadians,
-                                        .rollRadians = -attitude.rollRadians},
-                                       0);
-    const double lack =
-        bounded(kHeadingGain *
-                std::remainder(headingRadians - attitude.headingRadians, 2 * std::numbers::pi));
-    fins.left.sweepSpeed = speed * (isPower ? 1 + lack : 1);
-    fins.right.sweepSpeed = speed * (isPower ? 1 - lack : 1);
-    return fins;
 }
 
 }  // namespace aquarama::capture

@@ -31,6 +31,9 @@ namespace aquarama::capture {
 // turn-MC). Zero before the order and after the bend.
 [[nodiscard]] MuscleActivation bendLeft(const config::Bend& bend, double ownSeconds);
 
+// How far a fish is rolled into a bend, 0 to 1: it follows the middle muscles.
+[[nodiscard]] double bankShare(const config::Bend& bend, double ownSeconds);
+
 // Swimming from rest: the amplitude of the beat grows linearly over this many of the fish's own
 // seconds.
 inline constexpr double kRampOwnSeconds = 1;
@@ -55,10 +58,12 @@ inline constexpr double kRampOwnSeconds = 1;
 
 // Control of the pectoral fins at each instant.
 
-// Proportional feedback towards a pitch and no roll, for a fish that moves forward: both fins turn
-// by the error of the pitch, and in opposite directions by the roll (the force law of the fins is
-// Tu & Terzopoulos 1994's; this feedback is ours).
-[[nodiscard]] PectoralFins hold(const BodyAngles& attitude, double pitchRadians);
+// Proportional feedback towards a pitch and a roll, for a fish that moves forward: both fins turn by
+// the error of the pitch, and in opposite directions by that of the roll (the force law of the fins
+// is Tu & Terzopoulos 1994's; this feedback is ours).
+[[nodiscard]] PectoralFins hold(const BodyAngles& attitude,
+                                double pitchRadians,
+                                double rollRadians = 0);
 
 // Both fins at the same angle from parallel to the flow: the head of a fish that swims forward is
 // lifted by a positive one.
@@ -67,27 +72,17 @@ inline constexpr double kRampOwnSeconds = 1;
 // Both fins perpendicular to the flow (Tu & Terzopoulos 1994, brake-MC).
 [[nodiscard]] PectoralFins brake();
 
-// How one pectoral fin rows. Drive 1 rows ahead, -1 back, 0 neither; the trim is added to its twist,
-// radians; share scales the stroke.
-struct Stroke {
-    double drive = 1, trim = 0, share = 1;
+// How one pectoral fin rows. Drive 1 rows ahead, -1 back, 0 neither. The lift is that of a fin
+// that moves ahead: a fin that rows twists by it against its drive. `share` scales the stroke.
+struct FinStroke {
+    double drive = 1, lift = 0, share = 1;
+    double openRadians = 0;
 };
-// The pose of a fin that rows, at a phase of the beat in beats, and its change (Rowing of
-// species.proto). `open`: how far it is opened, radians.
+// The pose of a fin that rows, at a phase of the beat in beats, and its change but for that of its
+// opening (Rowing of species.proto).
 [[nodiscard]] FinMotion strokeAt(const config::Rowing& rowing,
-                                 const Stroke& stroke,
-                                 double open,
+                                 const FinStroke& stroke,
                                  double beatHertz,
                                  double beat);
-
-// Swimming backward by rowing, at a phase of the stroke from 0 to 1. The power stroke goes forward
-// with the fins broadside, the recovery stroke back with the fins feathered. In the power stroke
-// one fin moves faster than the other, to keep the fish at `headingRadians`; in the recovery stroke
-// the fins control pitch and roll. Tu names a retreat without a method; rowing is what living fish
-// do.
-[[nodiscard]] PectoralFins row(const config::Gait& gait,
-                               double stroke,
-                               const BodyAngles& attitude,
-                               double headingRadians);
 
 }  // namespace aquarama::capture

@@ -19,6 +19,10 @@ namespace {
 
 // Steady swimming.
 
+// Fins come to their speed slowly: two beats may be alike long before the fish is steady.
+constexpr int kLeastRowedBeats = 20;
+constexpr double kInPlaceBodyLengths = 1e-3;  // less is no way
+
 // The fewest whole steps in a phase that are no longer than longestStepSeconds(). The small term
 // keeps rounding from adding a step.
 int stepsPerPhaseOf(const config::Species& species, double periodSeconds) {
@@ -36,8 +40,11 @@ RecordedCycle recordBeat(Swimmer& swimmer, double periodSeconds, int stepsPerPha
         beat.poses.push_back(swimmer.state().positions);
         beat.fins.push_back(swimmer.fins());
     }
-    beat.course =
-        glm::normalize(frameOf(beat.poses.back()).origin - frameOf(beat.poses.front()).origin);
+    const PoseFrame first = frameOf(beat.poses.front());
+    const glm::dvec3 way = frameOf(beat.poses.back()).origin - first.origin;
+    // A fish that stays in its place looks along its course.
+    const bool stays = glm::length(way) < kInPlaceBodyLengths;
+    beat.course = stays ? first.worldFromBody[0] : glm::normalize(way);
     return beat;
 }
 
@@ -86,11 +93,12 @@ SteadySwimming swimUntilSteady(const config::Species& species, const Order& orde
                           .stepsPerPhase = steps};
     steady.swimmer.give(order);
     steady.beat = recordBeat(steady.swimmer, periodSeconds, steps);
+    const int leastBeats = order.gait.rows > 0 ? kLeastRowedBeats : 2;
     for (steady.beats = 2; steady.beats <= kMostBeats; ++steady.beats) {
         RecordedCycle next = recordBeat(steady.swimmer, periodSeconds, steps);
         const double difference = differenceOf(steady.beat, next);
         steady.beat = std::move(next);
-        if (difference <= kRepeatsBodyLengths) return steady;
+        if (difference <= kRepeatsBodyLengths && steady.beats >= leastBeats) return steady;
         if (std::isnan(difference)) break;
     }
     refuse(species, order.gait);
@@ -100,8 +108,11 @@ SteadySwimming swimUntilSteady(const config::Species& species, const config::Gai
     return swimUntilSteady(species, {.controller = Controller::ForwardSwim, .gait = gait});
 }
 
-Order retreatOf(const config::Species& species) {
-    return {.controller = Controller::Retreat, .gait = species.swim.slow};
+Order rowingOrder(const config::Species& species, Controller controller) {
+    const config::Rowing& rowing = species.finMotion.rowing;
+    if (!rowing.rows()) return {.controller = Controller::Glide, .gait = species.swim.slow};
+    return {.controller = controller,
+            .gait = {.beatHertz = static_cast<double>(rowing.beatHertz), .rows = 1}};
 }
 
 namespace {
@@ -145,7 +156,7 @@ Transition coast(const SteadySwimming& from,
     return transition;
 }
 
-// A retreat out of medium swimming. Only its fins beat, so no mean over a stroke is taken either.
+// A retreat out of medium swimming. Only its fins beat, so no mean over a beat is taken either.
 Transition backOut(const SteadySwimming& medium,
                    const SteadySwimming& retreat,
                    const Order& order,
@@ -154,8 +165,7 @@ Transition backOut(const SteadySwimming& medium,
     swimmer.give(order);
     Transition transition{.sampleSeconds = medium.beat.periodSeconds / motion::kPhases,
                           .segmentSpeed = -glm::length(meanVelocityOf(retreat.beat)),
-                          .speeds = {},
-                          .strokeSeconds = retreat.beat.periodSeconds};
+                          .speeds = {}};
     const double seconds = kSwumBeats * retreat.beat.periodSeconds;
     while (transition.sampleSeconds * static_cast<double>(transition.speeds.size()) < seconds) {
         transition.speeds.push_back(
@@ -209,7 +219,7 @@ Transitions swimTransitions(const config::Species& species,
     Transitions transitions{.swim = {},
                             .glide = coast(medium, Controller::Glide, kGlidedBeats, masses),
                             .brake = coast(medium, Controller::Brake, kBrakedBeats, masses),
-                            .retreat = backOut(medium, retreat, retreatOf(species), masses)};
+                            .retreat = backOut(medium, retreat, rowingOrder(species, Controller::Retreat), masses)};
     for (std::size_t to = 0; to < gaits.size(); ++to)
         for (std::size_t from = 0; from < gaits.size(); ++from)
             if (from != to)
@@ -218,15 +228,8 @@ Transitions swimTransitions(const config::Species& species,
     return transitions;
 }
 
-double strengthAt(const Transition& transition, std::size_t sample) {
-    if (transition.strokeSeconds == 0) return 1;
-    const double strokes =
-        transition.sampleSeconds * static_cast<double>(sample) / transition.strokeSeconds;
-    return strokes - std::floor(strokes) < 0.5 ? 2 : 0;
-}
-
-double acceleration(const SpeedLaw& law, double segmentSpeed, double speed, double strength) {
-    return strength * law.swimDrag * std::abs(segmentSpeed) * (segmentSpeed - speed) -
+double acceleration(const SpeedLaw& law, double segmentSpeed, double speed) {
+    return law.swimDrag * std::abs(segmentSpeed) * (segmentSpeed - speed) -
            law.glideDrag * speed * std::abs(speed) - law.brakeRate * speed;
 }
 
@@ -246,8 +249,7 @@ double fitTerm(const std::vector<Transition>& transitions,
         for (std::size_t i = 1; i < v.size(); ++i) {
             const auto gained = [&](const SpeedLaw& law) {
                 const auto at = [&](std::size_t sample) {
-                    return acceleration(
-                        law, transition.segmentSpeed, v[sample], strengthAt(transition, sample));
+                    return acceleration(law, transition.segmentSpeed, v[sample]);
                 };
                 return transition.sampleSeconds * (at(i - 1) + at(i)) / 2;
             };

@@ -50,12 +50,7 @@ struct Transition {
     // The steady speed that it leads to; 0 for a glide and a brake, negative for a retreat.
     double segmentSpeed = 0;
     std::vector<double> speeds;
-    // Time of a stroke, for a retreat, which begins at the start of one; 0 for the others.
-    double strokeSeconds = 0;
 };
-// Strength with which tail or fins act on the speed at a sample, relative to the mean. In a retreat
-// they act in the first half of a stroke, the power stroke, alone.
-[[nodiscard]] double strengthAt(const Transition& transition, std::size_t sample);
 
 // The transitions of one species that fitResponse() needs.
 struct Transitions {
@@ -69,12 +64,12 @@ using SteadyGaits = std::array<const SteadySwimming*, motion::kForwardGaits>;
                                           const SteadyGaits& gaits,
                                           const SteadySwimming& retreat);
 
-// A retreat rows with the strokes of the slow gait.
-[[nodiscard]] Order retreatOf(const config::Species& species);
+// A fish that rows backwards or in its place. One of a species that does not row rests instead.
+[[nodiscard]] Order rowingOrder(const config::Species& species, Controller controller);
 
 // The law of motion::SpeedResponse while one segment plays, where v is the fish's speed and p the
 // segment's:
-//     dv/dt = strength swimDrag |p| (p - v) - glideDrag v |v| - brakeRate v,
+//     dv/dt = swimDrag |p| (p - v) - glideDrag v |v| - brakeRate v,
 // where glideDrag is 0 while the fish swims. Drags are 1 / body length, brakeRate is 1 / s.
 struct SpeedLaw {
     double swimDrag = 0;
@@ -84,8 +79,7 @@ struct SpeedLaw {
 // dv/dt of that law, body lengths / s^2.
 [[nodiscard]] double acceleration(const SpeedLaw& law,
                                   double segmentSpeed,
-                                  double speed,
-                                  double strength = 1);
+                                  double speed);
 
 // Fits the coefficient k of one term of the law, `term`, where the others are known. The law is
 // linear in k. Integrated over time it is v(t) - v(0) - K(t) = k X(t), where K is the integral of

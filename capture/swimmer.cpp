@@ -60,11 +60,16 @@ constexpr double kHandover = 0.04;
 // and without a lead it overshot a commanded slope by 70 %. Times of the low pass, a beat each.
 constexpr double kPitchLeadBeats = 2;
 
-// Rowing: trim by pitch, radians by radian, and by its sum over beats; and the drive by the speed.
-constexpr double kTrimGain = 1.2, kTrimIntegral = 0.3, kMostTrim = 0.8;
-constexpr double kDriveIntegral = 0.4;
 // Of a curve, by which the inner fin rows less.
 constexpr double kInnerFin = 2.5;
+// With it rowing fins pitch a fish up in its place.
+constexpr double kPitchingLift = std::numbers::pi / 4;
+
+// Whether a controller rows with the fins alone.
+bool onlyRows(Controller controller) {
+    return controller == Controller::Hover || controller == Controller::LeftPivot ||
+           controller == Controller::PitchUp || controller == Controller::Retreat;
+}
 
 }  // namespace
 
@@ -81,15 +86,11 @@ Swimmer::Swimmer(const config::Species& species)
 
 void Swimmer::give(const Order& order) {
     assert(order.bend.tempo > 0);
-    // After an order without a tail beat no beat is left that a glide or a brake could fade out.
-    if (!swims()) beating_.gain = 0;
+    // After an order without a tail beat no beat is left that the next could fade out.
+    fading_ = swims() ? beating_ : config::Gait{.gain = 0};
     order_ = order;
-    const bool beatsFins = order.controller == Controller::Retreat ||
-                           order.controller == Controller::Hover ||
-                           order.controller == Controller::LeftPivot;
-    if (swims() || beatsFins) beating_ = order.gait;
+    if (swims() || onlyRows(order.controller)) beating_ = order.gait;
     ownSecondsOfOrder_ = 0;
-    headingOfOrder_ = attitude_.headingRadians;
     musclesBefore_ = control_.muscles;
 }
 
@@ -108,7 +109,6 @@ void Swimmer::advanceOne() {
     // The low pass has a time constant of one beat, or of the fish's own second if that is shorter.
     const double hertz = std::max(beating_.beatHertz, fish_.timeScale);
     attitude_ = sense(attitude_, state_, stepSeconds_ * hertz, stepSeconds_);
-    if (rows()) adjustRowing();
     advanceClocks(stepSeconds_ / 2);
 }
 
@@ -122,66 +122,40 @@ std::array<glm::dvec3, 2> Swimmer::fins() const {
 
 bool Swimmer::rows() const {
     if (!species_.finMotion.rowing.rows()) return false;
-    switch (order_.controller) {
-        case Controller::Hover:
-        case Controller::LeftPivot:
-        case Controller::Retreat:
-            return true;
-        default:
-            return swims() && beating_.rows > 0;
-    }
+    return onlyRows(order_.controller) || (swims() && beating_.rows > 0);
 }
 
-// Both fins row alike ahead or back; on a curve the inner one less, and against the other in a
-// pivot.
+// Both fins row alike, ahead or back; on a curve the inner one less, and in a pivot against the
+// other. Under a new order the fins open and the strokes grow as a tail beat does.
 RowingControl Swimmer::rowingProgram() const {
-    const double grown = std::min(1.0, ownSecondsOfOrder_ / kRampOwnSeconds);
-    const double trim = trim_ + order_.liftRadians;
     double left = 1;
     double right = 1;
-    double share = beating_.rows;
     switch (order_.controller) {
         case Controller::Hover:
-            left = right = drive_;
-            share = 1;
+            left = right = 0;
             break;
         case Controller::LeftPivot:
             left = -1;
-            share = 1;
             break;
         case Controller::Retreat:
             left = right = -1;
-            share = 1;
             break;
         default:
             left = 1 - kInnerFin * order_.curve;
             break;
     }
+    const double grown = std::min(1.0, ownSecondsOfOrder_ / kRampOwnSeconds);
+    const double share = grown * (onlyRows(order_.controller) ? 1 : beating_.rows);
     const auto at = [&](double drive) {
         return strokeAt(species_.finMotion.rowing,
-                        {.drive = drive, .trim = trim, .share = share * grown},
-                        fish_.blade.rowing,
+                        {.drive = drive,
+                         .lift = lift(),
+                         .share = share,
+                         .openRadians = std::lerp(fish_.blade.folded, fish_.blade.rowing, grown)},
                         beating_.beatHertz,
                         beat_);
     };
     return {.rows = true, .left = at(left), .right = at(right)};
-}
-
-// Proportional and integral feedback: on the pitch by the twist of both fins, unless the order
-// lifts; and in a hover on the speed by their drive.
-void Swimmer::adjustRowing() {
-    const double beats = stepSeconds_ * beating_.beatHertz;
-    if (order_.liftRadians == 0) {
-        pitchSum_ = std::clamp(pitchSum_ - kTrimIntegral * attitude_.pitchRadians * beats,
-                               -kMostTrim,
-                               kMostTrim);
-        trim_ = std::clamp(pitchSum_ - kTrimGain * foreseen().pitchRadians, -kMostTrim, kMostTrim);
-    }
-    if (order_.controller != Controller::Hover) return;
-    const PoseFrame frame = frameOf(state_.positions);
-    const double ahead = glm::dot(frame.worldFromBody[0], state_.velocities[5]);
-    ahead_ += (ahead - ahead_) * std::min(1.0, beats);
-    drive_ = std::clamp(drive_ - kDriveIntegral * ahead_ * beats, -1.0, 1.0);
 }
 
 MotorControl Swimmer::program() const {
@@ -197,8 +171,9 @@ MotorControl Swimmer::program() const {
     const double handedOver = std::min(1.0, ownSecondsOfOrder_ / kHandover);
     const bool rowing = rows();
     return {.muscles = mix(musclesBefore_, muscleProgram(), handedOver),
-            .fins = rowing ? PectoralFins{} : finProgram(),
+            .fins = finProgram(),
             .rowing = rowing ? rowingProgram() : RowingControl{},
+            .rightsItself = rowing && lift() == 0,
             .tone = {}};
 }
 
@@ -217,36 +192,29 @@ bool Swimmer::swims() const {
 }
 
 MuscleActivation Swimmer::muscleProgram() const {
-    const double beatsOfOrder = ownSecondsOfOrder_ / fish_.timeScale * beating_.beatHertz;
     switch (order_.controller) {
         case Controller::ForwardSwim:
         case Controller::Ascend:
         case Controller::Descend:
         case Controller::Balance:
-            return tailBeat(1);
+            if (beating_.gain > 0) return tailBeat(beating_.gain);
+            break;
         case Controller::LeftTurn:
             return bendLeft(order_.bend, ownSecondsOfOrder_);
         case Controller::RightTurn:
             return mirrored(bendLeft(order_.bend, ownSecondsOfOrder_));
-        case Controller::Glide:
-        case Controller::Brake:
-            return tailBeat(std::max(0.0, 1 - beatsOfOrder / kLastBeats));
-        case Controller::Retreat:
-        case Controller::LeftStart:
-        case Controller::RightStart:
-        case Controller::Hover:
-        case Controller::LeftPivot:
+        default:
             break;
     }
-    return {};
+    const double beatsOfOrder = ownSecondsOfOrder_ / fish_.timeScale * fading_.beatHertz;
+    return tailBeat(fading_.gain * std::max(0.0, 1 - beatsOfOrder / kLastBeats));
 }
 
-// `share` scales the beat: 1 while the fish swims, less while the beat fades out. From rest the
-// beat grows over kRampOwnSeconds.
-MuscleActivation Swimmer::tailBeat(double share) const {
+// From rest the beat grows over kRampOwnSeconds.
+MuscleActivation Swimmer::tailBeat(double gain) const {
     const double grown = std::min(1.0, ownSecondsSwum_ / kRampOwnSeconds);
     const double curve = order_.controller == Controller::ForwardSwim ? order_.curve : 0;
-    return beatAt(species_.swim, share * beating_.gain * grown, beat_, curve);
+    return beatAt(species_.swim, gain * grown, beat_, curve);
 }
 
 // The attitude with the pitch that the fish will have in kPitchLeadBeats if it pitches on as it
@@ -258,30 +226,41 @@ BodyAngles Swimmer::foreseen() const {
     return ahead;
 }
 
+double Swimmer::bank() const {
+    switch (order_.controller) {
+        case Controller::ForwardSwim:
+            return order_.bankRadians;
+        case Controller::LeftTurn:
+            return order_.bankRadians * bankShare(order_.bend, ownSecondsOfOrder_);
+        case Controller::RightTurn:
+            return -order_.bankRadians * bankShare(order_.bend, ownSecondsOfOrder_);
+        default:
+            return 0;
+    }
+}
+
+double Swimmer::lift() const {
+    return order_.controller == Controller::PitchUp ? kPitchingLift : order_.liftRadians;
+}
+
 PectoralFins Swimmer::finProgram() const {
     switch (order_.controller) {
         case Controller::Ascend:
             return hold(foreseen(), order_.pitchRadians);
         case Controller::Descend:
             return hold(foreseen(), -order_.pitchRadians);
-        case Controller::Balance:
-            return hold(foreseen(), 0);
         case Controller::Brake:
             return brake();
-        case Controller::Retreat:
-            return row(beating_, beat_, attitude_, headingOfOrder_);
         case Controller::ForwardSwim:
-            return lift(order_.liftRadians);
+            if (lift() != 0) return capture::lift(lift());
+            [[fallthrough]];
         case Controller::LeftTurn:
         case Controller::RightTurn:
-        case Controller::Glide:
-        case Controller::LeftStart:
-        case Controller::RightStart:
-        case Controller::Hover:
-        case Controller::LeftPivot:
-            break;
+        case Controller::Balance:
+            return hold(foreseen(), 0, bank());
+        default:
+            return {};
     }
-    return {};
 }
 
 }  // namespace aquarama::capture

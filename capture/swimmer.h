@@ -46,8 +46,9 @@ enum class Controller : std::uint8_t {
     // Not of the paper's nine.
     LeftStart,
     RightStart,
-    Hover,     // in its place, by rowing
-    LeftPivot  // turns in its place, by rowing
+    Hover,      // in its place, by rowing
+    LeftPivot,  // turns in its place, by rowing
+    PitchUp     // pitches in its place, by rowing
 };
 
 // A command to the fish, which replaces the one before. A turn is over after secondsOf(bend); then
@@ -55,7 +56,7 @@ enum class Controller : std::uint8_t {
 // named beside it.
 struct Order {
     Controller controller = Controller::Glide;
-    config::Gait gait{};      // ForwardSwim, Ascend, Descend, Balance, Retreat
+    config::Gait gait{};      // of all that swim or row
     config::Bend bend{};      // LeftTurn, RightTurn
     double pitchRadians = 0;  // Ascend, Descend: slope of the body axis, positive in both
     double bendShare = 1;     // LeftStart, RightStart: of the time of the bend
@@ -64,6 +65,8 @@ struct Order {
     // ForwardSwim on a loop: both pectoral fins turn by this from parallel to the flow, radians;
     // the fish pitches up.
     double liftRadians = 0;
+    // ForwardSwim on a curve, LeftTurn, RightTurn: the roll into the bend, positive.
+    double bankRadians = 0;
 };
 
 // A simulated fish. It starts at rest at the origin with its nose towards +x. Lengths are body
@@ -103,12 +106,14 @@ class Swimmer {
     // The wanted state of muscles and fins at this instant under the present order, without the
     // transition from the order before.
     [[nodiscard]] MuscleActivation muscleProgram() const;
-    [[nodiscard]] MuscleActivation tailBeat(double share) const;
+    [[nodiscard]] MuscleActivation tailBeat(double gain) const;
     [[nodiscard]] PectoralFins finProgram() const;
     // Whether the fins row under the present order, and how they do.
     [[nodiscard]] bool rows() const;
     [[nodiscard]] RowingControl rowingProgram() const;
-    void adjustRowing();
+    // Under the present order: the roll that the fins hold, and their lift on a loop; radians.
+    [[nodiscard]] double bank() const;
+    [[nodiscard]] double lift() const;
     [[nodiscard]] BodyAngles foreseen() const;
 
     BiomechanicalFish fish_;
@@ -122,13 +127,9 @@ class Swimmer {
     // orders that beat the tail.
     double ownSecondsOfOrder_ = 0;
     double ownSecondsSwum_ = 0;
-    config::Gait beating_{};     // of the tail, or of the fins in a retreat
-    double trim_ = 0;            // of the twist of rowing fins, which keeps the pitch; radians
-    double pitchSum_ = 0;        // part of the trim
-    double drive_ = 0;           // of rowing fins, which keeps the place in a hover
-    double ahead_ = 0;           // speed along the body axis, as sensed; body lengths a second
+    config::Gait beating_{};     // of the tail, or of fins that row
+    config::Gait fading_{};      // the tail beat of the order before, which fades out
     double beat_ = 0;            // phase of the beat, 0 to 1
-    double headingOfOrder_ = 0;  // sensed when the order came, radians: what a retreat keeps
     BodyAngles attitude_;        // as sensed
     MotorControl control_;
     MuscleActivation musclesBefore_;  // activations when the order came

@@ -70,7 +70,7 @@ RecordedCycle recordTurn(const config::Species& species,
     assert(onsetPhase < motion::kPhases);
     Swimmer swimmer = entry.swimmer;
     swimmer.advance(onsetPhase * entry.stepsPerPhase);
-    swimmer.give({.controller = leftOrRight, .bend = bend});
+    swimmer.give({.controller = leftOrRight, .bend = bend, .bankRadians = kBankRadians});
 
     // Every step is recorded until the turn is over and the number of steps is a multiple of
     // kPhases.
@@ -79,6 +79,7 @@ RecordedCycle recordTurn(const config::Species& species,
     const double muscleSteps = secondsOf(bend, species) / swimmer.stepSeconds();
     const double mostSteps = kLongestTurn / fish.timeScale / swimmer.stepSeconds();
     std::vector<NodeVectors> poses{swimmer.state().positions};
+    std::vector<std::array<glm::dvec3, 2>> fins{swimmer.fins()};
     while (static_cast<double>(poses.size()) < muscleSteps ||
            (poses.size() - 1) % motion::kPhases != 0 ||
            bendOf(poses.back(), straight) > kStraightBodyLengths) {
@@ -88,6 +89,7 @@ RecordedCycle recordTurn(const config::Species& species,
                         "change `turn` or `tissue` in its species file");
         swimmer.advance(1);
         poses.push_back(swimmer.state().positions);
+        fins.push_back(swimmer.fins());
     }
 
     // Of these, kPhases + 1 evenly spaced poses are kept.
@@ -98,8 +100,10 @@ RecordedCycle recordTurn(const config::Species& species,
         .course = entry.beat.course,
         .poses = {},
         .fins = {}};
-    for (std::size_t i = 0; i < poses.size(); i += stride) turn.poses.push_back(poses[i]);
-    turn.fins.assign(turn.poses.size(), swimmer.fins());  // they do not move in a turn
+    for (std::size_t i = 0; i < poses.size(); i += stride) {
+        turn.poses.push_back(poses[i]);
+        turn.fins.push_back(fins[i]);
+    }
     return turn;
 }
 
@@ -202,7 +206,7 @@ std::vector<EnteredTurn> recordEnteredTurns(const config::Species& species,
                                             const config::Bend& bend,
                                             double seconds) {
     return recordAllEntered(entries,
-                            {.controller = Controller::LeftTurn, .bend = bend},
+                            {.controller = Controller::LeftTurn, .bend = bend, .bankRadians = kBankRadians},
                             seconds,
                             species.swim.medium);
 }

@@ -25,8 +25,7 @@ Travel playedTravel(const SegmentTables& tables, const Playing& playing) {
     return {.start = placeAt(playing.from),
             .end = placeAt(playing.to),
             .bodyFromMean = swayAt(tables, static_cast<std::uint32_t>(playing.to) & 0xFFFFU),
-            .rate = playing.to - playing.from,
-            .strokePhase = (playing.from + playing.to) >> 1};
+            .rate = playing.to - playing.from};
 }
 
 float bounded(float value, float limit) {
@@ -101,7 +100,6 @@ float speedAfter(const SpeedLoss& loss,
                  float pathAtStart,
                  float pathAtEnd,
                  std::uint16_t segment,
-                 std::uint32_t phase,
                  float brake) {
     constexpr std::uint16_t kGlide = firstSegmentOf(Action::Glide);
     const bool glides = segment == kGlide || pathAtEnd == 0.0F;
@@ -109,7 +107,7 @@ float speedAfter(const SpeedLoss& loss,
         bounded(std::max(v + (pathAtEnd - pathAtStart), std::min(v, 0.0F)), kFastest);
     const float target = glides ? 0.0F : pathAtEnd;
     const float against = glides ? carried : target;
-    const float drag = loss.drag[glides ? kGlide : dragOf(segment, phase)];
+    const float drag = loss.drag[glides ? kGlide : segment];
     const float compared = target > 0.0F ? std::max(carried, 0.0F) : carried;
     const float step = drag * std::abs(against * (target - compared));
     const float swum = approached(carried, target, step);
@@ -155,7 +153,6 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
                                    pathSpeed(a[3], rate),
                                    pathAtEnd,
                                    s.segment[i],
-                                   static_cast<std::uint32_t>(travel.strokePhase),
                                    static_cast<float>(step.commands->brake[i]) * kBrakeUnit);
     s.speed[i] = static_cast<std::int32_t>(speed);
     s.spread[i] = spreadAfter(s.spread[i], step.commands->brake[i]);

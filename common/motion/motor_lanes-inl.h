@@ -256,19 +256,11 @@ HWY_INLINE Lanes approached(Lanes v, Lanes target, Lanes step) {
         hn::Lt(v, target), hn::Min(hn::Add(v, whole), target), hn::Max(hn::Sub(v, whole), target));
 }
 
-HWY_INLINE IntLanes dragOf(IntLanes segment, IntLanes phase) {
-    const IntLanes retreat = hn::Set(kInts, firstSegmentOf(Action::Retreat));
-    const IntLanes half = hn::Set(kInts, 0x8000);
-    const auto recovers = hn::And(hn::Eq(segment, retreat), hn::Eq(hn::And(phase, half), half));
-    return hn::IfThenElse(recovers, hn::Set(kInts, kSegments), segment);
-}
-
 HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
                             Lanes v,
                             Lanes pathAtStart,
                             Lanes pathAtEnd,
                             IntLanes segment,
-                            IntLanes phase,
                             Lanes brake) {
     const IntLanes glide = hn::Set(kInts, firstSegmentOf(Action::Glide));
     const auto glides = hn::Or(hn::RebindMask(kFloats, hn::Eq(segment, glide)),
@@ -277,9 +269,8 @@ HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
     const Lanes carried = bounded(hn::Max(changed, hn::Min(v, hn::Zero(kFloats))), kFastest);
     const Lanes target = hn::IfThenZeroElse(glides, pathAtEnd);
     const Lanes against = hn::IfThenElse(glides, carried, target);
-    const IntLanes swims = dragOf(segment, phase);
     const Lanes drag = hn::GatherIndex(
-        kFloats, loss.drag.data(), hn::IfThenElse(hn::RebindMask(kInts, glides), glide, swims));
+        kFloats, loss.drag.data(), hn::IfThenElse(hn::RebindMask(kInts, glides), glide, segment));
     const Lanes compared = hn::IfThenElse(
         hn::Gt(target, hn::Zero(kFloats)), hn::Max(carried, hn::Zero(kFloats)), carried);
     const Lanes step = hn::Mul(drag, hn::Abs(hn::Mul(against, hn::Sub(target, compared))));

@@ -74,7 +74,6 @@ void store(const Travel& travel, Block& block, std::size_t i) {
     put(travel.start.translationAndSpeed, block.left);
     put(travel.end.translationAndSpeed, block.reached);
     block.rate[i] = travel.rate;
-    block.from[i] = block.to[i] = travel.strokePhase;
 }
 
 // Bit i: lane i is set. At most 16 lanes, so two bytes hold them.
@@ -247,8 +246,6 @@ HWY_INLINE void changeSpeed(const MotorStep& step,
                    pathSpeed(left.speed, rate),
                    pathAtEnd,
                    segmentsAt(s.segment, fish),
-                   hn::ShiftRight<1>(hn::Add(hn::Load(kInts, block.from + lane),
-                                             hn::Load(kInts, block.to + lane))),
                    hn::Mul(hn::ConvertTo(kFloats, brake), hn::Set(kFloats, kBrakeUnit)));
     follow(s.spread, brake, fish);
     hn::StoreU(hn::ConvertTo(kInts, speed), kInts, s.speed.data() + fish);

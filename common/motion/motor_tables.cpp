@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kCycle = kPhases;
 constexpr double kNoWayBodyLengths = 1e-6;  // a path shorter than this has no direction
+constexpr double kInPlaceBodyLengths = 1e-4;  // in a cycle: less is no way
 
 // The body frame over two cycles, from the increments (eq. 6 and 7).
 void integrate(const FrameIncrements& increments, GaitPath& path) {
@@ -103,7 +104,7 @@ void lookAlongPath(const GaitPath& path, Means& means) {
     for (std::size_t k = 0; k < kCycle; ++k)
         way += glm::conjugate(means[k]) * (path.translation[k + 1] - path.translation[k]);
     const double length = std::sqrt(glm::dot(way, way));
-    if (length < kNoWayBodyLengths) return;
+    if (length < kInPlaceBodyLengths) return;
     way *= (way.x < 0 ? -1 : 1) / length;
     const glm::dquat turn = glm::normalize(glm::dquat(1 + way.x, 0, -way.z, way.y));
     for (glm::dquat& mean : means) mean = glm::normalize(mean * turn);
@@ -127,12 +128,17 @@ void setMeans(const Means& means, bool playsToEnd, GaitPath& path) {
     for (std::size_t k = 0; k < kCycleSamples; ++k) {
         path.bodyFromMean[k] = glm::conjugate(path.rotation[k]) * means[k];
     }
+    double way = 0;
     for (std::size_t k = 0; k < kCycleSamples; ++k) {
         const std::size_t now = k % kCycle;
         const glm::dquat turn = glm::conjugate(means[now]) * means[now + 1];
         path.mean[k] = {glm::dvec3(turn.x, turn.y, turn.z) / turn.w,
                         forwardAt(path, k, playsToEnd)};
+        if (k < kCycle) way += path.mean[k].forward;
     }
+    // A cycle in one place has no speed, not even that of its rounding errors.
+    if (!playsToEnd && std::abs(way) < kInPlaceBodyLengths)
+        for (auto& mean : path.mean) mean.forward = 0;
 }
 
 // Converts to floats, after all arithmetic.
@@ -217,8 +223,7 @@ SpeedLoss lossOf(const SpeedResponse& response,
     if (slow + medium + fast > 0.0F) {
         for (std::uint32_t segment = 0; segment < kSegments; ++segment)
             loss.drag[segment] = squareLoss(swimDragOf(response, segments, segment));
-        loss.drag[firstSegmentOf(Action::Retreat)] = squareLoss(2.0F * response.retreatDrag);
-        loss.drag.back() = 0.0F;
+        loss.drag[firstSegmentOf(Action::Retreat)] = squareLoss(response.retreatDrag);
     }
     loss.drag[firstSegmentOf(Action::Glide)] = squareLoss(response.glideDrag);
     return loss;
@@ -292,7 +297,10 @@ void setBorders(std::span<const TurnPath> entered, std::span<std::int32_t> borde
 // keeps K within its 8 bits.
 constexpr float kSmallestStepBodyLengths = 1.0F / 128.0F;
 
-using Pose = std::array<glm::vec3, body::kNodalPoints>;  // body lengths
+// Nodal points, and both pectoral fins: their angles times kFinReach. In body lengths.
+using Pose = std::array<glm::vec3, body::kNodalPoints + 2>;
+// A fin that beats as fast as any moves no more than a tail does, so that a warp gives it time.
+constexpr float kFinReachBodyLengths = 0.05F;
 using Cycle = std::array<Pose, kPhases + 1>;             // the last pose repeats the first
 // [phase of A][phase of B]: the largest squared travel from one pose to the other, either way.
 using Travels = std::array<std::array<float, kPhases + 1>, kPhases + 1>;
@@ -304,6 +312,11 @@ Cycle cycleOf(const ActionSegment& segment) {
             const auto& d = segment.nodes[k % kPhases][i];
             cycle[k][i] = glm::vec3(d[0], d[1], d[2]) * kPoseUnit;
         }
+        for (std::size_t side = 0; side < 2; ++side) {
+            const FinAngles& fin = segment.fins[k % kPhases][side];
+            cycle[k][body::kNodalPoints + side] =
+                glm::vec3(fin[0], fin[1], fin[2]) * (kFinUnit * kFinReachBodyLengths);
+        }
     }
     return cycle;
 }
@@ -313,7 +326,7 @@ Cycle cycleOf(const ActionSegment& segment) {
 // head far from its own.
 float squaredTravel(const Pose& a, const Pose& b) {
     float most = 0;
-    for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
+    for (std::size_t i = 0; i < a.size(); ++i) {
         const glm::vec3 d = a[i] - b[i];
         most = std::max(most, (d.x * d.x + d.y * d.y) + d.z * d.z);
     }
@@ -325,7 +338,7 @@ Pose poseAt(const Cycle& cycle, unsigned phase) {
     const std::size_t cell = (phase & 0xFFFFU) >> kPhaseCellBits;
     const float share = static_cast<float>(phase & 1023U) * kPhaseCellUnit;
     Pose pose;
-    for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
+    for (std::size_t i = 0; i < pose.size(); ++i) {
         pose[i] = cycle[cell][i] + share * (cycle[cell + 1][i] - cycle[cell][i]);
     }
     return pose;
@@ -387,13 +400,6 @@ WarpPlan planToCycle(const Travels& travels, std::size_t cell, float step) {
         if (travelFromCell(travels, cell, m) < travelFromCell(travels, cell, entry)) entry = m;
     }
     return planToPhase(travels, cell, entry, step);
-}
-
-// The strokes of a retreat go on in the phase of the beat that was left.
-WarpPlan planToStroke(const Travels& travels, std::size_t cell, float step, std::int16_t rate) {
-    WarpPlan plan = planToPhase(travels, cell, cell, step);
-    plan.entryPhase = static_cast<std::uint16_t>(plan.entryPhase + (plan.frames + 1) * rate);
-    return plan;
 }
 
 // A fast start is not delayed: as many frames lead to it at most.
@@ -507,8 +513,6 @@ WarpPlans planWarps(const Repertoire& repertoire,
                                   step,
                                   phaseRates[to],
                                   isStart(next) ? kMostFramesToStart : 255);
-            else if (next == Action::Retreat)
-                plan = planToStroke(travels, cell, step, phaseRates[to]);
             else
                 plan = planToCycle(travels, cell, step);
             if (begins)

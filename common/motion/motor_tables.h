@@ -91,8 +91,7 @@ struct SegmentTables {
 struct SpeedLoss {
     // For each squared speed unit, while a segment plays; 1 where no response was measured, so that
     // the speed follows at once.
-    // The retreat's is that of the power stroke; that of the recovery stroke is the last.
-    std::array<float, kSegments + 1> drag{};
+    std::array<float, kSegments> drag{};
     // The share of its speed that a fish loses with its fins fully spread.
     float brake = 0.0F;
 };
@@ -186,9 +185,6 @@ struct Travel {
     Quaternion bodyFromMean;  // at the end
     // The phase rate that the path's speeds are multiplied by.
     std::int32_t rate = 0;
-    // Phase of the stroke in the middle of the tick, 1/65536 of a cycle. While a warp leads to the
-    // segment, it is before the segment's phase.
-    std::int32_t strokePhase = 0;
 };
 
 // Interpolates component by component, not normalised.
@@ -279,12 +275,6 @@ struct Playing {
     }
     fish.phase[i] = static_cast<std::uint16_t>(phase + rate);
     return {.warps = false, .from = phase, .to = phase + rate};
-}
-
-// Index into SpeedLoss::drag of a segment at a phase (1/65536 of a cycle).
-[[nodiscard]] inline std::size_t dragOf(std::uint32_t segment, std::uint32_t phase) {
-    constexpr std::uint32_t kRetreat = firstSegmentOf(Action::Retreat);
-    return segment == kRetreat && (phase & 0x8000U) != 0 ? kSegments : segment;
 }
 
 // The rotation from the mean frame to the body frame at a phase.
@@ -384,9 +374,7 @@ struct MeanTravel {
     return {.start = {conjugate(swayAfter(frame)), {0.0F, 0.0F, 0.0F, mean.speedAtStart}},
             .end = {mean.turn * conjugate(sway), {x, y, z, mean.speedAtEnd}},
             .bodyFromMean = sway,
-            .rate = mean.rate,
-            .strokePhase = fish.phase[i] - (2 * static_cast<std::int32_t>(frames - frame) - 1) *
-                                               fish.phaseRate[i] / 2};
+            .rate = mean.rate};
 }
 
 }  // namespace aquarama::motion

@@ -120,6 +120,11 @@ enum class Action : std::uint8_t {
     DiveMedium,
     DiveFast,
     Retreat,
+    Hover,
+    PivotLeft,
+    PivotRight,
+    PitchUp,
+    PitchDown,
     TurnLeftGradual,
     TurnLeftSharp,
     TurnRightGradual,
@@ -133,8 +138,8 @@ enum class Action : std::uint8_t {
     Glide,
 };
 // All but the last are captured; the first kForwardGaits of them are gaits.
-inline constexpr int kCapturedActions = 32;
-inline constexpr int kActions = 33;
+inline constexpr int kCapturedActions = 37;
+inline constexpr int kActions = 38;
 inline constexpr int kForwardGaits = 3;
 // The first kSwimmingActions beat the tail: a gait straight on, on a curve or on a slope. Action a
 // of them is of gait a % kForwardGaits.
@@ -148,6 +153,13 @@ inline constexpr int kSwimmingActions = 21;
 // Straight on, on a curve or on a slope.
 [[nodiscard]] constexpr bool swims(Action action) {
     return action < Action::Retreat;
+}
+// Done by the pectoral fins in one place: hovering, turning and pitching there.
+[[nodiscard]] constexpr bool staysInPlace(Action action) {
+    return action >= Action::Hover && action <= Action::PitchDown;
+}
+[[nodiscard]] constexpr bool isPivot(Action action) {
+    return action == Action::PivotLeft || action == Action::PivotRight;
 }
 // Straight on.
 [[nodiscard]] constexpr bool isForward(Action action) {
@@ -306,9 +318,8 @@ struct ActionSegment {
 // How the speed v of a fish follows that of what it plays, p, in body lengths and seconds:
 //     dv/dt = swimDrag |p| (p - v)     while the tail beats: it meets the water at a speed near p;
 //                                      a fish that still swims backwards counts as one at rest,
-//     dv/dt = 2 retreatDrag |p| (p - v)  in the first half of each stroke of a retreat, when the
-//                                      fins push; none in the second,
-//     dv/dt = -glideDrag v |v|         in a glide or at rest: quadratic drag;
+//     dv/dt = retreatDrag |p| (p - v)  in a retreat,
+//     dv/dt = -glideDrag v |v|         in a glide or in one place: quadratic drag;
 // in all, fins that are spread to a share s also brake by s * brakeRate * v. (The paper leaves
 // this open; the law is ours.)
 struct SpeedResponse {
