@@ -174,12 +174,12 @@ AQUARAMA_CONSTANT uint kEye = 7U;
 // Recorded poses of a species.
 AQUARAMA_CONSTANT uint kControlPoints = 426U;
 AQUARAMA_CONSTANT uint kPhases = 64U;
-AQUARAMA_CONSTANT uint kActions = 33U;
+AQUARAMA_CONSTANT uint kActions = 38U;
 AQUARAMA_CONSTANT uint kFirstCurve = 3U;
-AQUARAMA_CONSTANT uint kFirstTurn = 22U;
+AQUARAMA_CONSTANT uint kFirstTurn = 27U;
 AQUARAMA_CONSTANT uint kTurnSegments = 41U;  // of the wire
-AQUARAMA_CONSTANT uint kFirstStart = 26U;
-AQUARAMA_CONSTANT uint kFirstStartSegment = 186U;  // of the wire
+AQUARAMA_CONSTANT uint kFirstStart = 31U;
+AQUARAMA_CONSTANT uint kFirstStartSegment = 191U;  // of the wire
 AQUARAMA_CONSTANT uint kStartSegments = 17U;
 
 // The water stirred by fish, about the shared eye: cells of a grid, three numbers each.

@@ -28,7 +28,7 @@ MotorControl everythingMoves(double seconds) {
     const double grown = std::min(1.0, 10 * seconds);
     return {
         .muscles = beatAt(swim, grown * grown * (3 - 2 * grown), swim.medium.beatHertz * seconds),
-        .fins = {.left = {.angleRadians = 1.2 + std::sin(9 * seconds), .sweepSpeed = 0.3},
+        .fins = {.left = {.angleRadians = 1.2 + std::sin(9 * seconds)},
                  .right = {.angleRadians = 2.4}},
         .rowing = {},
         .tone = {}};

@@ -53,13 +53,6 @@ TEST(PectoralFins, letTheStreamPassWhenFlat) {
     EXPECT_LT(glm::length(forceOf({}, 2)), 1e-6);
 }
 
-TEST(PectoralFins, pushAFishThatRestsByHowTheySweep) {
-    const PectoralFin sweeping{.angleRadians = std::numbers::pi, .sweepSpeed = 0.5};
-    EXPECT_NEAR(forceOf(both(sweeping), 0).x, -2 * finsAlone().finDrag * 0.5, 1e-4);
-    const PectoralFin feathered{.angleRadians = std::numbers::pi / 2, .sweepSpeed = -0.5};
-    EXPECT_LT(glm::length(forceOf(both(feathered), 0)), 1e-6);
-}
-
 TEST(PectoralFins, rollTheFishTowardsTheFinThatStandsLower) {
     const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
     FishState state = stateAtRest(fish);

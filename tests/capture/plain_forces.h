@@ -71,7 +71,7 @@ inline void addWaterForces(const BiomechanicalFish& fish,
     const auto push = [&](const PectoralFin& fin, const std::array<std::size_t, 4>& root) {
         const double cosine = std::cos(fin.angleRadians);
         const glm::dvec3 normal = cosine * body[0] + std::sin(fin.angleRadians) * body[1];
-        glm::dvec3 velocity = fin.sweepSpeed * body[0];
+        glm::dvec3 velocity{};
         for (const std::size_t node : root) velocity += v.at(node) / 4.0;
         for (const std::size_t node : root)
             forces.water.at(node) -= fish.finDrag * glm::dot(normal, velocity) / 4 * normal;

@@ -65,7 +65,7 @@ TEST_P(Steady, theMotionsOwnPeriodIsThatOfTheDrive) {
 TEST_P(Steady, theRecordedBeatIsRepeatedTenBeatsLater) {
     SteadySwimming steady = swimUntilSteady(species(), species().swim.medium);
     steady.swimmer.advance(9 * motion::kPhases * steady.stepsPerPhase);
-    RecordedCycle later{.poses = {steady.swimmer.state().positions}};
+    RecordedCycle later{.poses = {steady.swimmer.state().positions}, .fins = {}};
     for (int phase = 0; phase < motion::kPhases; ++phase) {
         steady.swimmer.advance(steady.stepsPerPhase);
         later.poses.push_back(steady.swimmer.state().positions);

@@ -47,7 +47,7 @@ struct FishInMind {
 
     // One thought without perception, feeling and routine.
     fish::Intention think() {
-        fish::passTime(parameters, mind);
+        fish::passTime(parameters, fish::kTicksBetweenThoughts, mind);
         const Decision decision = decide(parameters, mind, senses, feelings);
         remember(mind, decision);
         return mind.intention;

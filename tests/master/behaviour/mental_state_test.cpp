@@ -47,7 +47,7 @@ TEST(Hunger, risesAsTheMealIsDigestedAndIsOneWhenItIs) {
     const fish::SpeciesParameters parameters = tang();
     fish::Mind mind = fed(3);
     for (int thought = 1; thought < 2500; ++thought) {
-        fish::passTime(parameters, mind);
+        fish::passTime(parameters, fish::kTicksBetweenThoughts, mind);
         const float seconds = static_cast<float>(thought) * kThoughtSeconds;
         const float expected = std::min(1.0F, parameters.habits.digestionPerSecond * seconds);
         ASSERT_NEAR(feel(parameters, mind, lonely()).hunger, expected, 2e-5F) << seconds << " s";
@@ -100,7 +100,7 @@ TEST(Libido, growsToOneWithTimeAndIsSuppressedByHunger) {
     const fish::SpeciesParameters parameters = tang();
     fish::Mind mind = fed(3);
     for (int thought = 1; thought <= 3000; ++thought) {
-        fish::passTime(parameters, mind);
+        fish::passTime(parameters, fish::kTicksBetweenThoughts, mind);
         const float seconds = static_cast<float>(thought) * kThoughtSeconds;
         const fish::Feelings feelings = feel(parameters, mind, lonely());
         const float grown = std::min(1.0F, parameters.habits.libidoPerSecond * seconds);

@@ -68,8 +68,10 @@ struct Mind {
     }
     // Thinks once; the motor is taken to follow at once, and to be done with every turn by then.
     motion::Action think() {
-        SecondaryController{&gaits, &view, &courses, &states, 1, {tick}, &commands, &memory}.run(0,
-                                                                                                 1);
+        thought[0] = 1;
+        SecondaryController{
+            &gaits, &view, &courses, &states, &thought, 1, {tick}, &commands, &memory}
+            .run(0, 1);
         tick += kTicksBetweenThoughts;
         states.segment[0] = firstSegmentOf(static_cast<motion::Action>(commands.action[0]));
         states.phase[0] = 65535;
@@ -85,6 +87,7 @@ struct Mind {
     motion::MotionStates states;
     motion::MotorCommands commands;
     Courses courses;
+    std::vector<std::uint8_t> thought{0};
     ControllerMemory memory;
     std::uint64_t tick = 0;
 };

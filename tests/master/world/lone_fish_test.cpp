@@ -45,9 +45,12 @@ class LoneFish {
         view_.fish[0].heading = heading;
         view_.fish[0].speed = 2 * view_.fish[0].length;
         grids_.rebuild(view_, surroundings_.food, {&nature_, 1});
-        if (fish::thinksAt(tick_, 0)) behaviour::think(environment(), 0, minds_, courses_, events_);
+        if (fish::thinksAt(tick_, 0)) {
+            behaviour::think(environment(), 0, minds_, courses_, events_);
+            thought_[0] = 1;
+        }
         fish::SecondaryController{
-            &gaits_, &view_, &courses_, &states_, 1, tick_, &commands_, &memory_}
+            &gaits_, &view_, &courses_, &states_, &thought_, 1, tick_, &commands_, &memory_}
             .run(0, 1);
         motion::MotorStep{tables_.get(), traits_, &commands_, &states_, 0, 1}.run();
         ++tick_.value;
@@ -75,6 +78,7 @@ class LoneFish {
     fish::SpeciesParameters nature_;
     behaviour::Grids grids_;
     fish::Minds minds_;
+    std::vector<std::uint8_t> thought_{0};
     behaviour::DeferredEvents events_;
     surroundings::Goal goal_;
     fish::FishView view_;

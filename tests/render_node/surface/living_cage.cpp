@@ -64,39 +64,22 @@ CagePose poseAt(const body::FishBody& body, const motion::ActionSegment& segment
     return pose;
 }
 
-// How far a segment is a turn to the left (0) or right (1); a curve is less than a turn.
-float turnOf(std::uint32_t segment, std::size_t side) {
-    using motion::Action;
-    const auto action = static_cast<Action>(segment);
-    if (isStart(action)) return 1;  // both fins fold
-    if (isTurn(action)) {
-        const bool left = action < Action::TurnRightGradual;
-        const bool gradual =
-            action == Action::TurnLeftGradual || action == Action::TurnRightGradual;
-        return left == (side == 0) ? (gradual ? 0.4F : 1.0F) : 0.0F;
-    }
-    if (!isCurve(action)) return 0;
-    const bool left = action < Action::CurveRightWideSlow;
-    const Action tight = left ? Action::CurveLeftTightSlow : Action::CurveRightTightSlow;
-    return left == (side == 0) ? (action < tight ? 0.15F : 0.3F) : 0.0F;
-}
-
-body::FinDrive driveOf(const motion::PresentedFish& fish, float seconds) {
+body::FinDrive driveOf(const motion::Repertoire& repertoire,
+                       const motion::PresentedFish& fish,
+                       float seconds) {
+    const auto [left, right] = motion::finPoses(repertoire, fish);
     const glm::quat rotation(fish.rotation.w, fish.rotation.x, fish.rotation.y, fish.rotation.z);
-    body::FinDrive drive{
+    return {
         .seconds = seconds - body::kFinSeconds * std::floor(seconds / body::kFinSeconds),
         .speed = fish.speed,
-        .climb = (rotation * glm::vec3(1, 0, 0)).y,
         .tilt = (rotation * glm::vec3(0, 0, 1)).y,
         .spread = fish.spread,
+        .left = left,
+        .right = right,
         .id = fish.id,
         .phase = fish.phase,
         .fromPhase = fish.fromPhase,
         .weight = fish.warpWeight};
-    for (std::size_t side = 0; side < 2; ++side)
-        drive.turning.at(side) =
-            glm::mix(turnOf(fish.fromAction, side), turnOf(fish.action, side), fish.warpWeight);
-    return drive;
 }
 
 }  // namespace
@@ -111,7 +94,7 @@ void livingCage(const body::FishBody& body,
         pose = mixed(poseAt(body, motion::segmentOf(repertoire, fish.fromAction), fish.fromPhase),
                      pose,
                      fish.warpWeight);
-    const body::FinDrive drive = driveOf(fish, seconds);
+    const body::FinDrive drive = driveOf(repertoire, fish, seconds);
     const glm::quat rotation(fish.rotation.w, fish.rotation.x, fish.rotation.y, fish.rotation.z);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const glm::vec3 offset = body::finOffset(body.fins, i, drive, pose.drift.at(i));
