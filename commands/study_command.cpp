@@ -109,7 +109,7 @@ void chronicle(const ChronicleOptions& options) {
         throw Error(options.scene + ": has no fish to tell of; choose a scene with fish");
     constexpr std::uint64_t kTicksOfMinute = 3600;
     constexpr std::uint64_t kTicksOfHour = 60 * kTicksOfMinute;
-    study::Chronicle chronicle(world, scenario.halfWidths, kTicksOfHour);
+    study::Chronicle chronicle(world, scenario.halfWidths, scenario.world.cast, kTicksOfHour);
     cli::Progress bar("living");
     const auto ticks = static_cast<std::uint64_t>(options.hours * kTicksOfHour);
     for (std::uint64_t tick = 0; tick < ticks; ++tick) {
@@ -123,8 +123,8 @@ void chronicle(const ChronicleOptions& options) {
     folder.write("overlaps.csv",
                  study::overlapsCsv(chronicle.overlaps(), world, scenario.world.cast));
     folder.show("chronicle", std::to_string(options.hours));
-    std::cout << '\n' << study::speciesText(chronicle.species(), scenario.world.cast);
-    std::cout << "\nhash of the world: " << std::hex << world.hash() << '\n';
+    std::cout << "\nhash of the world: " << std::hex << world.hash() << std::dec << "\n\n"
+              << study::speciesText(chronicle.species(), scenario.world.cast);
 }
 
 }  // namespace

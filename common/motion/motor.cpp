@@ -171,7 +171,7 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
     // Last, the fish's own steering, as a quaternion of small angle: 1 and half the turn.
     const Vector steering = halfSteering(attitude,
                                          static_cast<float>(step.commands->pitch[i]) * kPitchUnit,
-                                         step.tables->pitchRate,
+                                         step.tables->pitchRate[s.segment[i]],
                                          static_cast<float>(step.commands->yawRate[i]) * kYawUnit);
     const Quaternion turn{1.0F, steering[0], steering[1], steering[2]};
     const PackedOrientation packed = pack(renormalised(turn * swum));

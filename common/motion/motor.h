@@ -72,7 +72,7 @@ inline constexpr float kSlopeFrom = 0.12F;
 inline constexpr float kSlopeUntil = 0.06F;
 // pitchError: of the wanted pitch less the present one, both as sines.
 [[nodiscard]] inline bool takesSlope(Action present, float pitchError) {
-    return std::abs(pitchError) > (isSlope(present) ? kSlopeUntil : kSlopeFrom);
+    return std::abs(pitchError) > (pitches(present) ? kSlopeUntil : kSlopeFrom);
 }
 [[nodiscard]] constexpr Action slopeOf(Action gait, bool up) {
     return atGait(up ? Action::ClimbSlow : Action::DiveSlow, gait);

@@ -51,6 +51,10 @@ HWY_INLINE Lanes bounded(Lanes value, float limit) {
     return hn::Min(hn::Max(value, hn::Set(kFloats, -limit)), hn::Set(kFloats, limit));
 }
 
+HWY_INLINE Lanes bounded(Lanes value, Lanes limit) {
+    return hn::Min(hn::Max(value, hn::Neg(limit)), limit);
+}
+
 // To the nearest even integer, for |value| up to 2^22: the last bit of the sum is worth one, so the
 // bits of the sum less those of the shift are the integer.
 HWY_INLINE IntLanes rounded(Lanes value) {
@@ -227,7 +231,7 @@ HWY_INLINE Lanes inverseRoot(Lanes value) {
 
 HWY_INLINE VectorLanes halfSteering(const AttitudeLanes& attitude,
                                     Lanes pitchSine,
-                                    float pitchRate,
+                                    Lanes pitchRate,
                                     Lanes yaw) {
     const auto& [forwardX, forwardY, forwardZ] = attitude.forward;
     const Lanes half = hn::Set(kFloats, 0.5F);

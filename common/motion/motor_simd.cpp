@@ -291,9 +291,11 @@ HWY_INLINE void steer(const MotorStep& step,
     const AttitudeLanes attitude{loadColumns(block.forward, lane),
                                  hn::Load(kFloats, block.up + lane),
                                  hn::Load(kFloats, block.right + lane)};
+    const Lanes pitchRate = hn::GatherIndex(
+        kFloats, step.tables->pitchRate.data(), segmentsAt(step.states->segment, fish));
     const VectorLanes steering = halfSteering(attitude,
                                               commanded(step.commands->pitch, fish, kPitchUnit),
-                                              step.tables->pitchRate,
+                                              pitchRate,
                                               commanded(step.commands->yawRate, fish, kYawUnit));
     const QuaternionLanes turn{hn::Set(kFloats, 1.0F), steering.x, steering.y, steering.z};
     const QuaternionLanes swam{hn::Load(kFloats, block.swumW + lane), swum.x, swum.y, swum.z};

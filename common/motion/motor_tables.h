@@ -119,8 +119,9 @@ class MotorTables {
     std::array<std::int32_t, kStartSpeeds - 1> startBorders{};
     SpeedLoss loss;
     // The most that a fish pitches in addition to the played motion, radians in a tick: what it
-    // does on the captured loop at the medium gait.
-    float pitchRate = 0.0F;
+    // does on the captured loop at the medium gait. Nothing while it plays a slope or pitches in its
+    // place.
+    std::array<float, kSegments> pitchRate{};
 };
 
 // The first part of a tick of one fish, before it steers: the segment that plays, and the travel of

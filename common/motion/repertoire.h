@@ -158,6 +158,9 @@ inline constexpr int kSwimmingActions = 21;
 [[nodiscard]] constexpr bool staysInPlace(Action action) {
     return action >= Action::Hover && action <= Action::PitchDown;
 }
+[[nodiscard]] constexpr bool isPitch(Action action) {
+    return action == Action::PitchUp || action == Action::PitchDown;
+}
 [[nodiscard]] constexpr bool isPivot(Action action) {
     return action == Action::PivotLeft || action == Action::PivotRight;
 }
@@ -170,6 +173,10 @@ inline constexpr int kSwimmingActions = 21;
 }
 [[nodiscard]] constexpr bool isSlope(Action action) {
     return action >= Action::ClimbSlow && action <= Action::DiveFast;
+}
+// Whether an action pitches the fish.
+[[nodiscard]] constexpr bool pitches(Action action) {
+    return isSlope(action) || isPitch(action);
 }
 // Turns and fast starts are played from their first phase to their last; the other actions are
 // cycles.

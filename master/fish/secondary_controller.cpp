@@ -52,8 +52,13 @@ constexpr float kLeadSeconds =
 // to either side: a share of the rate of the tight curve of its gait. Less than three quarters of
 // it is left to the next thought.
 constexpr float kAdded = 0.5F;
-// A hovering fish is turned by its fins, radians a second.
+// A hovering fish of a species that does not row is turned as it glides, radians a second.
 constexpr float kMostHoverYaw = 30.0F * kRadiansPerDegree<float>;
+// One that rows pivots from an error on, until a smaller one; errors that take it longer are left to
+// a turn.
+constexpr float kPivotFrom = 9.0F * kRadiansPerDegree<float>;
+constexpr float kPivotUntil = 3.0F * kRadiansPerDegree<float>;
+constexpr float kPivotSeconds = 4.0F;
 // A curve is left for another where that is nearer to the wanted rate by this share of the tight
 // curve's.
 constexpr float kCurveHysteresis = 0.05F;
@@ -204,18 +209,37 @@ motion::Action wayFor(const Gaits& gaits, const Moment& moment, motion::Action g
     return slopes ? motion::slopeOf(gait, off > 0) : curveFor(gaits, moment, gait);
 }
 
-// The segment for the wanted course, without recommendations. The order matters: a retreat, then a
-// sharp turn for a large error, then hovering, then a gradual turn, then a gait.
+// Whether a species rows: only then has it captured ways to stay in its place, and to back.
+bool rows(const Gaits& gaits) {
+    return gaits.yawRate[indexOf(motion::Action::PivotLeft)] > 0.02F;
+}
+
+// What a fish that rows does in its place.
+motion::Action inPlaceFor(const Moment& moment) {
+    using motion::Action;
+    const float error = std::abs(moment.yawError);
+    if (error > (isPivot(moment.present) ? kPivotUntil : kPivotFrom))
+        return moment.yawError > 0 ? Action::PivotLeft : Action::PivotRight;
+    if (motion::takesSlope(moment.present, moment.pitchError))
+        return moment.pitchError > 0 ? Action::PitchUp : Action::PitchDown;
+    return Action::Hover;
+}
+
+// The segment for the wanted course, without recommendations. The order matters: a retreat, then
+// staying in one place, then a sharp turn for a large error, then a gradual turn, then a gait.
 motion::Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
-    if (moment.speed < 0) return motion::Action::Retreat;
+    const bool stays = hovers(gaits, moment) && moment.urgency < 1;
+    if (moment.speed < 0) return rows(gaits) ? motion::Action::Retreat : motion::Action::Glide;
     const float error = std::abs(moment.yawError);
     const bool turning = isTurn(moment.present);
     const bool left = turning && error > kSideIsOpen ? isLeft(moment.present) : moment.yawError > 0;
     const motion::Action nearest = gaitFor(gaits, moment.speed, moment.present);
     const bool urgent = moment.urgency > 1;
     const bool turns = urgent || error > kCurveSeconds * tightRateOf(gaits, nearest);
+    const float pivotRate = gaits.yawRate[indexOf(motion::Action::PivotLeft)];
+    if (stays && rows(gaits) && error < kPivotSeconds * pivotRate) return inPlaceFor(moment);
     if (turns && error > (urgent ? kSharpFromInDanger : kSharpFrom)) return sharp(left);
-    if (hovers(gaits, moment) && moment.urgency < 1) return motion::Action::Glide;
+    if (stays) return motion::Action::Glide;
     if (turns && error > kGradualFrom) return gradual(left);
     const bool tooSoon =
         swims(moment.present) && moment.since < kShortestGaitTicks && moment.urgency < 1;
@@ -234,6 +258,7 @@ std::int16_t yawRateFor(const Gaits& gaits,
                         motion::Action chosen,
                         std::int16_t present) {
     constexpr float kUnit = motion::kYawUnit * static_cast<float>(kTicksPerSecond);
+    if (staysInPlace(chosen)) return 0;
     const bool hovers = chosen == motion::Action::Glide;
     const float most = hovers ? kMostHoverYaw : kAdded * tightRateOf(gaits, chosen);
     const float lacks = wantedYaw(moment) - gaits.yawRate[indexOf(chosen)];

@@ -43,9 +43,10 @@ world::WorldCounts since(const world::WorldCounts& before, const world::WorldCou
 
 Chronicle::Chronicle(const world::World& world,
                      std::vector<float> halfWidths,
+                     std::span<const world::WorldSpecies> cast,
                      std::uint64_t ticksOfHour)
     : diary_(world, std::move(halfWidths)),
-      species_(world),
+      species_(world, cast),
       ticksOfHour_(ticksOfHour),
       counts_(world.counts()),
       ways_(world.view().size()) {

@@ -57,7 +57,10 @@ inline constexpr float kStayMetres = 0.1F;
 class Chronicle {
   public:
     // `halfWidths` are in body lengths, one for each kind.
-    Chronicle(const world::World& world, std::vector<float> halfWidths, std::uint64_t ticksOfHour);
+    Chronicle(const world::World& world,
+              std::vector<float> halfWidths,
+              std::span<const world::WorldSpecies> cast,
+              std::uint64_t ticksOfHour);
 
     // Call it after every tick.
     void note(const world::World& world);

@@ -47,8 +47,11 @@ int quantileDegrees(const std::array<std::uint64_t, 91>& slip, double share) {
     return 0;
 }
 
-SpeciesLog::SpeciesLog(const world::World& world)
-    : tallies_(world.speciesParameters().size()), fish_(world.view().size()) {}
+SpeciesLog::SpeciesLog(const world::World& world, std::span<const world::WorldSpecies> cast)
+    : tallies_(world.speciesParameters().size()), fish_(world.view().size()) {
+    for (const world::WorldSpecies& species : cast) tables_.push_back(species.tables);
+    assert(tables_.size() == tallies_.size());
+}
 
 void SpeciesLog::note(const world::World& world) {
     assert(world.view().size() == fish_.size());
@@ -69,8 +72,11 @@ void SpeciesLog::noteFish(const world::World& world, std::size_t fish, bool glan
     const std::uint64_t command = packed(world.commands(), fish);
     if (!seen.isNew) {
         const float turned = place::yawBetween(seen.heading, now.heading);
-        tally.captured += static_cast<double>(std::abs(turned - seen.addedYaw));
-        tally.added += static_cast<double>(std::abs(seen.addedYaw));
+        tally.heading.add(static_cast<double>(turned), static_cast<double>(seen.addedYaw));
+        const float pitched = std::asin(std::clamp(now.heading.y, -1.0F, 1.0F)) -
+                              std::asin(std::clamp(seen.heading.y, -1.0F, 1.0F));
+        tally.pitch.add(static_cast<double>(pitched), static_cast<double>(seen.addedPitch));
+        noteWay(world, fish, tally);
         tally.changes += command != seen.command ? 1 : 0;
         tally.fishSeconds += 1.0 / kTicksPerSecond;
         if (command != seen.command) commands_.insert(command);
@@ -85,6 +91,7 @@ void SpeciesLog::noteFish(const world::World& world, std::size_t fish, bool glan
     }
     seen.heading = now.heading;
     seen.addedYaw = kRadiansOfUnit * static_cast<float>(world.commands().yawRate[fish]);
+    seen.addedPitch = addedPitch(world, fish);
     seen.command = command;
     seen.intention = world.minds()[fish].intention;
     seen.eaten = world.minds()[fish].eaten;
@@ -93,6 +100,28 @@ void SpeciesLog::noteFish(const world::World& world, std::size_t fish, bool glan
     tally.fastStarts += startles && !seen.startles ? 1 : 0;
     seen.startles = startles;
     seen.isNew = false;
+}
+
+float SpeciesLog::addedPitch(const world::World& world, std::size_t fish) const {
+    const float wanted = static_cast<float>(world.commands().pitch[fish]) * motion::kPitchUnit;
+    const float most = tablesOf(world, fish).pitchRate[world.states().segment[fish]];
+    const float steered = motion::kPitchGain * (wanted - world.view().fish[fish].heading.y);
+    return std::clamp(steered, -most, most);
+}
+
+// A glide plays no way: a fish that coasts does so by the law of its speed.
+void SpeciesLog::noteWay(const world::World& world, std::size_t fish, SpeciesTally& tally) const {
+    const motion::MotionStates& states = world.states();
+    const motion::SegmentTables& played = tablesOf(world, fish).segments[states.segment[fish]];
+    const bool glides = motion::actionOf(states.segment[fish]) == motion::Action::Glide;
+    const float perRate =
+        played.path[states.phase[fish] >> motion::kPhaseCellBits].translationAndSpeed[3];
+    const float rate = played.playsToEnd ? played.phaseRate : world.commands().phaseRate[fish];
+    const float path = glides ? 0.0F : perRate * rate / motion::kSpeedUnitsPerBodyLength;
+    const float speed = motion::speedBodyLengths(states, fish);
+    constexpr double kTickSeconds = 1.0 / kTicksPerSecond;
+    tally.way.captured += kTickSeconds * static_cast<double>(std::abs(path));
+    tally.way.added += kTickSeconds * static_cast<double>(std::abs(speed - path));
 }
 
 void SpeciesLog::noteLife(const fish::Mind& mind, const Fish& fish, SpeciesTally& tally) {
@@ -119,8 +148,9 @@ void SpeciesLog::noteSlip(const fish::VisibleFish& now, const Fish& fish, Specie
 SpeciesTally SpeciesLog::all() const {
     SpeciesTally sum;
     for (const SpeciesTally& tally : tallies_) {
-        sum.captured += tally.captured;
-        sum.added += tally.added;
+        sum.heading.add(tally.heading);
+        sum.pitch.add(tally.pitch);
+        sum.way.add(tally.way);
         sum.changes += tally.changes;
         sum.fishSeconds += tally.fishSeconds;
         sum.meals += tally.meals;

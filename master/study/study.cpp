@@ -55,7 +55,8 @@ void addSpecies(std::ostream& text, const std::string& name, const SpeciesTally&
     const auto slip = [&](const auto& angles) {
         text << " | " << quantileDegrees(angles, 0.5) << " / " << quantileDegrees(angles, 0.99);
     };
-    text << "| " << name << " | " << tally.capturedPercent();
+    text << "| " << name << " | " << tally.heading.percent() << " | " << tally.pitch.percent()
+         << " | " << tally.way.percent();
     slip(tally.meanSlip);
     slip(tally.bodySlip);
     text << " | " << static_cast<double>(tally.changes) / tally.fishSeconds << " | " << tally.meals
@@ -182,16 +183,23 @@ std::string speciesText(const SpeciesLog& log, std::span<const world::WorldSpeci
     assert(log.byKind().size() == cast.size());
     std::ostringstream text;
     text << std::fixed << std::setprecision(1)
-         << "| species | turning by captured segments, % | path against captured motion, degrees: "
+         << "| species | captured, %: heading | pitch | way | path against captured motion, degrees: "
             "median / 99 % | path against the body | changes of command a second | meals | flights "
             "that began | fast starts | courtships that began |\n"
-            "|---|---|---|---|---|---|---|---|---|\n";
+            "|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (std::size_t kind = 0; kind < cast.size(); ++kind)
         addSpecies(text, cast[kind].name, log.byKind()[kind]);
     const SpeciesTally all = log.all();
     addSpecies(text, "all", all);
-    text << "\nturning by captured segments: " << all.capturedPercent() << " %\n"
-         << "different commands: " << log.distinctCommands() << '\n';
+    const auto lowest = [&](Share SpeciesTally::*share) {
+        double least = 100;
+        for (const SpeciesTally& tally : log.byKind())
+            least = std::min(least, (tally.*share).percent());
+        return least;
+    };
+    text << "\ndifferent commands: " << log.distinctCommands() << '\n'
+         << "lowest captured: heading " << lowest(&SpeciesTally::heading) << " %, pitch "
+         << lowest(&SpeciesTally::pitch) << " %, way " << lowest(&SpeciesTally::way) << " %\n";
     return text.str();
 }
 

@@ -38,7 +38,7 @@ Life lived() {
     const Scenario scenario = sceneOf("reef");
     world::World world(scenario.world);
     const std::uint64_t hour = (isSoak() ? 60 : 5) * kTicksOfMinute;
-    Chronicle chronicle(world, scenario.halfWidths, hour);
+    Chronicle chronicle(world, scenario.halfWidths, scenario.world.cast, hour);
     const std::uint64_t ticks = isSoak() ? 24 * hour : hour;
     for (std::uint64_t tick = 0; tick < ticks; ++tick) {
         world.advance();
@@ -105,7 +105,7 @@ TEST_F(Reef, nobodyIsStuckAndNothingCollapsesIntoACorner) {
 // Fish turn by bending, and go where they look: what the motor adds to the captured motion is a
 // fifth of the turning at most, and slides by 8 degrees at most.
 void expectCapturedMotion(const SpeciesTally& motion) {
-    EXPECT_GE(motion.capturedPercent(), 80);
+    EXPECT_GE(motion.heading.percent(), 85);
     EXPECT_LE(quantileDegrees(motion.meanSlip, 0.99), 8);
     EXPECT_LT(static_cast<double>(motion.changes) / motion.fishSeconds, 7) << "changes of command";
 }
@@ -123,8 +123,9 @@ TEST_F(Reef, mealsBySpeciesAreThoseOfTheWorld) {
 }
 
 TEST(BaitBall, fishTurnByCapturedSegmentsAndDoNotSlide) {
-    world::World world(sceneOf("bait_ball").world);
-    SpeciesLog species(world);
+    const Scenario scenario = sceneOf("bait_ball");
+    world::World world(scenario.world);
+    SpeciesLog species(world, scenario.world.cast);
     for (std::uint64_t tick = 0; tick < kTicksOfMinute; ++tick) {
         world.advance();
         species.note(world);
