@@ -114,6 +114,12 @@ float speedAfter(const SpeedLoss& loss,
     return approached(swum, 0.0F, (brake * loss.brake) * std::abs(swum));
 }
 
+// The share of its path that a fish travels, 0 to 1: none where it still goes the other way.
+float shareOfPath(float speed, float path) {
+    if (path == 0.0F) return 1.0F;
+    return std::min(std::max(speed / path, 0.0F), 1.0F);
+}
+
 // MotionStates::spread after a tick.
 std::uint8_t spreadAfter(std::uint8_t spread, std::uint8_t brake) {
     const int step = std::clamp(int{brake} - int{spread}, -kSpreadStep, kSpreadStep);
@@ -161,9 +167,12 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
         renormalised(orientationOf(s, i) * conjugate(travel.start.rotation));
     const Quaternion swum = seenFrom * travel.end.rotation;
     const Attitude attitude = attitudeOf(swum * travel.bodyFromMean);
-    // Eq. 11 with the fish's own length, and what it travels more or less than the path.
-    const Vector moves = rotated(seenFrom, {b[0] - a[0], b[1] - a[1], b[2] - a[2]});
-    const float faster = (speed - pathAtEnd) * kLengthsPerSpeedUnit;
+    // Eq. 11 with the fish's own length: a slower fish travels a share of the path, a faster one
+    // goes on along its nose.
+    const float share = shareOfPath(speed, pathAtEnd);
+    const Vector moves = rotated(
+        seenFrom, {share * (b[0] - a[0]), share * (b[1] - a[1]), share * (b[2] - a[2])});
+    const float faster = (speed - share * pathAtEnd) * kLengthsPerSpeedUnit;
     const float units = static_cast<float>(step.traits[i].lengthMillimetres) * kUnitsPerMillimetre;
     s.x[i] = moved(s.x[i], stepUnits((moves[0] + faster * attitude.forward[0]) * units));
     s.y[i] = moved(s.y[i], stepUnits((moves[1] + faster * attitude.forward[1]) * units));

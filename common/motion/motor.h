@@ -61,6 +61,8 @@ struct MotorStep {
 [[nodiscard]] float recordedSpeedBodyLengths(const MotorTables& tables, Action action);
 // Mean rate of turn of a segment as recorded, radians a second, left positive.
 [[nodiscard]] float recordedTurnRate(const MotorTables& tables, std::uint32_t segment);
+// Mean rate at which a cycle pitches the fish, radians a second, up positive.
+[[nodiscard]] float recordedPitchRate(const MotorTables& tables, Action action);
 
 // A hash of the motor's results on this machine, for a small built-in school that plays every
 // action. Equal hashes mean equal motors. Takes some 0.1 s.
@@ -68,8 +70,8 @@ struct MotorStep {
 
 // Sine of the pitch by which a fish must be off to begin a slope, and to go on with it. Less is
 // corrected by the fins (MotorCommands::pitch).
-inline constexpr float kSlopeFrom = 0.12F;
-inline constexpr float kSlopeUntil = 0.06F;
+inline constexpr float kSlopeFrom = 0.08F;
+inline constexpr float kSlopeUntil = 0.04F;
 // pitchError: of the wanted pitch less the present one, both as sines.
 [[nodiscard]] inline bool takesSlope(Action present, float pitchError) {
     return std::abs(pitchError) > (pitches(present) ? kSlopeUntil : kSlopeFrom);

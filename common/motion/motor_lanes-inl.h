@@ -283,6 +283,12 @@ HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
     return approached(swum, hn::Zero(kFloats), hn::Mul(spread, hn::Abs(swum)));
 }
 
+HWY_INLINE Lanes shareOfPath(Lanes speed, Lanes path) {
+    const Lanes one = hn::Set(kFloats, 1.0F);
+    const Lanes share = hn::Min(hn::Max(hn::Div(speed, path), hn::Zero(kFloats)), one);
+    return hn::IfThenElse(hn::Eq(path, hn::Zero(kFloats)), one, share);
+}
+
 // A 16-bit column of the commands as floats.
 HWY_INLINE Lanes commanded(const std::vector<std::int16_t>& column, std::size_t fish, float unit) {
     const hn::Rebind<std::int16_t, Ints> shorts;

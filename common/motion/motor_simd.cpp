@@ -249,11 +249,15 @@ HWY_INLINE void changeSpeed(const MotorStep& step,
                    hn::Mul(hn::ConvertTo(kFloats, brake), hn::Set(kFloats, kBrakeUnit)));
     follow(s.spread, brake, fish);
     hn::StoreU(hn::ConvertTo(kInts, speed), kInts, s.speed.data() + fish);
-    const Lanes faster = hn::Mul(hn::Sub(speed, pathAtEnd), hn::Set(kFloats, kLengthsPerSpeedUnit));
+    const Lanes share = shareOfPath(speed, pathAtEnd);
+    const Lanes faster = hn::Mul(hn::Sub(speed, hn::Mul(share, pathAtEnd)),
+                                 hn::Set(kFloats, kLengthsPerSpeedUnit));
     hn::Store(faster, kFloats, block.faster + lane);
-    storeColumns({hn::Sub(reached.translation.x, left.translation.x),
-                  hn::Sub(reached.translation.y, left.translation.y),
-                  hn::Sub(reached.translation.z, left.translation.z)},
+    const auto travelled = [&](Lanes from, Lanes to)
+                               HWY_ATTR { return hn::Mul(share, hn::Sub(to, from)); };
+    storeColumns({travelled(left.translation.x, reached.translation.x),
+                  travelled(left.translation.y, reached.translation.y),
+                  travelled(left.translation.z, reached.translation.z)},
                  block.travel,
                  lane);
 }

@@ -478,7 +478,7 @@ std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire)
     const SegmentTables& climb = tables->segments[indexOf(Action::ClimbMedium)];
     const float pitchRate = 2.0F * climb.meanHalfTurn[2] * static_cast<float>(climb.phaseRate);
     for (std::uint32_t segment = 0; segment < kSegments; ++segment)
-        tables->pitchRate[segment] = pitches(actionOf(segment)) ? 0.0F : pitchRate;
+        tables->pitchRate[segment] = !pitches(actionOf(segment)) && !staysInPlace(actionOf(segment)) ? pitchRate / 48.0F : 0.0F;
     tables->loss = lossOf(repertoire.response, tables->segments);
     tables->warps = planWarps(repertoire, phaseRates);
     return tables;
@@ -490,6 +490,12 @@ std::int16_t recordedPhaseRate(const MotorTables& tables, Action action) {
 
 float recordedSpeedBodyLengths(const MotorTables& tables, Action action) {
     return tables.segments[firstSegmentOf(action)].speedBodyLengths;
+}
+
+float recordedPitchRate(const MotorTables& tables, Action action) {
+    const SegmentTables& segment = tables.segments[firstSegmentOf(action)];
+    return 2.0F * segment.meanHalfTurn[2] * static_cast<float>(segment.phaseRate) *
+           static_cast<float>(kTicksPerSecond);
 }
 
 float recordedTurnRate(const MotorTables& tables, std::uint32_t segment) {

@@ -21,6 +21,7 @@ Gaits gaitsOf(const motion::MotorTables& tables) {
         gaits.phaseRate[i] = motion::recordedPhaseRate(tables, action);
         gaits.speed[i] = motion::recordedSpeedBodyLengths(tables, action);
         gaits.yawRate[i] = motion::recordedTurnRate(tables, motion::firstSegmentOf(action));
+        if (pitches(action)) gaits.pitchRate[i] = motion::recordedPitchRate(tables, action);
     }
     for (std::uint32_t segment = 0; segment < motion::kSegments; ++segment) {
         // A phase is 16 bits: 65536 steps are one cycle.
@@ -48,17 +49,18 @@ constexpr float kCurveSeconds = 2.0F;
 constexpr float kYawGain = 1.6F;
 constexpr float kLeadSeconds =
     static_cast<float>(kTicksBetweenThoughts) / static_cast<float>(kTicksPerSecond);
-// The yaw that is added to what a segment turns where that is not enough (MotorCommands::yawRate),
-// to either side: a share of the rate of the tight curve of its gait. Less than three quarters of
-// it is left to the next thought.
-constexpr float kAdded = 0.5F;
+// The yaw that is added to what a segment turns where that lacks more (MotorCommands::yawRate): all
+// are shares of the rate of the tight curve of its gait. It lasts until less is lacking.
+constexpr float kAdded = 0.4F;
+constexpr float kAddedFrom = 0.5F;
+constexpr float kAddedUntil = 0.3F;
 // A hovering fish of a species that does not row is turned as it glides, radians a second.
 constexpr float kMostHoverYaw = 30.0F * kRadiansPerDegree<float>;
 // One that rows pivots from an error on, until a smaller one; errors that take it longer are left to
 // a turn.
 constexpr float kPivotFrom = 9.0F * kRadiansPerDegree<float>;
 constexpr float kPivotUntil = 3.0F * kRadiansPerDegree<float>;
-constexpr float kPivotSeconds = 4.0F;
+constexpr float kPivotSeconds = 8.0F;
 // A curve is left for another where that is nearer to the wanted rate by this share of the tight
 // curve's.
 constexpr float kCurveHysteresis = 0.05F;
@@ -78,6 +80,8 @@ constexpr float kSpeedHysteresis = 0.12F;
 // Braking begins when the fish is this much too fast, in body lengths a second, and is full at 1
 // more.
 constexpr float kBrakeFrom = 0.6F;
+// Without urgency a fish takes the gait of a speed so much above its own at most, body lengths a second.
+constexpr float kMostAhead = 0.6F;
 constexpr float kHoverBelow = 0.25F;  // of the slow gait's speed
 // A hovering fish brakes fully from a quarter of a body length a second on.
 constexpr float kHoverBrakeGain = 4.0F;
@@ -181,6 +185,12 @@ float wantedYaw(const Moment& moment) {
     return kYawGain * moment.yawError;
 }
 
+// The speed to swim at: without urgency a fish gathers speed gait by gait.
+float wantedSpeed(const Moment& moment) {
+    if (moment.urgency >= 1) return moment.speed;
+    return std::min(moment.speed, std::max(moment.swims, 0.0F) + kMostAhead);
+}
+
 // Straight on, or the curve whose rate is nearest to the wanted one, with hysteresis about the
 // present one.
 motion::Action curveFor(const Gaits& gaits, const Moment& moment, motion::Action gait) {
@@ -214,12 +224,22 @@ bool rows(const Gaits& gaits) {
     return gaits.yawRate[indexOf(motion::Action::PivotLeft)] > 0.02F;
 }
 
+// Whether a gait is swum with the fins alone: its beat is theirs.
+bool isRowed(const Gaits& gaits, motion::Action gait) {
+    return rows(gaits) &&
+           gaits.phaseRate[indexOf(gait)] == gaits.phaseRate[indexOf(motion::Action::Hover)];
+}
+
+motion::Action pivot(bool left) {
+    return left ? motion::Action::PivotLeft : motion::Action::PivotRight;
+}
+
 // What a fish that rows does in its place.
 motion::Action inPlaceFor(const Moment& moment) {
     using motion::Action;
     const float error = std::abs(moment.yawError);
     if (error > (isPivot(moment.present) ? kPivotUntil : kPivotFrom))
-        return moment.yawError > 0 ? Action::PivotLeft : Action::PivotRight;
+        return pivot(moment.yawError > 0);
     if (motion::takesSlope(moment.present, moment.pitchError))
         return moment.pitchError > 0 ? Action::PitchUp : Action::PitchDown;
     return Action::Hover;
@@ -233,12 +253,15 @@ motion::Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
     const float error = std::abs(moment.yawError);
     const bool turning = isTurn(moment.present);
     const bool left = turning && error > kSideIsOpen ? isLeft(moment.present) : moment.yawError > 0;
-    const motion::Action nearest = gaitFor(gaits, moment.speed, moment.present);
+    const motion::Action nearest = gaitFor(gaits, wantedSpeed(moment), moment.present);
     const bool urgent = moment.urgency > 1;
     const bool turns = urgent || error > kCurveSeconds * tightRateOf(gaits, nearest);
     const float pivotRate = gaits.yawRate[indexOf(motion::Action::PivotLeft)];
-    if (stays && rows(gaits) && error < kPivotSeconds * pivotRate) return inPlaceFor(moment);
+    const bool pivots = rows(gaits) && moment.urgency < 1 && error < kPivotSeconds * pivotRate;
+    if (stays && pivots) return inPlaceFor(moment);
+    if (turns && pivots && isRowed(gaits, nearest)) return pivot(moment.yawError > 0);
     if (turns && error > (urgent ? kSharpFromInDanger : kSharpFrom)) return sharp(left);
+    if (stays && rows(gaits)) return inPlaceFor(moment);
     if (stays) return motion::Action::Glide;
     if (turns && error > kGradualFrom) return gradual(left);
     const bool tooSoon =
@@ -252,26 +275,34 @@ float levelFor(float wanted, float present, float level) {
     return std::round(wanted / level) * level;
 }
 
-// The yaw added to that of the chosen segment, in units of MotorCommands::yawRate.
+// The yaw added to that of the chosen segment, in units of MotorCommands::yawRate. A hovering fish
+// that does not row is turned as it needs; another one by kAdded or not at all.
 std::int16_t yawRateFor(const Gaits& gaits,
                         const Moment& moment,
                         motion::Action chosen,
                         std::int16_t present) {
     constexpr float kUnit = motion::kYawUnit * static_cast<float>(kTicksPerSecond);
     if (staysInPlace(chosen)) return 0;
-    const bool hovers = chosen == motion::Action::Glide;
-    const float most = hovers ? kMostHoverYaw : kAdded * tightRateOf(gaits, chosen);
     const float lacks = wantedYaw(moment) - gaits.yawRate[indexOf(chosen)];
-    const float level = levelFor(std::clamp(lacks, -most, most),
-                                 static_cast<float>(present) * kUnit,
-                                 hovers ? kHoverYawLevel : most);
-    return static_cast<std::int16_t>(std::clamp(level, -most, most) / kUnit);
+    if (chosen == motion::Action::Glide) {
+        const float level = levelFor(std::clamp(lacks, -kMostHoverYaw, kMostHoverYaw),
+                                     static_cast<float>(present) * kUnit,
+                                     kHoverYawLevel);
+        return static_cast<std::int16_t>(level / kUnit);
+    }
+    const float tight = tightRateOf(gaits, chosen);
+    if (std::abs(lacks) < (present == 0 ? kAddedFrom : kAddedUntil) * tight) return 0;
+    return static_cast<std::int16_t>(std::copysign(kAdded * tight, lacks) / kUnit);
 }
 
 // Share of full braking, 0 to 255, by how much the fish is too fast.
-std::uint8_t brakeFor(const Gaits& gaits, const Moment& moment, std::uint8_t present) {
-    const float excess = moment.swims - moment.speed;
-    const float share = hovers(gaits, moment) ? excess * kHoverBrakeGain : excess - kBrakeFrom;
+std::uint8_t brakeFor(const Gaits& gaits,
+                      const Moment& moment,
+                      motion::Action chosen,
+                      std::uint8_t present) {
+    const bool stays = hovers(gaits, moment) || staysInPlace(chosen);
+    const float share = stays ? moment.swims * kHoverBrakeGain
+                              : moment.swims - moment.speed - kBrakeFrom;
     const float level =
         levelFor(std::clamp(share, 0.0F, 1.0F), static_cast<float>(present) / 255.0F, kBrakeLevel);
     return static_cast<std::uint8_t>(255 * level);
@@ -375,7 +406,7 @@ void SecondaryController::decide(std::size_t fish) const {
     const bool steers = !isTurn(chosen) && !isStart(chosen);
     to.yawRate[fish] =
         steers ? yawRateFor(*gaits, moment, chosen, to.yawRate[fish]) : std::int16_t{0};
-    to.brake[fish] = steers && !isBursting(fish) ? brakeFor(*gaits, moment, to.brake[fish]) : std::uint8_t{0};
+    to.brake[fish] = steers && !isBursting(fish) ? brakeFor(*gaits, moment, chosen, to.brake[fish]) : std::uint8_t{0};
 }
 
 bool SecondaryController::isKept(std::size_t fish,
@@ -409,6 +440,7 @@ SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) cons
     const float toCome = 1 - warped * static_cast<float>(states->phase[fish]) / 65536.0F;
     moment.yawError -= motion::entriesOf(action) > 0 ? gaits->turn[playing] * toCome
                                       : gaits->yawRate[indexOf(action)] * kLeadSeconds;
+    moment.pitchError -= gaits->pitchRate[indexOf(action)] * kLeadSeconds;
     return moment;
 }
 
@@ -470,7 +502,7 @@ std::int16_t SecondaryController::phaseRateFor(std::size_t fish,
     const float most = std::min(1 + kRateMargin, tempo + kTempoMargin);
     if (isStart(chosen)) return gaits->phaseRate[action];
     const float turns = moment.urgency > 1 ? most : tempo;
-    const float rate = swims(chosen) ? moment.speed / gaits->speed[action] : turns;
+    const float rate = swims(chosen) ? wantedSpeed(moment) / gaits->speed[action] : turns;
     const float present =
         chosen == moment.present ? static_cast<float>(commands->phaseRate[fish]) / recorded : 0.0F;
     const float level = levelFor(std::clamp(rate, least, most), present, kRateLevel);

@@ -120,8 +120,10 @@ void SpeciesLog::noteWay(const world::World& world, std::size_t fish, SpeciesTal
     const float path = glides ? 0.0F : perRate * rate / motion::kSpeedUnitsPerBodyLength;
     const float speed = motion::speedBodyLengths(states, fish);
     constexpr double kTickSeconds = 1.0 / kTicksPerSecond;
-    tally.way.captured += kTickSeconds * static_cast<double>(std::abs(path));
-    tally.way.added += kTickSeconds * static_cast<double>(std::abs(speed - path));
+    // A fish that gathers speed travels less than it plays; nothing is added to that.
+    const float swum = path * speed > 0 ? std::min(std::abs(path), std::abs(speed)) : 0;
+    tally.way.captured += kTickSeconds * static_cast<double>(swum);
+    tally.way.added += kTickSeconds * static_cast<double>(std::abs(speed) - swum);
 }
 
 void SpeciesLog::noteLife(const fish::Mind& mind, const Fish& fish, SpeciesTally& tally) {
