@@ -289,16 +289,21 @@ glm::dvec3 rotatedAbout(const glm::dvec3& axis, double angle, const glm::dvec3& 
     return c * v + std::sin(angle) * glm::cross(axis, v) + (1 - c) * glm::dot(axis, v) * axis;
 }
 
-// A point of the right blade at a share q of its ray, and its chord there: both from its root, tailwards, up, right.
+// A point of the right blade at a share q of its ray: its place from the root, its velocity, and the
+// chord there. Tailwards, up, right. A twist does not move the ray.
 struct BladePoint {
-    glm::dvec3 arm, chord;
+    glm::dvec3 arm, velocity, chord;
 };
-BladePoint bladePoint(const Blade& blade, const glm::dvec3& pose, double q) {
-    const auto moved = [&](const glm::dvec3& v) {
-        return rotatedAbout(blade.stroke, pose.y, rotatedAbout(blade.hinge, pose.x, v));
-    };
-    return {moved(q * blade.span * blade.ray),
-            moved(rotatedAbout(blade.ray, pose.z * q, blade.chord))};
+BladePoint bladePoint(const Blade& blade, const FinMotion& motion, double q) {
+    const double open = motion.pose.x, stroke = motion.pose.y, twist = motion.pose.z;
+    const auto carried = [&](const glm::dvec3& v) { return rotatedAbout(blade.stroke, stroke, v); };
+    const glm::dvec3 opened = rotatedAbout(blade.hinge, open, q * blade.span * blade.ray);
+    const glm::dvec3 arm = carried(opened);
+    const glm::dvec3 chord = rotatedAbout(blade.ray, twist * q, blade.chord);
+    return {.arm = arm,
+            .velocity = motion.rate.y * glm::cross(blade.stroke, arm) +
+                        motion.rate.x * carried(glm::cross(blade.hinge, opened)),
+            .chord = carried(rotatedAbout(blade.hinge, open, chord))};
 }
 
 // Nodes as one rigid body: where it is, how it moves.
@@ -360,18 +365,16 @@ void addBlade(const Blade& blade,
               const PoseFrame& frame,
               const FishState& middle,
               EnvelopeSystem& system) {
-    constexpr double kInstant = 1e-4;  // seconds, over which the speed of the fin is taken
     const glm::dmat3 worldFromBlade{
         -frame.worldFromBody[0], frame.worldFromBody[1], side * frame.worldFromBody[2]};
     const glm::dvec3 root = frame.origin + worldFromBlade * blade.root;
     glm::dvec3 force{}, torque{};
     for (int strip = 0; strip < kStrips; ++strip) {
         const double q = (strip + 0.5) / kStrips;
-        const BladePoint at = bladePoint(blade, motion.pose, q);
-        const BladePoint next = bladePoint(blade, motion.pose + kInstant * motion.rate, q);
+        const BladePoint at = bladePoint(blade, motion, q);
         const glm::dvec3 arm = root + worldFromBlade * at.arm - rings.centre;
         const glm::dvec3 velocity = rings.velocity + glm::cross(rings.spin, arm) +
-                                    worldFromBlade * ((next.arm - at.arm) / kInstant);
+                                    worldFromBlade * at.velocity;
         const glm::dvec3 normal = worldFromBlade * glm::normalize(glm::cross(at.arm, at.chord));
         const double normalSpeed = glm::dot(normal, velocity);
         const glm::dvec3 onStrip = -blade.drag * blade.area / kStrips * std::abs(normalSpeed) *

@@ -34,6 +34,19 @@ MotorControl everythingMoves(double seconds) {
         .tone = {}};
 }
 
+// Both pectoral fins row, each at its own pace, while the tail beats.
+MotorControl everythingRows(double seconds) {
+    const auto stroke = [&](double hertz, double twist) {
+        const double phase = 2 * std::numbers::pi * hertz * seconds;
+        const double rate = 2 * std::numbers::pi * hertz;
+        return FinMotion{.pose = {1.2, 0.6 * std::sin(phase), twist * std::cos(phase)},
+                         .rate = {0, 0.6 * rate * std::cos(phase), -twist * rate * std::sin(phase)}};
+    };
+    MotorControl control = everythingMoves(seconds);
+    control.rowing = {.rows = true, .left = stroke(2, 0.9), .right = stroke(3, -0.5)};
+    return control;
+}
+
 FishState swimmingOff(const BiomechanicalFish& fish) {
     FishState state = stateAtRest(fish);
     for (glm::dvec3& velocity : state.velocities) velocity = {1.5, 0.1, 0};
@@ -90,24 +103,38 @@ double distanceOf(const FishState& a, const FishState& b) {
     return std::sqrt(sum / body::kNodalPoints);
 }
 
-TEST(Convergence, isOfSecondOrderTowardsARungeKuttaMethod) {
+class ConvergenceOf : public testing::TestWithParam<MotorControl (*)(double)> {};
+INSTANTIATE_TEST_SUITE_P(Controls,
+                         ConvergenceOf,
+                         testing::Values(everythingMoves, everythingRows),
+                         [](const auto& control) {
+                             return control.index == 0 ? "tail_and_plates" : "tail_and_rowing";
+                         });
+
+TEST_P(ConvergenceOf, isOfSecondOrderTowardsARungeKuttaMethod) {
+    const ControlAt control = GetParam();
     const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
     const double shipped = longestStepSeconds(fish);
     constexpr int kSteps = 180;  // a quarter of a second, most of a beat
     constexpr int kFiner = 64;
     FishState exact = swimmingOff(fish);
     for (int i = 0; i < kSteps * kFiner; ++i)
-        rungeKuttaStep(fish, everythingMoves, i * shipped / kFiner, shipped / kFiner, exact);
+        rungeKuttaStep(fish, control, i * shipped / kFiner, shipped / kFiner, exact);
     const auto errorAt = [&](int parts) {
         FishState state = swimmingOff(fish);
         for (int i = 0; i < kSteps * parts; ++i)
-            step(fish, everythingMoves((i + 0.5) * shipped / parts), shipped / parts, state);
+            step(fish, control((i + 0.5) * shipped / parts), shipped / parts, state);
         return distanceOf(state, exact);
     };
-    const std::array errors{errorAt(1), errorAt(2), errorAt(4)};
-    std::printf(
-        "error after 0.25 s at h, h/2, h/4: %.2e %.2e %.2e BL\n", errors[0], errors[1], errors[2]);
-    EXPECT_LT(errors[0], 1e-4);
+    EXPECT_LT(errorAt(1), 1e-4);
+    // The drag of a fin has a kink where the fin stops in the water: its order shows at half the step.
+    const int first = control(0).rowing.rows ? 2 : 1;
+    const std::array errors{errorAt(first), errorAt(2 * first), errorAt(4 * first)};
+    std::printf("error after 0.25 s at h/%d and half and a quarter of it: %.2e %.2e %.2e BL\n",
+                first,
+                errors[0],
+                errors[1],
+                errors[2]);
     EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2, 0.3);
     EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2, 0.3);
 }
@@ -164,6 +191,7 @@ TEST(Convergence, aQuarterOfTheShippedStepChangesNoFigureOfAnySpecies) {
     for (const config::Species& species : test::allSpecies())
         for (const config::Gait& gait :
              {species.swim.slow, species.swim.medium, species.swim.fast}) {
+            if (gait.gain == 0) continue;  // it is rowed
             const Swum shipped = swum(species, gait, 1);
             const Swum fine = swum(species, gait, 4);
             const double stride = fine.stride / shipped.stride - 1;

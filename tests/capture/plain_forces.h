@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "capture/biomechanical_fish.h"
 #include "capture/dynamics.h"
@@ -54,7 +55,7 @@ inline void addUnitForces(const BiomechanicalFish& fish,
 }
 
 inline void addWaterForces(const BiomechanicalFish& fish,
-                           const PectoralFins& fins,
+                           const MotorControl& control,
                            const FishState& state,
                            PlainForces& forces) {
     const auto& [x, v, a] = state;
@@ -76,8 +77,82 @@ inline void addWaterForces(const BiomechanicalFish& fish,
         for (const std::size_t node : root)
             forces.water.at(node) -= fish.finDrag * glm::dot(normal, velocity) / 4 * normal;
     };
-    push(fins.left, {1, 4, 5, 8});
-    push(fins.right, {2, 3, 6, 7});
+    if (control.rowing.rows) return;
+    push(control.fins.left, {1, 4, 5, 8});
+    push(control.fins.right, {2, 3, 6, 7});
+}
+
+// Force and torque on one blade, cut into four strips across its ray; `side` is 1 on the right, -1 on
+// the left. The torque is about `centre`.
+struct Wrench {
+    glm::dvec3 force{}, torque{};
+};
+inline Wrench bladeWrench(const Blade& blade,
+                          const FinMotion& motion,
+                          double side,
+                          const FishState& state,
+                          const glm::dvec3& centre,
+                          const glm::dvec3& velocity,
+                          const glm::dvec3& spin) {
+    const PoseFrame frame = frameOf(state.positions);
+    const auto inWorld = [&](const glm::dvec3& v) {
+        return frame.worldFromBody * glm::dvec3(-v.x, v.y, side * v.z);
+    };
+    const auto turned = [](double angle, const glm::dvec3& axis, const glm::dvec3& v) {
+        return glm::angleAxis(angle, axis) * v;
+    };
+    const auto posed = [&](double seconds, double twisted, const glm::dvec3& v) {
+        const glm::dvec3 pose = motion.pose + seconds * motion.rate;
+        return turned(
+            pose.y, blade.stroke, turned(pose.x, blade.hinge, turned(twisted * pose.z, blade.ray, v)));
+    };
+    constexpr double kInstant = 1e-5;
+    constexpr double kStrips = 4;
+    Wrench wrench;
+    for (double strip = 0.5; strip < kStrips; ++strip) {
+        const double q = strip / kStrips;
+        const auto middleAt = [&](double seconds) {
+            return posed(seconds, 0, q * blade.span * blade.ray);
+        };
+        const glm::dvec3 arm = frame.origin + inWorld(blade.root + middleAt(0)) - centre;
+        const glm::dvec3 own = (middleAt(kInstant) - middleAt(-kInstant)) / (2 * kInstant);
+        const glm::dvec3 through = velocity + glm::cross(spin, arm) + inWorld(own);
+        const glm::dvec3 normal =
+            glm::normalize(inWorld(glm::cross(middleAt(0), posed(0, q, blade.chord))));
+        const double speed = glm::dot(normal, through);
+        const glm::dvec3 force =
+            -blade.drag * blade.area / kStrips * std::abs(speed) * speed * normal;
+        wrench.force += force;
+        wrench.torque += glm::cross(arm, force);
+    }
+    return wrench;
+}
+
+// Nodes 1 to 8, rings 1 and 2, take the wrenches of both blades as a rigid body would.
+inline void addBladeForces(const BiomechanicalFish& fish,
+                           const RowingControl& rowing,
+                           const FishState& state,
+                           PlainForces& forces) {
+    if (!rowing.rows) return;
+    glm::dvec3 centre{}, velocity{}, momentum{};
+    for (std::size_t i = 1; i <= 8; ++i) centre += state.positions.at(i) / 8.0;
+    for (std::size_t i = 1; i <= 8; ++i) velocity += state.velocities.at(i) / 8.0;
+    glm::dmat3 inertia(0);
+    for (std::size_t i = 1; i <= 8; ++i) {
+        const glm::dvec3 r = state.positions.at(i) - centre;
+        momentum += glm::cross(r, state.velocities.at(i)) / 8.0;
+        inertia += (glm::dmat3(glm::dot(r, r)) - glm::outerProduct(r, r)) / 8.0;
+    }
+    const glm::dvec3 spin = glm::inverse(inertia) * momentum;
+    const Wrench left =
+        bladeWrench(fish.blade, rowing.left, -1, state, centre, velocity, spin);
+    const Wrench right =
+        bladeWrench(fish.blade, rowing.right, 1, state, centre, velocity, spin);
+    const glm::dvec3 turn = glm::inverse(inertia) * (left.torque + right.torque);
+    for (std::size_t i = 1; i <= 8; ++i)
+        forces.water.at(i) += (left.force + right.force +
+                               glm::cross(turn, state.positions.at(i) - centre)) /
+                              8.0;
 }
 
 inline PlainForces forcesOn(const BiomechanicalFish& fish,
@@ -85,7 +160,8 @@ inline PlainForces forcesOn(const BiomechanicalFish& fish,
                             const FishState& state) {
     PlainForces forces;
     addUnitForces(fish, control.muscles, state, forces);
-    addWaterForces(fish, control.fins, state, forces);
+    addWaterForces(fish, control, state, forces);
+    addBladeForces(fish, control.rowing, state, forces);
     return forces;
 }
 

@@ -68,11 +68,11 @@ TEST(Report, holdsTheDataOfAllItsPictures) {
         EXPECT_EQ(data["body"]["faces"].empty(), !hasSkin);
         EXPECT_EQ(data["file"]["bytes"], motion::encodeRepertoire(repertoire).size());
         ASSERT_EQ(data["segments"].size(), std::size_t{19})
-            << "a glide is derived, slopes and the retreat are not seen from above";
+            << "a glide is derived; slopes, rowing and fast starts are not seen from above";
         for (std::size_t i = 0; i < data["segments"].size(); ++i) {
             const json& segment = data["segments"][i];
             EXPECT_EQ(segment["name"],
-                      motion::nameOf(static_cast<motion::Action>(i < 15 ? i : i + 7)));
+                      motion::nameOf(static_cast<motion::Action>(i < 15 ? i : i + 12)));
             EXPECT_EQ(segment["frames"].size(), motion::kPhases + 1);
             EXPECT_EQ(segment["views"].size(), 8U);
             EXPECT_EQ(segment["views"].back()["phase"], motion::kPhases);
