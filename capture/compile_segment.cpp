@@ -63,12 +63,13 @@ NodeVectors blended(const NodeVectors& a, const NodeVectors& b, double shareOfB)
 // How a body frame is taken from a pose in the world.
 using FrameOf = PoseFrame (*)(const NodeVectors&);
 
-// The body frame without its roll: of a fish that banks, the roll is in the pose.
-PoseFrame uprightFrameOf(const NodeVectors& pose) {
+// The body frame turned level, about its origin: the roll and pitch of a fish that banks are in its
+// pose.
+PoseFrame levelFrameOf(const NodeVectors& pose) {
+    constexpr glm::dvec3 kUp{0, 1, 0};
     PoseFrame frame = frameOf(pose);
-    const glm::dvec3 x = frame.worldFromBody[0];
-    const glm::dvec3 z = glm::normalize(glm::cross(x, {0, 1, 0}));
-    frame.worldFromBody = {x, glm::cross(z, x), z};
+    const glm::dvec3 z = glm::normalize(glm::cross(frame.worldFromBody[0], kUp));
+    frame.worldFromBody = {glm::cross(kUp, z), kUp, z};
     return frame;
 }
 
@@ -268,7 +269,7 @@ motion::ActionSegment compileHover(const RecordedCycle& recording) {
 }
 
 motion::ActionSegment compilePivot(const RecordedCycle& recording) {
-    return segmentOf(inPlace(level(frameMotionOf(recording, uprightFrameOf))));
+    return segmentOf(inPlace(level(frameMotionOf(recording, levelFrameOf))));
 }
 
 motion::ActionSegment compilePitch(const RecordedCycle& recording) {
@@ -276,7 +277,7 @@ motion::ActionSegment compilePitch(const RecordedCycle& recording) {
 }
 
 motion::ActionSegment compileCurve(const RecordedCycle& recording) {
-    return segmentOf(level(frameMotionOf(recording, uprightFrameOf)));
+    return segmentOf(level(frameMotionOf(recording, levelFrameOf)));
 }
 
 motion::ActionSegment compileSlope(const RecordedCycle& recording) {
@@ -284,7 +285,7 @@ motion::ActionSegment compileSlope(const RecordedCycle& recording) {
 }
 
 motion::ActionSegment compileLeftTurn(const RecordedCycle& recording) {
-    return segmentOf(fadedIn(level(frameMotionOf(recording, uprightFrameOf))));
+    return segmentOf(fadedIn(level(frameMotionOf(recording, levelFrameOf))));
 }
 
 motion::ActionSegment compileStart(const RecordedCycle& recording) {
@@ -335,7 +336,7 @@ motion::TurnPath compileEntered(const EnteredTurn& entered, const SwimsOn& on) {
             .speedBefore = static_cast<float>(entered.speedBefore),
             .courseAfter = directionIn(poses.back(), entered.wayAfter),
             .speedAfter = static_cast<float>(std::max(0.0, on.speed + faster)),
-            .increments = incrementsOf(level(frameMotionOf(entered.turn, uprightFrameOf)))};
+            .increments = incrementsOf(level(frameMotionOf(entered.turn, levelFrameOf)))};
 }
 
 motion::TurnPath blended(const motion::TurnPath& a, const motion::TurnPath& b) {

@@ -23,6 +23,8 @@ struct Pull {
 constexpr Pull kFront{.delay = 0, .rise = 0.15, .hold = 0.5, .fall = 0.8, .strength = 0.10};
 constexpr Pull kMiddle{.delay = 0, .rise = 0.15, .hold = 0.5, .fall = 0.8, .strength = 0.55};
 constexpr Pull kBack{.delay = 0.04, .rise = 0.10, .hold = 0.40, .fall = 0.45, .strength = 1.0};
+// The fins roll the fish for half of the bend, so that it is level again at its end.
+constexpr Pull kBank{.delay = 0, .rise = 0.15, .hold = 0.3, .fall = 0.3, .strength = 1};
 
 // 0 for t <= 0, 1 for t >= 1, with zero slope at both ends, so that the force has no kink.
 double smoothStep(double t) {
@@ -83,7 +85,7 @@ MuscleActivation bendLeft(const config::Bend& bend, double ownSeconds) {
 }
 
 double bankShare(const config::Bend& bend, double ownSeconds) {
-    return pullAt(kMiddle, 1, ownSeconds * bend.tempo) / kMiddle.strength;
+    return pullAt(kBank, 1, ownSeconds * bend.tempo);
 }
 
 MuscleActivation swim(const config::Species& species, const config::Gait& gait, double seconds) {

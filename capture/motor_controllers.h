@@ -31,7 +31,7 @@ namespace aquarama::capture {
 // turn-MC). Zero before the order and after the bend.
 [[nodiscard]] MuscleActivation bendLeft(const config::Bend& bend, double ownSeconds);
 
-// How far a fish is rolled into a bend, 0 to 1: it follows the middle muscles.
+// How far a fish is rolled into a bend, 0 to 1.
 [[nodiscard]] double bankShare(const config::Bend& bend, double ownSeconds);
 
 // Swimming from rest: the amplitude of the beat grows linearly over this many of the fish's own

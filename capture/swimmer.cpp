@@ -60,6 +60,8 @@ constexpr double kHandover = 0.04;
 // and without a lead it overshot a commanded slope by 70 %. Times of the low pass, a beat each.
 constexpr double kPitchLeadBeats = 2;
 
+// In so many of the fish's own seconds fins open and come to their full stroke.
+constexpr double kOpenOwnSeconds = 0.2;
 // Of a curve, by which the inner fin rows less.
 constexpr double kInnerFin = 2.5;
 // With it rowing fins pitch a fish up in its place.
@@ -126,7 +128,7 @@ bool Swimmer::rows() const {
 }
 
 // Both fins row alike, ahead or back; on a curve the inner one less, and in a pivot against the
-// other. Under a new order the fins open and the strokes grow as a tail beat does.
+// other. Under a new order the fins open and the strokes grow.
 RowingControl Swimmer::rowingProgram() const {
     double left = 1;
     double right = 1;
@@ -144,7 +146,7 @@ RowingControl Swimmer::rowingProgram() const {
             left = 1 - kInnerFin * order_.curve;
             break;
     }
-    const double grown = std::min(1.0, ownSecondsOfOrder_ / kRampOwnSeconds);
+    const double grown = std::min(1.0, ownSecondsOfOrder_ / kOpenOwnSeconds);
     const double share = grown * (onlyRows(order_.controller) ? 1 : beating_.rows);
     const auto at = [&](double drive) {
         return strokeAt(species_.finMotion.rowing,
@@ -197,7 +199,7 @@ MuscleActivation Swimmer::muscleProgram() const {
         case Controller::Ascend:
         case Controller::Descend:
         case Controller::Balance:
-            if (beating_.gain > 0) return tailBeat(beating_.gain);
+            if (beating_.gain != 0) return tailBeat(beating_.gain);
             break;
         case Controller::LeftTurn:
             return bendLeft(order_.bend, ownSecondsOfOrder_);
@@ -252,12 +254,12 @@ PectoralFins Swimmer::finProgram() const {
         case Controller::Brake:
             return brake();
         case Controller::ForwardSwim:
-            if (lift() != 0) return capture::lift(lift());
-            [[fallthrough]];
         case Controller::LeftTurn:
         case Controller::RightTurn:
+            if (lift() != 0) return capture::lift(lift());
+            return order_.bankRadians != 0 ? hold(foreseen(), 0, bank()) : PectoralFins{};
         case Controller::Balance:
-            return hold(foreseen(), 0, bank());
+            return hold(foreseen(), 0);
         default:
             return {};
     }

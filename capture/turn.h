@@ -12,7 +12,7 @@
 namespace aquarama::capture {
 
 // How far a fish rolls into a turn at most.
-inline constexpr double kBankRadians = 25 * std::numbers::pi / 180;
+inline constexpr double kBankRadians = 12 * std::numbers::pi / 180;
 
 // A turn is over when its muscles are relaxed and no nodal point is farther than this from its
 // place in the straight fish, in the body frame.

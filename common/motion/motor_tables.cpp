@@ -476,9 +476,10 @@ std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire)
     const std::span starts(repertoire.segments[kFirstStart].entered);
     setBorders(starts.empty() ? starts : starts.subspan(1), tables->startBorders);
     const SegmentTables& climb = tables->segments[indexOf(Action::ClimbMedium)];
+    // Slopes and pitching in place are captured: beside them the fins only trim.
     const float pitchRate = 2.0F * climb.meanHalfTurn[2] * static_cast<float>(climb.phaseRate);
     for (std::uint32_t segment = 0; segment < kSegments; ++segment)
-        tables->pitchRate[segment] = !pitches(actionOf(segment)) && !staysInPlace(actionOf(segment)) ? pitchRate / 48.0F : 0.0F;
+        tables->pitchRate[segment] = !pitches(actionOf(segment)) && !staysInPlace(actionOf(segment)) ? kAddedPitch * pitchRate : 0.0F;
     tables->loss = lossOf(repertoire.response, tables->segments);
     tables->warps = planWarps(repertoire, phaseRates);
     return tables;

@@ -118,9 +118,8 @@ class MotorTables {
     std::array<std::int32_t, kEntrySpeeds - 1> turnBorders{};
     std::array<std::int32_t, kStartSpeeds - 1> startBorders{};
     SpeedLoss loss;
-    // The most that a fish pitches in addition to the played motion, radians in a tick: what it
-    // does on the captured loop at the medium gait. Nothing while it plays a slope or pitches in its
-    // place.
+    // The most that a fish pitches in addition to the played motion, radians in a tick: kAddedPitch
+    // of what it does on the captured loop at the medium gait; nothing on a slope or in its place.
     std::array<float, kSegments> pitchRate{};
 };
 
@@ -130,6 +129,7 @@ class MotorTables {
 
 // Limits of a fish's own steering on top of the recorded motion, per tick of 1/60 s. With these
 // gains it settles without a jerk; the rates are those of a real fish.
+inline constexpr float kAddedPitch = 1.0F / 48.0F;  // of the rate of the loop
 inline constexpr float kPitchGain = 0.05F;
 inline constexpr float kSteepestPitch = 0.86602540F;  // sine of 60 degrees
 inline constexpr float kRollGain = 0.05F;

@@ -300,9 +300,10 @@ std::uint8_t brakeFor(const Gaits& gaits,
                       const Moment& moment,
                       motion::Action chosen,
                       std::uint8_t present) {
-    const bool stays = hovers(gaits, moment) || staysInPlace(chosen);
-    const float share = stays ? moment.swims * kHoverBrakeGain
-                              : moment.swims - moment.speed - kBrakeFrom;
+    const bool stays = hovers(gaits, moment);
+    const float excess = moment.swims - (staysInPlace(chosen) && !stays ? 0 : moment.speed);
+    const float share =
+        stays || staysInPlace(chosen) ? excess * kHoverBrakeGain : excess - kBrakeFrom;
     const float level =
         levelFor(std::clamp(share, 0.0F, 1.0F), static_cast<float>(present) / 255.0F, kBrakeLevel);
     return static_cast<std::uint8_t>(255 * level);

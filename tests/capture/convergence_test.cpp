@@ -126,15 +126,16 @@ TEST_P(ConvergenceOf, isOfSecondOrderTowardsARungeKuttaMethod) {
             step(fish, control((i + 0.5) * shipped / parts), shipped / parts, state);
         return distanceOf(state, exact);
     };
-    EXPECT_LT(errorAt(1), 1e-4);
-    // The drag of a fin has a kink where the fin stops in the water: its order shows at half the step.
-    const int first = control(0).rowing.rows ? 2 : 1;
-    const std::array errors{errorAt(first), errorAt(2 * first), errorAt(4 * first)};
-    std::printf("error after 0.25 s at h/%d and half and a quarter of it: %.2e %.2e %.2e BL\n",
-                first,
-                errors[0],
-                errors[1],
-                errors[2]);
+    const std::array errors{errorAt(1), errorAt(2), errorAt(4)};
+    std::printf(
+        "error after 0.25 s at h, h/2, h/4: %.2e %.2e %.2e BL\n", errors[0], errors[1], errors[2]);
+    EXPECT_LT(errors[0], 1e-4);
+    if (control(0).rowing.rows) {
+        // The drag of a fin has a kink where the fin stops in the water.
+        EXPECT_GT(errors[0] / errors[1], 3);
+        EXPECT_GT(errors[1] / errors[2], 3);
+        return;
+    }
     EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2, 0.3);
     EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2, 0.3);
 }

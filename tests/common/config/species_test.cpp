@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
             "aBodyWithoutHeight", "s: 0.380 up: 0.113", "s: 0.380 up: 0", "up is 0: it must be"},
         Mistake{"aSectionWithCorners", "full_up: 2.1", "full_up: 9", "full_up is 9: it must be"},
         Mistake{"aFinThatTurnsOver",
-                "stroke_deg: 25",
+                "stroke_deg: 55",
                 "stroke_deg: 180",
                 "stroke_deg is 180: it must be"},
         Mistake{"aFinThatOpensOntoItsHead", "open_deg: 90", "open_deg: 130", "open_deg is 130: it must be"},
@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& mistake) { return std::string(mistake.param.name); });
 
 TEST(Species, howFinsMoveIsReadInRadiansAndRowingChangesTheCapture) {
-    const std::string text = edited("stroke_deg: 25", "stroke_deg: 45");
+    const std::string text = edited("stroke_deg: 55", "stroke_deg: 45");
     const FinMotion motion = parseSpecies(text, "fish.txtpb").finMotion;
     EXPECT_FLOAT_EQ(motion.rowing.strokeRadians, 0.7853982F);
     EXPECT_FLOAT_EQ(motion.hovering.waves, 1.5F);

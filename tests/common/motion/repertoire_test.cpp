@@ -133,7 +133,7 @@ FloatsAt floatsOf(const std::string& species) {
     for (int action = 0; action < kCapturedActions; ++action) {
         at.ofSegments.push_back(segment);  // the period
         for (std::size_t i = 0; i < 7 * kPhases; ++i) at.ofSegments.push_back(segment + 5 + 4 * i);
-        segment += 5 + kPhases * (7 * 4 + body::kNodalPoints * 3 * 2);
+        segment += 5 + kPhases * (7 * 4 + (body::kNodalPoints + 2) * 3 * 2);
     }
     return at;
 }
@@ -291,7 +291,7 @@ TEST(Repertoire, numbersSegmentsByTheirActions) {
     int segments = 0;
     for (int action = 0; action < kActions; ++action) {
         const auto one = static_cast<Action>(action);
-        const int count = isTurn(one) ? kTurnSegments : 1;
+        const int count = isTurn(one) ? kTurnSegments : isStart(one) ? kStartSegments : 1;
         for (int i = 0; i < count; ++i)
             EXPECT_EQ(actionOf(static_cast<std::uint32_t>(firstSegmentOf(one) + i)), one);
         EXPECT_EQ(firstSegmentOf(one), segments);

@@ -65,10 +65,11 @@ struct Mind {
         courses[0].speed = speed;
         courses[0].urgency = urgency;
         courses[0].openToChange = true;
+        motion::setSpeedBodyLengths(states, 0, speed);  // as the motor has it soon
     }
     // Thinks once; the motor is taken to follow at once, and to be done with every turn by then.
     motion::Action think() {
-        thought[0] = 1;
+        thought[0] = thinksAt({tick}, 0) ? 1 : 0;
         SecondaryController{
             &gaits, &view, &courses, &states, &thought, 1, {tick}, &commands, &memory}
             .run(0, 1);
@@ -76,6 +77,15 @@ struct Mind {
         states.segment[0] = firstSegmentOf(static_cast<motion::Action>(commands.action[0]));
         states.phase[0] = 65535;
         return static_cast<motion::Action>(commands.action[0]);
+    }
+    // Gives its species captured ways to stay in its place.
+    void letItRow() {
+        using motion::Action;
+        gaits.yawRate[indexOf(Action::PivotLeft)] = 0.7F;
+        gaits.yawRate[indexOf(Action::PivotRight)] = -0.7F;
+        for (const Action action :
+             {Action::Hover, Action::PivotLeft, Action::PivotRight, Action::PitchUp, Action::PitchDown})
+            gaits.phaseRate[indexOf(action)] = 2731;
     }
     motion::Action thinkFor(int thoughts) {
         for (int i = 1; i < thoughts; ++i) think();
@@ -170,7 +180,7 @@ TEST(SecondaryController, aClimbOrDiveIsPlayedUntilThePitchIsNearTheWantedOne) {
     EXPECT_EQ(mind.think(), Action::ClimbMedium);
     mind.view.fish[0].heading = {std::sqrt(1 - 0.04F), 0.2F, 0};
     EXPECT_EQ(mind.think(), Action::ClimbMedium) << "it goes on";
-    mind.view.fish[0].heading = {std::sqrt(1 - 0.0625F), 0.25F, 0};
+    mind.view.fish[0].heading = {std::sqrt(1 - 0.0784F), 0.28F, 0};
     EXPECT_EQ(mind.think(), Action::ForwardMedium);
     mind.courses[0].direction = {1, 0, 0};
     EXPECT_EQ(mind.think(), Action::DiveMedium);
@@ -178,8 +188,12 @@ TEST(SecondaryController, aClimbOrDiveIsPlayedUntilThePitchIsNearTheWantedOne) {
 
 TEST(SecondaryController, aNegativeSpeedAsksForARetreat) {
     Mind mind;
+    mind.letItRow();
     mind.want(20, -0.5F);
     EXPECT_EQ(mind.think(), motion::Action::Retreat);
+    Mind shark;
+    shark.want(20, -0.5F);
+    EXPECT_EQ(shark.think(), motion::Action::Glide) << "it cannot row";
 }
 
 // A mind that wavers by less than a level does not change its command.
@@ -273,8 +287,8 @@ TEST(SecondaryController, aGlideIsRecommendedToThoseWhoAreFastEnough) {
         Mind mind;
         bool glides = false;
         for (int i = 0; i < 5 * 60 * 60 / 8; ++i) {
-            motion::setSpeedBodyLengths(mind.states, 0, speed);
             mind.want(0, 1.6F);
+            motion::setSpeedBodyLengths(mind.states, 0, speed);
             glides |= mind.think() == motion::Action::Glide;
         }
         EXPECT_EQ(glides, speed > 1.6F);
@@ -330,6 +344,23 @@ TEST(SecondaryController, theIntentionMayWithdrawItsConsent) {
         ++withdrawn;
     }
     EXPECT_GT(withdrawn, 0);
+}
+
+TEST(SecondaryController, aFishThatRowsHoversPivotsAndPitchesInItsPlace) {
+    using motion::Action;
+    Mind mind;
+    mind.letItRow();
+    mind.want(2, 0.1F);
+    EXPECT_EQ(mind.think(), Action::Hover);
+    mind.want(50, 0.1F);
+    EXPECT_EQ(mind.think(), Action::PivotLeft);
+    EXPECT_EQ(mind.commands.yawRate[0], 0) << "nothing is added to what was captured";
+    mind.want(-12, 0.1F);
+    EXPECT_EQ(mind.think(), Action::PivotRight);
+    mind.want(0, 0.1F);
+    mind.thinkFor(2);
+    mind.courses[0].direction = {std::sqrt(1 - 0.04F), -0.2F, 0};
+    EXPECT_EQ(mind.think(), Action::PitchDown);
 }
 
 TEST(SecondaryController, aFishThatWantsToBeWhereItIsGlidesAndBrakes) {
