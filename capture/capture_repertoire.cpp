@@ -50,7 +50,7 @@ constexpr std::size_t kLaterJobs = kJobs - kSteadyJobs;
 // 3.8 to 9.7 body lengths, a tight one of 1.7 to 4.6.
 constexpr double kWideCurve = 0.2;
 constexpr double kTightCurve = 0.4;
-constexpr double kLoopLiftRadians = 0.2;
+constexpr double kLoopLiftRadians = 0.4;
 
 // The results of one species' jobs. Each job writes its own member only, so no lock is needed.
 struct Swum {
@@ -372,7 +372,7 @@ namespace {
 
 // Part of every key: raise it when a change of the simulation or of the compilation changes the
 // repertoires.
-constexpr const char* kCaptureVersion = "aquarama capture 10\n";
+constexpr const char* kCaptureVersion = "aquarama capture 11\n";
 constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 5 MB
 
 // SPECIES-DIGEST.aqrep. The digest covers only the parts of the species file that influence motion:

@@ -81,7 +81,7 @@ constexpr float kSpeedHysteresis = 0.12F;
 // more.
 constexpr float kBrakeFrom = 0.6F;
 // Without urgency a fish takes the gait of a speed so much above its own at most, body lengths a second.
-constexpr float kMostAhead = 0.6F;
+constexpr float kMostAhead = 6.0F;
 constexpr float kHoverBelow = 0.25F;  // of the slow gait's speed
 // A hovering fish brakes fully from a quarter of a body length a second on.
 constexpr float kHoverBrakeGain = 4.0F;

@@ -47,12 +47,12 @@ TEST(Capture, rightTurnsMirrorLeftOnes) {
 }
 
 // The constraints that eq. 1 to 4, with their remedies, put on a pose in its own frame. A fish that
-// banks, on a curve or in a turn, is in that frame turned level: its nose is a little off the axis.
+// banks, on a curve or in a turn, is in that frame turned level: in a turn its nose dips by up to a twentieth.
 TEST(Capture, posesAreInTheirOwnBodyFrame) {
     for (std::size_t i = 0; i < motion::kActions; ++i) {
         const auto action = static_cast<motion::Action>(i);
         const motion::ActionSegment& segment = test::scadRepertoire().segments[i];
-        const double noseUp = isCurve(action) || isTurn(action) ? 0.03 / static_cast<double>(motion::kPoseUnit) : 1;
+        const double noseUp = isCurve(action) || isTurn(action) ? 0.05 / static_cast<double>(motion::kPoseUnit) : 1;
         for (const motion::NodalPose& pose : segment.nodes) {
             for (std::size_t c = 0; c < 3; ++c)
                 EXPECT_NEAR(pose[5][c] + pose[6][c] + pose[7][c] + pose[8][c], 0, 4);
