@@ -89,6 +89,12 @@ float approached(float v, float target, float step) {
     return v < target ? std::min(v + whole, target) : std::max(v - whole, target);
 }
 
+// The share of its path that a fish travels, 0 to 1: none where it still goes the other way.
+float shareOfPath(float speed, float path) {
+    if (path == 0.0F) return 1.0F;
+    return std::min(std::max(speed / path, 0.0F), 1.0F);
+}
+
 // The speed after a tick, from v and the path's at the tick's start and end; all in whole units.
 // First, v changes as the path's speed does, which matters in turns; but a turn takes no more speed
 // than there is, or one begun slowly, broken off and begun again would drive the fish backwards.
@@ -103,8 +109,8 @@ float speedAfter(const SpeedLoss& loss,
                  float brake) {
     constexpr std::uint16_t kGlide = firstSegmentOf(Action::Glide);
     const bool glides = segment == kGlide || pathAtEnd == 0.0F;
-    const float carried =
-        bounded(std::max(v + (pathAtEnd - pathAtStart), std::min(v, 0.0F)), kFastest);
+    const float change = shareOfPath(v, pathAtStart) * (pathAtEnd - pathAtStart);
+    const float carried = bounded(std::max(v + change, std::min(v, 0.0F)), kFastest);
     const float target = glides ? 0.0F : pathAtEnd;
     const float against = glides ? carried : target;
     const float drag = loss.drag[glides ? kGlide : segment];
@@ -112,12 +118,6 @@ float speedAfter(const SpeedLoss& loss,
     const float step = drag * std::abs(against * (target - compared));
     const float swum = approached(carried, target, step);
     return approached(swum, 0.0F, (brake * loss.brake) * std::abs(swum));
-}
-
-// The share of its path that a fish travels, 0 to 1: none where it still goes the other way.
-float shareOfPath(float speed, float path) {
-    if (path == 0.0F) return 1.0F;
-    return std::min(std::max(speed / path, 0.0F), 1.0F);
 }
 
 // MotionStates::spread after a tick.

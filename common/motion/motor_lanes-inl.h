@@ -260,6 +260,12 @@ HWY_INLINE Lanes approached(Lanes v, Lanes target, Lanes step) {
         hn::Lt(v, target), hn::Min(hn::Add(v, whole), target), hn::Max(hn::Sub(v, whole), target));
 }
 
+HWY_INLINE Lanes shareOfPath(Lanes speed, Lanes path) {
+    const Lanes one = hn::Set(kFloats, 1.0F);
+    const Lanes share = hn::Min(hn::Max(hn::Div(speed, path), hn::Zero(kFloats)), one);
+    return hn::IfThenElse(hn::Eq(path, hn::Zero(kFloats)), one, share);
+}
+
 HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
                             Lanes v,
                             Lanes pathAtStart,
@@ -269,7 +275,9 @@ HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
     const IntLanes glide = hn::Set(kInts, firstSegmentOf(Action::Glide));
     const auto glides = hn::Or(hn::RebindMask(kFloats, hn::Eq(segment, glide)),
                                hn::Eq(pathAtEnd, hn::Zero(kFloats)));
-    const Lanes changed = hn::Add(v, hn::Sub(pathAtEnd, pathAtStart));
+    const Lanes change =
+        hn::Mul(shareOfPath(v, pathAtStart), hn::Sub(pathAtEnd, pathAtStart));
+    const Lanes changed = hn::Add(v, change);
     const Lanes carried = bounded(hn::Max(changed, hn::Min(v, hn::Zero(kFloats))), kFastest);
     const Lanes target = hn::IfThenZeroElse(glides, pathAtEnd);
     const Lanes against = hn::IfThenElse(glides, carried, target);
@@ -281,12 +289,6 @@ HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
     const Lanes swum = approached(carried, target, step);
     const Lanes spread = hn::Mul(brake, hn::Set(kFloats, loss.brake));
     return approached(swum, hn::Zero(kFloats), hn::Mul(spread, hn::Abs(swum)));
-}
-
-HWY_INLINE Lanes shareOfPath(Lanes speed, Lanes path) {
-    const Lanes one = hn::Set(kFloats, 1.0F);
-    const Lanes share = hn::Min(hn::Max(hn::Div(speed, path), hn::Zero(kFloats)), one);
-    return hn::IfThenElse(hn::Eq(path, hn::Zero(kFloats)), one, share);
 }
 
 // A 16-bit column of the commands as floats.

@@ -229,6 +229,14 @@ SpeedLoss lossOf(const SpeedResponse& response,
     return loss;
 }
 
+// Whether a pectoral fin changes its stroke within a segment.
+bool rowsIn(const ActionSegment& segment) {
+    const auto stroke = [](const FinAnglePair& fins) { return fins[0][1]; };
+    const auto [least, most] = std::ranges::minmax(segment.fins, {}, stroke);
+    constexpr float kStill = 0.1F;  // radians
+    return static_cast<float>(stroke(most) - stroke(least)) * kFinUnit > kStill;
+}
+
 // The tables of one segment, whose path is given.
 void fill(const ActionSegment& segment, const GaitPath& path, SegmentTables& tables) {
     tables.phaseRate = phaseRateOf(segment);
@@ -465,6 +473,7 @@ std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire)
         else
             fill(segment, pathOf(segment), tables->segments[first]);
         phaseRates[i] = tables->segments[first].phaseRate;
+        tables->rows[i] = rowsIn(segment);
     }
     for (std::uint32_t segment = 0; segment < kSegments; ++segment) {
         const SegmentTables& made = tables->segments[segment];

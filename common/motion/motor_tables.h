@@ -113,6 +113,8 @@ class MotorTables {
     // Columns that the vectorised step gathers from: the action of a segment; its recorded phase
     // rate and its lastPhase if it plays to its end, else 0.
     std::array<std::int32_t, kSegments> action{}, turnRate{}, lastPhase{};
+    // Whether the pectoral fins row in an action.
+    std::array<bool, kActions> rows{};
     // The speeds, in speed units, half-way between those at which turns and fast starts were
     // entered.
     std::array<std::int32_t, kEntrySpeeds - 1> turnBorders{};

@@ -221,7 +221,7 @@ fish::Course leave(const Situation& situation) {
     const glm::vec3 level = place::directionOf({about.x, 0, about.z}, senses.heading);
     const glm::vec3 desired = senses.heading * 0.5F + level * 0.5F +
                               glm::vec3{0, std::clamp(climb / kSlantMetres, -1.0F, 1.0F), 0};
-    return heading(situation, desired, situation.parameters.slow);
+    return heading(situation, desired, situation.parameters.medium);
 }
 
 fish::Course escape(const Situation& situation, const fish::Mind& mind) {

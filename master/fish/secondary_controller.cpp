@@ -10,12 +10,14 @@
 #include "common/base/digest.h"
 #include "common/base/random_streams.h"
 #include "common/base/units.h"
+#include "common/motion/motor_tables.h"
 #include "common/place/place.h"
 
 namespace aquarama::fish {
 
 Gaits gaitsOf(const motion::MotorTables& tables) {
     Gaits gaits;
+    gaits.rows = tables.rows;
     for (std::size_t i = 0; i < motion::kActions; ++i) {
         const auto action = static_cast<motion::Action>(i);
         gaits.phaseRate[i] = motion::recordedPhaseRate(tables, action);
@@ -64,6 +66,8 @@ constexpr float kPivotSeconds = 8.0F;
 // A curve is left for another where that is nearer to the wanted rate by this share of the tight
 // curve's.
 constexpr float kCurveHysteresis = 0.05F;
+// A slope is swum rather than a curve where the pitch is off by more than this share of the heading.
+constexpr float kSlopeFirst = 0.5F;
 // Levels of a command. Within three quarters of a level the command before stands.
 constexpr float kStay = 0.75F;
 constexpr float kRateLevel = 1.0F / 32.0F;  // of the recorded phase rate
@@ -80,8 +84,6 @@ constexpr float kSpeedHysteresis = 0.12F;
 // Braking begins when the fish is this much too fast, in body lengths a second, and is full at 1
 // more.
 constexpr float kBrakeFrom = 0.6F;
-// Without urgency a fish takes the gait of a speed so much above its own at most, body lengths a second.
-constexpr float kMostAhead = 6.0F;
 constexpr float kHoverBelow = 0.25F;  // of the slow gait's speed
 // A hovering fish brakes fully from a quarter of a body length a second on.
 constexpr float kHoverBrakeGain = 4.0F;
@@ -185,12 +187,6 @@ float wantedYaw(const Moment& moment) {
     return kYawGain * moment.yawError;
 }
 
-// The speed to swim at: without urgency a fish gathers speed gait by gait.
-float wantedSpeed(const Moment& moment) {
-    if (moment.urgency >= 1) return moment.speed;
-    return std::min(moment.speed, std::max(moment.swims, 0.0F) + kMostAhead);
-}
-
 // Straight on, or the curve whose rate is nearest to the wanted one, with hysteresis about the
 // present one.
 motion::Action curveFor(const Gaits& gaits, const Moment& moment, motion::Action gait) {
@@ -215,19 +211,13 @@ motion::Action curveFor(const Gaits& gaits, const Moment& moment, motion::Action
 motion::Action wayFor(const Gaits& gaits, const Moment& moment, motion::Action gait) {
     const float off = moment.pitchError;
     const bool slopes =
-        motion::takesSlope(moment.present, off) && std::abs(off) > std::abs(moment.yawError);
+        motion::takesSlope(moment.present, off) && std::abs(off) > kSlopeFirst * std::abs(moment.yawError);
     return slopes ? motion::slopeOf(gait, off > 0) : curveFor(gaits, moment, gait);
 }
 
 // Whether a species rows: only then has it captured ways to stay in its place, and to back.
 bool rows(const Gaits& gaits) {
-    return gaits.yawRate[indexOf(motion::Action::PivotLeft)] > 0.02F;
-}
-
-// Whether a gait is swum with the fins alone: its beat is theirs.
-bool isRowed(const Gaits& gaits, motion::Action gait) {
-    return rows(gaits) &&
-           gaits.phaseRate[indexOf(gait)] == gaits.phaseRate[indexOf(motion::Action::Hover)];
+    return gaits.rows[indexOf(motion::Action::Hover)];
 }
 
 motion::Action pivot(bool left) {
@@ -253,13 +243,13 @@ motion::Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
     const float error = std::abs(moment.yawError);
     const bool turning = isTurn(moment.present);
     const bool left = turning && error > kSideIsOpen ? isLeft(moment.present) : moment.yawError > 0;
-    const motion::Action nearest = gaitFor(gaits, wantedSpeed(moment), moment.present);
+    const motion::Action nearest = gaitFor(gaits, moment.speed, moment.present);
     const bool urgent = moment.urgency > 1;
     const bool turns = urgent || error > kCurveSeconds * tightRateOf(gaits, nearest);
     const float pivotRate = gaits.yawRate[indexOf(motion::Action::PivotLeft)];
     const bool pivots = rows(gaits) && moment.urgency < 1 && error < kPivotSeconds * pivotRate;
     if (stays && pivots) return inPlaceFor(moment);
-    if (turns && pivots && isRowed(gaits, nearest)) return pivot(moment.yawError > 0);
+    if (turns && pivots && moment.urgency == 0 && gaits.rows[indexOf(nearest)]) return pivot(moment.yawError > 0);
     if (turns && error > (urgent ? kSharpFromInDanger : kSharpFrom)) return sharp(left);
     if (stays && rows(gaits)) return inPlaceFor(moment);
     if (stays) return motion::Action::Glide;
@@ -503,7 +493,7 @@ std::int16_t SecondaryController::phaseRateFor(std::size_t fish,
     const float most = std::min(1 + kRateMargin, tempo + kTempoMargin);
     if (isStart(chosen)) return gaits->phaseRate[action];
     const float turns = moment.urgency > 1 ? most : tempo;
-    const float rate = swims(chosen) ? wantedSpeed(moment) / gaits->speed[action] : turns;
+    const float rate = swims(chosen) ? moment.speed / gaits->speed[action] : turns;
     const float present =
         chosen == moment.present ? static_cast<float>(commands->phaseRate[fish]) / recorded : 0.0F;
     const float level = levelFor(std::clamp(rate, least, most), present, kRateLevel);

@@ -66,6 +66,8 @@ struct Gaits {
     std::array<float, motion::kSegments> turn{};
     // Mean rate of turn, radians a second, left positive.
     std::array<float, motion::kActions> yawRate{};
+    // Whether the pectoral fins row.
+    std::array<bool, motion::kActions> rows{};
     // Mean rate of pitch, radians a second, up positive.
     std::array<float, motion::kActions> pitchRate{};
 };

@@ -85,7 +85,7 @@ struct Mind {
         gaits.yawRate[indexOf(Action::PivotRight)] = -0.7F;
         for (const Action action :
              {Action::Hover, Action::PivotLeft, Action::PivotRight, Action::PitchUp, Action::PitchDown})
-            gaits.phaseRate[indexOf(action)] = 2731;
+            gaits.phaseRate[indexOf(action)] = 2731, gaits.rows[indexOf(action)] = true;
     }
     motion::Action thinkFor(int thoughts) {
         for (int i = 1; i < thoughts; ++i) think();
@@ -357,8 +357,9 @@ TEST(SecondaryController, aFishThatRowsHoversPivotsAndPitchesInItsPlace) {
     EXPECT_EQ(mind.commands.yawRate[0], 0) << "nothing is added to what was captured";
     mind.want(-12, 0.1F);
     EXPECT_EQ(mind.think(), Action::PivotRight);
+    mind.want(-5, 0.1F);
+    EXPECT_EQ(mind.think(), Action::Hover) << "it turns on until the next thought";
     mind.want(0, 0.1F);
-    mind.thinkFor(2);
     mind.courses[0].direction = {std::sqrt(1 - 0.04F), -0.2F, 0};
     EXPECT_EQ(mind.think(), Action::PitchDown);
 }
