@@ -97,6 +97,20 @@ Means meansOfTurn(const GaitPath& path,
     return means;
 }
 
+// In a fast start the body turns faster than its path, which begins sideways. The mean frame turns
+// evenly from the course before to that after, both in the body frame.
+Means meansOfStart(const GaitPath& path, const glm::dvec3& before, const glm::dvec3& after) {
+    const glm::dquat first = path.rotation[0] * towards(before);
+    const glm::dquat last = path.rotation[kCycle] * towards(after);
+    Means means{};
+    for (std::size_t k = 0; k < kCycleSamples; ++k) {
+        const double t = std::min(1.0, static_cast<double>(k) / kPhases);
+        const double share = t * t * (3 - 2 * t);
+        means[k] = glm::normalize(first * (1 - share) + last * share);
+    }
+    return means;
+}
+
 // Turns the mean frames of a cycle so that their x axis lies along the path, by one rotation for
 // the whole cycle: the path's mean direction in the mean frame, or for a retreat its opposite.
 void lookAlongPath(const GaitPath& path, Means& means) {
@@ -265,10 +279,13 @@ void enterFromMedium(const SegmentTables& medium, SegmentTables& turn) {
 }
 
 // The tables of a turn or a fast start by entry, from `entered` on.
-void fillEntries(const ActionSegment& turn, std::int32_t lastPhase, SegmentTables* entered) {
+void fillEntries(const ActionSegment& turn,
+                 bool isStart,
+                 std::int32_t lastPhase,
+                 SegmentTables* entered) {
     for (const TurnPath& path : turn.entered) {
         SegmentTables& tables = *entered++;
-        fill(turn, pathOf(path, turn.periodSeconds), tables);
+        fill(turn, pathOf(path, turn.periodSeconds, isStart), tables);
         tables.lastPhase = lastPhase;
     }
 }
@@ -284,7 +301,7 @@ void fillToEnd(const ActionSegment& segment, Action action, MotorTables& tables)
     }
     const int segments = isStart(action) ? kStartSegments : kTurnSegments;
     std::fill(first + 1, first + segments, *first);
-    fillEntries(segment, first->lastPhase, isStart(action) ? first : first + 1);
+    fillEntries(segment, isStart(action), first->lastPhase, isStart(action) ? first : first + 1);
 }
 
 // Borders half-way between the speeds at which a turn was entered. Where the speeds do not rise, no
@@ -447,10 +464,11 @@ GaitPath pathOf(const ActionSegment& segment) {
     return path;
 }
 
-GaitPath pathOf(const TurnPath& turn, float periodSeconds) {
+GaitPath pathOf(const TurnPath& turn, float periodSeconds, bool isStart) {
     GaitPath path;
     integrate(turn.increments, path);
-    setMeans(meansOfTurn(path, glm::dvec3(turn.courseBefore), turn.courseAfter), true, path);
+    const glm::dvec3 from(turn.courseBefore), to(turn.courseAfter);
+    setMeans(isStart ? meansOfStart(path, from, to) : meansOfTurn(path, from, to), true, path);
     // The body frame's speed at either end is that within a beat: instead the fish has its mean
     // speed before the turn, and that with which it swims on after it.
     const double unit = static_cast<double>(periodSeconds) / kPhases;

@@ -44,8 +44,8 @@ struct GaitPath {
 
 // Integrates the increments of a segment and takes the mean over one cycle around each phase.
 [[nodiscard]] GaitPath pathOf(const ActionSegment& segment);
-// The same of a turn begun in a tail beat. Its speeds at the ends are those of TurnPath.
-[[nodiscard]] GaitPath pathOf(const TurnPath& turn, float periodSeconds);
+// The same of a turn or a fast start. Its speeds at the ends are those of TurnPath.
+[[nodiscard]] GaitPath pathOf(const TurnPath& turn, float periodSeconds, bool isStart);
 
 // The motor step's tables of a species: about 1.9 MB, of which a steady school reads 36 kB. So the
 // segments that are played stay in the processor's cache.

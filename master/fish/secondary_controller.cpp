@@ -67,7 +67,7 @@ constexpr float kPivotSeconds = 8.0F;
 // curve's.
 constexpr float kCurveHysteresis = 0.05F;
 // A slope is swum rather than a curve where the pitch is off by more than this share of the heading.
-constexpr float kSlopeFirst = 0.5F;
+constexpr float kSlopeFirst = 0.7F;
 // Levels of a command. Within three quarters of a level the command before stands.
 constexpr float kStay = 0.75F;
 constexpr float kRateLevel = 1.0F / 32.0F;  // of the recorded phase rate

@@ -133,16 +133,22 @@ TEST_P(Attitude, aTickGoesTheSameWayInTheBodysAxesHoweverTheBodyLies) {
     }
 }
 
-// A slope is left where it would lead away from the commanded pitch, as the secondary controller
-// does.
+// The commanded pitch less the present one, as sines.
+float pitchError(const School& school, std::size_t fish) {
+    return static_cast<float>(school.commands.pitch[fish]) / 32768.0F -
+           static_cast<float>(std::sin(school.pitch(fish) * kDegree));
+}
+
+// A slope, or pitching in place, is left where it would lead away from the commanded pitch, as the
+// secondary controller does.
 void endSlope(School& school, std::size_t fish) {
     const auto commanded = static_cast<Action>(school.commands.action[fish]);
-    if (!isSlope(commanded)) return;
-    const float wanted = static_cast<float>(school.commands.pitch[fish]) / 32768.0F;
-    const auto sine = static_cast<float>(std::sin(school.pitch(fish) * kDegree));
-    const bool climbs = commanded < Action::DiveSlow;
-    if (takesSlope(commanded, wanted - sine) && climbs == (wanted > sine)) return;
-    school.command(fish, gaitOf(commanded));
+    if (!pitches(commanded)) return;
+    const float off = pitchError(school, fish);
+    const bool climbs =
+        commanded == Action::PitchUp || (isSlope(commanded) && commanded < Action::DiveSlow);
+    if (takesSlope(commanded, off) && climbs == (off > 0)) return;
+    school.command(fish, isSlope(commanded) ? gaitOf(commanded) : Action::Hover);
 }
 
 // Told at random to turn either way and to climb or dive, a fish may bank; but a second and a half
@@ -171,7 +177,8 @@ TEST_P(Attitude, whenNotManoeuvringAFishIsUprightWithinFiveDegrees) {
         school.tick();
         for (std::size_t i = 0; i < kFish; ++i) {
             const auto action = actionOf(school.states.segment[i]);
-            const bool turns = isTurn(action) || isCurve(action);
+            const bool turns =
+                isTurn(action) || isCurve(action) || isStart(action) || pitches(action);
             calm[i] = turns ? 0 : calm[i] + 1;
             if (calm[i] < kCalmTicks || (tick + static_cast<int>(i)) % 8 != 0) continue;
             worst = std::max(worst, std::abs(school.roll(i)));
@@ -196,7 +203,15 @@ TEST_P(Attitude, aTurnInAClimbChangesTheCourseAndLeavesTheClimb) {
             school->command(0, Action::TurnLeftSharp);
             school->tick();
             school->command(0, Action::ForwardMedium);
-            school->tick(400);
+            school->tick(90);
+            // What the turn did to the pitch is swum back, as the secondary controller does.
+            const float off = pitchError(*school, 0);
+            if (takesSlope(Action::ForwardMedium, off))
+                school->command(0, slopeOf(Action::ForwardMedium, off > 0));
+            for (int tick = 0; tick < 1200; ++tick) {
+                endSlope(*school, 0);
+                school->tick();
+            }
         }
         EXPECT_NEAR(climbing.heading(0), level.heading(0), 16) << pitch;
         EXPECT_NEAR(climbing.pitch(0), pitch, 1);

@@ -61,7 +61,7 @@ inline motion::Repertoire swaying(const body::FishBody& body, float amplitude) {
         motion::ActionSegment& segment = repertoire.segments.at(action);
         segment.periodSeconds = 0.4F;
         for (std::size_t k = 0; k < motion::kPhases; ++k) {
-            const float bend = amplitude * (static_cast<float>(action) - 3.0F);
+            const float bend = amplitude * (static_cast<float>(action % 24) - 3.0F);
             const body::NodalPoints nodes =
                 sway(body, amplitude, bend, static_cast<float>(k) / motion::kPhases);
             for (std::size_t n = 0; n < body::kNodalPoints; ++n)
