@@ -27,8 +27,8 @@ namespace {
 // Capture. A species has jobs in two groups. The first simulates what it does steadily: each gait
 // straight on, on two curves and on a loop upwards, the retreat, and straight on half-way between
 // two gaits; and what it does in its place. The second, the two turns, the three fast starts and
-// the speed response, starts from the gaits. Within a group the jobs are independent of one another,
-// so they run in parallel.
+// the speed response, starts from the gaits. Within a group the jobs are independent of one
+// another, so they run in parallel.
 
 constexpr std::size_t kGaits = motion::kForwardGaits;  // slow, medium, fast
 enum class Way : std::uint8_t { Straight, WideCurve, TightCurve, Loop };
@@ -40,23 +40,22 @@ constexpr std::array kInPlace{Controller::Hover, Controller::LeftPivot, Controll
 constexpr std::size_t kBetweenJob =
     kInPlaceJob + kInPlace.size();  // slow and medium; then medium and fast
 constexpr std::size_t kSteadyJobs = kBetweenJob + kGaits - 1;
-constexpr std::size_t kTurnJob = kSteadyJobs;  // gradual, sharp
+constexpr std::size_t kTurnJob = kSteadyJobs;    // gradual, sharp
 constexpr std::size_t kStartJob = kTurnJob + 2;  // small, middle, large
 constexpr std::size_t kResponseJob = kStartJob + kBendShares.size();
 constexpr std::size_t kJobs = kResponseJob + 1;
 constexpr std::size_t kLaterJobs = kJobs - kSteadyJobs;
 
 // Values of Order::curve and liftRadians. Over all species and gaits a wide curve has a radius of
-// 3.8 to 9.7 body lengths, a tight one of 1.7 to 4.6.
+// 3.8 to 9.7 body lengths.
 constexpr double kWideCurve = 0.2;
-constexpr double kTightCurve = 0.4;
 constexpr double kLoopLiftRadians = 0.4;
 
 // The results of one species' jobs. Each job writes its own member only, so no lock is needed.
 struct Swum {
     std::array<std::optional<SteadySwimming>, kSteadyJobs> steady;
-    std::array<RecordedCycle, 2> leftTurn;                // gradual, sharp
-    std::array<std::vector<EnteredTurn>, 2> enteredLeft;  // likewise
+    std::array<RecordedCycle, 2> leftTurn;                               // gradual, sharp
+    std::array<std::vector<EnteredTurn>, 2> enteredLeft;                 // likewise
     std::array<std::vector<EnteredTurn>, kBendShares.size()> leftStart;  // the first out of rest
     motion::SpeedResponse response;
     std::array<std::string, kJobs> errors;  // of each job
@@ -87,9 +86,7 @@ Order orderOf(const config::Species& species, std::size_t job) {
             order.bankRadians = kBankRadians / 2;
             break;
         case Way::TightCurve:
-            order.curve = kTightCurve;
-            order.bankRadians = kBankRadians;
-            break;
+            return tightCurve(order.gait);
         case Way::Loop:
             order.liftRadians = kLoopLiftRadians;
             break;
@@ -157,8 +154,8 @@ void compileGait(const Swum& swum, std::size_t gait, bool rows, motion::Repertoi
     segment(Action::DiveSlow) = mirroredTopBottom(segment(Action::ClimbSlow));
 }
 
-// The paths of a left turn or fast start by speed and phase of the beat. Every other phase is a blend
-// of the recorded ones about it.
+// The paths of a left turn or fast start by speed and phase of the beat. Every other phase is a
+// blend of the recorded ones about it.
 std::vector<motion::TurnPath> pathsOf(std::span<const EnteredTurn> turns, const SwimsOn& on) {
     constexpr std::size_t kRecorded = kRecordedPhases;
     static_assert(kRecorded * 2 == motion::kEntryPhases);
@@ -204,8 +201,9 @@ void compileInPlace(const Swum& swum, motion::Repertoire& repertoire) {
 // How a fish swims on at a gait.
 SwimsOn swimsOn(const motion::Repertoire& repertoire, motion::Action gait) {
     const motion::ActionSegment& segment = repertoire.segments.at(indexOf(gait));
-    return {.speed = measure(segment).strideBodyLengths / static_cast<double>(segment.periodSeconds),
-            .drag = static_cast<double>(repertoire.response.swimDrag.at(indexOf(gait)))};
+    return {
+        .speed = measure(segment).strideBodyLengths / static_cast<double>(segment.periodSeconds),
+        .drag = static_cast<double>(repertoire.response.swimDrag.at(indexOf(gait)))};
 }
 
 // The turns to the left and, mirrored, to the right.

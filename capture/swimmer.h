@@ -94,6 +94,8 @@ class Swimmer {
     // How the pectoral fins stand, left and right: opened, carried by the stroke, twisted, radians.
     // A fin that does not row lies on the flank, twisted by what it trims.
     [[nodiscard]] std::array<glm::dvec3, 2> fins() const;
+    // Phase of the beat of the tail or, where they row, of the fins; cycles, 0 to 1.
+    [[nodiscard]] double beat() const { return beat_; }
 
   private:
     void advanceOne();

@@ -14,6 +14,17 @@ namespace aquarama::capture {
 // How far a fish rolls into a turn at most.
 inline constexpr double kBankRadians = 12 * std::numbers::pi / 180;
 
+// How much more the left muscles pull on a tight curve (Order::curve). Over all species and gaits
+// its radius is 1.7 to 4.6 body lengths.
+inline constexpr double kTightCurve = 0.4;
+// A gait on a tight curve to the left, with the roll into it.
+[[nodiscard]] inline Order tightCurve(const config::Gait& gait) {
+    return {.controller = Controller::ForwardSwim,
+            .gait = gait,
+            .curve = kTightCurve,
+            .bankRadians = kBankRadians};
+}
+
 // A turn is over when its muscles are relaxed and no nodal point is farther than this from its
 // place in the straight fish, in the body frame.
 inline constexpr double kStraightBodyLengths = 0.03;

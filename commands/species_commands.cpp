@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama gaits`, `search`, `controllers` and `fidelity`: measure how species swim, and how
-// closely their replicas follow.
+// `aquarama gaits`, `search` and `controllers`: measure how species swim.
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -16,7 +15,6 @@
 
 #include "capture/capture_repertoire.h"
 #include "capture/gait_trial.h"
-#include "capture/report/fidelity.h"
 #include "capture/report/report_data.h"
 #include "capture/search.h"
 #include "commands/commands.h"
@@ -116,51 +114,6 @@ void drawControllers(const ControllersOptions& options) {
         {"matplotlib"}, "capture/report/draw_controllers.py", {data.string()}, options.out);
 }
 
-struct FidelityOptions {
-    std::vector<std::string> species;  // names or files; none: all
-    std::string out;
-    std::string config;
-    std::uint64_t seed = 1;  // of the script of commands
-    double seconds = 60;     // its length
-};
-
-// Prints the file's name on stderr: stdout is for the tables.
-void writeText(const fs::path& path, const std::string& text) {
-    writeWhole(path, std::as_bytes(std::span(text.data(), text.size())));
-    std::cerr << path.string() << '\n';
-}
-
-// Gives the fish and its replica the same script, for each species; Python draws the results.
-void compareAll(const FidelityOptions& options) {
-    cli::requireFolder("--out", options.out);
-    cli::requirePython({"matplotlib"});
-    const fs::path config = configFolder(options.config);
-    std::vector<report::Fidelity> fidelities;
-    std::vector<report::SpeciesVocabularies> vocabularies;
-    for (const fs::path& file : capture::speciesFiles(options.species, config)) {
-        const config::Species species = config::readSpecies(file.string());
-        cli::Progress bar("comparing " + species.name);
-        const motion::Repertoire repertoire =
-            capture::captureRepertoire(species, [&](double share) { bar.show(0.5 * share); });
-        fidelities.push_back(
-            report::measureFidelity(species, repertoire, options.seed, options.seconds));
-        bar.show(0.6);
-        vocabularies.push_back(
-            {species.name,
-             report::compareVocabularies(species, repertoire, options.seed, options.seconds)});
-        bar.show(1);
-    }
-    const fs::path out = options.out;
-    writeText(out / "fidelity.csv", report::commandsCsv(fidelities));
-    writeText(out / "fidelity_summaries.csv", report::summariesCsv(fidelities));
-    writeText(out / "fidelity_ticks.csv", report::ticksCsv(fidelities));
-    writeText(out / "fidelity_vocabularies.csv", report::vocabulariesCsv(vocabularies));
-    cli::runPython({"matplotlib"},
-                   "capture/report/draw_fidelity.py",
-                   {options.out, std::to_string(options.seed)},
-                   options.out);
-}
-
 }  // namespace
 
 void addGaits(CommandLine& line) {
@@ -198,23 +151,6 @@ void addControllers(CommandLine& line) {
             "--species", options.species, "name of a species in the config folder, or a file")
         ->capture_default_str();
     command.add_option("--out", options.out, "folder for controllers.svg and its data")->required();
-    describeConfig(command, options.config);
-}
-
-void addFidelity(CommandLine& line) {
-    const auto [command, options] = line.add<FidelityOptions>(
-        "fidelity", "measure how closely replicas follow the fish that they stand for", compareAll);
-    command.add_option("--species",
-                       options.species,
-                       "name of a species in the config folder, or a file; all when not given");
-    command.add_option("--seed", options.seed, "which script of commands")
-        ->check(cli::wholeNumber(0, cli::kMostSeed))
-        ->capture_default_str();
-    command.add_option("--seconds", options.seconds, "how long the script is")
-        ->check(cli::number(1, 3600))
-        ->capture_default_str();
-    command.add_option("--out", options.out, "folder for the page, its data and the pictures")
-        ->required();
     describeConfig(command, options.config);
 }
 

@@ -32,6 +32,7 @@ declare -A way=(
     [forward_medium.svg]=report
     [turn_right_sharp.svg]=report
     [midlines_forward_medium.svg]=report
+    [fidelity_film.webp]=film
     [fidelity_ways.svg]=fidelity
     [fidelity_segments.svg]=fidelity
     [adaptation.svg]=adaptation
@@ -114,6 +115,18 @@ report() {
 }
 # Prints the tables of docs/fidelity.md besides.
 fidelity() { $bin/aquarama fidelity --seed 4 --out "$drawn"; }
+# The last picture of the film's first seconds.
+film() {
+    $bin/aquarama fidelity clownfish --seconds 5.8 --clip "$drawn/film.webp"
+    /usr/bin/python3 - "$drawn" <<'PYTHON'
+import sys
+from PIL import Image
+film = Image.open(f"{sys.argv[1]}/film.webp")
+film.seek(film.n_frames - 1)
+film.convert("RGB").resize((1000, 563), Image.LANCZOS).save(
+    f"{sys.argv[1]}/fidelity_film.webp", quality=85, method=6)
+PYTHON
+}
 # Prints the tables of docs/appendices/adaptation.md besides.
 adaptation() { $bin/aquarama study --seeds 16 --minutes 4 --out "$drawn"; }
 

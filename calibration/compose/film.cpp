@@ -152,4 +152,20 @@ void film(const config::Rig& rig, const Filming& filming) {
         "clip of the {} in {}: {}", filming.of, filming.clipPath, counted(pictures, "picture")));
 }
 
+void encode(const SentPictures& sent) {
+    assert(sent.ticksBetween > 0);
+    auto sender = net::bindFrames(sent.pipe);
+    cli::holdSignals();  // the clip ends with its sender
+    std::optional<net::RawFrame> frame = sender->receive();
+    if (!frame) throw Error(sent.clipPath + ": no picture came; see why its program ended");
+    const glm::ivec2 size(frame->width, frame->height);
+    const auto clip = makeClip({sent.clipPath, size, sent.ticksBetween});
+    for (; frame; frame = sender->receive()) {
+        if (size != glm::ivec2(frame->width, frame->height))
+            throw Error(sent.clipPath + ": a picture has another size; send all alike");
+        clip->add({size, 8, std::move(frame->rgb)}, frame->frame);
+    }
+    clip->finish();
+}
+
 }  // namespace aquarama::compose

@@ -32,4 +32,15 @@ struct Filming {
 // clip cannot be written.
 void film(const config::Rig& rig, const Filming& filming);
 
+// Pictures that one program draws, and the clip that they become.
+struct SentPictures {
+    std::filesystem::path pipe;  // the socket by which it sends them
+    std::string clipPath;        // .mp4 or .webp
+    int ticksBetween = 1;        // ticks of 1/60 s for which each is shown
+};
+
+// Makes the clip until the sender ends. Throws Error without any picture, for pictures of different
+// sizes, and where the clip cannot be written.
+void encode(const SentPictures& sent);
+
 }  // namespace aquarama::compose

@@ -186,6 +186,17 @@ void addCompose(cli::CommandLine& line) {
     command.add_flag("--deep", options.deep, "write 16 bits instead of 8");
 }
 
+void addEncode(cli::CommandLine& line) {
+    const auto [command, options] = line.add<compose::SentPictures>(
+        "encode",
+        "make FILE.mp4 or FILE.webp of the pictures that a program sends",
+        compose::encode);
+    command.add_option("FILE", options.clipPath, "the clip")->required();
+    command.add_option("--pipe", options.pipe, "the socket by which they come")->required();
+    command.add_option("--every", options.ticksBetween, "sixtieths of a second to one picture")
+        ->check(cli::wholeNumber(1, 10000));
+}
+
 void addClip(cli::CommandLine& line) {
     const auto [command, options] = line.add<Clip>(
         "clip",
@@ -280,6 +291,7 @@ int main(int count, char** arguments) {
     addCheck(line, app);
     addCompose(line);
     addClip(line);
+    addEncode(line);
     addView(line);
     addInspect(line);
     return cli::runProgram(app, count, arguments, [&] { return line.runChosen(); });

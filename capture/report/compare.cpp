@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
 
 #include "common/base/units.h"
 
@@ -123,13 +124,14 @@ CommandErrors errorsOf(const ScriptCommand& command, const Passage& passage, dou
     // The path, and the parts of its error along and across the chord of the fish's path.
     const Overlay overlay(fish, replica, first, beatBefore);
     errors.path = pathLength(fish, first, last);
-    errors.pathErrorAtEnd = overlay.distanceAt(last) / errors.path;
-    errors.pathErrorMost = overlay.mostTo(last) / errors.path;
+    const double scale = staysInPlace(command.manoeuvre) ? 1 : errors.path;
+    errors.pathErrorAtEnd = overlay.distanceAt(last) / scale;
+    errors.pathErrorMost = overlay.mostTo(last) / scale;
     const glm::dvec3 chord = fish[last].frame.origin - fish[first].frame.origin;
     const glm::dvec3 off = overlay.at(last) - fish[last].frame.origin;
     const double ahead = glm::dot(off, glm::normalize(chord));
-    errors.pathErrorAlong = ahead / errors.path;
-    errors.pathErrorAcross = glm::length(off - ahead * glm::normalize(chord)) / errors.path;
+    errors.pathErrorAlong = ahead / scale;
+    errors.pathErrorAcross = glm::length(off - ahead * glm::normalize(chord)) / scale;
     errors.turn = wrapped(headingAt(fish, last, beat) - headingAt(fish, first, beatBefore));
     errors.headingError = overlay.headingErrorAt(last, beat);
     errors.replicaWay = overlay.wayTo(last);
@@ -185,10 +187,32 @@ void addShapes(const Passage& passage, double lag, Comparison& comparison) {
     }
 }
 
+// A pose as it is in a frame that only heads as the fish does. The captured path of a turn or curve
+// is level: its roll into the bend and its pitch are in the poses.
+void level(TracePoint& point) {
+    const glm::dmat3 attitude = point.frame.worldFromBody;
+    const double heading = std::atan2(-attitude[0].z, attitude[0].x);
+    const glm::dmat3 levelled =
+        glm::mat3_cast(glm::angleAxis(-heading, glm::dvec3(0, 1, 0))) * attitude;
+    for (glm::dvec3& node : point.pose) node = levelled * node;
+}
+
+Trace levelInTurns(const Script& script, Trace trace) {
+    std::size_t tick = 0;
+    for (const ScriptCommand& command : script)
+        for (int i = 0; i < command.ticks; ++i) {
+            ++tick;  // the first point is before the first command
+            if (isTurn(command.manoeuvre) || isCurve(command.manoeuvre)) level(trace[tick]);
+        }
+    return trace;
+}
+
 }  // namespace
 
 Comparison compare(const Script& script, const Traces& traces) {
-    const auto& [fish, replica, loose] = traces;
+    const Trace fish = levelInTurns(script, traces.fish);
+    const Trace replica = levelInTurns(script, traces.replica);
+    const Trace& loose = traces.looseReplica;
     assert(!script.empty());
     assert(fish.size() == static_cast<std::size_t>(script.front().ticks + ticksOf(script)) + 1);
     assert(replica.size() == fish.size());

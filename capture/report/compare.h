@@ -16,9 +16,11 @@ namespace aquarama::report {
 // The errors of one command.
 //
 // The error of the shape is the root mean square distance of the 23 nodal points in the body frame,
-// in body lengths. Both fish begin a command at the same phase of the beat. The transition may
-// shift that phase: the lag is the shift in time at which the shapes after the transition agree
-// best. The transition is the first beat of the command, or half of a short command.
+// in body lengths; in turns and curves in a level frame of the same heading, since what is captured
+// of them is a level path, with roll and pitch in the poses. Both fish begin a command at the same
+// phase of the beat. The transition may shift that phase: the lag is the shift in time at which the
+// shapes after the transition agree best. The transition is the first beat of the command, or half
+// of a short command.
 //
 // For the error of the path, the replica's path is moved at the start of each command to the fish's
 // place and turned to its heading. The heading is the direction of the nose, averaged over the last
@@ -34,7 +36,8 @@ struct CommandErrors {
     std::optional<int> agreesAfterTicks{};
 
     double path = 0;  // length of the fish's own path, body lengths
-    // Errors of the path as shares of that length: the distance at the end, the greatest distance,
+    // Errors of the path as shares of that length, or of a body length where the command stays in
+    // its place: the distance at the end, the greatest distance,
     // and the two parts of the distance at the end. The part along the chord of the fish's path,
     // positive ahead, is mostly an error of speed; the part across it, of heading.
     double pathErrorAtEnd = 0;
@@ -109,7 +112,9 @@ class Overlay {
     // at() for each tick from the start to `end`.
     [[nodiscard]] std::vector<glm::dvec3> wayTo(std::size_t end) const;
     [[nodiscard]] double distanceAt(std::size_t tick) const;  // from the fish
-    [[nodiscard]] double mostTo(std::size_t end) const;       // the greatest of those to `end`
+    // From the replica's heading to the fish's at the start, radians, left positive.
+    [[nodiscard]] double turnRadians() const { return turn_; }
+    [[nodiscard]] double mostTo(std::size_t end) const;  // the greatest of those to `end`
     // The replica's heading minus the fish's, radians.
     [[nodiscard]] double headingErrorAt(std::size_t tick, double beatTicks) const;
 

@@ -15,9 +15,9 @@ sys.path.append(str(Path(__file__).resolve().parents[1] / "report"))
 from figures import (INK, PX, from_above, hide_axes, html_table, markdown_table, picture, plt, read_csv, save,
                      write_page)
 
-# Colours of the kinds of commands: gaits in blues, turns in orange.
+# Colours of the kinds of commands: gaits in blues, turns in orange, fast starts in red.
 KINDS = {"slow": "#9fc9e8", "medium": "#5b9fd0", "fast": "#1f6aa5", "gradual turn": "#f2b35c", "sharp turn": "#e0702c",
-         "glide": "#9bbf7a", "up, down, level": "#b59ad6", "brake, retreat": "#8a969e"}
+         "fast start": "#a8447f", "glide": "#9bbf7a", "up, down, level": "#b59ad6", "brake, retreat": "#8a969e"}
 # Colours: the uncorrected replica, one of several species, the goal, the number of segments that repertoires have.
 ALONE, SPECIES, GOAL, OURS = "#7b3f00", "#b9c6cd", "#c0392b", "#e0702c"
 INTRODUCTION = """<p>The biomechanical fish and its kinematic replica obey the same commands. Shape: root mean square
@@ -30,11 +30,12 @@ speed's, across it the heading's (medians). <span class="over">Over the goal</sp
 SHAPE_GOAL, PATH_GOAL = 0.01, 0.05
 
 
-# The colour of a command's kind. What is no gait here is a forward gait or a turn: its last word names the kind.
+# The colour of a command's kind. Of a forward gait and a turn the last word names it.
 def colour_of(command):
     gaits = {"ascend": "up, down, level", "descend": "up, down, level", "balance": "up, down, level", "glide": "glide",
              "brake": "brake, retreat", "retreat": "brake, retreat"}
-    kind = gaits.get(command) or command.split("_")[-1] + (" turn" if command.startswith("turn") else "")
+    first, last = command.split("_")[0], command.split("_")[-1]
+    kind = gaits.get(command) or {"turn": f"{last} turn", "start": "fast start"}.get(first, last)
     return KINDS[kind]
 
 

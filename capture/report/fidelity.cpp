@@ -6,6 +6,7 @@
 #include <iterator>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "capture/report/report_data.h"
@@ -96,6 +97,22 @@ void addTicks(std::ostream& csv, const Fidelity& fidelity) {
 }
 
 }  // namespace
+
+std::string commandTable(const Comparison& comparison) {
+    std::string table =
+        "| command | way, BL | off at its end, BL | heading off, deg | shape within, % BL |\n"
+        "|---|---|---|---|---|\n";
+    for (const CommandErrors& errors : comparison.commands) {
+        const Manoeuvre manoeuvre = errors.command.manoeuvre;
+        table += fmt::format("| {} | {:.2f} | {:.2f} | {:.1f} | {:.2f} |\n",
+                             nameOf(manoeuvre),
+                             errors.path,
+                             errors.pathErrorAtEnd * (staysInPlace(manoeuvre) ? 1 : errors.path),
+                             degrees(errors.headingError),
+                             100 * errors.shapeWithin);
+    }
+    return table;
+}
 
 std::string commandsCsv(std::span<const Fidelity> species) {
     std::ostringstream csv;

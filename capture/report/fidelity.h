@@ -40,6 +40,10 @@ struct Fidelity {
     return errors;
 }
 
+// A table of the commands of one script, in Markdown: each command's way, and how far the replica
+// is off at its end in place, heading and shape.
+[[nodiscard]] std::string commandTable(const Comparison& comparison);
+
 // The CSV that the command `fidelity` writes and draw_fidelity.py reads. Shares are of 1, lengths
 // are body lengths (BL), places are x and z of the world; the first line names the columns. A value
 // that does not exist is empty.

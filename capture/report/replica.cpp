@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/report/replica.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "capture/report/script.h"
+#include "capture/speed_response.h"
 #include "capture/turn.h"
 #include "common/base/units.h"
 #include "common/motion/reconstruct.h"
@@ -78,6 +80,11 @@ void Replica::command(Manoeuvre manoeuvre) {
 }
 
 void Replica::play(motion::Action action, double tempo) {
+    wanted_ = action;
+    begin(action, tempo);
+}
+
+void Replica::begin(motion::Action action, double tempo) {
     commands_.action[0] = static_cast<std::uint8_t>(action);
     const auto rate = std::lround(tempo * motion::recordedPhaseRate(*tables_, action));
     assert(rate >= std::numeric_limits<std::int16_t>::min());
@@ -85,18 +92,36 @@ void Replica::play(motion::Action action, double tempo) {
     commands_.phaseRate[0] = static_cast<std::int16_t>(rate);
 }
 
+float Replica::pitchSine() const {
+    return (motion::meanRotation(*tables_, states_, 0) * glm::vec3(1, 0, 0)).y;
+}
+
 // As the secondary controller of the show does: a slope while the pitch is off.
 void Replica::takeSlope() {
-    const auto commanded = static_cast<motion::Action>(commands_.action[0]);
-    if (!swims(commanded)) return;
-    const float pitch = static_cast<float>(commands_.pitch[0]) / 32768.0F;
-    const float error = pitch - (motion::meanRotation(*tables_, states_, 0) * glm::vec3(1, 0, 0)).y;
-    const motion::Action gait = gaitOf(commanded);
-    play(motion::takesSlope(commanded, error) ? motion::slopeOf(gait, error > 0) : gait, 1);
+    const float error = static_cast<float>(commands_.pitch[0]) / 32768.0F - pitchSine();
+    const auto present = static_cast<motion::Action>(commands_.action[0]);
+    begin(
+        motion::takesSlope(present, error) ? motion::slopeOf(gaitOf(wanted_), error > 0) : wanted_,
+        1);
+}
+
+// The fins of a fish that pitches up go on as long as they are told: nothing is steered.
+void Replica::pitchInPlace() {
+    const float pitch = pitchSine();
+    if (wanted_ == motion::Action::PitchUp) {
+        commands_.pitch[0] = static_cast<std::int16_t>(std::lround(pitch * 32767));
+        return;
+    }
+    const auto present = static_cast<motion::Action>(commands_.action[0]);
+    if (motion::takesSlope(present, -pitch))
+        begin(pitch > 0 ? motion::Action::PitchDown : motion::Action::PitchUp, 1);
+    else
+        begin(wanted_, 1);
 }
 
 void Replica::tick() {
-    takeSlope();
+    if (swims(wanted_)) takeSlope();
+    if (staysInPlace(wanted_)) pitchInPlace();
     motion::MotorStep{.tables = tables_.get(),
                       .traits = kTraits,
                       .commands = &commands_,
@@ -131,11 +156,21 @@ void Replica::bringToPhaseOf(const capture::NodeVectors& pose) {
 TracePoint Replica::point() const {
     const motion::FishRecord record = motion::recordOf(states_, 0);
     body::NodalPoints nodes;
-    motion::nodalPose(repertoire_, motion::present(record, record, 1.0F, kTraits[0]), nodes);
+    const motion::PresentedFish fish = motion::present(record, record, 1.0F, kTraits[0]);
+    motion::nodalPose(repertoire_, fish, nodes);
     const motion::BodyFrame frame = motion::bodyFrameOf(record);
     TracePoint point{.frame = {glm::dvec3(frame.position),
                                glm::mat3_cast(glm::normalize(glm::dquat(frame.rotation)))}};
     for (std::size_t i = 0; i < nodes.size(); ++i) point.pose.at(i) = nodes.at(i);
+    const auto [left, right] = motion::finPoses(repertoire_, fish);
+    point.drive = {.speed = fish.speed,
+                   .tilt = static_cast<float>(point.frame.worldFromBody[2].y),
+                   .spread = fish.spread,
+                   .left = left,
+                   .right = right,
+                   .phase = fish.phase,
+                   .fromPhase = fish.fromPhase,
+                   .weight = fish.warpWeight};
     return point;
 }
 
@@ -145,6 +180,13 @@ namespace {
 
 // The fish's own seconds from rest until it swims steadily at medium speed.
 constexpr double kSecondsToSteady = 24;
+
+// A curve to the left as one to the right.
+capture::Order mirrored(capture::Order curve) {
+    curve.curve = -curve.curve;
+    curve.bankRadians = -curve.bankRadians;
+    return curve;
+}
 
 // A swimming fish balances, since the replica always does (the paper's section 4.2). The fins have
 // no effect on a fish that is level and upright already.
@@ -159,13 +201,21 @@ capture::Order orderFor(const config::Species& species, Manoeuvre manoeuvre) {
         case Manoeuvre::ForwardFast:
             return {.controller = capture::Controller::Balance, .gait = swim.fast};
         case Manoeuvre::TurnLeftGradual:
-            return {.controller = capture::Controller::LeftTurn, .bend = species.turn.gradual};
+            return {.controller = capture::Controller::LeftTurn,
+                    .bend = species.turn.gradual,
+                    .bankRadians = capture::kBankRadians};
         case Manoeuvre::TurnLeftSharp:
-            return {.controller = capture::Controller::LeftTurn, .bend = species.turn.sharp};
+            return {.controller = capture::Controller::LeftTurn,
+                    .bend = species.turn.sharp,
+                    .bankRadians = capture::kBankRadians};
         case Manoeuvre::TurnRightGradual:
-            return {.controller = capture::Controller::RightTurn, .bend = species.turn.gradual};
+            return {.controller = capture::Controller::RightTurn,
+                    .bend = species.turn.gradual,
+                    .bankRadians = capture::kBankRadians};
         case Manoeuvre::TurnRightSharp:
-            return {.controller = capture::Controller::RightTurn, .bend = species.turn.sharp};
+            return {.controller = capture::Controller::RightTurn,
+                    .bend = species.turn.sharp,
+                    .bankRadians = capture::kBankRadians};
         case Manoeuvre::Glide:
             return {.controller = capture::Controller::Glide};
         case Manoeuvre::Ascend:
@@ -179,21 +229,54 @@ capture::Order orderFor(const config::Species& species, Manoeuvre manoeuvre) {
         case Manoeuvre::Brake:
             return {.controller = capture::Controller::Brake};
         case Manoeuvre::Retreat:
-            return {.controller = capture::Controller::Retreat, .gait = swim.slow};
+            return capture::rowingOrder(species, capture::Controller::Retreat);
+        case Manoeuvre::CurveLeft:
+            return capture::tightCurve(swim.medium);
+        case Manoeuvre::CurveRight:
+            return mirrored(capture::tightCurve(swim.medium));
+        case Manoeuvre::Hover:
+            return capture::rowingOrder(species, capture::Controller::Hover);
+        case Manoeuvre::PivotLeft:
+            return capture::rowingOrder(species, capture::Controller::LeftPivot);
+        case Manoeuvre::PitchUp:
+            return capture::rowingOrder(species, capture::Controller::PitchUp);
         default:
             break;
     }
-    const auto size = static_cast<std::size_t>(manoeuvre) -
-                      static_cast<std::size_t>(Manoeuvre::StartLeftSmall);
+    const auto size =
+        static_cast<std::size_t>(manoeuvre) - static_cast<std::size_t>(Manoeuvre::StartLeftSmall);
     const bool left = size < capture::kBendShares.size();
-    return {.controller =
-                left ? capture::Controller::LeftStart : capture::Controller::RightStart,
+    return {.controller = left ? capture::Controller::LeftStart : capture::Controller::RightStart,
             .bendShare = capture::kBendShares.at(size % capture::kBendShares.size())};
 }
 
-// A point of a trace from places in the world.
-TracePoint pointOf(const capture::NodeVectors& pose) {
-    return {capture::frameOf(pose), capture::inBodyFrame(pose)};
+// Turns and fast starts, of which a replica has a segment from their begin to their end.
+bool playsOnce(capture::Controller controller) {
+    using capture::Controller;
+    return controller == Controller::LeftTurn || controller == Controller::RightTurn ||
+           controller == Controller::LeftStart || controller == Controller::RightStart;
+}
+
+// A pectoral fin as it is drawn.
+body::FinPose finPoseOf(const glm::dvec3& fin) {
+    return {static_cast<float>(fin.x), static_cast<float>(fin.y), static_cast<float>(fin.z)};
+}
+
+// A point of a trace. `spread`: how far the pectoral fins brake, as the motor has it.
+TracePoint pointOf(const capture::Swimmer& swimmer, float spread) {
+    const capture::NodeVectors& pose = swimmer.state().positions;
+    TracePoint point{.frame = capture::frameOf(pose), .pose = capture::inBodyFrame(pose)};
+    glm::dvec3 velocity{};
+    for (const glm::dvec3& node : swimmer.state().velocities)
+        velocity += node / static_cast<double>(body::kNodalPoints);
+    const auto [left, right] = swimmer.fins();
+    point.drive = {.speed = static_cast<float>(dot(velocity, point.frame.worldFromBody[0])),
+                   .tilt = static_cast<float>(point.frame.worldFromBody[2].y),
+                   .spread = spread,
+                   .left = finPoseOf(left),
+                   .right = finPoseOf(right),
+                   .phase = static_cast<float>(swimmer.beat())};
+    return point;
 }
 
 }  // namespace
@@ -209,12 +292,18 @@ Trace traceFish(const config::Species& species, std::span<const TimedOrder> orde
     const double beats = std::ceil(kSecondsToSteady / species.tissue.timeScale / beatSeconds);
     swimmer.advance(static_cast<int>(std::lround(beats * beatSeconds / swimmer.stepSeconds())));
 
-    Trace trace{pointOf(swimmer.state().positions)};
+    float spread = 0;
+    Trace trace{pointOf(swimmer, spread)};
     for (const auto& [order, ticks] : orders) {
         swimmer.give(order);
+        const float wanted = order.controller == capture::Controller::Brake ? 1 : 0;
         for (int tick = 0; tick < ticks; ++tick) {
             swimmer.advance(stepsPerTick);
-            trace.push_back(pointOf(swimmer.state().positions));
+            constexpr float kStep = motion::kSpreadStep / 255.0F;
+            spread += std::clamp(wanted - spread, -kStep, kStep);
+            trace.push_back(pointOf(swimmer, spread));
+            if (playsOnce(order.controller))
+                trace.back().drive.phase = static_cast<float>(tick + 1) / static_cast<float>(ticks);
         }
     }
     return trace;

@@ -23,7 +23,8 @@ class Replica {
     // A segment at `tempo` times its recorded phase rate, which must fit into 16 bits and not be
     // negative.
     void play(motion::Action action, double tempo);
-    // 1/60 s. A swimming replica whose pitch is off plays the slope of its gait at the tempo 1.
+    // 1/60 s. A swimming replica whose pitch is off plays the slope of its gait at the tempo 1; one
+    // that hovers pitches in its place.
     void tick();
 
     // Replaces a segment of the repertoire that is not playing.
@@ -38,12 +39,17 @@ class Replica {
     [[nodiscard]] TracePoint point() const;  // where it is now
 
   private:
+    // Plays a segment without making it the wanted one.
+    void begin(motion::Action action, double tempo);
     void takeSlope();
+    void pitchInPlace();
+    [[nodiscard]] float pitchSine() const;  // of the mean frame
 
     motion::Repertoire repertoire_;
     std::shared_ptr<const motion::MotorTables> tables_;  // of repertoire_
     motion::MotionStates states_;
     motion::MotorCommands commands_;
+    motion::Action wanted_ = motion::Action::ForwardMedium;  // of the last command
 };
 
 }  // namespace aquarama::report

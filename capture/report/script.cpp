@@ -105,10 +105,12 @@ double ticksOf(const motion::ActionSegment& segment) {
 struct Beats {
     double least, most;
 };
-// A balance is long enough for the fish to become level; a brake ends when it is nearly at rest.
+// A balance is long enough for the fish to become level; a brake ends when it is nearly at rest. In
+// three beats rowing fins would pitch some fish upright.
 Beats beatsOf(Manoeuvre manoeuvre) {
     switch (manoeuvre) {
         case Manoeuvre::Brake:
+        case Manoeuvre::PitchUp:
             return {1, 2};
         case Manoeuvre::Glide:
         case Manoeuvre::Retreat:
@@ -129,14 +131,8 @@ double beatTicks(const motion::Repertoire& repertoire, Manoeuvre manoeuvre) {
 ScriptCommand commandFor(const motion::Repertoire& repertoire,
                          Manoeuvre manoeuvre,
                          Random& random) {
-    ScriptCommand command{.manoeuvre = manoeuvre, .beatTicks = beatTicks(repertoire, manoeuvre)};
-    // A turn lasts the whole ticks in which the motor plays its segment.
-    if (isTurn(manoeuvre) || isStart(manoeuvre)) {
-        const long rate = std::lround(65536 / ticksOf(segmentOf(repertoire, manoeuvre)));
-        const long last = isStart(manoeuvre) ? 65535 - 1024 : 65535;
-        command.ticks = static_cast<int>(last / rate);
-        return command;
-    }
+    ScriptCommand command = briefest(repertoire, manoeuvre);
+    if (playsToEnd(manoeuvre)) return command;
     constexpr double kUnit = 1.0 / 4294967296.0;  // 2^-32: the share is in [0, 1)
     const double share = static_cast<double>(random() >> 32U) * kUnit;
     const auto [least, most] = beatsOf(manoeuvre);
@@ -187,6 +183,16 @@ motion::Action actionOf(Manoeuvre manoeuvre) {
             return Action::Glide;
         case Manoeuvre::Retreat:
             return Action::Retreat;
+        case Manoeuvre::CurveLeft:
+            return Action::CurveLeftTightMedium;
+        case Manoeuvre::CurveRight:
+            return Action::CurveRightTightMedium;
+        case Manoeuvre::Hover:
+            return Action::Hover;
+        case Manoeuvre::PivotLeft:
+            return Action::PivotLeft;
+        case Manoeuvre::PitchUp:
+            return Action::PitchUp;
         case Manoeuvre::StartLeftSmall:
         case Manoeuvre::StartLeftMiddle:
         case Manoeuvre::StartLeftLarge:
@@ -200,13 +206,28 @@ motion::Action actionOf(Manoeuvre manoeuvre) {
     return Action::ForwardMedium;
 }
 
+ScriptCommand runIn(const motion::Repertoire& repertoire) {
+    const double beat = beatTicks(repertoire, Manoeuvre::ForwardMedium);
+    assert(beat > 0);  // else a script would never be long enough
+    return {Manoeuvre::ForwardMedium, static_cast<int>(std::ceil(kRunInBeats * beat)), beat};
+}
+
+ScriptCommand briefest(const motion::Repertoire& repertoire, Manoeuvre manoeuvre) {
+    ScriptCommand command{.manoeuvre = manoeuvre, .beatTicks = beatTicks(repertoire, manoeuvre)};
+    if (playsToEnd(manoeuvre)) {
+        const long rate = std::lround(65536 / ticksOf(segmentOf(repertoire, manoeuvre)));
+        const long last = isStart(manoeuvre) ? 65535 - 1024 : 65535;
+        command.ticks = static_cast<int>(last / rate);
+    } else {
+        command.ticks = static_cast<int>(std::ceil(beatsOf(manoeuvre).least * command.beatTicks));
+    }
+    return command;
+}
+
 Script makeScript(const motion::Repertoire& repertoire, std::uint64_t seed, double seconds) {
     Random random(seed);
-    const double beat = beatTicks(repertoire, Manoeuvre::ForwardMedium);
-    assert(beat > 0);  // else the script would never be long enough
     // The run-in, then each command by what came before it.
-    Script script{
-        {Manoeuvre::ForwardMedium, static_cast<int>(std::ceil(kRunInBeats * beat)), beat}};
+    Script script{runIn(repertoire)};
     while (ticksOf(script) < seconds * kTicksPerSecond)
         script.push_back(
             commandFor(repertoire, choose(choicesAfter(script.back().manoeuvre), random), random));

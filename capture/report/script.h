@@ -9,13 +9,15 @@
 
 #include "capture/dynamics.h"
 #include "capture/swimmer.h"
+#include "common/body/fins.h"
 #include "common/config/species.h"
 #include "common/motion/repertoire.h"
 
 namespace aquarama::report {
 
 // The manoeuvres that can be commanded. The replica swims level, climbs and dives on the captured
-// slopes, and brakes in the glide with its fins spread.
+// slopes, and brakes in the glide with its fins spread. Curves are the tight ones at medium speed.
+// Random scripts have none of these and nothing in one place; the film has (film_script.h).
 enum class Manoeuvre : std::uint8_t {
     ForwardSlow,
     ForwardMedium,
@@ -36,15 +38,27 @@ enum class Manoeuvre : std::uint8_t {
     StartRightSmall,
     StartRightMiddle,
     StartRightLarge,
+    CurveLeft,
+    CurveRight,
+    Hover,
+    PivotLeft,
+    PitchUp,
 };
-inline constexpr int kManoeuvres = 19;
+inline constexpr int kManoeuvres = 24;
 // "forward_slow", ..., "ascend", ...; the string is static.
 [[nodiscard]] const char* nameOf(Manoeuvre manoeuvre);
 [[nodiscard]] constexpr bool isTurn(Manoeuvre m) {
     return m >= Manoeuvre::TurnLeftGradual && m <= Manoeuvre::TurnRightSharp;
 }
 [[nodiscard]] constexpr bool isStart(Manoeuvre m) {
-    return m >= Manoeuvre::StartLeftSmall;
+    return m >= Manoeuvre::StartLeftSmall && m <= Manoeuvre::StartRightLarge;
+}
+[[nodiscard]] constexpr bool isCurve(Manoeuvre m) {
+    return m == Manoeuvre::CurveLeft || m == Manoeuvre::CurveRight;
+}
+// Hovering, turning and pitching in one place. To the right and down they are the mirror image.
+[[nodiscard]] constexpr bool staysInPlace(Manoeuvre m) {
+    return m >= Manoeuvre::Hover;
 }
 
 // The action that the replica plays for a manoeuvre while its pitch is the wanted one.
@@ -62,10 +76,22 @@ struct ScriptCommand {
 // The first command is the run-in, which is not measured.
 using Script = std::vector<ScriptCommand>;
 
-// A run-in of steady swimming at medium speed, then random commands until they last `seconds` or
+// Turns and fast starts last their segment.
+[[nodiscard]] constexpr bool playsToEnd(Manoeuvre m) {
+    return isTurn(m) || isStart(m);
+}
+
+// The run-in: steady swimming at medium speed.
+[[nodiscard]] ScriptCommand runIn(const motion::Repertoire& repertoire);
+// A command that lasts as short as a script has it: a turn or a fast start the whole ticks in which
+// the motor plays its segment, everything else some beats.
+[[nodiscard]] ScriptCommand briefest(const motion::Repertoire& repertoire, Manoeuvre manoeuvre);
+
+// The run-in, then random commands until they last `seconds` or
 // more; the last one is not cut. A gait lasts some of its beats. A turn follows medium swimming and
-// lasts its segment; a fast start does too, or follows slow swimming or a brake, and fast swimming follows. After an ascent or a descent the fish balances. Brakes and retreats are rare.
-// A pure function of its arguments.
+// lasts its segment; a fast start does too, or follows slow swimming or a brake, and fast swimming
+// follows. After an ascent or a descent the fish balances. Brakes and retreats are rare. A pure
+// function of its arguments.
 [[nodiscard]] Script makeScript(const motion::Repertoire& repertoire,
                                 std::uint64_t seed,
                                 double seconds);
@@ -77,6 +103,7 @@ using Script = std::vector<ScriptCommand>;
 struct TracePoint {
     capture::PoseFrame frame;     // body frame in the world, body lengths
     capture::NodeVectors pose{};  // nodal points in the body frame, body lengths (eq. 8)
+    body::FinDrive drive{};       // what moves its fins; the seconds are left to who draws
 };
 
 // The first point is before the first command, so there is one more than ticks.

@@ -44,6 +44,10 @@ AQUARAMA_CONSTANT int kWakeStorage = 12;
 AQUARAMA_CONSTANT int kGroupsStorage = 13;
 AQUARAMA_CONSTANT int kSeenGroupsStorage = 14;
 
+// Of the colours of a skin.
+AQUARAMA_CONSTANT int kSkinPlacesStorage = 0;
+AQUARAMA_CONSTANT int kSkinColoursStorage = 1;
+
 // Of food and of text.
 AQUARAMA_CONSTANT int kSpecksStorage = 0;
 AQUARAMA_CONSTANT int kGlyphsStorage = 0;

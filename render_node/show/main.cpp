@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // aquarama-node: one process for each projector.
 #include <cstdlib>
+#include <span>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
@@ -11,8 +14,12 @@
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
 #include "common/config/keys.h"
+#include "common/config/species.h"
 #include "common/net/channels.h"
+#include "common/skin/limit_table.h"
+#include "render_node/gl/context.h"
 #include "render_node/show/run_node.h"
+#include "render_node/surface/skin_colours.h"
 
 namespace {
 
@@ -33,7 +40,16 @@ std::string addressProblem(const std::string& address) {
     }
 }
 
-void describe(CLI::App& app, aquarama::show::NodeOptions& options, std::string& keyPath) {
+// Instead of a channel: the colours of a skin, which aquarama fidelity --clip asks for.
+struct PaintOptions {
+    std::string species;  // its file; empty: none
+    std::string out;
+};
+
+void describe(CLI::App& app,
+              aquarama::show::NodeOptions& options,
+              std::string& keyPath,
+              PaintOptions& paint) {
     CLI::Option* name =
         app.add_option("NAME", options.channel, "the channel of the rig that this node shows");
     CLI::Option* master =
@@ -60,6 +76,12 @@ void describe(CLI::App& app, aquarama::show::NodeOptions& options, std::string& 
         ->needs(film)
         ->check(aquarama::cli::wholeNumber(1, 10000));
     app.add_option("--trace", options.traceFolder, "folder for NAME.csv, a line of times a frame");
+    CLI::Option* skin =
+        app.add_option("--skin", paint.species, "write the colours of this species' skin, and end")
+            ->excludes(name)
+            ->excludes("--key");
+    app.add_option("--colours", paint.out, "with --skin: the file")->needs(skin);
+    skin->needs("--colours");
     app.footer(kFooter);
 }
 
@@ -92,6 +114,25 @@ void spareFullDisk() {
                cacheFolder().string());
 }
 
+// As numbers of 32 bits: red, green, blue, opacity of each corner of the triangles of the finest
+// surface. The last corner says to which part a triangle belongs.
+int writeColours(const PaintOptions& paint) {
+    using namespace aquarama;
+    const config::Species species = config::readSpecies(paint.species);
+    const body::FishBody body = body::makeBody(species);
+    const skin::LimitTable table = skin::makeLimitTable(body, skin::kSurfaceLevels - 1);
+    std::vector<skin::SkinPlace> places;
+    for (std::size_t i = 0; i < table.indices.size(); ++i) {
+        places.push_back(table.vertices[table.indices[i]]);
+        places.back().part = table.vertices[table.indices[i - i % 3 + 2]].part;
+    }
+    const auto context = gl::makeOffscreenContext("auto", {16, 16});
+    const std::vector<glm::vec4> colours =
+        surface::skinColours(body::skinOf(species), body.eye, places);
+    writeWhole(paint.out, std::as_bytes(std::span(colours)));
+    return 0;
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): outside runProgram() only a lack of memory throws
@@ -100,8 +141,13 @@ int main(int count, char** arguments) {
     show::NodeOptions options;
     CLI::App app("Shows one channel of a wall, in step with all others.", "aquarama-node");
     std::string keyPath;
-    describe(app, options, keyPath);
+    PaintOptions paint;
+    describe(app, options, keyPath, paint);
     return cli::runProgram(app, count, arguments, [&] {
+        if (!paint.species.empty()) {
+            spareFullDisk();
+            return writeColours(paint);
+        }
         readKey(keyPath, options);
         app.name(app.get_name() + " " + options.channel);
         cli::requireFolder("--snapshot", options.snapshotFolder);

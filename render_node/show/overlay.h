@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text over a picture, for an operator at the wall: a font of 5 x 7 dots with digits, capitals and
-// a few signs.
+// Text over a picture, for an operator at the wall.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +10,10 @@
 
 #include <glm/vec2.hpp>
 
+#include "common/base/dot_font.h"
 #include "render_node/gl/handle.h"
 
 namespace aquarama::show {
-
-// Dots of a glyph.
-inline constexpr std::size_t kGlyphColumns = 5;
-inline constexpr std::size_t kGlyphRows = 7;
-
-// The dots of a glyph: bit row * kGlyphColumns + column, from the top left dot.
-using GlyphBits = std::uint64_t;
-// The glyph of a character; 0, which is blank, for one that the font does not have.
-[[nodiscard]] GlyphBits glyphOf(char character);
 
 // White text on dark boxes, drawn over a finished picture.
 

@@ -29,14 +29,14 @@ std::string skinShaderOf(const body::FishSkin& skin) {
     return std::ranges::find(files, file) == files.end() ? std::string(kPlain) : file;
 }
 
-// A program with the species' skin shader and its constants.
-gl::ProgramHandle skinProgram(const std::string& vertices,
-                              const std::string& fragments,
+}  // namespace
+
+gl::ProgramHandle skinProgram(const std::vector<std::string>& shaderFiles,
                               const body::FishSkin& skin,
                               glm::vec3 eye,
                               gl::Replacements replacements) {
     replacements.push_back({kPlain, skinShaderOf(skin)});
-    gl::ProgramHandle program = gl::makeProgram({vertices, fragments}, replacements);
+    gl::ProgramHandle program = gl::makeProgram(shaderFiles, replacements);
     const std::array<glm::vec3, 3> colours{skin.back, skin.flank, skin.belly};
     // A uniform that this skin shader does not read has location -1, which OpenGL ignores.
     const auto at = [&](const char* name) { return glGetUniformLocation(program.name(), name); };
@@ -44,8 +44,6 @@ gl::ProgramHandle skinProgram(const std::string& vertices,
     glProgramUniform3fv(program.name(), at("groundColours"), 3, &colours[0].x);
     return program;
 }
-
-}  // namespace
 
 std::shared_ptr<const SkinPrograms> makeSkinPrograms(gl::Replacements replacements) {
     return std::make_shared<const SkinPrograms>(
@@ -55,12 +53,12 @@ std::shared_ptr<const SkinPrograms> makeSkinPrograms(gl::Replacements replacemen
 SkinShader::SkinShader(const body::FishSkin& skin,
                        glm::vec3 eye,
                        const gl::Replacements& replacements)
-    : nearBody{skinProgram("fish.vert", "fish_body.frag", skin, eye, replacements)},
-      farBody{skinProgram("fish.vert", "fish_far.frag", skin, eye, replacements)},
-      fins{skinProgram("fish.vert", "fish_fin.frag", skin, eye, replacements)},
-      fewBody{skinProgram("fish_few.vert", "fish_far.frag", skin, eye, replacements)},
-      fewFins{skinProgram("fish_few.vert", "fish_fin.frag", skin, eye, replacements)},
-      point{skinProgram("fish_point.vert", "fish_far.frag", skin, eye, replacements)} {}
+    : nearBody{skinProgram({"fish.vert", "fish_body.frag"}, skin, eye, replacements)},
+      farBody{skinProgram({"fish.vert", "fish_far.frag"}, skin, eye, replacements)},
+      fins{skinProgram({"fish.vert", "fish_fin.frag"}, skin, eye, replacements)},
+      fewBody{skinProgram({"fish_few.vert", "fish_far.frag"}, skin, eye, replacements)},
+      fewFins{skinProgram({"fish_few.vert", "fish_fin.frag"}, skin, eye, replacements)},
+      point{skinProgram({"fish_point.vert", "fish_far.frag"}, skin, eye, replacements)} {}
 
 namespace {
 

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -33,6 +35,13 @@ struct SkinPrograms {
 // Compiles them; needs a current context.
 [[nodiscard]] std::shared_ptr<const SkinPrograms> makeSkinPrograms(
     gl::Replacements replacements = {});
+
+// A program of these shaders with the species' skin shader and its constants. eye: place s, y and
+// radius, body lengths. Needs a current context.
+[[nodiscard]] gl::ProgramHandle skinProgram(const std::vector<std::string>& shaderFiles,
+                                            const body::FishSkin& skin,
+                                            glm::vec3 eye,
+                                            gl::Replacements replacements);
 
 // The programs of one species: fish_body.frag near, fish_far.frag far, and fish_fin.frag, each with
 // the species' skin shader, shaders/skin_SPECIES.glsl, or skin_plain.glsl where there is none.

@@ -10,6 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat3x4.hpp>
 
+#include "capture/film/triangle.h"
 #include "common/base/log.h"
 
 namespace aquarama::test {
@@ -33,29 +34,6 @@ glm::vec2 onPaper(const View& view, glm::vec3 p) {
 float lightOn(glm::vec3 normal) {
     const glm::vec3 sun = glm::normalize(glm::vec3(0.28F, 0.80F, 0.53F));
     return 0.75F * std::max(0.0F, 0.72F * glm::dot(normal, sun) + 0.28F) + 0.25F + 0.12F * normal.y;
-}
-
-float doubleArea(glm::vec2 a, glm::vec2 b, glm::vec2 c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-// Calls paint(x, y, weights of the corners) for the pixels whose centres the triangle holds.
-template <typename Paint>
-void fill(const std::array<glm::vec2, 3>& corners, glm::ivec2 size, const Paint& paint) {
-    const float area = doubleArea(corners[0], corners[1], corners[2]);
-    if (area == 0) return;
-    const glm::vec2 least = glm::min(corners[0], glm::min(corners[1], corners[2]));
-    const glm::vec2 most = glm::max(corners[0], glm::max(corners[1], corners[2]));
-    const glm::ivec2 first = glm::max(glm::ivec2(0), glm::ivec2(glm::floor(least)));
-    const glm::ivec2 last = glm::min(size - 1, glm::ivec2(glm::ceil(most)));
-    for (int y = first.y; y <= last.y; ++y)
-        for (int x = first.x; x <= last.x; ++x) {
-            const glm::vec2 at(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
-            const glm::vec3 weights{doubleArea(corners[1], corners[2], at) / area,
-                                    doubleArea(corners[2], corners[0], at) / area,
-                                    doubleArea(corners[0], corners[1], at) / area};
-            if (std::min({weights.x, weights.y, weights.z}) >= 0) paint(x, y, weights);
-        }
 }
 
 }  // namespace
@@ -126,7 +104,7 @@ void Portrait::draw(Light& paper,
             rest[static_cast<int>(k)] = table_.vertices[i].rest;
         }
         const std::uint32_t part = table_.vertices[table_.indices[t + 2]].part;
-        fill(corners, paper.sizePixels, [&](int x, int y, glm::vec3 weights) {
+        film::fillTriangle(corners, paper.sizePixels, [&](int x, int y, glm::vec3 weights) {
             const auto pixel =
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(paper.sizePixels.x) +
                 static_cast<std::size_t>(x);

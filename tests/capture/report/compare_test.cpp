@@ -136,5 +136,32 @@ TEST(Compare, summarisesShapesByTimeAndPathsByCommand) {
     EXPECT_EQ(summary.pathErrorWorst, 0.2);
 }
 
+// A roll is in the frame of the fish, and in the poses of a replica whose captured path is level.
+TEST(Compare, takesARollInTheFrameAndOneInThePosesForTheSameInTurnsAndCurves) {
+    const glm::dquat roll = glm::angleAxis(0.4, glm::dvec3(1, 0, 0));
+    Trace inFrame = swimmer({.heading = 0.3});
+    Trace inPoses = inFrame;
+    for (TracePoint& point : inFrame) point.frame.worldFromBody *= glm::mat3_cast(roll);
+    for (TracePoint& point : inPoses)
+        for (glm::dvec3& node : point.pose) node = roll * node;
+    const auto shapeIn = [&](Manoeuvre manoeuvre) {
+        const Script script{{Manoeuvre::ForwardMedium, kTicks, kBeatTicks},
+                            {manoeuvre, kTicks, kBeatTicks}};
+        return compare(script, {inFrame, inPoses, inPoses}).commands.front().shapeWithin;
+    };
+    EXPECT_NEAR(shapeIn(Manoeuvre::TurnLeftSharp), 0, 1e-9);
+    EXPECT_NEAR(shapeIn(Manoeuvre::CurveRight), 0, 1e-9);
+    EXPECT_GT(shapeIn(Manoeuvre::ForwardMedium), 0.01);
+}
+
+TEST(Compare, measuresACommandInOnePlaceByBodyLengths) {
+    const Script script{{Manoeuvre::ForwardMedium, kTicks, kBeatTicks},
+                        {Manoeuvre::Hover, kTicks, kBeatTicks}};
+    const Trace slow = swimmer({.speedFactor = 0.9});
+    const CommandErrors errors = compare(script, {swimmer({}), slow, slow}).commands.front();
+    EXPECT_NEAR(errors.pathErrorAtEnd, 0.1 * kTicks * kSpeed, 1e-9);
+    EXPECT_NEAR(errors.pathErrorAlong, -0.1 * kTicks * kSpeed, 1e-9);
+}
+
 }  // namespace
 }  // namespace aquarama::report

@@ -97,6 +97,54 @@ TEST(ReplicaFidelity, bringingAReplicaIntoPhaseWithItselfChangesNothing) {
     EXPECT_LT(errors.pathErrorMost, 2e-3);
 }
 
+// Without the curve in both, or with it in one of them, they would part by whole radians.
+TEST(ReplicaFidelity, bothSwimATightCurve) {
+    const double beat = 60 / test::scad().swim.medium.beatHertz;
+    const Script script{{Manoeuvre::ForwardMedium, 90, beat}, {Manoeuvre::CurveLeft, 150, beat}};
+    const CommandErrors errors =
+        compare(script, traceBoth(test::scad(), test::scadRepertoire(), script)).commands.front();
+    EXPECT_GT(errors.turn, 60 * kRadiansPerDegree<double>);
+    EXPECT_LT(std::abs(errors.headingError), 10 * kRadiansPerDegree<double>);
+}
+
+// To either side of a bend: a fish that turned level would not agree with what was captured.
+TEST(ReplicaFidelity, theFishRollsIntoItsTurns) {
+    const double beat = 60 / test::scad().swim.medium.beatHertz;
+    for (const auto& [manoeuvre, side] :
+         {std::pair{Manoeuvre::TurnLeftSharp, 1}, std::pair{Manoeuvre::TurnRightSharp, -1}}) {
+        ScriptCommand turn = briefest(test::scadRepertoire(), manoeuvre);
+        const Trace fish =
+            traceFish(test::scad(), Script{{Manoeuvre::ForwardMedium, 60, beat}, turn});
+        double most = 0;  // height of its right side
+        for (const TracePoint& point : fish)
+            most = std::max(most, side * point.frame.worldFromBody[2].y);
+        EXPECT_GT(most, std::sin(5 * kRadiansPerDegree<double>)) << nameOf(manoeuvre);
+    }
+}
+
+// The fins of both stand as they row, and the tail beats where they do not.
+TEST(ReplicaFidelity, bothRowWhereTheyHover) {
+    const double beat = 60 / test::scad().swim.medium.beatHertz;
+    const Script script{{Manoeuvre::ForwardMedium, 60, beat},
+                        {Manoeuvre::Brake, 60, beat},
+                        {Manoeuvre::Hover, 90, beat}};
+    const auto strokeOf = [](const Trace& trace) {
+        double least = 9, most = -9;
+        for (std::size_t tick = trace.size() - 40; tick < trace.size(); ++tick) {
+            const double stroke = static_cast<double>(trace[tick].drive.left.stroke);
+            least = std::min(least, stroke);
+            most = std::max(most, stroke);
+        }
+        return most - least;
+    };
+    const Traces traces = traceBoth(test::scad(), test::scadRepertoire(), script);
+    EXPECT_GT(strokeOf(traces.fish), 0.2);
+    EXPECT_NEAR(strokeOf(traces.replica), strokeOf(traces.fish), 0.05);
+    EXPECT_EQ(traces.fish.at(60).drive.spread, 0);
+    EXPECT_EQ(traces.fish.at(120).drive.spread, 1) << "braked";
+    EXPECT_NEAR(static_cast<double>(traces.replica.at(120).drive.spread), 1, 1e-6);
+}
+
 TEST(Vocabulary, ofSevenSegmentsTurnsMuchBetterThanOfFewer) {
     const std::vector<VocabularyErrors> all =
         compareVocabularies(test::scad(), test::scadRepertoire(), 1, 20);

@@ -129,7 +129,7 @@ FloatsAt floatsOf(const std::string& species) {
     FloatsAt at;
     at.length = 12 + species.size();
     at.drags = at.length + 4;
-    std::size_t segment = at.drags + 6 * 4 + 4;
+    std::size_t segment = at.drags + 6 * 4 + kCapturedActions;
     for (int action = 0; action < kCapturedActions; ++action) {
         at.ofSegments.push_back(segment);  // the period
         for (std::size_t i = 0; i < 7 * kPhases; ++i) at.ofSegments.push_back(segment + 5 + 4 * i);
