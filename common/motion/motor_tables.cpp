@@ -453,6 +453,18 @@ GaitPath pathOf(const TurnPath& turn, float periodSeconds) {
     return path;
 }
 
+namespace {
+
+PoseColumns columnsOf(const NodalPose& pose) {
+    PoseColumns columns{};
+    for (std::size_t axis = 0; axis < columns.size(); ++axis)
+        for (std::size_t i = 0; i < pose.size(); ++i)
+            columns[axis][i] = static_cast<float>(pose[i][axis]);
+    return columns;
+}
+
+}  // namespace
+
 std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire) {
     auto tables = std::make_shared<MotorTables>();
     std::array<std::int16_t, kActions> phaseRates{};
@@ -465,6 +477,8 @@ std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire)
         else
             fill(segment, pathOf(segment), tables->segments[first]);
         phaseRates[i] = tables->segments[first].phaseRate;
+        for (std::size_t k = 0; k < kCycleSamples; ++k)
+            tables->poses[i][k] = columnsOf(segment.nodes[k % kPhases]);
     }
     for (std::uint32_t segment = 0; segment < kSegments; ++segment) {
         const SegmentTables& made = tables->segments[segment];

@@ -48,7 +48,8 @@ struct GaitPath {
 [[nodiscard]] GaitPath pathOf(const TurnPath& turn, float periodSeconds);
 
 // The motor step's tables of a species: about 1.9 MB, of which a steady school reads 36 kB. So the
-// segments that are played stay in the processor's cache.
+// segments that are played stay in the processor's cache. The poses, 0.7 MB, are read where nodal
+// points are asked for.
 
 inline constexpr unsigned kPhaseCellBits = 10;  // a phase of 16 bits is 6 of cell, 10 of fraction
 inline constexpr float kPhaseCellUnit = 1.0F / 1024.0F;
@@ -105,6 +106,9 @@ using WarpPlans = std::array<std::array<std::array<WarpPlan, kActions>, kPhases>
 [[nodiscard]] WarpPlans planWarps(const Repertoire& repertoire,
                                   const std::array<std::int16_t, kActions>& phaseRates);
 
+// The nodal points of one sample: coordinate by coordinate, in units of kPoseUnit.
+using PoseColumns = std::array<std::array<float, body::kNodalPoints>, 3>;
+
 // All tables of a species. Made by makeMotorTables(), read by every thread of the world.
 class MotorTables {
   public:
@@ -119,9 +123,11 @@ class MotorTables {
     std::array<std::int32_t, kStartSpeeds - 1> startBorders{};
     SpeedLoss loss;
     // The most that a fish pitches in addition to the played motion, radians in a tick: what it
-    // does on the captured loop at the medium gait. Nothing while it plays a slope or pitches in its
-    // place.
+    // does on the captured loop at the medium gait. Nothing while it plays a slope or pitches in
+    // its place.
     std::array<float, kSegments> pitchRate{};
+    // The deformation d of eq. 12 by action and sample; the last sample repeats the first.
+    std::array<std::array<PoseColumns, kCycleSamples>, kActions> poses{};
 };
 
 // The first part of a tick of one fish, before it steers: the segment that plays, and the travel of
@@ -254,7 +260,8 @@ struct Playing {
 // Advances segment, phase and warp counter of fish i by a tick. The commanded rate is that of the
 // commanded action: while a turn plays that is no longer commanded, it plays as recorded. A turn or
 // a fast start is left at its end, and by a warp even if the same follows, or where it is broken
-// off; every other segment is left at once. A command for an action that does not exist starts no warp.
+// off; every other segment is left at once. A command for an action that does not exist starts no
+// warp.
 [[nodiscard]] inline Playing advanceSegment(const MotorTables& tables,
                                             const MotorColumns& fish,
                                             std::size_t i) {
