@@ -48,7 +48,7 @@ struct GaitPath {
 [[nodiscard]] GaitPath pathOf(const TurnPath& turn, float periodSeconds);
 
 // The motor step's tables of a species: about 1.9 MB, of which a steady school reads 36 kB. So the
-// segments that are played stay in the processor's cache. The poses, 0.7 MB, are read where nodal
+// segments that are played stay in the processor's cache. The poses, 0.9 MB, are read where nodal
 // points are asked for.
 
 inline constexpr unsigned kPhaseCellBits = 10;  // a phase of 16 bits is 6 of cell, 10 of fraction
@@ -106,17 +106,29 @@ using WarpPlans = std::array<std::array<std::array<WarpPlan, kActions>, kPhases>
 [[nodiscard]] WarpPlans planWarps(const Repertoire& repertoire,
                                   const std::array<std::int16_t, kActions>& phaseRates);
 
-// The nodal points of one sample: coordinate by coordinate, in units of kPoseUnit.
-using PoseColumns = std::array<std::array<float, body::kNodalPoints>, 3>;
+// The nodal points of a sample and of the next one, as vectors read them: in 32 bits a coordinate
+// of the first (the low half) and the same of the second, in units of kPoseUnit. Two groups of
+// sixteen points, of each the x, the y and the z. The second group ends at the last point, and so
+// repeats some of the first.
+inline constexpr std::size_t kPointGroup = 16;
+inline constexpr std::size_t kSecondGroup = body::kNodalPoints - kPointGroup;  // its first point
+struct alignas(64) PointPairs {
+    std::array<std::array<std::array<std::int32_t, kPointGroup>, 3>, 2> groups{};
+};
+
+// Facts of a segment in 32 bits: its action in the lowest 8; kPitchesInAddition; above, from bit
+// kTurnRateBit on, its recorded phase rate if it plays to its end, else 0.
+inline constexpr std::int32_t kActionOfFacts = 0xFF;
+inline constexpr std::int32_t kPitchesInAddition = 0x100;  // MotorTables::pitchRate is not 0
+inline constexpr int kTurnRateBit = 16;
 
 // All tables of a species. Made by makeMotorTables(), read by every thread of the world.
 class MotorTables {
   public:
     std::array<SegmentTables, kSegments> segments;
     WarpPlans warps;
-    // Columns that the vectorised step gathers from: the action of a segment; its recorded phase
-    // rate and its lastPhase if it plays to its end, else 0.
-    std::array<std::int32_t, kSegments> action{}, turnRate{}, lastPhase{};
+    // The facts of a segment, which the vectorised step gathers at once: factsOf().
+    std::array<std::int32_t, kSegments> facts{};
     // The speeds, in speed units, half-way between those at which turns and fast starts were
     // entered.
     std::array<std::int32_t, kEntrySpeeds - 1> turnBorders{};
@@ -126,8 +138,8 @@ class MotorTables {
     // does on the captured loop at the medium gait. Nothing while it plays a slope or pitches in
     // its place.
     std::array<float, kSegments> pitchRate{};
-    // The deformation d of eq. 12 by action and sample; the last sample repeats the first.
-    std::array<std::array<PoseColumns, kCycleSamples>, kActions> poses{};
+    // The deformation d of eq. 12 by action and sample; after the last sample comes the first.
+    std::array<std::array<PointPairs, kPhases>, kActions> poses{};
 };
 
 // The first part of a tick of one fish, before it steers: the segment that plays, and the travel of
