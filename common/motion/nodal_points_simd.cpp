@@ -10,6 +10,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "common/motion/nodal_points_simd.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // compiles this file once for each instruction set
 #include <hwy/highway.h>
 
@@ -158,11 +159,23 @@ struct Sample {
     IntLanes weights;
 };
 
-HWY_INLINE Sample sampleOf(const MotorTables& tables, std::uint16_t segment, std::uint16_t phase) {
+HWY_INLINE const PointPairs& pairsOf(const MotorTables& tables,
+                                     std::uint16_t segment,
+                                     std::uint16_t phase) {
     const auto action = static_cast<std::size_t>(tables.facts[segment] & kActionOfFacts);
+    return tables.poses[action][phase >> kPhaseCellBits];
+}
+
+HWY_INLINE Sample sampleOf(const MotorTables& tables, std::uint16_t segment, std::uint16_t phase) {
     const std::int32_t second = phase & 1023;
-    return {&tables.poses[action][phase >> kPhaseCellBits],
-            hn::Set(kInts, second << 16 | (1024 - second))};
+    return {&pairsOf(tables, segment, phase), hn::Set(kInts, second << 16 | (1024 - second))};
+}
+
+// Fetches what a fish that comes so much later will read.
+constexpr std::size_t kFetchAhead = 6;
+HWY_INLINE void fetch(const PointPairs& pairs) {
+    for (const auto& group : pairs.groups)
+        for (const auto& axis : group) hwy::Prefetch(axis.data());
 }
 
 // Of each pair of 16-bit numbers in `pairs` the sum of both times those in `weights`.
@@ -240,6 +253,8 @@ void placeNodes(const MotorTables& tables,
         const std::size_t place = i % kWidestLanes;
         if (place == 0)
             placeFish(s, traits, fish, std::min(nodes.size() - i, kWidestLanes), placements);
+        if (i + kFetchAhead < nodes.size())
+            fetch(pairsOf(tables, s.segment[fish + kFetchAhead], s.phase[fish + kFetchAhead]));
         const Sample to = sampleOf(tables, s.segment[fish], s.phase[fish]);
         if (HWY_LIKELY(s.warpFrame[fish] == s.warpLength[fish])) {
             writeNodes(
