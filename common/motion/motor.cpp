@@ -166,7 +166,7 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
     const Quaternion seenFrom =
         renormalised(orientationOf(s, i) * conjugate(travel.start.rotation));
     const Quaternion swum = seenFrom * travel.end.rotation;
-    const Attitude attitude = attitudeOf(swum * travel.bodyFromMean);
+    const Attitude attitude = attitudeOf(renormalised(swum * travel.bodyFromMean));
     // Eq. 11 with the fish's own length: a slower fish travels a share of the path, a faster one
     // goes on along its nose.
     const float share = shareOfPath(speed, pathAtEnd);

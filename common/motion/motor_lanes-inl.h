@@ -139,18 +139,23 @@ HWY_INLINE auto isLargest(IntLanes largest, int component) {
     return hn::RebindMask(kFloats, hn::Eq(largest, hn::Set(kInts, component)));
 }
 
+// Columns of MotionStates from some fish on.
+struct OrientationColumns {
+    const std::int32_t *a, *b, *c;
+    const std::uint8_t* largest;
+};
+
 // Reads and unpacks the orientations of a vector of fish: unpack() without branches.
-HWY_INLINE QuaternionLanes orientationOf(const MotionStates& s, std::size_t fish) {
-    const auto component = [fish](const std::vector<std::int32_t>& column) HWY_ATTR {
-        return hn::Mul(hn::ConvertTo(kFloats, hn::LoadU(kInts, column.data() + fish)),
+HWY_INLINE QuaternionLanes orientationOf(const OrientationColumns& columns) {
+    const auto component = [](const std::int32_t* column) HWY_ATTR {
+        return hn::Mul(hn::ConvertTo(kFloats, hn::LoadU(kInts, column)),
                        hn::Set(kFloats, kOrientationUnit));
     };
     const hn::Rebind<std::uint8_t, Ints> bytes;
-    const IntLanes largest =
-        hn::PromoteTo(kInts, hn::LoadU(bytes, s.orientationLargest.data() + fish));
-    const Lanes a = component(s.orientationA);
-    const Lanes b = component(s.orientationB);
-    const Lanes c = component(s.orientationC);
+    const IntLanes largest = hn::PromoteTo(kInts, hn::LoadU(bytes, columns.largest));
+    const Lanes a = component(columns.a);
+    const Lanes b = component(columns.b);
+    const Lanes c = component(columns.c);
     const Lanes squared =
         hn::Sub(hn::Set(kFloats, 1.0F), hn::Add(sumOfProducts(a, a, b, b), hn::Mul(c, c)));
     const Lanes most = hn::Sqrt(hn::Max(squared, hn::Zero(kFloats)));
@@ -162,6 +167,13 @@ HWY_INLINE QuaternionLanes orientationOf(const MotionStates& s, std::size_t fish
             hn::IfThenElse(isW, a, hn::IfThenElse(isX, most, b)),
             hn::IfThenElse(hn::Or(isW, isX), b, hn::IfThenElse(isY, most, c)),
             hn::IfThenElse(isZ, most, c)};
+}
+
+HWY_INLINE QuaternionLanes orientationOf(const MotionStates& s, std::size_t fish) {
+    return orientationOf({s.orientationA.data() + fish,
+                          s.orientationB.data() + fish,
+                          s.orientationC.data() + fish,
+                          s.orientationLargest.data() + fish});
 }
 
 // Packs and writes them: pack() without branches. Strictly greater wins, so the first of equal

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cstddef>
 #include <cstring>
 
 #include "common/motion/motor.h"
@@ -31,6 +32,11 @@ using FishSet = std::uint64_t;  // bit i: fish i of the block
 struct Block {
     HWY_ALIGN std::int32_t from[kBlockFish];
     HWY_ALIGN std::int32_t to[kBlockFish];
+    HWY_ALIGN std::int32_t facts[kBlockFish];  // MotorTables::facts
+    // Where the samples lie, in quaternions from the first segment's tables on.
+    HWY_ALIGN std::int32_t startAt[kBlockFish];
+    HWY_ALIGN std::int32_t endAt[kBlockFish];
+    HWY_ALIGN std::int32_t swayAt[kBlockFish];
     HWY_ALIGN float atStart[kBlockFish];
     HWY_ALIGN float atEnd[kBlockFish];
     HWY_ALIGN std::int32_t rate[kBlockFish];
@@ -83,66 +89,78 @@ HWY_INLINE FishSet setOf(hn::Mask<Ints> mask) {
     return bits[0] | FishSet{bits[1]} << 8U;
 }
 
-// advanceSegment() for a block, as if every fish simply played on. Returns the fish for which that
-// may be wrong: those in a motion warp, those that leave their segment in this tick, and those told
-// another turn while they turn.
-HWY_INLINE FishSet playOn(const MotorTables& tables,
-                          const MotorColumns& columns,
-                          std::size_t first,
-                          std::size_t count,
-                          Block& block) {
+// Fish of a block that playOn() leaves to scalar code.
+struct Restless {
+    FishSet leaving = 0;  // those that may leave their segment in this tick
+    FishSet warping = 0;
+};
+
+// advanceSegment() for a block, as if no fish left its segment.
+HWY_INLINE Restless playOn(const MotorTables& tables,
+                           const MotorColumns& columns,
+                           std::size_t first,
+                           std::size_t count,
+                           Block& block) {
     const hn::Rebind<std::uint16_t, Ints> shorts;
     const hn::Rebind<std::int16_t, Ints> rates;
     const hn::Rebind<std::uint8_t, Ints> bytes;
     const auto bytesAt = [&](const std::uint8_t* column)
                              HWY_ATTR { return hn::PromoteTo(kInts, hn::LoadU(bytes, column)); };
-    FishSet restless = 0;
+    Restless restless;
     for (std::size_t lane = 0; lane < count; lane += hn::Lanes(kInts)) {
         const std::size_t fish = first + lane;
         const IntLanes phase = hn::PromoteTo(kInts, hn::LoadU(shorts, columns.phase + fish));
         const IntLanes commanded = hn::PromoteTo(kInts, hn::LoadU(rates, columns.phaseRate + fish));
         const IntLanes segment = hn::PromoteTo(kInts, hn::LoadU(shorts, columns.segment + fish));
-        const IntLanes action = hn::GatherIndex(kInts, tables.action.data(), segment);
-        const IntLanes turnRate = hn::GatherIndex(kInts, tables.turnRate.data(), segment);
+        const IntLanes facts = hn::GatherIndex(kInts, tables.facts.data(), segment);
+        const IntLanes action = hn::And(facts, hn::Set(kInts, kActionOfFacts));
+        const IntLanes turnRate = hn::ShiftRight<kTurnRateBit>(facts);
         const IntLanes wanted = bytesAt(columns.wanted + fish);
         const auto isToldAnother = hn::Ne(action, wanted);
         const auto turns = hn::Gt(turnRate, hn::Zero(kInts));
         const auto isToldATurn = hn::Gt(wanted, hn::Set(kInts, kFirstTurn - 1));
         const IntLanes rate = hn::IfThenElse(hn::And(turns, isToldAnother), turnRate, commanded);
         const IntLanes to = hn::Add(phase, rate);
-        const auto ends = hn::Gt(to, hn::GatherIndex(kInts, tables.lastPhase.data(), segment));
+        const IntLanes last = hn::IfThenElse(hn::Gt(action, hn::Set(kInts, kFirstStart - 1)),
+                                             hn::Set(kInts, lastPhaseOf(Action::StartLeftSmall)),
+                                             hn::Set(kInts, lastPhaseOf(Action::TurnLeftSharp)));
+        const auto ends = hn::Gt(to, last);
         const auto leaves =
             hn::Or(hn::And(turns, ends), hn::AndNot(hn::AndNot(isToldATurn, turns), isToldAnother));
-        const auto warps =
-            hn::Ne(bytesAt(columns.warpFrame + fish), bytesAt(columns.warpLength + fish));
-        restless |= setOf(hn::Or(warps, leaves)) << lane;
+        const IntLanes warpFrame = bytesAt(columns.warpFrame + fish);
+        const auto warps = hn::Ne(warpFrame, bytesAt(columns.warpLength + fish));
+        restless.warping |= setOf(warps) << lane;
+        restless.leaving |= setOf(hn::AndNot(warps, leaves)) << lane;
         hn::Store(phase, kInts, block.from + lane);
         hn::Store(to, kInts, block.to + lane);
         hn::Store(rate, kInts, block.rate + lane);
+        hn::Store(facts, kInts, block.facts + lane);
         const IntLanes next = hn::And(to, hn::Set(kInts, 0xFFFF));
-        hn::StoreU(hn::DemoteTo(shorts, next), shorts, columns.phase + fish);
+        hn::StoreU(
+            hn::DemoteTo(shorts, hn::IfThenElse(warps, phase, next)), shorts, columns.phase + fish);
+        const IntLanes frame = hn::Add(warpFrame, hn::IfThenElseZero(warps, hn::Set(kInts, 1)));
+        hn::StoreU(hn::DemoteTo(bytes, frame), bytes, columns.warpFrame + fish);
     }
     return restless;
 }
 
-// For the fish that playOn() got wrong: takes back its change of the phase and calls
-// advanceSegment() on each. Returns those of them that warp.
-HWY_INLINE FishSet settle(const MotorStep& step,
-                          const MotorColumns& columns,
-                          std::size_t first,
-                          FishSet restless,
-                          Block& block) {
-    FishSet warping = 0;
-    for (; restless != 0; restless &= restless - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(restless));
+// For the fish that may leave their segment: takes back playOn()'s change of the phase and calls
+// advanceSegment() on each. Adds those that warp now.
+HWY_INLINE void settle(const MotorStep& step,
+                       const MotorColumns& columns,
+                       std::size_t first,
+                       Restless& restless,
+                       Block& block) {
+    for (; restless.leaving != 0; restless.leaving &= restless.leaving - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(restless.leaving));
         columns.phase[first + i] = static_cast<std::uint16_t>(block.from[i]);
         const Playing playing = advanceSegment(*step.tables, columns, first + i);
         block.to[i] = playing.to;
         block.from[i] = playing.from;
         block.rate[i] = playing.to - playing.from;
-        warping |= FishSet{playing.warps} << i;
+        block.facts[i] = step.tables->facts[columns.segment[first + i]];
+        restless.warping |= FishSet{playing.warps} << i;
     }
-    return warping;
 }
 
 // fractionOf() for a block.
@@ -175,11 +193,12 @@ HWY_INLINE void storeBetween(const Quaternion* q, float share, float* four) {
     }
 }
 
+// Two neighbouring path samples, the first of which begins at `path`, interpolated.
 template <class Tag>
 HWY_INLINE void storeBetween(
-    Tag tag, const PathSample* path, float share, float* rotation, float* place) {
-    const float* const a = &path[0].rotation.w;
-    const float* const b = &path[1].rotation.w;
+    Tag tag, const Quaternion* path, float share, float* rotation, float* place) {
+    const float* const a = &path[0].w;
+    const float* const b = &path[2].w;
 #if HWY_TARGET != HWY_SCALAR  // vectors of this target have no halves
     if constexpr (hn::MaxLanes(Tag()) == 8) {
         const hn::Half<Tag> half;
@@ -195,33 +214,79 @@ HWY_INLINE void storeBetween(
     }
 }
 
-// playedTravel() of fish i of the block, whose phases and fractions are known.
-HWY_INLINE void storePlayed(const SegmentTables& tables, Block& block, std::size_t i) {
-    const auto start = static_cast<std::size_t>(block.from[i]) >> kPhaseCellBits;
-    const auto end = static_cast<std::size_t>(block.to[i]) >> kPhaseCellBits;
-    const std::size_t to = 4 * slotOf(i);
-    storeBetween(kEight, &tables.path[start], block.atStart[i], block.start + to, block.left + to);
-    storeBetween(kEight, &tables.path[end], block.atEnd[i], block.end + to, block.reached + to);
-    storeBetween(&tables.bodyFromMean[end % kPhases], block.atEnd[i], block.bodyFromMean + to);
+// Sizes in quaternions: of a segment's tables, of a path sample, and of all path samples.
+constexpr auto kSegmentStride =
+    static_cast<std::int32_t>(sizeof(SegmentTables) / sizeof(Quaternion));
+constexpr auto kPathStride = static_cast<std::int32_t>(sizeof(PathSample) / sizeof(Quaternion));
+constexpr auto kSwayFrom =
+    static_cast<std::int32_t>(offsetof(SegmentTables, bodyFromMean) / sizeof(Quaternion));
+static_assert(sizeof(SegmentTables) % sizeof(Quaternion) == 0);
+static_assert(sizeof(PathSample) == 2 * sizeof(Quaternion));
+static_assert(offsetof(SegmentTables, path) == 0);
+static_assert(kSwayFrom == kPathStride * static_cast<std::int32_t>(kPathSamples));
+
+// Where the samples of a block's fish lie.
+HWY_INLINE void findSamples(const MotorColumns& columns,
+                            std::size_t first,
+                            std::size_t count,
+                            Block& block) {
+    const hn::Rebind<std::uint16_t, Ints> shorts;
+    for (std::size_t lane = 0; lane < count; lane += hn::Lanes(kInts)) {
+        const IntLanes segment =
+            hn::PromoteTo(kInts, hn::LoadU(shorts, columns.segment + first + lane));
+        const IntLanes tables = hn::Mul(segment, hn::Set(kInts, kSegmentStride));
+        const auto cellOf = [&](const std::int32_t* phases) HWY_ATTR {
+            return hn::ShiftRight<kPhaseCellBits>(hn::Load(kInts, phases + lane));
+        };
+        const IntLanes start = hn::Mul(cellOf(block.from), hn::Set(kInts, kPathStride));
+        const IntLanes end = cellOf(block.to);
+        const IntLanes sway =
+            hn::Add(hn::And(end, hn::Set(kInts, kPhases - 1)), hn::Set(kInts, kSwayFrom));
+        hn::Store(hn::Add(tables, start), kInts, block.startAt + lane);
+        hn::Store(
+            hn::Add(tables, hn::Mul(end, hn::Set(kInts, kPathStride))), kInts, block.endAt + lane);
+        hn::Store(hn::Add(tables, sway), kInts, block.swayAt + lane);
+    }
 }
 
-// Fills the block for `count` fish from `first` on. Warping fish are computed as if they played,
-// which costs less than a branch for each fish; then theirs is overwritten.
+// playedTravel() of fish i of the block, whose samples and fractions are known. `slot` is
+// slotOf(i).
+HWY_INLINE void storePlayed(const Quaternion* tables,
+                            Block& block,
+                            std::size_t i,
+                            std::size_t slot) {
+    const auto at = [tables](std::int32_t place) { return tables + place; };
+    const std::size_t to = 4 * slot;
+    storeBetween(kEight, at(block.startAt[i]), block.atStart[i], block.start + to, block.left + to);
+    storeBetween(kEight, at(block.endAt[i]), block.atEnd[i], block.end + to, block.reached + to);
+    storeBetween(at(block.swayAt[i]), block.atEnd[i], block.bodyFromMean + to);
+}
+
+// Fills the block for `count` fish from `first` on, a multiple of kWidestLanes. Warping fish are
+// computed as if they played, which costs less than a branch for each fish; then theirs is
+// overwritten.
 HWY_INLINE void travelBlock(const MotorStep& step,
                             const MotorColumns& columns,
                             std::size_t first,
                             std::size_t count,
                             Block& block) {
-    const FishSet restless = playOn(*step.tables, columns, first, count, block);
-    FishSet warping = settle(step, columns, first, restless, block);
+    Restless restless = playOn(*step.tables, columns, first, count, block);
+    settle(step, columns, first, restless, block);
     fractionsOf(block.from, count, block.atStart);
     fractionsOf(block.to, count, block.atEnd);
-    for (std::size_t i = 0; i < count; ++i) {
-        storePlayed(step.tables->segments[columns.segment[first + i]], block, i);
-        block.lengthMillimetres[i] = step.traits[first + i].lengthMillimetres;
+    findSamples(columns, first, count, block);
+    const Quaternion* const tables = &step.tables->segments[0].path[0].rotation;
+    // Four fish at a time lie as far apart as the slots of the first two.
+    const std::size_t apart = slotOf(1) - slotOf(0);
+    for (std::size_t i = 0; i < count; i += 4) {
+        const std::size_t slot = slotOf(i);
+        for (std::size_t k = 0; k < 4; ++k) {
+            storePlayed(tables, block, i + k, slot + k * apart);
+            block.lengthMillimetres[i + k] = step.traits[first + i + k].lengthMillimetres;
+        }
     }
-    for (; warping != 0; warping &= warping - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(warping));
+    for (; restless.warping != 0; restless.warping &= restless.warping - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(restless.warping));
         store(warpingTravel(*step.tables, columns, first + i), block, i);
     }
 }
@@ -250,8 +315,8 @@ HWY_INLINE void changeSpeed(const MotorStep& step,
     follow(s.spread, brake, fish);
     hn::StoreU(hn::ConvertTo(kInts, speed), kInts, s.speed.data() + fish);
     const Lanes share = shareOfPath(speed, pathAtEnd);
-    const Lanes faster = hn::Mul(hn::Sub(speed, hn::Mul(share, pathAtEnd)),
-                                 hn::Set(kFloats, kLengthsPerSpeedUnit));
+    const Lanes faster =
+        hn::Mul(hn::Sub(speed, hn::Mul(share, pathAtEnd)), hn::Set(kFloats, kLengthsPerSpeedUnit));
     hn::Store(faster, kFloats, block.faster + lane);
     const auto travelled = [&](Lanes from, Lanes to)
                                HWY_ATTR { return hn::Mul(share, hn::Sub(to, from)); };
@@ -270,7 +335,7 @@ HWY_INLINE void swim(const MotorStep& step, Block& block, std::size_t lane, std:
     const QuaternionLanes bodyFromMean = load(block.bodyFromMean + 4 * lane);
     const QuaternionLanes seenFrom = renormalisedLanes(quotient(orientationOf(s, fish), start));
     const QuaternionLanes swum = product(seenFrom, end);
-    const AttitudeLanes attitude = attitudeOf(product(swum, bodyFromMean));
+    const AttitudeLanes attitude = attitudeOf(renormalisedLanes(product(swum, bodyFromMean)));
     const VectorLanes moves = rotated(seenFrom, loadColumns(block.travel, lane));
     const Lanes faster = hn::Load(kFloats, block.faster + lane);
     const Lanes units =
@@ -295,8 +360,12 @@ HWY_INLINE void steer(const MotorStep& step,
     const AttitudeLanes attitude{loadColumns(block.forward, lane),
                                  hn::Load(kFloats, block.up + lane),
                                  hn::Load(kFloats, block.right + lane)};
-    const Lanes pitchRate = hn::GatherIndex(
-        kFloats, step.tables->pitchRate.data(), segmentsAt(step.states->segment, fish));
+    // The rate is the same in all segments in which it is not 0.
+    const auto pitches =
+        hn::TestBit(hn::Load(kInts, block.facts + lane), hn::Set(kInts, kPitchesInAddition));
+    const Lanes pitchRate = hn::IfThenElseZero(
+        hn::RebindMask(kFloats, pitches),
+        hn::Set(kFloats, step.tables->pitchRate[firstSegmentOf(Action::ForwardMedium)]));
     const VectorLanes steering = halfSteering(attitude,
                                               commanded(step.commands->pitch, fish, kPitchUnit),
                                               pitchRate,

@@ -13,7 +13,7 @@ namespace aquarama::motion {
 namespace {
 
 constexpr std::size_t kCycle = kPhases;
-constexpr double kNoWayBodyLengths = 1e-6;  // a path shorter than this has no direction
+constexpr double kNoWayBodyLengths = 1e-6;    // a path shorter than this has no direction
 constexpr double kInPlaceBodyLengths = 1e-4;  // in a cycle: less is no way
 
 // The body frame over two cycles, from the increments (eq. 6 and 7).
@@ -326,7 +326,7 @@ constexpr float kSmallestStepBodyLengths = 1.0F / 128.0F;
 using Pose = std::array<glm::vec3, body::kNodalPoints + 2>;
 // A fin that beats as fast as any moves no more than a tail does, so that a warp gives it time.
 constexpr float kFinReachBodyLengths = 0.05F;
-using Cycle = std::array<Pose, kPhases + 1>;             // the last pose repeats the first
+using Cycle = std::array<Pose, kPhases + 1>;  // the last pose repeats the first
 // [phase of A][phase of B]: the largest squared travel from one pose to the other, either way.
 using Travels = std::array<std::array<float, kPhases + 1>, kPhases + 1>;
 
@@ -479,6 +479,33 @@ GaitPath pathOf(const TurnPath& turn, float periodSeconds, bool isStart) {
     return path;
 }
 
+namespace {
+
+PointPairs pairsOf(const NodalPose& pose, const NodalPose& next) {
+    PointPairs pairs;
+    for (std::size_t group = 0; group < pairs.groups.size(); ++group)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (std::size_t i = 0; i < kPointGroup; ++i) {
+                const std::size_t point = group * kSecondGroup + i;
+                const auto low = static_cast<std::uint16_t>(pose[point][axis]);
+                const auto high = static_cast<std::uint16_t>(next[point][axis]);
+                pairs.groups[group][axis][i] =
+                    static_cast<std::int32_t>(std::uint32_t{high} << 16U | low);
+            }
+    return pairs;
+}
+
+// See MotorTables::facts.
+std::int32_t factsOf(const MotorTables& tables, std::uint32_t segment) {
+    const SegmentTables& made = tables.segments[segment];
+    const auto action = static_cast<std::int32_t>(actionOf(segment));
+    const std::int32_t turnRate = made.playsToEnd ? made.phaseRate : 0;
+    return action | (tables.pitchRate[segment] != 0.0F ? kPitchesInAddition : 0) |
+           turnRate << kTurnRateBit;
+}
+
+}  // namespace
+
 std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire) {
     auto tables = std::make_shared<MotorTables>();
     std::array<std::int16_t, kActions> phaseRates{};
@@ -492,12 +519,8 @@ std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire)
             fill(segment, pathOf(segment), tables->segments[first]);
         phaseRates[i] = tables->segments[first].phaseRate;
         tables->rows[i] = rowsIn(segment);
-    }
-    for (std::uint32_t segment = 0; segment < kSegments; ++segment) {
-        const SegmentTables& made = tables->segments[segment];
-        tables->action[segment] = static_cast<std::int32_t>(actionOf(segment));
-        tables->turnRate[segment] = made.playsToEnd ? made.phaseRate : 0;
-        tables->lastPhase[segment] = made.playsToEnd ? made.lastPhase : 0;
+        for (std::size_t k = 0; k < kPhases; ++k)
+            tables->poses[i][k] = pairsOf(segment.nodes[k], segment.nodes[(k + 1) % kPhases]);
     }
     setBorders(repertoire.segments[kFirstTurn].entered, tables->turnBorders);
     const std::span starts(repertoire.segments[kFirstStart].entered);
@@ -506,7 +529,11 @@ std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire)
     // Slopes and pitching in place are captured: beside them the fins only trim.
     const float pitchRate = 2.0F * climb.meanHalfTurn[2] * static_cast<float>(climb.phaseRate);
     for (std::uint32_t segment = 0; segment < kSegments; ++segment)
-        tables->pitchRate[segment] = !pitches(actionOf(segment)) && !staysInPlace(actionOf(segment)) ? kAddedPitch * pitchRate : 0.0F;
+        tables->pitchRate[segment] = !pitches(actionOf(segment)) && !staysInPlace(actionOf(segment))
+                                         ? kAddedPitch * pitchRate
+                                         : 0.0F;
+    for (std::uint32_t segment = 0; segment < kSegments; ++segment)
+        tables->facts[segment] = factsOf(*tables, segment);
     tables->loss = lossOf(repertoire.response, tables->segments);
     tables->warps = planWarps(repertoire, phaseRates);
     return tables;
@@ -544,11 +571,8 @@ WarpPlans planWarps(const Repertoire& repertoire,
         for (std::size_t cell = 0; cell < kPhases; ++cell) {
             WarpPlan& plan = plans[from][cell][to];
             if (repertoire.segments[to].playsToEnd)
-                plan = planToTurn(travels,
-                                  cell,
-                                  step,
-                                  phaseRates[to],
-                                  isStart(next) ? kMostFramesToStart : 255);
+                plan = planToTurn(
+                    travels, cell, step, phaseRates[to], isStart(next) ? kMostFramesToStart : 255);
             else
                 plan = planToCycle(travels, cell, step);
             if (begins)

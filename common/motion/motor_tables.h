@@ -48,7 +48,8 @@ struct GaitPath {
 [[nodiscard]] GaitPath pathOf(const TurnPath& turn, float periodSeconds, bool isStart);
 
 // The motor step's tables of a species: about 1.9 MB, of which a steady school reads 36 kB. So the
-// segments that are played stay in the processor's cache.
+// segments that are played stay in the processor's cache. The poses, 0.9 MB, are read where nodal
+// points are asked for.
 
 inline constexpr unsigned kPhaseCellBits = 10;  // a phase of 16 bits is 6 of cell, 10 of fraction
 inline constexpr float kPhaseCellUnit = 1.0F / 1024.0F;
@@ -105,16 +106,31 @@ using WarpPlans = std::array<std::array<std::array<WarpPlan, kActions>, kPhases>
 [[nodiscard]] WarpPlans planWarps(const Repertoire& repertoire,
                                   const std::array<std::int16_t, kActions>& phaseRates);
 
+// The nodal points of a sample and of the next one, as vectors read them: in 32 bits a coordinate
+// of the first (the low half) and the same of the second, in units of kPoseUnit. Two groups of
+// sixteen points, of each the x, the y and the z. The second group ends at the last point, and so
+// repeats some of the first.
+inline constexpr std::size_t kPointGroup = 16;
+inline constexpr std::size_t kSecondGroup = body::kNodalPoints - kPointGroup;  // its first point
+struct alignas(64) PointPairs {
+    std::array<std::array<std::array<std::int32_t, kPointGroup>, 3>, 2> groups{};
+};
+
+// Facts of a segment in 32 bits: its action in the lowest 8; kPitchesInAddition; above, from bit
+// kTurnRateBit on, its recorded phase rate if it plays to its end, else 0.
+inline constexpr std::int32_t kActionOfFacts = 0xFF;
+inline constexpr std::int32_t kPitchesInAddition = 0x100;  // MotorTables::pitchRate is not 0
+inline constexpr int kTurnRateBit = 16;
+
 // All tables of a species. Made by makeMotorTables(), read by every thread of the world.
 class MotorTables {
   public:
     std::array<SegmentTables, kSegments> segments;
     WarpPlans warps;
-    // Columns that the vectorised step gathers from: the action of a segment; its recorded phase
-    // rate and its lastPhase if it plays to its end, else 0.
-    std::array<std::int32_t, kSegments> action{}, turnRate{}, lastPhase{};
     // Whether the pectoral fins row in an action.
     std::array<bool, kActions> rows{};
+    // The facts of a segment, which the vectorised step gathers at once: factsOf().
+    std::array<std::int32_t, kSegments> facts{};
     // The speeds, in speed units, half-way between those at which turns and fast starts were
     // entered.
     std::array<std::int32_t, kEntrySpeeds - 1> turnBorders{};
@@ -123,6 +139,8 @@ class MotorTables {
     // The most that a fish pitches in addition to the played motion, radians in a tick: kAddedPitch
     // of what it does on the captured loop at the medium gait; nothing on a slope or in its place.
     std::array<float, kSegments> pitchRate{};
+    // The deformation d of eq. 12 by action and sample; after the last sample comes the first.
+    std::array<std::array<PointPairs, kPhases>, kActions> poses{};
 };
 
 // The first part of a tick of one fish, before it steers: the segment that plays, and the travel of
@@ -256,7 +274,8 @@ struct Playing {
 // Advances segment, phase and warp counter of fish i by a tick. The commanded rate is that of the
 // commanded action: while a turn plays that is no longer commanded, it plays as recorded. A turn or
 // a fast start is left at its end, and by a warp even if the same follows, or where it is broken
-// off; every other segment is left at once. A command for an action that does not exist starts no warp.
+// off; every other segment is left at once. A command for an action that does not exist starts no
+// warp.
 [[nodiscard]] inline Playing advanceSegment(const MotorTables& tables,
                                             const MotorColumns& fish,
                                             std::size_t i) {
@@ -302,9 +321,52 @@ using Vector = std::array<float, 3>;
             (v[2] + q.w * z) + (q.x * y - q.y * x)};
 }
 
+// The arithmetic of a warp, on the four numbers of a quaternion at a time: operation for operation
+// that of Quaternion, so the bits are the same.
+using Four = float __attribute__((vector_size(16)));  // w, x, y, z
+
+// The four numbers of a quaternion.
+[[nodiscard]] inline Four four(const Quaternion& q) {
+    return Four{q.w, q.x, q.y, q.z};
+}
+// The reverse.
+[[nodiscard]] inline Quaternion quaternion(const Four& q) {
+    return {q[0], q[1], q[2], q[3]};
+}
+// The inverse of a unit quaternion.
+[[nodiscard]] inline Four conjugate(const Four& q) {
+    return q * Four{1.0F, -1.0F, -1.0F, -1.0F};
+}
+// Interpolated number by number, not normalised.
+[[nodiscard]] inline Four lerp(const Four& a, const Four& b, float share) {
+    return a + share * (b - a);
+}
+// Of unit length; q must not be zero.
+[[nodiscard]] inline Four normalised(const Four& q) {
+    const Four squared = q * q;
+    return q * (1.0F / std::sqrt((squared[0] + squared[1]) + (squared[2] + squared[3])));
+}
+// Rotates by b first.
+[[nodiscard]] inline Four product(const Four& a, const Four& b) {
+    constexpr Four kLessW{-1.0F, 1.0F, 1.0F, 1.0F};
+    const Four first = __builtin_shufflevector(a, a, 0, 0, 0, 0) * b;
+    const Four second =
+        __builtin_shufflevector(a, a, 1, 1, 2, 3) * __builtin_shufflevector(b, b, 1, 0, 0, 0);
+    const Four third =
+        __builtin_shufflevector(a, a, 2, 2, 3, 1) * __builtin_shufflevector(b, b, 2, 3, 1, 2);
+    const Four fourth =
+        __builtin_shufflevector(a, a, 3, 3, 1, 2) * __builtin_shufflevector(b, b, 3, 2, 3, 1);
+    return (first + kLessW * second) + (kLessW * third - fourth);
+}
+// swayAt() as four numbers.
+[[nodiscard]] inline Four swayOfCell(const SegmentTables& tables, std::uint32_t phase) {
+    const Quaternion* const cell = &tables.bodyFromMean[phase >> kPhaseCellBits];
+    return lerp(four(cell[0]), four(cell[1]), fractionOf(phase));
+}
+
 // Motion of the mean frame in a tick, in its frame at the start; units as in PathSample.
 struct MeanTravel {
-    Quaternion turn;
+    Four turn{};
     Vector way{};
     float speedAtStart = 0.0F, speedAtEnd = 0.0F;
     std::int32_t rate = 0;
@@ -325,7 +387,7 @@ struct MeanTravel {
     const auto& [x, y, z] = next.meanHalfTurn;
     const float speed = next.path[phase >> kPhaseCellBits].translationAndSpeed[3];
     const float way = pathSpeed(speed, played) * kLengthsPerSpeedUnit;
-    return {.turn = normalised({1.0F, x * played, y * played, z * played}),
+    return {.turn = normalised(Four{1.0F, x * played, y * played, z * played}),
             .way = {way, 0.0F, 0.0F},
             .speedAtStart = speed,
             .speedAtEnd = speed,
@@ -337,17 +399,24 @@ struct MeanTravel {
 [[nodiscard]] inline MeanTravel turningTravel(const SegmentTables& turn,
                                               std::uint32_t from,
                                               std::uint32_t to) {
+    const auto rotationAt = [&](std::uint32_t phase) {
+        const PathSample* cell = &turn.path[phase >> kPhaseCellBits];
+        return lerp(four(cell[0].rotation), four(cell[1].rotation), fractionOf(phase));
+    };
     const auto placeAt = [&](std::uint32_t phase) {
         const PathSample* cell = &turn.path[phase >> kPhaseCellBits];
-        return lerp(cell[0], cell[1], fractionOf(phase));
+        const auto numbers = [](const PathSample& sample) {
+            const auto& [x, y, z, speed] = sample.translationAndSpeed;
+            return Four{x, y, z, speed};
+        };
+        return lerp(numbers(cell[0]), numbers(cell[1]), fractionOf(phase));
     };
-    const PathSample start = placeAt(from);
-    const PathSample end = placeAt(to);
-    const Quaternion fromStart = conjugate(normalised(start.rotation * swayAt(turn, from)));
-    const auto& a = start.translationAndSpeed;
-    const auto& b = end.translationAndSpeed;
-    return {.turn = normalised(fromStart * (end.rotation * swayAt(turn, to))),
-            .way = rotated(fromStart, {b[0] - a[0], b[1] - a[1], b[2] - a[2]}),
+    const Four fromStart = conjugate(normalised(product(rotationAt(from), swayOfCell(turn, from))));
+    const Four a = placeAt(from);
+    const Four b = placeAt(to);
+    const Four way = b - a;
+    return {.turn = normalised(product(fromStart, product(rotationAt(to), swayOfCell(turn, to)))),
+            .way = rotated(quaternion(fromStart), {way[0], way[1], way[2]}),
             .speedAtStart = a[3],
             .speedAtEnd = b[3],
             .rate = static_cast<std::int32_t>(to - from)};
@@ -359,8 +428,8 @@ struct MeanTravel {
                                           const MotorColumns& fish,
                                           std::size_t i) {
     const SegmentTables& next = tables.segments[fish.segment[i]];
-    const Quaternion last = swayAt(tables.segments[fish.fromSegment[i]], fish.fromPhase[i]);
-    const Quaternion first = swayAt(next, fish.phase[i]);
+    const Four last = swayOfCell(tables.segments[fish.fromSegment[i]], fish.fromPhase[i]);
+    const Four first = swayOfCell(next, fish.phase[i]);
     const std::uint32_t frame = fish.warpFrame[i];
     const std::uint32_t frames = fish.warpLength[i] + 1U;
     const float steps = 1.0F / static_cast<float>(frames);
@@ -372,12 +441,13 @@ struct MeanTravel {
     const MeanTravel mean =
         next.playsToEnd ? turningTravel(next, turnsTo(frame), turnsTo(frame + 1))
                         : cyclingTravel(next, fish.phase[i], coasts ? 0 : fish.phaseRate[i]);
-    const Quaternion sway = swayAfter(frame + 1);
+    const Four sway = swayAfter(frame + 1);
     const auto& [x, y, z] = mean.way;
-    return {.start = {conjugate(swayAfter(frame)), {0.0F, 0.0F, 0.0F, mean.speedAtStart}},
-            .end = {mean.turn * conjugate(sway), {x, y, z, mean.speedAtEnd}},
-            .bodyFromMean = sway,
-            .rate = mean.rate};
+    return {
+        .start = {quaternion(conjugate(swayAfter(frame))), {0.0F, 0.0F, 0.0F, mean.speedAtStart}},
+        .end = {quaternion(product(mean.turn, conjugate(sway))), {x, y, z, mean.speedAtEnd}},
+        .bodyFromMean = quaternion(sway),
+        .rate = mean.rate};
 }
 
 }  // namespace aquarama::motion

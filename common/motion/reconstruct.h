@@ -2,10 +2,13 @@
 // A fish between two ticks, as a frame shows it, and its nodal points (eq. 12).
 #pragma once
 
+#include <span>
+
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
 #include "common/motion/motion_state.h"
+#include "common/motion/motor.h"
 #include "common/motion/repertoire.h"
 
 namespace aquarama::motion {
@@ -48,5 +51,14 @@ void nodalPose(const Repertoire& repertoire, const PresentedFish& fish, body::No
 // The pectoral fins likewise, left and right.
 [[nodiscard]] std::array<body::FinPose, 2> finPoses(const Repertoire& repertoire,
                                                     const PresentedFish& fish);
+
+// Eq. 12, o + R alpha d: the nodal points of fish of one species at a tick, world frame, metres.
+// nodes[i] are those of fish first + i; all these fish must be in states and traits. The same bits
+// on any instruction set. Reads the states only: ranges may run on several threads.
+void nodalPoints(const MotorTables& tables,
+                 std::span<const FishTraits> traits,
+                 const MotionStates& states,
+                 std::size_t first,
+                 std::span<body::NodalPoints> nodes);
 
 }  // namespace aquarama::motion

@@ -94,12 +94,8 @@ struct FishView {
 };
 
 // Distance from the origin of the body frame forward to the nose, where the mouth is, in body
-// lengths: nodal point 0 of every rest shape.
+// lengths: nodal point 0 of every rest shape. Minds take the mouth there, without the sway of the
+// head.
 inline constexpr float kNoseBodyLengths = 0.385F;
-
-// Position of the mouth: world frame, metres.
-[[nodiscard]] inline glm::vec3 mouthOf(const FishView& view, std::uint32_t fish) {
-    return view.position(fish) + view.heading(fish) * (kNoseBodyLengths * view.fish[fish].length);
-}
 
 }  // namespace aquarama::fish

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "common/base/hash.h"
+#include "common/motion/reconstruct.h"
 #include "common/place/place.h"
 #include "master/behaviour/think.h"
 #include "master/fish/fish_view.h"
@@ -46,17 +47,30 @@ void beginSwallow(Meals& meals, std::uint32_t fish, std::uint32_t particle) {
     meals.swallows.push_back({fish, particle, kSwallowTicks});
 }
 
-void advanceMeals(Meals& meals, const fish::FishView& view, surroundings::Food& food, Tick tick) {
-    for (Meals::Swallow& swallow : meals.swallows) {
-        if (view.shows(swallow.fish, fish::kAway))
+// Advances all swallows by one tick: each particle comes nearer to the mouth and vanishes in it.
+void World::swallow() {
+    for (Meals::Swallow& swallow : meals_.swallows) {
+        surroundings::Food& food = surroundings_.food;
+        if (columns_.view.shows(swallow.fish, fish::kAway))
             // A fish that was eaten itself: what it had in its mouth goes with it.
             swallow.ticksLeft = 1;
         else
-            drawIn(food, swallow.particle, fish::mouthOf(view, swallow.fish), swallow.ticksLeft);
-        if (--swallow.ticksLeft == 0) surroundings::removeFood(food, swallow.particle, tick);
+            drawIn(food, swallow.particle, mouthOf(swallow.fish), swallow.ticksLeft);
+        if (--swallow.ticksLeft == 0) surroundings::removeFood(food, swallow.particle, tick_);
     }
-    std::erase_if(meals.swallows,
+    std::erase_if(meals_.swallows,
                   [](const Meals::Swallow& swallow) { return swallow.ticksLeft == 0; });
+}
+
+// Where the mouth is seen: the nose, nodal point 0, in the pose that is played.
+glm::vec3 World::mouthOf(std::uint32_t fish) const {
+    body::NodalPoints nodes;
+    motion::nodalPoints(*kinds_[columns_.view.kind[fish]].tables,
+                        columns_.traits,
+                        columns_.states,
+                        fish,
+                        {&nodes, 1});
+    return nodes[0];
 }
 
 // Events of a tick, applied one after the other on one thread. Of two fish that want the same thing

@@ -53,7 +53,5 @@ struct Meals {
 [[nodiscard]] Meals makeMeals(std::size_t fish);
 // Begins a swallow. The fish must have taken the particle (takeFood()).
 void beginSwallow(Meals& meals, std::uint32_t fish, std::uint32_t particle);
-// Advances all swallows by one tick: each particle comes nearer to the mouth and vanishes in it.
-void advanceMeals(Meals& meals, const fish::FishView& view, surroundings::Food& food, Tick tick);
 
 }  // namespace aquarama::world

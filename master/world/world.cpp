@@ -245,7 +245,7 @@ void World::advance() {
     receive();
     moveSubmarine();
     beginTick();
-    advanceMeals(meals_, columns_.view, surroundings_.food, tick_);
+    swallow();
     findRushes();
     thinkAll();
     pool_.run(chunks_.size(), [this](std::size_t i) { swim(chunks_[i]); });

@@ -176,6 +176,8 @@ class World {
     void findRushes();
     [[nodiscard]] bool thinks(std::uint32_t fish) const;
     void swim(const Chunk& chunk);
+    void swallow();
+    [[nodiscard]] glm::vec3 mouthOf(std::uint32_t fish) const;
     void performEvents();
     void perform(const fish::DeferredEvent& event);
     void feed(std::uint32_t fish);
@@ -192,7 +194,7 @@ class World {
     std::vector<Chunk> chunks_;
     std::vector<behaviour::DeferredEvents> slices_;  // events of parts of the fish, in grid order
     behaviour::DeferredEvents events_;               // of all slices together
-    std::vector<std::uint32_t> rushes_;              // predators that began to rush at the last tick
+    std::vector<std::uint32_t> rushes_;  // predators that began to rush at the last tick
     FishColumns columns_;
     surroundings::Surroundings surroundings_;
     surroundings::Voyage voyage_;

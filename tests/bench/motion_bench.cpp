@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What it costs the master to move a fish: body frame and motion state, with the captured
-// repertoire of the show. Times are per iteration; the counter ns_per_fish is what to read.
+// What it costs the master to move a fish: body frame and motion state, and the nodal points that
+// it asks for, with the captured repertoire of the show. Times are per iteration; the counter
+// ns_per_fish is what to read.
 #include <algorithm>
 #include <ctime>
 #include <random>
+#include <span>
 
 #include <benchmark/benchmark.h>
 
 #include "common/body/fish_body.h"
 #include "common/motion/motor.h"
+#include "common/motion/reconstruct.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::bench {
@@ -114,6 +117,40 @@ BENCHMARK(bodyFrameSteady)
     ->Name("body_frame_steady")
     ->ArgName("fish")
     ->Arg(1000)
+    ->Arg(100000)
+    ->UseManualTime();
+
+// The paper's quantity (Table 1): the body frame and all nodal points of every fish at every tick,
+// by the functions of the show. Chunk by chunk, as the world moves its fish; the nodal points of a
+// chunk are written over those of the one before.
+void frameAndNodes(benchmark::State& state) {
+    constexpr std::size_t kChunk = 256;
+    School school(static_cast<std::size_t>(state.range(0)));
+    std::vector<body::NodalPoints> nodes(kChunk);
+    measure(
+        state,
+        school.traits.size(),
+        [&] { school.decideSome(); },
+        [&] {
+            motion::MotorStep step = school.step();
+            const std::size_t fish = step.last;
+            for (step.first = 0; step.first < fish; step.first = step.last) {
+                step.last = std::min(step.first + kChunk, fish);
+                step.run();
+                motion::nodalPoints(tables(),
+                                    school.traits,
+                                    school.states,
+                                    step.first,
+                                    std::span(nodes).first(step.last - step.first));
+                benchmark::DoNotOptimize(nodes.data());
+            }
+        });
+}
+BENCHMARK(frameAndNodes)
+    ->Name("frame_and_nodes")
+    ->ArgName("fish")
+    ->Arg(1000)
+    ->Arg(10000)
     ->Arg(100000)
     ->UseManualTime();
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
@@ -99,8 +100,14 @@ TEST(Dynamics, exchangedMusclesSwimTheMirroredPathInEverySpecies) {
                 mix(beatAt(species.swim, 1, species.swim.medium.beatHertz * seconds),
                     bendLeft(species.turn.gradual, seconds * fish.timeScale),
                     std::min(1.0, seconds));
-            step(fish, {.muscles = muscles, .fins = {}, .rowing = {}, .tone = {}}, longestStepSeconds(fish), left);
-            step(fish, {.muscles = mirrored(muscles), .fins = {}, .rowing = {}, .tone = {}}, longestStepSeconds(fish), right);
+            step(fish,
+                 {.muscles = muscles, .fins = {}, .rowing = {}, .tone = {}},
+                 longestStepSeconds(fish),
+                 left);
+            step(fish,
+                 {.muscles = mirrored(muscles), .fins = {}, .rowing = {}, .tone = {}},
+                 longestStepSeconds(fish),
+                 right);
         }
         for (int i = 0; i < body::kNodalPoints; ++i) {
             const glm::dvec3 image =
@@ -120,7 +127,9 @@ TEST(Dynamics, swimsInAPlane) {
              {.muscles = beatAt(test::scad().swim,
                                 1,
                                 test::scad().swim.fast.beatHertz * i * longestStepSeconds(fish)),
-              .fins = {}, .rowing = {}, .tone = {}},
+              .fins = {},
+              .rowing = {},
+              .tone = {}},
              longestStepSeconds(fish),
              state);
     for (int i = 0; i < body::kNodalPoints; ++i) {
@@ -141,6 +150,36 @@ TEST(BodyFrame, isOrthonormalAndPointsForwardUpAndRight) {
     for (int p = 0; p < 3; ++p)
         for (int q = 0; q < 3; ++q) EXPECT_NEAR(square[p][q], p == q ? 1 : 0, 1e-12);
     EXPECT_GT(glm::determinant(bent.worldFromBody), 0);
+}
+
+// Eq. 1 to 3 and 8 on numbers that can be checked by hand: the nose is off to the left and up, and
+// the upper edge of ring 2 leans otherwise than the lower one. No other node counts.
+TEST(BodyFrame, isTakenFromTheNoseAndFromBothEdgesOfRing2) {
+    NodeVectors bent = disturbed(makeBiomechanicalFish(test::scad())).positions;
+    bent[0] = {0.40, 0.05, -0.10};
+    bent[5] = {0.01, 0.10, -0.04};
+    bent[6] = {0.01, 0.12, 0.04};
+    bent[7] = {-0.01, -0.09, 0.05};
+    bent[8] = {-0.01, -0.13, -0.05};
+    // The edges add up to (0, 1, 3) times 0.06, the nose is at (8, 1, -2) / 20.
+    const glm::dmat3 known{glm::dvec3(8, 1, -2) / std::sqrt(69.0),
+                           glm::dvec3(-5, 24, -8) / std::sqrt(665.0),
+                           glm::dvec3(40, 74, 197) / std::sqrt(45885.0)};
+    const glm::dmat3 turn =
+        glm::mat3_cast(glm::normalize(glm::dquat(0.5, glm::dvec3(-0.3, 0.7, 0.4))));
+    const glm::dvec3 way{4, -3, 2};
+    NodeVectors moved{};
+    for (std::size_t i = 0; i < bent.size(); ++i) moved.at(i) = way + turn * bent.at(i);
+    const PoseFrame frame = frameOf(moved);
+    EXPECT_LT(glm::distance(frame.origin, way), 1e-12);
+    for (int axis = 0; axis < 3; ++axis)
+        EXPECT_LT(glm::distance(frame.worldFromBody[axis], turn * known[axis]), 1e-12)
+            << "axis " << axis;
+    const NodeVectors inside = inBodyFrame(moved);
+    EXPECT_LT(glm::distance(inside[0], glm::dvec3(std::sqrt(69.0) / 20, 0, 0)), 1e-12);
+    for (std::size_t i = 0; i < bent.size(); ++i)
+        EXPECT_LT(glm::distance(inside.at(i), glm::transpose(known) * bent.at(i)), 1e-12)
+            << "node " << i;
 }
 
 }  // namespace

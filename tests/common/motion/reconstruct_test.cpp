@@ -2,6 +2,7 @@
 #include "common/motion/reconstruct.h"
 
 #include <gtest/gtest.h>
+#include <hwy/highway.h>
 
 #include "tests/common/motion/school.h"
 
@@ -16,7 +17,7 @@ double travel(const body::NodalPoints& a, const body::NodalPoints& b) {
     return most;
 }
 
-// World frame, metres: n = o + R (alpha d).
+// Eq. 12 of a fish between two ticks: world frame, metres.
 body::NodalPoints nodesInWorld(const PresentedFish& fish) {
     body::NodalPoints nodes;
     nodalPose(sharedRepertoire(), fish, nodes);
@@ -26,29 +27,77 @@ body::NodalPoints nodesInWorld(const PresentedFish& fish) {
     return nodes;
 }
 
-// Eq. 12 with eq. 8 undone: n = o + R (alpha d), where d is what was captured.
-TEST(Reconstruct, nodalPointsAreThoseThatWereCaptured) {
+// Eq. 12 with eq. 8 undone: n = o + R (alpha d), where d is what was captured. Of fish of two
+// lengths, away from the origin and askew: the path of the captured fish is turned and moved as a
+// whole.
+TEST(NodalPoints, areThoseThatWereCaptured) {
     const auto rest = synthetic::restNodes();
+    const auto gaits = synthetic::gaits();
+    const glm::dquat turn = glm::normalize(glm::dquat(0.5, glm::dvec3(-0.3, 0.7, 0.4)));
+    const glm::dvec3 away{40, -7, 25};
+    School school(kCapturedActions);
     for (std::size_t action = 0; action < kCapturedActions; ++action) {
-        const synthetic::Gait gait = synthetic::gaits()[action];
-        for (int k = 0; k < kPhases; k += 5) {
-            const double phase = static_cast<double>(k) / kPhases;
-            const synthetic::Frame frame = synthetic::frameOf(gait, phase);
-            const glm::dquat rotation = glm::quat_cast(frame.axes);
-            constexpr double kLength = 0.5;
-            PresentedFish fish;
-            fish.positionMetres = glm::vec3(kLength * frame.origin);
-            fish.lengthMetres = static_cast<float>(kLength);
-            fish.rotation = glm::vec4(rotation.x, rotation.y, rotation.z, rotation.w);
-            fish.phase = static_cast<float>(phase);
-            fish.action = static_cast<std::uint32_t>(action);
-            const body::NodalPoints nodes = nodesInWorld(fish);
+        school.states.segment[action] = firstSegmentOf(static_cast<Action>(action));
+        school.traits[action].lengthMillimetres = action % 2 == 0 ? 300 : 2000;
+    }
+    std::array<body::NodalPoints, kCapturedActions> nodes;
+    for (int k = 0; k < kPhases; k += 5) {
+        const double phase = static_cast<double>(k) / kPhases;
+        for (std::size_t action = 0; action < kCapturedActions; ++action) {
+            const synthetic::Frame frame = synthetic::frameOf(gaits[action], phase);
+            const double length = school.traits[action].lengthMillimetres * 1e-3;
+            setBodyFrame(school.states,
+                         action,
+                         {.position = glm::vec3(away + turn * (length * frame.origin)),
+                          .rotation = glm::quat(turn * glm::quat_cast(frame.axes))});
+            school.states.phase[action] = static_cast<std::uint16_t>(k * (65536 / kPhases));
+        }
+        nodalPoints(*school.tables, school.traits, school.states, 0, nodes);
+        for (std::size_t action = 0; action < kCapturedActions; ++action) {
+            const double length = school.traits[action].lengthMillimetres * 1e-3;
             for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
-                const glm::dvec3 captured = kLength * synthetic::placed(gait, phase, rest[i]);
-                EXPECT_LT(glm::distance(glm::dvec3(nodes[i]), captured), kLength * 5e-5);
+                const glm::dvec3 captured =
+                    away + turn * (length * synthetic::placed(gaits[action], phase, rest[i]));
+                ASSERT_LT(glm::distance(glm::dvec3(nodes[action][i]), captured),
+                          2e-5 + length * 5e-5)
+                    << nameOf(static_cast<Action>(action)) << ", node " << i;
             }
         }
     }
+}
+
+// Between samples, in motion warps, and of any range: what nodalPose() gives for the same records,
+// turned, scaled and placed; and the same bits on every instruction set.
+TEST(NodalPoints, areThoseOfThePlainReconstructionOnEveryInstructionSet) {
+    std::mt19937 random(15);
+    School school(3000);
+    scatter(school, random);
+    for (int tick = 0; tick < 30; ++tick) {
+        commandAtRandom(school, random);
+        school.tick();
+    }
+    std::vector<body::NodalPoints> first;
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        SCOPED_TRACE(hwy::TargetName(target));
+        hwy::SetSupportedTargetsForTest(target);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        std::vector<body::NodalPoints> nodes(school.traits.size() - 7);
+        nodalPoints(*school.tables, school.traits, school.states, 7, nodes);
+        if (first.empty()) first = nodes;
+        EXPECT_EQ(nodes, first);
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    int warping = 0;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        const FishRecord record = recordOf(school.states, i + 7);
+        warping += record.warpFrame != record.warpLength ? 1 : 0;
+        const double length = school.traits[i + 7].lengthMillimetres * 1e-3;
+        const double rounding = 1e-5 * length + 7e-5;  // of floats, some 500 m out
+        EXPECT_LT(travel(first[i], nodesInWorld(present(record, record, 0, school.traits[i + 7]))),
+                  rounding);
+    }
+    EXPECT_GT(warping, 30);
 }
 
 TEST(Reconstruct, aPresentedFishIsItsTicksAtBothEnds) {

@@ -152,8 +152,8 @@ TEST(SecondaryController, aSmallErrorOfCourseIsSwumOffOnACurveToItsSide) {
     }
 }
 
-// In each thought, whatever the fish plays: half of the tight curve's rate, and none where the
-// curves turn enough.
+// In each thought, whatever the fish plays: two fifths of the tight curve's rate, and none where
+// the curves turn enough. With a tenth a scattered school does not form again (the scene `school`).
 TEST(SecondaryController, yawIsAddedOnlyWhereTheCurvesAreNotEnough) {
     constexpr double kUnit = 60.0 / (1 << 20);  // radians a second
     bool adds = false;
@@ -163,9 +163,9 @@ TEST(SecondaryController, yawIsAddedOnlyWhereTheCurvesAreNotEnough) {
         const auto tight = atGait(motion::Action::CurveLeftTightSlow, gaitOf(mind.thinkFor(3)));
         const double added = std::abs(mind.commands.yawRate[0] * kUnit);
         const auto most = static_cast<double>(mind.gaits.yawRate[indexOf(tight)]);
-        EXPECT_LE(added, 0.5 * most + kUnit);
+        EXPECT_LE(added, 0.4 * most + kUnit);
         const double wanted = 1.6 * std::abs(static_cast<double>(degrees)) * 3.14159 / 180;
-        if (wanted < 1.3 * most) {
+        if (wanted < 1.5 * most) {
             EXPECT_EQ(added, 0) << degrees;
         }
         adds |= added > 0;

@@ -51,6 +51,7 @@ TEST(Hunt, SometimesCatchesAndNotAlways) {
     EXPECT_LE(share, 0.4);
 }
 
+// Of seed 3: in the six minutes of seed 1 nobody is eaten.
 TEST(Hunt, WhoIsEatenIsAwayAndAnotherComesFromAfar) {
     World world(seaOfTheHunt(3));
     int catches = 0;
@@ -114,6 +115,7 @@ TEST(Hunt, TheSchoolFormsAgainAfterAChase) {
     EXPECT_LT(least, 1.5F) << "body lengths to the nearest schoolmate within half a minute";
 }
 
+// Of seed 3: in the minute of seed 1 nobody is eaten.
 TEST(Hunt, IsOneWorldOnAnyNumberOfThreads) {
     World one(seaOfTheHunt(3));
     WorldOptions options = seaOfTheHunt(3);
