@@ -427,8 +427,10 @@ WarpPlan planToCycle(const Travels& travels, std::size_t cell, float step) {
     return planToPhase(travels, cell, entry, step);
 }
 
-// A fast start is not delayed: as many frames lead to it at most.
-constexpr int kMostFramesToStart = 2;
+// A fast start is not delayed: two frames lead to it at most, or a tenth of a long one.
+int mostFramesToStart(std::int16_t rate) {
+    return std::max(2, 65536 / (10 * rate));
+}
 
 // A turn plays from the first frame of the warp on, at its phase rate: the first phase to which all
 // steps are within `step`, or the last one that a warp of so many frames can reach.
@@ -572,7 +574,7 @@ WarpPlans planWarps(const Repertoire& repertoire,
             WarpPlan& plan = plans[from][cell][to];
             if (repertoire.segments[to].playsToEnd)
                 plan = planToTurn(
-                    travels, cell, step, phaseRates[to], isStart(next) ? kMostFramesToStart : 255);
+                    travels, cell, step, phaseRates[to], isStart(next) ? mostFramesToStart(phaseRates[to]) : 255);
             else
                 plan = planToCycle(travels, cell, step);
             if (begins)

@@ -219,7 +219,7 @@ TEST_P(Attitude, aTurnInAClimbChangesTheCourseAndLeavesTheClimb) {
             const float off = pitchError(*school, 0);
             if (takesSlope(Action::ForwardMedium, off))
                 school->command(0, slopeOf(Action::ForwardMedium, off > 0));
-            for (int tick = 0; tick < 1200; ++tick) {
+            for (int tick = 0; tick < 3000; ++tick) {
                 endSlope(*school, 0);
                 school->tick();
             }
