@@ -75,7 +75,7 @@ struct MuscleActivation {
 };
 
 // A flat plate; water resists only its motion along its normal (Tu & Terzopoulos 1994).
-struct PectoralFin {
+struct FinPlate {
     // gamma: the normal is cos(gamma) x + sin(gamma) y of the body frame. At pi/2 the fin is
     // parallel to the flow. At a larger angle it lifts the head of a fish that swims forward. At pi
     // it is perpendicular to the flow and brakes.
@@ -83,19 +83,19 @@ struct PectoralFin {
 };
 
 // Both fins. They have no mass and no state of their own.
-struct PectoralFins {
-    PectoralFin left, right;
+struct FinPlates {
+    FinPlate left, right;
 };
 
 // A pose of a pectoral fin (body::FinPose), and its change in a second; radians.
-struct FinMotion {
+struct BladeMotion {
     glm::dvec3 pose{}, rate{};  // open, stroke, twist
 };
 // Both pectoral fins as blades that the water resists; the left one is told as the mirror image of
-// the right. While a fish rows they take the place of the plates of PectoralFins.
+// the right. While a fish rows they take the place of the plates of FinPlates.
 struct RowingControl {
     bool rows = false;
-    FinMotion left, right;
+    BladeMotion left, right;
 };
 
 // How the tissue differs from that of a relaxed fish, as factors of what a species gives it.
@@ -114,10 +114,10 @@ inline constexpr double kMostRighting = 4;
 // All actuators of a fish during one step.
 struct MotorControl {
     MuscleActivation muscles;
-    PectoralFins fins;
+    FinPlates fins;
     RowingControl rowing;
-    // Whether a moment rights the body, at most kMostRighting: that of the pelvic, the median and the
-    // tail fins of a fish that stays in its place, which are not simulated.
+    // Whether a moment rights the body, at most kMostRighting: that of the pelvic, the median and
+    // the tail fins of a fish that stays in its place, which are not simulated.
     bool rightsItself = false;
     Tone tone;
 };
@@ -127,7 +127,7 @@ struct Blade {
     // Axes are unit vectors: tailwards, up, right. The root is seen from the origin of the body
     // frame.
     glm::dvec3 root{}, hinge{}, stroke{}, ray{}, chord{};
-    double span = 0, area = 0;  // body lengths, and squared
+    double span = 0, area = 0;      // body lengths, and squared
     double rowing = 0, folded = 0;  // how far it is opened, radians
     // Water resists its motion along its normal, to either side, as it resists a face of the body:
     // force = drag * area * (normal speed)^2.

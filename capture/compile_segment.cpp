@@ -190,9 +190,9 @@ std::array<std::int16_t, 3> quantised(const glm::vec3& point) {
 motion::FinAngles quantisedAngles(const glm::dvec3& pose) {
     motion::FinAngles angles{};
     for (std::size_t c = 0; c < 3; ++c)
-        angles.at(c) = static_cast<std::int16_t>(
-            std::lround(std::clamp(pose[static_cast<int>(c)], -3.2, 3.2) /
-                        static_cast<double>(motion::kFinUnit)));
+        angles.at(c) =
+            static_cast<std::int16_t>(std::lround(std::clamp(pose[static_cast<int>(c)], -3.2, 3.2) /
+                                                  static_cast<double>(motion::kFinUnit)));
     return angles;
 }
 

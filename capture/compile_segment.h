@@ -40,11 +40,12 @@ struct RecordedCycle {
 // A gait straight on or backwards: the motion lies in a horizontal plane, and half a beat later it
 // is its mirror image.
 [[nodiscard]] motion::ActionSegment compileForward(const RecordedCycle& recording);
-// A gait straight on or backwards by rowing: the path is level, and left and right move alike. On a slope: they move alike.
+// A gait straight on or backwards by rowing: the path is level, and left and right move alike. On a
+// slope: they move alike.
 [[nodiscard]] motion::ActionSegment compileRowed(const RecordedCycle& recording);
 [[nodiscard]] motion::ActionSegment compileRowedSlope(const RecordedCycle& recording);
-// A fish that hovers, turns or pitches in one place by rowing: as above, but a pivot's left and right differ. What it
-// drifts in a cycle is taken from it.
+// A fish that hovers, turns or pitches in one place by rowing: as above, but a pivot's left and
+// right differ. What it drifts in a cycle is taken from it.
 [[nodiscard]] motion::ActionSegment compileHover(const RecordedCycle& recording);
 [[nodiscard]] motion::ActionSegment compilePivot(const RecordedCycle& recording);
 [[nodiscard]] motion::ActionSegment compilePitch(const RecordedCycle& recording);
@@ -57,7 +58,8 @@ struct RecordedCycle {
 [[nodiscard]] motion::ActionSegment compileStart(const RecordedCycle& recording);
 
 // A left turn or fast start, for a given time, begun in a tail beat or out of rest. What follows is
-// measured while the fish swims on at the medium gait, after a fast start at the fast one: its way from the end of the turn on, in the world, over some beats.
+// measured while the fish swims on at the medium gait, after a fast start at the fast one: its way
+// from the end of the turn on, in the world, over some beats.
 struct EnteredTurn {
     RecordedCycle turn;
     double speedBefore = 0;  // body lengths a second

@@ -251,9 +251,10 @@ void addDrag(const WettedFace& face, const FishState& middle, EnvelopeSystem& sy
 }
 
 // -drag (n.v) n, linear in speed as Tu's law. v is the mean velocity of the four nodes at the fin's
-// root; a quarter of the force acts on each of those nodes. Tu distributes it over rings 1 to 3; over the first two rings alone it pitches the
-// fish twice as much. `worldFromBody` is the body frame at the middle of the step.
-void addFin(const PectoralFin& fin,
+// root; a quarter of the force acts on each of those nodes. Tu distributes it over rings 1 to 3;
+// over the first two rings alone it pitches the fish twice as much. `worldFromBody` is the body
+// frame at the middle of the step.
+void addFin(const FinPlate& fin,
             const std::array<int, 4>& root,
             double drag,
             const glm::dmat3& worldFromBody,
@@ -289,12 +290,12 @@ glm::dvec3 rotatedAbout(const glm::dvec3& axis, double angle, const glm::dvec3& 
     return c * v + std::sin(angle) * glm::cross(axis, v) + (1 - c) * glm::dot(axis, v) * axis;
 }
 
-// A point of the right blade at a share q of its ray: its place from the root, its velocity, and the
-// chord there. Tailwards, up, right. A twist does not move the ray.
+// A point of the right blade at a share q of its ray: its place from the root, its velocity, and
+// the chord there. Tailwards, up, right. A twist does not move the ray.
 struct BladePoint {
     glm::dvec3 arm, velocity, chord;
 };
-BladePoint bladePoint(const Blade& blade, const FinMotion& motion, double q) {
+BladePoint bladePoint(const Blade& blade, const BladeMotion& motion, double q) {
     const double open = motion.pose.x, stroke = motion.pose.y, twist = motion.pose.z;
     const auto carried = [&](const glm::dvec3& v) { return rotatedAbout(blade.stroke, stroke, v); };
     const glm::dvec3 opened = rotatedAbout(blade.hinge, open, q * blade.span * blade.ray);
@@ -338,7 +339,8 @@ RigidBody rigidBody(const FishState& state,
 }
 
 // A moment that turns the body upright, as a spring with damper does: the angular acceleration is
-// kRighting^2 (y x up) - 2 damping kRighting spin, without the spin about y, the body's own up; at most kMostRighting.
+// kRighting^2 (y x up) - 2 damping kRighting spin, without the spin about y, the body's own up; at
+// most kMostRighting.
 void addRighting(const BiomechanicalFish& fish, const FishState& middle, EnvelopeSystem& system) {
     constexpr double kRighting = 2 * std::numbers::pi * 0.8;  // radians in the fish's own second
     constexpr double kDamping = 0.7;                          // of the critical one
@@ -355,11 +357,12 @@ void addRighting(const BiomechanicalFish& fish, const FishState& middle, Envelop
             fish.masses[i] * glm::cross(turn, middle.positions[i] - whole.centre));
 }
 
-// -drag area |n.v| (n.v) n on each strip: the law of the faces of the body, but to either side. The sum of the strips'
-// forces and torques is distributed over rings 1 and 2 as over a rigid body. `side`: 1 right, -1 left. The derivatives
-// are left out of the matrix, which slows the iteration only.
+// -drag area |n.v| (n.v) n on each strip: the law of the faces of the body, but to either side. The
+// sum of the strips' forces and torques is distributed over rings 1 and 2 as over a rigid body.
+// `side`: 1 right, -1 left. The derivatives are left out of the matrix, which slows the iteration
+// only.
 void addBlade(const Blade& blade,
-              const FinMotion& motion,
+              const BladeMotion& motion,
               double side,
               const RigidBody& rings,
               const PoseFrame& frame,
@@ -373,20 +376,20 @@ void addBlade(const Blade& blade,
         const double q = (strip + 0.5) / kStrips;
         const BladePoint at = bladePoint(blade, motion, q);
         const glm::dvec3 arm = root + worldFromBlade * at.arm - rings.centre;
-        const glm::dvec3 velocity = rings.velocity + glm::cross(rings.spin, arm) +
-                                    worldFromBlade * at.velocity;
+        const glm::dvec3 velocity =
+            rings.velocity + glm::cross(rings.spin, arm) + worldFromBlade * at.velocity;
         const glm::dvec3 normal = worldFromBlade * glm::normalize(glm::cross(at.arm, at.chord));
         const double normalSpeed = glm::dot(normal, velocity);
-        const glm::dvec3 onStrip = -blade.drag * blade.area / kStrips * std::abs(normalSpeed) *
-                                   normalSpeed * normal;
+        const glm::dvec3 onStrip =
+            -blade.drag * blade.area / kStrips * std::abs(normalSpeed) * normalSpeed * normal;
         force += onStrip;
         torque += glm::cross(arm, onStrip);
     }
     const glm::dvec3 turn = rings.inverseInertia * torque;
     for (std::size_t i = 1; i <= kBladeNodes; ++i)
-        system.addToRightSide(static_cast<int>(i),
-                              (force + glm::cross(turn, middle.positions[i] - rings.centre)) /
-                                  double{kBladeNodes});
+        system.addToRightSide(
+            static_cast<int>(i),
+            (force + glm::cross(turn, middle.positions[i] - rings.centre)) / double{kBladeNodes});
 }
 
 // The equation of the step. With v the velocities at its middle and v0 those at its beginning, the

@@ -158,16 +158,14 @@ MotorControl startLeft(const config::Species& species,
     };
     const double alert = smoothStep(own / kStiffened) * (1 - smoothStep(ownAfter / kSoftened));
     return {
-        .muscles = {.frontLeft = most(before.frontLeft, on.frontLeft, start.bend.front * bend(0)),
-                    .frontRight =
-                        most(before.frontRight, on.frontRight, start.stroke.front * stroke(0)),
-                    .middleLeft =
-                        most(before.middleLeft, on.middleLeft, start.bend.middle * bend(1)),
-                    .middleRight =
-                        most(before.middleRight, on.middleRight, start.stroke.middle * stroke(1)),
-                    .backLeft = most(before.backLeft, on.backLeft, start.bend.back * bend(2)),
-                    .backRight =
-                        most(before.backRight, on.backRight, start.stroke.back * stroke(2))},
+        .muscles =
+            {.frontLeft = most(before.frontLeft, on.frontLeft, start.bend.front * bend(0)),
+             .frontRight = most(before.frontRight, on.frontRight, start.stroke.front * stroke(0)),
+             .middleLeft = most(before.middleLeft, on.middleLeft, start.bend.middle * bend(1)),
+             .middleRight =
+                 most(before.middleRight, on.middleRight, start.stroke.middle * stroke(1)),
+             .backLeft = most(before.backLeft, on.backLeft, start.bend.back * bend(2)),
+             .backRight = most(before.backRight, on.backRight, start.stroke.back * stroke(2))},
         .fins = {},
         .rowing = {},
         .tone = {.stiffness = mixed(start.tone, alert),
@@ -178,7 +176,7 @@ MotorControl startLeft(const config::Species& species,
 
 namespace {
 
-// Fins. Angles are PectoralFin::angleRadians.
+// Fins. Angles are FinPlate::angleRadians.
 
 constexpr double kFlat = std::numbers::pi / 2;  // parallel to the flow: no force
 constexpr double kAcross = std::numbers::pi;    // perpendicular to it: the most drag
@@ -195,35 +193,34 @@ double bounded(double correction) {
 }
 
 // A fin that does not sweep, at the angle or at the nearest that it can have.
-PectoralFin at(double angleRadians) {
+FinPlate at(double angleRadians) {
     return {.angleRadians = std::clamp(angleRadians, kLeastAngle, kAcross)};
 }
 
 }  // namespace
 
-PectoralFins hold(const BodyAngles& attitude, double pitchRadians, double rollRadians) {
+FinPlates hold(const BodyAngles& attitude, double pitchRadians, double rollRadians) {
     const double lift = bounded(kPitchGain * (pitchRadians - attitude.pitchRadians));
     const double level = bounded(kRollGain * (attitude.rollRadians - rollRadians));
     return {.left = at(kFlat + lift + level), .right = at(kFlat + lift - level)};
 }
 
-PectoralFins lift(double radians) {
+FinPlates lift(double radians) {
     return {.left = at(kFlat + radians), .right = at(kFlat + radians)};
 }
 
-PectoralFins brake() {
+FinPlates brake() {
     return {.left = at(kAcross), .right = at(kAcross)};
 }
 
-FinMotion strokeAt(const config::Rowing& rowing,
-                   const FinStroke& stroke,
-                   double beatHertz,
-                   double beat) {
+BladeMotion strokeAt(const config::Rowing& rowing,
+                     const FinStroke& stroke,
+                     double beatHertz,
+                     double beat) {
     const double rate = 2 * std::numbers::pi * beatHertz;
     const double phase = 2 * std::numbers::pi * beat;
     const double travel = stroke.share * static_cast<double>(rowing.strokeRadians);
-    const double feather =
-        stroke.share * stroke.drive * static_cast<double>(rowing.featherRadians);
+    const double feather = stroke.share * stroke.drive * static_cast<double>(rowing.featherRadians);
     const double twisted = phase + static_cast<double>(rowing.leadRadians);
     return {.pose = {stroke.openRadians,
                      static_cast<double>(rowing.middleRadians) + travel * std::sin(phase),

@@ -58,19 +58,19 @@ inline constexpr double kRampOwnSeconds = 1;
 
 // Control of the pectoral fins at each instant.
 
-// Proportional feedback towards a pitch and a roll, for a fish that moves forward: both fins turn by
-// the error of the pitch, and in opposite directions by that of the roll (the force law of the fins
-// is Tu & Terzopoulos 1994's; this feedback is ours).
-[[nodiscard]] PectoralFins hold(const BodyAngles& attitude,
-                                double pitchRadians,
-                                double rollRadians = 0);
+// Proportional feedback towards a pitch and a roll, for a fish that moves forward: both fins turn
+// by the error of the pitch, and in opposite directions by that of the roll (the force law of the
+// fins is Tu & Terzopoulos 1994's; this feedback is ours).
+[[nodiscard]] FinPlates hold(const BodyAngles& attitude,
+                             double pitchRadians,
+                             double rollRadians = 0);
 
 // Both fins at the same angle from parallel to the flow: the head of a fish that swims forward is
 // lifted by a positive one.
-[[nodiscard]] PectoralFins lift(double radians);
+[[nodiscard]] FinPlates lift(double radians);
 
 // Both fins perpendicular to the flow (Tu & Terzopoulos 1994, brake-MC).
-[[nodiscard]] PectoralFins brake();
+[[nodiscard]] FinPlates brake();
 
 // How one pectoral fin rows. Drive 1 rows ahead, -1 back, 0 neither. The lift is that of a fin
 // that moves ahead: a fin that rows twists by it against its drive. `share` scales the stroke.
@@ -80,9 +80,9 @@ struct FinStroke {
 };
 // The pose of a fin that rows, at a phase of the beat in beats, and its change but for that of its
 // opening (Rowing of species.proto).
-[[nodiscard]] FinMotion strokeAt(const config::Rowing& rowing,
-                                 const FinStroke& stroke,
-                                 double beatHertz,
-                                 double beat);
+[[nodiscard]] BladeMotion strokeAt(const config::Rowing& rowing,
+                                   const FinStroke& stroke,
+                                   double beatHertz,
+                                   double beat);
 
 }  // namespace aquarama::capture

@@ -216,10 +216,11 @@ Transitions swimTransitions(const config::Species& species,
     const Masses masses = makeBiomechanicalFish(species).masses;
     const std::array orders{&species.swim.slow, &species.swim.medium, &species.swim.fast};
     const SteadySwimming& medium = *gaits[static_cast<std::size_t>(motion::Action::ForwardMedium)];
-    Transitions transitions{.swim = {},
-                            .glide = coast(medium, Controller::Glide, kGlidedBeats, masses),
-                            .brake = coast(medium, Controller::Brake, kBrakedBeats, masses),
-                            .retreat = backOut(medium, retreat, rowingOrder(species, Controller::Retreat), masses)};
+    Transitions transitions{
+        .swim = {},
+        .glide = coast(medium, Controller::Glide, kGlidedBeats, masses),
+        .brake = coast(medium, Controller::Brake, kBrakedBeats, masses),
+        .retreat = backOut(medium, retreat, rowingOrder(species, Controller::Retreat), masses)};
     for (std::size_t to = 0; to < gaits.size(); ++to)
         for (std::size_t from = 0; from < gaits.size(); ++from)
             if (from != to)

@@ -77,9 +77,7 @@ struct SpeedLaw {
     double brakeRate = 0;
 };
 // dv/dt of that law, body lengths / s^2.
-[[nodiscard]] double acceleration(const SpeedLaw& law,
-                                  double segmentSpeed,
-                                  double speed);
+[[nodiscard]] double acceleration(const SpeedLaw& law, double segmentSpeed, double speed);
 
 // Fits the coefficient k of one term of the law, `term`, where the others are known. The law is
 // linear in k. Integrated over time it is v(t) - v(0) - K(t) = k X(t), where K is the integral of

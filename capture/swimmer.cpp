@@ -116,7 +116,7 @@ void Swimmer::advanceOne() {
 
 std::array<glm::dvec3, 2> Swimmer::fins() const {
     if (control_.rowing.rows) return {control_.rowing.left.pose, control_.rowing.right.pose};
-    const auto trimmed = [&](const PectoralFin& fin) {
+    const auto trimmed = [&](const FinPlate& fin) {
         return glm::dvec3(fish_.blade.folded, 0, fin.angleRadians - std::numbers::pi / 2);
     };
     return {trimmed(control_.fins.left), trimmed(control_.fins.right)};
@@ -245,7 +245,7 @@ double Swimmer::lift() const {
     return order_.controller == Controller::PitchUp ? kPitchingLift : order_.liftRadians;
 }
 
-PectoralFins Swimmer::finProgram() const {
+FinPlates Swimmer::finProgram() const {
     switch (order_.controller) {
         case Controller::Ascend:
             return hold(foreseen(), order_.pitchRadians);
@@ -257,7 +257,7 @@ PectoralFins Swimmer::finProgram() const {
         case Controller::LeftTurn:
         case Controller::RightTurn:
             if (lift() != 0) return capture::lift(lift());
-            return order_.bankRadians != 0 ? hold(foreseen(), 0, bank()) : PectoralFins{};
+            return order_.bankRadians != 0 ? hold(foreseen(), 0, bank()) : FinPlates{};
         case Controller::Balance:
             return hold(foreseen(), 0);
         default:

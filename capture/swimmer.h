@@ -109,7 +109,7 @@ class Swimmer {
     // transition from the order before.
     [[nodiscard]] MuscleActivation muscleProgram() const;
     [[nodiscard]] MuscleActivation tailBeat(double gain) const;
-    [[nodiscard]] PectoralFins finProgram() const;
+    [[nodiscard]] FinPlates finProgram() const;
     // Whether the fins row under the present order, and how they do.
     [[nodiscard]] bool rows() const;
     [[nodiscard]] RowingControl rowingProgram() const;
@@ -129,10 +129,10 @@ class Swimmer {
     // orders that beat the tail.
     double ownSecondsOfOrder_ = 0;
     double ownSecondsSwum_ = 0;
-    config::Gait beating_{};     // of the tail, or of fins that row
-    config::Gait fading_{};      // the tail beat of the order before, which fades out
-    double beat_ = 0;            // phase of the beat, 0 to 1
-    BodyAngles attitude_;        // as sensed
+    config::Gait beating_{};  // of the tail, or of fins that row
+    config::Gait fading_{};   // the tail beat of the order before, which fades out
+    double beat_ = 0;         // phase of the beat, 0 to 1
+    BodyAngles attitude_;     // as sensed
     MotorControl control_;
     MuscleActivation musclesBefore_;  // activations when the order came
 };

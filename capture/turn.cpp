@@ -158,10 +158,9 @@ EnteredTurn recordEntered(Swimmer swimmer,
                           const Order& order,
                           double seconds,
                           const config::Gait& after) {
-    const double way =
-        before.poses.empty() ? 0
-                             : glm::distance(frameOf(before.poses.back()).origin,
-                                             frameOf(before.poses.front()).origin);
+    const double way = before.poses.empty() ? 0
+                                            : glm::distance(frameOf(before.poses.back()).origin,
+                                                            frameOf(before.poses.front()).origin);
     EnteredTurn entered{.turn = {.periodSeconds = seconds,
                                  .playsToEnd = true,
                                  .course = before.course,
@@ -189,8 +188,7 @@ std::vector<EnteredTurn> recordAllEntered(const std::vector<const SteadySwimming
         for (int i = 0; i < kRecordedPhases; ++i) {
             Swimmer swimmer = entry->swimmer;
             swimmer.advance(i * motion::kPhases / kRecordedPhases * entry->stepsPerPhase);
-            turns.push_back(
-                recordEntered(std::move(swimmer), entry->beat, order, seconds, after));
+            turns.push_back(recordEntered(std::move(swimmer), entry->beat, order, seconds, after));
         }
     return turns;
 }
@@ -205,10 +203,11 @@ std::vector<EnteredTurn> recordEnteredTurns(const config::Species& species,
                                             const std::vector<const SteadySwimming*>& entries,
                                             const config::Bend& bend,
                                             double seconds) {
-    return recordAllEntered(entries,
-                            {.controller = Controller::LeftTurn, .bend = bend, .bankRadians = kBankRadians},
-                            seconds,
-                            species.swim.medium);
+    return recordAllEntered(
+        entries,
+        {.controller = Controller::LeftTurn, .bend = bend, .bankRadians = kBankRadians},
+        seconds,
+        species.swim.medium);
 }
 
 EnteredTurn recordStart(const config::Species& species, double bendShare) {
@@ -222,10 +221,8 @@ EnteredTurn recordStart(const config::Species& species, double bendShare) {
 std::vector<EnteredTurn> recordEnteredStarts(const config::Species& species,
                                              const std::vector<const SteadySwimming*>& entries,
                                              double bendShare) {
-    return recordAllEntered(entries,
-                            startOf(bendShare),
-                            secondsUntilRelaxed(species, bendShare),
-                            species.swim.fast);
+    return recordAllEntered(
+        entries, startOf(bendShare), secondsUntilRelaxed(species, bendShare), species.swim.fast);
 }
 
 RecordedCycle recordTypicalLeftTurn(const config::Species& species,

@@ -26,7 +26,7 @@ using nlohmann::json;
 struct Moment {
     double seconds = 0;            // since the order
     capture::NodeVectors nodes{};  // body lengths; the origin is where the fish was at the order
-    capture::PectoralFins fins;
+    capture::FinPlates fins;
 };
 
 // What a fish does after an order.

@@ -35,7 +35,7 @@ bool isOnBackOrBelly(const body::CageSite& site) {
 // `outward` is the direction of the fin along the body's z axis: -1 for the left one, 1 for the
 // right. The root is a little before and beside the middle of ring 2. The fin's normal is (across,
 // flat, 0) in the body frame, and the chord is perpendicular to it.
-Polygon finLine(const capture::PectoralFin& fin,
+Polygon finLine(const capture::FinPlate& fin,
                 double outward,
                 const capture::PoseFrame& frame,
                 ViewSide view) {
@@ -86,7 +86,7 @@ std::vector<Polygon> silhouetteOf(const body::FishBody& body,
     return polygons;
 }
 
-std::vector<Polygon> finLines(const capture::PectoralFins& fins,
+std::vector<Polygon> finLines(const capture::FinPlates& fins,
                               const capture::NodeVectors& nodes,
                               ViewSide view) {
     const capture::PoseFrame frame = capture::frameOf(nodes);

@@ -34,7 +34,7 @@ using Polygon = std::vector<glm::dvec2>;
 // Each pectoral fin, left then right, as a line of two points from its root. From above it is the
 // span: outward when the fin is perpendicular to the flow, backward along the body when it is
 // parallel. From the side it is the chord.
-[[nodiscard]] std::vector<Polygon> finLines(const capture::PectoralFins& fins,
+[[nodiscard]] std::vector<Polygon> finLines(const capture::FinPlates& fins,
                                             const capture::NodeVectors& nodes,
                                             ViewSide view);
 

@@ -19,7 +19,8 @@ AQUARAMA_CONSTANT float kMarginLag = kWholeTurn / 6.0F;
 AQUARAMA_CONSTANT float kStands = 0.2F;
 AQUARAMA_CONSTANT float kSwims = 0.6F;
 AQUARAMA_CONSTANT float kFolded = 1.5F;  // above it pelvic fins lie as near to the belly as they go
-AQUARAMA_CONSTANT float kMostFinAngle = 3.2767F;  // radians: of a captured pose of a pectoral fin, 16 bits
+AQUARAMA_CONSTANT float kMostFinAngle =
+    3.2767F;                               // radians: of a captured pose of a pectoral fin, 16 bits
 AQUARAMA_CONSTANT float kTrimGain = 3.0F;  // a slope of a third is steep
 
 #ifdef __cplusplus

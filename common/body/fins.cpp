@@ -111,7 +111,8 @@ FinStyle styleOf(const config::Species& species, const PectoralFin& fin) {
     // A twist that lifts the front of the fin.
     const glm::vec3 open = rotated(fin.hinge, fin.rowing, fin.ray);
     const glm::vec3 chord = rotated(fin.hinge, fin.rowing, fin.chord);
-    style.trim = glm::cross(open, chord).y > 0 ? motion.rowing.trimRadians : -motion.rowing.trimRadians;
+    style.trim =
+        glm::cross(open, chord).y > 0 ? motion.rowing.trimRadians : -motion.rowing.trimRadians;
     style.pelvicFold = motion.pelvicFoldRadians;
     style.swimRipple = motion.swimming.amplitude;
     style.swimWaves = motion.swimming.waves;
@@ -157,8 +158,7 @@ glm::vec3 rowed(const FinStyle& style, const FinPoint& point, const FinDrive& dr
     const FinPose& pose = isRight ? drive.right : drive.left;
     const float rows = 1 - drive.spread;
     const float lift = isRight ? -drive.tilt : drive.tilt;  // on the lower side
-    const float twist =
-        rows * pose.twist + style.trim * std::clamp(kTrimGain * lift, -1.0F, 1.0F);
+    const float twist = rows * pose.twist + style.trim * std::clamp(kTrimGain * lift, -1.0F, 1.0F);
     glm::vec3 arm = rotated(style.ray, twist * point.q, point.arm);
     arm = rotated(style.hinge, glm::mix(pose.open, style.spread, drive.spread), arm);
     return rotated(style.stroke, rows * pose.stroke, arm) - point.arm;
@@ -213,14 +213,15 @@ PectoralFin pectoralFinOf(const config::Species& species) {
     const config::Fin& drawn = species.fins.pectoral;
     const FinPatch patch(drawn);
     const Hinge hinge = hingeOf(drawn, 0.97F * flankAt(species, drawn));
-    PectoralFin fin{.root = hinge.root,
-                    .hinge = hinge.axis,
-                    .ray = hinge.ray,
-                    .chord = glm::normalize(glm::vec3(patch.baseRear() - patch.baseFront(), 0)),
-                    .span = glm::distance(patch.at(0.5F, 0), patch.at(0.5F, 1)),
-                    .area = areaOf(patch),
-                    .rowing = rowing.openRadians - drawn.angleRadians,
-                    .folded = rowing.rows() ? std::min(kFlatRadians - drawn.angleRadians, 0.0F) : 0};
+    PectoralFin fin{
+        .root = hinge.root,
+        .hinge = hinge.axis,
+        .ray = hinge.ray,
+        .chord = glm::normalize(glm::vec3(patch.baseRear() - patch.baseFront(), 0)),
+        .span = glm::distance(patch.at(0.5F, 0), patch.at(0.5F, 1)),
+        .area = areaOf(patch),
+        .rowing = rowing.openRadians - drawn.angleRadians,
+        .folded = rowing.rows() ? std::min(kFlatRadians - drawn.angleRadians, 0.0F) : 0};
     fin.spread = rowing.rows() ? std::max(kSpreadRadians - drawn.angleRadians, fin.rowing) : 0;
     const glm::vec3 open = rotated(fin.hinge, fin.rowing, fin.ray);
     const glm::vec3 lifts = glm::normalize(glm::cross(open, glm::vec3(0, 1, 0)));

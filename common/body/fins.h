@@ -51,11 +51,11 @@ class FinPatch {
 // The pectoral fin of the right side. Axes are unit vectors: tailwards, up, right; the root is in
 // (s, y, z) of the rest shape.
 struct PectoralFin {
-    glm::vec3 root{};    // its middle
-    glm::vec3 hinge{};   // about it the fin leaves the flank
-    glm::vec3 ray{};     // from the root to the middle of the margin, at rest
-    glm::vec3 chord{};   // along the root
-    glm::vec3 stroke{};  // about it the fin beats
+    glm::vec3 root{};          // its middle
+    glm::vec3 hinge{};         // about it the fin leaves the flank
+    glm::vec3 ray{};           // from the root to the middle of the margin, at rest
+    glm::vec3 chord{};         // along the root
+    glm::vec3 stroke{};        // about it the fin beats
     float span = 0, area = 0;  // body lengths, and squared
     // FinPose::open of a fin that rows, that lies on the flank, and that brakes.
     float rowing = 0, folded = 0, spread = 0;
@@ -67,10 +67,10 @@ struct PectoralFin {
 
 // The inputs of the motion of one fish's fins at one moment.
 struct FinDrive {
-    float seconds = 0;               // of the show, modulo kFinSeconds
-    float speed = 0;                 // body lengths a second; backwards is negative
-    float tilt = 0;    // height of its right side: sine of its roll to the left
-    float spread = 0;  // 0 to 1: how far its pectoral fins brake
+    float seconds = 0;        // of the show, modulo kFinSeconds
+    float speed = 0;          // body lengths a second; backwards is negative
+    float tilt = 0;           // height of its right side: sine of its roll to the left
+    float spread = 0;         // 0 to 1: how far its pectoral fins brake
     FinPose left{}, right{};  // of its pectoral fins, as captured
     // Id of the fish, which gives each its own phase.
     std::uint32_t id = 0;

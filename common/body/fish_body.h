@@ -36,8 +36,8 @@ struct FinStyle {
 };
 static_assert(sizeof(FinStyle) == 80);
 
-// Where a pectoral fin stands relative to its rest, radians: twisted about its ray, at the tip, then
-// opened about its hinge, then carried about the axis of its stroke.
+// Where a pectoral fin stands relative to its rest, radians: twisted about its ray, at the tip,
+// then opened about its hinge, then carried about the axis of its stroke.
 struct FinPose {
     float open = 0, stroke = 0, twist = 0;
 };

@@ -46,6 +46,7 @@ struct Rowing {
     float strokeRadians = 0, featherRadians = 0, openRadians = 0, flapRadians = 0;
     float leadRadians = 0, twistRadians = 0, middleRadians = 0;
     float trimRadians = 0;
+    // Whether they row at all.
     [[nodiscard]] bool rows() const { return strokeRadians > 0; }
 };
 // Of the median fins, from their front to their end.
@@ -141,9 +142,9 @@ struct FastStart {
     double muscleTone = 1;   // further, of a muscle that contracts fully
     double contraction = 1;  // of Tissue::muscleContraction
     StartStage bend, stroke;
-    double lagSeconds = 0;                   // from one segment to the next
+    double lagSeconds = 0;                    // from one segment to the next
     double riseSeconds = 0, fallSeconds = 0;  // of each contraction
-    double beatPhase = 0;                    // 0 to 1, with which it swims on
+    double beatPhase = 0;                     // 0 to 1, with which it swims on
 };
 
 // The two turns of the repertoire, either to both sides.

@@ -72,8 +72,7 @@ std::uint64_t foldedRecords(std::size_t count, RecordAt&& recordAt) {
         const std::uint64_t played =
             wide(r.segment) | wide(r.fromSegment) << 16U | wide(r.speedAndSpread) << 32U;
         const std::uint64_t warp = wide(r.warpFrame) | wide(r.warpLength) << 8U |
-                                   wide(r.mouth) << 16U | wide(r.gaze) << 24U |
-                                   wide(r.skin) << 32U;
+                                   wide(r.mouth) << 16U | wide(r.gaze) << 24U | wide(r.skin) << 32U;
         hash = hash * 0x9E3779B97F4A7C15U +
                (place + 5 * turn + 7 * mix(played + 1) + 9 * mix(warp + 2));
     }

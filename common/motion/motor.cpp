@@ -170,8 +170,8 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
     // Eq. 11 with the fish's own length: a slower fish travels a share of the path, a faster one
     // goes on along its nose.
     const float share = shareOfPath(speed, pathAtEnd);
-    const Vector moves = rotated(
-        seenFrom, {share * (b[0] - a[0]), share * (b[1] - a[1]), share * (b[2] - a[2])});
+    const Vector moves =
+        rotated(seenFrom, {share * (b[0] - a[0]), share * (b[1] - a[1]), share * (b[2] - a[2])});
     const float faster = (speed - share * pathAtEnd) * kLengthsPerSpeedUnit;
     const float units = static_cast<float>(step.traits[i].lengthMillimetres) * kUnitsPerMillimetre;
     s.x[i] = moved(s.x[i], stepUnits((moves[0] + faster * attitude.forward[0]) * units));

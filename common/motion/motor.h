@@ -32,8 +32,8 @@ class MotorTables;
 // times the phase rate over the recorded one. While a turn plays, v also changes by as much as p
 // does. Where the response is all zero, v equals p. In each tick the body frame moves by the path's
 // translation and, along the mean frame's x axis, by (v - p) for the length of the tick. So a fish
-// whose tail rests still coasts. A fish that is slower than its path, v < p, moves by the share v / p
-// of the translation: it goes where it looks. A steady fish plays exactly what was recorded.
+// whose tail rests still coasts. A fish that is slower than its path, v < p, moves by the share v /
+// p of the translation: it goes where it looks. A steady fish plays exactly what was recorded.
 struct MotorStep {
     // All are owned by the caller and not null. traits, commands and states are indexed by fish.
     const MotorTables* tables = nullptr;

@@ -287,8 +287,7 @@ HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
     const IntLanes glide = hn::Set(kInts, firstSegmentOf(Action::Glide));
     const auto glides = hn::Or(hn::RebindMask(kFloats, hn::Eq(segment, glide)),
                                hn::Eq(pathAtEnd, hn::Zero(kFloats)));
-    const Lanes change =
-        hn::Mul(shareOfPath(v, pathAtStart), hn::Sub(pathAtEnd, pathAtStart));
+    const Lanes change = hn::Mul(shareOfPath(v, pathAtStart), hn::Sub(pathAtEnd, pathAtStart));
     const Lanes changed = hn::Add(v, change);
     const Lanes carried = bounded(hn::Max(changed, hn::Min(v, hn::Zero(kFloats))), kFastest);
     const Lanes target = hn::IfThenZeroElse(glides, pathAtEnd);

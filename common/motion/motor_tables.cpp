@@ -573,8 +573,11 @@ WarpPlans planWarps(const Repertoire& repertoire,
         for (std::size_t cell = 0; cell < kPhases; ++cell) {
             WarpPlan& plan = plans[from][cell][to];
             if (repertoire.segments[to].playsToEnd)
-                plan = planToTurn(
-                    travels, cell, step, phaseRates[to], isStart(next) ? mostFramesToStart(phaseRates[to]) : 255);
+                plan = planToTurn(travels,
+                                  cell,
+                                  step,
+                                  phaseRates[to],
+                                  isStart(next) ? mostFramesToStart(phaseRates[to]) : 255);
             else
                 plan = planToCycle(travels, cell, step);
             if (begins)

@@ -326,9 +326,9 @@ std::vector<std::byte> encodeRepertoire(const Repertoire& repertoire) {
     ByteWriter out;
     out.characters(kMagic);
     out.unsignedNumber(kVersion);
-    out.unsignedNumber(static_cast<std::uint32_t>(kHeadBytes + 1 + repertoire.species.size() +
-                                                  (1 + kResponses) * sizeof(float) + contents.size() +
-                                                  bytesOf(contents) + kDigestBytes));
+    out.unsignedNumber(static_cast<std::uint32_t>(
+        kHeadBytes + 1 + repertoire.species.size() + (1 + kResponses) * sizeof(float) +
+        contents.size() + bytesOf(contents) + kDigestBytes));
     out.unsignedNumber(static_cast<std::uint8_t>(repertoire.species.size()));
     out.characters(repertoire.species);
     out.float32(repertoire.recordedLengthMetres);

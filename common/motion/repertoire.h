@@ -188,8 +188,7 @@ inline constexpr int kSwimmingActions = 21;
 }
 // Whether a turn or a fast start leads to the left.
 [[nodiscard]] constexpr bool isLeft(Action turn) {
-    return turn <= Action::TurnLeftSharp ||
-           (isStart(turn) && turn <= Action::StartLeftLarge);
+    return turn <= Action::TurnLeftSharp || (isStart(turn) && turn <= Action::StartLeftLarge);
 }
 [[nodiscard]] constexpr bool isSharp(Action action) {
     return action == Action::TurnLeftSharp || action == Action::TurnRightSharp;
@@ -199,8 +198,8 @@ inline constexpr int kSwimmingActions = 21;
     if (swims(action)) return static_cast<Action>(indexOf(action) % kForwardGaits);
     return isStart(action) ? Action::ForwardFast : Action::ForwardMedium;
 }
-// Whether a turn under way is broken off for another action: for a fast start, and a sharp one for a
-// sharp one to the other side. A fast start is never broken off.
+// Whether a turn under way is broken off for another action: for a fast start, and a sharp one for
+// a sharp one to the other side. A fast start is never broken off.
 [[nodiscard]] constexpr bool breaksOff(Action turn, Action wanted) {
     return (isTurn(turn) && isStart(wanted)) ||
            (isSharp(turn) && isSharp(wanted) && isLeft(wanted) != isLeft(turn));
@@ -233,8 +232,8 @@ inline constexpr int kFirstTurn = static_cast<int>(Action::TurnLeftGradual);
 inline constexpr int kFirstStart = static_cast<int>(Action::StartLeftSmall);
 inline constexpr int kFirstStartSegment = kFirstTurn + kTurns * kTurnSegments;
 inline constexpr int kSegments = kFirstStartSegment + kStarts * kStartSegments + 1;
-// The paths by entry of an action. Those of a turn are beside that of its first segment; the first of
-// a fast start is its first segment's, out of rest.
+// The paths by entry of an action. Those of a turn are beside that of its first segment; the first
+// of a fast start is its first segment's, out of rest.
 [[nodiscard]] constexpr int entriesOf(Action action) {
     return isTurn(action) ? kTurnEntries : isStart(action) ? kStartEntries : 0;
 }
@@ -287,8 +286,8 @@ inline constexpr float kFinUnit = 1e-4F;  // radians
 // A frame increment for each phase.
 using FrameIncrements = std::array<FrameIncrement, kPhases>;
 
-// A turn or a fast start as begun in a tail beat. The courses are unit vectors in the body frame at its first and
-// at its last phase; speeds are body lengths a second.
+// A turn or a fast start as begun in a tail beat. The courses are unit vectors in the body frame at
+// its first and at its last phase; speeds are body lengths a second.
 struct TurnPath {
     // Course and speed of the fish before it.
     glm::vec3 courseBefore{1, 0, 0};
@@ -330,8 +329,9 @@ struct ActionSegment {
 // in all, fins that are spread to a share s also brake by s * brakeRate * v. (The paper leaves
 // this open; the law is ours.)
 struct SpeedResponse {
-    // 1 / body length. Turns have that of medium, fast starts that of fast. On a curve or slope the gait's times (q / p)^2,
-    // where q is its speed straight on: the thrust is the same and the drag of the body is more.
+    // 1 / body length. Turns have that of medium, fast starts that of fast. On a curve or slope the
+    // gait's times (q / p)^2, where q is its speed straight on: the thrust is the same and the drag
+    // of the body is more.
     std::array<float, kForwardGaits> swimDrag{};
     float retreatDrag = 0.0F;  // 1 / body length
     float glideDrag = 0.0F;    // 1 / body length

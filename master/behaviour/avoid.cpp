@@ -118,16 +118,17 @@ float dread(const fish::SpeciesParameters& parameters, const fish::Feelings& fee
     return std::clamp(more / std::max(1 - parameters.habits.fearAlone, 0.01F), 0.0F, 1.0F);
 }
 
-// A fish is startled by a predator that would reach it within this time, and by a startled schoolmate
-// within so many of its own body lengths: so alarm runs through a school faster than the predator.
+// A fish is startled by a predator that would reach it within this time, and by a startled
+// schoolmate within so many of its own body lengths: so alarm runs through a school faster than the
+// predator.
 constexpr float kLoomingSeconds = 0.9F;
 constexpr float kAlarmBodyLengths = 2.0F;
 
 // Whether a rushing predator comes so near so fast.
 bool looms(const Situation& situation, const Sighting& predator) {
     const fish::FishView& view = *situation.environment.view;
-    const bool rushes = predator.hunting && view.stage[predator.object] ==
-                                                static_cast<std::uint8_t>(HuntStage::Rush);
+    const bool rushes = predator.hunting &&
+                        view.stage[predator.object] == static_cast<std::uint8_t>(HuntStage::Rush);
     if (!rushes) return false;
     const glm::vec3 theirs = view.heading(predator.object) * view.fish[predator.object].speed;
     const glm::vec3 own = situation.senses.heading * situation.senses.speed;
@@ -193,7 +194,9 @@ fish::Course avoidObstacle(const Situation& situation, const fish::Mind& mind) {
     const float pace = senses.hurry > 0
                            ? parameters.slow + (parameters.fast - parameters.slow) * senses.hurry
                            : parameters.slow * std::max(-1.0F, 1 - back / kStopsAt);
-    return heading(situation, senses.heading + roomFrom(situation), pace);
+    fish::Course course = heading(situation, senses.heading + roomFrom(situation), pace);
+    course.isStartled = senses.hurry >= 1;
+    return course;
 }
 
 float suitableHeight(const Situation& situation) {

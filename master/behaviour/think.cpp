@@ -25,9 +25,8 @@ void think(const Environment& environment,
     fish::Mind mind = minds[fish];
     // The first thought of a mind is as long after its beginning as any other.
     const std::uint64_t since = environment.tick.value - mind.thoughtAt;
-    fish::passTime(parameters,
-                   static_cast<std::uint32_t>(std::min(since, fish::kTicksBetweenThoughts)),
-                   mind);
+    fish::passTime(
+        parameters, static_cast<std::uint32_t>(std::min(since, fish::kTicksBetweenThoughts)), mind);
     mind.thoughtAt = environment.tick.value;
     const Senses senses = perceive(environment, parameters, fish, mind);
     const fish::Feelings feelings = feel(parameters, mind, senses);

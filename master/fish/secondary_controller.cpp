@@ -58,15 +58,16 @@ constexpr float kAddedFrom = 0.5F;
 constexpr float kAddedUntil = 0.3F;
 // A hovering fish of a species that does not row is turned as it glides, radians a second.
 constexpr float kMostHoverYaw = 30.0F * kRadiansPerDegree<float>;
-// One that rows pivots from an error on, until a smaller one; errors that take it longer are left to
-// a turn.
+// One that rows pivots from an error on, until a smaller one; errors that take it longer are left
+// to a turn.
 constexpr float kPivotFrom = 9.0F * kRadiansPerDegree<float>;
 constexpr float kPivotUntil = 3.0F * kRadiansPerDegree<float>;
 constexpr float kPivotSeconds = 8.0F;
 // A curve is left for another where that is nearer to the wanted rate by this share of the tight
 // curve's.
 constexpr float kCurveHysteresis = 0.05F;
-// A slope is swum rather than a curve where the pitch is off by more than this share of the heading.
+// A slope is swum rather than a curve where the pitch is off by more than this share of the
+// heading.
 constexpr float kSlopeFirst = 0.7F;
 // Levels of a command. Within three quarters of a level the command before stands.
 constexpr float kStay = 0.75F;
@@ -210,8 +211,8 @@ motion::Action curveFor(const Gaits& gaits, const Moment& moment, motion::Action
 // curve.
 motion::Action wayFor(const Gaits& gaits, const Moment& moment, motion::Action gait) {
     const float off = moment.pitchError;
-    const bool slopes =
-        motion::takesSlope(moment.present, off) && std::abs(off) > kSlopeFirst * std::abs(moment.yawError);
+    const bool slopes = motion::takesSlope(moment.present, off) &&
+                        std::abs(off) > kSlopeFirst * std::abs(moment.yawError);
     return slopes ? motion::slopeOf(gait, off > 0) : curveFor(gaits, moment, gait);
 }
 
@@ -249,7 +250,8 @@ motion::Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
     const float pivotRate = gaits.yawRate[indexOf(motion::Action::PivotLeft)];
     const bool pivots = rows(gaits) && moment.urgency < 1 && error < kPivotSeconds * pivotRate;
     if (stays && pivots) return inPlaceFor(moment);
-    if (turns && pivots && moment.urgency == 0 && gaits.rows[indexOf(nearest)]) return pivot(moment.yawError > 0);
+    if (turns && pivots && moment.urgency == 0 && gaits.rows[indexOf(nearest)])
+        return pivot(moment.yawError > 0);
     if (turns && error > (urgent ? kSharpFromInDanger : kSharpFrom)) return sharp(left);
     if (stays && rows(gaits)) return inPlaceFor(moment);
     if (stays) return motion::Action::Glide;
@@ -397,7 +399,8 @@ void SecondaryController::decide(std::size_t fish) const {
     const bool steers = !isTurn(chosen) && !isStart(chosen);
     to.yawRate[fish] =
         steers ? yawRateFor(*gaits, moment, chosen, to.yawRate[fish]) : std::int16_t{0};
-    to.brake[fish] = steers && !isBursting(fish) ? brakeFor(*gaits, moment, chosen, to.brake[fish]) : std::uint8_t{0};
+    to.brake[fish] = steers && !isBursting(fish) ? brakeFor(*gaits, moment, chosen, to.brake[fish])
+                                                 : std::uint8_t{0};
 }
 
 bool SecondaryController::isKept(std::size_t fish,
@@ -429,8 +432,9 @@ SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) cons
                                      static_cast<float>(states->warpLength[fish] + 1)
                                : 1.0F;
     const float toCome = 1 - warped * static_cast<float>(states->phase[fish]) / 65536.0F;
-    moment.yawError -= motion::entriesOf(action) > 0 ? gaits->turn[playing] * toCome
-                                      : gaits->yawRate[indexOf(action)] * kLeadSeconds;
+    moment.yawError -= motion::entriesOf(action) > 0
+                           ? gaits->turn[playing] * toCome
+                           : gaits->yawRate[indexOf(action)] * kLeadSeconds;
     moment.pitchError -= gaits->pitchRate[indexOf(action)] * kLeadSeconds;
     return moment;
 }
@@ -462,7 +466,8 @@ std::optional<motion::Action> SecondaryController::startFor(std::size_t fish,
                                                             const Moment& moment) const {
     using motion::Action;
     if (!(*courses)[fish].isStartled || tick.value < memory->recoversAt[fish]) return std::nullopt;
-    const auto first = indexOf(moment.yawError > 0 ? Action::StartLeftSmall : Action::StartRightSmall);
+    const auto first =
+        indexOf(moment.yawError > 0 ? Action::StartLeftSmall : Action::StartRightSmall);
     const float wanted = std::abs(moment.yawError);
     const auto off = [&](std::size_t size) {
         const auto start = static_cast<Action>(first + size);

@@ -19,8 +19,8 @@
 
 namespace aquarama::fish {
 
-// A fish thinks every eighth tick (Reynolds 2006), an alarmed one every fourth. Its index shifts the
-// tick, so that an eighth of all fish think at each tick.
+// A fish thinks every eighth tick (Reynolds 2006), an alarmed one every fourth. Its index shifts
+// the tick, so that an eighth of all fish think at each tick.
 inline constexpr std::uint64_t kTicksBetweenThoughts = 8;
 inline constexpr std::uint64_t kTicksOfAlarm = 4;
 [[nodiscard]] constexpr bool thinksAt(Tick tick, std::size_t fish, bool isAlarmed = false) {
@@ -106,8 +106,8 @@ void startCommands(const Gaits& gaits,
 // would look cloned.
 [[nodiscard]] float tempoOf(std::uint32_t seed, std::size_t fish);
 
-// Decides for the fish of one species that have thought at this tick. Points to columns of the world, owns
-// nothing; run() may be called from several threads for disjoint ranges.
+// Decides for the fish of one species that have thought at this tick. Points to columns of the
+// world, owns nothing; run() may be called from several threads for disjoint ranges.
 struct SecondaryController {
     const Gaits* gaits = nullptr;
     const FishView* view = nullptr;
@@ -127,8 +127,8 @@ struct SecondaryController {
     struct Moment;
 
   private:
-    // Whether the fish's turn or fast start ends in this tick. Then it decides at once, also between two
-    // thoughts, so that the next segment begins without a gap.
+    // Whether the fish's turn or fast start ends in this tick. Then it decides at once, also
+    // between two thoughts, so that the next segment begins without a gap.
     [[nodiscard]] bool endsTurn(std::size_t fish) const;
     void decide(std::size_t fish) const;
     [[nodiscard]] bool isBursting(std::size_t fish) const;

@@ -183,7 +183,8 @@ std::string speciesText(const SpeciesLog& log, std::span<const world::WorldSpeci
     assert(log.byKind().size() == cast.size());
     std::ostringstream text;
     text << std::fixed << std::setprecision(1)
-         << "| species | captured, %: heading | pitch | way | path against captured motion, degrees: "
+         << "| species | captured, %: heading | pitch | way | path against captured motion, "
+            "degrees: "
             "median / 99 % | path against the body | changes of command a second | meals | flights "
             "that began | fast starts | courtships that began |\n"
             "|---|---|---|---|---|---|---|---|---|---|---|\n";

@@ -33,6 +33,8 @@ struct FishColumns {
     [[nodiscard]] std::uint64_t hash(Tick tick) const;
     // Memory in use.
     [[nodiscard]] std::size_t bytes() const;
+    // Predators that began to rush at the last tick, by index.
+    std::vector<std::uint32_t> rushes;
 };
 
 }  // namespace aquarama::world

@@ -13,7 +13,6 @@
 #include "common/motion/headings.h"
 #include "common/place/place.h"
 #include "master/behaviour/routines.h"
-#include "master/behaviour/routines.h"
 #include "master/behaviour/think.h"
 #include "master/fish/minds.h"
 #include "master/world/beginning.h"
@@ -202,14 +201,13 @@ void World::begin(const WorldOptions& options) {
         columns_.courses[fish] = {columns_.view.heading(fish), 1, 0};
 }
 
-// Reserves room for the events of a tick, so that thoughts allocate nothing: where a predator begins
-// to rush all fish may think at a tick, and each reports one event at most.
+// Reserves room for the events of a tick, so that thoughts allocate nothing: where a predator
+// begins to rush all fish may think at a tick, and each reports one event at most.
 void World::makeRoomForEvents() {
     slices_.resize((columns_.traits.size() + kSlotsInSlice - 1) / kSlotsInSlice);
-    for (behaviour::DeferredEvents& slice : slices_)
-        slice.reserve(kSlotsInSlice);
+    for (behaviour::DeferredEvents& slice : slices_) slice.reserve(kSlotsInSlice);
     events_.reserve(columns_.traits.size());
-    rushes_.reserve(kMostRushes);
+    columns_.rushes.reserve(kMostRushes);
 }
 
 void World::apply(const WorldInput& input) {
@@ -346,10 +344,9 @@ void World::thinkAll() {
 bool World::thinks(std::uint32_t fish) const {
     const bool isAlarmed = columns_.view.shows(fish, fish::kAlarmed);
     if (fish::thinksAt(tick_, fish, isAlarmed)) return true;
-    return std::ranges::any_of(rushes_, [&](std::uint32_t predator) {
+    return std::ranges::any_of(columns_.rushes, [&](std::uint32_t predator) {
         const std::uint64_t hunts = speciesParameters_[columns_.view.kind[predator]].hunts;
-        const glm::vec3 apart =
-            columns_.view.position(fish) - columns_.view.position(predator);
+        const glm::vec3 apart = columns_.view.position(fish) - columns_.view.position(predator);
         return (hunts >> columns_.view.kind[fish] & 1U) != 0 &&
                place::dot(apart, apart) < kRushSeenMetres * kRushSeenMetres;
     });
@@ -357,14 +354,14 @@ bool World::thinks(std::uint32_t fish) const {
 
 // The predators that began to rush at the last tick.
 void World::findRushes() {
-    rushes_.clear();
+    columns_.rushes.clear();
     for (const fish::SpeciesParameters& parameters : speciesParameters_) {
         if (parameters.habits.role != config::Role::Predator) continue;
         for (std::uint32_t fish = parameters.first; fish < parameters.last; ++fish) {
             const fish::Mind& mind = columns_.minds[fish];
             if (mind.sinceStage == 0 && mind.thoughtAt + 1 == tick_.value &&
-                behaviour::isRushing(mind) && rushes_.size() < kMostRushes)
-                rushes_.push_back(fish);
+                behaviour::isRushing(mind) && columns_.rushes.size() < kMostRushes)
+                columns_.rushes.push_back(fish);
         }
     }
 }

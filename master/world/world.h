@@ -194,7 +194,6 @@ class World {
     std::vector<Chunk> chunks_;
     std::vector<behaviour::DeferredEvents> slices_;  // events of parts of the fish, in grid order
     behaviour::DeferredEvents events_;               // of all slices together
-    std::vector<std::uint32_t> rushes_;  // predators that began to rush at the last tick
     FishColumns columns_;
     surroundings::Surroundings surroundings_;
     surroundings::Voyage voyage_;

@@ -37,7 +37,9 @@ double energyOf(const BiomechanicalFish& fish, const FishState& state) {
 
 MotorControl swimming(double seconds) {
     return {.muscles = beatAt(test::scad().swim, 1, test::scad().swim.medium.beatHertz * seconds),
-            .fins = {}, .rowing = {}, .tone = {}};
+            .fins = {},
+            .rowing = {},
+            .tone = {}};
 }
 
 TEST(Momentum, isKeptInAVacuumToRoundingWhateverTheMusclesDo) {
@@ -83,9 +85,9 @@ TEST(Energy, isKeptWhereNothingDamps) {
 
 TEST(Energy, neverGrowsInWaterHoweverTheFinsStand) {
     const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
-    const PectoralFins braking{.left = {.angleRadians = 0.9}, .right = {.angleRadians = 3}};
+    const FinPlates braking{.left = {.angleRadians = 0.9}, .right = {.angleRadians = 3}};
     for (const double seconds : {longestStepSeconds(fish), 1.0 / 60, 1.0 / 30})
-        for (const PectoralFins& fins : {PectoralFins{}, braking}) {
+        for (const FinPlates& fins : {FinPlates{}, braking}) {
             FishState state = disturbed(fish);
             double energy = energyOf(fish, state);
             for (int i = 0; i < 300; ++i) {
@@ -121,7 +123,8 @@ void balanceStep(const BiomechanicalFish& fish,
         middle.velocities.at(i) = (state.positions.at(i) - middle.positions.at(i)) / seconds;
         middle.positions.at(i) += seconds / 2 * middle.velocities.at(i);
     }
-    const PlainForces forces = forcesOn(fish, {.muscles = now, .fins = {}, .rowing = {}, .tone = {}}, middle);
+    const PlainForces forces =
+        forcesOn(fish, {.muscles = now, .fins = {}, .rowing = {}, .tone = {}}, middle);
     balance.tissue -= seconds * powerOf(forces.dampers, middle.velocities);
     balance.water -= seconds * powerOf(forces.water, middle.velocities);
 }
@@ -139,7 +142,10 @@ EnergyBalance balanceOf(const config::Species& species, const config::Gait& gait
     for (glm::dvec3& velocity : state.velocities) velocity.x = 0.6 * gait.beatHertz;
     int i = 0;
     for (; i < 12 * stepsInABeat; ++i)
-        step(fish, {.muscles = musclesAt(i), .fins = {}, .rowing = {}, .tone = {}}, longestStepSeconds(fish), state);
+        step(fish,
+             {.muscles = musclesAt(i), .fins = {}, .rowing = {}, .tone = {}},
+             longestStepSeconds(fish),
+             state);
     const auto energyNow = [&] {
         return kineticEnergyOf(fish, state) + elasticEnergyOf(fish, musclesAt(i - 1), state);
     };

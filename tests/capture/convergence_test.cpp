@@ -39,8 +39,9 @@ MotorControl everythingRows(double seconds) {
     const auto stroke = [&](double hertz, double twist) {
         const double phase = 2 * std::numbers::pi * hertz * seconds;
         const double rate = 2 * std::numbers::pi * hertz;
-        return FinMotion{.pose = {1.2, 0.6 * std::sin(phase), twist * std::cos(phase)},
-                         .rate = {0, 0.6 * rate * std::cos(phase), -twist * rate * std::sin(phase)}};
+        return BladeMotion{
+            .pose = {1.2, 0.6 * std::sin(phase), twist * std::cos(phase)},
+            .rate = {0, 0.6 * rate * std::cos(phase), -twist * rate * std::sin(phase)}};
     };
     MotorControl control = everythingMoves(seconds);
     control.rowing = {.rows = true, .left = stroke(2, 0.9), .right = stroke(3, -0.5)};
@@ -160,7 +161,9 @@ Swum swum(const config::Species& species, const config::Gait& gait, int parts) {
         for (int i = 0; i < steps; ++i, ++done)
             step(fish,
                  {.muscles = beatAt(species.swim, gait.gain, (done + 0.5) / (steps * kPhases)),
-                  .fins = {}, .rowing = {}, .tone = {}},
+                  .fins = {},
+                  .rowing = {},
+                  .tone = {}},
                  phase / steps,
                  state);
     };

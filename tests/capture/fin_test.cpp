@@ -24,7 +24,7 @@ BiomechanicalFish finsAlone() {
 }
 
 // On the whole fish, which weighs 1, as it begins to swim forward at this speed.
-glm::dvec3 forceOf(const PectoralFins& fins, double speed) {
+glm::dvec3 forceOf(const FinPlates& fins, double speed) {
     const BiomechanicalFish fish = finsAlone();
     FishState state = stateAtRest(fish);
     for (glm::dvec3& velocity : state.velocities) velocity = {speed, 0, 0};
@@ -35,7 +35,7 @@ glm::dvec3 forceOf(const PectoralFins& fins, double speed) {
     return (momentum - glm::dvec3(speed, 0, 0)) / kInstant;
 }
 
-PectoralFins both(const PectoralFin& fin) {
+FinPlates both(const FinPlate& fin) {
     return {.left = fin, .right = fin};
 }
 
@@ -57,9 +57,12 @@ TEST(PectoralFins, rollTheFishTowardsTheFinThatStandsLower) {
     const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
     FishState state = stateAtRest(fish);
     for (glm::dvec3& velocity : state.velocities) velocity = {2, 0, 0};
-    const PectoralFins leftUp{.left = {.angleRadians = 2}, .right = {.angleRadians = 1.14}};
+    const FinPlates leftUp{.left = {.angleRadians = 2}, .right = {.angleRadians = 1.14}};
     for (int i = 0; i < 100; ++i)
-        step(fish, {.muscles = {}, .fins = leftUp, .rowing = {}, .tone = {}}, longestStepSeconds(fish), state);
+        step(fish,
+             {.muscles = {}, .fins = leftUp, .rowing = {}, .tone = {}},
+             longestStepSeconds(fish),
+             state);
     EXPECT_LT(frameOf(state.positions).worldFromBody[2].y, -0.1) << "right side down";
 }
 

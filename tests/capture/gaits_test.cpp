@@ -93,7 +93,8 @@ TEST_P(Gaits, holdTheBodyStillWhereTheyAreRowed) {
         const SegmentMeasures& swum = figuresOf(species_, gait).swum;
         EXPECT_LT(swum.tailAmplitude, 1e-6);
         EXPECT_GT(swum.speedBodyLengths, 0.3);
-        EXPECT_LT(swum.speedBodyLengths, 0.6 * figuresOf(species_, gaits_[1]).swum.speedBodyLengths);
+        EXPECT_LT(swum.speedBodyLengths,
+                  0.6 * figuresOf(species_, gaits_[1]).swum.speedBodyLengths);
     }
 }
 

@@ -69,7 +69,7 @@ inline void addWaterForces(const BiomechanicalFish& fish,
                 face.drag * (glm::length(across) / 2) * speed * speed / 3 * normal;
     }
     const glm::dmat3 body = frameOf(x).worldFromBody;
-    const auto push = [&](const PectoralFin& fin, const std::array<std::size_t, 4>& root) {
+    const auto push = [&](const FinPlate& fin, const std::array<std::size_t, 4>& root) {
         const double cosine = std::cos(fin.angleRadians);
         const glm::dvec3 normal = cosine * body[0] + std::sin(fin.angleRadians) * body[1];
         glm::dvec3 velocity{};
@@ -82,13 +82,13 @@ inline void addWaterForces(const BiomechanicalFish& fish,
     push(control.fins.right, {2, 3, 6, 7});
 }
 
-// Force and torque on one blade, cut into four strips across its ray; `side` is 1 on the right, -1 on
-// the left. The torque is about `centre`.
+// Force and torque on one blade, cut into four strips across its ray; `side` is 1 on the right, -1
+// on the left. The torque is about `centre`.
 struct Wrench {
     glm::dvec3 force{}, torque{};
 };
 inline Wrench bladeWrench(const Blade& blade,
-                          const FinMotion& motion,
+                          const BladeMotion& motion,
                           double side,
                           const FishState& state,
                           const glm::dvec3& centre,
@@ -103,8 +103,9 @@ inline Wrench bladeWrench(const Blade& blade,
     };
     const auto posed = [&](double seconds, double twisted, const glm::dvec3& v) {
         const glm::dvec3 pose = motion.pose + seconds * motion.rate;
-        return turned(
-            pose.y, blade.stroke, turned(pose.x, blade.hinge, turned(twisted * pose.z, blade.ray, v)));
+        return turned(pose.y,
+                      blade.stroke,
+                      turned(pose.x, blade.hinge, turned(twisted * pose.z, blade.ray, v)));
     };
     constexpr double kInstant = 1e-5;
     constexpr double kStrips = 4;
@@ -144,15 +145,12 @@ inline void addBladeForces(const BiomechanicalFish& fish,
         inertia += (glm::dmat3(glm::dot(r, r)) - glm::outerProduct(r, r)) / 8.0;
     }
     const glm::dvec3 spin = glm::inverse(inertia) * momentum;
-    const Wrench left =
-        bladeWrench(fish.blade, rowing.left, -1, state, centre, velocity, spin);
-    const Wrench right =
-        bladeWrench(fish.blade, rowing.right, 1, state, centre, velocity, spin);
+    const Wrench left = bladeWrench(fish.blade, rowing.left, -1, state, centre, velocity, spin);
+    const Wrench right = bladeWrench(fish.blade, rowing.right, 1, state, centre, velocity, spin);
     const glm::dvec3 turn = glm::inverse(inertia) * (left.torque + right.torque);
     for (std::size_t i = 1; i <= 8; ++i)
-        forces.water.at(i) += (left.force + right.force +
-                               glm::cross(turn, state.positions.at(i) - centre)) /
-                              8.0;
+        forces.water.at(i) +=
+            (left.force + right.force + glm::cross(turn, state.positions.at(i) - centre)) / 8.0;
 }
 
 inline PlainForces forcesOn(const BiomechanicalFish& fish,

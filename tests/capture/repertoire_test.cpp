@@ -47,13 +47,14 @@ TEST(Capture, rightTurnsMirrorLeftOnes) {
 }
 
 // The constraints that eq. 1 to 4, with their remedies, put on a pose in its own frame. A fish that
-// banks, on a curve or in a turn, is in that frame turned level: in a turn its nose dips by up to a twentieth.
+// banks, on a curve or in a turn, is in that frame turned level: in a turn its nose dips by up to a
+// twentieth.
 TEST(Capture, posesAreInTheirOwnBodyFrame) {
     for (std::size_t i = 0; i < motion::kActions; ++i) {
         const auto action = static_cast<motion::Action>(i);
         const motion::ActionSegment& segment = test::scadRepertoire().segments[i];
-        const bool isLevel = isCurve(action) || isTurn(action) || isPivot(action) ||
-                             action == motion::Action::Glide;
+        const bool isLevel =
+            isCurve(action) || isTurn(action) || isPivot(action) || action == motion::Action::Glide;
         const double noseUp = isLevel ? 0.05 / static_cast<double>(motion::kPoseUnit) : 1;
         for (const motion::NodalPose& pose : segment.nodes) {
             for (std::size_t c = 0; c < 3; ++c)

@@ -29,8 +29,8 @@ std::vector<double> replayLaw(const Transition& transition, const SpeedLaw& law)
     std::vector<double> speeds{transition.speeds.front()};
     while (speeds.size() < transition.speeds.size()) {
         const double v = speeds.back();
-        speeds.push_back(v + transition.sampleSeconds *
-                                 acceleration(law, transition.segmentSpeed, v));
+        speeds.push_back(v +
+                         transition.sampleSeconds * acceleration(law, transition.segmentSpeed, v));
     }
     return speeds;
 }
@@ -70,7 +70,8 @@ TEST_P(Response, theLawReplaysEveryChangeOfSpeed) {
     const SteadySwimming slow = swimUntilSteady(species(), gaits.slow);
     const SteadySwimming medium = swimUntilSteady(species(), gaits.medium);
     const SteadySwimming fast = swimUntilSteady(species(), gaits.fast);
-    const SteadySwimming retreat = swimUntilSteady(species(), rowingOrder(species(), Controller::Retreat));
+    const SteadySwimming retreat =
+        swimUntilSteady(species(), rowingOrder(species(), Controller::Retreat));
     const Transitions swum = swimTransitions(species(), {&slow, &medium, &fast}, retreat);
     const motion::SpeedResponse response = fitResponse(swum);
     for (std::size_t gait = 0; gait < swum.swim.size(); ++gait)

@@ -63,7 +63,8 @@ INSTANTIATE_TEST_SUITE_P(Cast, FinsOf, testing::ValuesIn(test::kCast), [](const 
 });
 
 TEST_P(FinsOf, leaveTheBodyAndTheirRootsAlone) {
-    const FinDrive drive{.seconds = 3.3F, .speed = 0.1F, .left = kRaised, .right = kRaised, .phase = 0.3F};
+    const FinDrive drive{
+        .seconds = 3.3F, .speed = 0.1F, .left = kRaised, .right = kRaised, .phase = 0.3F};
     for (const std::size_t i : pointsOf(CagePart::Body))
         EXPECT_EQ(offset(i, drive, 0.1F), glm::vec3(0));
 }
@@ -116,7 +117,8 @@ TEST_P(FinsOf, twistAgainstEachOtherOnATiltedFish) {
 }
 
 TEST_P(FinsOf, keepTheirLength) {
-    const FinDrive drive{.seconds = 2.71F, .speed = kCruise, .left = kRaised, .right = kRaised, .id = 2};
+    const FinDrive drive{
+        .seconds = 2.71F, .speed = kCruise, .left = kRaised, .right = kRaised, .id = 2};
     for (const std::size_t i : pointsOf(CagePart::Pectoral)) {
         const FinPoint& point = body_.fins.points[i];
         const glm::vec3 moved = point.arm + offset(i, drive) * glm::vec3(1, 1, point.side);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstddef>
 #include "common/motion/motion_state.h"
 
 #include <cmath>
+#include <cstddef>
 #include <random>
 
 #include <glm/gtc/quaternion.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/motion/motor.h"
-#include "common/motion/motor_tables.h"
 
 #include <gtest/gtest.h>
 
+#include "common/motion/motor_tables.h"
 #include "common/motion/reconstruct.h"
 #include "tests/common/motion/school.h"
 

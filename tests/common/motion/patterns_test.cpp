@@ -152,7 +152,8 @@ TEST_P(Patterns, anAscendingOrDescendingFishHoldsTheCommandedPitch) {
             school.play(0, action);
             school.commands.pitch[0] =
                 static_cast<std::int16_t>(std::lround(std::sin(pitch * kDegree) * 32768));
-            const auto rate = static_cast<double>(school.tables->pitchRate[indexOf(action)]);  // radians a tick
+            const auto rate =
+                static_cast<double>(school.tables->pitchRate[indexOf(action)]);  // radians a tick
             school.tick(180 + static_cast<int>(std::abs(pitch) * kDegree / rate));
             const glm::dvec3 from = school.place(0);
             for (int tick = 0; tick < 300; ++tick) {

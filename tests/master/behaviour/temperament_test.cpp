@@ -62,7 +62,8 @@ TEST(Temperament, notAllHungerAtOnce) {
     for (std::uint32_t fish = 0; fish < 1000; ++fish) {
         fish::Mind mind = freshMind(parameters, 3, fish);
         for (int second = 0; second < 60; ++second)
-            for (int thought = 0; thought < 7; ++thought) fish::passTime(parameters, fish::kTicksBetweenThoughts, mind);
+            for (int thought = 0; thought < 7; ++thought)
+                fish::passTime(parameters, fish::kTicksBetweenThoughts, mind);
         hungry += feel(parameters, mind, {}).hunger > fish::kDesire ? 1 : 0;
     }
     // A minute of the 250 s that a meal lasts.

@@ -83,8 +83,11 @@ struct Mind {
         using motion::Action;
         gaits.yawRate[indexOf(Action::PivotLeft)] = 0.7F;
         gaits.yawRate[indexOf(Action::PivotRight)] = -0.7F;
-        for (const Action action :
-             {Action::Hover, Action::PivotLeft, Action::PivotRight, Action::PitchUp, Action::PitchDown})
+        for (const Action action : {Action::Hover,
+                                    Action::PivotLeft,
+                                    Action::PivotRight,
+                                    Action::PitchUp,
+                                    Action::PitchDown})
             gaits.phaseRate[indexOf(action)] = 2731, gaits.rows[indexOf(action)] = true;
     }
     motion::Action thinkFor(int thoughts) {

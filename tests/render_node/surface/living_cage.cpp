@@ -69,17 +69,16 @@ body::FinDrive driveOf(const motion::Repertoire& repertoire,
                        float seconds) {
     const auto [left, right] = motion::finPoses(repertoire, fish);
     const glm::quat rotation(fish.rotation.w, fish.rotation.x, fish.rotation.y, fish.rotation.z);
-    return {
-        .seconds = seconds - body::kFinSeconds * std::floor(seconds / body::kFinSeconds),
-        .speed = fish.speed,
-        .tilt = (rotation * glm::vec3(0, 0, 1)).y,
-        .spread = fish.spread,
-        .left = left,
-        .right = right,
-        .id = fish.id,
-        .phase = fish.phase,
-        .fromPhase = fish.fromPhase,
-        .weight = fish.warpWeight};
+    return {.seconds = seconds - body::kFinSeconds * std::floor(seconds / body::kFinSeconds),
+            .speed = fish.speed,
+            .tilt = (rotation * glm::vec3(0, 0, 1)).y,
+            .spread = fish.spread,
+            .left = left,
+            .right = right,
+            .id = fish.id,
+            .phase = fish.phase,
+            .fromPhase = fish.fromPhase,
+            .weight = fish.warpWeight};
 }
 
 }  // namespace
