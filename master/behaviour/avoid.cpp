@@ -194,9 +194,7 @@ fish::Course avoidObstacle(const Situation& situation, const fish::Mind& mind) {
     const float pace = senses.hurry > 0
                            ? parameters.slow + (parameters.fast - parameters.slow) * senses.hurry
                            : parameters.slow * std::max(-1.0F, 1 - back / kStopsAt);
-    fish::Course course = heading(situation, senses.heading + roomFrom(situation), pace);
-    course.isStartled = senses.hurry >= 1;
-    return course;
+    return heading(situation, senses.heading + roomFrom(situation), pace);
 }
 
 float suitableHeight(const Situation& situation) {

@@ -158,6 +158,9 @@ constexpr float kWander = 0.55F;
 constexpr float kAttentive = 0.7F;
 constexpr float kGiveWayToHunter = 0.8F;
 
+// Weight of the push away from obstacles.
+constexpr float kSteerClear = 1.15F;
+
 // Speeds of a schooling fish, in body lengths a second: limits, and pace around a goal.
 constexpr float kSlowest = 0.85F;
 constexpr float kFastest = 2.9F;
@@ -424,7 +427,7 @@ fish::Course school(const Situation& situation) {
     const glm::vec3 desired = senses.heading * kKeepCourse + pullOf(company) + way * follow +
                               whim(environment.seed, situation.fish, environment.tick) *
                                   (kWander * (1 - kAttentive * alarm)) +
-                              clearing(situation) + wayRound(situation);
+                              clearing(situation) + wayRound(situation) * kSteerClear;
     return {place::levelled(place::directionOf(desired, senses.heading)),
             wantedSpeed(situation, company, alarm),
             senses.urgency};

@@ -54,10 +54,10 @@ constexpr float kLeadSeconds =
 // The yaw that is added to what a segment turns where that lacks more (MotorCommands::yawRate): all
 // are shares of the rate of the tight curve of its gait. It lasts until less is lacking.
 constexpr float kAdded = 0.4F;
-constexpr float kAddedFrom = 0.5F;
+constexpr float kAddedFrom = 0.6F;
 constexpr float kAddedUntil = 0.3F;
 // A hovering fish of a species that does not row is turned as it glides, radians a second.
-constexpr float kMostHoverYaw = 30.0F * kRadiansPerDegree<float>;
+constexpr float kMostHoverYaw = 15.0F * kRadiansPerDegree<float>;
 // One that rows pivots from an error on, until a smaller one; errors that take it longer are left
 // to a turn.
 constexpr float kPivotFrom = 9.0F * kRadiansPerDegree<float>;
@@ -68,7 +68,7 @@ constexpr float kPivotSeconds = 8.0F;
 constexpr float kCurveHysteresis = 0.05F;
 // A slope is swum rather than a curve where the pitch is off by more than this share of the
 // heading.
-constexpr float kSlopeFirst = 0.7F;
+constexpr float kSlopeFirst = 0.5F;
 // Levels of a command. Within three quarters of a level the command before stands.
 constexpr float kStay = 0.75F;
 constexpr float kRateLevel = 1.0F / 32.0F;  // of the recorded phase rate
@@ -80,8 +80,9 @@ constexpr float kUnitsOfPitchSine = 32768.0F;  // MotorCommands::pitch
 // Limits of the phase rate: as shares of the recorded rate, and about the tempo of the fish.
 constexpr float kRateMargin = 0.15F;
 constexpr float kTempoMargin = 0.08F;
-// Body lengths a second by which a speed must pass the border between two gaits to change gait.
-constexpr float kSpeedHysteresis = 0.12F;
+// Share of the difference between two gaits' speeds by which a speed must pass the border between
+// them to change gait.
+constexpr float kSpeedHysteresis = 0.15F;
 // Braking begins when the fish is this much too fast, in body lengths a second, and is full at 1
 // more.
 constexpr float kBrakeFrom = 0.6F;
@@ -137,15 +138,16 @@ motion::Action sharp(bool left) {
 
 // The forward gait whose speed is nearest, with hysteresis about the present gait.
 motion::Action gaitFor(const Gaits& gaits, float speed, motion::Action present) {
-    const float slowToMedium = 0.5F * (gaits.speed[0] + gaits.speed[1]);
-    const float mediumToFast = 0.5F * (gaits.speed[1] + gaits.speed[2]);
-    const auto isAbove = [&](float border, motion::Action upper) {
-        const bool isUpper = swims(present) && gaitOf(present) >= upper;
-        return speed > border + (isUpper ? -kSpeedHysteresis : kSpeedHysteresis);
+    const auto isAbove = [&](std::size_t lower) {
+        const float difference = gaits.speed[lower + 1] - gaits.speed[lower];
+        const float border = gaits.speed[lower] + 0.5F * difference;
+        const bool isUpper =
+            swims(present) && gaitOf(present) > static_cast<motion::Action>(lower);
+        return speed > border + (isUpper ? -kSpeedHysteresis : kSpeedHysteresis) * difference;
     };
-    if (isAbove(mediumToFast, motion::Action::ForwardFast)) return motion::Action::ForwardFast;
-    return isAbove(slowToMedium, motion::Action::ForwardMedium) ? motion::Action::ForwardMedium
-                                                                : motion::Action::ForwardSlow;
+    if (isAbove(indexOf(motion::Action::ForwardMedium))) return motion::Action::ForwardFast;
+    return isAbove(indexOf(motion::Action::ForwardSlow)) ? motion::Action::ForwardMedium
+                                                         : motion::Action::ForwardSlow;
 }
 
 }  // namespace
