@@ -32,6 +32,8 @@ constexpr float kTogether = 5.0F;
 // The male loops about a point this far before her; they circle about the point between them.
 constexpr float kLoopAhead = 2.6F;
 constexpr float kLoopRadius = 1.5F;
+// Farther than so many radii from its centre he comes to the loop first.
+constexpr float kFarFromLoop = 2.0F;
 constexpr float kCircleRadius = 1.4F;
 // Weight of the way back to the circle, for each radius off it.
 constexpr float kCloser = 0.8F;
@@ -86,7 +88,10 @@ fish::Course follow(const Situation& situation, const Couple& couple) {
 fish::Course loopBefore(const Situation& situation, const fish::Mind& mind, const Couple& couple) {
     const glm::vec3 centre =
         couple.offset + level(couple.matesHeading) * (kLoopAhead * couple.length);
-    const glm::vec3 way = aroundOn(centre, kLoopRadius * couple.length, couple.turnsLeft);
+    const float radius = kLoopRadius * couple.length;
+    if (place::lengthOf(centre) > kFarFromLoop * radius)
+        return heading(situation, centre, situation.parameters.medium);
+    const glm::vec3 way = aroundOn(centre, radius, couple.turnsLeft);
     return heading(situation, way + kUp * bob(mind.sinceStage), situation.parameters.slow);
 }
 
