@@ -164,18 +164,19 @@ bool beatsTail(const FormFigures& gait) {
     return gait.tailHertz > 0 && gait.tail > kStillTail && gait.finStroke < kStillStroke;
 }
 
-const char* nameOf(Form form) {
+const char* nameOf(SwimmingForm form) {
     constexpr std::array kNames{"labriform", "stiff body", "carangiform", "yawing head"};
     return kNames.at(static_cast<std::size_t>(form));
 }
 
-std::optional<Form> formOf(const FormFigures& slow, const FormFigures& fast) {
+std::optional<SwimmingForm> formOf(const FormFigures& slow, const FormFigures& fast) {
     if (!beatsTail(fast)) return std::nullopt;
-    if (isRowed(slow)) return Form::Labriform;
+    if (isRowed(slow)) return SwimmingForm::Labriform;
     if (!beatsTail(slow)) return std::nullopt;
     if (std::min(slow.wavelength, fast.wavelength) < kLeastWavelength) return std::nullopt;
-    if (slow.swinging + fast.swinging < 2 * kStiffShare) return Form::StiffBodied;
-    return slow.headYaw + fast.headYaw < 2 * kSteadyHead ? Form::Carangiform : Form::HeadYawing;
+    if (slow.swinging + fast.swinging < 2 * kStiffShare) return SwimmingForm::StiffBodied;
+    return slow.headYaw + fast.headYaw < 2 * kSteadyHead ? SwimmingForm::Carangiform
+                                                         : SwimmingForm::HeadYawing;
 }
 
 namespace {
@@ -226,7 +227,7 @@ std::string formsData(const std::vector<motion::Repertoire>& repertoires) {
         };
         const motion::ActionSegment& slow = gait(motion::Action::ForwardSlow);
         const motion::ActionSegment& fast = gait(motion::Action::ForwardFast);
-        const std::optional<Form> form = formOf(formFigures(slow), formFigures(fast));
+        const std::optional<SwimmingForm> form = formOf(formFigures(slow), formFigures(fast));
         data.push_back({{"species", repertoire.species},
                         {"form", form ? nameOf(*form) : "none of these"},
                         {"slow", gaitData(slow)},

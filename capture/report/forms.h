@@ -42,15 +42,15 @@ struct FormFigures {
 [[nodiscard]] bool beatsTail(const FormFigures& gait);  // the tail, and the fins are still
 
 // The forms, after Breder 1926 and Lindsey 1978.
-enum class Form {
+enum class SwimmingForm {
     Labriform,    // rows with a still body when slow, beats the tail when fast
     StiffBodied,  // beats the tail; less than the last fifth swings
     Carangiform,  // beats the tail; more than that swings, the head is steady
     HeadYawing,   // beats the tail; more than that swings, and the head yaws
 };
-[[nodiscard]] const char* nameOf(Form form);  // "labriform", ...
+[[nodiscard]] const char* nameOf(SwimmingForm form);  // "labriform", ...
 // Of a fish that swims slowly and fast like that; none for a fish that is of none of these forms.
-[[nodiscard]] std::optional<Form> formOf(const FormFigures& slow, const FormFigures& fast);
+[[nodiscard]] std::optional<SwimmingForm> formOf(const FormFigures& slow, const FormFigures& fast);
 
 // The data of the sheet as JSON text, which draw_forms.py beside this file reads: of each species
 // its form, and of its slow and fast gait the figures, midlines, swing and strokes.

@@ -24,14 +24,15 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kDegree = kTwoPi / 360;
 
 // What the species are in life: docs/motion.md gives the sources.
-const std::map<std::string, Form>& expectedForms() {
-    static const std::map<std::string, Form> kForms{{"bigeye_scad", Form::Carangiform},
-                                                    {"blacktip_reef_shark", Form::HeadYawing},
-                                                    {"blue_tang", Form::Labriform},
-                                                    {"clownfish", Form::Labriform},
-                                                    {"moorish_idol", Form::Labriform},
-                                                    {"parrotfish", Form::Labriform},
-                                                    {"trumpetfish", Form::StiffBodied}};
+const std::map<std::string, SwimmingForm>& expectedForms() {
+    static const std::map<std::string, SwimmingForm> kForms{
+        {"bigeye_scad", SwimmingForm::Carangiform},
+        {"blacktip_reef_shark", SwimmingForm::HeadYawing},
+        {"blue_tang", SwimmingForm::Labriform},
+        {"clownfish", SwimmingForm::Labriform},
+        {"moorish_idol", SwimmingForm::Labriform},
+        {"parrotfish", SwimmingForm::Labriform},
+        {"trumpetfish", SwimmingForm::StiffBodied}};
     return kForms;
 }
 
@@ -54,7 +55,7 @@ const std::vector<Fish>& allFish() {
 class Forms : public testing::TestWithParam<std::size_t> {
   protected:
     [[nodiscard]] static const Fish& fish() { return allFish().at(GetParam()); }
-    [[nodiscard]] static Form expected() {
+    [[nodiscard]] static SwimmingForm expected() {
         return expectedForms().at(allSpecies().at(GetParam()).name);
     }
 };
@@ -70,8 +71,8 @@ TEST_P(Forms, areToldByMidlinesAndFinBeats) {
 }
 
 TEST_P(Forms, rowersRowWhenSlowAndAllBeatTheTailWhenFast) {
-    EXPECT_EQ(isRowed(fish().slow), expected() == Form::Labriform);
-    EXPECT_EQ(beatsTail(fish().slow), expected() != Form::Labriform);
+    EXPECT_EQ(isRowed(fish().slow), expected() == SwimmingForm::Labriform);
+    EXPECT_EQ(beatsTail(fish().slow), expected() != SwimmingForm::Labriform);
     EXPECT_FALSE(isRowed(fish().fast));
     EXPECT_TRUE(beatsTail(fish().fast));
 }
@@ -96,10 +97,12 @@ TEST_P(Forms, areApartByAMargin) {
 // The form follows the motion: with the slow gait of a rower any fish is one, and no rower without.
 TEST_P(Forms, belongToTheMotionNotToTheFish) {
     for (std::size_t other = 0; other < allFish().size(); ++other) {
-        const bool rows = expectedForms().at(allSpecies().at(other).name) == Form::Labriform;
-        EXPECT_EQ(formOf(allFish().at(other).slow, fish().fast) == Form::Labriform, rows) << other;
+        const bool rows =
+            expectedForms().at(allSpecies().at(other).name) == SwimmingForm::Labriform;
+        EXPECT_EQ(formOf(allFish().at(other).slow, fish().fast) == SwimmingForm::Labriform, rows)
+            << other;
     }
-    EXPECT_NE(formOf(fish().fast, fish().fast), Form::Labriform);
+    EXPECT_NE(formOf(fish().fast, fish().fast), SwimmingForm::Labriform);
     EXPECT_FALSE(formOf(fish().fast, FormFigures{})) << "a fish that does not beat its tail";
 }
 
