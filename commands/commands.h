@@ -44,6 +44,7 @@ void addConsole(CommandLine& line);  // hands over to aquarama-console
 void addInspect(CommandLine& line);
 void addConvert(CommandLine& line);
 void addCapture(CommandLine& line);
+void addForms(CommandLine& line);
 void addExport(CommandLine& line);
 void addGaits(CommandLine& line);
 void addSearch(CommandLine& line);

@@ -34,7 +34,7 @@ const std::array kGroups{
            addInspect,
            addConvert}},
     Group{"Fish and their repertoires",
-          {addCapture, addExport, addGaits, addSearch, addControllers, addFidelity}},
+          {addCapture, addExport, addGaits, addForms, addSearch, addControllers, addFidelity}},
     Group{"Worlds", {addStudy}},
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `aquarama capture` and `export`: make repertoires, and convert them for other programs.
+// `aquarama capture`, `forms` and `export`: make repertoires, measure them, and convert them for
+// other programs.
 #include <algorithm>
 #include <atomic>
 #include <cassert>
@@ -12,6 +13,7 @@
 #include <CLI/CLI.hpp>
 
 #include "capture/capture_repertoire.h"
+#include "capture/report/forms.h"
 #include "capture/report/gltf.h"
 #include "capture/report/report_data.h"
 #include "capture/report/take.h"
@@ -87,6 +89,34 @@ int captureAll(const CaptureOptions& options) {
     if (!options.report.empty() && !reports.empty())
         cli::runPython({"matplotlib"}, "capture/report/draw_report.py", reports, options.report);
     return status;
+}
+
+// Options of `forms`.
+struct FormsOptions {
+    std::vector<std::string> species;  // names or files; none: all
+    std::string out;
+    std::string config;
+};
+
+// Measures the slow and the fast gait of each species and has Python draw the sheet and print the
+// table.
+void drawForms(const FormsOptions& options) {
+    cli::holdSignals();
+    cli::requireFolder("--out", options.out);
+    cli::requirePython({"matplotlib"});
+    std::vector<config::Species> species;
+    for (const fs::path& file :
+         capture::speciesFiles(options.species, configFolder(options.config)))
+        species.push_back(config::readSpecies(file.string()));
+    std::vector<motion::Repertoire> repertoires;
+    for (const capture::RepertoireFile& file : captured(species)) {
+        if (!file.error.empty()) throw Error(file.error);
+        repertoires.push_back(motion::decodeRepertoire(file.bytes, file.species));
+    }
+    const fs::path path = fs::path(options.out) / "forms.json";
+    const std::string data = report::formsData(repertoires);
+    writeWhole(path, std::as_bytes(std::span(data)));
+    cli::runPython({"matplotlib"}, "capture/report/draw_forms.py", {path.string()}, options.out);
 }
 
 // Options of `export`. `cycles`: how often the segment is repeated.
@@ -174,6 +204,16 @@ void addCapture(CommandLine& line) {
                        "name of a species in the config folder, or a file; all when not given");
     command.add_option("--out", options.out, "folder for SPECIES.aqrep")->required();
     command.add_option("--report", options.report, "folder for a page with pictures and figures");
+    describeConfig(command, options.config);
+}
+
+void addForms(CommandLine& line) {
+    const auto [command, options] = line.add<FormsOptions>(
+        "forms", "draw and tabulate the forms of swimming of captured species", drawForms);
+    command.add_option("--species",
+                       options.species,
+                       "name of a species in the config folder, or a file; all when not given");
+    command.add_option("--out", options.out, "folder for forms.svg and its data")->required();
     describeConfig(command, options.config);
 }
 

@@ -32,6 +32,7 @@ declare -A way=(
     [forward_medium.svg]=report
     [turn_right_sharp.svg]=report
     [midlines_forward_medium.svg]=report
+    [forms.svg]=forms
     [fidelity_film.webp]=film
     [fidelity_ways.svg]=fidelity
     [fidelity_segments.svg]=fidelity
@@ -113,6 +114,8 @@ report() {
         mv "$drawn/report/bigeye_scad_$figure.svg" "$drawn/$figure.svg"
     done
 }
+# Prints the table of docs/motion.md besides.
+forms() { $bin/aquarama forms --out "$drawn"; }
 # Prints the tables of docs/fidelity.md besides.
 fidelity() { $bin/aquarama fidelity --seed 4 --out "$drawn"; }
 # The last picture of the film's first seconds.

@@ -10,7 +10,7 @@ from pathlib import Path
 from show import BIN, ROOT, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, wait_until
 
 PROGRAMS = ["aquarama", "aquarama-node", "aquarama-compose"]
-COMMANDS = ["new-rig", "run", "replay", "master", "node", "capture", "export", "gaits", "search", "fidelity",
+COMMANDS = ["new-rig", "run", "replay", "master", "node", "capture", "export", "gaits", "forms", "search", "fidelity",
             "controllers", "study", "check",
             "inspect", "status", "pilot", "explain"]
 STARTED = r"starting the master and 3 nodes of \S+\n(\[.*\n)*"
@@ -324,7 +324,7 @@ class Files(Case):
         for option in ["--clip", "--record"]:
             self.refuses(f"aquarama run: {wrong_file}", "run", rig, "--headless", "--frames", 1, option, inside)
         self.refuses(f"aquarama master: {wrong_file}", "master", rig, "--record", inside)
-        for command in [("fidelity", "--out"), ("controllers", "--out"), ("capture", "--out"),
+        for command in [("fidelity", "--out"), ("forms", "--out"), ("controllers", "--out"), ("capture", "--out"),
                         ("capture", "--out", self.folder.name, "--report"),
                         ("inspect", self.path / "a.aqrep", "--report")]:
             with self.subTest(command):

@@ -85,6 +85,14 @@ class Reports(Case):
         self.assert_picture(files["controllers.svg"])
         self.assertIn(str(files["controllers.svg"]), said)
 
+    def test_the_forms(self):
+        files, said = self.written("forms", "forms", "--species", "bigeye_scad", "--out", self.folder / "forms")
+        self.assertEqual(set(files), {"forms.json", "forms.svg"})
+        self.assert_picture(files["forms.svg"])
+        self.assertEqual(said.count("| **bigeye scad** | carangiform, slow | tail 2.00 |"), 1)
+        self.assertEqual(said.count("| *saithe, mackerel* | living |"), 1)
+        self.assertIn(str(files["forms.svg"]), said)
+
     def test_the_fidelity(self):
         folder = self.folder / "fidelity"
         files, said = self.written("fidelity", "fidelity", "--species", "bigeye_scad", "--seconds", 5, "--out", folder)
@@ -165,6 +173,7 @@ class WithoutMatplotlib(Case):
         for command, arguments in [("capture", ["--out", out, "--report", out]),
                                    ("inspect", ["a.aqrep", "--report", out]),
                                    ("controllers", ["--out", out]), ("fidelity", ["--out", out]),
+                                   ("forms", ["--out", out]),
                                    ("study", ["--out", out]), ("study", []), ("study chronicle", [REEF])]:
             for python in [self.fake_python(), self.folder / "none"]:
                 with self.subTest(command, python=python):
