@@ -23,7 +23,7 @@ constexpr float kTurnsWithin = 1.5F;
 constexpr float kAbeamCosine = 0.5F;
 // Shares of the slow gait: while turning towards a target, and at the target.
 constexpr float kTurningPace = 0.6F;
-constexpr float kCarefulPace = 0.8F;
+constexpr float kCarefulPace = 1.2F;
 // The motion of a target is extrapolated no farther than this.
 constexpr float kMostLeadSeconds = 1.5F;
 
@@ -59,7 +59,7 @@ constexpr float kAtTheLips = 0.08F;
 // Stages of eat(). A particle that is near but not before the mouth would only be circled: the fish
 // swims on and turns back from farther off (kRunUp).
 enum Stage : std::uint8_t { kApproach, kRunUp };
-constexpr float kTooNear = 2.5F;  // body lengths: the radius of the tight curves
+constexpr float kTooNear = 2.0F;  // body lengths
 constexpr float kRunUpLengths = 3.0F;
 constexpr float kAsideCosine = 0.35F;
 // Longest run-up.
