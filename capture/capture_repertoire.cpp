@@ -46,8 +46,8 @@ constexpr std::size_t kResponseJob = kStartJob + kBendShares.size();
 constexpr std::size_t kJobs = kResponseJob + 1;
 constexpr std::size_t kLaterJobs = kJobs - kSteadyJobs;
 
-// Values of Order::curve and liftRadians. Over all species and gaits a wide curve has a radius of
-// 3.8 to 9.7 body lengths.
+// Values of Order::curve and liftRadians. Over all species a wide curve has a radius of 3.8 to 7.8
+// body lengths by the tail, and 1.6 to 1.8 where fins row.
 constexpr double kWideCurve = 0.2;
 constexpr double kLoopLiftRadians = 0.4;
 
@@ -371,7 +371,7 @@ namespace {
 // Part of every key: raise it when a change of the simulation or of the compilation changes the
 // repertoires.
 constexpr const char* kCaptureVersion = "aquarama capture 11\n";
-constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 5 MB
+constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 7 MB at most
 
 // SPECIES-DIGEST.aqrep. The digest covers only the parts of the species file that influence motion:
 // a change of colours or habits does not capture again.

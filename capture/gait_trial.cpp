@@ -204,10 +204,14 @@ std::string gaitTableRows(const config::Species& species) {
         const GaitFigures g = steadyFigures(species, gaits.at(i));
         rows << "| " << (i == 0 ? plainName(species) : "") << " | " << kGaits.at(i) << " | "
              << g.beatHertz << " | " << gaits.at(i).gain << " | " << g.swum.speedBodyLengths
-             << " | " << g.swum.strideBodyLengths << " | " << std::setprecision(3)
-             << g.swum.tailAmplitude << std::setprecision(2) << " | " << g.swum.strouhal << " | "
-             << g.wave.wavelength << " | " << std::setprecision(3) << g.swum.noseAmplitude
-             << std::setprecision(2) << " |\n";
+             << " | " << g.swum.strideBodyLengths << " | ";
+        if (gaits.at(i).rows > 0) {
+            rows << "rows | – | – | – |\n";
+            continue;
+        }
+        rows << std::setprecision(3) << g.swum.tailAmplitude << std::setprecision(2) << " | "
+             << g.swum.strouhal << " | " << g.wave.wavelength << " | " << std::setprecision(3)
+             << g.swum.noseAmplitude << std::setprecision(2) << " |\n";
     }
     return rows.str();
 }

@@ -32,7 +32,7 @@ struct BodyAngles {
                                double share,
                                double stepSeconds);
 
-// The nine motor controllers (the paper's section 3.2).
+// The nine motor controllers (the paper's section 3.2), and ours.
 enum class Controller : std::uint8_t {
     ForwardSwim,
     LeftTurn,

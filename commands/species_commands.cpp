@@ -17,6 +17,7 @@
 #include "capture/gait_trial.h"
 #include "capture/report/report_data.h"
 #include "capture/search.h"
+#include "capture/start_figures.h"
 #include "commands/commands.h"
 #include "common/base/files.h"
 #include "common/cli/outputs.h"
@@ -43,6 +44,9 @@ void printGaits(const GaitsOptions& options) {
     std::cout << '\n' << capture::turnTableHead();
     for (const auto& file : files)
         std::cout << capture::turnTableRow(config::readSpecies(file.string())) << std::flush;
+    std::cout << '\n' << capture::startTableHead();
+    for (const auto& file : files)
+        std::cout << capture::startTableRows(config::readSpecies(file.string())) << std::flush;
 }
 
 // Options of `search`. The journal lies beside `out`.
@@ -118,7 +122,7 @@ void drawControllers(const ControllersOptions& options) {
 
 void addGaits(CommandLine& line) {
     const auto [command, options] = line.add<GaitsOptions>(
-        "gaits", "how species swim and turn, as tables in Markdown", printGaits);
+        "gaits", "how species swim, turn and start, as tables in Markdown", printGaits);
     command.add_option("SPECIES", options.species, "names or files; all when none is given");
     describeConfig(command, options.config);
 }

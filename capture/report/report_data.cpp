@@ -201,7 +201,9 @@ double cleaned(double value) {
 // One row; "-" where a figure has no meaning for the segment.
 std::string rowOf(motion::Action action, const motion::ActionSegment& segment) {
     const capture::SegmentMeasures m = capture::measure(segment);
-    const bool turns = isCurve(action) || isTurn(action);
+    constexpr double kStraight = 1e-4;  // radians
+    const bool mayTurn = isCurve(action) || isPivot(action) || isTurn(action) || isStart(action);
+    const bool turns = mayTurn && std::abs(m.turnRadians) > kStraight;
     std::string row = line("  %-24s %8.4f %8.3f %8.3f",
                            motion::nameOf(action),
                            m.periodSeconds,

@@ -25,7 +25,8 @@ class MotorTables;
 // threads.
 //
 // Of the nine patterns (section 3.2) these are played: swimming, turning, ascending, descending and
-// retreating as recorded; gliding by a warp to Action::Glide. The fins add pitch, up to kAddedPitch
+// retreating as recorded, and beside them fast starts and what fins do in one place; gliding by a
+// warp to Action::Glide. The fins add pitch, up to kAddedPitch
 // of the rate of the recorded climb, and roll that balances, and MotorCommands::brake brakes.
 //
 // The speed v of a fish follows that of the path, p, as SpeedResponse says; p is the recorded speed

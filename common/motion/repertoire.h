@@ -141,8 +141,8 @@ enum class Action : std::uint8_t {
 inline constexpr int kCapturedActions = 37;
 inline constexpr int kActions = 38;
 inline constexpr int kForwardGaits = 3;
-// The first kSwimmingActions beat the tail: a gait straight on, on a curve or on a slope. Action a
-// of them is of gait a % kForwardGaits.
+// The first kSwimmingActions swim, by tail or fins: a gait straight on, on a curve or on a slope.
+// Action a of them is of gait a % kForwardGaits.
 inline constexpr int kSwimmingActions = 21;
 [[nodiscard]] const char* nameOf(Action action);  // "forward_slow", ...
 
