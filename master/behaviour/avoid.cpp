@@ -236,7 +236,7 @@ fish::Course escape(const Situation& situation, const fish::Mind& mind) {
             place::directionOf(together + (course.direction - together) * alone, course.direction));
     }
     course.urgency = std::max(course.urgency, kSharpStart);
-    course.isStartled = isStartled(situation);
+    course.startsFast = isStartled(situation);
     return course;
 }
 

@@ -83,6 +83,8 @@ bool cannotTurnTo(const Senses& senses, glm::vec3 fromMouth) {
 // A predator rushes from this distance, in body lengths, at prey ahead of it.
 constexpr float kRushFrom = 2.0F;
 constexpr float kAheadCosine = 0.5F;
+// A rush begins with a fast start, where the prey is to the side.
+constexpr std::uint32_t kStrikeTicks = 16;
 // Stalking for longer counts as part of the chase, whose time is limited.
 constexpr std::uint32_t kStalkTicks = 20 * 60;
 // Reach of a bite from the mouth, in body lengths, by its gape and suction; twice as far straight
@@ -207,7 +209,10 @@ fish::Course hunt(const Situation& situation, fish::Mind& mind, DeferredEvents& 
     // Aims at where the prey will be, but not far ahead: prey that turns gets away.
     const float seconds =
         std::min(kMostHuntLeadSeconds, place::lengthOf(fromMouth) / (speed * senses.length));
-    return heading(situation, fromMouth + velocityOf(view, prey.object) * seconds, speed);
+    fish::Course course =
+        heading(situation, fromMouth + velocityOf(view, prey.object) * seconds, speed);
+    course.startsFast = mind.sinceStage < kStrikeTicks;
+    return course;
 }
 
 }  // namespace aquarama::behaviour

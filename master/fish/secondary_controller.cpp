@@ -467,7 +467,7 @@ motion::Action SecondaryController::choose(std::size_t fish, const Moment& momen
 std::optional<motion::Action> SecondaryController::startFor(std::size_t fish,
                                                             const Moment& moment) const {
     using motion::Action;
-    if (!(*courses)[fish].isStartled || tick.value < memory->recoversAt[fish]) return std::nullopt;
+    if (!(*courses)[fish].startsFast || tick.value < memory->recoversAt[fish]) return std::nullopt;
     const auto first =
         indexOf(moment.yawError > 0 ? Action::StartLeftSmall : Action::StartRightSmall);
     const float wanted = std::abs(moment.yawError);

@@ -36,8 +36,8 @@ struct Course {
     float speed = 0;
     // 0 in open water; from 1 on the fish turns sharply.
     float urgency = 0;
-    // Whether the fish is startled: it begins with a fast start.
-    bool isStartled = false;
+    // Whether the fish makes a fast start, as one that is startled or that strikes.
+    bool startsFast = false;
     // Whether the controller may try another swim pattern for a while. think() sets it after the
     // routine, alike for all routines.
     bool openToChange = false;

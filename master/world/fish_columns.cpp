@@ -31,7 +31,7 @@ std::uint64_t FishColumns::hash(Tick tick) const {
     fold(&fish::Course::speed);
     fold(&fish::Course::urgency);
     fold(&fish::Course::openToChange);
-    fold(&fish::Course::isStartled);
+    fold(&fish::Course::startsFast);
     hash = folded(hash, memory.chosenAt);
     hash = folded(hash, memory.heldUntil);
     hash = folded(hash, memory.patience);
