@@ -77,16 +77,6 @@ bool cannotTurnTo(const Senses& senses, glm::vec3 fromMouth) {
            std::abs(fromMouth.y) > 2 * place::kSteepest * distance;
 }
 
-// The way of a run-up: straight on. A fish that steers to the exact place early climbs or dives to
-// the height of the particle meanwhile: a level run-up would bring it back as far below or above.
-glm::vec3 runUpOf(const Situation& situation, glm::vec3 fromMouth) {
-    const Senses& senses = situation.senses;
-    const float lengths = std::clamp(fromMouth.y / senses.length, -1.0F, 1.0F);
-    const float climb =
-        situation.environment.adaptation.earlierPursuit ? place::kSteepest * lengths : 0.0F;
-    return {senses.heading.x, climb, senses.heading.z};
-}
-
 // A predator rushes from this distance, in body lengths, at prey ahead of it.
 constexpr float kRushFrom = 2.0F;
 constexpr float kAheadCosine = 0.5F;
@@ -189,7 +179,8 @@ fish::Course eat(const Situation& situation, fish::Mind& mind, DeferredEvents& e
     const bool farEnough = food.distance > kRunUpLengths * senses.length;
     if (mind.stage == kRunUp && (farEnough || mind.sinceStage > kRunUpTicks))
         enter(mind, kApproach);
-    if (mind.stage == kRunUp) return heading(situation, runUpOf(situation, fromMouth), medium);
+    if (mind.stage == kRunUp)
+        return heading(situation, {senses.heading.x, 0, senses.heading.z}, medium);
     return pursue(situation, fromMouth, medium);
 }
 
