@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Fills in what studies of the fish print in the documents: docs/studies.py BEGINNING..., for all commands that begin so
-("aquarama study --seeds"). With --check says where a document's figures are of an earlier motor or earlier minds.
+"""Fills in what studies of the fish print in the documents: docs/studies.py BEGINNING..., for all commands that begin
+so ("aquarama study --seeds"). With --check says where a document's figures are of an earlier motor or earlier minds.
 
 A mark is a comment with a command, a table of what it prints (all of it where none is named), and what moved the fish:
 
-<!-- study: aquarama study chronicle config/scenes/reef.txtpb --hours 24 | table 1 | motor 6, minds 3, commit abcdef0 -->
+<!-- study: aquarama study chronicle reef.txtpb --hours 24 | table 1 | motor 6, minds 3, commit abcdef0 -->
 ...
 <!-- end of study -->
 

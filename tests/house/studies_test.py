@@ -50,8 +50,8 @@ class Studies(unittest.TestCase):
         self.assertNotIn("| a |", second)
 
     def test_an_end_belongs_to_the_mark_before_it(self):
-        self.assertEqual([found[1] for found in studies.BLOCK.finditer(MARK + "by hand\n" + OF_MOTOR + "| b |\n" + END)],
-                         ["aquarama fidelity --out DIR"])
+        blocks = studies.BLOCK.finditer(MARK + "by hand\n" + OF_MOTOR + "| b |\n" + END)
+        self.assertEqual([found[1] for found in blocks], ["aquarama fidelity --out DIR"])
 
 
 if __name__ == "__main__":
