@@ -24,6 +24,7 @@
 #include "common/base/counted.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/base/movement_versions.h"
 #include "common/base/worker_pool.h"
 #include "common/cli/outputs.h"
 #include "common/cli/progress.h"
@@ -83,6 +84,8 @@ void compareAll(const FidelityOptions& options) {
                    "capture/report/draw_fidelity.py",
                    {options.out, std::to_string(options.seed)},
                    options.out);
+    // The line by which docs/studies.py knows what moved the fish.
+    std::cout << fmt::format("\nmotor {}\n", kMotorVersion);
 }
 
 // The film.

@@ -12,11 +12,13 @@
 #include <thread>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "capture/capture_repertoire.h"
 #include "commands/commands.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/base/movement_versions.h"
 #include "common/cli/outputs.h"
 #include "common/cli/progress.h"
 #include "master/study/chronicle.h"
@@ -70,6 +72,11 @@ class DataFolder {
     std::optional<TemporaryFolder> made_;
 };
 
+// The line by which docs/studies.py knows what moved the fish.
+std::string versionsLine() {
+    return fmt::format("motor {}, minds {}\n", kMotorVersion, kMindsVersion);
+}
+
 // Runs the study with a progress bar.
 std::vector<study::Sample> watched(const study::StudyPlan& plan) {
     cli::Progress bar("studying");
@@ -91,6 +98,7 @@ void runStudy(const StudyOptions& options) {
     const DataFolder folder(options.out);
     folder.write("adaptation.csv", runs);
     folder.show("adaptation", folder.isKept() ? "figure" : "");
+    std::cout << '\n' << versionsLine();
 }
 
 struct ChronicleOptions {
@@ -123,7 +131,8 @@ void chronicle(const ChronicleOptions& options) {
     folder.write("overlaps.csv",
                  study::overlapsCsv(chronicle.overlaps(), world, scenario.world.cast));
     folder.show("chronicle", std::to_string(options.hours));
-    std::cout << "\nhash of the world: " << std::hex << world.hash() << std::dec << "\n\n"
+    std::cout << "\nhash of the world: " << std::hex << world.hash() << std::dec << '\n'
+              << versionsLine() << '\n'
               << study::speciesText(chronicle.species(), scenario.world.cast);
 }
 

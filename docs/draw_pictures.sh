@@ -116,8 +116,11 @@ report() {
 }
 # Prints the table of docs/motion.md besides.
 forms() { $bin/aquarama forms --out "$drawn"; }
-# Prints the tables of docs/fidelity.md besides.
-fidelity() { $bin/aquarama fidelity --seed 4 --out "$drawn"; }
+# Fills in the tables of docs/fidelity.md besides.
+fidelity() {
+    docs/studies.py "aquarama fidelity --seed"
+    cp docs/pictures/fidelity_{ways,segments}.svg "$drawn/"
+}
 # The last picture of the film's first seconds.
 film() {
     $bin/aquarama fidelity clownfish --seconds 5.8 --clip "$drawn/film.webp"
@@ -130,8 +133,11 @@ film.convert("RGB").resize((1000, 563), Image.LANCZOS).save(
     f"{sys.argv[1]}/fidelity_film.webp", quality=85, method=6)
 PYTHON
 }
-# Prints the tables of docs/appendices/adaptation.md besides.
-adaptation() { $bin/aquarama study --seeds 16 --minutes 4 --out "$drawn"; }
+# Fills in the tables of docs/appendices/adaptation.md besides.
+adaptation() {
+    docs/studies.py "aquarama study --seeds"
+    cp docs/pictures/adaptation.svg "$drawn/"
+}
 
 # A simulated hall, its scan, the page of its calibration (by Debian's chromium), and the reef before and after.
 calibration() {

@@ -57,10 +57,12 @@ inline constexpr float kPi = 3.14159265F;
     return angleOf(from.z * to.x - from.x * to.z, from.x * to.x + from.z * to.z);
 }
 
-// A unit direction limited to 25 degrees of climb or dive, the steepest that a fish here chooses.
-// Keeps its course; a vertical direction has none and becomes (1, 0, 0).
+// Sine of the steepest climb or dive that a fish chooses, 25 degrees.
+inline constexpr float kSteepest = 0.42F;
+
+// A unit direction limited to the steepest climb or dive. Keeps its course; a vertical direction
+// has none and becomes (1, 0, 0).
 [[nodiscard]] inline glm::vec3 levelled(glm::vec3 direction) {
-    constexpr float kSteepest = 0.42F;  // sine of 25 degrees
     const float y = std::clamp(direction.y, -kSteepest, kSteepest);
     const float horizontal = std::sqrt(direction.x * direction.x + direction.z * direction.z);
     if (horizontal < 1.0e-4F) return {1, 0, 0};

@@ -11,9 +11,8 @@ namespace aquarama::behaviour {
 
 namespace {
 
-// Distances in body lengths within which pursuit is careful. The biomechanical fish can still
-// correct its way within the first; this motor, which plays turns to their end, begins at the
-// second (paper, section 5.2).
+// Distances in body lengths within which pursuit is careful: a fish slows down and steers to the
+// exact place within the first, and steers so already within the second (paper, section 5.2).
 constexpr float kCarefulWithin = 2.5F;
 constexpr float kEarlierWithin = 5.0F;
 // Cosine of 20 degrees: from far off this is near enough to the direction.
@@ -64,8 +63,6 @@ constexpr float kRunUpLengths = 3.0F;
 constexpr float kAsideCosine = 0.35F;
 // Longest run-up.
 constexpr std::uint32_t kRunUpTicks = 240;
-// Sine of the steepest climb.
-constexpr float kSteepest = 0.42F;
 
 void enter(fish::Mind& mind, Stage stage) {
     mind.stage = stage;
@@ -77,7 +74,7 @@ bool cannotTurnTo(const Senses& senses, glm::vec3 fromMouth) {
     const float distance = place::lengthOf(fromMouth);
     if (distance > kTooNear * senses.length) return false;
     return place::dot(fromMouth, senses.heading) < kAsideCosine * distance ||
-           std::abs(fromMouth.y) > 2 * kSteepest * distance;
+           std::abs(fromMouth.y) > 2 * place::kSteepest * distance;
 }
 
 // A predator rushes from this distance, in body lengths, at prey ahead of it.
@@ -138,7 +135,7 @@ fish::Course pursue(const Situation& situation,
     const float least = std::min(speed, kCarefulPace * slow);
     // A target that swims away adds its own speed.
     const float chase = std::max(0.0F, place::dot(velocity, direction)) / senses.length;
-    const float pace = least + (speed - least) * lengths / careful;
+    const float pace = least + (speed - least) * std::min(1.0F, lengths / kCarefulWithin);
     return heading(situation, direction, std::min(speed, pace + chase));
 }
 
@@ -175,7 +172,7 @@ fish::Course eat(const Situation& situation, fish::Mind& mind, DeferredEvents& e
     assert(situation.senses.food.seen());
     const Senses& senses = situation.senses;
     const Sighting& food = senses.food;
-    const float slow = situation.parameters.slow;
+    const float medium = situation.parameters.medium;
     if (isBeforeTheMouth(senses, food.offset))
         events.push_back({fish::DeferredEventKind::EatParticle, situation.fish, food.object});
     const glm::vec3 fromMouth =
@@ -185,8 +182,8 @@ fish::Course eat(const Situation& situation, fish::Mind& mind, DeferredEvents& e
     if (mind.stage == kRunUp && (farEnough || mind.sinceStage > kRunUpTicks))
         enter(mind, kApproach);
     if (mind.stage == kRunUp)
-        return heading(situation, {senses.heading.x, 0, senses.heading.z}, slow);
-    return pursue(situation, fromMouth, situation.parameters.medium);
+        return heading(situation, {senses.heading.x, 0, senses.heading.z}, medium);
+    return pursue(situation, fromMouth, medium);
 }
 
 bool isRushing(const fish::Mind& mind) {

@@ -255,11 +255,16 @@ bool isWorthLeaving(const Onlooker& onlooker, std::uint32_t particle, float dist
 // Added cost, in body lengths, of a particle straight behind, for which the fish has to turn round.
 constexpr float kComeAboutBodyLengths = 2;
 
-// Distance, and by the angle from the mouth the cost of turning.
-float costOfFood(const Senses& senses, glm::vec3 offset, float distance) {
+// The way to a particle, and by the angle from the mouth the cost of turning. A fish that pursues
+// early takes as the way that of the steepest slope, which is longer for what is above or below it.
+float costOfFood(const Onlooker& onlooker, glm::vec3 offset, float distance) {
+    const Senses& senses = onlooker.senses;
+    const float way = onlooker.environment.adaptation.earlierPursuit
+                          ? std::max(distance, std::abs(offset.y) / place::kSteepest)
+                          : distance;
     const glm::vec3 fromMouth = offset - senses.heading * (fish::kNoseBodyLengths * senses.length);
     const float cosine = place::dot(place::directionOf(fromMouth, senses.heading), senses.heading);
-    return distance + 0.5F * kComeAboutBodyLengths * senses.length * (1 - cosine);
+    return way + 0.5F * kComeAboutBodyLengths * senses.length * (1 - cosine);
 }
 
 // Food is sensed in all directions and never hidden, as it smells.
@@ -278,7 +283,7 @@ void senseFood(const Onlooker& onlooker) {
                                      kHungerStimulus,
                                      kFoodStimulus,
                                      smell);
-    float best = reach + kComeAboutBodyLengths * senses.length;
+    float best = reach / place::kSteepest + kComeAboutBodyLengths * senses.length;
     const std::uint32_t pursued = onlooker.aim.target;
     if (onlooker.aim.intention == fish::Intention::Eat && pursued < food.size() &&
         food.isFree(pursued)) {
@@ -286,7 +291,7 @@ void senseFood(const Onlooker& onlooker) {
         const float distance = place::lengthOf(offset);
         if (distance <= reach) {
             senses.food = {pursued, offset, distance};
-            best = costOfFood(senses, offset, distance) * (1 - parameters.habits.persistence);
+            best = costOfFood(onlooker, offset, distance) * (1 - parameters.habits.persistence);
         }
     }
     const Sighting better =
@@ -296,7 +301,7 @@ void senseFood(const Onlooker& onlooker) {
                    best,
                    [&](std::uint32_t particle, glm::vec3 offset, float distance) {
                        return distance <= reach && isWorthLeaving(onlooker, particle, distance)
-                                  ? costOfFood(senses, offset, distance)
+                                  ? costOfFood(onlooker, offset, distance)
                                   : kNever;
                    });
     if (better.seen()) senses.food = better;

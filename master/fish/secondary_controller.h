@@ -51,7 +51,7 @@ using Courses = std::vector<Course>;
 struct Adaptation {
     bool recommendations = true;  // another swim pattern when one was pursued for too long
     bool enlargedRegions = true;  // collision threats are felt from farther off
-    bool earlierPursuit = true;   // careful steering begins farther from a target
+    bool earlierPursuit = true;   // the exact place of a target counts from farther off
 };
 
 // The numbers of a repertoire that the controller chooses by.

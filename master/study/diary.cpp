@@ -70,8 +70,9 @@ void Diary::noteMind(const world::World& world, std::size_t fish) {
     ++tally_.fishTicks;
     ++tally_.intentionTicks.at(static_cast<std::size_t>(intention));
     tally_.changes += isNew ? 1 : 0;
-    if (intention == fish::Intention::Eat && !hunts && another) {
-        ++tally_.tries;
+    if (intention == fish::Intention::Eat && !hunts) {
+        ++tally_.pursuitTicks;
+        tally_.tries += another ? 1 : 0;
     }
     const bool rushes = hunts && intention == fish::Intention::Eat &&
                         minds[fish].stage == static_cast<std::uint8_t>(behaviour::HuntStage::Rush);

@@ -38,6 +38,8 @@ struct Tally {
     std::uint64_t changes = 0;
     // Fish that eat particles: targets that they pursued, and particles that they got.
     std::uint64_t tries = 0, particles = 0;
+    // The same fish: ticks in which they pursued a particle.
+    std::uint64_t pursuitTicks = 0;
     // Predators: rushes that began, and prey that they got.
     std::uint64_t rushes = 0, catches = 0;
 };

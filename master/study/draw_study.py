@@ -23,6 +23,7 @@ QUANTITIES = {
     "bumps_per_fish_minute": ("into rock, sand or surface, a fish and minute", 4, ""),
     "meals_per_try": ("particles eaten a target gone for", 3, ""),
     "particles_per_fish_minute": ("particles eaten a fish and minute", 3, ""),
+    "pursuit_seconds_per_particle": ("pursuit for each particle eaten, s", 2, ""),
     "half_pinch_seconds": ("until half a pinch is eaten, s", 2, ""),
     "catches_per_rush": ("prey caught a rush", 3, ""),
     "same_segment_percent": ("pairs of the school on one segment, %", 1, ""),
@@ -40,8 +41,11 @@ PANELS = [("recommendations", "no recommendations", "school", "same_segment_perc
           ("recommendations", "no recommendations", "school", "in_step_percent"),
           ("enlarged regions", "regions not enlarged", "crowded tank", "touches_per_fish_minute"),
           ("enlarged regions", "regions not enlarged", "reef", "touches_per_fish_minute"),
-          ("earlier pursuit", "late pursuit", "feeding", "half_pinch_seconds"),
-          ("earlier pursuit", "late pursuit", "feeding", "meals_per_try")]
+          ("earlier pursuit", "late pursuit", "alone: bigeye_scad", "pursuit_seconds_per_particle"),
+          ("earlier pursuit", "late pursuit", "alone: blue_tang", "pursuit_seconds_per_particle")]
+# Scenarios of a single fish have this before the name of its species; of them only these quantities are printed.
+ALONE = "alone: "
+ALONE_QUANTITIES = ["pursuit_seconds_per_particle", "meals_per_try"]
 # Colours of runs without and with the adaptation.
 WITHOUT, WITH = "#b4472f", "#1f6f8b"
 
@@ -78,21 +82,31 @@ def cell(values, digits, is_bold):
     return f"**{text}**" if is_bold else text
 
 
+def cells_of(conditions, quantity):
+    """A cell for each condition; bold differs clearly from the first, "all"."""
+    digits = QUANTITIES[quantity][1]
+    # The first condition in the file is "all": with every adaptation.
+    with_all = next(iter(conditions.values()))
+    return [cell(of[quantity], digits, of is not with_all and is_clear(of[quantity], with_all[quantity]))
+            for of in conditions.values()]
+
+
 def print_adaptation(runs):
-    """For each scenario a row a quantity and a column a condition; bold differs clearly from the first, "all"."""
-    # A table for each scenario.
+    """For each scenario a row a quantity and a column a condition; for single fish a row a species."""
+    alone = {scenario: conditions for scenario, conditions in runs.items() if scenario.startswith(ALONE)}
     for scenario, conditions in runs.items():
-        # The first condition in the file is "all": with every adaptation.
-        with_all = next(iter(conditions.values()))
-        rows = []
-        for quantity, (words, digits, published) in QUANTITIES.items():
-            # A quantity that no run of the scenario has is left out.
-            if all(np.isnan(of[quantity]).all() for of in conditions.values()):
-                continue
-            cells = [cell(of[quantity], digits, of is not with_all and is_clear(of[quantity], with_all[quantity]))
-                     for of in conditions.values()]
-            rows.append([words, *cells, published])
+        if scenario in alone:
+            continue
+        # A quantity that no run of the scenario has is left out.
+        rows = [[words, *cells_of(conditions, quantity), published]
+                for quantity, (words, _, published) in QUANTITIES.items()
+                if not all(np.isnan(of[quantity]).all() for of in conditions.values())]
         print(f"### {scenario}\n\n{markdown_table(['', *conditions, 'published'], rows)}")
+    for quantity in ALONE_QUANTITIES if alone else []:
+        rows = [[scenario.removeprefix(ALONE), *cells_of(conditions, quantity)]
+                for scenario, conditions in alone.items()]
+        head = [QUANTITIES[quantity][0], *next(iter(alone.values()))]
+        print(f"### alone: {QUANTITIES[quantity][0]}\n\n{markdown_table(head, rows)}")
 
 
 def draw_adaptation(runs):

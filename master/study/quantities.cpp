@@ -39,6 +39,7 @@ constexpr std::array<const char*, kQuantities> kKeys{
     "bumps_per_fish_minute",
     "meals_per_try",
     "particles_per_fish_minute",
+    "pursuit_seconds_per_particle",
     "half_pinch_seconds",
     "catches_per_rush",
     "same_segment_percent",
@@ -140,6 +141,8 @@ Figures figuresOf(const Diary& diary, double pinchSeconds) {
     set(Quantity::Bumps, share(count(tally.bumps), fishMinutes));
     set(Quantity::MealsPerTry, share(count(tally.particles), count(tally.tries)));
     set(Quantity::ParticlesPerMinute, share(count(tally.particles), fishMinutes));
+    set(Quantity::MealSeconds,
+        share(count(tally.pursuitTicks) / kTicksPerSecond, count(tally.particles)));
     set(Quantity::PinchSeconds, pinchSeconds);
     set(Quantity::CatchesPerRush, share(count(tally.catches), count(tally.rushes)));
     set(Quantity::SameSegment, 100 * share(tally.sameSegment, count(tally.glances)));

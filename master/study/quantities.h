@@ -46,6 +46,7 @@ enum class Quantity : std::uint8_t {
     Bumps,
     MealsPerTry,
     ParticlesPerMinute,
+    MealSeconds,
     PinchSeconds,
     CatchesPerRush,
     SameSegment,
@@ -56,7 +57,7 @@ enum class Quantity : std::uint8_t {
     Rotation,
     Changes,
 };
-inline constexpr std::size_t kQuantities = 15;
+inline constexpr std::size_t kQuantities = 16;
 
 // Name of its column in the CSV file; draw_study.py has the words for it.
 [[nodiscard]] const char* keyOf(Quantity quantity);

@@ -6,10 +6,12 @@
 #include <cassert>
 #include <cmath>
 #include <iomanip>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "capture/report/report_data.h"
 #include "common/base/worker_pool.h"
@@ -46,6 +48,19 @@ constexpr std::uint64_t kTicksBetweenPinches = static_cast<std::uint64_t>(30 * k
 // Indexed by Intention.
 constexpr std::array<const char*, fish::kIntentions> kRoutines{
     "wander", "leave", "school", "eat", "mate", "escape", "avoid fish", "avoid obstacle"};
+
+// A scenario for each species of the cast, named after it, with no other in it.
+std::vector<Scenario> eachAlone(const Scenario& all) {
+    std::vector<Scenario> scenarios;
+    for (std::size_t kind = 0; kind < all.world.cast.size(); ++kind) {
+        Scenario alone = all;
+        alone.world.cast = {all.world.cast[kind]};
+        alone.halfWidths = {all.halfWidths[kind]};
+        alone.name += ": " + alone.world.cast.front().name;
+        scenarios.push_back(std::move(alone));
+    }
+    return scenarios;
+}
 
 double secondsOf(std::uint64_t ticks) {
     return static_cast<double>(ticks) / kTicksPerSecond;
@@ -127,8 +142,10 @@ std::vector<Scenario> scenariosOf(const std::filesystem::path& configFolder) {
          {"reef", "study/school", "study/crowded_tank", "study/feeding"})
         scenarios.push_back(
             readScenario(configFolder / "scenes" / (std::string(scene) + ".txtpb")));
-    // Only the last scenario is one of feeding.
+    // Only the last of these is one of feeding.
     scenarios.back().ticksBetweenPinches = kTicksBetweenPinches;
+    std::ranges::move(eachAlone(readScenario(configFolder / "scenes" / "study" / "alone.txtpb")),
+                      std::back_inserter(scenarios));
     return scenarios;
 }
 

@@ -75,8 +75,9 @@ struct StudyPlan {
 // the fish. Throws Error.
 [[nodiscard]] Scenario readScenario(const std::filesystem::path& scene);
 
-// The four scenarios of the study: the reef as shown; its school alone; fish in a tank where they
-// must avoid each other; hungry fish that are fed.
+// The scenarios of the study: the reef as shown; its school alone; fish in a tank where they must
+// avoid each other; hungry fish that are fed; and one hungry fish among plankton, for each species
+// that eats it ("alone: bigeye_scad").
 [[nodiscard]] std::vector<Scenario> scenariosOf(const std::filesystem::path& configFolder);
 
 // CSV files of the study and the chronicle; draw_study.py draws tables and a figure from them.

@@ -114,6 +114,8 @@ class Reports(Case):
         for scenario in ["reef", "school", "crowded tank", "feeding"]:
             self.assertEqual(said.count(f"### {scenario}\n"), 1)
         self.assertEqual(said.count("| overlaps that begin, a fish and minute |"), 4)
+        self.assertRegex(said, r"\n### alone: pursuit for each particle eaten, s\n\n.*\n.*\n\| bigeye_scad \|")
+        self.assertRegex(said, r"\nmotor \d+, minds \d+\n")
 
     def test_the_chronicle(self):
         (self.folder / "temporary").mkdir()
@@ -146,7 +148,7 @@ class Statistics(Case):
                       "catches_per_rush": (["", "", ""], ["", "", ""])}
         names = (ROOT / "master/study/quantities.cpp").read_text().split("kKeys{")[1].split("}")[0].replace('"', "")
         keys = [key.strip() for key in names.split(",") if key.strip()]
-        self.assertEqual(len(keys), 15)
+        self.assertEqual(len(keys), 16)
         lines = ["scenario,condition,seed," + ",".join(keys)]
         for place, condition in [(1, "all"), (0, "late pursuit")]:
             for seed in range(3):
