@@ -369,8 +369,10 @@ void SecondaryController::run(std::size_t first, std::size_t last) const {
     assert(first <= last);
     assert(last <= courses->size());
     assert(last <= states->size());
-    for (std::size_t fish = first; fish < last; ++fish)
-        if (std::exchange((*thought)[fish], 0) != 0 || endsTurn(fish)) decide(fish);
+    for (std::size_t fish = first; fish < last; ++fish) {
+        const bool hasThought = std::exchange((*thought)[fish], 0) != 0;
+        if ((hasThought && (thinksAt(tick, fish) || (*courses)[fish].startsFast)) || endsTurn(fish)) decide(fish);
+    }
 }
 
 bool SecondaryController::endsTurn(std::size_t fish) const {

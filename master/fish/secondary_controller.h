@@ -19,8 +19,9 @@
 
 namespace aquarama::fish {
 
-// A fish thinks every eighth tick (Reynolds 2006), an alarmed one every fourth. Its index shifts
-// the tick, so that an eighth of all fish think at each tick.
+// A fish thinks every eighth tick (Reynolds 2006), an alarmed one every fourth, for its fast start:
+// other commands change every eighth tick. Its index shifts the tick, so that an eighth of all fish
+// think at each tick.
 inline constexpr std::uint64_t kTicksBetweenThoughts = 8;
 inline constexpr std::uint64_t kTicksOfAlarm = 4;
 [[nodiscard]] constexpr bool thinksAt(Tick tick, std::size_t fish, bool isAlarmed = false) {
