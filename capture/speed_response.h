@@ -43,8 +43,8 @@ struct SteadySwimming {
 // How the speed of a fish follows what it does.
 
 // A change of speed in the dynamics, from the moment of the order on. A speed is that of the centre
-// of mass along the course before the order; in a beat or stroke, it is the mean over one of them
-// around the sample.
+// of mass; in a beat of the tail, it is the mean over one beat around the sample; in a retreat, it
+// is the part along the course before the order. A fish that swims balances, as a replica does.
 struct Transition {
     double sampleSeconds = 0;  // from sample to sample
     // The steady speed that it leads to; 0 for a glide and a brake, negative for a retreat.

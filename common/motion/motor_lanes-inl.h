@@ -287,7 +287,10 @@ HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
     const IntLanes glide = hn::Set(kInts, firstSegmentOf(Action::Glide));
     const auto glides = hn::Or(hn::RebindMask(kFloats, hn::Eq(segment, glide)),
                                hn::Eq(pathAtEnd, hn::Zero(kFloats)));
-    const Lanes change = hn::Mul(shareOfPath(v, pathAtStart), hn::Sub(pathAtEnd, pathAtStart));
+    const Lanes ahead = hn::Max(pathAtStart, hn::Zero(kFloats));
+    const Lanes gain = hn::Sub(hn::Max(pathAtEnd, hn::Zero(kFloats)), ahead);
+    const Lanes change =
+        hn::IfThenElse(hn::Lt(gain, hn::Zero(kFloats)), hn::Mul(shareOfPath(v, ahead), gain), gain);
     const Lanes changed = hn::Add(v, change);
     const Lanes carried = bounded(hn::Max(changed, hn::Min(v, hn::Zero(kFloats))), kFastest);
     const Lanes target = hn::IfThenZeroElse(glides, pathAtEnd);
