@@ -205,6 +205,11 @@ FinPlates hold(const BodyAngles& attitude, double pitchRadians, double rollRadia
     return {.left = at(kFlat + lift + level), .right = at(kFlat + lift - level)};
 }
 
+FinPlates turnedAbout(const FinPlates& plates) {
+    return {.left = at(2 * kFlat - plates.left.angleRadians),
+            .right = at(2 * kFlat - plates.right.angleRadians)};
+}
+
 FinPlates lift(double radians) {
     return {.left = at(kFlat + radians), .right = at(kFlat + radians)};
 }

@@ -65,6 +65,9 @@ inline constexpr double kRampOwnSeconds = 1;
                              double pitchRadians,
                              double rollRadians = 0);
 
+// Each fin at the same angle to the other side of parallel to the flow.
+[[nodiscard]] FinPlates turnedAbout(const FinPlates& plates);
+
 // Both fins at the same angle from parallel to the flow: the head of a fish that swims forward is
 // lifted by a positive one.
 [[nodiscard]] FinPlates lift(double radians);
