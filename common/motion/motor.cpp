@@ -116,8 +116,7 @@ float speedAfter(const SpeedLoss& loss,
     const float target = glides ? 0.0F : pathAtEnd;
     const float against = glides ? carried : target;
     const float drag = loss.drag[glides ? kGlide : segment];
-    const float compared = target > 0.0F ? std::max(carried, 0.0F) : carried;
-    const float step = drag * std::abs(against * (target - compared));
+    const float step = drag * std::abs(against * (target - carried));
     const float swum = approached(carried, target, step);
     return approached(swum, 0.0F, (brake * loss.brake) * std::abs(swum));
 }

@@ -297,9 +297,7 @@ HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
     const Lanes against = hn::IfThenElse(glides, carried, target);
     const Lanes drag = hn::GatherIndex(
         kFloats, loss.drag.data(), hn::IfThenElse(hn::RebindMask(kInts, glides), glide, segment));
-    const Lanes compared = hn::IfThenElse(
-        hn::Gt(target, hn::Zero(kFloats)), hn::Max(carried, hn::Zero(kFloats)), carried);
-    const Lanes step = hn::Mul(drag, hn::Abs(hn::Mul(against, hn::Sub(target, compared))));
+    const Lanes step = hn::Mul(drag, hn::Abs(hn::Mul(against, hn::Sub(target, carried))));
     const Lanes swum = approached(carried, target, step);
     const Lanes spread = hn::Mul(brake, hn::Set(kFloats, loss.brake));
     return approached(swum, hn::Zero(kFloats), hn::Mul(spread, hn::Abs(swum)));

@@ -372,6 +372,12 @@ struct MeanTravel {
     std::int32_t rate = 0;
 };
 
+// Whether a fish that warps from one action to another coasts meanwhile: a tail that was still has
+// to form its wave.
+[[nodiscard]] constexpr bool coastsBetween(Action from, Action to) {
+    return swims(to) && (from == Action::Glide || staysInPlace(from));
+}
+
 // The travel in a warp to a cycle: that of its mean. (The paper does not say what the body frame
 // does during a warp; if it were frozen, the fish would halt.)
 [[nodiscard]] inline MeanTravel cyclingTravel(const SegmentTables& next,
@@ -430,10 +436,11 @@ struct MeanTravel {
     const auto swayAfter = [&](std::uint32_t done) {
         return normalised(lerp(last, first, static_cast<float>(done) * steps));
     };
+    const bool coasts = coastsBetween(actionOf(fish.fromSegment[i]), actionOf(fish.segment[i]));
     const auto turnsTo = [&](std::uint32_t done) { return fish.phase[i] * done / frames; };
-    const MeanTravel mean = next.playsToEnd
-                                ? turningTravel(next, turnsTo(frame), turnsTo(frame + 1))
-                                : cyclingTravel(next, fish.phase[i], fish.phaseRate[i]);
+    const MeanTravel mean =
+        next.playsToEnd ? turningTravel(next, turnsTo(frame), turnsTo(frame + 1))
+                        : cyclingTravel(next, fish.phase[i], coasts ? 0 : fish.phaseRate[i]);
     const Four sway = swayAfter(frame + 1);
     const auto& [x, y, z] = mean.way;
     return {

@@ -322,8 +322,7 @@ struct ActionSegment {
 };
 
 // How the speed v of a fish follows that of what it plays, p, in body lengths and seconds:
-//     dv/dt = swimDrag |p| (p - v)     while the tail beats: it meets the water at a speed near p;
-//                                      a fish that still swims backwards counts as one at rest,
+//     dv/dt = swimDrag |p| (p - v)     while the tail beats: it meets the water at a speed near p,
 //     dv/dt = retreatDrag |p| (p - v)  in a retreat,
 //     dv/dt = -glideDrag v |v|         in a glide or in one place: quadratic drag;
 // in all, fins that are spread to a share s also brake by s * brakeRate * v. (The paper leaves
