@@ -131,6 +131,11 @@ double secondsUntilRelaxed(const config::Species& species, double bendShare) {
     return secondsOf(species.start, bendShare) + kSoftened / species.tissue.timeScale;
 }
 
+double startBeat(const config::Species& species, double bendShare, double seconds) {
+    return species.start.beatPhase +
+           (seconds - secondsOf(species.start, bendShare)) * species.swim.fast.beatHertz;
+}
+
 MotorControl startLeft(const config::Species& species,
                        double bendShare,
                        const MuscleActivation& before,
@@ -144,7 +149,7 @@ MotorControl startLeft(const config::Species& species,
     const config::Gait& fast = species.swim.fast;
     const MuscleActivation on = beatAt(species.swim,
                                        fast.gain * smoothStep(ownAfter / kBeats),
-                                       start.beatPhase + (seconds - end) * fast.beatHertz);
+                                       startBeat(species, bendShare, seconds));
     const auto bend = [&](int segment) {
         const double lag = segment * start.lagSeconds;
         return pulse(seconds, lag, bendEnd + lag, start);

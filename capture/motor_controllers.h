@@ -52,6 +52,8 @@ inline constexpr double kRampOwnSeconds = 1;
                                      double bendShare,
                                      const MuscleActivation& before,
                                      double seconds);
+// The phase of the beat with which it swims on, in beats, at a time since the order.
+[[nodiscard]] double startBeat(const config::Species& species, double bendShare, double seconds);
 // From the order to the end of the stroke, and until the tissue is as before.
 [[nodiscard]] double secondsOf(const config::FastStart& start, double bendShare);
 [[nodiscard]] double secondsUntilRelaxed(const config::Species& species, double bendShare);

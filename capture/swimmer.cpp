@@ -104,6 +104,14 @@ void Swimmer::give(const Order& order) {
     assert(order.bend.tempo > 0);
     // After an order without a tail beat no beat is left that the next could fade out.
     fading_ = swims() ? beating_ : config::Gait{.gain = 0};
+    if (starts()) {
+        // It swims on with the beat of the start, which is grown.
+        const double seconds = ownSecondsOfOrder_ / fish_.timeScale;
+        beat_ = startBeat(species_, order_.bendShare, seconds);
+        if (order_.controller == Controller::RightStart) beat_ += 0.5;
+        beat_ -= std::floor(beat_);
+        ownSecondsSwum_ = std::max(ownSecondsSwum_, kRampOwnSeconds);
+    }
     order_ = order;
     if (swims() || onlyRows(order.controller)) beating_ = order.gait;
     ownSecondsOfOrder_ = 0;
@@ -206,6 +214,11 @@ void Swimmer::advanceClocks(double seconds) {
     if (swims()) ownSecondsSwum_ += ownSeconds;
     beat_ += seconds * beating_.beatHertz;
     beat_ -= std::floor(beat_);
+}
+
+bool Swimmer::starts() const {
+    return order_.controller == Controller::LeftStart ||
+           order_.controller == Controller::RightStart;
 }
 
 bool Swimmer::swims() const {

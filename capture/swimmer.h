@@ -101,8 +101,9 @@ class Swimmer {
     void advanceOne();
     // Time of the order, of swimming and of the beat; `seconds` are not the fish's own.
     void advanceClocks(double seconds);
-    // Whether the present order beats the tail.
+    // Whether the present order beats the tail, and whether it is a fast start.
     [[nodiscard]] bool swims() const;
+    [[nodiscard]] bool starts() const;
     // What all actuators do at this instant.
     [[nodiscard]] MotorControl program() const;
     // The wanted state of muscles and fins at this instant under the present order, without the
