@@ -229,7 +229,10 @@ Transitions swimTransitions(const config::Species& species,
 }
 
 double acceleration(const SpeedLaw& law, double segmentSpeed, double speed) {
-    return law.swimDrag * std::abs(segmentSpeed) * (segmentSpeed - speed) -
+    const double excess = std::max(speed - segmentSpeed, 0.0);
+    const double against =
+        std::abs(segmentSpeed) + static_cast<double>(motion::kExcessDrag) * excess;
+    return law.swimDrag * against * (segmentSpeed - speed) -
            law.glideDrag * speed * std::abs(speed) - law.brakeRate * speed;
 }
 

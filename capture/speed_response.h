@@ -69,8 +69,9 @@ using SteadyGaits = std::array<const SteadySwimming*, motion::kForwardGaits>;
 
 // The law of motion::SpeedResponse while one segment plays, where v is the fish's speed and p the
 // segment's:
-//     dv/dt = swimDrag |p| (p - v) - glideDrag v |v| - brakeRate v,
-// where glideDrag is 0 while the fish swims. Drags are 1 / body length, brakeRate is 1 / s.
+//     dv/dt = swimDrag (|p| + e) (p - v) - glideDrag v |v| - brakeRate v,
+// where e is motion::kExcessDrag max(v - p, 0) and glideDrag is 0 while the fish swims. Drags are 1
+// / body length, brakeRate is 1 / s.
 struct SpeedLaw {
     double swimDrag = 0;
     double glideDrag = 0;
