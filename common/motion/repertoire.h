@@ -329,7 +329,7 @@ struct ActionSegment {
 // where e is kExcessDrag max(v - p, 0): the drag of a body that is too fast grows with its speed;
 // in all, fins that are spread to a share s also brake by s * brakeRate * v. (The paper leaves
 // this open; the law is ours.)
-inline constexpr float kExcessDrag = 0.125F;  // from changes of gait of all species
+inline constexpr float kExcessDrag = 0.25F;  // from changes of gait of all species
 struct SpeedResponse {
     // 1 / body length. Turns have that of medium, fast starts that of fast. On a curve or slope the
     // gait's times (q / p)^2, where q is its speed straight on: the thrust is the same and the drag
