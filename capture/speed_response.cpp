@@ -229,7 +229,7 @@ Transitions swimTransitions(const config::Species& species,
 }
 
 double acceleration(const SpeedLaw& law, double segmentSpeed, double speed) {
-    const double excess = std::max(speed - segmentSpeed, 0.0);
+    const double excess = segmentSpeed > 0 ? std::max(speed - segmentSpeed, 0.0) : 0;
     const double against =
         std::abs(segmentSpeed) + static_cast<double>(motion::kExcessDrag) * excess;
     return law.swimDrag * against * (segmentSpeed - speed) -

@@ -70,8 +70,8 @@ using SteadyGaits = std::array<const SteadySwimming*, motion::kForwardGaits>;
 // The law of motion::SpeedResponse while one segment plays, where v is the fish's speed and p the
 // segment's:
 //     dv/dt = swimDrag (|p| + e) (p - v) - glideDrag v |v| - brakeRate v,
-// where e is motion::kExcessDrag max(v - p, 0) and glideDrag is 0 while the fish swims. Drags are 1
-// / body length, brakeRate is 1 / s.
+// where e is motion::kExcessDrag (v - p) while v > p > 0, else 0, and glideDrag is 0 while the fish
+// swims. Drags are 1 / body length, brakeRate is 1 / s.
 struct SpeedLaw {
     double swimDrag = 0;
     double glideDrag = 0;

@@ -114,7 +114,7 @@ float speedAfter(const SpeedLoss& loss,
     const float change = gain < 0.0F ? shareOfPath(v, ahead) * gain : gain;
     const float carried = bounded(std::max(v + change, std::min(v, 0.0F)), kFastest);
     const float target = glides ? 0.0F : pathAtEnd;
-    const float excess = std::max(carried - target, 0.0F);
+    const float excess = target > 0.0F ? std::max(carried - target, 0.0F) : 0.0F;
     const float against = glides ? carried : std::abs(target) + kExcessDrag * excess;
     const float drag = loss.drag[glides ? kGlide : segment];
     const float step = drag * std::abs(against * (target - carried));

@@ -294,7 +294,9 @@ HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
     const Lanes changed = hn::Add(v, change);
     const Lanes carried = bounded(hn::Max(changed, hn::Min(v, hn::Zero(kFloats))), kFastest);
     const Lanes target = hn::IfThenZeroElse(glides, pathAtEnd);
-    const Lanes excess = hn::Max(hn::Sub(carried, target), hn::Zero(kFloats));
+    const Lanes zero = hn::Zero(kFloats);
+    const Lanes excess =
+        hn::IfThenElseZero(hn::Gt(target, zero), hn::Max(hn::Sub(carried, target), zero));
     const Lanes swimming = hn::Add(hn::Abs(target), hn::Mul(hn::Set(kFloats, kExcessDrag), excess));
     const Lanes against = hn::IfThenElse(glides, carried, swimming);
     const Lanes drag = hn::GatherIndex(

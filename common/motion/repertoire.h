@@ -324,7 +324,7 @@ struct ActionSegment {
 // How the speed v of a fish follows that of what it plays, p, in body lengths and seconds:
 //     dv/dt = swimDrag (|p| + e) (p - v)     while the tail beats: it meets the water at a speed
 //                                            near p,
-//     dv/dt = retreatDrag (|p| + e) (p - v)  in a retreat,
+//     dv/dt = retreatDrag |p| (p - v)        in a retreat,
 //     dv/dt = -glideDrag v |v|               in a glide or in one place: quadratic drag;
 // where e is kExcessDrag max(v - p, 0): the drag of a body that is too fast grows with its speed;
 // in all, fins that are spread to a share s also brake by s * brakeRate * v. (The paper leaves
