@@ -327,11 +327,15 @@ SeenFromCourse seenFromCourse(const motion::TurnPath& path) {
 motion::TurnPath compileEntered(const EnteredTurn& entered, const SwimsOn& on) {
     assert(entered.secondsAfter > 0);
     const std::vector<NodeVectors>& poses = entered.turn.poses;
-    // The law dv/dt = drag p (p - v), integrated: the way is p t + (v(0) - p) (1 - exp(-drag p t))
-    // / (drag p).
-    const double rate = on.drag * on.speed;
+    // The law of motion::SpeedResponse, integrated. Where the fish is slower than p, its way is
+    // p t + (v(0) - p) (1 - exp(-drag p t)) / (drag p). Where it is faster, with c = kExcessDrag,
+    // the way beyond p t is log(1 + c (v(0) / p - 1) (1 - exp(-drag p t))) / (drag c).
+    const double decayed = -std::expm1(-on.drag * on.speed * entered.secondsAfter);
     const double ahead = glm::length(entered.wayAfter) - on.speed * entered.secondsAfter;
-    const double faster = ahead * rate / -std::expm1(-rate * entered.secondsAfter);
+    const auto excess = static_cast<double>(motion::kExcessDrag);
+    const double faster =
+        on.speed / decayed *
+        (ahead > 0 ? std::expm1(on.drag * excess * ahead) / excess : on.drag * ahead);
     return {.courseBefore = directionIn(poses.front(), entered.turn.course),
             .speedBefore = static_cast<float>(entered.speedBefore),
             .courseAfter = directionIn(poses.back(), entered.wayAfter),

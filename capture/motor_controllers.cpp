@@ -131,6 +131,11 @@ double secondsUntilRelaxed(const config::Species& species, double bendShare) {
     return secondsOf(species.start, bendShare) + kSoftened / species.tissue.timeScale;
 }
 
+double startBeat(const config::Species& species, double bendShare, double seconds) {
+    return species.start.beatPhase +
+           (seconds - secondsOf(species.start, bendShare)) * species.swim.fast.beatHertz;
+}
+
 MotorControl startLeft(const config::Species& species,
                        double bendShare,
                        const MuscleActivation& before,
@@ -144,7 +149,7 @@ MotorControl startLeft(const config::Species& species,
     const config::Gait& fast = species.swim.fast;
     const MuscleActivation on = beatAt(species.swim,
                                        fast.gain * smoothStep(ownAfter / kBeats),
-                                       start.beatPhase + (seconds - end) * fast.beatHertz);
+                                       startBeat(species, bendShare, seconds));
     const auto bend = [&](int segment) {
         const double lag = segment * start.lagSeconds;
         return pulse(seconds, lag, bendEnd + lag, start);
@@ -203,6 +208,11 @@ FinPlates hold(const BodyAngles& attitude, double pitchRadians, double rollRadia
     const double lift = bounded(kPitchGain * (pitchRadians - attitude.pitchRadians));
     const double level = bounded(kRollGain * (attitude.rollRadians - rollRadians));
     return {.left = at(kFlat + lift + level), .right = at(kFlat + lift - level)};
+}
+
+FinPlates turnedAbout(const FinPlates& plates) {
+    return {.left = at(2 * kFlat - plates.left.angleRadians),
+            .right = at(2 * kFlat - plates.right.angleRadians)};
 }
 
 FinPlates lift(double radians) {

@@ -52,6 +52,8 @@ inline constexpr double kRampOwnSeconds = 1;
                                      double bendShare,
                                      const MuscleActivation& before,
                                      double seconds);
+// The phase of the beat with which it swims on, in beats, at a time since the order.
+[[nodiscard]] double startBeat(const config::Species& species, double bendShare, double seconds);
 // From the order to the end of the stroke, and until the tissue is as before.
 [[nodiscard]] double secondsOf(const config::FastStart& start, double bendShare);
 [[nodiscard]] double secondsUntilRelaxed(const config::Species& species, double bendShare);
@@ -64,6 +66,9 @@ inline constexpr double kRampOwnSeconds = 1;
 [[nodiscard]] FinPlates hold(const BodyAngles& attitude,
                              double pitchRadians,
                              double rollRadians = 0);
+
+// Each fin at the same angle to the other side of parallel to the flow.
+[[nodiscard]] FinPlates turnedAbout(const FinPlates& plates);
 
 // Both fins at the same angle from parallel to the flow: the head of a fish that swims forward is
 // lifted by a positive one.

@@ -176,19 +176,18 @@ Transition backOut(const SteadySwimming& medium,
 }
 
 // The transition from one gait to another, one sample in each step. A sample is the mean speed over
-// a beat of `to` around it, along the course of `from`: from the place half a beat before to that
-// half a beat after, by time. For the first samples the half beat before the order is extrapolated
-// from the steady speed of `from`.
+// a beat of `to` around it: from the place half a beat before to that half a beat after, by time.
+// For the first samples the half beat before the order is extrapolated from the steady speed of
+// `from`.
 Transition changeTo(const SteadySwimming& to,
                     const SteadySwimming& from,
                     const config::Gait& gait,
                     const Masses& masses) {
     Swimmer swimmer = from.swimmer;
-    swimmer.give({.controller = Controller::ForwardSwim, .gait = gait});
+    swimmer.give({.controller = Controller::Balance, .gait = gait});
     const double step = swimmer.stepSeconds();
     const auto halfBeat = static_cast<std::size_t>(std::lround(to.beat.periodSeconds / step / 2));
     const glm::dvec3 velocity = meanVelocityOf(from.beat);
-    const glm::dvec3 course = glm::normalize(velocity);
     const glm::dvec3 start = meanOf(swimmer.state().positions, masses);
     // Centres of mass, from half a beat before the order on.
     std::vector<glm::dvec3> places;
@@ -201,7 +200,7 @@ Transition changeTo(const SteadySwimming& to,
     Transition transition{
         .sampleSeconds = step, .segmentSpeed = glm::length(meanVelocityOf(to.beat)), .speeds = {}};
     for (std::size_t i = 0; i + 2 * halfBeat < places.size(); ++i)
-        transition.speeds.push_back(glm::dot(places[i + 2 * halfBeat] - places[i], course) /
+        transition.speeds.push_back(glm::distance(places[i + 2 * halfBeat], places[i]) /
                                     (step * static_cast<double>(2 * halfBeat)));
     transition.speeds.front() = glm::length(velocity);
     return transition;
@@ -230,7 +229,10 @@ Transitions swimTransitions(const config::Species& species,
 }
 
 double acceleration(const SpeedLaw& law, double segmentSpeed, double speed) {
-    return law.swimDrag * std::abs(segmentSpeed) * (segmentSpeed - speed) -
+    const double excess = segmentSpeed > 0 ? std::max(speed - segmentSpeed, 0.0) : 0;
+    const double against =
+        std::abs(segmentSpeed) + static_cast<double>(motion::kExcessDrag) * excess;
+    return law.swimDrag * against * (segmentSpeed - speed) -
            law.glideDrag * speed * std::abs(speed) - law.brakeRate * speed;
 }
 

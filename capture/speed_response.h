@@ -43,8 +43,8 @@ struct SteadySwimming {
 // How the speed of a fish follows what it does.
 
 // A change of speed in the dynamics, from the moment of the order on. A speed is that of the centre
-// of mass along the course before the order; in a beat or stroke, it is the mean over one of them
-// around the sample.
+// of mass; in a beat of the tail, it is the mean over one beat around the sample; in a retreat, it
+// is the part along the course before the order. A fish that swims balances, as a replica does.
 struct Transition {
     double sampleSeconds = 0;  // from sample to sample
     // The steady speed that it leads to; 0 for a glide and a brake, negative for a retreat.
@@ -69,8 +69,9 @@ using SteadyGaits = std::array<const SteadySwimming*, motion::kForwardGaits>;
 
 // The law of motion::SpeedResponse while one segment plays, where v is the fish's speed and p the
 // segment's:
-//     dv/dt = swimDrag |p| (p - v) - glideDrag v |v| - brakeRate v,
-// where glideDrag is 0 while the fish swims. Drags are 1 / body length, brakeRate is 1 / s.
+//     dv/dt = swimDrag (|p| + e) (p - v) - glideDrag v |v| - brakeRate v,
+// where e is motion::kExcessDrag (v - p) while v > p > 0, else 0, and glideDrag is 0 while the fish
+// swims. Drags are 1 / body length, brakeRate is 1 / s.
 struct SpeedLaw {
     double swimDrag = 0;
     double glideDrag = 0;

@@ -20,6 +20,13 @@ double mixAngles(double from, double to, double share) {
     return from + share * std::remainder(to - from, 2 * std::numbers::pi);
 }
 
+// Weighted by mass: of places the centre of mass, of velocities its velocity.
+glm::dvec3 meanOf(const BiomechanicalFish& fish, const NodeVectors& vectors) {
+    glm::dvec3 mean{};
+    for (std::size_t i = 0; i < vectors.size(); ++i) mean += fish.masses.at(i) * vectors.at(i);
+    return mean;
+}
+
 }  // namespace
 
 // Body x is the nose's direction. Left is -z, so the heading is positive there. The roll compares
@@ -67,6 +74,13 @@ constexpr double kInnerFin = 2.5;
 // With it rowing fins pitch a fish up in its place.
 constexpr double kPitchingLift = std::numbers::pi / 4;
 
+// A fish that rows keeps the height at which it got the order: its fins twist against how much
+// higher it is, and against its rise, both sensed as its attitude is. Radians by body lengths, by
+// body lengths in the fish's own second, and at most.
+constexpr double kHeightGain = 8;
+constexpr double kRiseGain = 4;
+constexpr double kMostLevelling = 0.6;
+
 // Whether a controller rows with the fins alone.
 bool onlyRows(Controller controller) {
     return controller == Controller::Hover || controller == Controller::LeftPivot ||
@@ -90,10 +104,19 @@ void Swimmer::give(const Order& order) {
     assert(order.bend.tempo > 0);
     // After an order without a tail beat no beat is left that the next could fade out.
     fading_ = swims() ? beating_ : config::Gait{.gain = 0};
+    if (starts()) {
+        // It swims on with the beat of the start, which is grown.
+        const double seconds = ownSecondsOfOrder_ / fish_.timeScale;
+        beat_ = startBeat(species_, order_.bendShare, seconds);
+        if (order_.controller == Controller::RightStart) beat_ += 0.5;
+        beat_ -= std::floor(beat_);
+        ownSecondsSwum_ = std::max(ownSecondsSwum_, kRampOwnSeconds);
+    }
     order_ = order;
     if (swims() || onlyRows(order.controller)) beating_ = order.gait;
     ownSecondsOfOrder_ = 0;
     musclesBefore_ = control_.muscles;
+    heightOfOrder_ = height_;
 }
 
 void Swimmer::advance(int steps) {
@@ -111,6 +134,9 @@ void Swimmer::advanceOne() {
     // The low pass has a time constant of one beat, or of the fish's own second if that is shorter.
     const double hertz = std::max(beating_.beatHertz, fish_.timeScale);
     attitude_ = sense(attitude_, state_, stepSeconds_ * hertz, stepSeconds_);
+    const double before = height_;
+    height_ = std::lerp(height_, meanOf(fish_, state_.positions).y, stepSeconds_ * hertz);
+    rise_ = (height_ - before) / stepSeconds_;
     advanceClocks(stepSeconds_ / 2);
 }
 
@@ -148,10 +174,13 @@ RowingControl Swimmer::rowingProgram() const {
     }
     const double grown = std::min(1.0, ownSecondsOfOrder_ / kOpenOwnSeconds);
     const double share = grown * (onlyRows(order_.controller) ? 1 : beating_.rows);
+    const double down =
+        kHeightGain * (height_ - heightOfOrder_) + kRiseGain * rise_ / fish_.timeScale;
+    const double twist = lift() != 0 ? lift() : -std::clamp(down, -kMostLevelling, kMostLevelling);
     const auto at = [&](double drive) {
         return strokeAt(species_.finMotion.rowing,
                         {.drive = drive,
-                         .lift = lift(),
+                         .lift = twist,
                          .share = share,
                          .openRadians = std::lerp(fish_.blade.folded, fish_.blade.rowing, grown)},
                         beating_.beatHertz,
@@ -185,6 +214,11 @@ void Swimmer::advanceClocks(double seconds) {
     if (swims()) ownSecondsSwum_ += ownSeconds;
     beat_ += seconds * beating_.beatHertz;
     beat_ -= std::floor(beat_);
+}
+
+bool Swimmer::starts() const {
+    return order_.controller == Controller::LeftStart ||
+           order_.controller == Controller::RightStart;
 }
 
 bool Swimmer::swims() const {
@@ -245,21 +279,29 @@ double Swimmer::lift() const {
     return order_.controller == Controller::PitchUp ? kPitchingLift : order_.liftRadians;
 }
 
+// In water that streams from behind, a fin turned the other way has the same effect.
+FinPlates Swimmer::held(double pitchRadians, double rollRadians) const {
+    const FinPlates plates = hold(foreseen(), pitchRadians, rollRadians);
+    const double forward =
+        glm::dot(meanOf(fish_, state_.velocities), frameOf(state_.positions).worldFromBody[0]);
+    return forward < 0 ? turnedAbout(plates) : plates;
+}
+
 FinPlates Swimmer::finProgram() const {
     switch (order_.controller) {
         case Controller::Ascend:
-            return hold(foreseen(), order_.pitchRadians);
+            return held(order_.pitchRadians);
         case Controller::Descend:
-            return hold(foreseen(), -order_.pitchRadians);
+            return held(-order_.pitchRadians);
         case Controller::Brake:
             return brake();
         case Controller::ForwardSwim:
         case Controller::LeftTurn:
         case Controller::RightTurn:
             if (lift() != 0) return capture::lift(lift());
-            return order_.bankRadians != 0 ? hold(foreseen(), 0, bank()) : FinPlates{};
+            return order_.bankRadians != 0 ? held(0, bank()) : FinPlates{};
         case Controller::Balance:
-            return hold(foreseen(), 0);
+            return held(0);
         default:
             return {};
     }

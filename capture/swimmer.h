@@ -101,8 +101,9 @@ class Swimmer {
     void advanceOne();
     // Time of the order, of swimming and of the beat; `seconds` are not the fish's own.
     void advanceClocks(double seconds);
-    // Whether the present order beats the tail.
+    // Whether the present order beats the tail, and whether it is a fast start.
     [[nodiscard]] bool swims() const;
+    [[nodiscard]] bool starts() const;
     // What all actuators do at this instant.
     [[nodiscard]] MotorControl program() const;
     // The wanted state of muscles and fins at this instant under the present order, without the
@@ -110,6 +111,8 @@ class Swimmer {
     [[nodiscard]] MuscleActivation muscleProgram() const;
     [[nodiscard]] MuscleActivation tailBeat(double gain) const;
     [[nodiscard]] FinPlates finProgram() const;
+    // The fins as they hold a pitch and a roll.
+    [[nodiscard]] FinPlates held(double pitchRadians, double rollRadians = 0) const;
     // Whether the fins row under the present order, and how they do.
     [[nodiscard]] bool rows() const;
     [[nodiscard]] RowingControl rowingProgram() const;
@@ -133,6 +136,9 @@ class Swimmer {
     config::Gait fading_{};   // the tail beat of the order before, which fades out
     double beat_ = 0;         // phase of the beat, 0 to 1
     BodyAngles attitude_;     // as sensed
+    // Of the centre of mass, as sensed: its height, that when the order came, and its rise a
+    // second.
+    double height_ = 0, heightOfOrder_ = 0, rise_ = 0;
     MotorControl control_;
     MuscleActivation musclesBefore_;  // activations when the order came
 };

@@ -96,11 +96,11 @@ float shareOfPath(float speed, float path) {
 }
 
 // The speed after a tick, from v and the path's at the tick's start and end; all in whole units.
-// First, v changes as the path's speed does, which matters in turns; but a turn takes no more speed
-// than there is, or one begun slowly, broken off and begun again would drive the fish backwards.
-// Then the rest of the
-// difference decays by the law of SpeedResponse; in a glide the target is 0, and a fish whose tail
-// rests glides. Last, spread fins brake.
+// First, v gains what the path's speed gains, as from a stroke of the tail, and of what that loses
+// the fish's share of the path: so a turn takes no more speed than there is, and one begun slowly
+// never drives the fish backwards. A path that goes back for a moment counts as one that stands.
+// Then the rest of the difference decays by the law of SpeedResponse; in a glide the target is 0,
+// and a fish whose tail rests glides. Last, spread fins brake.
 float speedAfter(const SpeedLoss& loss,
                  float v,
                  float pathAtStart,
@@ -109,13 +109,15 @@ float speedAfter(const SpeedLoss& loss,
                  float brake) {
     constexpr std::uint16_t kGlide = firstSegmentOf(Action::Glide);
     const bool glides = segment == kGlide || pathAtEnd == 0.0F;
-    const float change = shareOfPath(v, pathAtStart) * (pathAtEnd - pathAtStart);
+    const float ahead = std::max(pathAtStart, 0.0F);
+    const float gain = std::max(pathAtEnd, 0.0F) - ahead;
+    const float change = gain < 0.0F ? shareOfPath(v, ahead) * gain : gain;
     const float carried = bounded(std::max(v + change, std::min(v, 0.0F)), kFastest);
     const float target = glides ? 0.0F : pathAtEnd;
-    const float against = glides ? carried : target;
+    const float excess = target > 0.0F ? std::max(carried - target, 0.0F) : 0.0F;
+    const float against = glides ? carried : std::abs(target) + kExcessDrag * excess;
     const float drag = loss.drag[glides ? kGlide : segment];
-    const float compared = target > 0.0F ? std::max(carried, 0.0F) : carried;
-    const float step = drag * std::abs(against * (target - compared));
+    const float step = drag * std::abs(against * (target - carried));
     const float swum = approached(carried, target, step);
     return approached(swum, 0.0F, (brake * loss.brake) * std::abs(swum));
 }

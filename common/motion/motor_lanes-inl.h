@@ -287,16 +287,21 @@ HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
     const IntLanes glide = hn::Set(kInts, firstSegmentOf(Action::Glide));
     const auto glides = hn::Or(hn::RebindMask(kFloats, hn::Eq(segment, glide)),
                                hn::Eq(pathAtEnd, hn::Zero(kFloats)));
-    const Lanes change = hn::Mul(shareOfPath(v, pathAtStart), hn::Sub(pathAtEnd, pathAtStart));
+    const Lanes ahead = hn::Max(pathAtStart, hn::Zero(kFloats));
+    const Lanes gain = hn::Sub(hn::Max(pathAtEnd, hn::Zero(kFloats)), ahead);
+    const Lanes change =
+        hn::IfThenElse(hn::Lt(gain, hn::Zero(kFloats)), hn::Mul(shareOfPath(v, ahead), gain), gain);
     const Lanes changed = hn::Add(v, change);
     const Lanes carried = bounded(hn::Max(changed, hn::Min(v, hn::Zero(kFloats))), kFastest);
     const Lanes target = hn::IfThenZeroElse(glides, pathAtEnd);
-    const Lanes against = hn::IfThenElse(glides, carried, target);
+    const Lanes zero = hn::Zero(kFloats);
+    const Lanes excess =
+        hn::IfThenElseZero(hn::Gt(target, zero), hn::Max(hn::Sub(carried, target), zero));
+    const Lanes swimming = hn::Add(hn::Abs(target), hn::Mul(hn::Set(kFloats, kExcessDrag), excess));
+    const Lanes against = hn::IfThenElse(glides, carried, swimming);
     const Lanes drag = hn::GatherIndex(
         kFloats, loss.drag.data(), hn::IfThenElse(hn::RebindMask(kInts, glides), glide, segment));
-    const Lanes compared = hn::IfThenElse(
-        hn::Gt(target, hn::Zero(kFloats)), hn::Max(carried, hn::Zero(kFloats)), carried);
-    const Lanes step = hn::Mul(drag, hn::Abs(hn::Mul(against, hn::Sub(target, compared))));
+    const Lanes step = hn::Mul(drag, hn::Abs(hn::Mul(against, hn::Sub(target, carried))));
     const Lanes swum = approached(carried, target, step);
     const Lanes spread = hn::Mul(brake, hn::Set(kFloats, loss.brake));
     return approached(swum, hn::Zero(kFloats), hn::Mul(spread, hn::Abs(swum)));

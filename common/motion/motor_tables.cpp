@@ -406,10 +406,6 @@ float travelFromCell(const Travels& travels, std::size_t cell, std::size_t to) {
     return std::max(travels[cell][to], travels[cell + 1][to]);
 }
 
-// A tail that begins to beat moves the fish only after this many beats, as its wave has to grow.
-// From the path of fish that swim on after a retreat (docs/motion.md).
-constexpr double kBeatsToBegin = 0.35;
-
 // The entry phase whose pose is nearest, and as many frames as keep each step within `step`
 // (section 4.2).
 WarpPlan planToPhase(const Travels& travels, std::size_t cell, std::size_t entry, float step) {
@@ -568,8 +564,6 @@ WarpPlans planWarps(const Repertoire& repertoire,
     WarpPlans plans;
     const auto planFromTo = [&](std::size_t from, std::size_t to, const Travels& travels) {
         const auto next = static_cast<Action>(to);
-        const bool begins = coastsBetween(static_cast<Action>(from), next);
-        const double beginning = kBeatsToBegin * 65536 / static_cast<double>(phaseRates[to]);
         for (std::size_t cell = 0; cell < kPhases; ++cell) {
             WarpPlan& plan = plans[from][cell][to];
             if (repertoire.segments[to].playsToEnd)
@@ -580,9 +574,6 @@ WarpPlans planWarps(const Repertoire& repertoire,
                                   isStart(next) ? mostFramesToStart(phaseRates[to]) : 255);
             else
                 plan = planToCycle(travels, cell, step);
-            if (begins)
-                plan.frames =
-                    std::max(plan.frames, static_cast<std::uint8_t>(std::min(beginning, 255.0)));
         }
     };
     for (std::size_t a = 0; a < kActions; ++a) {

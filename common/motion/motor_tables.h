@@ -372,10 +372,10 @@ struct MeanTravel {
     std::int32_t rate = 0;
 };
 
-// Whether a fish that warps from one action to another coasts meanwhile: after a retreat the beat
-// of its tail has to grow against water that streams from behind.
+// Whether a fish that warps from one action to another coasts meanwhile: a tail that was still has
+// to form its wave.
 [[nodiscard]] constexpr bool coastsBetween(Action from, Action to) {
-    return from == Action::Retreat && swims(to);
+    return swims(to) && (from == Action::Glide || staysInPlace(from));
 }
 
 // The travel in a warp to a cycle: that of its mean. (The paper does not say what the body frame

@@ -322,12 +322,14 @@ struct ActionSegment {
 };
 
 // How the speed v of a fish follows that of what it plays, p, in body lengths and seconds:
-//     dv/dt = swimDrag |p| (p - v)     while the tail beats: it meets the water at a speed near p;
-//                                      a fish that still swims backwards counts as one at rest,
-//     dv/dt = retreatDrag |p| (p - v)  in a retreat,
-//     dv/dt = -glideDrag v |v|         in a glide or in one place: quadratic drag;
+//     dv/dt = swimDrag (|p| + e) (p - v)     while the tail beats: it meets the water at a speed
+//                                            near p,
+//     dv/dt = retreatDrag |p| (p - v)        in a retreat,
+//     dv/dt = -glideDrag v |v|               in a glide or in one place: quadratic drag;
+// where e is kExcessDrag max(v - p, 0): the drag of a body that is too fast grows with its speed;
 // in all, fins that are spread to a share s also brake by s * brakeRate * v. (The paper leaves
 // this open; the law is ours.)
+inline constexpr float kExcessDrag = 0.25F;  // from changes of gait of all species
 struct SpeedResponse {
     // 1 / body length. Turns have that of medium, fast starts that of fast. On a curve or slope the
     // gait's times (q / p)^2, where q is its speed straight on: the thrust is the same and the drag

@@ -127,13 +127,17 @@ TEST(SpeedResponse, coastsAsTheClosedFormDoes) {
         EXPECT_NEAR(glide.speeds[i], 2 / (1 + 0.4 * 2 * 1e-3 * static_cast<double>(i)), 2e-3);
 }
 
-// dv/dt = k p (p - v) has the closed form v = p + (v0 - p) exp(-k p t).
+// dv/dt = k p (p - v) has the closed form v = p + (v0 - p) exp(-k p t). A fish that is faster than
+// p by u obeys du/dt = -k (p + c u) u, with the closed form u = u0 exp(-k p t) / (1 + c u0 / p (1 -
+// exp(-k p t))).
 TEST(SpeedResponse, gathersAndLosesSpeedAsTheClosedFormDoes) {
     for (const double from : {0.5, 3.0}) {
         const Transition change = obeying({.swimDrag = 0.4}, from, 2);
+        const double c = from > 2 ? static_cast<double>(motion::kExcessDrag) : 0;
         for (std::size_t i = 0; i < change.speeds.size(); i += 100) {
-            const double seconds = 1e-3 * static_cast<double>(i);
-            EXPECT_NEAR(change.speeds[i], 2 + (from - 2) * std::exp(-0.4 * 2 * seconds), 2e-3);
+            const double left = std::exp(-0.4 * 2 * 1e-3 * static_cast<double>(i));
+            const double faster = (from - 2) * left / (1 + c * (from - 2) / 2 * (1 - left));
+            EXPECT_NEAR(change.speeds[i], 2 + faster, 2e-3);
         }
     }
 }
