@@ -91,7 +91,7 @@ constexpr float kHuddle = 1.5F;
 // Weights of the rules against the unit vector of the present course.
 constexpr float kSeparate = 2.2F;
 constexpr float kMostSeparation = 0.9F;
-constexpr float kAlign = 0.9F;
+constexpr float kAlign = 1.05F;
 constexpr float kCohere = 1.2F;
 
 // Weight and reach of roomFrom(); the reach in lengths of the longer of the two fish.

@@ -6,6 +6,7 @@
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/routines.h"
 #include "master/fish/fish_view.h"
+#include "master/surroundings/obstacles.h"
 
 namespace aquarama::behaviour {
 
@@ -80,8 +81,10 @@ bool cannotTurnTo(const Senses& senses, glm::vec3 fromMouth) {
 // A predator rushes from this distance, in body lengths, at prey ahead of it.
 constexpr float kRushFrom = 2.0F;
 constexpr float kAheadCosine = 0.5F;
-// A rush begins with a fast start, where the prey is to the side.
+// A rush begins with a fast start, where the prey is to the side and nothing else within so many
+// body lengths that way: the fish coasts as far.
 constexpr std::uint32_t kStrikeTicks = 16;
+constexpr float kStrikeLengths = 2.5F;
 // Stalking for longer counts as part of the chase, whose time is limited.
 constexpr std::uint32_t kStalkTicks = 20 * 60;
 // Reach of a bite from the mouth, in body lengths, by its gape and suction; twice as far straight
@@ -99,6 +102,13 @@ bool isInTheMouth(const Senses& senses, glm::vec3 fromMouth) {
 
 glm::vec3 velocityOf(const fish::FishView& view, std::uint32_t fish) {
     return view.heading(fish) * view.fish[fish].speed;
+}
+
+bool hasRoomToStrike(const Situation& situation, glm::vec3 direction) {
+    return surroundings::avoidance(situation.environment.surroundings->obstacles,
+                                   situation.senses.position,
+                                   direction,
+                                   kStrikeLengths * situation.senses.length) == glm::vec3{};
 }
 
 // Approaches at medium speed; changes to a rush when near.
@@ -208,7 +218,8 @@ fish::Course hunt(const Situation& situation, fish::Mind& mind, DeferredEvents& 
         std::min(kMostHuntLeadSeconds, place::lengthOf(fromMouth) / (speed * senses.length));
     fish::Course course =
         heading(situation, fromMouth + velocityOf(view, prey.object) * seconds, speed);
-    course.startsFast = mind.sinceStage < kStrikeTicks;
+    course.startsFast =
+        mind.sinceStage < kStrikeTicks && hasRoomToStrike(situation, course.direction);
     return course;
 }
 
