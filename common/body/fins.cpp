@@ -268,7 +268,8 @@ glm::vec3 finOffset(const FinTable& fins, std::size_t i, const FinDrive& drive, 
         }
         case CagePart::Caudal: {
             const float lobe = 2 * point.p - 1;
-            return {0, 0, drift * style.cupping * (lobe * lobe - 0.5F) * std::pow(point.q, 1.5F)};
+            const float bend = std::clamp(drift, -kMostDrift, kMostDrift) * style.cupping;
+            return {0, 0, bend * (lobe * lobe - 0.5F) * std::pow(point.q, 1.5F)};
         }
         default:
             return {0, 0, rippled(style, point, drive)};

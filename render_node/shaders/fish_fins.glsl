@@ -80,7 +80,8 @@ vec3 finOffset(FinStyle style, FinPoint point, FinDrive drive, float drift) {
         }
         case kCaudal: {
             float lobe = 2.0 * point.p - 1.0;
-            return vec3(0.0, 0.0, drift * style.cupping * (lobe * lobe - 0.5) * pow(point.q, 1.5));
+            float bend = clamp(drift, -kMostDrift, kMostDrift) * style.cupping;
+            return vec3(0.0, 0.0, bend * (lobe * lobe - 0.5) * pow(point.q, 1.5));
         }
         default: return vec3(0.0, 0.0, rippledFin(style, point, drive));
     }

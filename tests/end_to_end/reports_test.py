@@ -123,7 +123,7 @@ class Reports(Case):
                        environment={"TMPDIR": str(self.folder / "temporary")})
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(run.stdout.count("\n|---|"), 3, "overlaps by species and by routine, motion; no hour is over")
-        self.assertRegex(run.stdout, r"\nturning by captured segments: \d+\.\d %\n")
+        self.assertRegex(run.stdout, r"\nlowest captured: heading \d+\.\d %, pitch \d+\.\d %, way \d+\.\d %\n")
         self.assertIn("\nhash of the world: ", run.stdout)
         self.assertEqual(list((self.folder / "temporary").iterdir()), [], "nobody asked for the data")
         files, said = self.written("c", "study", "chronicle", REEF, "--hours", 0.01, "--out", self.folder / "c")
