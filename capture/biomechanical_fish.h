@@ -117,7 +117,7 @@ struct MotorControl {
     FinPlates fins;
     RowingControl rowing;
     // Whether a moment rights the body, at most kMostRighting: that of the pelvic, the median and
-    // the tail fins of a fish that stays in its place, which are not simulated.
+    // the tail fins of a fish that rows, or is slow; they are not simulated.
     bool rightsItself = false;
     Tone tone;
 };

@@ -370,7 +370,7 @@ namespace {
 
 // Part of every key: raise it when a change of the simulation or of the compilation changes the
 // repertoires.
-constexpr const char* kCaptureVersion = "aquarama capture 17\n";
+constexpr const char* kCaptureVersion = "aquarama capture 18\n";
 constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 7 MB at most
 
 // SPECIES-DIGEST.aqrep. The digest covers only the parts of the species file that influence motion:

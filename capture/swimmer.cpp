@@ -81,6 +81,10 @@ constexpr double kHeightGain = 8;
 constexpr double kRiseGain = 4;
 constexpr double kMostLevelling = 0.6;
 
+// Body lengths in the fish's own second. Below it, the water that passes the plates is too slow for
+// them to hold the pitch.
+constexpr double kGripSpeed = 0.3;
+
 // Whether a controller rows with the fins alone.
 bool onlyRows(Controller controller) {
     return controller == Controller::Hover || controller == Controller::LeftPivot ||
@@ -204,7 +208,7 @@ MotorControl Swimmer::program() const {
     return {.muscles = mix(musclesBefore_, muscleProgram(), handedOver),
             .fins = finProgram(),
             .rowing = rowing ? rowingProgram() : RowingControl{},
-            .rightsItself = rowing && lift() == 0,
+            .rightsItself = rowing ? lift() == 0 : balancesWithoutGrip(),
             .tone = {}};
 }
 
@@ -282,9 +286,16 @@ double Swimmer::lift() const {
 // In water that streams from behind, a fin turned the other way has the same effect.
 FinPlates Swimmer::held(double pitchRadians, double rollRadians) const {
     const FinPlates plates = hold(foreseen(), pitchRadians, rollRadians);
-    const double forward =
-        glm::dot(meanOf(fish_, state_.velocities), frameOf(state_.positions).worldFromBody[0]);
-    return forward < 0 ? turnedAbout(plates) : plates;
+    return forwardSpeed() < 0 ? turnedAbout(plates) : plates;
+}
+
+double Swimmer::forwardSpeed() const {
+    return glm::dot(meanOf(fish_, state_.velocities), frameOf(state_.positions).worldFromBody[0]);
+}
+
+bool Swimmer::balancesWithoutGrip() const {
+    return order_.controller == Controller::Balance &&
+           forwardSpeed() < kGripSpeed * fish_.timeScale;
 }
 
 FinPlates Swimmer::finProgram() const {

@@ -113,6 +113,10 @@ class Swimmer {
     [[nodiscard]] FinPlates finProgram() const;
     // The fins as they hold a pitch and a roll.
     [[nodiscard]] FinPlates held(double pitchRadians, double rollRadians = 0) const;
+    // Of the centre of mass along the body axis, body lengths a second.
+    [[nodiscard]] double forwardSpeed() const;
+    // Whether the fish balances backwards, or too slowly for the plates: other fins right it.
+    [[nodiscard]] bool balancesWithoutGrip() const;
     // Whether the fins row under the present order, and how they do.
     [[nodiscard]] bool rows() const;
     [[nodiscard]] RowingControl rowingProgram() const;
