@@ -372,10 +372,12 @@ struct MeanTravel {
     std::int32_t rate = 0;
 };
 
-// Whether a fish that warps from one action to another coasts meanwhile: a tail that was still has
-// to form its wave.
-[[nodiscard]] constexpr bool coastsBetween(Action from, Action to) {
-    return swims(to) && (from == Action::Glide || staysInPlace(from));
+// Whether a fish that warps from one action to another coasts meanwhile: a tail that was still, as
+// in a gait of the fins, has to form its wave.
+[[nodiscard]] inline bool coastsBetween(const MotorTables& tables, Action from, Action to) {
+    if (!swims(to)) return false;
+    if (from == Action::Glide || staysInPlace(from)) return true;
+    return swims(from) && tables.rows[indexOf(from)] && !tables.rows[indexOf(to)];
 }
 
 // The travel in a warp to a cycle: that of its mean. (The paper does not say what the body frame
@@ -436,7 +438,8 @@ struct MeanTravel {
     const auto swayAfter = [&](std::uint32_t done) {
         return normalised(lerp(last, first, static_cast<float>(done) * steps));
     };
-    const bool coasts = coastsBetween(actionOf(fish.fromSegment[i]), actionOf(fish.segment[i]));
+    const bool coasts =
+        coastsBetween(tables, actionOf(fish.fromSegment[i]), actionOf(fish.segment[i]));
     const auto turnsTo = [&](std::uint32_t done) { return fish.phase[i] * done / frames; };
     const MeanTravel mean =
         next.playsToEnd ? turningTravel(next, turnsTo(frame), turnsTo(frame + 1))
