@@ -122,6 +122,30 @@ TEST(Motor, aSharpTurnPlaysToItsEndAndTurnsAsRecorded) {
     EXPECT_LT(std::abs(school.roll(0)), 0.5);
 }
 
+// As in a fast start, where the body recoils. The fish would gather speed by its drag alone, which
+// is next to nothing here.
+TEST(Motor, aFishSlowerThanItsPathGoesOnAfterThePathWentBack) {
+    Repertoire repertoire = sharedRepertoire();
+    repertoire.response.swimDrag = {1e-3F, 1e-3F, 1e-3F};
+    ActionSegment& start = repertoire.segments[indexOf(Action::StartLeftSmall)];
+    start.playsToEnd = true;
+    start.entered.clear();
+    for (std::size_t k = 0; k < kPhases; ++k)
+        start.increments[k] = {glm::quat(1, 0, 0, 0), {k / 2 == 15 ? -0.002F : 0.01F, 0, 0}};
+    const auto tables = makeMotorTables(repertoire);
+    School school(1, *tables);
+    school.play(0, Action::StartLeftSmall);
+    const float slower = 0.5F * speedBodyLengths(school.states, 0);
+    setSpeedBodyLengths(school.states, 0, slower);
+    bool stood = false;
+    while (school.states.phase[0] < 40 * (65536 / kPhases)) {
+        school.tick();
+        stood = stood || speedBodyLengths(school.states, 0) < 0.01F * slower;
+    }
+    EXPECT_TRUE(stood);
+    EXPECT_GT(speedBodyLengths(school.states, 0), 0.9F * slower);
+}
+
 TEST(Motor, changingGaitKeepsTheCourse) {
     std::mt19937 random(3);
     School school(1);
