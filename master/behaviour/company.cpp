@@ -165,6 +165,7 @@ constexpr float kSteerClear = 1.15F;
 constexpr float kSlowest = 0.85F;
 constexpr float kFastest = 2.9F;
 constexpr float kMillPace = 1.9F;
+constexpr float kHaste = 2.0F;  // faster out of the way of the submarine
 constexpr float kBaitBallPace = 2.1F;
 // Body lengths a second slower for a push of 1 straight back.
 constexpr float kBrakeBefore = 0.4F;
@@ -245,8 +246,11 @@ float wantedSpeed(const Situation& situation, const Company& company, float alar
         own = goalPace + (round - goalPace) * std::abs(goal.mill);
     }
     const float pace = company.speed > 0 ? 0.5F * (own + company.speed) : own;
-    // An obstacle ahead slows it too.
-    const float stop = kBrakeBefore * std::max(0.0F, -place::dot(senses.push, senses.heading));
+    // An obstacle ahead slows it too, but a fish in the way of the submarine hurries.
+    const float stop =
+        senses.hurry > 0
+            ? -kHaste * senses.hurry
+            : kBrakeBefore * std::max(0.0F, -place::dot(senses.push, senses.heading));
     return std::clamp(
         pace + company.hurry - company.brake - stop + kAlarmedPace * alarm, kSlowest, kFastest);
 }
