@@ -387,6 +387,7 @@ FastStart startOf(const v1::FastStart& in) {
 
 // All that moves the animal, as text.
 std::string motionOf(v1::Species in) {
+    in.clear_version();
     in.clear_habits();
     in.clear_palette();
     const v1::Rowing rowing = in.fin_motion().rowing();

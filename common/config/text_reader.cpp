@@ -161,27 +161,41 @@ std::vector<std::string> outermostNames(const std::string& text) {
 
 constexpr const char* kVersion = "version";
 
-// What a text says of its format is looked at before all else: what a later one holds is unknown
-// here, and the first unknown field would be a poor cause. Throws Error.
-void refuseLaterVersion(const std::string& text,
+// What a text says of its format is looked at before all else: what another one holds is unknown
+// here, and the first unknown field would be a poor cause. A text that names none is of version 1.
+// Throws Error.
+void refuseOtherVersion(const std::string& text,
                         const std::string& source,
                         const Columns& columns,
                         const pb::Descriptor& type) {
     const pb::FieldDescriptor* field = type.FindFieldByName(kVersion);
     if (field == nullptr) return;
-    const double newest = field->options().GetExtension(v1::rule).most();
+    const v1::Rule& rule = field->options().GetExtension(v1::rule);
+    std::string said = "1";
+    SourcePlace place{1, 1};
     std::string before;
     eachOutermost(text, [&](const pb::io::Tokenizer::Token& token) {
         if (token.text == ":") return;
-        const bool isVersion = before == kVersion && token.type == pb::io::Tokenizer::TYPE_INTEGER;
+        if (before == kVersion) {
+            said = token.type == pb::io::Tokenizer::TYPE_INTEGER ? token.text : "";
+            place = columns.placeOf(token.line, token.column);
+        }
         before = token.text;
-        if (isVersion && std::strtod(token.text.c_str(), nullptr) > newest)
-            throw Error(placed(source,
-                               columns.placeOf(token.line, token.column),
-                               "version " + token.text + " of a " + spelledOut(type.name()) +
-                                   " is of a later release; this one reads up to version " +
-                                   shown(newest) + ": update the programs"));
     });
+    if (said.empty()) return;  // no whole number: the parser says so
+    const double version = std::strtod(said.c_str(), nullptr);
+    const std::string which = "version " + said + " of a " + spelledOut(type.name());
+    if (version > rule.most())
+        throw Error(placed(source,
+                           place,
+                           which + " is of a later release; this one reads up to version " +
+                               shown(rule.most()) + ": update the programs"));
+    if (rule.least() <= 1 || version >= rule.least()) return;
+    assert(&type == v1::Species::descriptor() && "its page says what has changed");
+    throw Error(placed(source,
+                       place,
+                       which + " is of an earlier release; this one reads version " +
+                           countsOf(rule) + ": docs/species.md says what has changed"));
 }
 
 }  // namespace
@@ -225,7 +239,7 @@ TextReader::TextReader(const std::string& text, const std::string& source, Messa
 
 TextReader::TextReader(Message& message, const std::string& text, std::string source)
     : source_(std::move(source)), message_(&message), columns_(text) {
-    refuseLaterVersion(text, source_, columns_, *message.GetDescriptor());
+    refuseOtherVersion(text, source_, columns_, *message.GetDescriptor());
     checkCharacters(text, source_);
     FirstError error(source_, columns_);
     pb::TextFormat::Parser parser;

@@ -12,15 +12,20 @@ from pathlib import Path
 
 import numpy as np
 
-REPERTOIRE_VERSION = 5
+REPERTOIRE_VERSION = 6
 RECORDING_VERSION = 2
-PHASES, ENTRIES, NODES, CONTROL_POINTS = 64, 40, 23, 426
+PHASES, NODES, FINS, CONTROL_POINTS = 64, 23, 2, 426
 POSE_UNIT = 1 / 32767  # body lengths
+FIN_UNIT = 1e-4  # radians
 GAITS = ("slow", "medium", "fast")
 CURVES = [f"curve_{side}_{width}" for side in ("left", "right") for width in ("wide", "tight")]
+IN_PLACE = ["hover", "pivot_left", "pivot_right", "pitch_up", "pitch_down"]
 TURNS = [f"turn_{side}_{kind}" for side in ("left", "right") for kind in ("gradual", "sharp")]
+STARTS = [f"start_{side}_{angle}" for side in ("left", "right") for angle in ("small", "middle", "large")]
 SEGMENTS = [f"{motion}_{gait}" for motion in ("forward", *CURVES, "climb", "dive")
-            for gait in GAITS] + ["retreat"] + TURNS
+            for gait in GAITS] + ["retreat", *IN_PLACE, *TURNS, *STARTS]
+ENTRIES = dict.fromkeys(TURNS, 40) | dict.fromkeys(STARTS, 17)
+HAS_CONTROL_POINTS, HAS_ENTRIES = 1, 2
 
 
 class Bytes:
@@ -57,18 +62,18 @@ def read_repertoire(content):
     repertoire = {"species": file.take(file.number("B")).decode(), "length_m": file.number("f")}
     drags = ("swim_drag_slow", "swim_drag_medium", "swim_drag_fast", "retreat_drag", "glide_drag", "brake_rate")
     repertoire["response"] = {name: file.number("f") for name in drags}
-    contents = file.number("I")  # bit a: segment a has control points; bit 26 + t: turn t has paths by entry
+    contents = file.take(len(SEGMENTS))
     repertoire["segments"] = {}
-    for index, name in enumerate(SEGMENTS):
+    for name, has in zip(SEGMENTS, contents):
         segment = {"period_s": file.number("f"), "plays_to_end": bool(file.number("B")),
                    "increments": file.array("f4", PHASES, 7)}  # a rotation w x y z, a translation x y z
-        turn = index - SEGMENTS.index(TURNS[0])
-        if turn >= 0 and contents >> (len(SEGMENTS) + turn) & 1:
+        if has & HAS_ENTRIES:
             # Course before x y z, speed before, course after x y z, speed after; then the increments.
-            paths = file.array("f4", ENTRIES, 8 + PHASES * 7)
-            segment["entries"], segment["entered"] = paths[:, :8], paths[:, 8:].reshape(ENTRIES, PHASES, 7)
+            paths = file.array("f4", ENTRIES[name], 8 + PHASES * 7)
+            segment["entries"], segment["entered"] = paths[:, :8], paths[:, 8:].reshape(-1, PHASES, 7)
         segment["nodes"] = POSE_UNIT * file.array("i2", PHASES, NODES, 3)
-        if contents >> index & 1:
+        segment["fins"] = FIN_UNIT * file.array("i2", PHASES, FINS, 3)  # left, right: opened, stroke, twist
+        if has & HAS_CONTROL_POINTS:
             segment["control_points"] = POSE_UNIT * file.array("i2", PHASES, CONTROL_POINTS, 3)
         repertoire["segments"][name] = segment
     return repertoire

@@ -94,8 +94,9 @@ TEST_F(Program, checkRefusesARigWhoseSceneIsNotThere) {
 }
 
 TEST_F(Program, checkRefusesABadSceneAndABadSpeciesInOneLine) {
-    for (const std::string text : {"name: \"sea\" place: OPEN_SEA\nplankton: 3 whales: 1",
-                                   "name: \"fish\" skeleton {}\nhabits { role: PREY wings: 2 }"}) {
+    for (const std::string text :
+         {"name: \"sea\" place: OPEN_SEA\nplankton: 3 whales: 1",
+          "version: 2 name: \"fish\" skeleton {}\nhabits { role: PREY wings: 2 }"}) {
         const Outcome outcome = compose("check " + written("bad.txtpb", text));
         EXPECT_EQ(outcome.status, 1);
         EXPECT_THAT(outcome.said, testing::MatchesRegex(".*bad.txtpb:2:[0-9]+: .*\n"));

@@ -52,6 +52,30 @@ TEST(Species, theScadIsReadInItsUnits) {
     EXPECT_DOUBLE_EQ(scad.skeleton.rings[1].nodeMass, 11);
 }
 
+// Of the scad's file with another version; the rest of it is unknown to a reader of another one.
+std::string refusalOfVersion(const std::string& version) {
+    return refusalOf("# A fish.\n" + version + " unheard_of { of: 1 }\n" +
+                     edited("version: 2\n", ""));
+}
+
+TEST(Species, aFileOfAnotherVersionIsRefusedForThatAloneAtItsPlace) {
+    const std::string earlier =
+        " of a species is of an earlier release; this one reads version 2: docs/species.md says "
+        "what has changed";
+    EXPECT_EQ(refusalOfVersion(""), "fish.txtpb:1:1: version 1" + earlier) << "left out";
+    EXPECT_EQ(refusalOfVersion("version: 1"), "fish.txtpb:2:10: version 1" + earlier);
+    EXPECT_EQ(refusalOfVersion("version: 3"),
+              "fish.txtpb:2:10: version 3 of a species is of a later release; this one reads up to "
+              "version 2: update the programs");
+}
+
+TEST(Species, aVersionThatIsNoWholeNumberIsRefusedAsSuch) {
+    EXPECT_EQ(refusalOf(edited("version: 2", "version: \"2\"")).find("of an earlier release"),
+              std::string::npos);
+    EXPECT_THAT(refusalOf(edited("version: 2", "version: \"2\"")),
+                HasSubstr("write a whole number"));
+}
+
 struct Mistake {
     const char* name;
     const char* right;  // as the scad's file has it
