@@ -24,10 +24,10 @@ struct Entry {
     int version;
     std::uint64_t digest;
 };
-constexpr Entry kMotor{1, 0x37366bdf00bbad24};
+constexpr Entry kMotor{1, 0xa23d20ffaa81d337};
 // The minds' digest is of fish that this version of the motor moves.
 constexpr int kMotorOfMinds = 1;
-constexpr Entry kMinds{1, 0xfa26742486720e94};
+constexpr Entry kMinds{1, 0x509871b2d35d9333};
 
 constexpr const char* kVersions = "common/base/movement_versions.h";
 
