@@ -244,7 +244,7 @@ bool isInASchool(const Onlooker& onlooker) {
 
 // A school stays together while it feeds: its members go only for plankton beside them, and leave
 // the school for pellets alone. In body lengths.
-constexpr float kDartBodyLengths = 2.5F;
+constexpr float kDartBodyLengths = 2.8F;
 
 bool isWorthLeaving(const Onlooker& onlooker, std::uint32_t particle, float distance) {
     const surroundings::Food& food = onlooker.environment.surroundings->food;
