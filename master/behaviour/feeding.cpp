@@ -82,9 +82,9 @@ bool cannotTurnTo(const Senses& senses, glm::vec3 fromMouth) {
 constexpr float kRushFrom = 2.0F;
 constexpr float kAheadCosine = 0.5F;
 // A rush begins with a fast start, where the prey is to the side and nothing else within so many
-// body lengths that way: the fish coasts as far.
+// body lengths ahead or that way: the fish coasts as far.
 constexpr std::uint32_t kStrikeTicks = 16;
-constexpr float kStrikeLengths = 2.5F;
+constexpr float kStrikeLengths = 3.0F;
 // Stalking for longer counts as part of the chase, whose time is limited.
 constexpr std::uint32_t kStalkTicks = 20 * 60;
 // Reach of a bite from the mouth, in body lengths, by its gape and suction; twice as far straight
@@ -105,10 +105,13 @@ glm::vec3 velocityOf(const fish::FishView& view, std::uint32_t fish) {
 }
 
 bool hasRoomToStrike(const Situation& situation, glm::vec3 direction) {
-    return surroundings::avoidance(situation.environment.surroundings->obstacles,
-                                   situation.senses.position,
-                                   direction,
-                                   kStrikeLengths * situation.senses.length) == glm::vec3{};
+    const auto isFree = [&](glm::vec3 way) {
+        return surroundings::avoidance(situation.environment.surroundings->obstacles,
+                                       situation.senses.position,
+                                       way,
+                                       kStrikeLengths * situation.senses.length) == glm::vec3{};
+    };
+    return isFree(direction) && isFree(situation.senses.heading);
 }
 
 // Approaches at medium speed; changes to a rush when near.

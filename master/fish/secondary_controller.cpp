@@ -403,8 +403,10 @@ void SecondaryController::decide(std::size_t fish) const {
     const bool steers = !isTurn(chosen) && !isStart(chosen);
     to.yawRate[fish] =
         steers ? yawRateFor(*gaits, moment, chosen, to.yawRate[fish]) : std::int16_t{0};
-    to.brake[fish] = steers && !isBursting(fish) ? brakeFor(*gaits, moment, chosen, to.brake[fish])
-                                                 : std::uint8_t{0};
+    // A fish that has made a fast start coasts, but not into danger.
+    const bool coasts = isBursting(fish) && moment.urgency <= 1;
+    to.brake[fish] =
+        steers && !coasts ? brakeFor(*gaits, moment, chosen, to.brake[fish]) : std::uint8_t{0};
 }
 
 bool SecondaryController::isKept(std::size_t fish,
@@ -485,7 +487,6 @@ std::optional<motion::Action> SecondaryController::startFor(std::size_t fish,
     return static_cast<Action>(first + nearest);
 }
 
-// A fish that has made a fast start coasts.
 bool SecondaryController::isBursting(std::size_t fish) const {
     return memory->recoversAt[fish] > tick.value + kRecoveryTicks - kBurstTicks;
 }
