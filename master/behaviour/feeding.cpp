@@ -84,7 +84,7 @@ constexpr float kAheadCosine = 0.5F;
 // A rush begins with a fast start, where the prey is to the side and nothing else within so many
 // body lengths ahead or that way: the fish coasts as far.
 constexpr std::uint32_t kStrikeTicks = 16;
-constexpr float kStrikeLengths = 3.0F;
+constexpr float kStrikeLengths = 4.0F;
 // Stalking for longer counts as part of the chase, whose time is limited.
 constexpr std::uint32_t kStalkTicks = 20 * 60;
 // Reach of a bite from the mouth, in body lengths, by its gape and suction; twice as far straight
