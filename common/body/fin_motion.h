@@ -19,8 +19,8 @@ AQUARAMA_CONSTANT float kMarginLag = kWholeTurn / 6.0F;
 AQUARAMA_CONSTANT float kStands = 0.2F;
 AQUARAMA_CONSTANT float kSwims = 0.6F;
 AQUARAMA_CONSTANT float kFolded = 1.5F;  // above it pelvic fins lie as near to the belly as they go
-// The lobes of a tail fin bend no further than at this drift, body lengths in a radian of the beat: that
-// of a fast gait. A fast start sweeps the tail several times as far.
+// The lobes of a tail fin bend no further than at this drift, body lengths in a radian of the beat:
+// that of a fast gait. A fast start sweeps the tail several times as far.
 AQUARAMA_CONSTANT float kMostDrift = 0.2F;
 AQUARAMA_CONSTANT float kMostFinAngle =
     3.2767F;                               // radians: of a captured pose of a pectoral fin, 16 bits

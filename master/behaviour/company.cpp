@@ -248,9 +248,8 @@ float wantedSpeed(const Situation& situation, const Company& company, float alar
     const float pace = company.speed > 0 ? 0.5F * (own + company.speed) : own;
     // An obstacle ahead slows it too, but a fish in the way of the submarine hurries.
     const float stop =
-        senses.hurry > 0
-            ? -kHaste * senses.hurry
-            : kBrakeBefore * std::max(0.0F, -place::dot(senses.push, senses.heading));
+        senses.hurry > 0 ? -kHaste * senses.hurry
+                         : kBrakeBefore * std::max(0.0F, -place::dot(senses.push, senses.heading));
     return std::clamp(
         pace + company.hurry - company.brake - stop + kAlarmedPace * alarm, kSlowest, kFastest);
 }

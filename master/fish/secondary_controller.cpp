@@ -141,8 +141,7 @@ motion::Action gaitFor(const Gaits& gaits, float speed, motion::Action present) 
     const auto isAbove = [&](std::size_t lower) {
         const float difference = gaits.speed[lower + 1] - gaits.speed[lower];
         const float border = gaits.speed[lower] + 0.5F * difference;
-        const bool isUpper =
-            swims(present) && gaitOf(present) > static_cast<motion::Action>(lower);
+        const bool isUpper = swims(present) && gaitOf(present) > static_cast<motion::Action>(lower);
         return speed > border + (isUpper ? -kSpeedHysteresis : kSpeedHysteresis) * difference;
     };
     if (isAbove(indexOf(motion::Action::ForwardMedium))) return motion::Action::ForwardFast;
@@ -371,7 +370,8 @@ void SecondaryController::run(std::size_t first, std::size_t last) const {
     assert(last <= states->size());
     for (std::size_t fish = first; fish < last; ++fish) {
         const bool hasThought = std::exchange((*thought)[fish], 0) != 0;
-        if ((hasThought && (thinksAt(tick, fish) || (*courses)[fish].startsFast)) || endsTurn(fish)) decide(fish);
+        if ((hasThought && (thinksAt(tick, fish) || (*courses)[fish].startsFast)) || endsTurn(fish))
+            decide(fish);
     }
 }
 
