@@ -197,7 +197,7 @@ double bounded(double correction) {
     return std::clamp(correction, -kMostCorrection, kMostCorrection);
 }
 
-// A fin that does not sweep, at the angle or at the nearest that it can have.
+// A plate at the angle or at the nearest that it can have.
 FinPlate at(double angleRadians) {
     return {.angleRadians = std::clamp(angleRadians, kLeastAngle, kAcross)};
 }

@@ -91,9 +91,9 @@ void compareAll(const FidelityOptions& options) {
 // The film.
 
 // Another of our programs. It says nothing but errors, which come through the pipe of errors.
-class Helper {
+class OtherProgram {
   public:
-    Helper(const std::string& program, const std::vector<std::string>& arguments)
+    OtherProgram(const std::string& program, const std::vector<std::string>& arguments)
         : name_(program),
           child_(supervisor::start({supervisor::siblingProgram(program), arguments})) {}
     // Looks whether it has ended, and waits at most so long. False where the user ends this
@@ -111,7 +111,8 @@ class Helper {
         std::vector<std::string> said = errors.heard();
         if (said.empty())
             said.push_back("aquarama-" + name_ + ": has ended before its work was done");
-        throw Error(said.front().substr(said.front().find(": ") + 2));
+        const std::size_t name = said.front().find(": ");  // the program's own, in front
+        throw Error(name == std::string::npos ? said.front() : said.front().substr(name + 2));
     }
 
   private:
@@ -130,7 +131,7 @@ std::vector<glm::vec4> skinColours(const fs::path& species,
                                    const fs::path& folder,
                                    const supervisor::ErrorPipe& errors) {
     const fs::path file = folder / "colours";
-    Helper node("node", {"--skin", species.string(), "--colours", file.string()});
+    OtherProgram node("node", {"--skin", species.string(), "--colours", file.string()});
     while (node.isRunning())
         if (!node.look(100ms)) throw Interrupted{};
     node.requireGood(errors);
@@ -155,7 +156,7 @@ motion::Repertoire repertoireOf(const config::Species& species) {
 }
 
 // Draws all pictures and sends them to the encoder, in their order. Throws Error where it has gone.
-void shoot(const film::Film& film, const fs::path& pipe, Helper& encoder) {
+void shoot(const film::Film& film, const fs::path& pipe, OtherProgram& encoder) {
     const auto sender = net::connectFrames(pipe);
     WorkerPool workers(std::thread::hardware_concurrency());
     const std::size_t batch = 2 * std::max(std::thread::hardware_concurrency(), 1U);
@@ -201,13 +202,13 @@ void makeFilm(const FidelityOptions& options) {
     const film::Film film(std::move(shown));
 
     const fs::path pipe = folder.path() / "pictures";
-    Helper encoder("compose",
-                   {"encode",
-                    options.clip,
-                    "--pipe",
-                    pipe.string(),
-                    "--every",
-                    std::to_string(film::kTicksAPicture)});
+    OtherProgram encoder("compose",
+                         {"encode",
+                          options.clip,
+                          "--pipe",
+                          pipe.string(),
+                          "--every",
+                          std::to_string(film::kTicksAPicture)});
     try {
         shoot(film, pipe, encoder);
     } catch (const Error&) {  // the encoder has gone: what it said is the cause

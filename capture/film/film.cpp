@@ -94,7 +94,9 @@ void write(Light& picture, glm::ivec2 at, int dot, const std::string& text, glm:
 // "turn_left_sharp" as "TURN LEFT SHARP".
 std::string inCapitals(std::string text) {
     for (char& character : text)
-        character = character == '_' ? ' ' : static_cast<char>(std::toupper(character));
+        character = character == '_'
+                        ? ' '
+                        : static_cast<char>(std::toupper(static_cast<unsigned char>(character)));
     return text;
 }
 

@@ -216,7 +216,7 @@ ScriptCommand briefest(const motion::Repertoire& repertoire, Manoeuvre manoeuvre
     ScriptCommand command{.manoeuvre = manoeuvre, .beatTicks = beatTicks(repertoire, manoeuvre)};
     if (playsToEnd(manoeuvre)) {
         const long rate = std::lround(65536 / ticksOf(segmentOf(repertoire, manoeuvre)));
-        const long last = isStart(manoeuvre) ? 65535 - 1024 : 65535;
+        const long last = motion::lastPhaseOf(actionOf(manoeuvre));
         command.ticks = static_cast<int>(last / rate);
     } else {
         command.ticks = static_cast<int>(std::ceil(beatsOf(manoeuvre).least * command.beatTicks));

@@ -390,7 +390,8 @@ std::string motionOf(v1::Species in) {
     in.clear_version();
     in.clear_habits();
     in.clear_palette();
-    const v1::Rowing rowing = in.fin_motion().rowing();
+    v1::Rowing rowing = in.fin_motion().rowing();
+    rowing.clear_trim_deg();
     in.clear_fin_motion();
     *in.mutable_fin_motion()->mutable_rowing() = rowing;
     in.clear_threads();
@@ -398,6 +399,27 @@ std::string motionOf(v1::Species in) {
     std::string kept;
     pb::TextFormat::PrintToString(in, &kept);
     return kept;
+}
+
+// Fins that row need a beat and a stroke, and a gait is the fins' or the tail's.
+void checkRowing(const TextReader& file, const v1::Species& in) {
+    constexpr double kLeastBeatHz = 0.1;
+    constexpr double kMostTwistDegrees = 180;
+    const v1::Rowing& rowing = in.fin_motion().rowing();
+    if (rowing.stroke_deg() > 0 && rowing.beat_hz() < kLeastBeatHz)
+        file.refuse(
+            rowing, "beat_hz", "fins with a stroke_deg row at 0.1 Hz at least: raise beat_hz");
+    if (std::abs(rowing.twist_deg()) + std::abs(rowing.feather_deg()) > kMostTwistDegrees)
+        file.refuse(
+            rowing,
+            "feather_deg",
+            "twist_deg and feather_deg together twist a fin by more than 180 degrees: lower one");
+    for (const v1::Gait& gait : {in.swim().slow(), in.swim().medium(), in.swim().fast()})
+        if (gait.rows() > 0 && (gait.gain() > 0 || rowing.stroke_deg() == 0))
+            file.refuse(in,
+                        "swim",
+                        "a gait that rows has gain: 0, and fin_motion a rowing with a stroke_deg: "
+                        "change one of them");
 }
 
 // The name becomes the name of the repertoire's file.
@@ -417,6 +439,7 @@ Species parseSpecies(const std::string& text, const std::string& source) {
     species.motion = motionOf(in);  // of what the file says, without defaults
     file.check();
     checkName(file, in);
+    checkRowing(file, in);
     species.name = in.name();
     species.size = sizeOf(file, in.size());
     species.profile = profileOf(file, in);

@@ -26,15 +26,16 @@ class MotorTables;
 //
 // Of the nine patterns (section 3.2) these are played: swimming, turning, ascending, descending and
 // retreating as recorded, and beside them fast starts and what fins do in one place; gliding by a
-// warp to Action::Glide. The fins add pitch, up to kAddedPitch
-// of the rate of the recorded climb, and roll that balances, and MotorCommands::brake brakes.
+// warp to Action::Glide. The fins add pitch, up to kAddedPitch of the rate of the recorded climb,
+// and roll that balances, and MotorCommands::brake brakes.
 //
 // The speed v of a fish follows that of the path, p, as SpeedResponse says; p is the recorded speed
-// times the phase rate over the recorded one. While a turn plays, v also changes by as much as p
-// does. Where the response is all zero, v equals p. In each tick the body frame moves by the path's
-// translation and, along the mean frame's x axis, by (v - p) for the length of the tick. So a fish
-// whose tail rests still coasts. A fish that is slower than its path, v < p, moves by the share v /
-// p of the translation: it goes where it looks. A steady fish plays exactly what was recorded.
+// times the phase rate over the recorded one. Where p changes within a segment, v gains what it
+// gains, and of what it loses the share v / p. Where the response is all zero, v equals p. In each
+// tick the body frame moves by the path's translation and, along the mean frame's x axis, by (v -
+// p) for the length of the tick. So a fish whose tail rests still coasts. A fish that is slower
+// than its path, v < p, moves by the share v / p of the translation: it goes where it looks. A
+// steady fish plays exactly what was recorded.
 struct MotorStep {
     // All are owned by the caller and not null. traits, commands and states are indexed by fish.
     const MotorTables* tables = nullptr;

@@ -425,7 +425,8 @@ WarpPlan planToCycle(const Travels& travels, std::size_t cell, float step) {
 
 // A fast start is not delayed: two frames lead to it at most, or a tenth of a long one.
 int mostFramesToStart(std::int16_t rate) {
-    return std::max(2, 65536 / (10 * rate));
+    constexpr int kMostFrames = 250;  // a length is a byte
+    return std::clamp(65536 / (10 * rate), 2, kMostFrames);
 }
 
 // A turn plays from the first frame of the warp on, at its phase rate: the first phase to which all

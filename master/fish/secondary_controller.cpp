@@ -370,7 +370,7 @@ void SecondaryController::run(std::size_t first, std::size_t last) const {
     assert(last <= states->size());
     for (std::size_t fish = first; fish < last; ++fish) {
         const bool hasThought = std::exchange((*thought)[fish], 0) != 0;
-        if ((hasThought && (thinksAt(tick, fish) || (*courses)[fish].startsFast)) || endsTurn(fish))
+        if ((hasThought && (thinksAt(tick, fish) || mayStart(fish))) || endsTurn(fish))
             decide(fish);
     }
 }
@@ -413,7 +413,7 @@ bool SecondaryController::isKept(std::size_t fish,
                                  const Moment& moment,
                                  motion::Action asked) const {
     const motion::Action playing = motion::actionOf(states->segment[fish]);
-    return moment.urgency > 0 && isTurn(playing) && !endsTurn(fish) &&
+    return moment.urgency > 0 && isTurn(playing) && !isStart(asked) && !endsTurn(fish) &&
            motion::breaksOff(playing, asked);
 }
 
@@ -449,7 +449,7 @@ SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) cons
 // taken if the course is open to it and it serves. A gait is then held for a while; a turn is
 // played to its end anyway. Without recommendations this is turnOrSwim().
 motion::Action SecondaryController::choose(std::size_t fish, const Moment& moment) const {
-    if (const auto start = startFor(fish, moment)) return *start;
+    if (const auto start = startFor(fish)) return *start;
     const motion::Action chosen = turnOrSwim(*gaits, moment);
     if (tick.value < memory->heldUntil[fish])
         return moment.isOpen && !isSharp(chosen) ? held(*gaits, moment) : chosen;
@@ -468,13 +468,13 @@ motion::Action SecondaryController::choose(std::size_t fish, const Moment& momen
 
 // The fast start whose turn is nearest to the wanted one. After it the fish swims on as it asks; a
 // course that hardly differs asks for none.
-std::optional<motion::Action> SecondaryController::startFor(std::size_t fish,
-                                                            const Moment& moment) const {
+std::optional<motion::Action> SecondaryController::startFor(std::size_t fish) const {
     using motion::Action;
-    if (!(*courses)[fish].startsFast || tick.value < memory->recoversAt[fish]) return std::nullopt;
-    const auto first =
-        indexOf(moment.yawError > 0 ? Action::StartLeftSmall : Action::StartRightSmall);
-    const float wanted = std::abs(moment.yawError);
+    if (!mayStart(fish)) return std::nullopt;
+    // It breaks off a turn, so nothing of that is to come.
+    const float yawError = place::yawBetween(view->heading(fish), (*courses)[fish].direction);
+    const auto first = indexOf(yawError > 0 ? Action::StartLeftSmall : Action::StartRightSmall);
+    const float wanted = std::abs(yawError);
     const auto off = [&](std::size_t size) {
         const auto start = static_cast<Action>(first + size);
         return std::abs(std::abs(gaits->turn[motion::firstSegmentOf(start)]) - wanted);
@@ -485,6 +485,10 @@ std::optional<motion::Action> SecondaryController::startFor(std::size_t fish,
     if (wanted < off(nearest)) return std::nullopt;  // straight on is nearer
     memory->recoversAt[fish] = tick.value + kRecoveryTicks;
     return static_cast<Action>(first + nearest);
+}
+
+bool SecondaryController::mayStart(std::size_t fish) const {
+    return (*courses)[fish].startsFast && tick.value >= memory->recoversAt[fish];
 }
 
 bool SecondaryController::isBursting(std::size_t fish) const {

@@ -134,14 +134,15 @@ struct SecondaryController {
     void decide(std::size_t fish) const;
     [[nodiscard]] bool isBursting(std::size_t fish) const;
     // Whether the command stands although another was chosen. With anything in its way a fish does
-    // not break a turn off: the side from which it is pushed changes as it turns, and it would turn
-    // to neither.
+    // not break a turn off for another turn: the side from which it is pushed changes as it turns,
+    // and it would turn to neither.
     [[nodiscard]] bool isKept(std::size_t fish, const Moment& moment, motion::Action asked) const;
     [[nodiscard]] Moment momentOf(std::size_t fish) const;
     [[nodiscard]] motion::Action choose(std::size_t fish, const Moment& moment) const;
-    // The fast start that a startled fish makes; nothing where it is not startled or not recovered.
-    [[nodiscard]] std::optional<motion::Action> startFor(std::size_t fish,
-                                                         const Moment& moment) const;
+    // Whether the fish is asked for a fast start and has recovered from the one before.
+    [[nodiscard]] bool mayStart(std::size_t fish) const;
+    // The fast start that it then makes; nothing where straight on is nearer.
+    [[nodiscard]] std::optional<motion::Action> startFor(std::size_t fish) const;
     [[nodiscard]] std::int16_t phaseRateFor(std::size_t fish,
                                             motion::Action chosen,
                                             const Moment& moment) const;

@@ -42,7 +42,7 @@ std::uint64_t FishColumns::hash(Tick tick) const {
 
 std::size_t FishColumns::bytes() const {
     return states.bytes() + commands.bytes() + minds.bytes() + memory.bytes() + view.bytes() +
-           bytesIn(traits, courses);
+           bytesIn(traits, courses, thought, rushes);
 }
 
 }  // namespace aquarama::world

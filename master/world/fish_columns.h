@@ -28,13 +28,13 @@ struct FishColumns {
     std::vector<std::uint8_t> thought;  // in this tick; all 0 between two ticks
     // What others see of the fish, as it was when the last tick began.
     fish::FishView view;
+    // Predators that began to rush at the last tick, by index.
+    std::vector<std::uint32_t> rushes;
 
     // Hash of all that decides how the fish go on, and of the tick.
     [[nodiscard]] std::uint64_t hash(Tick tick) const;
     // Memory in use.
     [[nodiscard]] std::size_t bytes() const;
-    // Predators that began to rush at the last tick, by index.
-    std::vector<std::uint32_t> rushes;
 };
 
 }  // namespace aquarama::world

@@ -325,7 +325,7 @@ void World::thinkAll() {
         std::array<std::uint32_t, kSlotsInSlice + kFetchedAhead> thinkers{};
         std::size_t count = 0;
         for (std::size_t slot = first; slot < last; ++slot) {
-            // Collected without a branch: the next slot overwrites a fish that does not think now.
+            // The next slot overwrites a fish that does not think now.
             thinkers[count] = grid.index()[slot];
             count += thinks(thinkers[count]) ? 1 : 0;
         }

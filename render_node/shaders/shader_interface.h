@@ -179,7 +179,6 @@ AQUARAMA_CONSTANT uint kEye = 7U;
 AQUARAMA_CONSTANT uint kControlPoints = 426U;
 AQUARAMA_CONSTANT uint kPhases = 64U;
 AQUARAMA_CONSTANT uint kActions = 38U;
-AQUARAMA_CONSTANT uint kFirstCurve = 3U;
 AQUARAMA_CONSTANT uint kFirstTurn = 27U;
 AQUARAMA_CONSTANT uint kTurnSegments = 41U;  // of the wire
 AQUARAMA_CONSTANT uint kFirstStart = 31U;

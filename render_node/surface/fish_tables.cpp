@@ -26,7 +26,6 @@ namespace aquarama::surface {
 
 static_assert(shaders::kControlPoints == body::kControlPoints &&
               shaders::kPhases == motion::kPhases && shaders::kActions == motion::kActions &&
-              shaders::kFirstCurve == indexOf(motion::Action::CurveLeftWideSlow) &&
               shaders::kFirstTurn == motion::kFirstTurn &&
               shaders::kTurnSegments == motion::kTurnSegments &&
               shaders::kFirstStart == motion::kFirstStart &&

@@ -52,6 +52,18 @@ TEST(Species, theScadIsReadInItsUnits) {
     EXPECT_DOUBLE_EQ(scad.skeleton.rings[1].nodeMass, 11);
 }
 
+// The tail beats in the gait that rows, a fin without a beat has a stroke, a fin turns about
+// itself.
+TEST(Species, finsThatCannotRowAreRefused) {
+    EXPECT_THAT(refusalOf(edited("slow { beat_hz: 2 gain: 0.793 }",
+                                 "slow { beat_hz: 2 gain: 0.793 rows: 1 }")),
+                testing::HasSubstr("a gait that rows has gain: 0"));
+    EXPECT_THAT(refusalOf(edited("beat_hz: 2.5 stroke_deg: 55", "beat_hz: 0 stroke_deg: 55")),
+                testing::HasSubstr("row at 0.1 Hz at least"));
+    EXPECT_THAT(refusalOf(edited("feather_deg: 80", "feather_deg: 80 twist_deg: 120")),
+                testing::HasSubstr("more than 180 degrees"));
+}
+
 // Of the scad's file with another version; the rest of it is unknown to a reader of another one.
 std::string refusalOfVersion(const std::string& version) {
     return refusalOf("# A fish.\n" + version + " unheard_of { of: 1 }\n" +
