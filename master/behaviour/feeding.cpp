@@ -104,16 +104,6 @@ glm::vec3 velocityOf(const fish::FishView& view, std::uint32_t fish) {
     return view.heading(fish) * view.fish[fish].speed;
 }
 
-bool hasRoomToStrike(const Situation& situation, glm::vec3 direction) {
-    const auto isFree = [&](glm::vec3 way) {
-        return surroundings::avoidance(situation.environment.surroundings->obstacles,
-                                       situation.senses.position,
-                                       way,
-                                       kStrikeLengths * situation.senses.length) == glm::vec3{};
-    };
-    return isFree(direction) && isFree(situation.senses.heading);
-}
-
 // Approaches at medium speed; changes to a rush when near.
 fish::Course stalk(const Situation& situation, fish::Mind& mind, const Sighting& prey) {
     const Senses& senses = situation.senses;
@@ -199,6 +189,16 @@ fish::Course eat(const Situation& situation, fish::Mind& mind, DeferredEvents& e
     return pursue(situation, fromMouth, medium);
 }
 
+bool hasRoom(const Situation& situation, glm::vec3 direction, float lengths) {
+    const auto isFree = [&](glm::vec3 way) {
+        return surroundings::avoidance(situation.environment.surroundings->obstacles,
+                                       situation.senses.position,
+                                       way,
+                                       lengths * situation.senses.length) == glm::vec3{};
+    };
+    return isFree(direction) && isFree(situation.senses.heading);
+}
+
 bool isRushing(const fish::Mind& mind) {
     return mind.intention == fish::Intention::Eat &&
            mind.stage == static_cast<std::uint8_t>(HuntStage::Rush);
@@ -222,7 +222,7 @@ fish::Course hunt(const Situation& situation, fish::Mind& mind, DeferredEvents& 
     fish::Course course =
         heading(situation, fromMouth + velocityOf(view, prey.object) * seconds, speed);
     course.startsFast =
-        mind.sinceStage < kStrikeTicks && hasRoomToStrike(situation, course.direction);
+        mind.sinceStage < kStrikeTicks && hasRoom(situation, course.direction, kStrikeLengths);
     return course;
 }
 
