@@ -17,6 +17,7 @@
 #include "common/motion/motion_state.h"
 #include "common/motion/motor.h"
 #include "common/motion/repertoire.h"
+#include "common/motion/warp_plans.h"
 
 namespace aquarama::motion {
 
@@ -51,21 +52,12 @@ struct GaitPath {
 // segments that are played stay in the processor's cache. The poses, 0.9 MB, are read where nodal
 // points are asked for.
 
-inline constexpr unsigned kPhaseCellBits = 10;  // a phase of 16 bits is 6 of cell, 10 of fraction
-inline constexpr float kPhaseCellUnit = 1.0F / 1024.0F;
-
 // The body frame at a phase as seen from phase 0, in body lengths; and the speed of the path there:
 // speed units for each unit of phase rate. For a swimming segment that is the mean over the cycle
 // at every phase.
 struct alignas(32) PathSample {
     Quaternion rotation;
     std::array<float, 4> translationAndSpeed{};
-};
-
-// The plan of a motion warp from one segment, in a cell of its phases, to another.
-struct WarpPlan {
-    std::uint16_t entryPhase = 0;
-    std::uint8_t frames = 0;  // K, interpolated frames between the last pose and the first
 };
 
 // The tables of one segment. bodyFromMean has one sample more than a cycle, so interpolation never
@@ -96,15 +88,6 @@ struct SpeedLoss {
     // The share of its speed that a fish loses with its fins fully spread.
     float brake = 0.0F;
 };
-
-// Which phase a motion warp glides to, and in how many frames (paper, section 4.2): by the action
-// that is left, the cell of its phase and the next action.
-using WarpPlans = std::array<std::array<std::array<WarpPlan, kActions>, kPhases>, kActions>;
-
-// phaseRates: as recorded, 1/65536 of a cycle in a tick. For every pair of actions compares all
-// pairs of phases, about 1.6 million pairs of poses.
-[[nodiscard]] WarpPlans planWarps(const Repertoire& repertoire,
-                                  const std::array<std::int16_t, kActions>& phaseRates);
 
 // The nodal points of a sample and of the next one, as vectors read them: in 32 bits a coordinate
 // of the first (the low half) and the same of the second, in units of kPoseUnit. Two groups of

@@ -43,6 +43,12 @@ Gaits scadGaits() {
     add(Action::TurnLeftSharp, 993, 1.5F, 0.96F);
     add(Action::TurnRightGradual, 1500, 1.7F, -0.52F);
     add(Action::TurnRightSharp, 993, 1.5F, -0.96F);
+    add(Action::StartLeftSmall, 9800, 0, 0.5F);
+    add(Action::StartLeftMiddle, 8700, 0, 0.85F);
+    add(Action::StartLeftLarge, 7800, 0, 1.2F);
+    add(Action::StartRightSmall, 9800, 0, -0.5F);
+    add(Action::StartRightMiddle, 8700, 0, -0.85F);
+    add(Action::StartRightLarge, 7800, 0, -1.2F);
     add(Action::Glide, 3277, 2.0F, 0);
     return gaits;
 }
@@ -66,6 +72,19 @@ struct Mind {
         courses[0].urgency = urgency;
         courses[0].openToChange = true;
         motion::setSpeedBodyLengths(states, 0, speed);  // as the motor has it soon
+    }
+    // As one that is startled, of the highest urgency.
+    void flee(float degreesToTheLeft) {
+        want(degreesToTheLeft, 2.6F, 2);
+        courses[0].startsFast = true;
+    }
+    // Thinks between two of its thoughts, as alarmed fish do.
+    motion::Action thinkBetween() {
+        thought[0] = 1;
+        const Tick now{tick + kTicksOfAlarm};
+        SecondaryController{&gaits, &view, &courses, &states, &thought, 1, now, &commands, &memory}
+            .run(0, 1);
+        return static_cast<motion::Action>(commands.action[0]);
     }
     // Thinks once; the motor is taken to follow at once, and to be done with every turn by then.
     motion::Action think() {
@@ -248,6 +267,52 @@ TEST(SecondaryController, inDangerItDoesNotBreakATurnOff) {
         mind.states.phase[0] = 65000;
         EXPECT_EQ(mind.think(), motion::Action::TurnRightSharp) << "at its end it may";
     }
+}
+
+TEST(SecondaryController, aStartledFishMakesTheFastStartWhoseTurnIsNearest) {
+    for (const auto& [degrees, start] : {std::pair{30.0F, motion::Action::StartLeftSmall},
+                                         std::pair{48.0F, motion::Action::StartLeftMiddle},
+                                         std::pair{90.0F, motion::Action::StartLeftLarge},
+                                         std::pair{-90.0F, motion::Action::StartRightLarge}}) {
+        Mind mind;
+        mind.flee(degrees);
+        EXPECT_EQ(mind.think(), start) << degrees;
+    }
+    Mind ahead;
+    ahead.flee(10);
+    EXPECT_FALSE(isStart(ahead.think())) << "straight on is nearer";
+}
+
+TEST(SecondaryController, aFastStartIsMadeAgainOnlyAfterASecondAndAHalf) {
+    Mind mind;
+    mind.flee(90);
+    ASSERT_TRUE(isStart(mind.think()));
+    for (std::uint64_t ticks = kTicksBetweenThoughts; ticks < 90; ticks += kTicksBetweenThoughts) {
+        mind.flee(90);
+        EXPECT_FALSE(isStart(mind.think())) << ticks;
+    }
+    mind.flee(90);
+    EXPECT_TRUE(isStart(mind.think()));
+}
+
+// In danger a turn stands against another one, but not against a fast start. What the turn would
+// still have done does not count.
+TEST(SecondaryController, aFastStartBreaksOffATurnInDanger) {
+    Mind mind;
+    mind.want(80, 2.6F, 2);
+    ASSERT_EQ(mind.think(), motion::Action::TurnLeftSharp);
+    mind.states.phase[0] = 20000;
+    mind.flee(-30);
+    EXPECT_EQ(mind.think(), motion::Action::StartRightSmall);
+}
+
+TEST(SecondaryController, betweenItsThoughtsAnAlarmedFishOnlyMakesAFastStart) {
+    Mind mind;
+    const motion::Action before = mind.think();
+    mind.want(90, 2.6F, 2);
+    EXPECT_EQ(mind.thinkBetween(), before);
+    mind.flee(90);
+    EXPECT_EQ(mind.thinkBetween(), motion::Action::StartLeftLarge);
 }
 
 TEST(SecondaryController, whatATurnWillHaveDoneCounts) {
