@@ -20,6 +20,8 @@ enum class Stream : std::uint32_t {
     Meadow,
     Arch,
     Ring,
+    Heads,
+    Sites,
     // The secondary controller of the motor.
     Tempo = 101,
     Patience,
@@ -44,6 +46,10 @@ enum class Stream : std::uint32_t {
     // The school.
     SchoolLevels = 341,
     Glances,
+    // Life at the reef.
+    VenturesOut = 361,
+    Picks,
+    CloudPlaces,
     // Food.
     FoodPlace = 401,
     FoodAbsence,

@@ -18,6 +18,7 @@ constexpr float kHighestStopMetres = -1;
 constexpr int kFewestStops = 3;
 
 static_assert(v1::Scene::OPEN_SEA - v1::Scene::REEF == static_cast<int>(PlaceKind::OpenSea));
+static_assert(v1::Sites::CLEANING - v1::Sites::ANEMONE == static_cast<int>(SiteKind::Cleaning));
 static_assert(v1::Scene::MILL - v1::Scene::NONE == static_cast<int>(Gathering::Mill));
 
 // Of a point or a half extent.
@@ -47,6 +48,50 @@ SceneWater waterOf(const TextReader& file, const v1::SceneWater& in) {
         file.refuse(
             in, "centre", "the water reaches out of the sea, whose surface is y = 0: lower it");
     return water;
+}
+
+// Of a head or the place of a site.
+glm::vec2 planOf(const auto& in) {
+    return {in.x_m(), in.z_m()};
+}
+
+std::vector<Head> headsOf(const TextReader& file, const v1::Scene& in, PlaceKind place) {
+    std::vector<Head> heads;
+    for (const v1::Head& head : in.heads()) {
+        if (place != PlaceKind::Reef)
+            file.refuse(head, "an open sea has no boulders: remove the head, or take place: REEF");
+        heads.push_back({.xz = planOf(head),
+                         .radiusMetres = static_cast<float>(head.radius_m()),
+                         .heightMetres = static_cast<float>(head.height_m()),
+                         .place = file.placeOf(head)});
+    }
+    return heads;
+}
+
+std::vector<SiteGroup> sitesOf(const TextReader& file, const v1::Scene& in, PlaceKind place) {
+    std::vector<SiteGroup> sites;
+    for (const v1::Sites& group : in.sites()) {
+        if (place != PlaceKind::Reef)
+            file.refuse(group,
+                        "an open sea has no boulders: remove the sites, or take place: REEF");
+        SiteGroup& site = sites.emplace_back();
+        site.kind = static_cast<SiteKind>(group.kind() - v1::Sites::ANEMONE);
+        site.number = group.number();
+        site.place = file.placeOf(group);
+        if (!group.has_at()) continue;
+        site.xz = planOf(group.at());
+        if (site.number != 1)
+            file.refuse(group, "number", "number is for sites without `at`: remove one of the two");
+    }
+    return sites;
+}
+
+Current currentOf(const v1::Scene& in) {
+    if (!in.has_current()) return {};
+    return {.tideMetresPerSecond = in.current().tide_m_s(),
+            .tideSeconds = in.current().tide_s(),
+            .surgeMetresPerSecond = in.current().surge_m_s(),
+            .surgeSeconds = in.current().surge_s()};
 }
 
 bool isIn(const SceneWater& water, glm::vec3 place, float radius) {
@@ -91,6 +136,7 @@ CastMember memberOf(const TextReader& file, const v1::CastMember& in, const Scen
         .species = in.species(), .fish = in.fish(), .place = file.placeOf(in, "species")};
     if (member.fish == 0 && scene.place != PlaceKind::OpenSea)
         file.refuse(in, "fish", "fish is 0: only an open sea may be without; remove the member");
+    for (const v1::SitePoint& home : in.homes()) member.homes.push_back(planOf(home));
     if (in.has_start()) member.start = startOf(file, in.start(), scene.water);
     return member;
 }
@@ -144,6 +190,9 @@ Scene parseScene(const std::string& text, const std::string& source) {
     scene.waterPlace = file.placeOf(in, "water");
     scene.gathering = static_cast<Gathering>(in.gathering() - v1::Scene::NONE);
     scene.plankton = in.plankton();
+    scene.heads = headsOf(file, in, scene.place);
+    scene.sites = sitesOf(file, in, scene.place);
+    scene.current = currentOf(in);
     scene.day = {.lengthSeconds = in.day().length_s(),
                  .startsAt = in.day().starts_at(),
                  .night = in.day().night()};

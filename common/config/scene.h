@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "common/base/units.h"
@@ -34,6 +35,36 @@ enum class WaterType : std::uint8_t { I, IA, IB, II, III, C1, C3 };
 inline constexpr std::array<std::string_view, 7> kWaterTypeNames{
     "I", "IA", "IB", "II", "III", "1C", "3C"};
 
+// A pile of boulders that a scene adds to its reef: (x, z) of its middle, metres, the radius of its
+// lowest boulder and the height of its crown above the sand.
+struct Head {
+    glm::vec2 xz{};
+    float radiusMetres = 1, heightMetres = 1;
+    SourcePlace place = {};
+    friend bool operator==(const Head& a, const Head& b) {
+        return a.xz == b.xz && a.radiusMetres == b.radiusMetres && a.heightMetres == b.heightMetres;
+    }
+};
+
+// Sites of one kind: one at (x, z), or so many that the seed spreads.
+struct SiteGroup {
+    SiteKind kind = SiteKind::Hole;
+    std::optional<glm::vec2> xz = {};
+    std::uint32_t number = 1;
+    SourcePlace place = {};
+    friend bool operator==(const SiteGroup& a, const SiteGroup& b) {
+        return a.kind == b.kind && a.xz == b.xz && a.number == b.number;
+    }
+};
+
+// The motion of the water (common/place/current.h). Velocities at their greatest, metres a second,
+// 0 in still water; periods in seconds.
+struct Current {
+    double tideMetresPerSecond = 0, tideSeconds = 620;
+    double surgeMetresPerSecond = 0, surgeSeconds = 7;
+    friend bool operator==(const Current&, const Current&) = default;
+};
+
 // What a school is drawn to.
 enum class Gathering : std::uint8_t {
     None,     // goes where its members go
@@ -55,6 +86,8 @@ struct Start {
 struct CastMember {
     std::string species;  // path of its file, relative to the scene's folder
     std::uint32_t fish = 0;
+    // Wanted homes in plan (x, z), metres, one for each group; none: by the species alone.
+    std::vector<glm::vec2> homes = {};
     std::optional<Start> start = {};
     SourcePlace place = {};  // of the path
 };
@@ -110,6 +143,9 @@ struct Scene {
     SourcePlace waterPlace = {};
     Gathering gathering = Gathering::Journey;
     std::uint32_t plankton = 300;  // particles; eaten ones drift in again
+    std::vector<Head> heads;
+    std::vector<SiteGroup> sites;
+    Current current;
     Day day;
     std::vector<FoodDrop> drops;
     std::vector<CastMember> cast;   // at least one; the school first, which an open sea may lack

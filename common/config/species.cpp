@@ -199,11 +199,17 @@ Paces pacesOf(const TextReader& file, const v1::Paces& in) {
     return {.hover = in.hover(), .slow = in.slow(), .medium = in.medium(), .fast = in.fast()};
 }
 
+std::optional<SiteKind> siteOf(v1::Home::At at) {
+    if (at < v1::Home::ANEMONE) return {};
+    return static_cast<SiteKind>(at - v1::Home::ANEMONE);
+}
+
 Home homeOf(const TextReader& file, const v1::Home& in) {
     if (in.kind() == v1::Home::SCHOOL) {
         for (const auto& [field, has] : {std::pair{"radius_m", in.has_radius_m()},
                                          std::pair{"leash_m", in.has_leash_m()},
-                                         std::pair{"on_the_reef", in.has_on_the_reef()}})
+                                         std::pair{"at", in.has_at()},
+                                         std::pair{"group", in.has_group()}})
             if (has)
                 file.refuse(in,
                             field,
@@ -217,7 +223,28 @@ Home homeOf(const TextReader& file, const v1::Home& in) {
     return {.kind = HomeKind::Place,
             .radiusMetres = in.radius_m(),
             .leashMetres = in.leash_m(),
-            .onTheReef = in.on_the_reef()};
+            .onTheReef = in.at() >= v1::Home::BOULDER,
+            .site = siteOf(in.at()),
+            .group = in.has_group() ? in.group() : 2};
+}
+
+Cloud cloudOf(const TextReader& file, const v1::Habits& in) {
+    if (in.home().kind() != v1::Home::PLACE)
+        file.refuse(in, "cloud", "a cloud is over a home: add home { kind: PLACE }");
+    return {.heightMetres = in.cloud().height_m(), .pickSeconds = in.cloud().pick_s()};
+}
+
+// Kinds of sites; no kind twice.
+std::vector<SiteKind> hidingOf(const TextReader& file, const v1::Habits& in) {
+    std::vector<SiteKind> kinds;
+    for (int i = 0; i < in.hides_in_size(); ++i) {
+        const std::optional<SiteKind> kind = siteOf(in.hides_in(i));
+        if (!kind) file.refuse(in, "hides_in", "no fish hides there: name a kind of site", i);
+        if (std::ranges::count(kinds, *kind) > 0)
+            file.refuse(in, "hides_in", "the kind is named twice: once is enough", i);
+        kinds.push_back(*kind);
+    }
+    return kinds;
 }
 
 // Names of other species; no name twice.
@@ -295,6 +322,8 @@ Habits habitsOf(const TextReader& file, const v1::Habits& in, const std::string&
                   .upBodyLengths = real(in.box().up_bl())};
     habits.persistence = real(in.persistence());
     if (in.has_home()) habits.home = homeOf(file, in.home());
+    if (in.has_cloud()) habits.cloud = cloudOf(file, in);
+    habits.hidesIn = hidingOf(file, in);
     if (in.has_hunt()) {
         habits.hunts = othersOf(file, in.hunt(), "prey", in.hunt().prey(), own);
         habits.hunt = {.chaseSeconds = in.hunt().chase_s(),

@@ -189,6 +189,10 @@ struct Paces {
     double hover = 0, slow = 0.6, medium = 0.3, fast = 0.1;
 };
 
+// What a site of a reef is to the animals that know it.
+enum class SiteKind : std::uint8_t { Anemone, Branching, Ledge, Hole, Turf, Cleaning };
+inline constexpr std::size_t kSiteKinds = 6;
+
 // What a fish keeps to.
 enum class HomeKind : std::uint8_t { None, School, Place };
 
@@ -197,7 +201,15 @@ enum class HomeKind : std::uint8_t { None, School, Place };
 struct Home {
     HomeKind kind = HomeKind::None;
     double radiusMetres = 2, leashMetres = 5;
-    bool onTheReef = false;  // by a rock where there is one, and low
+    bool onTheReef = false;             // by a boulder where there is one
+    std::optional<SiteKind> site = {};  // at one of these sites where there is one
+    std::uint32_t group = 2;            // as many share a home
+};
+
+// Life over a home: height of the largest fish above it, and the mean time from one particle that
+// it picks to the next.
+struct Cloud {
+    double heightMetres = 1, pickSeconds = 3;
 };
 
 // Of predators.
@@ -231,6 +243,8 @@ struct Habits {
     SensitivityBox box;
     float persistence = 0.3F;  // another target must be nearer by this share to be preferred
     Home home;
+    std::optional<Cloud> cloud;
+    std::vector<SiteKind> hidesIn;  // none: it flees in open water
     bool eatsPlankton = true;
     std::vector<std::string> hunts;  // species by name
     Hunt hunt;

@@ -229,6 +229,12 @@ void MotorStep::runReference() const {
     assert(last <= commands->action.size());
     const MotorColumns columns = columnsOf(*commands, *states);
     for (std::size_t fish = first; fish < last; ++fish) stepFish(*this, columns, fish);
+    if (advection == nullptr) return;
+    for (std::size_t fish = first; fish < last; ++fish) {
+        states->x[fish] = moved(states->x[fish], advection->x[fish]);
+        states->y[fish] = moved(states->y[fish], advection->y[fish]);
+        states->z[fish] = moved(states->z[fish], advection->z[fish]);
+    }
 }
 
 Quaternion swayOf(const MotorTables& tables, const MotionStates& states, std::size_t fish) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "common/motion/motion_state.h"
 #include "common/motion/repertoire.h"
@@ -17,6 +18,12 @@ namespace aquarama::motion {
 // same on every machine. They are immutable, so all threads may share them.
 class MotorTables;
 [[nodiscard]] std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire);
+
+// The way of the water at each fish in the coming tick, in units of 2^-16 m, by index: the fish is
+// carried by it. Its speed and what it plays are relative to the water.
+struct Advection {
+    std::vector<std::int32_t> x, y, z;
+};
 
 // Advances fish [first, last) of one species by one tick: new segment and motion warp where the
 // command asks for one, speed, body frame by the recorded increment over the tick, commanded yaw
@@ -44,6 +51,8 @@ struct MotorStep {
     MotionStates* states = nullptr;
     std::size_t first = 0;
     std::size_t last = 0;
+    // Null in still water.
+    const Advection* advection = nullptr;
 
     // Vectorised for the best instruction set of the processor, chosen at run time.
     void run() const;

@@ -401,6 +401,24 @@ namespace aquarama::motion {
 
 HWY_EXPORT(stepVectors);
 
+namespace {
+
+// Moves the fish with the water. The compiler makes vectors of it: sums of integers, which wrap
+// around as moved() does.
+void carry(const MotorStep& step) {
+    const auto along = [&](std::vector<std::int32_t>& position,
+                           const std::vector<std::int32_t>& way) {
+        for (std::size_t fish = step.first; fish < step.last; ++fish)
+            position[fish] = static_cast<std::int32_t>(static_cast<std::uint32_t>(position[fish]) +
+                                                       static_cast<std::uint32_t>(way[fish]));
+    };
+    along(step.states->x, step.advection->x);
+    along(step.states->y, step.advection->y);
+    along(step.states->z, step.advection->z);
+}
+
+}  // namespace
+
 void MotorStep::run() const {
     assert(tables != nullptr);
     assert(commands != nullptr);
@@ -412,6 +430,7 @@ void MotorStep::run() const {
     MotorStep vectors = *this;
     vectors.last = last - (last - first) % kWidestLanes;
     HWY_DYNAMIC_DISPATCH(stepVectors)(vectors);
+    if (advection != nullptr) carry(vectors);
     MotorStep rest = *this;
     rest.first = vectors.last;
     rest.runReference();

@@ -259,6 +259,37 @@ void addRing(std::vector<Rock>& rocks, const PlaceKey& place) {
     }
 }
 
+// A pile with a crown at the wanted height above the sand, and small boulders about its foot.
+void addHead(std::vector<Rock>& rocks, const PlaceKey& place, std::uint32_t index) {
+    constexpr float kCrownMetres = 0.05F;  // of the wanted height: near enough
+    constexpr std::uint32_t kSatellites = 4;
+    const config::Head& head = place.heads[index];
+    const std::uint32_t seed = hashOf(hashOf(place.seed, Stream::Heads), index);
+    const float crown = floorHeight(place, head.xz) + head.heightMetres;
+    Rock top = rockAt(place, head.xz, std::min(head.radiusMetres, head.heightMetres), seed);
+    rocks.push_back(top);
+    for (std::uint32_t storey = 0; top.centre.y + top.radiusMetres < crown - kCrownMetres;
+         ++storey) {
+        const std::uint32_t next = hashOf(seed, 100 + storey);
+        const glm::vec2 aside = inDisc(next, 0);
+        const float radius = top.radiusMetres * (0.74F + 0.20F * unitOf(hashOf(next, 1)));
+        top.centre += glm::vec3{0.5F * radius * aside.x,
+                                0.50F * top.radiusMetres + 0.20F * radius,
+                                0.5F * radius * aside.y};
+        top.centre.y = std::min(top.centre.y, crown - radius);
+        top.radiusMetres = radius;
+        top.seed = next;
+        rocks.push_back(top);
+    }
+    for (std::uint32_t i = 0; i < kSatellites; ++i) {
+        const std::uint32_t next = hashOf(seed, 200 + i);
+        const glm::vec2 away = inDisc(next, 0);
+        const float share = 0.25F + 0.3F * unitOf(hashOf(next, 1));
+        rocks.push_back(rockAt(
+            place, head.xz + away * (1.5F * head.radiusMetres), head.radiusMetres * share, next));
+    }
+}
+
 // Cost: all rocks for each plant.
 bool standsInRock(const std::vector<Rock>& rocks, glm::vec3 root) {
     for (const Rock& rock : rocks) {
@@ -402,7 +433,13 @@ std::vector<Rock> rocksOf(const PlaceKey& place) {
     for (const RockGroup& group : kRockGroups) addGroup(rocks, place, group, next);
     addArch(rocks, place);
     addRing(rocks, place);
+    for (std::uint32_t i = 0; i < place.heads.size(); ++i) addHead(rocks, place, i);
     return rocks;
+}
+
+PlaceKey placeOf(const config::Scene& scene, std::uint32_t seed) {
+    return {
+        seed, scene.place, scene.heads, scene.sites, {scene.water.centre, scene.water.halfExtent}};
 }
 
 std::vector<Plant> plantsOf(const PlaceKey& place) {

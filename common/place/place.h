@@ -89,11 +89,26 @@ inline constexpr glm::vec3 kEyePosition{0.0F, -6.0F, 0.0F};
 inline constexpr float kMeanFloorDepthMetres = 8.6F;  // of the reef
 inline constexpr float kOpenSeaFloorDepthMetres = 60.0F;
 
+// The water in which the school lives, as a box in the world frame (metres): fish keep inside it.
+// Chosen so that the wall always has them in view.
+struct Region {
+    glm::vec3 centre{};
+    glm::vec3 halfExtent{};
+    friend bool operator==(const Region&, const Region&) = default;
+};
+
 // The parameters of a place: equal keys have equal places on every machine.
 struct PlaceKey {
     std::uint32_t seed = 0;
     config::PlaceKind kind = config::PlaceKind::Reef;
+    // What a scene adds: boulders, and sites on those that reach into this water (sites.h).
+    std::vector<config::Head> heads = {};
+    std::vector<config::SiteGroup> sites = {};
+    Region settled = {};
+    friend bool operator==(const PlaceKey&, const PlaceKey&) = default;
 };
+// The place of a scene.
+[[nodiscard]] PlaceKey placeOf(const config::Scene& scene, std::uint32_t seed);
 
 // Height (y in metres, negative) of the sand at (x, z). Exact arithmetic only: the master's world
 // depends on it.
@@ -106,7 +121,7 @@ struct Rock {
     float radiusMetres = 0.0F;
     std::uint32_t seed = 0;
 };
-// All rocks, computed at every call; none in the open sea.
+// All rocks, computed at every call, those of heads last; none in the open sea.
 [[nodiscard]] std::vector<Rock> rocksOf(const PlaceKey& place);
 
 // What a plant looks like.
@@ -121,13 +136,6 @@ struct Plant {
 };
 // All plants, computed at every call with the rocks; none in the open sea.
 [[nodiscard]] std::vector<Plant> plantsOf(const PlaceKey& place);
-
-// The water in which the school lives, as a box in the world frame (metres): fish keep inside it.
-// Chosen so that the wall always has them in view.
-struct Region {
-    glm::vec3 centre{};
-    glm::vec3 halfExtent{};
-};
 
 // The water that a scene has for a number of fish.
 

@@ -194,7 +194,9 @@ bool hasRoom(const Situation& situation, glm::vec3 direction, float lengths) {
         return surroundings::avoidance(situation.environment.surroundings->obstacles,
                                        situation.senses.position,
                                        way,
-                                       lengths * situation.senses.length) == glm::vec3{};
+                                       lengths * situation.senses.length,
+                                       surroundings::berthOf(situation.senses.length)) ==
+               glm::vec3{};
     };
     return isFree(direction) && isFree(situation.senses.heading);
 }

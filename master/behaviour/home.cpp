@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
 #include "common/base/random_streams.h"
 #include "common/place/place.h"
@@ -21,8 +22,10 @@ constexpr float kInside = 0.75F;
 // Spread about the best depth, as a share of the half height.
 constexpr float kDepthSpread = 0.4F;
 constexpr float kAboveRockMetres = 0.45F;
-// Homes lie within this share of the half height of the water.
-constexpr float kHomeInside = 0.6F;
+// Homes over boulders lie within this share of the half extent of the water.
+constexpr float kHomeInside = 0.8F;
+// From the middle of a site outwards.
+constexpr float kOffSiteMetres = 0.1F;
 
 // Cosine and sine of 40 degrees: a predator makes for a point that far ahead on its oval.
 constexpr float kBeatCosine = 0.766F;
@@ -42,20 +45,41 @@ float heightIn(const place::Region& water, float bestDepthMetres, float share) {
     return std::clamp(height, water.centre.y - half, water.centre.y + half);
 }
 
-bool standsIn(const place::Region& water, const place::Rock& rock) {
-    return std::abs(rock.centre.x - water.centre.x) < kInside * water.halfExtent.x &&
-           std::abs(rock.centre.z - water.centre.z) < kInside * water.halfExtent.z;
+// Boulders that are within the water in plan.
+std::vector<place::Rock> bouldersIn(const surroundings::Obstacles& obstacles) {
+    std::vector<place::Rock> boulders;
+    for (const place::Rock& rock : obstacles.rocks) {
+        const glm::vec3 from = rock.centre - obstacles.water.centre;
+        if (std::abs(from.x) < kHomeInside * obstacles.water.halfExtent.x &&
+            std::abs(from.z) < kHomeInside * obstacles.water.halfExtent.z)
+            boulders.push_back(rock);
+    }
+    return boulders;
 }
 
-// The rock of a household, drawn among those within the water; null where there is none.
-const place::Rock* rockFor(const surroundings::Obstacles& obstacles, std::uint32_t hash) {
-    const auto isIn = [&](const place::Rock& rock) { return standsIn(obstacles.water, rock); };
-    const auto count = std::ranges::count_if(obstacles.rocks, isIn);
-    if (count == 0) return nullptr;
-    auto left = static_cast<std::ptrdiff_t>(hash % static_cast<std::uint32_t>(count));
-    for (const place::Rock& rock : obstacles.rocks)
-        if (isIn(rock) && left-- == 0) return &rock;
-    return nullptr;
+std::vector<place::Site> sitesOf(const surroundings::Surroundings& surroundings,
+                                 const std::optional<config::SiteKind>& kind) {
+    std::vector<place::Site> sites;
+    for (const place::Site& site : surroundings.sites)
+        if (kind && site.kind == *kind) sites.push_back(site);
+    return sites;
+}
+
+// The element whose place is nearest in plan to what is wanted. `placeOf` gives it.
+template <class Element, class PlaceOf>
+const Element& nearestTo(glm::vec2 xz, const std::vector<Element>& all, const PlaceOf& placeOf) {
+    return *std::ranges::min_element(all, {}, [&](const Element& one) {
+        const glm::vec3 place = placeOf(one);
+        return (place.x - xz.x) * (place.x - xz.x) + (place.z - xz.y) * (place.z - xz.y);
+    });
+}
+
+// A place over a boulder, within the heights of the water.
+glm::vec3 over(const place::Region& water, const place::Rock& rock) {
+    const float lowest = water.centre.y - kHomeInside * water.halfExtent.y;
+    const float highest = water.centre.y + kHomeInside * water.halfExtent.y;
+    const float above = rock.centre.y + rock.radiusMetres + kAboveRockMetres;
+    return {rock.centre.x, std::clamp(above, lowest, highest), rock.centre.z};
 }
 
 // In every third period a predator passes through the school, each at another time.
@@ -124,24 +148,54 @@ glm::vec3 wanderingGoal(std::uint32_t seed,
     return {goal.x, heightIn(water, bestDepthMetres, share.y), goal.z};
 }
 
-std::uint32_t householdOf(std::uint32_t firstOfKind, std::uint32_t fish) {
-    assert(fish >= firstOfKind);
-    return firstOfKind + (fish - firstOfKind) / 2;
+Homes homesOf(const surroundings::Surroundings& surroundings,
+              const config::Habits& habits,
+              std::span<const glm::vec2> wanted,
+              std::uint32_t firstOfKind,
+              std::uint32_t fish) {
+    const config::Home& home = habits.home;
+    if (home.kind != config::HomeKind::Place || fish == 0) return {};
+    const auto count = static_cast<std::uint32_t>(wanted.size());
+    Homes homes{.places = {}, .fishAtEach = count > 0 ? (fish + count - 1) / count : home.group};
+    const surroundings::Obstacles& obstacles = surroundings.obstacles;
+    const std::vector<place::Site> sites = sitesOf(surroundings, home.site);
+    const std::vector<place::Rock> boulders =
+        home.onTheReef ? bouldersIn(obstacles) : std::vector<place::Rock>{};
+    const std::uint32_t groups = (fish + homes.fishAtEach - 1) / homes.fishAtEach;
+    for (std::uint32_t group = 0; group < groups; ++group) {
+        const std::uint32_t own =
+            hashOf(hashOf(surroundings.seed, Stream::Homes), firstOfKind + group);
+        if (!sites.empty()) {
+            const place::Site& site =
+                count > 0
+                    ? nearestTo(
+                          wanted[group], sites, [](const place::Site& one) { return one.place; })
+                    : sites[group % sites.size()];
+            homes.places.push_back(site.place + site.normal * kOffSiteMetres);
+        } else if (!boulders.empty()) {
+            const place::Rock& rock =
+                count > 0 ? nearestTo(wanted[group],
+                                      boulders,
+                                      [](const place::Rock& one) { return one.centre; })
+                          : boulders[own % boulders.size()];
+            homes.places.push_back(over(obstacles.water, rock));
+        } else {
+            glm::vec3 place = wanderingGoal(own,
+                                            obstacles.water,
+                                            static_cast<float>(habits.bestDepthMetres),
+                                            firstOfKind + group,
+                                            {});
+            if (count > 0) place.x = wanted[group].x, place.z = wanted[group].y;
+            homes.places.push_back(place);
+        }
+    }
+    return homes;
 }
 
-glm::vec3 homeOf(std::uint32_t seed,
-                 const config::Home& home,
-                 const surroundings::Obstacles& obstacles,
-                 float bestDepthMetres,
-                 std::uint32_t household) {
-    const place::Region& water = obstacles.water;
-    const std::uint32_t hash = hashOf(hashOf(seed, Stream::Homes), household);
-    const place::Rock* rock = home.onTheReef ? rockFor(obstacles, hash) : nullptr;
-    if (rock == nullptr) return wanderingGoal(hash, water, bestDepthMetres, household, {});
-    const float lowest = water.centre.y - kHomeInside * water.halfExtent.y;
-    const float above = rock->centre.y + rock->radiusMetres + kAboveRockMetres;
-    const float highest = water.centre.y + kHomeInside * water.halfExtent.y;
-    return {rock->centre.x, std::clamp(above, lowest, highest), rock->centre.z};
+glm::vec3 homeOf(const fish::SpeciesParameters& parameters, std::uint32_t fish) {
+    assert(fish >= parameters.first);
+    assert(fish < parameters.last);
+    return parameters.homes[(fish - parameters.first) / parameters.fishAtAHome];
 }
 
 glm::vec3 beatGoal(const Environment& environment,
@@ -178,9 +232,7 @@ Bound boundFor(const Environment& environment,
         wanderingGoal(environment.seed, obstacles.water, depth, fish, environment.tick);
     if (home.kind == config::HomeKind::None) return {goal - position, 0};
     const bool own = home.kind == config::HomeKind::Place;
-    const glm::vec3 middle =
-        own ? homeOf(environment.seed, home, obstacles, depth, householdOf(parameters.first, fish))
-            : environment.goal.position;
+    const glm::vec3 middle = own ? homeOf(parameters, fish) : environment.goal.position;
     const float radius =
         own ? static_cast<float>(home.radiusMetres) : environment.schoolRadiusMetres;
     const float leash = own ? static_cast<float>(home.leashMetres) : 2 * radius;

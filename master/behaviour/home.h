@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -12,7 +14,7 @@
 #include "common/place/place.h"
 #include "master/behaviour/perceive.h"
 #include "master/fish/fish_view.h"
-#include "master/surroundings/obstacles.h"
+#include "master/surroundings/surroundings.h"
 
 namespace aquarama::behaviour {
 
@@ -24,15 +26,22 @@ namespace aquarama::behaviour {
                                       std::size_t fish,
                                       Tick tick);
 
-// The home of a household (a number shared by fish that live together), drawn by the seed: over a
-// rock where the species lives on the reef and there is one, else anywhere.
-[[nodiscard]] glm::vec3 homeOf(std::uint32_t seed,
-                               const config::Home& home,
-                               const surroundings::Obstacles& obstacles,
-                               float bestDepthMetres,
-                               std::uint32_t household);
-// Household of a fish: two by two the fish of a species live together.
-[[nodiscard]] std::uint32_t householdOf(std::uint32_t firstOfKind, std::uint32_t fish);
+// Homes of a species and how many fish share one, in the order of its fish.
+struct Homes {
+    std::vector<glm::vec3> places;  // metres; empty where the species keeps to no place
+    std::uint32_t fishAtEach = 1;
+};
+// The homes of `fish` fish of a species, the first of which has this index. With wanted places, in
+// plan, one group at each: at the nearest site of the kind that the species asks for, or over the
+// nearest boulder. Without, the groups take the sites in their order, or boulders drawn by the
+// seed. In open water where there is no boulder.
+[[nodiscard]] Homes homesOf(const surroundings::Surroundings& surroundings,
+                            const config::Habits& habits,
+                            std::span<const glm::vec2> wanted,
+                            std::uint32_t firstOfKind,
+                            std::uint32_t fish);
+// The home of a fish of a species that keeps to a place.
+[[nodiscard]] glm::vec3 homeOf(const fish::SpeciesParameters& parameters, std::uint32_t fish);
 
 // The next point of a predator's beat: an oval near the borders of the water; from time to time
 // through the middle of a bait ball.

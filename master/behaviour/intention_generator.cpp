@@ -11,6 +11,9 @@ namespace {
 // Urgency from which a fish avoids obstacles, and down to which it goes on doing so.
 constexpr float kTurnAway = 1;
 constexpr float kTurnedAway = 0.7F;
+// Threat from which a fish dives, and at which it stays hidden.
+constexpr float kDivesFor = 1;
+constexpr float kStaysFor = 0.2F;
 // An interrupted intention is forgotten after this.
 constexpr float kMemorySeconds = 12;
 // To take over, hunger or libido must be stronger than the other by kPreference, and the other must
@@ -30,13 +33,13 @@ bool likesSchooling(const fish::SpeciesParameters& parameters, const fish::Mind&
            (mind.likes & fish::kLikesSchooling) != 0;
 }
 
-// Only prey heeds its fear. A schooling fish shelters in the school while the fear of each predator
-// is below f1 and there is a school. All thresholds have hysteresis.
+// Only species that are hunted heed their fear. A schooling fish shelters in the school while the
+// fear of each predator is below f1 and there is a school. All thresholds have hysteresis.
 fish::Alarm alarmOf(const fish::SpeciesParameters& parameters,
                     const fish::Mind& mind,
                     const Senses& senses,
                     const fish::Feelings& feelings) {
-    if (parameters.habits.role != config::Role::Prey) return fish::Alarm::Calm;
+    if (!fish::flees(parameters)) return fish::Alarm::Calm;
     const float heeded =
         parameters.habits.fearFrom * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis);
     if (feelings.fear <= heeded) return fish::Alarm::Calm;
@@ -66,6 +69,23 @@ struct Case {
                 threshold};
     }
 
+    // A hidden fish stays until nothing threatens it and it ventures out.
+    [[nodiscard]] Weighed shelter() const {
+        const bool hides = aim.intention == fish::Intention::Hide;
+        Weighed rule{fish::Intention::Hide,
+                     senses.shelter.object,
+                     Verdict::Wins,
+                     feelings.threat,
+                     hides ? kStaysFor : kDivesFor};
+        if (parameters.habits.hidesIn.empty())
+            rule.verdict = Verdict::AgainstHabits;
+        else if (!senses.shelter.seen())
+            rule.verdict = Verdict::NoTarget;
+        else if (rule.value < rule.threshold && !(hides && !senses.venturesOut))
+            rule.verdict = Verdict::TooWeak;
+        return rule;
+    }
+
     [[nodiscard]] Weighed otherFish() const {
         return {fish::Intention::AvoidFish,
                 senses.collision.object,
@@ -81,8 +101,10 @@ struct Case {
             Verdict::Wins,
             feelings.fear,
             parameters.habits.fearFrom * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis)};
-        if (parameters.habits.role != config::Role::Prey)
+        if (!fish::flees(parameters))
             rule.verdict = Verdict::AgainstHabits;
+        else if (senses.shelter.seen())
+            rule.verdict = Verdict::Sheltered;
         else if (alarm == fish::Alarm::Calm)
             rule.verdict = Verdict::TooWeak;
         return rule;
@@ -109,6 +131,7 @@ struct Case {
             const Weighed now = hunger();
             return now.verdict == Verdict::Wins && now.target == mind.rememberedTarget;
         }
+        if (mind.remembered == fish::Intention::Hide) return false;  // by its own rule
         if (mind.remembered == fish::Intention::Mate)
             return senses.mate.seen() && senses.mate.object == mind.rememberedTarget;
         return likesSchooling(parameters, mind);
@@ -204,12 +227,18 @@ struct Case {
                 0,
                 0};
     }
+
+    [[nodiscard]] Weighed ease() const {
+        return {.intention =
+                    parameters.habits.cloud ? fish::Intention::Hover : fish::Intention::Wander};
+    }
 };
 
 // Applies the rules in order until isEnough(rule, weighed) is true.
 template <class IsEnough>
 void applyRules(const Case& of, const IsEnough& isEnough) {
     if (isEnough(PriorityRule::Obstacle, of.obstacle())) return;
+    if (isEnough(PriorityRule::Shelter, of.shelter())) return;
     if (isEnough(PriorityRule::OtherFish, of.otherFish())) return;
     if (isEnough(PriorityRule::Fear, of.fear())) return;
     if (isEnough(PriorityRule::Memory, of.memory())) return;
@@ -217,7 +246,7 @@ void applyRules(const Case& of, const IsEnough& isEnough) {
     if (isEnough(PriorityRule::Libido, of.libido())) return;
     if (isEnough(PriorityRule::Climate, of.climate())) return;
     if (isEnough(PriorityRule::Company, of.company())) return;
-    isEnough(PriorityRule::Ease, Weighed{});
+    isEnough(PriorityRule::Ease, of.ease());
 }
 
 // Urgency up to which another pattern is allowed.
@@ -306,12 +335,14 @@ bool acceptsRecommendation(const fish::SpeciesParameters& parameters,
     if (senses.urgency > kCalm || feelings.fear > parameters.habits.fearFrom) return false;
     switch (mind.intention) {
         case fish::Intention::Wander:
+        case fish::Intention::Hover:
         case fish::Intention::Leave:
         case fish::Intention::School:
             return true;
         case fish::Intention::Eat:
             return isFarFromMeal(parameters, senses);
         case fish::Intention::Mate:
+        case fish::Intention::Hide:
         case fish::Intention::Escape:
         case fish::Intention::AvoidFish:
         case fish::Intention::AvoidObstacle:

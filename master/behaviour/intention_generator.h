@@ -38,6 +38,7 @@ void remember(fish::Mind& mind, const Decision& decision);
 // The rules of decide(), in their order, with the intention that each stands for.
 enum class PriorityRule : std::uint8_t {
     Obstacle,   // AvoidObstacle
+    Shelter,    // Hide
     OtherFish,  // AvoidFish
     Fear,       // School or Escape
     Memory,     // what was interrupted
@@ -45,10 +46,10 @@ enum class PriorityRule : std::uint8_t {
     Libido,     // Mate
     Climate,    // Leave
     Company,    // School
-    // Wander: always wins.
+    // Hover or Wander: always wins.
     Ease,
 };
-inline constexpr std::size_t kPriorityRules = 9;
+inline constexpr std::size_t kPriorityRules = 10;
 
 // The verdict on a rule.
 enum class Verdict : std::uint8_t {
@@ -62,6 +63,7 @@ enum class Verdict : std::uint8_t {
     TooOld,   // Memory: interrupted for longer than threshold; forgotten
     // Hunger of a predator: it rests after a chase.
     Resting,
+    Sheltered,  // Fear: a shelter is near, whose rule decides
     // Hunger or libido: the other one is stronger.
     Yields,
 };
@@ -73,8 +75,8 @@ struct Weighed {
     std::uint32_t target = fish::kNobody;
     Verdict verdict = Verdict::Wins;
     // The compared value. Obstacle: urgency. OtherFish: share of the other body in the box. Fear,
-    // Hunger, Libido: the feeling. Memory: seconds since the interruption. Climate:
-    // Senses::discomfort.
+    // Hunger, Libido: the feeling. Shelter: the threat. Memory: seconds since the interruption.
+    // Climate: Senses::discomfort.
     float value = 0;
     float threshold = 0;
 };

@@ -44,6 +44,29 @@ float fearOf(const fish::SpeciesParameters& parameters, const Sighting& predator
     return heeded * std::min(parameters.habits.fearMetres / predator.distance, 1.0F);
 }
 
+// The distance at which a fish dives from a danger, metres: it grows with the predator, with the
+// way to the shelter and with the fish; less where the predator passes by (docs/minds.md).
+constexpr float kDiveMetres = 0.25F;
+constexpr float kPerPredatorLength = 0.25F;
+constexpr float kPerWay = 0.5F;
+constexpr float kPerLength = 2;
+constexpr float kPassingBy = 0.6F;
+constexpr float kRushed = 1.5F;
+
+// 1 at the distance of diving and nearer, 0 at twice that distance.
+float threatOf(const Senses& senses, const Sighting& predator) {
+    float dives = kDiveMetres + kPerPredatorLength * predator.length +
+                  kPerWay * senses.shelter.distance + kPerLength * senses.length;
+    if (predator.rushing)
+        dives *= kRushed;
+    else if (predator.passesBy)
+        dives *= kPassingBy;
+    return std::clamp((2 * dives - predator.distance) / dives, 0.0F, 1.0F);
+}
+
+// Of its schoolmates so many must dive for a fish to dive too.
+constexpr std::size_t kDiversFollowed = 2;
+
 constexpr float kTicks = static_cast<float>(kTicksPerSecond);
 
 // A number of 0 to 1 for one fish and stream.
@@ -63,7 +86,10 @@ fish::Feelings feel(const fish::SpeciesParameters& parameters,
         const float fear = fearOf(parameters, senses.predators[i]);
         feelings.fear = std::min(1.0F, feelings.fear + fear);
         feelings.greatestFear = std::max(feelings.greatestFear, fear);
+        if (senses.shelter.seen())
+            feelings.threat = std::max(feelings.threat, threatOf(senses, senses.predators[i]));
     }
+    if (senses.shelter.seen() && senses.diving >= kDiversFollowed) feelings.threat = 1;
     return feelings;
 }
 

@@ -6,8 +6,10 @@
 #include <cassert>
 #include <limits>
 
+#include "common/base/random_streams.h"
 #include "common/place/place.h"
 #include "master/behaviour/points_within.h"
+#include "master/behaviour/routines.h"
 #include "master/behaviour/vision.h"
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
@@ -114,6 +116,9 @@ void seeNeighbours(const Onlooker& onlooker) {
         for (std::size_t i = 0; i < those->count; ++i) onlooker.view().fetch(those->fish[i]);
 }
 
+// Cosine of 60 degrees: a predator whose course is farther off passes by.
+constexpr float kTowardsCosine = 0.5F;
+
 // Inserts a predator in order of distance if it is among the nearest; ties go to the lower index.
 void insert(Senses& senses, const Sighting& predator) {
     const auto isNearer = [&](std::size_t place) {
@@ -161,7 +166,12 @@ void seePredators(const Onlooker& onlooker) {
         if (!alarmed && !inFieldOfView(senses.heading, offset)) return;
         const float seen = onlooker.sight(conspicuousness(view.fish[other].length));
         if (squared > seen * seen) return;
-        insert(senses, {other, offset, std::sqrt(squared), view.shows(other, fish::kHunting)});
+        const bool hunts = view.shows(other, fish::kHunting);
+        const bool rushes =
+            hunts && view.stage[other] == static_cast<std::uint8_t>(HuntStage::Rush);
+        const float distance = std::sqrt(squared);
+        const bool passesBy = place::dot(view.heading(other), offset) > -kTowardsCosine * distance;
+        insert(senses, {other, offset, distance, hunts, rushes, view.fish[other].length, passesBy});
         const float farthest = senses.predators[kMostPredators - 1].distance;
         if (senses.predatorCount == kMostPredators)
             reachSquared = std::min(reachSquared, farthest * farthest);
@@ -242,13 +252,17 @@ bool isInASchool(const Onlooker& onlooker) {
            onlooker.senses.schoolmates.count > 0;
 }
 
-// A school stays together while it feeds: its members go only for plankton beside them, and leave
-// the school for pellets alone. In body lengths.
+// A school or a cloud stays together while it feeds: its members go only for plankton beside them,
+// and leave for pellets alone. In body lengths.
 constexpr float kDartBodyLengths = 2.8F;
+
+bool feedsInCompany(const Onlooker& onlooker) {
+    return isInASchool(onlooker) || onlooker.parameters.habits.cloud;
+}
 
 bool isWorthLeaving(const Onlooker& onlooker, std::uint32_t particle, float distance) {
     const surroundings::Food& food = onlooker.environment.surroundings->food;
-    return food.kind[particle] == surroundings::FoodKind::Pellet || !isInASchool(onlooker) ||
+    return food.kind[particle] == surroundings::FoodKind::Pellet || !feedsInCompany(onlooker) ||
            distance < kDartBodyLengths * onlooker.senses.length;
 }
 
@@ -276,7 +290,7 @@ void senseFood(const Onlooker& onlooker) {
     Senses& senses = onlooker.senses;
     const surroundings::Food& food = onlooker.environment.surroundings->food;
     float smell = std::min(parameters.habits.smellBodyLengths * senses.length, onlooker.clarity());
-    if (isInASchool(onlooker) && food.pellets == 0)
+    if (feedsInCompany(onlooker) && food.pellets == 0)
         smell = std::min(smell, kDartBodyLengths * senses.length);
     const float reach = worthLooking(onlooker,
                                      fish::innerHunger(parameters, onlooker.mind),
@@ -334,6 +348,57 @@ void seeMate(const Onlooker& onlooker) {
                                   });
 }
 
+// A site costs up to this share more, drawn by fish and site: so not all dive into the same one.
+constexpr float kOwnTaste = 0.5F;
+// Mean time until a hidden fish ventures out: after a predator that passed, and after one that
+// rushed.
+constexpr float kHiddenSeconds = 4;
+constexpr float kHiddenFromRushSeconds = 15;
+
+// The shelter of least way, or the present one; how many others dive; whether it ventures out.
+void senseShelter(const Onlooker& onlooker) {
+    const std::vector<config::SiteKind>& kinds = onlooker.parameters.habits.hidesIn;
+    if (kinds.empty()) return;
+    Senses& senses = onlooker.senses;
+    const Environment& environment = onlooker.environment;
+    for (std::size_t i = 0; i < senses.schoolmates.count; ++i)
+        senses.diving += static_cast<std::size_t>(
+            onlooker.view().shows(senses.schoolmates.fish[i], fish::kDiving));
+    const bool hides = onlooker.aim.intention == fish::Intention::Hide;
+    if (senses.predatorCount == 0 && senses.diving == 0 && !hides) return;
+    const std::vector<place::Site>& sites = environment.surroundings->sites;
+    const auto sightingOf = [&](std::uint32_t site) {
+        const glm::vec3 offset = sites[site].place - senses.position;
+        return Sighting{site, offset, place::lengthOf(offset)};
+    };
+    if (hides && onlooker.aim.target < sites.size()) {
+        senses.shelter = sightingOf(onlooker.aim.target);
+        const bool rushed = isFromRush(static_cast<HideStage>(onlooker.mind.stage));
+        const float perThought =
+            static_cast<float>(fish::kTicksBetweenThoughts) / static_cast<float>(kTicksPerSecond);
+        const std::uint32_t own =
+            hashOf(hashOf(environment.seed, Stream::VenturesOut), onlooker.fish);
+        senses.venturesOut =
+            unitOf(hashOf(own, static_cast<std::uint32_t>(environment.tick.value))) *
+                (rushed ? kHiddenFromRushSeconds : kHiddenSeconds) <
+            perThought;
+        return;
+    }
+    float least = onlooker.sight(1);
+    for (std::uint32_t site = 0; site < sites.size(); ++site) {
+        if (std::ranges::find(kinds, sites[site].kind) == kinds.end()) continue;
+        const Sighting sighting = sightingOf(site);
+        const float cost =
+            sighting.distance * (1 + kOwnTaste * unitOf(hashOf(sites[site].seed, onlooker.fish)));
+        if (cost >= least) continue;
+        least = cost;
+        senses.shelter = sighting;
+    }
+}
+
+// From the submarine's radius on, where its push begins.
+constexpr float kSubmarineMarginMetres = 0.6F;
+
 // Push of the submarine. Both move, so the path is that of the fish relative to the submarine. A
 // submarine that approaches is felt from farther away.
 glm::vec3 submarinePush(const surroundings::Submarine& submarine,
@@ -341,13 +406,18 @@ glm::vec3 submarinePush(const surroundings::Submarine& submarine,
                         float reach) {
     const glm::vec3 velocity = submarine.velocityMetresPerSecond;
     if (velocity == glm::vec3{})
-        return surroundings::ballPush(
-            submarine.position, submarine.radiusMetres, senses.position, senses.heading, reach);
+        return surroundings::ballPush(submarine.position,
+                                      submarine.radiusMetres,
+                                      kSubmarineMarginMetres,
+                                      senses.position,
+                                      senses.heading,
+                                      reach);
     const glm::vec3 past = senses.heading * reach - velocity * kSubmarineSeconds;
     const glm::vec3 towards = place::directionOf(senses.position - submarine.position, {});
     const float comingOn = std::max(0.0F, place::dot(velocity, towards));
     return surroundings::ballPush(submarine.position,
                                   submarine.radiusMetres + comingOn * kBowWaveSeconds,
+                                  kSubmarineMarginMetres,
                                   senses.position,
                                   place::directionOf(past, senses.heading),
                                   place::lengthOf(past));
@@ -356,14 +426,18 @@ glm::vec3 submarinePush(const surroundings::Submarine& submarine,
 // A fish feels what it would meet while it turns by a right angle.
 void feelSurroundings(const Environment& environment,
                       const fish::SpeciesParameters& parameters,
+                      const fish::Mind& mind,
                       Senses& senses) {
     const surroundings::Surroundings& around = *environment.surroundings;
     const float reach = kReachMetres + std::max(0.0F, senses.speed) *
                                            std::max(kReachSeconds, parameters.turnSeconds);
     const surroundings::Submarine& submarine = around.submarine;
     const glm::vec3 fromSubmarine = submarinePush(submarine, senses, reach);
+    const surroundings::Berth berth = fish::aimOf(mind).intention == fish::Intention::Hide
+                                          ? surroundings::kIntoShelter
+                                          : surroundings::berthOf(senses.length);
     senses.push =
-        surroundings::avoidance(around.obstacles, senses.position, senses.heading, reach) +
+        surroundings::avoidance(around.obstacles, senses.position, senses.heading, reach, berth) +
         fromSubmarine;
     if (submarine.velocityMetresPerSecond != glm::vec3{})
         senses.hurry = std::min(1.0F, kHurry * place::lengthOf(fromSubmarine));
@@ -426,7 +500,8 @@ Senses perceive(const Environment& environment,
     seePrey(onlooker);
     senseFood(onlooker);
     seeMate(onlooker);
-    feelSurroundings(environment, parameters, senses);
+    senseShelter(onlooker);
+    feelSurroundings(environment, parameters, mind, senses);
     feelClimate(*environment.surroundings, parameters, mind.likes, senses);
     feelCollision(environment, parameters, fish, mind, senses);
     return senses;

@@ -78,8 +78,12 @@ struct Sighting {
     // Offset from the origin of the body frame.
     glm::vec3 offset{};
     float distance = std::numeric_limits<float>::infinity();
-    // For a predator: whether it pursues a fish.
+    // For a predator: whether it pursues a fish, and whether it rushes at one.
     bool hunting = false;
+    bool rushing = false;
+    // For a predator: its length, and whether its course passes this fish by.
+    float length = 0;
+    bool passesBy = false;
     [[nodiscard]] bool seen() const { return object != fish::kNobody; }
 };
 
@@ -109,6 +113,12 @@ struct Senses {
     Sighting mate;
     // The particle of least cost, seen or smelt.
     Sighting food;
+    // Of species that hide: the site that it dives into or would, by index of the surroundings.
+    Sighting shelter;
+    // How many of its schoolmates near by dive.
+    std::size_t diving = 0;
+    // Of a fish that hides: whether it ventures out, where nothing threatens it.
+    bool venturesOut = false;
     float submarineMetres = std::numeric_limits<float>::infinity();
     // Push of surroundings and submarine, and its length: 0 in open water; from 1 on only turning
     // away matters.

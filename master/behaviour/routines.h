@@ -73,6 +73,24 @@ enum class HuntStage : std::uint8_t { Stalk, Rush };
                                 fish::Mind& mind,
                                 DeferredEvents& events);
 
+// Values of Mind::stage while a fish hides: on its way and there, from a predator that passes and
+// from one that rushes.
+enum class HideStage : std::uint8_t { Dive, Hidden, DiveFromRush, HiddenFromRush };
+[[nodiscard]] constexpr bool isFromRush(HideStage stage) {
+    return stage == HideStage::DiveFromRush || stage == HideStage::HiddenFromRush;
+}
+[[nodiscard]] constexpr bool isThere(HideStage stage) {
+    return stage == HideStage::Hidden || stage == HideStage::HiddenFromRush;
+}
+// Dives into its shelter, with a fast start where it is startled, and stays there with its head
+// out.
+[[nodiscard]] fish::Course hide(const Situation& situation, fish::Mind& mind);
+
+// Keeps its place in the cloud over its home: the larger the fish the higher, lower in a strong
+// current and where it is threatened, up-current of the home. Now and then it darts at what drifts
+// by.
+[[nodiscard]] fish::Course hover(const Situation& situation);
+
 // Leaves for water whose light and temperature suit its habits. Both change with height alone, so
 // it climbs or dives.
 [[nodiscard]] fish::Course leave(const Situation& situation);

@@ -26,12 +26,22 @@ struct SpeciesParameters {
     std::uint64_t hunts = 0;
     std::uint64_t huntedBy = 0;
     std::uint64_t shadows = 0;
+    // Lengths of its fish, metres.
+    config::SizeRange size = {};
+    // Homes of its groups, metres, in the order of the fish; as many fish share one. Without
+    // elements where the species keeps to no place.
+    std::vector<glm::vec3> homes = {};
+    std::uint32_t fishAtAHome = 2;
     // Speeds of the three forward gaits of its repertoire, in body lengths a second.
     float slow = 1, medium = 2, fast = 3;
     // Seconds in which sharp turns add up to a right angle.
     float turnSeconds = 1;
     config::Habits habits;
 };
+// Whether the species flees: prey, and whatever is hunted by another species of the cast.
+[[nodiscard]] inline bool flees(const SpeciesParameters& parameters) {
+    return parameters.habits.role == config::Role::Prey || parameters.huntedBy != 0;
+}
 
 // The visible data of a fish at the start of a tick. The world writes it before the fish think;
 // while they think it is constant, so that all threads may read it.
@@ -50,6 +60,7 @@ enum Sign : std::uint8_t {
     kSchooling = 16,  // swims in a school
     kStartled = 32,   // makes a fast start
     kAlarmed = 64,    // heeds its fear
+    kDiving = 128,    // dives into its shelter
 };
 
 // Position and motion of one fish. It is 32 bytes long and aligned, so that all of it lies in one

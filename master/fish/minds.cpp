@@ -2,6 +2,7 @@
 #include "master/fish/minds.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -10,6 +11,20 @@
 #include "master/fish/secondary_controller.h"
 
 namespace aquarama::fish {
+
+const char* nameOf(Intention intention) {
+    constexpr std::array<const char*, kIntentions> kNames{"wander",
+                                                          "hover",
+                                                          "leave",
+                                                          "school",
+                                                          "eat",
+                                                          "mate",
+                                                          "hide",
+                                                          "escape",
+                                                          "avoid fish",
+                                                          "avoid obstacle"};
+    return kNames[static_cast<std::size_t>(intention)];
+}
 
 // Folds in member by member: padding bytes between members are undefined and may differ.
 std::uint64_t Minds::hash() const {
@@ -67,6 +82,14 @@ bool wouldMate(const SpeciesParameters& parameters, const Mind& mind, Intention 
 unsigned moodOf(std::uint8_t likes, Intention aim) {
     return ((likes & kIsFemale) != 0 ? unsigned{kFemale} : 0U) |
            (aim == Intention::School ? unsigned{kSchooling} : 0U);
+}
+
+// A dive is seen for so long.
+constexpr std::uint32_t kDiveTicks = 20;
+
+unsigned divingOf(const Mind& mind) {
+    const bool dives = mind.intention == Intention::Hide && mind.sinceStage < kDiveTicks;
+    return dives ? unsigned{kDiving} | unsigned{kAlarmed} : 0U;
 }
 
 }  // namespace
@@ -133,11 +156,12 @@ void showMood(const SpeciesParameters& parameters,
             mind.intention == Intention::School || mind.remembered == Intention::School;
         view.signs[fish] = static_cast<std::uint8_t>(
             away | moodOf(mind.likes, schools ? Intention::School : mind.intention) |
-            (mind.alarm == Alarm::Calm ? 0U : unsigned{kAlarmed}));
+            (mind.alarm == Alarm::Calm ? 0U : unsigned{kAlarmed}) | divingOf(mind));
         return;
     }
     const Aim aim = aimOf(mind);
-    unsigned signs = away | moodOf(mind.likes, aim.intention);
+    unsigned signs = away | moodOf(mind.likes, aim.intention) | divingOf(mind);
+    if (mind.alarm != Alarm::Calm) signs |= kAlarmed;
     if (wouldMate(parameters, mind, aim.intention)) signs |= kWilling;
     if (parameters.habits.role == config::Role::Predator && aim.intention == Intention::Eat)
         signs |= kHunting;

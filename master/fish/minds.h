@@ -11,19 +11,24 @@
 
 namespace aquarama::fish {
 
-// The behaviour routines of Tu & Terzopoulos 1994, which a mind chooses from. Those from Escape on
-// always interrupt (see interrupts()). Wander also stands for an empty memory.
+// The behaviour routines, which a mind chooses from: those of Tu & Terzopoulos 1994, and Hover and
+// Hide of fish that live at the reef. Those from Escape on always interrupt (see interrupts()).
+// Wander also stands for an empty memory.
 enum class Intention : std::uint8_t {
     Wander,
+    Hover,
     Leave,
     School,
     Eat,
     Mate,
+    Hide,
     Escape,
     AvoidFish,
     AvoidObstacle
 };
-inline constexpr std::size_t kIntentions = 8;
+inline constexpr std::size_t kIntentions = 10;
+// Its name for people, such as "avoid fish".
+[[nodiscard]] const char* nameOf(Intention intention);
 
 // Upper limit of the clocks of a mind. They are in ticks, advance at every thought and stop here.
 inline constexpr std::uint32_t kLongAgo = 0x7fffffffU;
@@ -42,8 +47,8 @@ enum class Alarm : std::uint8_t {
 // meals, catches, spawning and the arrival of a new fish.
 struct Mind {
     Intention intention = Intention::Wander;
-    // Target of the intention: a fish (Mate, AvoidFish, Escape, Eat of a predator) or a particle of
-    // food (Eat of the others); kNobody where the routine has none.
+    // Target of the intention: a fish (Mate, AvoidFish, Escape, Eat of a predator), a particle of
+    // food (Eat of the others) or a site (Hide); kNobody where the routine has none.
     std::uint32_t target = kNobody;
     // Ticks for which it has had the present aim (aimOf()); interruptions count too.
     std::uint32_t pursued = 0;
@@ -60,7 +65,7 @@ struct Mind {
     std::uint16_t eaten = 0;
     // Bits of Like.
     std::uint8_t likes = 0;
-    // Stage of a routine that has stages: CourtshipStage, HuntStage, or that of eat().
+    // Stage of a routine that has stages: CourtshipStage, HuntStage, HideStage, or that of eat().
     std::uint8_t stage = 0;
     // Ticks in that stage.
     std::uint32_t sinceStage = 0;
@@ -139,6 +144,9 @@ struct Feelings {
     float fear = 0;
     // Fear of the most dangerous predator alone.
     float greatestFear = 0;
+    // Of species that hide: how near the nearest danger is to where the fish would dive, which
+    // is 1.
+    float threat = 0;
 };
 
 // Threshold r of Tu & Terzopoulos 1994: a fish heeds hunger or libido above this value.

@@ -50,13 +50,6 @@ double seconds(std::uint32_t ticks) {
     return static_cast<double>(ticks) / kTicksPerSecond;
 }
 
-// Words for intentions, indexed by Intention.
-const char* wordFor(fish::Intention intention) {
-    constexpr std::array<const char*, fish::kIntentions> kWords{
-        "wander", "leave", "school", "eat", "mate", "escape", "avoid fish", "avoid obstacle"};
-    return kWords[static_cast<std::size_t>(intention)];
-}
-
 // Words for roles, indexed by Role.
 const char* wordFor(config::Role role) {
     constexpr std::array<const char*, 3> kWords{"prey", "pacifist", "predator"};
@@ -220,12 +213,14 @@ class Screen {
         add("FEELS", "hunger " + bar(of_.feelings.hunger));
         add("", "libido " + bar(of_.feelings.libido));
         add("", "fear   " + bar(of_.feelings.fear));
+        if (!of_.parameters.habits.hidesIn.empty()) add("", "threat " + bar(of_.feelings.threat));
     }
 
     // The target is a particle for those that eat food, a fish for all others; empty where there
     // is none.
     [[nodiscard]] std::string targetOf(fish::Intention intention, std::uint32_t target) const {
         if (target == fish::kNobody) return {};
+        if (intention == fish::Intention::Hide) return fmt::format("site {}", target);
         const bool isParticle = intention == fish::Intention::Eat &&
                                 of_.parameters.habits.role != config::Role::Predator;
         return isParticle ? particle(target) : named(target);
@@ -233,7 +228,8 @@ class Screen {
 
     [[nodiscard]] std::string targeted(fish::Intention intention, std::uint32_t target) const {
         const std::string what = targetOf(intention, target);
-        return what.empty() ? wordFor(intention) : fmt::format("{} {}", wordFor(intention), what);
+        return what.empty() ? fish::nameOf(intention)
+                            : fmt::format("{} {}", fish::nameOf(intention), what);
     }
 
     // The intention, and the aim that it interrupted, if any.
@@ -287,8 +283,16 @@ class Screen {
 };
 
 // Words for rules, indexed by PriorityRule.
-constexpr std::array<const char*, behaviour::kPriorityRules> kPriorityRuleNames{
-    "obstacle", "other fish", "fear", "memory", "hunger", "libido", "climate", "company", "ease"};
+constexpr std::array<const char*, behaviour::kPriorityRules> kPriorityRuleNames{"obstacle",
+                                                                                "shelter",
+                                                                                "other fish",
+                                                                                "fear",
+                                                                                "memory",
+                                                                                "hunger",
+                                                                                "libido",
+                                                                                "climate",
+                                                                                "company",
+                                                                                "ease"};
 
 // Words for Verdict::NoTarget of a rule.
 std::string notInView(behaviour::PriorityRule rule) {
@@ -299,6 +303,8 @@ std::string notInView(behaviour::PriorityRule rule) {
             return "it is nowhere better";
         case behaviour::PriorityRule::Memory:
             return "what was interrupted cannot be resumed";
+        case behaviour::PriorityRule::Shelter:
+            return "no shelter is near";
         default:
             return "none is in view";
     }
@@ -331,6 +337,8 @@ std::string Screen::verdictOn(behaviour::PriorityRule rule,
                 "forgotten: {:.1f} s ago, more than {:.0f}", weighed.value, weighed.threshold);
         case behaviour::Verdict::Resting:
             return "rests from the last chase";
+        case behaviour::Verdict::Sheltered:
+            return "a shelter is near";
         case behaviour::Verdict::Yields:
             break;
     }

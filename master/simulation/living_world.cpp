@@ -157,7 +157,8 @@ world::WorldOptions worldOptionsOf(const Assets& assets) {
                                 .size = species.size,
                                 .name = species.name,
                                 .habits = species.habits,
-                                .start = assets.scene.cast[i].start});
+                                .start = assets.scene.cast[i].start,
+                                .homes = assets.scene.cast[i].homes});
     }
     options.threads = std::clamp(config::fishIn(options.scene) / kFishOfAThread,
                                  1U,

@@ -45,10 +45,6 @@ std::vector<Task> tasksOf(const StudyPlan& plan) {
 
 constexpr std::uint64_t kTicksBetweenPinches = static_cast<std::uint64_t>(30 * kTicksPerSecond);
 
-// Indexed by Intention.
-constexpr std::array<const char*, fish::kIntentions> kRoutines{
-    "wander", "leave", "school", "eat", "mate", "escape", "avoid fish", "avoid obstacle"};
-
 // A scenario for each species of the cast, named after it, with no other in it.
 std::vector<Scenario> eachAlone(const Scenario& all) {
     std::vector<Scenario> scenarios;
@@ -172,7 +168,8 @@ std::string runsCsv(const StudyPlan& plan, const std::vector<Sample>& samples) {
 std::string hoursCsv(std::span<const Hour> hours) {
     std::ostringstream csv;
     csv << "hour,fewest_fish,meals,catches,returns,spawnings";
-    for (const char* routine : kRoutines) csv << ',' << routine << " share";
+    for (std::size_t i = 0; i < fish::kIntentions; ++i)
+        csv << ',' << fish::nameOf(static_cast<fish::Intention>(i)) << " share";
     csv << ",changes_per_fish_minute,touches_per_fish_minute,overlap_percent,into_terrain,"
            "shortest_way_m,longest_stay_s,who_stayed,farthest_out_m,spread_m,water_used_percent\n";
     int number = 0;
@@ -233,8 +230,8 @@ std::string overlapsCsv(const OverlapLog& log,
         report::addRow(csv,
                        speciesOf(overlap.a),
                        speciesOf(overlap.b),
-                       kRoutines.at(static_cast<std::size_t>(overlap.intentionOfA)),
-                       kRoutines.at(static_cast<std::size_t>(overlap.intentionOfB)),
+                       fish::nameOf(overlap.intentionOfA),
+                       fish::nameOf(overlap.intentionOfB),
                        secondsOf(overlap.from.value),
                        secondsOf(overlap.ticks),
                        secondsOf(overlap.deepTicks),

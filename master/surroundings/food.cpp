@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/base/random_streams.h"
+#include "common/place/current.h"
 #include "common/place/place.h"
 
 namespace aquarama::surroundings {
@@ -37,8 +38,8 @@ constexpr float kPelletOnSandMetres = 0.02F;
 // Pellets dropped together spread by this much to each side.
 constexpr float kSpreadMetres = 0.3F;
 // Greatest velocity of the swell, metres a second: level, and up or down.
-constexpr float kCurrentMetres = 0.03F;
-constexpr float kCurrentUpMetres = 0.008F;
+constexpr float kSwellMetres = 0.03F;
+constexpr float kSwellUpMetres = 0.008F;
 // Longest period of the swell: some three minutes.
 constexpr std::uint64_t kSwellTicks = 12'288;
 // Seconds in a tick.
@@ -68,19 +69,29 @@ bool isClear(const Obstacles& obstacles, glm::vec3 place) {
     });
 }
 
+// Where a particle appears: anywhere, or in the tenth of the water from which the current comes.
+enum class Origin : std::uint8_t { Anywhere, Left, Right };
+
+Origin upCurrent(glm::vec3 open) {
+    return open.x > 0 ? Origin::Left : open.x < 0 ? Origin::Right : Origin::Anywhere;
+}
+
 // A random place for a particle; `turn` distinguishes its appearances. Heights are limited by sand
 // and surface.
 glm::vec3 strewn(std::uint32_t seed,
                  const Obstacles& obstacles,
                  std::uint32_t particle,
-                 std::uint32_t turn) {
+                 std::uint32_t turn,
+                 Origin origin) {
     const place::Region water = reachable(obstacles.water);
     glm::vec3 place{};
     for (std::uint32_t i = 0; i < kPlacesTried; ++i) {
         const std::uint32_t hash =
             hashOf(hashOf(hashOf(hashOf(seed, Stream::FoodPlace), particle), turn), i);
-        const glm::vec3 share{
+        glm::vec3 share{
             signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
+        if (origin == Origin::Left) share.x = -0.9F + 0.1F * share.x;
+        if (origin == Origin::Right) share.x = 0.9F + 0.1F * share.x;
         place = water.centre + water.halfExtent * share;
         place.y =
             std::min(std::max(place.y, lowestAt(obstacles, place.x, place.z)), -kSurfaceRoomMetres);
@@ -104,17 +115,10 @@ void strew(Food& food,
            std::uint32_t seed,
            const Obstacles& obstacles,
            std::uint32_t i,
-           std::uint32_t turn) {
-    const glm::vec3 place = strewn(seed, obstacles, i, turn);
+           std::uint32_t turn,
+           Origin origin = Origin::Anywhere) {
+    const glm::vec3 place = strewn(seed, obstacles, i, turn, origin);
     put(food, i, FoodKind::Plankton, place, lowestAt(obstacles, place.x, place.z));
-}
-
-// A periodic wave between -1 and 1, of parabolas, with period 1. It replaces a sine, because libm
-// differs between machines. Adding 4096 rounds negative arguments down too.
-inline float wave(float cycles) {
-    const float t = cycles - static_cast<float>(static_cast<std::int32_t>(cycles + 4096.0F) - 4096);
-    const float half = 2 * t - 1;
-    return -4 * half * (1 - std::abs(half));
 }
 
 // The swell of one tick: three products of a wave and a factor that vanishes at the border.
@@ -130,16 +134,16 @@ struct Swell {
     // Each component has a whole number of cycles in the longest period, so that nothing jumps when
     // the period starts again. At a border the flow across it is 0: no particle leaves.
     [[nodiscard]] float alongX(float x, float y, float z) const {
-        return kCurrentMetres * calm(x, centre.x, perHalf.x) *
-               wave(0.11F * z + 0.17F * y + 3 * time);
+        return kSwellMetres * calm(x, centre.x, perHalf.x) *
+               place::wave(0.11F * z + 0.17F * y + 3 * time);
     }
     [[nodiscard]] float alongY(float x, float y, float z) const {
-        return kCurrentUpMetres * calm(y, centre.y, perHalf.y) *
-               wave(0.23F * x + 0.19F * z + 11 * time);
+        return kSwellUpMetres * calm(y, centre.y, perHalf.y) *
+               place::wave(0.23F * x + 0.19F * z + 11 * time);
     }
     [[nodiscard]] float alongZ(float x, float y, float z) const {
-        return kCurrentMetres * calm(z, centre.z, perHalf.z) *
-               wave(0.13F * x + 0.15F * y + 5 * time);
+        return kSwellMetres * calm(z, centre.z, perHalf.z) *
+               place::wave(0.13F * x + 0.15F * y + 5 * time);
     }
     [[nodiscard]] static float calm(float at, float centre, float perHalf) {
         const float share = (at - centre) * perHalf;
@@ -151,7 +155,7 @@ struct Swell {
 // Moves all plankton, present or absent, in a loop without branches, so that it vectorises. The
 // swell is passed by value and the arrays are __restrict: else the compiler must assume that
 // storing a position changes them.
-void drift(Food& food, std::size_t count, const Swell swell) {
+void drift(Food& food, std::size_t count, const Swell swell, const glm::vec3 open) {
     float* const __restrict x = food.x.data();
     float* const __restrict y = food.y.data();
     float* const __restrict z = food.z.data();
@@ -159,9 +163,9 @@ void drift(Food& food, std::size_t count, const Swell swell) {
         const float atX = x[i];
         const float atY = y[i];
         const float atZ = z[i];
-        x[i] = atX + kPerTick * swell.alongX(atX, atY, atZ);
-        y[i] = atY + kPerTick * swell.alongY(atX, atY, atZ);
-        z[i] = atZ + kPerTick * swell.alongZ(atX, atY, atZ);
+        x[i] = atX + kPerTick * (swell.alongX(atX, atY, atZ) + open.x);
+        y[i] = atY + kPerTick * (swell.alongY(atX, atY, atZ) + open.y);
+        z[i] = atZ + kPerTick * (swell.alongZ(atX, atY, atZ) + open.z);
     }
 }
 
@@ -175,6 +179,7 @@ bool isDue(const Food& food, std::size_t i, std::uint32_t now) {
 void lookAfter(Food& food,
                std::uint32_t seed,
                const Obstacles& obstacles,
+               Origin origin,
                std::uint32_t i,
                std::uint32_t now) {
     if (food.isThere(i)) {
@@ -182,7 +187,7 @@ void lookAfter(Food& food,
         food.y[i] = std::max(food.y[i], food.lowest[i]);
         const bool fits =
             isWithin(obstacles.water, food.position(i)) && isClear(obstacles, food.position(i));
-        if (food.taken[i] == 0 && !fits) strew(food, seed, obstacles, i, now);
+        if (food.taken[i] == 0 && !fits) strew(food, seed, obstacles, i, now, origin);
     } else if (isDue(food, i, now)) {
         strew(food, seed, obstacles, i, now);
     }
@@ -214,16 +219,17 @@ Food makeFood(std::uint32_t seed, const Obstacles& obstacles, std::uint32_t plan
     return food;
 }
 
-void driftFood(Food& food, std::uint32_t seed, const Obstacles& obstacles, Tick tick) {
+void driftFood(
+    Food& food, std::uint32_t seed, const Obstacles& obstacles, glm::vec3 open, Tick tick) {
     assert(food.size() >= kMostPellets);
     // Behind the plankton are the elements of pellets.
     const std::size_t plankton = food.size() - kMostPellets;
     const auto now = static_cast<std::uint32_t>(tick.value);
-    drift(food, plankton, Swell(reachable(obstacles.water), tick));
+    drift(food, plankton, Swell(reachable(obstacles.water), tick), open);
     const std::uint64_t turn = tick.value % kTurns;
     const auto until = static_cast<std::uint32_t>(plankton * (turn + 1) / kTurns);
     for (auto i = static_cast<std::uint32_t>(plankton * turn / kTurns); i < until; ++i)
-        lookAfter(food, seed, obstacles, i, now);
+        lookAfter(food, seed, obstacles, upCurrent(open), i, now);
     for (std::size_t i = plankton; i < food.size(); ++i)
         if (food.isThere(i)) sink(food, i, now);
 }
@@ -274,7 +280,7 @@ void removeFood(Food& food, std::uint32_t particle, Tick tick) {
         hashOf(hashOf(particle, Stream::FoodAbsence), now) % kShortestAbsence;
 }
 
-glm::vec3 currentAt(const place::Region& water, glm::vec3 position, Tick tick) {
+glm::vec3 swellAt(const place::Region& water, glm::vec3 position, Tick tick) {
     const Swell swell(reachable(water), tick);
     return {swell.alongX(position.x, position.y, position.z),
             swell.alongY(position.x, position.y, position.z),

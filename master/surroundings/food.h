@@ -56,9 +56,12 @@ inline constexpr std::size_t kMostPellets = 256;
 // Makes `plankton` particles at random places that fish can reach, and room for pellets. Functions
 // below use only the seed, the tick and the particle as sources of chance.
 [[nodiscard]] Food makeFood(std::uint32_t seed, const Obstacles& obstacles, std::uint32_t plankton);
-// Advances all particles by one tick: plankton drifts, pellets sink. What was eaten appears again
-// elsewhere after a while. O(particles); allocates nothing.
-void driftFood(Food& food, std::uint32_t seed, const Obstacles& obstacles, Tick tick);
+// Advances all particles by one tick: plankton drifts with the swell and with the current, whose
+// velocity far from boulders is `open`, metres a second; pellets sink. What the current carries out
+// of the water comes in again up-current; what was eaten appears again elsewhere after a while.
+// O(particles); allocates nothing.
+void driftFood(
+    Food& food, std::uint32_t seed, const Obstacles& obstacles, glm::vec3 open, Tick tick);
 // Drops pellets around a point, as many as there is room for. They sink, lie on the sand for 20 s
 // and dissolve.
 void dropPellets(Food& food,
@@ -72,8 +75,8 @@ bool takeFood(Food& food, std::uint32_t particle);
 // Removes a particle that was swallowed; it stays absent for 20 to 40 s.
 void removeFood(Food& food, std::uint32_t particle, Tick tick);
 
-// Velocity of the water at a place, metres a second: a slow swell that dies away towards the
-// borders. No libm, so that all machines agree.
-[[nodiscard]] glm::vec3 currentAt(const place::Region& water, glm::vec3 position, Tick tick);
+// Velocity at which the swell alone moves plankton at a place, metres a second: slow, and dying
+// away towards the borders. No libm, so that all machines agree.
+[[nodiscard]] glm::vec3 swellAt(const place::Region& water, glm::vec3 position, Tick tick);
 
 }  // namespace aquarama::surroundings

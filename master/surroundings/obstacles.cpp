@@ -14,12 +14,11 @@ namespace {
 // away from the obstacle itself.
 // Margin of an upright border of the water.
 constexpr float kSideMarginMetres = 0.8F;
-// Margin of the sand, the surface, and the lower and upper border of the water.
+// Margin of the surface and of the lower and upper border of the water.
 constexpr float kHeightMarginMetres = 0.45F;
-constexpr float kFloorClearanceMetres = 0.35F;
 constexpr float kSurfaceClearanceMetres = 0.5F;
-constexpr float kRockClearanceMetres = 0.3F;
-constexpr float kRockMarginMetres = 0.6F;
+// The widest berth: charts list by it.
+constexpr Berth kWidest{};
 // Radius of a kelp plant with its fronds.
 constexpr float kStemRadiusMetres = 0.15F;
 constexpr float kStemMarginMetres = 0.35F;
@@ -51,9 +50,9 @@ glm::vec3 bordersAt(const Obstacles& obstacles, glm::vec3 position) {
 }
 
 // Straight up, by the height over the sand.
-glm::vec3 sandPush(float sand, glm::vec3 position) {
-    const float lowest = sand + kFloorClearanceMetres + kHeightMarginMetres;
-    return {0, ramp(lowest - position.y, kHeightMarginMetres), 0};
+glm::vec3 sandPush(float sand, glm::vec3 position, const Berth& berth) {
+    const float lowest = sand + berth.sandClearance + berth.sandMargin;
+    return {0, ramp(lowest - position.y, berth.sandMargin), 0};
 }
 
 float plainSand(const Obstacles& obstacles, glm::vec3 position) {
@@ -85,13 +84,18 @@ glm::vec3 pushOf(const Obstacles& obstacles,
                  std::size_t index,
                  glm::vec3 position,
                  glm::vec3 heading,
-                 float reachMetres) {
+                 float reachMetres,
+                 const Berth& berth) {
     const std::size_t rocks = obstacles.rocks.size();
     if (index >= rocks)
         return stemPush(obstacles.stems[index - rocks], position, heading, reachMetres);
     const place::Rock& rock = obstacles.rocks[index];
-    return ballPush(
-        rock.centre, rock.radiusMetres + kRockClearanceMetres, position, heading, reachMetres);
+    return ballPush(rock.centre,
+                    rock.radiusMetres + berth.rockClearance,
+                    berth.rockMargin,
+                    position,
+                    heading,
+                    reachMetres);
 }
 
 float distanceToWater(const place::Region& water, glm::vec3 point) {
@@ -121,7 +125,7 @@ Chart chartOf(const Obstacles& obstacles) {
     std::vector<Chart::Footprint> footprints;
     for (const place::Rock& rock : obstacles.rocks)
         footprints.push_back({{rock.centre.x, rock.centre.z},
-                              rock.radiusMetres + kRockClearanceMetres + kRockMarginMetres});
+                              rock.radiusMetres + kWidest.rockClearance + kWidest.rockMargin});
     for (const Stem& stem : obstacles.stems)
         footprints.push_back({stem.foot, kStemRadiusMetres + kStemMarginMetres});
     return {obstacles.place, obstacles.water, footprints};
@@ -129,20 +133,31 @@ Chart chartOf(const Obstacles& obstacles) {
 
 }  // namespace
 
-glm::vec3 ballPush(
-    glm::vec3 centre, float radius, glm::vec3 position, glm::vec3 heading, float reachMetres) {
+Berth berthOf(float lengthMetres) {
+    return {std::min(kWidest.rockClearance, 1.25F * lengthMetres),
+            std::min(kWidest.rockMargin, 2.5F * lengthMetres),
+            std::min(kWidest.sandClearance, 1.5F * lengthMetres),
+            std::min(kWidest.sandMargin, 2 * lengthMetres)};
+}
+
+glm::vec3 ballPush(glm::vec3 centre,
+                   float radius,
+                   float marginMetres,
+                   glm::vec3 position,
+                   glm::vec3 heading,
+                   float reachMetres) {
     // Quick test: most rocks are low, and most fish swim well above them.
     const float lowest = position.y + std::min(0.0F, heading.y * reachMetres);
-    if (lowest - centre.y >= radius + kRockMarginMetres) return {};
+    if (lowest - centre.y >= radius + marginMetres) return {};
     const float along = std::clamp(place::dot(centre - position, heading), 0.0F, reachMetres);
     const glm::vec3 away = position + heading * along - centre;
-    return pushAway(away, radius, kRockMarginMetres, along / reachMetres);
+    return pushAway(away, radius, marginMetres, along / reachMetres);
 }
 
 Obstacles obstaclesOf(const place::PlaceKey& place, const place::Region& water) {
     Obstacles obstacles{place, water, {}};
     for (const place::Rock& rock : place::rocksOf(place)) {
-        const float reach = rock.radiusMetres + kRockClearanceMetres + kRockMarginMetres;
+        const float reach = rock.radiusMetres + kWidest.rockClearance + kWidest.rockMargin;
         if (distanceToWater(water, rock.centre) < reach) obstacles.rocks.push_back(rock);
     }
     obstacles.stems = stemsIn(place, water);
@@ -153,21 +168,23 @@ Obstacles obstaclesOf(const place::PlaceKey& place, const place::Region& water) 
 glm::vec3 plainAvoidance(const Obstacles& obstacles,
                          glm::vec3 position,
                          glm::vec3 heading,
-                         float reachMetres) {
+                         float reachMetres,
+                         const Berth& berth) {
     assert(reachMetres > 0);
     const glm::vec3 ahead = position + heading * reachMetres;
     glm::vec3 push = bordersAt(obstacles, position) + bordersAt(obstacles, ahead) +
-                     sandPush(plainSand(obstacles, position), position) +
-                     sandPush(plainSand(obstacles, ahead), ahead);
+                     sandPush(plainSand(obstacles, position), position, berth) +
+                     sandPush(plainSand(obstacles, ahead), ahead, berth);
     for (std::size_t i = 0; i < obstacles.rocks.size() + obstacles.stems.size(); ++i)
-        push += pushOf(obstacles, i, position, heading, reachMetres);
+        push += pushOf(obstacles, i, position, heading, reachMetres, berth);
     return push;
 }
 
 glm::vec3 avoidance(const Obstacles& obstacles,
                     glm::vec3 position,
                     glm::vec3 heading,
-                    float reachMetres) {
+                    float reachMetres,
+                    const Berth& berth) {
     assert(reachMetres > 0);
     const Chart& chart = obstacles.chart;
     const glm::vec3 ahead = position + heading * reachMetres;
@@ -176,14 +193,15 @@ glm::vec3 avoidance(const Obstacles& obstacles,
     // The chart lists what is within its reach of the position, and knows the sand only where it
     // covers both ends.
     if (reachMetres > kChartReachMetres || !chart.covers(here) || !chart.covers(there))
-        return plainAvoidance(obstacles, position, heading, reachMetres);
+        return plainAvoidance(obstacles, position, heading, reachMetres, berth);
     glm::vec3 push = bordersAt(obstacles, position) + bordersAt(obstacles, ahead);
     // Skips the sand where even the highest sand is too low to push.
     if (std::min(position.y, ahead.y) <
-        chart.highestSand() + kFloorClearanceMetres + kHeightMarginMetres)
-        push += sandPush(chart.sand(here), position) + sandPush(chart.sand(there), ahead);
+        chart.highestSand() + berth.sandClearance + berth.sandMargin)
+        push +=
+            sandPush(chart.sand(here), position, berth) + sandPush(chart.sand(there), ahead, berth);
     for (const std::uint32_t index : chart.near(here))
-        push += pushOf(obstacles, index, position, heading, reachMetres);
+        push += pushOf(obstacles, index, position, heading, reachMetres, berth);
     return push;
 }
 

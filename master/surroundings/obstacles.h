@@ -26,13 +26,25 @@ struct Obstacles {
 // Gathers the obstacles of a place in the given water and charts them.
 [[nodiscard]] Obstacles obstaclesOf(const place::PlaceKey& place, const place::Region& water);
 
+// How far a fish keeps from boulders and sand: at the clearance from them it turns away, from the
+// margin before that on it is pushed. Metres.
+struct Berth {
+    float rockClearance = 0.3F, rockMargin = 0.6F;
+    float sandClearance = 0.35F, sandMargin = 0.45F;
+};
+// Of a fish of this length: small ones live closer to the reef.
+[[nodiscard]] Berth berthOf(float lengthMetres);
+// Of a fish that goes into a shelter.
+inline constexpr Berth kIntoShelter{-0.3F, 0.1F, 0.02F, 0.05F};
+
 // The push of the obstacles on a fish that swims from `position` along `heading` (unit vector). The
 // result has length 0 in open water; at 1 and more only turning away matters. The path is tested
 // `reachMetres` (above 0) ahead, farther than a biomechanical fish would need (paper, section 5.2).
 [[nodiscard]] glm::vec3 avoidance(const Obstacles& obstacles,
                                   glm::vec3 position,
                                   glm::vec3 heading,
-                                  float reachMetres);
+                                  float reachMetres,
+                                  const Berth& berth = {});
 
 // The same push, computed by testing every obstacle. It differs by at most 0.1, where the sand
 // pushes hardest, and not at all away from the sand. The reference for tests, and used off the
@@ -40,10 +52,16 @@ struct Obstacles {
 [[nodiscard]] glm::vec3 plainAvoidance(const Obstacles& obstacles,
                                        glm::vec3 position,
                                        glm::vec3 heading,
-                                       float reachMetres);
+                                       float reachMetres,
+                                       const Berth& berth = {});
 
-// The push away from a ball, from the point where the path passes nearest to it; units as above.
-[[nodiscard]] glm::vec3 ballPush(
-    glm::vec3 centre, float radius, glm::vec3 position, glm::vec3 heading, float reachMetres);
+// The push away from a ball, from the point where the path passes nearest to it, begun at a margin
+// before it; units as above.
+[[nodiscard]] glm::vec3 ballPush(glm::vec3 centre,
+                                 float radius,
+                                 float marginMetres,
+                                 glm::vec3 position,
+                                 glm::vec3 heading,
+                                 float reachMetres);
 
 }  // namespace aquarama::surroundings

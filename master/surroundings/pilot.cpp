@@ -13,7 +13,7 @@
 namespace aquarama::surroundings {
 
 Voyage voyageOf(const config::Scene& scene, std::uint32_t seed, const place::Region& fishWater) {
-    return {.waters = watersOf({seed, scene.place}, fishWater, scene.eye),
+    return {.waters = watersOf(place::placeOf(scene, seed), fishWater, scene.eye),
             .tour = tourOf(scene),
             .stays = !scene.tour,
             .idleTicks = static_cast<std::uint64_t>(scene.idleSeconds * kTicksPerSecond)};

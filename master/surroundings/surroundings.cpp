@@ -119,10 +119,12 @@ Surroundings makeSurroundings(const config::Scene& scene,
                               std::uint32_t seed,
                               std::size_t fish,
                               float meanLengthMetres) {
-    const Obstacles obstacles =
-        obstaclesOf({seed, scene.place}, place::waterFor(scene, fish, meanLengthMetres));
+    const place::PlaceKey place = place::placeOf(scene, seed);
+    const Obstacles obstacles = obstaclesOf(place, place::waterFor(scene, fish, meanLengthMetres));
     return {.seed = seed,
             .obstacles = obstacles,
+            .sites = place::sitesOf(place),
+            .current = {scene.current, obstacles.rocks, obstacles.water},
             .climate = climateOf(scene),
             .food = makeFood(seed, obstacles, scene.plankton),
             .submarine = {.position = scene.eye},
@@ -134,7 +136,11 @@ Surroundings makeSurroundings(const config::Scene& scene,
 void advanceSurroundings(Surroundings& surroundings, Tick tick) {
     surroundings.daylight = daylight(surroundings.climate.day, tick);
     dropWhatIsDue(surroundings, tick);
-    driftFood(surroundings.food, surroundings.seed, surroundings.obstacles, tick);
+    driftFood(surroundings.food,
+              surroundings.seed,
+              surroundings.obstacles,
+              surroundings.current.open(tick),
+              tick);
 }
 
 std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroundings) {

@@ -11,7 +11,9 @@
 
 #include "common/base/units.h"
 #include "common/config/scene.h"
+#include "common/place/current.h"
 #include "common/place/place.h"
+#include "common/place/sites.h"
 #include "master/surroundings/climate.h"
 #include "master/surroundings/food.h"
 #include "master/surroundings/obstacles.h"
@@ -32,6 +34,9 @@ struct Submarine {
 struct Surroundings {
     std::uint32_t seed = 0;
     Obstacles obstacles;
+    // Of the whole place, in the scene's order; constant.
+    std::vector<place::Site> sites;
+    place::Current current;
     Climate climate;
     Food food;
     Submarine submarine;

@@ -156,33 +156,28 @@ void placeBall(std::uint32_t seed,
 // The first place of a fish that does not school: near its home, or at the first place that it
 // would go to.
 glm::vec3 restingPlace(std::uint32_t seed,
-                       const config::Habits& habits,
-                       const surroundings::Obstacles& obstacles,
-                       std::size_t first,
-                       std::size_t fish) {
-    const auto depth = static_cast<float>(habits.bestDepthMetres);
-    if (habits.home.kind != config::HomeKind::Place)
-        return behaviour::wanderingGoal(seed, obstacles.water, depth, fish, {});
-    const auto index = static_cast<std::uint32_t>(fish);
-    const std::uint32_t own = hashOf(hashOf(seed, Stream::BeginningPlace), index);
-    const glm::vec3 share = signedUnits(own);
-    const std::uint32_t household =
-        behaviour::householdOf(static_cast<std::uint32_t>(first), index);
-    return behaviour::homeOf(seed, habits.home, obstacles, depth, household) +
-           share * (0.5F * static_cast<float>(habits.home.radiusMetres));
+                       const fish::SpeciesParameters& parameters,
+                       const place::Region& water,
+                       std::uint32_t fish) {
+    const config::Habits& habits = parameters.habits;
+    if (parameters.homes.empty())
+        return behaviour::wanderingGoal(
+            seed, water, static_cast<float>(habits.bestDepthMetres), fish, {});
+    const std::uint32_t own = hashOf(hashOf(seed, Stream::BeginningPlace), fish);
+    glm::vec3 aside = signedUnits(own) * (0.5F * static_cast<float>(habits.home.radiusMetres));
+    if (habits.cloud)
+        aside.y = unitOf(hashOf(own)) * static_cast<float>(habits.cloud->heightMetres);
+    return behaviour::homeOf(parameters, fish) + aside;
 }
 
 // Places the fish of a species each by itself, heading for the middle of the water.
 void placeWanderers(std::uint32_t seed,
-                    const config::Habits& habits,
-                    const surroundings::Obstacles& obstacles,
-                    std::size_t first,
-                    std::size_t last,
+                    const fish::SpeciesParameters& parameters,
+                    const place::Region& water,
                     motion::MotionStates& states) {
-    const place::Region& water = obstacles.water;
-    for (std::size_t fish = first; fish < last; ++fish) {
+    for (std::uint32_t fish = parameters.first; fish < parameters.last; ++fish) {
         const glm::vec3 inner = water.halfExtent * 0.85F;
-        const glm::vec3 place = glm::clamp(restingPlace(seed, habits, obstacles, first, fish),
+        const glm::vec3 place = glm::clamp(restingPlace(seed, parameters, water, fish),
                                            water.centre - inner,
                                            water.centre + inner);
         const glm::vec3 towards = water.centre - place;
@@ -251,12 +246,14 @@ std::vector<motion::FishTraits> traitsOf(const WorldOptions& options) {
 
 void placeFish(const WorldOptions& options,
                const surroundings::Goal& goal,
+               std::span<const fish::SpeciesParameters> speciesParameters,
                const surroundings::Surroundings& surroundings,
                motion::MotionStates& states) {
     const place::Region& water = surroundings.obstacles.water;
-    std::size_t first = 0;
-    for (const WorldSpecies& species : options.cast) {
-        const std::size_t last = first + species.fish;
+    for (const fish::SpeciesParameters& parameters : speciesParameters) {
+        const WorldSpecies& species = options.cast[parameters.kind];
+        const std::size_t first = parameters.first;
+        const std::size_t last = parameters.last;
         if (species.start)
             placeAbout(options.seed, *species.start, first, last, states);
         else if (first == 0 && species.habits.shares.schooling > 0)
@@ -269,9 +266,7 @@ void placeFish(const WorldOptions& options,
                             states)
                 : placeSchool(options.seed, goal, water, last, states);
         else
-            placeWanderers(
-                options.seed, species.habits, surroundings.obstacles, first, last, states);
-        first = last;
+            placeWanderers(options.seed, parameters, water, states);
     }
 }
 
@@ -286,18 +281,27 @@ void placeFishAt(motion::MotionStates& states,
 fish::SpeciesParameters makeSpeciesParameters(const std::vector<WorldSpecies>& cast,
                                               std::size_t kind,
                                               const fish::Gaits& gaits,
+                                              const surroundings::Surroundings& surroundings,
                                               std::size_t first,
                                               std::size_t last) {
     assert(kind < cast.size());
     assert(kind < kMostSpecies);
     assert(first <= last);
     const config::Habits& habits = cast[kind].habits;
+    behaviour::Homes homes = behaviour::homesOf(surroundings,
+                                                habits,
+                                                cast[kind].homes,
+                                                static_cast<std::uint32_t>(first),
+                                                static_cast<std::uint32_t>(last - first));
     return {.kind = static_cast<std::uint8_t>(kind),
             .first = static_cast<std::uint32_t>(first),
             .last = static_cast<std::uint32_t>(last),
             .hunts = kindsNamed(cast, habits.hunts),
             .huntedBy = huntersOf(cast, cast[kind].name),
             .shadows = kindsNamed(cast, habits.shadows),
+            .size = cast[kind].size,
+            .homes = std::move(homes.places),
+            .fishAtAHome = homes.fishAtEach,
             .slow = gaits.speed[indexOf(motion::Action::ForwardSlow)],
             .medium = gaits.speed[indexOf(motion::Action::ForwardMedium)],
             .fast = gaits.speed[indexOf(motion::Action::ForwardFast)],

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/motion/motion_state.h"
@@ -24,6 +25,7 @@ namespace aquarama::world {
 // place of its own. `states` has one element for each fish of the cast.
 void placeFish(const WorldOptions& options,
                const surroundings::Goal& goal,
+               std::span<const fish::SpeciesParameters> speciesParameters,
                const surroundings::Surroundings& surroundings,
                motion::MotionStates& states);
 
@@ -32,11 +34,14 @@ void placeFishAt(motion::MotionStates& states, std::size_t fish, glm::vec3 place
 
 // Parameters of a species as minds use them: names become bits of the cast's indices.
 
-// For cast[kind], whose fish are [first, last). Names of species outside the cast are ignored.
-[[nodiscard]] fish::SpeciesParameters makeSpeciesParameters(const std::vector<WorldSpecies>& cast,
-                                                            std::size_t kind,
-                                                            const fish::Gaits& gaits,
-                                                            std::size_t first,
-                                                            std::size_t last);
+// For cast[kind], whose fish are [first, last), with their homes in the surroundings. Names of
+// species outside the cast are ignored.
+[[nodiscard]] fish::SpeciesParameters makeSpeciesParameters(
+    const std::vector<WorldSpecies>& cast,
+    std::size_t kind,
+    const fish::Gaits& gaits,
+    const surroundings::Surroundings& surroundings,
+    std::size_t first,
+    std::size_t last);
 
 }  // namespace aquarama::world

@@ -8,6 +8,7 @@
 
 #include "common/base/units.h"
 #include "common/motion/motion_state.h"
+#include "common/motion/motor.h"
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
 #include "master/fish/secondary_controller.h"
@@ -22,6 +23,8 @@ struct FishColumns {
     std::vector<motion::FishTraits> traits;
     motion::MotionStates states;
     motion::MotorCommands commands;
+    // Written before each step; without elements in still water.
+    motion::Advection advection;
     fish::Minds minds;
     fish::Courses courses;
     fish::ControllerMemory memory;

@@ -166,6 +166,9 @@ World::World(const WorldOptions& options)
     meals_ = makeMeals(columns_.traits.size());
     absences_ = makeAbsences(speciesParameters_);
     makeRoomForEvents();
+    if (!surroundings_.current.isStill())
+        for (auto* column : {&columns_.advection.x, &columns_.advection.y, &columns_.advection.z})
+            column->resize(columns_.traits.size());
     begin(options);
 }
 
@@ -177,13 +180,13 @@ void World::addKind(const WorldSpecies& species, const std::vector<WorldSpecies>
         chunks_.push_back({kinds_.size(), at, std::min(last, at + kFishInChunk)});
     }
     kinds_.push_back({species.tables, fish::gaitsOf(*species.tables), first, last});
-    speciesParameters_.push_back(
-        makeSpeciesParameters(cast, kinds_.size() - 1, kinds_.back().gaits, first, last));
+    speciesParameters_.push_back(makeSpeciesParameters(
+        cast, kinds_.size() - 1, kinds_.back().gaits, surroundings_, first, last));
 }
 
 // Places all fish and gives them commands, minds and a first view, so that tick 0 can be shown.
 void World::begin(const WorldOptions& options) {
-    placeFish(options, school_.goal(), surroundings_, columns_.states);
+    placeFish(options, school_.goal(), speciesParameters_, surroundings_, columns_.states);
     for (const fish::SpeciesParameters& parameters : speciesParameters_) {
         const Kind& kind = kinds_[parameters.kind];
         fish::startCommands(
@@ -379,13 +382,36 @@ void World::swim(const Chunk& chunk) {
                               &columns_.commands,
                               &columns_.memory}
         .run(chunk.first, chunk.last);
+    const bool isStill = surroundings_.current.isStill();
+    if (!isStill) carry(chunk);
     motion::MotorStep{own.tables.get(),
                       columns_.traits,
                       &columns_.commands,
                       &columns_.states,
                       chunk.first,
-                      chunk.last}
+                      chunk.last,
+                      isStill ? nullptr : &columns_.advection}
         .run();
+}
+
+// Writes the way of the water at each fish of a chunk in this tick. Fish that are away rest.
+void World::carry(const Chunk& chunk) {
+    constexpr float kUnitsATick =
+        1 / (motion::kPositionUnitMetres * static_cast<float>(kTicksPerSecond));
+    const glm::vec3 open = surroundings_.current.open(tick_);
+    motion::Advection& advection = columns_.advection;
+    for (std::size_t fish = chunk.first; fish < chunk.last; ++fish) {
+        const glm::vec3 velocity =
+            columns_.view.shows(fish, fish::kAway)
+                ? glm::vec3{}
+                : surroundings_.current.at(columns_.view.position(fish), open);
+        const auto units = [&](float metresPerSecond) {
+            return static_cast<std::int32_t>(motion::roundToEven(metresPerSecond * kUnitsATick));
+        };
+        advection.x[fish] = units(velocity.x);
+        advection.y[fish] = units(velocity.y);
+        advection.z[fish] = units(velocity.z);
+    }
 }
 
 // Applies the events of all slices sorted by fish, so that the result does not depend on the order

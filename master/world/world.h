@@ -76,6 +76,8 @@ struct WorldSpecies {
     config::Habits habits = {};
     // The place and mood in which its fish begin, if the scene sets them.
     std::optional<config::Start> start = {};
+    // Wanted homes in plan (x, z), metres, if the scene sets them: one for each group.
+    std::vector<glm::vec2> homes = {};
 };
 
 // All that a world is made of.
@@ -176,6 +178,7 @@ class World {
     void findRushes();
     [[nodiscard]] bool thinks(std::uint32_t fish) const;
     void swim(const Chunk& chunk);
+    void carry(const Chunk& chunk);
     void swallow();
     [[nodiscard]] glm::vec3 mouthOf(std::uint32_t fish) const;
     void performEvents();

@@ -12,6 +12,7 @@
 #include "common/place/place.h"
 #include "render_node/gl/program.h"
 #include "render_node/reef/mesh.h"
+#include "render_node/reef/place_tables.h"
 #include "render_node/reef/solid_array.h"
 #include "render_node/shaders/shader_interface.h"
 
@@ -84,11 +85,11 @@ void shadeSand(std::vector<ShadeTexel>& texels, const place::Rock& rock, float s
 }
 
 // The map of all rocks; starts fully open and without rubble.
-std::vector<ShadeTexel> bakeShade(std::uint32_t seed) {
+std::vector<ShadeTexel> bakeShade(const place::PlaceKey& place) {
     std::vector<ShadeTexel> texels(static_cast<std::size_t>(kShadeTexels) * kShadeTexels,
                                    {255, 255, 0, 255});
-    for (const place::Rock& rock : place::rocksOf({seed}))
-        shadeSand(texels, rock, place::floorHeight({seed}, {rock.centre.x, rock.centre.z}));
+    for (const place::Rock& rock : place::rocksOf(place))
+        shadeSand(texels, rock, place::floorHeight(place, {rock.centre.x, rock.centre.z}));
     return texels;
 }
 
@@ -131,12 +132,12 @@ Mesh layPatch(std::uint32_t seed, glm::vec2 corner, float sideMetres, int cells)
 
 namespace {
 
-GroundTables makeGroundTables(std::uint32_t seed) {
+GroundTables makeGroundTables(const place::PlaceKey& place) {
     GroundTables tables;
     constexpr float kHalf = kPatchMetres * kPatchesASide / 2.0F;
     for (const int cells : kCells) {
         // All patches share a level's triangles.
-        const Mesh mesh = layPatch(seed, {}, kPatchMetres, cells);
+        const Mesh mesh = layPatch(place.seed, {}, kPatchMetres, cells);
         tables.levels.push_back({static_cast<std::uint32_t>(tables.indices.size()),
                                  static_cast<std::int32_t>(mesh.indices.size())});
         tables.indices.insert(tables.indices.end(), mesh.indices.begin(), mesh.indices.end());
@@ -146,23 +147,23 @@ GroundTables makeGroundTables(std::uint32_t seed) {
             glm::vec2{i % kPatchesASide, i / kPatchesASide} * kPatchMetres - kHalf;
         const glm::vec2 middle = corner + kPatchMetres / 2.0F;
         GroundTables::Patch& patch = tables.patches.emplace_back();
-        patch.centre = {middle.x, place::floorHeight({seed}, middle), middle.y};
+        patch.centre = {middle.x, place::floorHeight(place, middle), middle.y};
         for (std::size_t level = 0; level < kCells.size(); ++level) {
-            const Mesh mesh = layPatch(seed, corner, kPatchMetres, kCells.at(level));
+            const Mesh mesh = layPatch(place.seed, corner, kPatchMetres, kCells.at(level));
             patch.firstVertices.at(level) = static_cast<int>(tables.vertices.size());
             tables.vertices.insert(
                 tables.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
         }
     }
-    tables.shade = bakeShade(seed);
+    tables.shade = bakeShade(place);
     return tables;
 }
 
 }  // namespace
 
-GroundTables groundTables(std::uint32_t seed) {
-    return derivedTables<GroundTables>(DerivedKey("ground").add(seed),
-                                       [&] { return makeGroundTables(seed); });
+GroundTables groundTables(const place::PlaceKey& place) {
+    return derivedTables<GroundTables>(derivedKey("ground", place),
+                                       [&] { return makeGroundTables(place); });
 }
 
 Ground::Ground(const GroundTables& tables, const gl::Replacements& replacements)

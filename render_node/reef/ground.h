@@ -48,7 +48,7 @@ struct GroundTables {
 };
 
 // Takes the tables from the cache of derived data, or makes them once on this machine.
-[[nodiscard]] GroundTables groundTables(std::uint32_t seed);
+[[nodiscard]] GroundTables groundTables(const place::PlaceKey& place);
 
 // Draws the sand. Owns its GL objects; construct, use and destroy it with the same context current.
 class Ground {

@@ -16,6 +16,7 @@
 #include "common/base/worker_pool.h"
 #include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
+#include "render_node/reef/place_tables.h"
 #include "render_node/reef/solid_array.h"
 #include "render_node/shaders/shader_interface.h"
 
@@ -164,7 +165,7 @@ ReefTables makeReefTables(const place::PlaceKey& place) {
 }  // namespace
 
 ReefTables reefTables(const place::PlaceKey& place) {
-    return derivedTables<ReefTables>(DerivedKey("reef").add(place.seed).add(place.kind),
+    return derivedTables<ReefTables>(derivedKey("reef", place),
                                      [&] { return makeReefTables(place); });
 }
 

@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "common/place/sites.h"
 #include "render_node/reef/mesh.h"
 #include "render_node/reef/strands.h"
 
@@ -231,14 +232,68 @@ void crownRock(std::vector<Instance>& all,
     plant(all, bed, way, best, size, dice);
 }
 
+// The spot of the rock's surface that lies in a direction from its middle.
+Spot spotTowards(const Bed& bed, glm::vec3 direction) {
+    const auto alongOf = [&](const SolidVertex& vertex) {
+        return glm::dot(bed.turn * glm::normalize(vertex.position), direction);
+    };
+    const SolidVertex& vertex = *std::ranges::max_element(bed.stone->vertices, {}, alongOf);
+    return {bed.rock->centre + bed.turn * (vertex.position * bed.rock->radiusMetres),
+            glm::normalize(bed.turn * glm::vec3(vertex.normal))};
+}
+
+// Plants what is seen of a site: an anemone with two smaller ones, a branching coral, or short
+// turf. The simulation knows the same sites.
+void plantSite(std::vector<Instance>& all,
+               const Bed& bed,
+               std::vector<Planted>& planted,
+               const place::Site& site) {
+    Dice dice{hashOf(site.seed, 81)};
+    const Spot spot = spotTowards(bed, site.normal);
+    const auto grow = [&](const Way& way, glm::vec3 direction, float size) {
+        plant(all, bed, way, spotTowards(bed, glm::normalize(direction)), size, dice);
+    };
+    const auto beside = [&](float share) {
+        return site.normal + (share * site.sizeMetres / bed.rock->radiusMetres) *
+                                 glm::vec3{dice.between(-1, 1), 0, dice.between(-1, 1)};
+    };
+    const auto wayOf = [](Form form) -> const Way& {
+        return *std::ranges::find(kWays, form, &Way::form);
+    };
+    switch (site.kind) {
+        case config::SiteKind::Anemone:
+            grow(wayOf(Form::Anemone), site.normal, site.sizeMetres);
+            for (int i = 0; i < 2; ++i)
+                grow(wayOf(Form::Anemone), beside(0.9F), 0.7F * site.sizeMetres);
+            break;
+        case config::SiteKind::Branching:
+            grow(wayOf(dice.unit() < 0.65F ? Form::Staghorn : Form::Bush),
+                 site.normal,
+                 site.sizeMetres);
+            grow(wayOf(Form::Staghorn), beside(0.8F), 0.7F * site.sizeMetres);
+            break;
+        case config::SiteKind::Turf:
+            for (int i = 0; i < 9; ++i)
+                grow(kTurfPatch, beside(0.8F), dice.between(kTurfPatch.least, 0.12F));
+            break;
+        case config::SiteKind::Ledge:
+        case config::SiteKind::Hole:
+        case config::SiteKind::Cleaning:
+            return;
+    }
+    planted.push_back({spot.place, 1.2F * site.sizeMetres});
+}
+
 // Covers a rock with corals, large ones first so that small ones fill the gaps, then with turf. The
-// numbers grow with the rock.
-void coverRock(std::vector<Instance>& all, const Bed& bed) {
+// numbers grow with the rock. What its sites show comes first of all.
+void coverRock(std::vector<Instance>& all, const Bed& bed, std::span<const place::Site> sites) {
     const float radius = bed.rock->radiusMetres;
     // Attempts, many of which fail.
     const auto corals = static_cast<int>(30.0F + 130.0F * std::pow(radius, 1.6F));
     Dice dice{hashOf(bed.rock->seed, 77)};
     std::vector<Planted> planted;
+    for (const place::Site& site : sites)
+        if (site.rockSeed == bed.rock->seed) plantSite(all, bed, planted, site);
     for (int crown = 0; crown < (radius > 1.2F ? 2 : 1); ++crown)
         crownRock(all, bed, planted, dice);
     for (int i = 0; i < corals; ++i) {
@@ -389,11 +444,12 @@ std::vector<place::Rock> near(std::span<const place::Rock> rocks, const place::R
 std::vector<Instance> scatter(const place::PlaceKey& place,
                               const std::array<Levels, kRockShapes>& shapes) {
     const std::vector<place::Rock> rocks = place::rocksOf(place);
+    const std::vector<place::Site> sites = place::sitesOf(place);
     std::vector<Instance> all;
     for (const place::Rock& rock : rocks) {
         const Bed bed{&place, &rock, &shapes.at(shapeOf(rock))[1], turnOf(rock), near(rocks, rock)};
         addRock(all, bed);
-        coverRock(all, bed);
+        coverRock(all, bed, sites);
         litterFoot(all, bed);
     }
     strew(all, place, rocks);

@@ -89,10 +89,9 @@ struct Bottom {
 // invalid in the open sea.
 struct BottomTables {
     explicit BottomTables(const SceneOptions& options) {
-        if (options.place != config::PlaceKind::Reef) return;
-        reef = std::async(
-            std::launch::async, reefTables, place::PlaceKey{options.seed, options.place});
-        ground = std::async(std::launch::async, groundTables, options.seed);
+        if (options.place.kind != config::PlaceKind::Reef) return;
+        reef = std::async(std::launch::async, reefTables, options.place);
+        ground = std::async(std::launch::async, groundTables, options.place);
     }
     std::future<ReefTables> reef;
     std::future<GroundTables> ground;
@@ -108,7 +107,7 @@ struct SceneRenderer::Parts {
           quality{qualityOf(chosen.quality)},
           shaders{replacementsOf(quality.light)},
           bottomTables{chosen},
-          light{{chosen.seed, chosen.water, quality.light}},
+          light{{chosen.place.seed, chosen.water, quality.light}},
           picture{quality},
           school{cast,
                  {.culling = chosen.culling,

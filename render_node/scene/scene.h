@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/config/scene.h"
+#include "common/place/place.h"
 #include "render_node/quality/quality.h"
 #include "render_node/scene/food_specks.h"
 #include "render_node/surface/school_surface.h"
@@ -41,8 +42,7 @@ struct SceneFrame {
 
 // The options of a scene. A change needs a new SceneRenderer.
 struct SceneOptions {
-    std::uint32_t seed = 1;
-    config::PlaceKind place = config::PlaceKind::Reef;
+    place::PlaceKey place{.seed = 1};
     config::WaterType water = config::WaterType::IA;
     config::QualityTier quality = config::QualityTier::Low;
     // The angle of the finest pixel of the whole wall, seen from the sweet spot; the same on every

@@ -129,8 +129,7 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
         if (&eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, worldSize_);
     if (admission.world)
         scene_.emplace(
-            scene::SceneOptions{.seed = admission.seed,
-                                .place = admission.scene.place,
+            scene::SceneOptions{.place = place::placeOf(admission.scene, admission.seed),
                                 .water = admission.scene.water.jerlov,
                                 .quality = quality,
                                 .pixelRadians = static_cast<float>(wall->finestPixelRadians())},

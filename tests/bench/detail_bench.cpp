@@ -64,7 +64,7 @@ std::vector<motion::PresentedFish> fishOf(std::size_t count) {
 class FishStages {
   public:
     FishStages(std::size_t fish, bool savesWork)
-        : recorded_{fishOf(fish)}, sea_{{.place = config::PlaceKind::OpenSea}, {}} {
+        : recorded_{fishOf(fish)}, sea_{{.place = {.kind = config::PlaceKind::OpenSea}}, {}} {
         const config::Species scad = test::castMember("bigeye_scad");
         const body::FishBody body = body::makeBody(scad);
         const std::vector<surface::SchoolSpecies> cast{

@@ -65,7 +65,7 @@ void addPlate(test::Still& still) {
 
 test::Still stillOf(const Options& options, test::Still still) {
     still.camera.eyeMetres = {options.eye.at(0), options.eye.at(1), options.eye.at(2)};
-    if (options.openSea) still.options.place = config::PlaceKind::OpenSea;
+    if (options.openSea) still.options.place.kind = config::PlaceKind::OpenSea;
     const auto tier = std::ranges::find(config::kTierNames, options.tier);
     still.options.quality = static_cast<config::QualityTier>(tier - config::kTierNames.begin());
     const auto water = std::ranges::find(config::kWaterTypeNames, options.water);
@@ -104,7 +104,7 @@ int main(int argc, char** argv) try {
     app.add_option("--height", still.camera.sizePixels.y, "pixels");
     app.add_option("--time", still.timeSeconds, "seconds");
     app.add_option("--daylight", still.daylight, "1 noon .. 0 night");
-    app.add_option("--seed", still.options.seed, "of the place");
+    app.add_option("--seed", still.options.place.seed, "of the place");
     app.add_option("--quality", options.tier, "tier")
         ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));
     app.add_option("--water", options.water, "Jerlov's type")

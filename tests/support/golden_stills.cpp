@@ -39,7 +39,7 @@ void addWater(Stills& stills) {
 Still openSeaTowards(float azimuthDegrees, float elevationDegrees, float heightDegrees) {
     Still still;
     still.options.quality = config::QualityTier::Medium;
-    still.options.place = config::PlaceKind::OpenSea;
+    still.options.place.kind = config::PlaceKind::OpenSea;
     still.camera = {
         place::kEyePosition, azimuthDegrees, elevationDegrees, heightDegrees, glm::ivec2{320, 180}};
     return still;
@@ -73,7 +73,7 @@ Still portrait(const Sitter& sitter, float turnDegrees) {
     Still still;
     still.camera.sizePixels = {320, 180};
     still.camera.heightDegrees = 19.3F;
-    still.options.place = config::PlaceKind::OpenSea;
+    still.options.place.kind = config::PlaceKind::OpenSea;
     still.options.quality = config::QualityTier::High;
     const float away = sitter.lengthMetres * sitter.height / (2 * kTangent);
     still.fish = {portraitOf(sitter.species, still.camera, away, turnDegrees, sitter.lengthMetres)};
@@ -107,7 +107,7 @@ Still fishAtLevel(const Level& level) {
     const bool isSmall = level.pixels < 10.0F;
     still.camera.sizePixels = isSmall ? glm::ivec2{96, 54} : glm::ivec2{224, 126};
     still.camera.heightDegrees = isSmall ? 75.0F : 10.0F;
-    still.options.place = config::PlaceKind::OpenSea;
+    still.options.place.kind = config::PlaceKind::OpenSea;
     still.options.quality = level.tier;
     const float metres = 0.24F / (level.pixels * pixelRadiansOf(still.camera));
     const int fish = isSmall ? 12 : 1;
@@ -145,7 +145,7 @@ Still reefIn(config::WaterType type) {
 Still openSea(float depthMetres) {
     Still still = reefIn(config::WaterType::IA);
     still.camera.eyeMetres = {0.0F, -depthMetres, 0.0F};
-    still.options.place = config::PlaceKind::OpenSea;
+    still.options.place.kind = config::PlaceKind::OpenSea;
     return still;
 }
 

@@ -17,7 +17,7 @@ Obstacles reef() {
 }
 
 void drift(Food& food, const Obstacles& obstacles, Tick& tick, int ticks) {
-    for (int i = 0; i < ticks; ++i, ++tick.value) driftFood(food, kSeed, obstacles, tick);
+    for (int i = 0; i < ticks; ++i, ++tick.value) driftFood(food, kSeed, obstacles, {}, tick);
 }
 
 TEST(Food, planktonDriftsAndStaysInTheWaterAndOffTheSandForTenMinutes) {
@@ -42,12 +42,11 @@ TEST(Food, planktonDriftsAndStaysInTheWaterAndOffTheSandForTenMinutes) {
     EXPECT_GT(farthest, 0.3F);
 }
 
-TEST(Food, theCurrentNeverJumps) {
+TEST(Food, theSwellNeverJumps) {
     const place::Region water = test::schoolRegion();
     const glm::vec3 place = water.centre + water.halfExtent * 0.3F;
     for (std::uint64_t tick = 0; tick < 30'000; ++tick) {
-        const glm::vec3 change =
-            currentAt(water, place, {tick + 1}) - currentAt(water, place, {tick});
+        const glm::vec3 change = swellAt(water, place, {tick + 1}) - swellAt(water, place, {tick});
         ASSERT_LT(place::lengthOf(change), 0.0005F) << "tick " << tick;
     }
 }

@@ -51,7 +51,7 @@ class Wall {
         for (std::size_t i = 0; i < fish; ++i)
             school.fish.push_back({static_cast<std::uint32_t>(i), 240});
         scene::SceneOptions options;
-        options.place = config::PlaceKind::OpenSea;
+        options.place.kind = config::PlaceKind::OpenSea;
         options.pixelRadians = test::pixelRadiansOf(camera_);
         scene_ = std::make_unique<scene::SceneRenderer>(options, std::span(&school, 1));
     }
@@ -171,7 +171,7 @@ TEST_F(DetailTest, fishThatSwimAwayGrowFainterEvenly) {
 TEST_F(DetailTest, peopleDoNotSeeWhatIsSaved) {
     test::Still still;
     still.camera.sizePixels = {480, 270};
-    still.options.place = config::PlaceKind::OpenSea;
+    still.options.place.kind = config::PlaceKind::OpenSea;
     for (int i = 0; i < 40; ++i) {
         const float k = static_cast<float>(i);
         test::Camera towards = still.camera;

@@ -99,7 +99,8 @@ Picture portrait(const Sitter& sitter) {
                                            .skin = body::skinOf(sitter.species),
                                            .repertoire = test::swaying(body, 0.0F),
                                            .fish = school.traits}};
-    scene::SceneRenderer scene{{.seed = 1, .place = sitter.place, .quality = sitter.quality}, cast};
+    scene::SceneRenderer scene{
+        {.place = {.seed = 1, .kind = sitter.place}, .quality = sitter.quality}, cast};
     scene::SceneFrame frame;
     frame.eyePositionMetres = place::kEyePosition;
     frame.fish = school.moment();

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/place/current.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+
+namespace aquarama::place {
+
+namespace {
+
+// Width of a cell of the grid.
+constexpr float kCellMetres = 0.5F;
+// The crown's effect ends this far above it; the lee ends this far behind a boulder.
+constexpr float kCrownMetres = 1.0F;
+constexpr float kLeeMetres = 1.0F;
+
+std::uint64_t ticksOf(double seconds) {
+    return static_cast<std::uint64_t>(seconds * static_cast<double>(kTicksPerSecond));
+}
+
+// The share of a period, 0 to 1, at a tick.
+float shareOf(double seconds, Tick tick) {
+    const std::uint64_t period = ticksOf(seconds);
+    return static_cast<float>(tick.value % period) / static_cast<float>(period);
+}
+
+// The integral of wave() from 0 to a share of the period, in periods: 0 at 0 and 1, 1/3 between.
+float waveIntegral(float share) {
+    const float half = 2 * share - 1;
+    const float size = half < 0 ? -half : half;
+    return 1.0F / 3 - size * size + (2.0F / 3) * size * size * size;
+}
+
+float ramp(float from, float to, float at) {
+    return std::clamp((at - from) / (to - from), 0.0F, 1.0F);
+}
+
+// The factor at a place by one boulder, with the tide towards `way`, 1 or -1, along x.
+void bend(const Rock& rock, glm::vec3 place, float way, float& crown, float& lee) {
+    const glm::vec3 from = place - rock.centre;
+    const float across = std::sqrt(from.x * from.x + from.z * from.z);
+    const float above = from.y - rock.radiusMetres;
+    // Over the crown: fully at it, falling with the height and beside it.
+    if (above > -0.5F * rock.radiusMetres) {
+        const float share = (1 - ramp(0, kCrownMetres, above)) *
+                            (1 - ramp(0.6F * rock.radiusMetres, 1.2F * rock.radiusMetres, across));
+        crown = std::max(crown, 1 + (kOverCrown - 1) * share);
+    }
+    // Behind it, as wide and as high as the boulder.
+    const float behind = way * from.x;
+    if (behind <= 0 || above > 0) return;
+    const float aside =
+        std::sqrt(from.z * from.z + std::max(0.0F, from.y) * std::max(0.0F, from.y));
+    const float share = (1 - ramp(0.7F * rock.radiusMetres, 1.2F * rock.radiusMetres, aside)) *
+                        (1 - ramp(rock.radiusMetres, rock.radiusMetres + kLeeMetres, behind));
+    lee = std::min(lee, 1 - (1 - kInLee) * share);
+}
+
+}  // namespace
+
+glm::vec3 openCurrent(const config::Current& current, Tick tick) {
+    const float tide =
+        static_cast<float>(current.tideMetresPerSecond) * wave(shareOf(current.tideSeconds, tick));
+    const float surge = static_cast<float>(current.surgeMetresPerSecond) *
+                        wave(shareOf(current.surgeSeconds, tick));
+    return glm::vec3{tide, 0, 0} + kSurgeCourse * surge;
+}
+
+glm::vec3 openDrift(const config::Current& current, Tick tick) {
+    const float tide = static_cast<float>(current.tideMetresPerSecond * current.tideSeconds) *
+                       waveIntegral(shareOf(current.tideSeconds, tick));
+    const float surge = static_cast<float>(current.surgeMetresPerSecond * current.surgeSeconds) *
+                        waveIntegral(shareOf(current.surgeSeconds, tick));
+    return glm::vec3{tide, 0, 0} + kSurgeCourse * surge;
+}
+
+Current::Current(const config::Current& current, std::span<const Rock> rocks, const Region& water)
+    : current_{current}, origin_{water.centre - water.halfExtent} {
+    if (current.tideMetresPerSecond <= 0 && current.surgeMetresPerSecond <= 0) return;
+    const auto corners = [](float half) { return static_cast<int>(2 * half / kCellMetres) + 2; };
+    countX_ = corners(water.halfExtent.x);
+    countY_ = corners(water.halfExtent.y);
+    countZ_ = corners(water.halfExtent.z);
+    for (int z = 0; z < countZ_; ++z)
+        for (int y = 0; y < countY_; ++y)
+            for (int x = 0; x < countX_; ++x)
+                for (const float way : {1.0F, -1.0F}) {
+                    const glm::vec3 place = origin_ + glm::vec3{static_cast<float>(x),
+                                                                static_cast<float>(y),
+                                                                static_cast<float>(z)} *
+                                                          kCellMetres;
+                    float crown = 1;
+                    float lee = 1;
+                    for (const Rock& rock : rocks) bend(rock, place, way, crown, lee);
+                    factors_.push_back(crown * lee);
+                }
+}
+
+glm::vec3 Current::at(glm::vec3 position, glm::vec3 open) const {
+    if (isStill()) return {};
+    const glm::vec3 cell = (position - origin_) * (1 / kCellMetres);
+    const auto within = [](float at, int count) {
+        return std::clamp(at, 0.0F, static_cast<float>(count) - 1.001F);
+    };
+    const float x = within(cell.x, countX_);
+    const float y = within(cell.y, countY_);
+    const float z = within(cell.z, countZ_);
+    const int atX = static_cast<int>(x);
+    const int atY = static_cast<int>(y);
+    const int atZ = static_cast<int>(z);
+    const float u = x - static_cast<float>(atX);
+    const float v = y - static_cast<float>(atY);
+    const float w = z - static_cast<float>(atZ);
+    const std::size_t side = open.x < 0 ? 1 : 0;
+    const auto corner = [&](int dx, int dy, int dz) {
+        const auto index =
+            static_cast<std::size_t>(((atZ + dz) * countY_ + atY + dy) * countX_ + atX + dx);
+        return factors_[2 * index + side];
+    };
+    const auto along = [&](int dy, int dz) {
+        return corner(0, dy, dz) + (corner(1, dy, dz) - corner(0, dy, dz)) * u;
+    };
+    const auto plane = [&](int dz) { return along(0, dz) + (along(1, dz) - along(0, dz)) * v; };
+    return open * (plane(0) + (plane(1) - plane(0)) * w);
+}
+
+}  // namespace aquarama::place
