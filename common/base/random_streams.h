@@ -46,6 +46,9 @@ enum class Stream : std::uint32_t {
     // The school.
     SchoolLevels = 341,
     Glances,
+    Bold,
+    Ways,
+    Liking,
     // Life at the reef.
     VenturesOut = 361,
     Picks,

@@ -19,7 +19,6 @@ constexpr int kFewestStops = 3;
 
 static_assert(v1::Scene::OPEN_SEA - v1::Scene::REEF == static_cast<int>(PlaceKind::OpenSea));
 static_assert(v1::Sites::CLEANING - v1::Sites::ANEMONE == static_cast<int>(SiteKind::Cleaning));
-static_assert(v1::Scene::MILL - v1::Scene::NONE == static_cast<int>(Gathering::Mill));
 
 // Of a point or a half extent.
 glm::vec3 pointOf(const auto& in) {
@@ -188,7 +187,7 @@ Scene parseScene(const std::string& text, const std::string& source) {
     if (scene.eye.y >= 0) file.refuse(in, "eye", "the eye is out of the sea: let y_m be below 0");
     scene.water = waterOf(file, in.water());
     scene.waterPlace = file.placeOf(in, "water");
-    scene.gathering = static_cast<Gathering>(in.gathering() - v1::Scene::NONE);
+    scene.gathering = in.gathering() == v1::Scene::MILL ? Gathering::Mill : Gathering::None;
     scene.plankton = in.plankton();
     scene.heads = headsOf(file, in, scene.place);
     scene.sites = sitesOf(file, in, scene.place);

@@ -67,9 +67,8 @@ struct Current {
 
 // What a school is drawn to.
 enum class Gathering : std::uint8_t {
-    None,     // goes where its members go
-    Journey,  // a staged way past the eye, near and far
-    Mill,     // circles in the middle of the water: a bait ball
+    None,  // goes where its members go
+    Mill,  // circles in the middle of the water: a bait ball
 };
 
 // Where the fish of a member begin, and in which mood; left out, they begin where the scene has
@@ -141,7 +140,7 @@ struct Scene {
     SourcePlace eyePlace = {};
     SceneWater water;
     SourcePlace waterPlace = {};
-    Gathering gathering = Gathering::Journey;
+    Gathering gathering = Gathering::None;
     std::uint32_t plankton = 300;  // particles; eaten ones drift in again
     std::vector<Head> heads;
     std::vector<SiteGroup> sites;

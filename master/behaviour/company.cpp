@@ -10,6 +10,7 @@
 #include "common/place/place.h"
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/routines.h"
+#include "master/behaviour/ways.h"
 
 namespace aquarama::behaviour {
 
@@ -161,10 +162,11 @@ constexpr float kGiveWayToHunter = 0.8F;
 // Weight of the push away from obstacles.
 constexpr float kSteerClear = 1.15F;
 
+// Share by which a schooling fish slows down where it likes to be.
+constexpr float kSlowsDown = 0.4F;
 // Speeds of a schooling fish, in body lengths a second: limits, and pace around a goal.
 constexpr float kSlowest = 0.85F;
 constexpr float kFastest = 2.9F;
-constexpr float kMillPace = 1.9F;
 constexpr float kHaste = 2.0F;  // faster out of the way of the submarine
 constexpr float kBaitBallPace = 2.1F;
 // Body lengths a second slower for a push of 1 straight back.
@@ -186,11 +188,6 @@ glm::vec3 fromGoal(const surroundings::Goal& goal, glm::vec3 position) {
     return towards;
 }
 
-// Along with the goal, and towards it from outside the school.
-glm::vec3 followed(const surroundings::Goal& goal, glm::vec3 towards, float pull) {
-    return place::directionOf(towards, {}) * pull + goal.velocityMetresPerSecond * 2.0F;
-}
-
 // Around the goal, left or right about by the sign of Goal::mill.
 glm::vec3 circled(const surroundings::Goal& goal, glm::vec3 towards, float pull) {
     const float turn = goal.mill > 0 ? 1.0F : -1.0F;
@@ -206,17 +203,13 @@ glm::vec3 toLevel(const Environment& environment, std::uint32_t fish, glm::vec3 
     return {0, std::clamp(climb / (0.3F * high), -1.0F, 1.0F) * kKeepLevel, 0};
 }
 
-// The common course of the school at a place: follow the goal, circle it, or a mixture.
-glm::vec3 commonWay(const Environment& environment, std::uint32_t fish, glm::vec3 position) {
+// The way of a fish in a bait ball: around its middle, and to its own level.
+glm::vec3 wayInBall(const Environment& environment, std::uint32_t fish, glm::vec3 position) {
     const surroundings::Goal& goal = environment.goal;
     const glm::vec3 towards = fromGoal(goal, position);
     const float outside = place::lengthOf(towards) - environment.schoolRadiusMetres;
     const float pull = std::clamp(outside / environment.schoolRadiusMetres, 0.0F, 1.5F);
-    const glm::vec3 follow = followed(goal, towards, pull);
-    if (environment.gathering == config::Gathering::Mill)
-        return circled(goal, towards, pull) + toLevel(environment, fish, towards);
-    if (goal.mill == 0) return follow;
-    return follow + (circled(goal, towards, pull) - follow) * std::abs(goal.mill);
+    return circled(goal, towards, pull) + toLevel(environment, fish, towards);
 }
 
 // A slowly changing random direction of each fish, so that no two hold exactly the same course.
@@ -235,15 +228,16 @@ float wantedSpeed(const Situation& situation, const Company& company, float alar
     const surroundings::Goal& goal = situation.environment.goal;
     const Senses& senses = situation.senses;
     float own = situation.parameters.medium;
-    if (situation.environment.gathering != config::Gathering::None) {
+    if (situation.environment.gathering == config::Gathering::Mill) {
         const float perLength = 1 / senses.length;
         const float behind =
             place::dot(goal.position - senses.position, senses.heading) * perLength;
         const float goalPace =
             place::lengthOf(goal.velocityMetresPerSecond) * perLength + 0.12F * behind;
-        const bool ball = situation.environment.gathering == config::Gathering::Mill;
-        const float round = ball ? kBaitBallPace : kMillPace;
-        own = goalPace + (round - goalPace) * std::abs(goal.mill);
+        own = goalPace + (kBaitBallPace - goalPace) * std::abs(goal.mill);
+    } else {
+        // Where they like to be they slow down: by this alone a school stays.
+        own *= 1 - kSlowsDown * likingOf(*situation.environment.surroundings, senses.position);
     }
     const float pace = company.speed > 0 ? 0.5F * (own + company.speed) : own;
     // An obstacle ahead slows it too, but a fish in the way of the submarine hurries.
@@ -420,13 +414,14 @@ fish::Course school(const Situation& situation) {
     const Environment& environment = situation.environment;
     const Senses& senses = situation.senses;
     const float alarm = alarmOf(situation.parameters, situation.feelings);
-    const bool gathers = environment.gathering != config::Gathering::None;
+    const bool gathers = environment.gathering == config::Gathering::Mill;
     const Glance glance = gathers ? Glance{} : glanceOf(situation);
     const Company company = companyOf(*environment.view, senses, situation.fish, alarm);
     // Avoiding obstacles comes before following.
     const float follow = kFollow * std::max(0.0F, 1 - senses.urgency);
-    const glm::vec3 way = gathers ? commonWay(environment, situation.fish, senses.position)
-                                  : glimpses(situation, glance, alarm) * kRejoin;
+    const glm::vec3 way =
+        gathers ? wayInBall(environment, situation.fish, senses.position)
+                : glimpses(situation, glance, alarm) * kRejoin + ownWay(situation) * (1 - alarm);
     const glm::vec3 desired = senses.heading * kKeepCourse + pullOf(company) + way * follow +
                               whim(environment.seed, situation.fish, environment.tick) *
                                   (kWander * (1 - kAttentive * alarm)) +

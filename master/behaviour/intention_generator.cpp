@@ -222,7 +222,7 @@ struct Case {
 
     [[nodiscard]] Weighed company() const {
         return {fish::Intention::School,
-                fish::kNobody,
+                senses.structure,
                 likesSchooling(parameters, mind) ? Verdict::Wins : Verdict::AgainstHabits,
                 0,
                 0};

@@ -11,6 +11,7 @@
 #include "master/behaviour/points_within.h"
 #include "master/behaviour/routines.h"
 #include "master/behaviour/vision.h"
+#include "master/behaviour/ways.h"
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
 #include "master/surroundings/obstacles.h"
@@ -501,6 +502,9 @@ Senses perceive(const Environment& environment,
     senseFood(onlooker);
     seeMate(onlooker);
     senseShelter(onlooker);
+    if ((mind.likes & fish::kLikesSchooling) != 0 &&
+        environment.gathering == config::Gathering::None)
+        senses.structure = structureFor(environment, mind, fish, senses);
     feelSurroundings(environment, parameters, mind, senses);
     feelClimate(*environment.surroundings, parameters, mind.likes, senses);
     feelCollision(environment, parameters, fish, mind, senses);

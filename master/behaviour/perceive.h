@@ -119,6 +119,8 @@ struct Senses {
     std::size_t diving = 0;
     // Of a fish that hides: whether it ventures out, where nothing threatens it.
     bool venturesOut = false;
+    // Of a bold fish in a school: the structure that it makes for or stays at, by index.
+    std::uint32_t structure = fish::kNobody;
     float submarineMetres = std::numeric_limits<float>::infinity();
     // Push of surroundings and submarine, and its length: 0 in open water; from 1 on only turning
     // away matters.

@@ -17,6 +17,7 @@
 #include "master/surroundings/climate.h"
 #include "master/surroundings/food.h"
 #include "master/surroundings/obstacles.h"
+#include "master/surroundings/structures.h"
 
 namespace aquarama::surroundings {
 
@@ -36,6 +37,8 @@ struct Surroundings {
     Obstacles obstacles;
     // Of the whole place, in the scene's order; constant.
     std::vector<place::Site> sites;
+    // Constant.
+    std::vector<Structure> structures;
     place::Current current;
     Climate climate;
     Food food;
@@ -61,8 +64,7 @@ void advanceSurroundings(Surroundings& surroundings, Tick tick);
 [[nodiscard]] std::uint64_t foldedSurroundings(std::uint64_t hash,
                                                const Surroundings& surroundings);
 
-// The goal that draws the school: a function of seed and tick alone. Either a slow path through
-// what the wall shows, or the middle of a bait ball.
+// What draws the school: the middle of a bait ball, or the middle of its own members.
 struct Goal {
     glm::vec3 position{};  // metres
     // Velocity of the goal itself.
@@ -73,9 +75,6 @@ struct Goal {
     // Height of the school divided by its breadth.
     float flatness = 1;
 };
-
-// A round of stations, repeated with variations; every round takes the same time.
-[[nodiscard]] Goal journeyGoal(std::uint32_t seed, Tick tick);
 
 // A bait ball: the middle of the water. It rises and sinks by up to a metre every 20 s. `radius` is
 // millRadiusMetres(), above 0.

@@ -50,6 +50,8 @@ bool isClear(const surroundings::Obstacles& obstacles, glm::vec3 place) {
     });
 }
 
+// The middle of a school is found anew so often.
+constexpr std::uint64_t kTicksBetweenMiddles = 8;
 // Sizes of the parts of a tick's work. They depend on the number of fish alone, never on the number
 // of threads, so that the order of events is always the same.
 constexpr std::size_t kFishInChunk = 512;
@@ -130,19 +132,39 @@ SchoolGoal::SchoolGoal(const WorldOptions& options,
                        float lengthMetres)
     : gathering_(options.scene.gathering),
       seed_(options.seed),
-      middle_(options.scene.water.centre),
+      members_(fish),
       water_(water),
       radiusMetres_(gathering_ == config::Gathering::Mill
                         ? surroundings::millRadiusMetres(water, fish, lengthMetres)
                         : behaviour::schoolRadiusMetres(fish)) {
-    moveTo({0});
+    goal_ = gathering_ == config::Gathering::Mill
+                ? surroundings::millGoal(seed_, water_, radiusMetres_, {0})
+                : surroundings::Goal{.position = water.centre};
 }
 
-void SchoolGoal::moveTo(Tick tick) {
-    goal_ = gathering_ == config::Gathering::None ? surroundings::Goal{.position = middle_}
-            : gathering_ == config::Gathering::Mill
-                ? surroundings::millGoal(seed_, water_, radiusMetres_, tick)
-                : surroundings::journeyGoal(seed_, tick);
+void SchoolGoal::moveTo(Tick tick, const motion::MotionStates& states) {
+    if (gathering_ == config::Gathering::Mill) {
+        goal_ = surroundings::millGoal(seed_, water_, radiusMetres_, tick);
+        return;
+    }
+    if (tick.value % kTicksBetweenMiddles != 0) return;
+    // Sums of integers: the same in any order.
+    std::int64_t x = 0;
+    std::int64_t y = 0;
+    std::int64_t z = 0;
+    std::int64_t count = 0;
+    for (std::size_t fish = 0; fish < members_; ++fish) {
+        if (motion::isAway(states, fish)) continue;
+        x += states.x[fish];
+        y += states.y[fish];
+        z += states.z[fish];
+        ++count;
+    }
+    if (count == 0) return;
+    const auto metres = [&](std::int64_t sum) {
+        return static_cast<float>(sum / count) * motion::kPositionUnitMetres;
+    };
+    goal_.position = {metres(x), metres(y), metres(z)};
 }
 
 World::World(const WorldOptions& options)
@@ -242,7 +264,7 @@ void World::showSubmarine() {
 }
 
 void World::advance() {
-    school_.moveTo(tick_);
+    school_.moveTo(tick_, columns_.states);
     receive();
     moveSubmarine();
     beginTick();

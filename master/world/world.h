@@ -91,7 +91,7 @@ struct WorldOptions {
     fish::Adaptation adaptation;
 };
 
-// Where the school swims: the goal of each tick, by the way in which the scene gathers it.
+// Where the school is or is drawn to: the middle of a bait ball, or that of its members.
 class SchoolGoal {
   public:
     // For so many fish of a mean length, in metres, in the water of a world.
@@ -100,9 +100,9 @@ class SchoolGoal {
                std::size_t fish,
                float lengthMetres);
 
-    // Sets the goal to that of a tick.
-    void moveTo(Tick tick);
-    // The goal of the last moveTo(); of tick 0 before.
+    // Sets the goal to that of a tick, by where the fish are.
+    void moveTo(Tick tick, const motion::MotionStates& states);
+    // The goal of the last moveTo(); before, that of tick 0 or the middle of the water.
     [[nodiscard]] const surroundings::Goal& goal() const { return goal_; }
     // How the scene gathers the school.
     [[nodiscard]] config::Gathering gathering() const { return gathering_; }
@@ -112,7 +112,7 @@ class SchoolGoal {
   private:
     config::Gathering gathering_;
     std::uint32_t seed_;
-    glm::vec3 middle_;  // of the scene's own water, before it grew with the fish
+    std::size_t members_;  // of the school: the fish of the first species
     place::Region water_;
     float radiusMetres_;
     surroundings::Goal goal_;

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/behaviour/ways.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "common/base/random_streams.h"
+#include "common/base/units.h"
+#include "common/place/place.h"
+
+namespace aquarama::behaviour {
+
+namespace {
+
+constexpr std::uint32_t kBoldOneIn = 12;
+// A bold fish stays with a structure for so long.
+constexpr std::uint32_t kShortestStayTicks = 40 * 60;
+constexpr std::uint32_t kStaySpreadTicks = 50 * 60;
+// The weight of a structure falls to half at this distance; one nearer than kLeftMetres to a fish
+// that chooses anew counts for little.
+constexpr float kHalfMetres = 6;
+constexpr float kLeftMetres = 2.5F;
+constexpr float kLeftWeight = 0.1F;
+
+// Schools keep off a crown: most liked between kNearMetres and kFarMetres from it, not at all from
+// kGoneMetres on.
+constexpr float kNearMetres = 0.8F;
+constexpr float kFarMetres = 3;
+constexpr float kGoneMetres = 6.5F;
+
+// A school stands so far over a crown and up-current of it.
+constexpr float kOverMetres = 0.9F;
+constexpr float kUpCurrentMetres = 1.6F;
+// A bold fish is there within this distance.
+constexpr float kThereMetres = 1.2F;
+// Weights against the unit vector of the present course: of the way to the structure, and of the
+// course against the current.
+constexpr float kLead = 1.6F;
+constexpr float kHold = 0.6F;
+// A school holds its place in a current above this (m/s) where it likes to be.
+constexpr float kHoldsFrom = 0.03F;
+constexpr float kLikes = 0.6F;
+
+// The current at the fish.
+glm::vec3 currentAt(const Situation& situation) {
+    const surroundings::Surroundings& around = *situation.environment.surroundings;
+    return around.current.at(situation.senses.position,
+                             around.current.open(situation.environment.tick));
+}
+
+}  // namespace
+
+bool isBold(std::uint32_t seed, std::uint32_t fish) {
+    return hashOf(hashOf(seed, Stream::Bold), fish) % kBoldOneIn == 0;
+}
+
+std::uint32_t structureFor(const Environment& environment,
+                           const fish::Mind& mind,
+                           std::uint32_t fish,
+                           const Senses& senses) {
+    const std::vector<surroundings::Structure>& structures = environment.surroundings->structures;
+    if (structures.empty() || !isBold(environment.seed, fish)) return fish::kNobody;
+    const fish::Aim aim = fish::aimOf(mind);
+    const std::uint32_t own = hashOf(hashOf(environment.seed, Stream::Ways), fish);
+    const bool has = aim.intention == fish::Intention::School && aim.target < structures.size();
+    const std::uint32_t stays = kShortestStayTicks + hashOf(own, aim.target) % kStaySpreadTicks;
+    if (has && mind.pursued < stays && mind.alarm == fish::Alarm::Calm) return aim.target;
+    std::array<float, surroundings::kMostStructures> weights{};
+    float sum = 0;
+    for (std::size_t i = 0; i < structures.size(); ++i) {
+        const float distance = place::lengthOf(structures[i].crown - senses.position);
+        const float far = distance / kHalfMetres;
+        weights[i] = structures[i].liking / (1 + far * far);
+        if (distance < kLeftMetres || (has && i == aim.target)) weights[i] *= kLeftWeight;
+        sum += weights[i];
+    }
+    float left = sum * unitOf(hashOf(own, static_cast<std::uint32_t>(environment.tick.value)));
+    for (std::uint32_t i = 0; i < structures.size(); ++i) {
+        left -= weights[i];
+        if (left <= 0) return i;
+    }
+    return static_cast<std::uint32_t>(structures.size() - 1);
+}
+
+float likingOf(const surroundings::Surroundings& surroundings, glm::vec3 place) {
+    float nearest = std::numeric_limits<float>::infinity();
+    for (const surroundings::Structure& structure : surroundings.structures)
+        nearest =
+            std::min(nearest, place::lengthOf(structure.crown - place) - structure.radiusMetres);
+    const float near = std::clamp(nearest / kNearMetres, 0.0F, 1.0F);
+    const float far = std::clamp((kGoneMetres - nearest) / (kGoneMetres - kFarMetres), 0.0F, 1.0F);
+    return near * far;
+}
+
+glm::vec3 ownWay(const Situation& situation) {
+    const Senses& senses = situation.senses;
+    const surroundings::Surroundings& around = *situation.environment.surroundings;
+    const glm::vec3 current = currentAt(situation);
+    const glm::vec3 against = place::directionOf(-current, {});
+    const bool flows = place::lengthOf(current) > kHoldsFrom;
+    glm::vec3 way{};
+    if (senses.structure < around.structures.size()) {
+        const surroundings::Structure& structure = around.structures[senses.structure];
+        const place::Region& water = around.obstacles.water;
+        glm::vec3 goal = structure.crown + glm::vec3{0, kOverMetres, 0};
+        if (flows) goal += against * (structure.radiusMetres + kUpCurrentMetres);
+        goal.y = std::min(goal.y, water.centre.y + 0.6F * water.halfExtent.y);
+        const glm::vec3 towards = goal - senses.position;
+        if (place::lengthOf(towards) > kThereMetres) way += place::directionOf(towards, {}) * kLead;
+    }
+    if (flows && likingOf(around, senses.position) > kLikes) way += against * kHold;
+    return way;
+}
+
+}  // namespace aquarama::behaviour
