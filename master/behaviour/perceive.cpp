@@ -8,6 +8,7 @@
 
 #include "common/base/random_streams.h"
 #include "common/place/place.h"
+#include "master/behaviour/home.h"
 #include "master/behaviour/points_within.h"
 #include "master/behaviour/routines.h"
 #include "master/behaviour/vision.h"
@@ -424,9 +425,23 @@ glm::vec3 submarinePush(const surroundings::Submarine& submarine,
                                   place::lengthOf(past));
 }
 
+// How far the fish keeps from boulders and sand now.
+surroundings::Berth berthFor(const fish::SpeciesParameters& parameters,
+                             std::uint32_t fish,
+                             const fish::Mind& mind,
+                             const Senses& senses) {
+    if (fish::aimOf(mind).intention == fish::Intention::Hide) return surroundings::kIntoShelter;
+    const config::Home& home = parameters.habits.home;
+    const bool isAtHome = home.site && !parameters.homes.empty() &&
+                          place::lengthOf(homeOf(parameters, fish) - senses.position) <
+                              static_cast<float>(home.leashMetres);
+    return isAtHome ? surroundings::kAtHome : surroundings::berthOf(senses.length);
+}
+
 // A fish feels what it would meet while it turns by a right angle.
 void feelSurroundings(const Environment& environment,
                       const fish::SpeciesParameters& parameters,
+                      std::uint32_t fish,
                       const fish::Mind& mind,
                       Senses& senses) {
     const surroundings::Surroundings& around = *environment.surroundings;
@@ -434,12 +449,12 @@ void feelSurroundings(const Environment& environment,
                                            std::max(kReachSeconds, parameters.turnSeconds);
     const surroundings::Submarine& submarine = around.submarine;
     const glm::vec3 fromSubmarine = submarinePush(submarine, senses, reach);
-    const surroundings::Berth berth = fish::aimOf(mind).intention == fish::Intention::Hide
-                                          ? surroundings::kIntoShelter
-                                          : surroundings::berthOf(senses.length);
-    senses.push =
-        surroundings::avoidance(around.obstacles, senses.position, senses.heading, reach, berth) +
-        fromSubmarine;
+    senses.push = surroundings::avoidance(around.obstacles,
+                                          senses.position,
+                                          senses.heading,
+                                          reach,
+                                          berthFor(parameters, fish, mind, senses)) +
+                  fromSubmarine;
     if (submarine.velocityMetresPerSecond != glm::vec3{})
         senses.hurry = std::min(1.0F, kHurry * place::lengthOf(fromSubmarine));
     senses.urgency = place::lengthOf(senses.push);
@@ -505,7 +520,7 @@ Senses perceive(const Environment& environment,
     if ((mind.likes & fish::kLikesSchooling) != 0 &&
         environment.gathering == config::Gathering::None)
         senses.structure = structureFor(environment, mind, fish, senses);
-    feelSurroundings(environment, parameters, mind, senses);
+    feelSurroundings(environment, parameters, fish, mind, senses);
     feelClimate(*environment.surroundings, parameters, mind.likes, senses);
     feelCollision(environment, parameters, fish, mind, senses);
     return senses;

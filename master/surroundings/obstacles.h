@@ -34,6 +34,8 @@ struct Berth {
 };
 // Of a fish of this length: small ones live closer to the reef.
 [[nodiscard]] Berth berthOf(float lengthMetres);
+// Of a fish that lives at a site, near its home: boulders are worn within their radius.
+inline constexpr Berth kAtHome{-0.05F, 0.12F, 0.05F, 0.1F};
 // Of a fish that goes into a shelter.
 inline constexpr Berth kIntoShelter{-0.3F, 0.1F, 0.02F, 0.05F};
 
