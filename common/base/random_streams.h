@@ -63,8 +63,7 @@ enum class Stream : std::uint32_t {
     LikesWarmth,
     LikesCold,
     LikesSchooling,
-    IsFemale,
-    SinceMeal,
+    SinceMeal = 507,
     SinceSpawning,
     // Who was eaten.
     Absence = 601,

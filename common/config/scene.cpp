@@ -192,6 +192,7 @@ Scene parseScene(const std::string& text, const std::string& source) {
     scene.heads = headsOf(file, in, scene.place);
     scene.sites = sitesOf(file, in, scene.place);
     scene.current = currentOf(in);
+    scene.livedSeconds = in.lived_s();
     scene.day = {.lengthSeconds = in.day().length_s(),
                  .startsAt = in.day().starts_at(),
                  .night = in.day().night()};

@@ -145,6 +145,7 @@ struct Scene {
     std::vector<Head> heads;
     std::vector<SiteGroup> sites;
     Current current;
+    double livedSeconds = 0;  // of the world, unseen, before a show begins
     Day day;
     std::vector<FoodDrop> drops;
     std::vector<CastMember> cast;   // at least one; the school first, which an open sea may lack

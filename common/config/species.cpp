@@ -22,6 +22,10 @@ constexpr float kHead = 0.05F;  // no fin stands before it
 
 static_assert(v1::Habits::PREDATOR - v1::Habits::PREY == static_cast<int>(Role::Predator));
 
+std::optional<float> given(bool has, double value) {
+    return has ? std::optional<float>(static_cast<float>(value)) : std::nullopt;
+}
+
 float real(double value) {
     return static_cast<float>(value);
 }
@@ -172,7 +176,9 @@ HabitShares sharesOf(const TextReader& file, const v1::Shares& in) {
             .darkness = in.darkness(),
             .warmth = in.warmth(),
             .cold = in.cold(),
-            .female = in.female()};
+            .female = in.female(),
+            .maleFromMetres = given(in.has_male_from_m(), in.male_from_m()),
+            .femaleFromMetres = given(in.has_female_from_m(), in.female_from_m())};
 }
 
 void comfortOf(const TextReader& file, const v1::Comfort& in, Habits& habits) {

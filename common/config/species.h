@@ -176,6 +176,8 @@ struct Span {
 struct HabitShares {
     double schooling = 0, brightness = 0, darkness = 0, warmth = 0, cold = 0;
     double female = 0.5;
+    // Where the sex follows from the size: the least length of a male, or of a female, metres.
+    std::optional<float> maleFromMetres = {}, femaleFromMetres = {};
 };
 
 // A fish feels threatened by what is inside this box about its middle line, in its own body

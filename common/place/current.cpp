@@ -15,14 +15,15 @@ constexpr float kCellMetres = 0.5F;
 constexpr float kCrownMetres = 1.0F;
 constexpr float kLeeMetres = 1.0F;
 
-std::uint64_t ticksOf(double seconds) {
-    return static_cast<std::uint64_t>(seconds * static_cast<double>(kTicksPerSecond));
+std::int64_t ticksOf(double seconds) {
+    return static_cast<std::int64_t>(seconds * static_cast<double>(kTicksPerSecond));
 }
 
 // The share of a period, 0 to 1, at a tick.
-float shareOf(double seconds, Tick tick) {
-    const std::uint64_t period = ticksOf(seconds);
-    return static_cast<float>(tick.value % period) / static_cast<float>(period);
+float shareOf(double seconds, std::int64_t tick) {
+    const std::int64_t period = ticksOf(seconds);
+    const std::int64_t rest = tick % period;
+    return static_cast<float>(rest < 0 ? rest + period : rest) / static_cast<float>(period);
 }
 
 // The integral of wave() from 0 to a share of the period, in periods: 0 at 0 and 1, 1/3 between.
@@ -59,7 +60,7 @@ void bend(const Rock& rock, glm::vec3 place, float way, float& crown, float& lee
 
 }  // namespace
 
-glm::vec3 openCurrent(const config::Current& current, Tick tick) {
+glm::vec3 openCurrent(const config::Current& current, std::int64_t tick) {
     const float tide =
         static_cast<float>(current.tideMetresPerSecond) * wave(shareOf(current.tideSeconds, tick));
     const float surge = static_cast<float>(current.surgeMetresPerSecond) *
@@ -67,7 +68,7 @@ glm::vec3 openCurrent(const config::Current& current, Tick tick) {
     return glm::vec3{tide, 0, 0} + kSurgeCourse * surge;
 }
 
-glm::vec3 openDrift(const config::Current& current, Tick tick) {
+glm::vec3 openDrift(const config::Current& current, std::int64_t tick) {
     const float tide = static_cast<float>(current.tideMetresPerSecond * current.tideSeconds) *
                        waveIntegral(shareOf(current.tideSeconds, tick));
     const float surge = static_cast<float>(current.surgeMetresPerSecond * current.surgeSeconds) *

@@ -27,10 +27,10 @@ namespace aquarama::place {
 // The course of the surge, a level unit vector; the tide runs along x.
 inline constexpr glm::vec3 kSurgeCourse{0.5F, 0.0F, 0.8660254F};
 
-// The water far from boulders: its velocity at a tick, and the way that it has made since tick 0,
-// the integral of the velocity, which is periodic.
-[[nodiscard]] glm::vec3 openCurrent(const config::Current& current, Tick tick);
-[[nodiscard]] glm::vec3 openDrift(const config::Current& current, Tick tick);
+// The water far from boulders: its velocity at a tick, also before tick 0, and the way that it has
+// made since tick 0, the integral of the velocity, which is periodic.
+[[nodiscard]] glm::vec3 openCurrent(const config::Current& current, std::int64_t tick);
+[[nodiscard]] glm::vec3 openDrift(const config::Current& current, std::int64_t tick);
 
 // The factors over crowns and in the full lee.
 inline constexpr float kOverCrown = 1.5F;
@@ -46,7 +46,7 @@ class Current {
 
     [[nodiscard]] bool isStill() const { return factors_.empty(); }
     // The velocity far from boulders.
-    [[nodiscard]] glm::vec3 open(Tick tick) const { return openCurrent(current_, tick); }
+    [[nodiscard]] glm::vec3 open(std::int64_t tick) const { return openCurrent(current_, tick); }
     // The velocity at a place, from that far from boulders at the same tick. Outside the water that
     // of its border.
     [[nodiscard]] glm::vec3 at(glm::vec3 position, glm::vec3 open) const;

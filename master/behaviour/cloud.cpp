@@ -150,8 +150,7 @@ fish::Course hover(const Situation& situation) {
     const Senses& senses = situation.senses;
     const surroundings::Surroundings& around = *situation.environment.surroundings;
     const fish::SpeciesParameters& parameters = situation.parameters;
-    const glm::vec3 current =
-        around.current.at(senses.position, around.current.open(situation.environment.tick));
+    const glm::vec3 current = around.current.at(senses.position, around.openCurrent);
     const glm::vec3 pick = pickOf(situation, current);
     if (pick != glm::vec3{})
         return heading(situation, pick, 0.5F * (parameters.medium + parameters.fast));

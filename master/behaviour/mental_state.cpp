@@ -69,6 +69,19 @@ constexpr std::size_t kDiversFollowed = 2;
 
 constexpr float kTicks = static_cast<float>(kTicksPerSecond);
 
+// By the length where the species says so; else the females are spread evenly over the fish in
+// their order, so that of a pair of neighbours one is a female at a share of a half.
+bool isFemale(const fish::SpeciesParameters& parameters, std::uint32_t fish, float length) {
+    const config::HabitShares& shares = parameters.habits.shares;
+    if (shares.maleFromMetres) return length < *shares.maleFromMetres;
+    if (shares.femaleFromMetres) return length >= *shares.femaleFromMetres;
+    const auto before = [&](std::uint32_t count) {
+        return static_cast<std::uint32_t>(static_cast<double>(count) * shares.female);
+    };
+    const std::uint32_t place = fish - parameters.first;
+    return before(place + 1) > before(place);
+}
+
 // A number of 0 to 1 for one fish and stream.
 float share(std::uint32_t seed, std::uint32_t fish, Stream draw) {
     return unitOf(hashOf(hashOf(hashOf(seed, draw), fish)));
@@ -95,7 +108,8 @@ fish::Feelings feel(const fish::SpeciesParameters& parameters,
 
 std::uint8_t likesOf(const fish::SpeciesParameters& parameters,
                      std::uint32_t seed,
-                     std::uint32_t fish) {
+                     std::uint32_t fish,
+                     float length) {
     const config::HabitShares& shares = parameters.habits.shares;
     unsigned likes = 0;
     const auto draw = [&](Stream what, double of, unsigned like) {
@@ -106,7 +120,7 @@ std::uint8_t likesOf(const fish::SpeciesParameters& parameters,
     draw(Stream::LikesWarmth, shares.warmth, fish::kLikesWarmth);
     draw(Stream::LikesCold, shares.cold, fish::kLikesCold);
     draw(Stream::LikesSchooling, shares.schooling, fish::kLikesSchooling);
-    draw(Stream::IsFemale, shares.female, fish::kIsFemale);
+    if (isFemale(parameters, fish, length)) likes |= fish::kIsFemale;
     for (const unsigned both : {unsigned{fish::kLikesBrightness} | unsigned{fish::kLikesDarkness},
                                 unsigned{fish::kLikesWarmth} | unsigned{fish::kLikesCold}})
         if ((likes & both) == both) likes &= ~both;
@@ -115,10 +129,11 @@ std::uint8_t likesOf(const fish::SpeciesParameters& parameters,
 
 fish::Mind freshMind(const fish::SpeciesParameters& parameters,
                      std::uint32_t seed,
-                     std::uint32_t fish) {
+                     std::uint32_t fish,
+                     float length) {
     assert(parameters.habits.digestionPerSecond > 0);
     fish::Mind mind;
-    mind.likes = likesOf(parameters, seed, fish);
+    mind.likes = likesOf(parameters, seed, fish, length);
     // A fish that finds food at all times eats until it is gorged, then digests; a predator eats
     // just its appetite.
     const bool grazes = parameters.habits.role != config::Role::Predator;

@@ -30,15 +30,18 @@ void think(const Environment& environment,
 
 // Temperament: what a fish draws for itself, by the seed, from the ranges of its species.
 
-// Bits of Like. A fish that would draw two that contradict each other has neither.
+// Bits of Like. A fish that would draw two that contradict each other has neither. The sex is not
+// drawn: it follows from the length, in metres, or from the place in the order of the species.
 [[nodiscard]] std::uint8_t likesOf(const fish::SpeciesParameters& parameters,
                                    std::uint32_t seed,
-                                   std::uint32_t fish);
+                                   std::uint32_t fish,
+                                   float length);
 
 // A mind as if the fish had lived long before: each with another time since its last meal and
 // spawning, so that not all are hungry at once.
 [[nodiscard]] fish::Mind freshMind(const fish::SpeciesParameters& parameters,
                                    std::uint32_t seed,
-                                   std::uint32_t fish);
+                                   std::uint32_t fish,
+                                   float length);
 
 }  // namespace aquarama::behaviour

@@ -42,13 +42,6 @@ constexpr float kHold = 0.6F;
 constexpr float kHoldsFrom = 0.03F;
 constexpr float kLikes = 0.6F;
 
-// The current at the fish.
-glm::vec3 currentAt(const Situation& situation) {
-    const surroundings::Surroundings& around = *situation.environment.surroundings;
-    return around.current.at(situation.senses.position,
-                             around.current.open(situation.environment.tick));
-}
-
 }  // namespace
 
 bool isBold(std::uint32_t seed, std::uint32_t fish) {
@@ -96,7 +89,7 @@ float likingOf(const surroundings::Surroundings& surroundings, glm::vec3 place) 
 glm::vec3 ownWay(const Situation& situation) {
     const Senses& senses = situation.senses;
     const surroundings::Surroundings& around = *situation.environment.surroundings;
-    const glm::vec3 current = currentAt(situation);
+    const glm::vec3 current = around.current.at(senses.position, around.openCurrent);
     const glm::vec3 against = place::directionOf(-current, {});
     const bool flows = place::lengthOf(current) > kHoldsFrom;
     glm::vec3 way{};

@@ -234,6 +234,10 @@ void driftFood(
         if (food.isThere(i)) sink(food, i, now);
 }
 
+void shiftTime(Food& food, std::uint64_t ticks) {
+    for (std::uint32_t& until : food.absentUntil) until -= static_cast<std::uint32_t>(ticks);
+}
+
 void dropPellets(Food& food,
                  std::uint32_t seed,
                  const Obstacles& obstacles,

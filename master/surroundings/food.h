@@ -62,6 +62,8 @@ inline constexpr std::size_t kMostPellets = 256;
 // O(particles); allocates nothing.
 void driftFood(
     Food& food, std::uint32_t seed, const Obstacles& obstacles, glm::vec3 open, Tick tick);
+// Moves all that is noted by its tick back by so many ticks.
+void shiftTime(Food& food, std::uint64_t ticks);
 // Drops pellets around a point, as many as there is room for. They sink, lie on the sand for 20 s
 // and dissolve.
 void dropPellets(Food& food,

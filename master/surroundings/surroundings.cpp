@@ -72,13 +72,15 @@ Surroundings makeSurroundings(const config::Scene& scene,
             .drops = scene.drops};
 }
 
-void advanceSurroundings(Surroundings& surroundings, Tick tick) {
-    surroundings.daylight = daylight(surroundings.climate.day, tick);
-    dropWhatIsDue(surroundings, tick);
+void advanceSurroundings(Surroundings& surroundings, Tick tick, std::uint64_t unseen) {
+    surroundings.daylight = daylight(surroundings.climate.day, unseen > 0 ? Tick{} : tick);
+    surroundings.openCurrent = surroundings.current.open(
+        unseen > 0 ? -static_cast<std::int64_t>(unseen) : static_cast<std::int64_t>(tick.value));
+    if (unseen == 0) dropWhatIsDue(surroundings, tick);
     driftFood(surroundings.food,
               surroundings.seed,
               surroundings.obstacles,
-              surroundings.current.open(tick),
+              surroundings.openCurrent,
               tick);
 }
 

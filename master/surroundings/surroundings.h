@@ -47,6 +47,8 @@ struct Surroundings {
     float clarityMetres = 12;
     // Light of the sky at this tick, 0 to 1.
     float daylight = 1;
+    // Velocity of the water far from boulders at this tick, metres a second.
+    glm::vec3 openCurrent{};
     // Food that the scene drops, in order of time, and the index of the next one.
     std::vector<config::FoodDrop> drops;
     std::size_t nextDrop = 0;
@@ -58,8 +60,9 @@ struct Surroundings {
                                             std::uint32_t seed,
                                             std::size_t fish,
                                             float meanLengthMetres);
-// Advances daylight, scheduled food and drifting food by one tick.
-void advanceSurroundings(Surroundings& surroundings, Tick tick);
+// Advances daylight, current, scheduled food and drifting food by one tick. Of the last `unseen`
+// ticks before a show begins nothing is scheduled, and the light is that of its beginning.
+void advanceSurroundings(Surroundings& surroundings, Tick tick, std::uint64_t unseen = 0);
 // The hash with everything folded in that fish or visitors can change.
 [[nodiscard]] std::uint64_t foldedSurroundings(std::uint64_t hash,
                                                const Surroundings& surroundings);

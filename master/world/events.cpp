@@ -132,7 +132,8 @@ void World::arrive(std::uint32_t fish) {
     placeFishAt(columns_.states, fish, place, inwards);
     motion::setSpeedBodyLengths(columns_.states, fish, parameters.medium);
     const auto drawn = hashOf(seed_, static_cast<std::uint32_t>(tick_.value));
-    columns_.minds[fish] = behaviour::freshMind(parameters, drawn, fish);
+    columns_.minds[fish] =
+        behaviour::freshMind(parameters, drawn, fish, columns_.view.fish[fish].length);
     columns_.courses[fish] = {place::levelled(inwards), parameters.medium, 0};
     columns_.view.signs[fish] = 0;
     ++counts_.returns;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/world/fish_columns.h"
 
+#include <type_traits>
 #include <utility>
 
 #include "common/base/digest.h"
@@ -15,6 +16,16 @@ FishColumns::FishColumns(std::vector<motion::FishTraits> ofFish) : traits(std::m
     memory.resize(traits.size());
     thought.resize(traits.size());
     view.resize(traits.size());
+}
+
+void FishColumns::shiftTime(std::uint64_t ticks) {
+    const auto shift = [&](auto& at) {
+        using At = std::remove_reference_t<decltype(at)>;
+        at = static_cast<At>(at > ticks ? at - ticks : 0);
+    };
+    for (std::size_t fish = 0; fish < traits.size(); ++fish) shift(minds[fish].thoughtAt);
+    for (auto* column : {&memory.chosenAt, &memory.heldUntil, &memory.recoversAt})
+        for (auto& at : *column) shift(at);
 }
 
 std::uint64_t FishColumns::hash(Tick tick) const {

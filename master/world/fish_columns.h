@@ -34,6 +34,8 @@ struct FishColumns {
     // Predators that began to rush at the last tick, by index.
     std::vector<std::uint32_t> rushes;
 
+    // Moves all that is noted by its tick back by so many ticks, to tick 0 at the earliest.
+    void shiftTime(std::uint64_t ticks);
     // Hash of all that decides how the fish go on, and of the tick.
     [[nodiscard]] std::uint64_t hash(Tick tick) const;
     // Memory in use.

@@ -82,8 +82,9 @@ void fetch(const fish::Minds& minds,
 fish::Mind beginningMind(const fish::SpeciesParameters& parameters,
                          const std::optional<config::Start>& start,
                          std::uint32_t seed,
-                         std::uint32_t fish) {
-    fish::Mind mind = behaviour::freshMind(parameters, seed, fish);
+                         std::uint32_t fish,
+                         float length) {
+    fish::Mind mind = behaviour::freshMind(parameters, seed, fish, length);
     if (start)
         fish::setMood(
             parameters, static_cast<float>(start->hunger), static_cast<float>(start->libido), mind);
@@ -192,6 +193,19 @@ World::World(const WorldOptions& options)
         for (auto* column : {&columns_.advection.x, &columns_.advection.y, &columns_.advection.z})
             column->resize(columns_.traits.size());
     begin(options);
+    live(static_cast<std::uint64_t>(options.scene.livedSeconds *
+                                    static_cast<double>(kTicksPerSecond)));
+}
+
+// Lets so many ticks pass, rounded down to whole thoughts, before the show begins with tick 0.
+void World::live(std::uint64_t ticks) {
+    ticks -= ticks % fish::kTicksBetweenThoughts;
+    for (unseen_ = ticks; unseen_ > 0; --unseen_) advance();
+    columns_.shiftTime(ticks);
+    surroundings::shiftTime(surroundings_.food, ticks);
+    for (Absence& absence : absences_) absence.until.value -= ticks;
+    tick_ = {};
+    counts_ = {};
 }
 
 void World::addKind(const WorldSpecies& species, const std::vector<WorldSpecies>& cast) {
@@ -216,7 +230,11 @@ void World::begin(const WorldOptions& options) {
         for (std::uint32_t fish = parameters.first; fish < parameters.last; ++fish) {
             motion::setSpeedBodyLengths(columns_.states, fish, parameters.medium);
             columns_.minds[fish] =
-                beginningMind(parameters, options.cast[parameters.kind].start, seed_, fish);
+                beginningMind(parameters,
+                              options.cast[parameters.kind].start,
+                              seed_,
+                              fish,
+                              static_cast<float>(columns_.traits[fish].lengthMillimetres) * 0.001F);
             columns_.view.kind[fish] = parameters.kind;
         }
         look(kind, kind.first, kind.last);
@@ -266,7 +284,7 @@ void World::showSubmarine() {
 void World::advance() {
     school_.moveTo(tick_, columns_.states);
     receive();
-    moveSubmarine();
+    if (unseen_ == 0) moveSubmarine();
     beginTick();
     swallow();
     findRushes();
@@ -286,7 +304,7 @@ void World::beginTick() {
         speciesParameters_,
         [this](std::size_t jobs, const auto& job) { pool_.run(jobs, job); },
         [this](std::size_t first, std::size_t last) {
-            if (first == 0) surroundings::advanceSurroundings(surroundings_, tick_);
+            if (first == 0) surroundings::advanceSurroundings(surroundings_, tick_, unseen_);
             for (const Kind& kind : kinds_)
                 look(kind, std::max(first, kind.first), std::min(last, kind.last));
         });
@@ -420,7 +438,7 @@ void World::swim(const Chunk& chunk) {
 void World::carry(const Chunk& chunk) {
     constexpr float kUnitsATick =
         1 / (motion::kPositionUnitMetres * static_cast<float>(kTicksPerSecond));
-    const glm::vec3 open = surroundings_.current.open(tick_);
+    const glm::vec3 open = surroundings_.openCurrent;
     motion::Advection& advection = columns_.advection;
     for (std::size_t fish = chunk.first; fish < chunk.last; ++fish) {
         const glm::vec3 velocity =

@@ -171,6 +171,7 @@ class World {
     void addKind(const WorldSpecies& species, const std::vector<WorldSpecies>& cast);
     // Steps of construction and of a tick; each says at its definition what it does.
     void begin(const WorldOptions& options);
+    void live(std::uint64_t ticks);
     void beginTick();
     void look(const Kind& kind, std::size_t first, std::size_t last);
     void makeRoomForEvents();
@@ -191,6 +192,7 @@ class World {
 
     std::uint32_t seed_;
     Tick tick_;
+    std::uint64_t unseen_ = 0;  // ticks until the show begins
     fish::Adaptation adaptation_;
     std::vector<Kind> kinds_;
     std::vector<fish::SpeciesParameters> speciesParameters_;  // one for each kind

@@ -13,7 +13,7 @@ constexpr std::uint32_t kFish = 20'000;
 double shareOf(const fish::SpeciesParameters& parameters, std::uint8_t like) {
     std::uint32_t have = 0;
     for (std::uint32_t fish = 0; fish < kFish; ++fish)
-        have += (likesOf(parameters, 9, fish) & like) != 0 ? 1 : 0;
+        have += (likesOf(parameters, 9, fish, 0.2F) & like) != 0 ? 1 : 0;
     return static_cast<double>(have) / kFish;
 }
 
@@ -33,7 +33,7 @@ TEST(Temperament, whoWouldLikeBothOfAPairLikesNeither) {
     fish::SpeciesParameters parameters;
     parameters.habits.shares = {.brightness = 0.5, .darkness = 0.5, .warmth = 1, .cold = 1};
     for (std::uint32_t fish = 0; fish < 1000; ++fish) {
-        const unsigned likes = likesOf(parameters, 4, fish);
+        const unsigned likes = likesOf(parameters, 4, fish, 0.2F);
         constexpr unsigned kLight = fish::kLikesBrightness | fish::kLikesDarkness;
         EXPECT_NE(likes & kLight, kLight);
         EXPECT_EQ(likes & (fish::kLikesWarmth | fish::kLikesCold), 0U);
@@ -44,13 +44,16 @@ TEST(Temperament, whoWouldLikeBothOfAPairLikesNeither) {
 
 TEST(Temperament, isTheSeedsAndTheFishsOwn) {
     fish::SpeciesParameters parameters;
-    parameters.habits.shares = {.schooling = 0.5, .brightness = 0.5, .warmth = 0.5, .female = 0.5};
+    parameters.habits.shares = {
+        .schooling = 0.5, .brightness = 0.5, .darkness = 0.5, .warmth = 0.5};
     int same = 0;
     int sameOfAnotherSeed = 0;
     for (std::uint32_t fish = 0; fish < 1000; ++fish) {
-        EXPECT_EQ(likesOf(parameters, 1, fish), likesOf(parameters, 1, fish));
-        same += likesOf(parameters, 1, fish) == likesOf(parameters, 1, fish + 1) ? 1 : 0;
-        sameOfAnotherSeed += likesOf(parameters, 1, fish) == likesOf(parameters, 2, fish) ? 1 : 0;
+        EXPECT_EQ(likesOf(parameters, 1, fish, 0.2F), likesOf(parameters, 1, fish, 0.2F));
+        same +=
+            likesOf(parameters, 1, fish, 0.2F) == likesOf(parameters, 1, fish + 1, 0.2F) ? 1 : 0;
+        sameOfAnotherSeed +=
+            likesOf(parameters, 1, fish, 0.2F) == likesOf(parameters, 2, fish, 0.2F) ? 1 : 0;
     }
     EXPECT_LT(same, 150) << "four coins agree once in sixteen times";
     EXPECT_LT(sameOfAnotherSeed, 150);
@@ -60,7 +63,7 @@ TEST(Temperament, notAllHungerAtOnce) {
     const fish::SpeciesParameters parameters;
     int hungry = 0;
     for (std::uint32_t fish = 0; fish < 1000; ++fish) {
-        fish::Mind mind = freshMind(parameters, 3, fish);
+        fish::Mind mind = freshMind(parameters, 3, fish, 0.2F);
         for (int second = 0; second < 60; ++second)
             for (int thought = 0; thought < 7; ++thought)
                 fish::passTime(parameters, fish::kTicksBetweenThoughts, mind);
