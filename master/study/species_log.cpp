@@ -89,6 +89,10 @@ void SpeciesLog::noteFish(const world::World& world, std::size_t fish, bool glan
         seen.from = now.position;
         seen.faces = seen.bodies = glm::vec3{};
     }
+    // The path is that through the water, which carried the fish in this tick.
+    const surroundings::Surroundings& around = world.surroundings();
+    seen.from += around.current.at(now.position, around.openCurrent) *
+                 (1.0F / static_cast<float>(kTicksPerSecond));
     seen.heading = now.heading;
     seen.addedYaw = kRadiansOfUnit * static_cast<float>(world.commands().yawRate[fish]);
     seen.addedPitch = addedPitch(world, fish);

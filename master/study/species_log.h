@@ -51,9 +51,10 @@ struct SpeciesTally {
     // Particles or prey eaten, and times that fish began to flee and to court.
     std::uint64_t meals = 0, flights = 0, courtships = 0;
     std::uint64_t fastStarts = 0;
-    // Angles between what a fish faces and its path over half a second, by whole degrees: of its
-    // mean frame, which is what the motor adds to the captured motion, and of the body, averaged
-    // over the same half second. Fish slower than kSlowestPath or backing are left out.
+    // Angles between what a fish faces and its path through the water over half a second, by whole
+    // degrees: of its mean frame, which is what the motor adds to the captured motion, and of the
+    // body, averaged over the same half second. Fish slower than kSlowestPath or backing are left
+    // out.
     std::array<std::uint64_t, 91> meanSlip{}, bodySlip{};
 };
 

@@ -10,6 +10,8 @@
 
 #include <glm/matrix.hpp>
 
+#include "common/base/units.h"
+#include "common/place/current.h"
 #include "common/place/place.h"
 #include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
@@ -52,9 +54,21 @@ glm::vec4 lampOf(const SceneFrame& frame, float exposure) {
 // it: drifting snow, clouds and fins.
 constexpr double kClockSeconds = 9000;
 
+// Way and velocity of the current far from boulders, between two ticks too.
+glm::vec4 currentOf(const config::Current& current, double timeSeconds) {
+    const double ticks = timeSeconds * static_cast<double>(kTicksPerSecond);
+    const auto tick = static_cast<std::int64_t>(std::floor(ticks));
+    const auto share = static_cast<float>(ticks - std::floor(ticks));
+    const glm::vec3 velocity = place::openCurrent(current, tick);
+    const glm::vec3 way =
+        place::openDrift(current, tick) + velocity * (share / static_cast<float>(kTicksPerSecond));
+    return {way.x, way.z, velocity.x, velocity.z};
+}
+
 // The uniforms that all views of a frame share; the rest is left to setView().
 shaders::FrameUniforms frameUniforms(const SceneFrame& frame,
                                      const SeaLight& light,
+                                     const config::Current& current,
                                      float pixelRadians) {
     shaders::FrameUniforms uniforms{};
     const auto clock = static_cast<float>(std::fmod(frame.timeSeconds, kClockSeconds));
@@ -65,6 +79,7 @@ shaders::FrameUniforms frameUniforms(const SceneFrame& frame,
     uniforms.kdAndExposure = light.kdAndExposure(frame.eyePositionMetres);
     uniforms.daylight = daylightOf(frame.daylight);
     uniforms.lamp = lampOf(frame, uniforms.kdAndExposure.w);
+    uniforms.current = currentOf(current, frame.timeSeconds);
     return uniforms;
 }
 
@@ -222,7 +237,8 @@ SceneRenderer::~SceneRenderer() = default;
 void SceneRenderer::update(const SceneFrame& frame) {
     assert(std::isfinite(frame.timeSeconds));
     Parts& parts = *parts_;
-    parts.uniforms = frameUniforms(frame, parts.light, parts.options.pixelRadians);
+    parts.uniforms =
+        frameUniforms(frame, parts.light, parts.options.current, parts.options.pixelRadians);
     parts.uniforms.bottom.x = parts.bottom ? 1.0F : 0.0F;
     parts.specks.assign(frame.food.begin(), frame.food.end());
     parts.setUniforms();

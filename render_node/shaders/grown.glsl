@@ -32,6 +32,8 @@ vec2 pushedAt(vec3 place) {
     sum *= 0.5 * kWakeUnit;
     return 0.35 * sum / (0.35 + length(sum));  // a limit for any number of fish
 }
+// A plant leans by the way of the current in this time, as far as it sways.
+const float kLeanSeconds = 6.0;
 struct Grown {
     vec3 place, rest, normal, albedo;
     Occlusion open;
@@ -48,7 +50,7 @@ Grown grown() {
     float sway = one.tintAndSway.w;
     if (sway > 0.0) {
         float share = response.x;
-        vec2 push = sway * scale * surge(mix(root, it.rest, 0.7));
+        vec2 push = sway * scale * (surge(mix(root, it.rest, 0.7)) + kLeanSeconds * current.zw);
         if (stirred) push += min(4.0 * sway, 1.0) * min(scale, 1.0) * pushedAt(it.rest);
         it.place += bentStem(share, scale, push) - vec3(0.0, scale * share, 0.0);
     }

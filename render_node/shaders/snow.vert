@@ -12,7 +12,7 @@ float unit(uint n) { return unitOf(hashOf(uint(gl_VertexID) * 4u + n)); }
 void main() {
     vec3 home = vec3(unit(0u), unit(1u), unit(2u));
     vec2 carried = 0.25 * surge(home * 9.0 - vec3(0.0, 9.0, 0.0));
-    vec3 sinking = vec3(0.05, -0.012, 0.03) * eyeAndTime.w;
+    vec3 sinking = vec3(0.05, -0.012, 0.03) * eyeAndTime.w + vec3(current.x, 0.0, current.y);
     vec3 eye = eyeAndTime.xyz;
     vec3 away = (fract(home + (sinking + vec3(carried.x, 0.0, carried.y) - eye) / kBoxMetres) - 0.5) *
                 kBoxMetres;

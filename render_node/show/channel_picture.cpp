@@ -131,6 +131,7 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
         scene_.emplace(
             scene::SceneOptions{.place = place::placeOf(admission.scene, admission.seed),
                                 .water = admission.scene.water.jerlov,
+                                .current = admission.scene.current,
                                 .quality = quality,
                                 .pixelRadians = static_cast<float>(wall->finestPixelRadians())},
             castOf(admission));
