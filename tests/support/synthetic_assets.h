@@ -26,7 +26,7 @@ name: "tank"
 place: REEF
 eye { x_m: 0 y_m: -6 z_m: 0 }
 water { centre { x_m: 0 y_m: -5.8 z_m: -5.5 } half_extent { x_m: 5 y_m: 1.8 z_m: 3.5 } }
-gathering: JOURNEY
+gathering: NONE
 plankton: 200
 )",
                              .cast = {}};

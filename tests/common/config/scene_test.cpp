@@ -276,7 +276,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "MILL",
                 "GATHERING_UNSPECIFIED",
                 "gathering",
-                "write NONE, JOURNEY or MILL"},
+                "write NONE or MILL"},
         Mistake{"soup", "plankton: 40", "plankton: 60001", "plankton", "must be from"},
         Mistake{"negativePlankton", "plankton: 40", "plankton: -1", "-1", "Expected"},
         Mistake{"dayBeforeItBegins", "length_s: 600", "length_s: -1", "length_s", "must be from"},

@@ -86,7 +86,7 @@ struct Aquarium {
     DeferredEvents events;
     surroundings::Surroundings surroundings;
     std::vector<fish::SpeciesParameters> speciesParameters;
-    config::Gathering gathering = config::Gathering::Journey;
+    config::Gathering gathering = config::Gathering::None;
     surroundings::Goal goal{kCentre, {0.4F, 0, 0}};
     Tick tick;
 };

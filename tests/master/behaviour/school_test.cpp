@@ -49,10 +49,12 @@ TEST(SchoolRoutine, oneBehindATailBrakes) {
     EXPECT_LT(wanted[0].speed, wanted[1].speed - 0.3F);
 }
 
-TEST(SchoolRoutine, aFishThatFellBehindHurriesAndOneAheadWaits) {
-    Aquarium scene({{-1.5F, 0, 0}, {1.5F, 0, 0}});
-    const fish::Courses wanted = scene.think();
-    EXPECT_GT(wanted[0].speed, wanted[1].speed + 0.5F);
+TEST(SchoolRoutine, theFartherAFishFellBehindTheMoreItHurries) {
+    const auto speedBehind = [](float metres) {
+        Aquarium scene({{-metres, 0, 0}, {0, 0, 0}});
+        return scene.think()[0].speed;
+    };
+    EXPECT_GT(speedBehind(1.2F), speedBehind(0.45F) + 0.3F);
 }
 
 TEST(SchoolRoutine, wantedDirectionsAreUnitVectorsOfModeratePitch) {

@@ -76,6 +76,7 @@ inline WorldOptions optionsOfScene(const std::string& name, std::uint32_t seed =
     for (std::size_t i = 0; i < species.size(); ++i) {
         options.cast.push_back(capturedSpecies(species[i].species, options.scene.cast[i].fish));
         options.cast.back().start = options.scene.cast[i].start;
+        options.cast.back().homes = options.scene.cast[i].homes;
     }
     return options;
 }

@@ -42,7 +42,7 @@ float polarisation(const World& world) {
 TEST(Eat, ASchoolEatsAPinchOfPelletsWithinAMinuteAndFormsAgain) {
     for (std::uint32_t seed = 1; seed <= 3; ++seed) {
         WorldOptions options = openWater(seed, {hungry(scads(51), 1)});
-        options.scene.gathering = config::Gathering::Journey;
+        options.scene.gathering = config::Gathering::None;
         World world(options);
         for (int i = 0; i < 300; ++i) world.advance();
         world.apply(DropFood{middleOf(world) + glm::vec3{0.5F, 0.5F, 0}, 12});

@@ -63,7 +63,7 @@ class LoneFish {
                 .grids = &grids_,
                 .surroundings = &surroundings_,
                 .speciesParameters = {&nature_, 1},
-                .gathering = config::Gathering::Journey,
+                .gathering = config::Gathering::None,
                 .goal = goal_,
                 .schoolRadiusMetres = 0.3F,
                 .seed = 1,

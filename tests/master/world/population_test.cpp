@@ -25,7 +25,7 @@ WorldOptions livingSea() {
     WorldSpecies prey = scads(kScads);
     prey.habits.fearMetres = 0.8F;  // in so little water farther sight would be endless fear
     WorldOptions options = openWater(4, {prey, pacifists(kTangs), hunter});
-    options.scene.gathering = config::Gathering::Journey;
+    options.scene.gathering = config::Gathering::None;
     options.scene.plankton = 300;
     options.scene.eye = place::kEyePosition;
     return options;
