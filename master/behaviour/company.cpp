@@ -177,7 +177,7 @@ constexpr float kAlarmedPace = 0.5F;
 // Distant schoolmates that a fish looks at, and ticks for which it looks at the same ones.
 constexpr std::uint32_t kGlimpses = 4;
 constexpr std::uint64_t kTicksOfGlance = 60;
-constexpr float kRejoin = 1.5F;
+constexpr float kRejoin = 0.35F;
 // Weight of keeping its level in the ball, against the way around it.
 constexpr float kKeepLevel = 1.0F;
 
@@ -350,13 +350,15 @@ std::optional<fish::Course> keptCompany(const Situation& situation) {
 Company companyOf(const fish::FishView& view,
                   const Senses& senses,
                   std::uint32_t fish,
-                  float alarm) {
+                  float alarm,
+                  float rest) {
     assert(fish < view.size());
     assert(alarm >= 0);
     assert(alarm <= 1);
     Company company;
     const float perLength = 1 / view.fish[fish].length;
-    const float spacing = kSpacing + (kAlarmedSpacing - kSpacing) * alarm;
+    const float atEase = kSpacing + (kRestingSpacing - kSpacing) * rest;
+    const float spacing = atEase + (kAlarmedSpacing - atEase) * alarm;
     const float attract = kAttractFully + (kAttractAlarmed - kAttractFully) * alarm;
     for (std::size_t i = 0; i < senses.others.count; ++i) {
         // From a larger fish it keeps a distance in that fish's lengths.
@@ -416,7 +418,9 @@ fish::Course school(const Situation& situation) {
     const float alarm = alarmOf(situation.parameters, situation.feelings);
     const bool gathers = environment.gathering == config::Gathering::Mill;
     const Glance glance = gathers ? Glance{} : glanceOf(situation);
-    const Company company = companyOf(*environment.view, senses, situation.fish, alarm);
+    const float rest =
+        gathers ? 0.0F : likingOf(*environment.surroundings, senses.position) * (1 - alarm);
+    const Company company = companyOf(*environment.view, senses, situation.fish, alarm, rest);
     // Avoiding obstacles comes before following.
     const float follow = kFollow * std::max(0.0F, 1 - senses.urgency);
     const glm::vec3 way =
