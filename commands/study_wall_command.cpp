@@ -36,8 +36,6 @@ StudyScript wallScript() {
 // The scenario of a scene; with its tour where that is asked for.
 study::Scenario wallScenario(const std::string& scene, const WallStudyOptions& options) {
     study::Scenario scenario = study::readScenario(scene);
-    if (scenario.world.cast.empty())
-        throw Error(scene + ": has no fish to see; choose a scene with fish");
     scenario.world.seed = options.seed;
     if (options.tours) scenario.world.scene.tour = config::readScene(scene).tour;
     return scenario;
@@ -71,9 +69,12 @@ std::string pathLine(const study::WallStudy& study) {
 void studyWall(const WallStudyOptions& options) {
     StudyData::require(wallScript(), options.out);
     const config::Rig rig = config::readRig(options.rig);
-    const study::Scenario scenario = wallScenario(
-        options.scene.empty() ? config::scenePathOf(rig, options.rig) : options.scene, options);
+    const std::string scene =
+        options.scene.empty() ? config::scenePathOf(rig, options.rig) : options.scene;
+    const study::Scenario scenario = wallScenario(scene, options);
     world::World world(scenario.world);
+    if (world.traits().empty())
+        throw Error(scene + ": has no fish to see; choose a scene with fish");
     study::WallStudy study(rig, world);
     watchWall(world, study, options.hours);
     const StudyData data(wallScript(), options.out);

@@ -38,6 +38,7 @@ struct EventKind {
     const char* name;
     // Null for what noteSchools() notes.
     bool (*takesPart)(const Deed& deed);
+    float nearMetres = kNearMetres;
     // So many fish that begin in so many seconds make an event; it goes on while one of them does
     // it.
     std::size_t leastFish = 1;
@@ -48,11 +49,17 @@ struct EventKind {
 
 // In the order of WallEvent.
 constexpr std::array<EventKind, kWallEvents> kKinds{{
-    {WallEvent::Flight, "flight", flees},
-    {WallEvent::FastStart, "fast start", makesFastStart, 1, kOneEventSeconds, WallEvent::Flight},
+    {WallEvent::Flight, "flight", flees, kNearInFlightMetres},
+    {WallEvent::FastStart,
+     "fast start",
+     makesFastStart,
+     kNearInFlightMetres,
+     1,
+     kOneEventSeconds,
+     WallEvent::Flight},
     {WallEvent::Chase, "chase", hunts},
     {WallEvent::Courtship, "courtship", courts},
-    {WallEvent::FeedingRush, "feeding rush", goesForFood, kFishOfARush, 1},
+    {WallEvent::FeedingRush, "feeding rush", goesForFood, kNearMetres, kFishOfARush, 1},
     {WallEvent::Split, "split of a school", nullptr},
     {WallEvent::Meeting, "meeting of a school", nullptr},
 }};
@@ -167,9 +174,10 @@ void EventWatch::follow(const WatchedFish& now, std::size_t kind, const std::vec
 }
 
 std::vector<EventWatch::Actor*> EventWatch::near(std::size_t kind, const Actor& actor) {
+    const float reach = kKinds.at(kind).nearMetres;
     std::vector<Actor*> near;
     for (Actor& other : actors_.at(kind))
-        if (glm::distance(other.place, actor.place) < kOneEventMetres) near.push_back(&other);
+        if (glm::distance(other.place, actor.place) < reach) near.push_back(&other);
     return near;
 }
 

@@ -32,11 +32,13 @@ inline constexpr std::size_t kWallEvents = 7;
 // The words for a kind in tables.
 [[nodiscard]] const char* nameOf(WallEvent kind);
 
-// A fish that begins something belongs to the event of its kind in which another does the same, or
-// did so long ago, within this distance.
+// A fish that begins something belongs to the event of its kind in which another near by does the
+// same, or did so long ago.
 inline constexpr double kOneEventSeconds = 3;
-inline constexpr float kOneEventMetres = 2;
-// So many fish that begin to go for food within a second and this distance make a feeding rush.
+// Near by, metres. Flights spread: of a school 2 m wide all flee from one predator.
+inline constexpr float kNearMetres = 2;
+inline constexpr float kNearInFlightMetres = 4;
+// So many fish that begin to go for food within a second, near by, make a feeding rush.
 inline constexpr std::size_t kFishOfARush = 5;
 
 // An event and the tick at which it was first noticed.

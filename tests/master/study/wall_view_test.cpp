@@ -157,11 +157,12 @@ TEST(WallView, sandHidesWhatIsInIt) {
     surroundings::Obstacles sight{
         .place = {.kind = config::PlaceKind::Reef}, .water = {}, .rocks = {}};
     const WallView eyes(theatre(), sight, 12);
-    const fish::FishView above = viewOf({fishAt(0, 0, 5, 0.2F)});
-    EXPECT_TRUE(eyes.seen(above, 0, kAhead));
-    fish::FishView below = above;
-    below.fish[0].position.y = place::floorHeight(sight.place, {0, -5}) - 1;
-    EXPECT_FALSE(eyes.seen(below, 0, kAhead)) << "in the sand";
+    const float sand = place::floorHeight(sight.place, {0, -9});
+    fish::FishView view = viewOf({fishAt(0, 0, 9, 0.2F)});
+    view.fish[0].position.y = sand + 0.5F;
+    EXPECT_TRUE(eyes.seen(view, 0, kAhead)) << "over it";
+    view.fish[0].position.y = sand - 1;
+    EXPECT_FALSE(eyes.seen(view, 0, kAhead));
 }
 
 // The submarine turns by a right angle to the left and moves: what was abeam is ahead.
@@ -177,6 +178,18 @@ TEST(WallView, thePoseIsThatOfTheSubmarineAndTheSweetSpot) {
     const glm::dvec3 ahead = pose.wallFromWorld * glm::dvec3(-1, 0, 0);
     EXPECT_NEAR(ahead.z, -1, 1e-5);
     EXPECT_NEAR(ahead.x, 0, 1e-5);
+}
+
+TEST(WallView, whoTurnsToTheSideSeesWhatIsThereAhead) {
+    surroundings::Vessel vessel;
+    vessel.position = glm::vec3(kEye);
+    const fish::FishView view = viewOf({fishAt(-95, 0, 5, 0.2F)});
+    const WallView eyes = viewThrough(theatre());
+    EXPECT_FALSE(eyes.seen(view, 0, poseOf(vessel, rigOf("theatre"))));
+    vessel.attitude.yaw = std::numbers::pi_v<float> / 2;
+    const auto seen = eyes.seen(view, 0, poseOf(vessel, rigOf("theatre")));
+    ASSERT_TRUE(seen);
+    EXPECT_EQ(seen->spot.cell, 2U * 12 + 5) << "five degrees to the left";
 }
 
 TEST(Groups, fishOfASpeciesAreLinkedByGapsBelowFiveLengths) {
