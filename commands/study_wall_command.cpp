@@ -63,7 +63,10 @@ study::WallFigures mainFigures(const study::WallStudy& study) {
 std::string pathLine(const study::WallStudy& study) {
     const study::PathPeak peak = study.pathPeak();
     return fmt::format(
-        "path of the school: highest peak {:.2f} after {} s\n", peak.height, peak.lag);
+        "path of the school: highest peak {:.2f} after {} s, the first nearly as high after {} s",
+        peak.height,
+        peak.lag,
+        peak.firstLag);
 }
 
 void studyWall(const WallStudyOptions& options) {
@@ -82,9 +85,10 @@ void studyWall(const WallStudyOptions& options) {
     data.write("measures.csv", study::measuresCsv(study));
     data.write("events.csv", study::eventsCsv(study));
     data.write("species.csv", study::wallSpeciesCsv(study, world, scenario.world.cast));
-    cli::say(study::wallLine(mainFigures(study)) + pathLine(study));
+    cli::say(study::wallLine(mainFigures(study)));
+    cli::say(pathLine(study));
     data.show("wall", data.isKept() ? "figure" : "");
-    std::cout << '\n' << versionsLine();
+    std::cout << versionsLine();
 }
 
 }  // namespace

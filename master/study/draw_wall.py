@@ -102,50 +102,65 @@ def print_budgets(rows):
         print(markdown_table(["species", "intention", "share of the day, %", "published"], budgets))
 
 
-# Seconds of which a curve shows the mean, so that it can be read.
-SMOOTH = 30
+# Pieces of the day of which a curve shows the figures.
+PIECES = 40
 
 
-def smoothed(values):
-    """Means of SMOOTH seconds, and their middles in minutes."""
-    whole = len(values) // SMOOTH * SMOOTH
-    if whole == 0:
-        return np.arange(len(values)) / 60, values
-    means = np.asarray(values[:whole]).reshape(-1, SMOOTH).mean(axis=1)
-    return (np.arange(len(means)) + 0.5) * SMOOTH / 60, means
+def pieces_of(rows):
+    """The rows of each piece of the day, those of all days together, and the minutes of the pieces' middles."""
+    length = max(row["second_of_day"] for row in rows) + 1
+    pieces = [[] for _ in range(min(PIECES, len(rows)))]
+    for row in rows:
+        pieces[int(row["second_of_day"] / length * len(pieces))].append(row)
+    minutes = (np.arange(len(pieces)) + 0.5) * length / len(pieces) / 60
+    seen = [i for i, piece in enumerate(pieces) if piece]
+    return [pieces[i] for i in seen], minutes[seen]
 
 
-def shade_nights(axes, is_day):
-    """Grey behind all seconds of the night."""
-    night = np.concatenate([[0], 1 - np.asarray(is_day), [0]])
-    for begin, end in zip(np.flatnonzero(np.diff(night) > 0), np.flatnonzero(np.diff(night) < 0)):
-        axes.axvspan(begin / 60, end / 60, color="#dfe5ea", linewidth=0)
+def shade_nights(axes, pieces, minutes):
+    """Grey behind the pieces that are night."""
+    half = (minutes[1] - minutes[0]) / 2 if len(minutes) > 1 else 0.5
+    for piece, middle in zip(pieces, minutes):
+        if not piece[0]["is_day"]:
+            axes.axvspan(middle - half, middle + half, color="#dfe5ea", linewidth=0)
 
 
 # Panels of the figure: words, columns of seconds.csv with colours and names, factor.
 PANELS = [
-    ("cells with a fish, %", [("cells", "#1f6f8b", "")], 100),
+    ("cells with a fish of half a degree, %", [("cells", "#1f6f8b", "")], 100),
     ("fish of a degree", [("left", "#b4472f", "left"), ("middle", "#1f6f8b", "middle"), ("right", "#c9a227", "right")],
      1),
     ("largest school, % of the fish in view", [("largest_group", "#1f6f8b", "")], 100),
     ("species of a degree", [("species", "#1f6f8b", "")], 1),
-    ("events in view a minute", [("events", "#1f6f8b", "")], 60),
+    ("events in view a minute, mean", [("events", "#1f6f8b", "")], 60),
 ]
 
 
+def draw_panel(axes, pieces, minutes, columns, factor):
+    """Medians as lines, with the 5 % quantile as a band below where there is one line; of events their mean."""
+    for column, colour, name in columns:
+        values = [factor * np.array([row[column] for row in piece]) for piece in pieces]
+        middle = [piece.mean() if column == "events" else np.median(piece) for piece in values]
+        axes.plot(minutes, middle, color=colour, linewidth=1.3, label=name)
+        if len(columns) == 1 and column != "events":
+            axes.fill_between(minutes, [np.quantile(piece, 0.05) for piece in values], middle, color=colour, alpha=0.2,
+                              linewidth=0)
+    if len(columns) > 1:
+        axes.legend(ncols=len(columns), loc="upper right", fontsize=7.5)
+
+
 def draw_day(rows):
-    """The measures over the time of the scene, means of half a minute."""
+    """The measures over the day; a scene without a day over its time."""
+    pieces, minutes = pieces_of(rows)
     figure, panels = plt.subplots(len(PANELS), 1, figsize=(906 * PX, 780 * PX), layout="constrained", sharex=True)
     for axes, (words, columns, factor) in zip(panels, PANELS):
-        shade_nights(axes, [row["is_day"] for row in rows])
-        for column, colour, name in columns:
-            minutes, means = smoothed(np.array([row[column] for row in rows]) * factor)
-            axes.plot(minutes, means, color=colour, linewidth=1.1, label=name)
-        axes.set(xlim=(0, len(rows) / 60), ylim=(0, None))
+        shade_nights(axes, pieces, minutes)
+        draw_panel(axes, pieces, minutes, columns, factor)
+        axes.set(ylim=(0, None))
+        axes.margins(x=0.02)
         axes.set_title(words, color=QUIET)
-        if len(columns) > 1:
-            axes.legend(ncols=len(columns), loc="upper right", fontsize=7.5)
-    panels[-1].set_xlabel("minutes of the scene; night is grey")
+    panels[-1].set_xlabel("minutes since midnight of the scene's day; night is grey; lines: median, bands: to the 5 % "
+                          "quantile")
     return figure
 
 

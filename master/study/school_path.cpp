@@ -47,14 +47,19 @@ std::vector<double> autocorrelationOf(std::span<const glm::dvec3> path, std::siz
 PathPeak highestPeak(std::span<const double> autocorrelation) {
     const auto zero =
         std::ranges::find_if(autocorrelation, [](double value) { return value <= 0; });
-    PathPeak highest;
+    std::vector<PathPeak> peaks;
     const auto first = static_cast<std::size_t>(zero - autocorrelation.begin()) + 1;
     for (std::size_t lag = first; lag + 1 < autocorrelation.size(); ++lag) {
         const double height = autocorrelation[lag];
         const bool isPeak =
             height >= autocorrelation[lag - 1] && height >= autocorrelation[lag + 1];
-        if (isPeak && height > highest.height) highest = {height, lag};
+        if (isPeak && height > 0) peaks.push_back({height, lag, lag});
     }
+    if (peaks.empty()) return {};
+    PathPeak highest = *std::ranges::max_element(peaks, {}, &PathPeak::height);
+    highest.firstLag = std::ranges::find_if(peaks, [&](const PathPeak& peak) {
+                           return peak.height >= highest.height - kAlikePeaks;
+                       })->lag;
     return highest;
 }
 

@@ -17,12 +17,16 @@ namespace aquarama::study {
 [[nodiscard]] std::vector<double> autocorrelationOf(std::span<const glm::dvec3> path,
                                                     std::size_t mostLag);
 
-// A peak of an autocorrelation: its height, -1 to 1, and its lag, in samples.
+// The highest peak of an autocorrelation and its lag, in samples.
 struct PathPeak {
     double height = 0;
     std::size_t lag = 0;
+    // Of the first peak at most kAlikePeaks lower. A path that repeats itself has peaks at all
+    // multiples of its period; this is the shortest.
+    std::size_t firstLag = 0;
 };
-// The highest peak beyond the first zero, not at the end; height and lag are 0 where there is none.
+inline constexpr double kAlikePeaks = 0.1;
+// Of peaks beyond the first zero, not at the end; all 0 where there is none.
 [[nodiscard]] PathPeak highestPeak(std::span<const double> autocorrelation);
 
 }  // namespace aquarama::study

@@ -31,11 +31,17 @@ double secondsOf(Tick tick) {
     return static_cast<double>(tick.value) / kTicksPerSecond;
 }
 
-// The share of the time that a tick is after the midnight before, of a day.
+// The share of a day that has passed since midnight.
 double timeOfDay(const config::Day& day, Tick tick) {
     const double days = day.lengthSeconds > 0 ? secondsOf(tick) / day.lengthSeconds : 0;
     const double time = day.startsAt + days;
     return time - std::floor(time);
+}
+
+// Seconds since midnight; since tick 0 where the day stands still.
+double secondOfDay(const config::Day& day, Tick tick) {
+    if (day.lengthSeconds <= 0) return secondsOf(tick);
+    return timeOfDay(day, tick) * day.lengthSeconds;
 }
 
 // All that may hide a fish: every rock of the place, also those out of the fish's water.
@@ -161,7 +167,7 @@ std::string wallLine(const WallFigures& figures) {
     const auto& full = figures.full;
     return fmt::format(
         "wall: cells {:.0f} %, thirds {:.0f} {:.0f} {:.0f} %, all {:.0f} %, gap {} s, largest "
-        "school {:.0f} %, species {:.0f}, events {:.1f} a minute\n",
+        "school {:.0f} %, species {:.0f}, events {:.1f} a minute",
         100 * figures.cellShare.median,
         100 * full[0],
         100 * full[1],
@@ -258,7 +264,8 @@ PathPeak WallStudy::pathPeak() const {
 
 std::string secondsCsv(const WallStudy& study) {
     std::ostringstream csv;
-    csv << "second,is_day,cells,left,middle,right,in_view,largest_group,species,parts,events\n";
+    csv << "second,second_of_day,is_day,cells,left,middle,right,in_view,largest_group,species,"
+           "parts,events\n";
     std::vector<std::uint32_t> events(study.seconds().size() + 1);
     for (const NotedEvent& event : study.events()) {
         const auto second = static_cast<std::size_t>(secondsOf(event.tick));
@@ -269,6 +276,7 @@ std::string secondsCsv(const WallStudy& study) {
         const WallGlance& glance = second.glance;
         report::addRow(csv,
                        number + 1,
+                       secondOfDay(study.day(), {(number + 1) * kTicksOfSecond}),
                        second.part == DayPart::Day ? 1 : 0,
                        glance.cellShare,
                        glance.large[0],

@@ -146,7 +146,8 @@ class Reports(Case):
         self.assert_picture(files["wall.svg"])
         self.assertRegex(said, r"\Awall: cells \d+ %, thirds \d+ \d+ \d+ %, all \d+ %, gap \d+ s, "
                                r"largest school \d+ %, species \d, events \d+\.\d a minute\n"
-                               r"path of the school: highest peak \d\.\d\d after \d+ s\n")
+                               r"path of the school: highest peak \d\.\d\d after \d+ s, the first nearly as high "
+                               r"after \d+ s\n\n\| ")
         self.assertIn("| time, s | 72 | – | 0 | – |", said)
         self.assertRegex(said, r"\n\| bigeye_scad \| 51 \| day \| \d\.\d / \d\.\d \| \d\.\d\d / \d\.\d\d \| 0\.0 / ")
         self.assertIn("| parrotfish | 1 | day | – | – |", said)

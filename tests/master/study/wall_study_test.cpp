@@ -105,7 +105,7 @@ TEST(WallFigures, theLineSaysThemInTheirOrder) {
     figures.allEventsAMinute = 2.25;
     EXPECT_EQ(wallLine(figures),
               "wall: cells 16 %, thirds 33 65 32 %, all 1 %, gap 41 s, largest school 85 %, "
-              "species 5, events 2.2 a minute\n");
+              "species 5, events 2.2 a minute");
 }
 
 TEST(SchoolPath, aPathThatRepeatsItselfHasAPeakAtItsPeriod) {
@@ -119,7 +119,7 @@ TEST(SchoolPath, aPathThatRepeatsItselfHasAPeakAtItsPeriod) {
     EXPECT_NEAR(correlation[39], -1, 0.03);
     const PathPeak peak = highestPeak(correlation);
     EXPECT_NEAR(peak.height, 1, 0.03);
-    EXPECT_EQ(peak.lag % 79, 0U);
+    EXPECT_EQ(peak.firstLag, 79U);
 }
 
 TEST(SchoolPath, aPathThatGoesOnOrStaysHasNone) {
@@ -136,6 +136,15 @@ TEST(SchoolPath, thePeakIsBeyondTheFirstZeroAndNotAtTheEnd) {
     const PathPeak peak = highestPeak(correlation);
     EXPECT_EQ(peak.lag, 5U);
     EXPECT_EQ(peak.height, 0.3);
+    EXPECT_EQ(peak.firstLag, 5U);
+}
+
+// At multiples of a period the path is as much like itself: the period is the shortest of them.
+TEST(SchoolPath, thePeriodIsTheFirstPeakNearlyAsHighAsTheHighest) {
+    const std::vector<double> correlation{1, -0.1, 0.2, 0.1, 0.5, 0.1, 0.2, 0.1, 0.55, 0.1};
+    const PathPeak peak = highestPeak(correlation);
+    EXPECT_EQ(peak.lag, 8U);
+    EXPECT_EQ(peak.firstLag, 4U);
 }
 
 // Half a minute of the scene of the routine school, with its real fish.
