@@ -56,12 +56,15 @@ def number(value, digits):
 
 def print_measures(rows):
     """Median and 5 % quantile by day and night; a figure that has one value stands under the median."""
+    by_key = {row["measure"]: row for row in rows}
+
     def cells(row):
         words, factor, digits = MEASURES[row["measure"]]
-        values = [row[key] for key in ["day", "day_low", "night", "night_low"]]
+        # Without a second of a part of the day nothing is known of it.
+        values = [row[part + of] if by_key["seconds"][part] else None
+                  for part in ["day", "night"] for of in ["", "_low"]]
         return [words, *(number(None if value is None else factor * value, digits) for value in values)]
 
-    by_key = {row["measure"]: row for row in rows}
     head = ["each second", "by day: median", "5 %", "by night: median", "5 %"]
     print(markdown_table(head, [cells(by_key[key]) for key in MEASURES]))
     day, night = by_key["mean_in_view"]["day"], by_key["mean_in_view"]["night"]

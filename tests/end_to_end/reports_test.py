@@ -148,7 +148,7 @@ class Reports(Case):
                                r"largest school \d+ %, species \d, events \d+\.\d a minute\n"
                                r"path of the school: highest peak \d\.\d\d after \d+ s, the first nearly as high "
                                r"after \d+ s\n\n\| ")
-        self.assertIn("| time, s | 72 | – | 0 | – |", said)
+        self.assertIn("| time, s | 72 | – | – | – |", said)
         self.assertRegex(said, r"\n\| bigeye_scad \| 51 \| day \| \d\.\d / \d\.\d \| \d\.\d\d / \d\.\d\d \| 0\.0 / ")
         self.assertIn("| parrotfish | 1 | day | – | – |", said)
         self.assertRegex(said, r"\n\| blacktip_reef_shark \| .* \| swimming 100 % \|\n")
