@@ -6,20 +6,15 @@
 #include <filesystem>
 #include <iostream>
 #include <mutex>
-#include <optional>
-#include <span>
 #include <string>
 #include <thread>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "capture/capture_repertoire.h"
 #include "commands/commands.h"
-#include "common/base/files.h"
+#include "commands/study_data.h"
 #include "common/base/log.h"
-#include "common/base/movement_versions.h"
-#include "common/cli/outputs.h"
 #include "common/cli/progress.h"
 #include "master/study/chronicle.h"
 #include "master/study/study.h"
@@ -38,43 +33,8 @@ struct StudyOptions {
     std::uint32_t seeds = 5;
 };
 
-// The folder for the data: the requested one, or a temporary one that is removed with this object.
-class DataFolder {
-  public:
-    // Call it before the work. Throws Error where the folder cannot be written or Python is
-    // missing.
-    static void require(const std::string& asked) {
-        cli::requireFolder("--out", asked);
-        cli::requirePython(kModules);
-    }
-    explicit DataFolder(const std::string& asked) : path_(asked), isKept_(!asked.empty()) {
-        if (isKept_) return;
-        made_.emplace("study");
-        path_ = made_->path();
-    }
-
-    // Prints the file's name on stderr where it is kept: stdout is for the tables.
-    void write(const std::string& name, const std::string& text) const {
-        writeWhole(path_ / name, std::as_bytes(std::span(text)));
-        if (isKept_) std::cerr << (path_ / name).string() << '\n';
-    }
-    [[nodiscard]] bool isKept() const { return isKept_; }
-    // Prints the tables: "adaptation", and with "figure" draws it beside the data; or "chronicle"
-    // and its hours.
-    void show(const std::string& what, const std::string& more) const {
-        cli::runPython(kModules, "master/study/draw_study.py", {what, path_.string(), more}, path_);
-    }
-
-  private:
-    inline static const std::vector<std::string> kModules{"matplotlib", "scipy"};
-    fs::path path_;
-    bool isKept_;
-    std::optional<TemporaryFolder> made_;
-};
-
-// The line by which docs/studies.py knows what moved the fish.
-std::string versionsLine() {
-    return fmt::format("motor {}, minds {}\n", kMotorVersion, kMindsVersion);
+StudyScript studyScript() {
+    return {"master/study/draw_study.py", {"matplotlib", "scipy"}};
 }
 
 // Runs the study with a progress bar.
@@ -88,14 +48,14 @@ std::vector<study::Sample> watched(const study::StudyPlan& plan) {
 }
 
 void runStudy(const StudyOptions& options) {
-    DataFolder::require(options.out);
+    StudyData::require(studyScript(), options.out);
     const fs::path config = configFolder(options.config);
     const study::StudyPlan plan{.scenarios = study::scenariosOf(config),
                                 .minutes = options.minutes,
                                 .seeds = options.seeds,
                                 .threads = std::max(std::thread::hardware_concurrency(), 1U)};
     const std::string runs = study::runsCsv(plan, watched(plan));
-    const DataFolder folder(options.out);
+    const StudyData folder(studyScript(), options.out);
     folder.write("adaptation.csv", runs);
     folder.show("adaptation", folder.isKept() ? "figure" : "");
     std::cout << '\n' << versionsLine();
@@ -109,7 +69,7 @@ struct ChronicleOptions {
 };
 
 void chronicle(const ChronicleOptions& options) {
-    DataFolder::require(options.out);
+    StudyData::require(studyScript(), options.out);
     study::Scenario scenario = study::readScenario(options.scene);
     scenario.world.seed = options.seed;
     world::World world(scenario.world);
@@ -126,7 +86,7 @@ void chronicle(const ChronicleOptions& options) {
         if (tick % kTicksOfMinute == 0)
             bar.show(static_cast<double>(tick) / static_cast<double>(ticks));
     }
-    const DataFolder folder(options.out);
+    const StudyData folder(studyScript(), options.out);
     folder.write("hours.csv", study::hoursCsv(chronicle.hours()));
     folder.write("overlaps.csv",
                  study::overlapsCsv(chronicle.overlaps(), world, scenario.world.cast));
@@ -143,7 +103,8 @@ void addStudy(CommandLine& line) {
         line.add<StudyOptions>("study",
                                "compare minds with and without each adaptation to their motor; "
                                "study chronicle SCENE: an hour "
-                               "of a scene in figures",
+                               "of a scene in figures; "
+                               "study wall RIG: what a visitor sees",
                                runStudy);
     command.require_subcommand(0, 1);
     command.footer("Prints its tables in Markdown.");
@@ -166,6 +127,7 @@ void addStudy(CommandLine& line) {
     life.add_option("--seed", chronicled.seed, "of the world")
         ->check(cli::wholeNumber(0, cli::kMostSeed))
         ->capture_default_str();
+    addStudyWall(line, command);
 }
 
 }  // namespace aquarama

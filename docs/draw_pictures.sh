@@ -41,6 +41,7 @@ declare -A way=(
     [calibration_scan.webp]=calibration
     [calibration_report.webp]=calibration
     [calibration_after.webp]=calibration
+    [wall.svg]=visitor
     [modules.svg]=modules
     [console_wall.png]=console
     [console_nodes.png]=console
@@ -137,6 +138,12 @@ PYTHON
 adaptation() {
     docs/studies.py "aquarama study --seeds"
     cp docs/pictures/adaptation.svg "$drawn/"
+}
+
+# Fills in the figures of docs/scenes.md besides.
+visitor() {
+    docs/studies.py "aquarama study wall"
+    cp docs/pictures/wall.svg "$drawn/"
 }
 
 # A simulated hall, its scan, the page of its calibration (by Debian's chromium), and the reef before and after.

@@ -145,6 +145,10 @@ std::vector<Scenario> scenariosOf(const std::filesystem::path& configFolder) {
     return scenarios;
 }
 
+const char* routineOf(fish::Intention intention) {
+    return kRoutines.at(static_cast<std::size_t>(intention));
+}
+
 std::string runsCsv(const StudyPlan& plan, const std::vector<Sample>& samples) {
     assert(samples.size() == plan.scenarios.size());
     std::ostringstream csv;

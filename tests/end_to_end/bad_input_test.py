@@ -81,6 +81,8 @@ class Usage(Case):
             ("study", "aquarama study", "--minutes", "a number from 0.1 to 1440"),
             ("study chronicle SCENE", "aquarama study chronicle", "--hours", "a number from 0.01 to 1000"),
             ("study chronicle SCENE", "aquarama study chronicle", "--seed", seed),
+            ("study wall RIG", "aquarama study wall", "--hours", "a number from 0.01 to 1000"),
+            ("study wall RIG", "aquarama study wall", "--seed", seed),
             ("export FILE --segment forward_slow --csv a", "aquarama export", "--cycles", f"{whole} 1 to 1000"),
             ("fidelity --out DIR", "aquarama fidelity", "--seed", seed),
             ("fidelity --out DIR", "aquarama fidelity", "--seconds", "a number from 1 to 3600"),

@@ -15,6 +15,7 @@ SEGMENTS = ["forward_slow", "forward_medium", "forward_fast",
             "turn_left_gradual", "turn_left_sharp", "turn_right_gradual", "turn_right_sharp"]
 PICTURES = ["body", "speed", "strouhal", "turns", "headings", *SEGMENTS, *(f"midlines_{gait}" for gait in SEGMENTS[:3])]
 REEF = ROOT / "config/scenes/reef.txtpb"
+THEATRE = ROOT / "config/theatre.txtpb"
 
 
 def drawn(script, *arguments):
@@ -139,6 +140,28 @@ class Reports(Case):
                       "14.0 | 15.000 | 16.00 | 17 | 18 | 19 (20) | 21.00 | 22.00 | 23 |", tables)
 
 
+    def test_what_a_visitor_sees(self):
+        files, said = self.written("wall", "study", "wall", THEATRE, "--hours", 0.02, "--out", self.folder / "wall")
+        self.assertEqual(set(files), {"seconds.csv", "measures.csv", "events.csv", "species.csv", "wall.svg"})
+        self.assert_picture(files["wall.svg"])
+        self.assertRegex(said, r"\Awall: cells \d+ %, thirds \d+ \d+ \d+ %, all \d+ %, gap \d+ s, "
+                               r"largest school \d+ %, species \d, events \d+\.\d a minute\n"
+                               r"path of the school: highest peak \d\.\d\d after \d+ s, the first nearly as high "
+                               r"after \d+ s\n\n\| ")
+        self.assertIn("| time, s | 72 | – | – | – |", said)
+        self.assertRegex(said, r"\n\| bigeye_scad \| 51 \| day \| \d\.\d / \d\.\d \| \d\.\d\d / \d\.\d\d \| 0\.0 / ")
+        self.assertIn("| parrotfish | 1 | day | – | – |", said)
+        self.assertRegex(said, r"\n\| blacktip_reef_shark \| .* \| swimming 100 % \|\n")
+        self.assertRegex(said, r"\nmotor \d+, minds \d+\n")
+        # Without a folder the same is printed; with the tour the submarine, and so the view, moves.
+        again = aquarama("study", "wall", THEATRE, "--hours", 0.02)
+        self.assertEqual(again.stdout, said)
+        self.assertNotEqual(aquarama("study", "wall", THEATRE, "--hours", 0.02, "--tour").stdout, said)
+        empty = aquarama("study", "wall", THEATRE, "--scene", ROOT / "config/scenes/empty_sea.txtpb")
+        self.assertEqual(empty.returncode, 1)
+        self.assertRegex(empty.stderr, r"\Aaquarama study wall: .*empty_sea.*has no fish to see.*\n\Z")
+
+
 class Statistics(Case):
     def test_differences_are_taken_seed_by_seed(self):
         """What seeds have in common falls out; bold is what differs beyond chance."""
@@ -176,7 +199,8 @@ class WithoutMatplotlib(Case):
                                    ("inspect", ["a.aqrep", "--report", out]),
                                    ("controllers", ["--out", out]), ("fidelity", ["--out", out]),
                                    ("forms", ["--out", out]),
-                                   ("study", ["--out", out]), ("study", []), ("study chronicle", [REEF])]:
+                                   ("study", ["--out", out]), ("study", []), ("study chronicle", [REEF]),
+                                   ("study wall", [THEATRE])]:
             for python in [self.fake_python(), self.folder / "none"]:
                 with self.subTest(command, python=python):
                     run = aquarama(*command.split(), *arguments, environment={"AQUARAMA_PYTHON": str(python)},
