@@ -135,7 +135,7 @@ Scenario readScenario(const std::filesystem::path& scene) {
 std::vector<Scenario> scenariosOf(const std::filesystem::path& configFolder) {
     std::vector<Scenario> scenarios;
     for (const std::string_view scene :
-         {"reef", "study/school", "study/crowded_tank", "study/feeding"})
+         {"reef_1998", "study/school", "study/crowded_tank", "study/feeding"})
         scenarios.push_back(
             readScenario(configFolder / "scenes" / (std::string(scene) + ".txtpb")));
     // Only the last of these is one of feeding.
@@ -143,10 +143,6 @@ std::vector<Scenario> scenariosOf(const std::filesystem::path& configFolder) {
     std::ranges::move(eachAlone(readScenario(configFolder / "scenes" / "study" / "alone.txtpb")),
                       std::back_inserter(scenarios));
     return scenarios;
-}
-
-const char* routineOf(fish::Intention intention) {
-    return kRoutines.at(static_cast<std::size_t>(intention));
 }
 
 std::string runsCsv(const StudyPlan& plan, const std::vector<Sample>& samples) {

@@ -82,9 +82,6 @@ struct StudyPlan {
 
 // CSV files of the study and the chronicle; draw_study.py draws tables and a figure from them.
 
-// The name of an intention in them.
-[[nodiscard]] const char* routineOf(fish::Intention intention);
-
 // A line for each scenario, condition and seed; a cell is empty where a run has no value.
 [[nodiscard]] std::string runsCsv(const StudyPlan& plan, const std::vector<Sample>& samples);
 

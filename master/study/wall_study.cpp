@@ -380,7 +380,7 @@ std::string wallSpeciesCsv(const WallStudy& study,
     std::ostringstream csv;
     csv << "species,fish,is_day,nearest,nearest_low,polarisation,polarisation_low";
     for (std::size_t i = 0; i < fish::kIntentions; ++i)
-        csv << ',' << routineOf(static_cast<fish::Intention>(i)) << " share";
+        csv << ',' << fish::nameOf(static_cast<fish::Intention>(i)) << " share";
     csv << '\n';
     for (const DayPart part : kAllDayParts) {
         const std::vector<SpeciesFigures> species = study.species(part);

@@ -29,13 +29,14 @@ std::vector<Swimmer> swimmers(const place::Region& water) {
     return all;
 }
 
-template <glm::vec3 (*avoid)(const surroundings::Obstacles&, glm::vec3, glm::vec3, float)>
+template <glm::vec3 (*avoid)(
+    const surroundings::Obstacles&, glm::vec3, glm::vec3, float, const surroundings::Berth&)>
 void avoidanceCost(benchmark::State& state) {
     const surroundings::Obstacles obstacles = surroundings::obstaclesOf({1}, test::schoolRegion());
     const std::vector<Swimmer> fish = swimmers(obstacles.water);
     for (auto _ : state)
         for (const Swimmer& one : fish)
-            benchmark::DoNotOptimize(avoid(obstacles, one.position, one.heading, kReachMetres));
+            benchmark::DoNotOptimize(avoid(obstacles, one.position, one.heading, kReachMetres, {}));
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(fish.size()));
 }
 BENCHMARK(avoidanceCost<surroundings::avoidance>)->Name("avoidance/charted");

@@ -213,7 +213,7 @@ TEST(Leave, fishInTheDarkAndColdRiseToWaterThatSuits) {
 }
 
 WorldOptions one(const std::string& species) {
-    WorldOptions options = optionsOfScene("reef");
+    WorldOptions options = optionsOfScene("reef_1998");
     std::erase_if(options.cast, [&](const WorldSpecies& each) { return each.name != species; });
     options.scene.plankton = 0;
     return options;
@@ -255,8 +255,7 @@ TEST(Wander, oneWithAHomeStaysWithinItsLeash) {
     const config::Home& home = options.cast[0].habits.home;
     ASSERT_EQ(home.kind, config::HomeKind::Place);
     World world(options);
-    const auto depth = static_cast<float>(options.cast[0].habits.bestDepthMetres);
-    const glm::vec3 place = behaviour::homeOf(1, home, world.surroundings().obstacles, depth, 0);
+    const glm::vec3 place = behaviour::homeOf(world.speciesParameters()[0], 0);
     float farthest = 0;
     for (int i = 0; i < 180 * kSecond; ++i) {
         world.advance();
@@ -280,7 +279,7 @@ TEST(Wander, thoseThatLiveInPairsKeepNearEachOther) {
 
 // The reef of the paper, ten minutes of it, as its species live.
 TEST(Reef, nobodyLeavesTheWaterOrEntersTerrainOrSubmarine) {
-    WorldOptions options = optionsOfScene("reef");
+    WorldOptions options = optionsOfScene("reef_1998");
     options.scene.tour.reset();
     World world(options);
     const surroundings::Obstacles& obstacles = world.surroundings().obstacles;
@@ -317,7 +316,7 @@ TEST(Reef, nobodyLeavesTheWaterOrEntersTerrainOrSubmarine) {
 
 // It goes through their midst at half a metre a second, and they feel it come.
 TEST(Reef, allMakeWayForASubmarineOnItsTour) {
-    World world(optionsOfScene("reef"));
+    World world(optionsOfScene("reef_1998"));
     const surroundings::Submarine& submarine = world.surroundings().submarine;
     float nearest = 99;
     float farthest = 0;

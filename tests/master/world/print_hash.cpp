@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
     if (argc == 6 && !use(argv[5])) return 3;
     const auto number = [&](int i) { return std::strtoul(argv[i], nullptr, 10); };
     world::WorldOptions options =
-        world::optionsOfScene("reef", static_cast<std::uint32_t>(number(1)));
+        world::optionsOfScene("reef_1998", static_cast<std::uint32_t>(number(1)));
     options.cast.front().fish = static_cast<std::uint32_t>(number(2));
     options.threads = static_cast<unsigned>(number(4));
     world::World world(options);
