@@ -177,7 +177,10 @@ constexpr float kAlarmedPace = 0.5F;
 // Distant schoolmates that a fish looks at, and ticks for which it looks at the same ones.
 constexpr std::uint32_t kGlimpses = 4;
 constexpr std::uint64_t kTicksOfGlance = 60;
-constexpr float kRejoin = 0.35F;
+constexpr float kRejoin = 1.5F;
+// And where the school likes to be: there its parts stay apart for a while, but nobody alone.
+constexpr float kRejoinAtRest = 0.3F;
+constexpr std::size_t kPart = 4;
 // Weight of keeping its level in the ball, against the way around it.
 constexpr float kKeepLevel = 1.0F;
 
@@ -347,11 +350,8 @@ std::optional<fish::Course> keptCompany(const Situation& situation) {
     return alongside(situation, partner, view.position(partner) + level * apart);
 }
 
-Company companyOf(const fish::FishView& view,
-                  const Senses& senses,
-                  std::uint32_t fish,
-                  float alarm,
-                  float rest) {
+Company companyOf(
+    const fish::FishView& view, const Senses& senses, std::uint32_t fish, float alarm, float rest) {
     assert(fish < view.size());
     assert(alarm >= 0);
     assert(alarm <= 1);
@@ -423,9 +423,11 @@ fish::Course school(const Situation& situation) {
     const Company company = companyOf(*environment.view, senses, situation.fish, alarm, rest);
     // Avoiding obstacles comes before following.
     const float follow = kFollow * std::max(0.0F, 1 - senses.urgency);
+    const float apart = senses.schoolmates.count < kPart ? 0.0F : rest;
+    const float rejoin = kRejoin + (kRejoinAtRest - kRejoin) * apart;
     const glm::vec3 way =
         gathers ? wayInBall(environment, situation.fish, senses.position)
-                : glimpses(situation, glance, alarm) * kRejoin + ownWay(situation) * (1 - alarm);
+                : glimpses(situation, glance, alarm) * rejoin + ownWay(situation) * (1 - alarm);
     const glm::vec3 desired = senses.heading * kKeepCourse + pullOf(company) + way * follow +
                               whim(environment.seed, situation.fish, environment.tick) *
                                   (kWander * (1 - kAttentive * alarm)) +
