@@ -29,6 +29,7 @@ const std::map<std::string, SwimmingForm>& expectedForms() {
         {"bigeye_scad", SwimmingForm::Carangiform},
         {"blacktip_reef_shark", SwimmingForm::HeadYawing},
         {"blue_tang", SwimmingForm::Labriform},
+        {"cleaner_wrasse", SwimmingForm::Labriform},
         {"clownfish", SwimmingForm::Labriform},
         {"moorish_idol", SwimmingForm::Labriform},
         {"parrotfish", SwimmingForm::Labriform},
