@@ -24,8 +24,14 @@ namespace fs = std::filesystem;
 
 constexpr double kDegree = 3.14159265358979 / 180;
 constexpr std::size_t kTail = kWaveStations - 1;
-const std::set<std::string> kLabriform{
-    "blue_tang", "cleaner_wrasse", "clownfish", "moorish_idol", "parrotfish"};
+const std::set<std::string> kLabriform{"blue_tang",
+                                       "butterflyfish",
+                                       "cleaner_wrasse",
+                                       "clownfish",
+                                       "coral_grouper",
+                                       "moorish_idol",
+                                       "parrotfish",
+                                       "sergeant"};
 
 std::vector<std::string> allSpecies() {
     std::vector<std::string> names;
