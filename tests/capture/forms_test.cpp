@@ -34,6 +34,7 @@ const std::map<std::string, SwimmingForm>& expectedForms() {
         {"cleaner_wrasse", SwimmingForm::Labriform},
         {"clownfish", SwimmingForm::Labriform},
         {"coral_grouper", SwimmingForm::Labriform},
+        {"lionfish", SwimmingForm::HeadYawing},
         {"moorish_idol", SwimmingForm::Labriform},
         {"parrotfish", SwimmingForm::Labriform},
         {"sergeant", SwimmingForm::Labriform},
