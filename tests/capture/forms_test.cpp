@@ -27,11 +27,17 @@ constexpr double kDegree = kTwoPi / 360;
 const std::map<std::string, SwimmingForm>& expectedForms() {
     static const std::map<std::string, SwimmingForm> kForms{
         {"bigeye_scad", SwimmingForm::Carangiform},
+        {"bigeye_trevally", SwimmingForm::Carangiform},
         {"blacktip_reef_shark", SwimmingForm::HeadYawing},
         {"blue_tang", SwimmingForm::Labriform},
+        {"butterflyfish", SwimmingForm::Labriform},
+        {"cleaner_wrasse", SwimmingForm::Labriform},
         {"clownfish", SwimmingForm::Labriform},
+        {"coral_grouper", SwimmingForm::Labriform},
+        {"lionfish", SwimmingForm::HeadYawing},
         {"moorish_idol", SwimmingForm::Labriform},
         {"parrotfish", SwimmingForm::Labriform},
+        {"sergeant", SwimmingForm::Labriform},
         {"trumpetfish", SwimmingForm::StiffBodied}};
     return kForms;
 }

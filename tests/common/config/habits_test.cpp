@@ -255,7 +255,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "has no radius_m"},
         Mistake{"aLonerAtHomeWithTheSchool",
                 "clownfish",
-                "kind: PLACE radius_m: 0.35 leash_m: 1 on_the_reef: true",
+                "kind: PLACE radius_m: 0.35 leash_m: 1 at: ANEMONE",
                 "kind: SCHOOL",
                 "kind",
                 "nobody of this species schools"},
