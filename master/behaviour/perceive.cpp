@@ -398,6 +398,8 @@ void senseShelter(const Onlooker& onlooker) {
     }
 }
 
+// From the middle of a fish to its ends, as a share of its length.
+constexpr float kHalfBody = 0.5F;
 // From the submarine's radius on, where its push begins.
 constexpr float kSubmarineMarginMetres = 0.6F;
 
@@ -407,9 +409,11 @@ glm::vec3 submarinePush(const surroundings::Submarine& submarine,
                         const Senses& senses,
                         float reach) {
     const glm::vec3 velocity = submarine.velocityMetresPerSecond;
+    // A long body needs more room to turn.
+    const float radius = submarine.radiusMetres + kHalfBody * senses.length;
     if (velocity == glm::vec3{})
         return surroundings::ballPush(submarine.position,
-                                      submarine.radiusMetres,
+                                      radius,
                                       kSubmarineMarginMetres,
                                       senses.position,
                                       senses.heading,
@@ -418,7 +422,7 @@ glm::vec3 submarinePush(const surroundings::Submarine& submarine,
     const glm::vec3 towards = place::directionOf(senses.position - submarine.position, {});
     const float comingOn = std::max(0.0F, place::dot(velocity, towards));
     return surroundings::ballPush(submarine.position,
-                                  submarine.radiusMetres + comingOn * kBowWaveSeconds,
+                                  radius + comingOn * kBowWaveSeconds,
                                   kSubmarineMarginMetres,
                                   senses.position,
                                   place::directionOf(past, senses.heading),
