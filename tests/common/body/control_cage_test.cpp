@@ -13,7 +13,7 @@
 #include "common/body/fish_body.h"
 #include "common/body/spine.h"
 #include "tests/common/body/bend.h"
-#include "tests/support/cast.h"
+#include "tests/support/all_species.h"
 
 namespace aquarama::body {
 namespace {
@@ -69,9 +69,10 @@ class CageOf : public testing::TestWithParam<std::string> {
     const FishBody& body_ = bodyOf(GetParam());
 };
 
-INSTANTIATE_TEST_SUITE_P(Cast, CageOf, testing::ValuesIn(test::kCast), [](const auto& name) {
-    return name.param;
-});
+INSTANTIATE_TEST_SUITE_P(Cast,
+                         CageOf,
+                         testing::ValuesIn(test::allSpeciesNames()),
+                         [](const auto& name) { return name.param; });
 
 TEST_P(CageOf, hasThePapersNumberOfPointsAndTheTopologyOfAll) {
     EXPECT_EQ(body_.cage.vertices.size(), std::size_t{kControlPoints});
