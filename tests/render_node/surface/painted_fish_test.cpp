@@ -167,6 +167,23 @@ TEST(PaintedFish, everyFishOfTheReefWearsItsColours) {
     EXPECT_LT(luminance(shark.onFish(0.40F, 0.04F)), 0.6F * luminance(shark.onFish(0.40F, -0.03F)));
 }
 
+// The largest sea goldies are males. In the picture all are of one size: a smaller fish is nearer.
+TEST(PaintedFish, seaGoldiesOfATenthOfAMetreAreVioletAndSmallerOnesOrange) {
+    const auto context = gl::makeOffscreenContext("mesa", kSize);
+    const auto flankOf = [](float lengthMetres) {
+        return portrait(Sitter{.species = test::castMember("sea_goldie"),
+                               .fromEye = {0, 0, -kAway * lengthMetres / kLength},
+                               .place = config::PlaceKind::OpenSea,
+                               .lengthMetres = lengthMetres,
+                               .quality = config::QualityTier::Low})
+            .onFish(0.45F, 0.0F);
+    };
+    const glm::vec3 female = flankOf(0.09F), male = flankOf(0.11F);
+    EXPECT_GT(female.g, 1.5F * female.b);
+    EXPECT_GT(male.b, 1.5F * male.g);
+    EXPECT_GT(male.r, male.b);
+}
+
 // A species of which no painter knows is plain: its file's back, flank and belly.
 TEST(PaintedFish, aNewSpeciesWearsTheColoursOfItsFile) {
     const auto context = gl::makeOffscreenContext("mesa", kSize);
