@@ -30,8 +30,12 @@ const std::map<std::string, SwimmingForm>& expectedForms() {
         {"blacktip_reef_shark", SwimmingForm::HeadYawing},
         {"blue_tang", SwimmingForm::Labriform},
         {"clownfish", SwimmingForm::Labriform},
+        {"fusilier", SwimmingForm::Carangiform},
+        {"green_chromis", SwimmingForm::Labriform},
         {"moorish_idol", SwimmingForm::Labriform},
         {"parrotfish", SwimmingForm::Labriform},
+        {"powder_blue_tang", SwimmingForm::Labriform},
+        {"sea_goldie", SwimmingForm::Labriform},
         {"trumpetfish", SwimmingForm::StiffBodied}};
     return kForms;
 }

@@ -79,8 +79,11 @@ TEST_P(Gaits, holdTheBodyStillWhereTheyAreRowed) {
     static const std::set<std::string> kLabriform{
         "blue_tang",
         "clownfish",
+        "green_chromis",
         "moorish_idol",
         "parrotfish",
+        "powder_blue_tang",
+        "sea_goldie",
     };
     EXPECT_EQ(gaits_[0].rows > 0, kLabriform.contains(GetParam()));
     for (const config::Gait& gait : gaits_) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The replicas of all species against the fish that they stand for.
 #include <algorithm>
-#include <cstdlib>
 #include <iterator>
 #include <map>
 #include <string>
@@ -20,20 +19,21 @@ namespace aquarama::report {
 namespace {
 
 constexpr double kSeconds = 30;
+constexpr double kScriptSeconds = 15;
 
 class ReplicaFidelity : public testing::TestWithParam<std::string> {};
 
-// The commands of eight scripts, each of 15 s; with AQUARAMA_SOAK in the environment of 60.
+// The commands of eight scripts, each of 15 s.
 const std::vector<CommandErrors>& commandsOf(const std::string& name) {
     static std::map<std::string, std::vector<CommandErrors>> measured;
     std::vector<CommandErrors>& commands = measured[name];
     if (!commands.empty()) return commands;
-    const double seconds = std::getenv("AQUARAMA_SOAK") == nullptr ? 15 : 60;
     const config::Species species = test::castMember(name);
     const motion::Repertoire repertoire = capture::captureRepertoire(species, [](double) {});
     for (std::uint64_t seed = 1; seed <= 8; ++seed)
-        std::ranges::copy(measureFidelity(species, repertoire, seed, seconds).comparison.commands,
-                          std::back_inserter(commands));
+        std::ranges::copy(
+            measureFidelity(species, repertoire, seed, kScriptSeconds).comparison.commands,
+            std::back_inserter(commands));
     return commands;
 }
 

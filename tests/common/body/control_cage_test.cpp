@@ -120,7 +120,11 @@ const std::map<std::string, Weight> kWeights{{"bigeye_scad", {0.24, 0.17}},
                                              {"blue_tang", {0.22, 0.25}},
                                              {"parrotfish", {0.32, 0.70}},
                                              {"trumpetfish", {0.50, 0.25}},
-                                             {"blacktip_reef_shark", {1.30, 15}}};
+                                             {"blacktip_reef_shark", {1.30, 15}},
+                                             {"fusilier", {0.26, 0.23}},
+                                             {"green_chromis", {0.07, 0.0065}},
+                                             {"powder_blue_tang", {0.18, 0.15}},
+                                             {"sea_goldie", {0.09, 0.0095}}};
 
 TEST_P(CageOf, facesOutwardAndWeighsWhatItsAnimalWeighs) {
     const auto [metres, kilograms] = kWeights.at(GetParam());
