@@ -6,7 +6,7 @@
 
 const Iris kIris = Iris(vec3(0.40, 0.46, 0.50), vec3(0.70, 0.74, 0.70), 0.52, 1.0);
 const vec3 kBlue = vec3(0.016, 0.34, 0.84), kDeep = vec3(0.008, 0.17, 0.56), kSky = vec3(0.20, 0.66, 0.92),
-           kPale = vec3(0.80, 0.84, 0.86), kYellow = vec3(0.95, 0.66, 0.010);
+           kPale = vec3(0.80, 0.84, 0.86), kYellow = vec3(0.97, 0.62, 0.003);
 
 // Yellow from the middle of the dorsal fin down to the lower edge of the peduncle.
 float yellowOf(SkinPoint at) {
@@ -18,12 +18,12 @@ float yellowOf(SkinPoint at) {
 
 Skin groundOf(SkinPoint at) {
     float yellow = clamp(yellowOf(at), 0.0, 1.0);
-    vec3 colour = mix(kPale, kSky, smoothstep(-0.75, -0.35, at.v));
-    colour = mix(colour, kBlue, smoothstep(-0.20, 0.30, at.v));
+    vec3 colour = mix(kPale, kSky, smoothstep(-0.85, -0.50, at.v));
+    colour = mix(colour, kBlue, smoothstep(-0.35, 0.10, at.v));
     colour = mix(colour, kDeep, 0.8 * smoothstep(0.55, 1.0, at.v));
     colour = mix(colour, kYellow * ownBetween(at.id, 4u, 0.85, 1.0), yellow);
     Skin skin = skinOf(colour, 0.60, 0.6);
-    skin.silver = 0.55 * falling(-0.25, 0.25, at.v) * smoothstep(0.02, 0.06, at.s) * (1.0 - 0.8 * yellow);
+    skin.silver = 0.25 * falling(-0.55, -0.15, at.v) * smoothstep(0.02, 0.06, at.s) * (1.0 - 0.8 * yellow);
     // From near the pale belly prevails over what it mirrors.
     skin.silver *= 1.0 - 0.75 * seenAt(0.05, at.pixel);
     skin.iridescence = 0.10 * (1.0 - yellow);

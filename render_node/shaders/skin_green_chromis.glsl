@@ -25,7 +25,7 @@ float bridleOf(SkinPoint at) {
 Skin groundOf(SkinPoint at) {
     Skin skin = skinOf(mix(colourOf(at), kBlue, 0.75 * bridleOf(at)), 0.60, 0.8);
     // Platelets below the colour: it brightens when the fish rolls. From near the colour prevails.
-    skin.silver = 0.34 * falling(0.35, 0.85, at.v) * smoothstep(-1.0, -0.6, at.v) * smoothstep(0.05, 0.15, at.s);
+    skin.silver = 0.20 * falling(0.35, 0.85, at.v) * smoothstep(-1.0, -0.6, at.v) * smoothstep(0.05, 0.15, at.s);
     skin.silver *= 1.0 - 0.65 * seenAt(0.06, at.pixel);
     skin.iridescence = 0.14;
     return skin;
