@@ -99,7 +99,8 @@ water_types() {
 }
 species() {
     $bin/aquarama_draw_species "$drawn" \
-        config/species/{blacktip_reef_shark,trumpetfish,parrotfish,bigeye_scad,blue_tang,moorish_idol,clownfish}.txtpb
+        config/species/{blacktip_reef_shark,trumpetfish,parrotfish,fusilier,bigeye_scad,blue_tang}.txtpb \
+        config/species/{powder_blue_tang,moorish_idol,clownfish,sea_goldie,green_chromis}.txtpb
 }
 # A routine as it is seen on the wall: scene, frames, every how manieth of them, tier.
 routine() {

@@ -22,6 +22,7 @@ layout(location = 5) flat out uint id;
 layout(location = 6) flat out vec3 dorsal;  // the fish's own up, in the world
 layout(location = 7) out float opacity;     // 1, or less where a level of detail fades
 layout(location = 8) flat out float nearness;  // of the skin's details, which come with the mesh
+layout(location = 9) flat out float size;      // of the fish, metres
 
 void main() {
     uvec4 vertex = surface[fish[slot].firstVertex + uint(gl_VertexID)];
@@ -31,6 +32,7 @@ void main() {
     fin = mix(coarserFin, vertexFin, fish[slot].blend);
     part = vertexPart;
     id = fish[slot].id;
+    size = fish[slot].lengthMetres;
     dorsal = rotate(fish[slot].rotation, vec3(0.0, 1.0, 0.0));
     // Few triangles have no paired fins.
     bool grows = fish[slot].detail == kControlMesh && (vertexPart == kPelvic || vertexPart == kPectoral);

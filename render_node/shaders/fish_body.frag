@@ -12,11 +12,12 @@ layout(location = 4) flat in uint part;
 layout(location = 5) flat in uint id;
 layout(location = 6) flat in vec3 dorsal;
 layout(location = 8) flat in float nearness;  // 0: as fish_far.frag has it
+layout(location = 9) flat in float size;  // of the fish, metres
 layout(location = 0) out vec4 colour;
 
 void main() {
     float pixel = max(length(dFdx(rest.xyz)), length(dFdy(rest.xyz)));
-    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id);
+    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id, size);
     Skin far = groundOf(at);
     Skin skin = far;
     addDetails(skin, at);

@@ -9,11 +9,12 @@ layout(location = 2) in vec4 rest;
 layout(location = 5) flat in uint id;
 layout(location = 6) flat in vec3 dorsal;
 layout(location = 7) in float opacity;
+layout(location = 9) flat in float size;  // of the fish, metres
 layout(location = 0) out vec4 colour;
 
 void main() {
     float pixel = max(length(dFdx(rest.xyz)), length(dFdy(rest.xyz)));
-    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id);
+    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id, size);
     Skin skin = groundOf(at);
     // The eye is the only detail of the head that still shows.
     float d = distance(rest.xy, eyeOfSpecies.xy) / eyeOfSpecies.z, soft = 0.7 * pixel / eyeOfSpecies.z;

@@ -20,6 +20,7 @@ layout(location = 4) flat out uint part;
 layout(location = 5) flat out uint id;
 layout(location = 6) flat out vec3 dorsal;
 layout(location = 7) out float opacity;
+layout(location = 9) flat out float size;
 
 void main() {
     Fish self = fish[slot];
@@ -30,6 +31,7 @@ void main() {
     fin = vertexFin;
     part = vertexPart;
     id = self.id;
+    size = self.lengthMetres;
     dorsal = rotate(self.rotation, vec3(0.0, 1.0, 0.0));
     opacity = self.blend;
     gl_Position = clipFromWorld * vec4(place, 1.0);

@@ -12,6 +12,7 @@ layout(location = 4) flat in uint part;
 layout(location = 5) flat in uint id;
 layout(location = 6) flat in vec3 dorsal;
 layout(location = 7) in float opacity;
+layout(location = 9) flat in float size;  // of the fish, metres
 layout(location = 0) out vec4 colour;
 
 // How far from a ray, -1 .. 1 across the membrane to the next one; 0 on the ray.
@@ -29,7 +30,7 @@ float rayAt(Fin made, float pixel) {
 
 void main() {
     float pixel = max(length(dFdx(rest.xyz)), length(dFdy(rest.xyz)));
-    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id);
+    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id, size);
     bool isPaired = part == kPectoral || part == kPelvic;
     vec3 fromEye = normalize(place - eyeAndTime.xyz);
     // A membrane is flat: its normal is its triangle's, and the small terms keep it from vanishing.

@@ -18,6 +18,7 @@ layout(location = 4) flat out uint part;
 layout(location = 5) flat out uint id;
 layout(location = 6) flat out vec3 dorsal;
 layout(location = 7) out float opacity;
+layout(location = 9) flat out float size;
 
 const vec2 kCorners[5] =
     vec2[](vec2(0.0), vec2(-1.0, -1.0), vec2(1.0, -1.0), vec2(1.0, 1.0), vec2(-1.0, 1.0));
@@ -65,5 +66,6 @@ void main() {
     fin = vec2(0.0);
     part = 0u;
     id = self.id;
+    size = self.lengthMetres;
     gl_Position = clipFromWorld * vec4(place, 1.0);
 }

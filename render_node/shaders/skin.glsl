@@ -16,6 +16,7 @@ struct SkinPoint {
     float pixel;   // what a pixel covers, body lengths
     float pixelV;  // and in v
     uint id;       // of the fish
+    float size;    // of the fish, from nose to tail tip, metres
 };
 
 struct Skin {

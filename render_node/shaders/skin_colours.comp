@@ -1,5 +1,5 @@
-// The colours of a species' skin at places on it, as from near and in plain light. The skin shader's file takes the
-// place of the plain one where the species has a skin shader.
+// The colours of a species' skin at places on it, as on a young fish from near and in plain light. The skin shader's
+// file takes the place of the plain one where the species has a skin shader.
 // In: for each place s, y, z, v (body lengths), and p, q and part. Out: linear albedo, opacity.
 #include "shader_interface.h"
 #include "skin_eye.glsl"
@@ -24,7 +24,7 @@ void main() {
     vec4 rest = places[i].rest;
     vec4 fin = places[i].fin;
     uint part = uint(fin.z);
-    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, kPixel, kPixelV, 0u);
+    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, kPixel, kPixelV, 0u, 0.0);
     Skin skin = groundOf(at);
     if (part == kBody || part == kEye) {
         addDetails(skin, at);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every species of config/species, and their repertoires, captured once for all tests.
+// The species of tests/support/all_species.h and their repertoires, captured once for all tests.
 #pragma once
 
 #include <string>
@@ -9,18 +9,11 @@
 
 #include "capture/capture_repertoire.h"
 #include "common/base/log.h"
+#include "tests/support/all_species.h"
 
 namespace aquarama::capture {
 
-inline const std::vector<config::Species>& allSpecies() {
-    static const auto kAll = [] {
-        std::vector<config::Species> all;
-        for (const auto& file : speciesFiles({}, AQUARAMA_SOURCE_DIR "/config"))
-            all.push_back(config::readSpecies(file.string()));
-        return all;
-    }();
-    return kAll;
-}
+using test::allSpecies;
 
 // In the order of allSpecies().
 inline const std::vector<motion::Repertoire>& allRepertoires() {

@@ -34,9 +34,13 @@ const std::map<std::string, SwimmingForm>& expectedForms() {
         {"cleaner_wrasse", SwimmingForm::Labriform},
         {"clownfish", SwimmingForm::Labriform},
         {"coral_grouper", SwimmingForm::Labriform},
+        {"fusilier", SwimmingForm::Carangiform},
+        {"green_chromis", SwimmingForm::Labriform},
         {"lionfish", SwimmingForm::HeadYawing},
         {"moorish_idol", SwimmingForm::Labriform},
         {"parrotfish", SwimmingForm::Labriform},
+        {"powder_blue_tang", SwimmingForm::Labriform},
+        {"sea_goldie", SwimmingForm::Labriform},
         {"sergeant", SwimmingForm::Labriform},
         {"trumpetfish", SwimmingForm::StiffBodied}};
     return kForms;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -16,11 +15,10 @@
 #include "capture/gait_trial.h"
 #include "capture/turn.h"
 #include "common/base/units.h"
+#include "tests/support/all_species.h"
 
 namespace aquarama::capture {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double kDegree = 3.14159265358979 / 180;
 constexpr std::size_t kTail = kWaveStations - 1;
@@ -29,17 +27,12 @@ const std::set<std::string> kLabriform{"blue_tang",
                                        "cleaner_wrasse",
                                        "clownfish",
                                        "coral_grouper",
+                                       "green_chromis",
                                        "moorish_idol",
                                        "parrotfish",
+                                       "powder_blue_tang",
+                                       "sea_goldie",
                                        "sergeant"};
-
-std::vector<std::string> allSpecies() {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(AQUARAMA_SOURCE_DIR "/config/species"))
-        names.push_back(entry.path().stem());
-    std::ranges::sort(names);
-    return names;
-}
 
 // Swum once for all tests.
 const GaitFigures& figuresOf(const config::Species& species, const config::Gait& gait) {
@@ -52,15 +45,15 @@ const GaitFigures& figuresOf(const config::Species& species, const config::Gait&
 
 class Gaits : public testing::TestWithParam<std::string> {
   protected:
-    config::Species species_ =
-        config::readSpecies(AQUARAMA_SOURCE_DIR "/config/species/" + GetParam() + ".txtpb");
+    config::Species species_ = test::castMember(GetParam());
     std::array<config::Gait, 3> gaits_{
         species_.swim.slow, species_.swim.medium, species_.swim.fast};
 };
 
-INSTANTIATE_TEST_SUITE_P(Species, Gaits, testing::ValuesIn(allSpecies()), [](const auto& species) {
-    return species.param;
-});
+INSTANTIATE_TEST_SUITE_P(Species,
+                         Gaits,
+                         testing::ValuesIn(test::allSpeciesNames()),
+                         [](const auto& species) { return species.param; });
 
 // Taylor, Nudds & Thomas 2003; Videler & Wardle 1991; Bainbridge 1958. A gait that is rowed has no
 // tail beat.

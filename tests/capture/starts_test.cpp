@@ -1,29 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fast starts of every species beside those of living fish (Domenici & Blake 1997).
 #include <array>
-#include <filesystem>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "capture/speed_response.h"
 #include "capture/start_figures.h"
 #include "capture/turn.h"
+#include "tests/support/all_species.h"
 
 namespace aquarama::capture {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double kDegree = 3.14159265358979 / 180;
-
-std::vector<std::string> allSpecies() {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(AQUARAMA_SOURCE_DIR "/config/species"))
-        names.push_back(entry.path().stem());
-    return names;
-}
 
 class Starts : public testing::TestWithParam<std::string> {
   protected:
@@ -39,13 +29,13 @@ class Starts : public testing::TestWithParam<std::string> {
         return GetParam() == "trumpetfish" || GetParam() == "blacktip_reef_shark";
     }
 
-    config::Species species_ =
-        config::readSpecies(AQUARAMA_SOURCE_DIR "/config/species/" + GetParam() + ".txtpb");
+    config::Species species_ = test::castMember(GetParam());
 };
 
-INSTANTIATE_TEST_SUITE_P(Species, Starts, testing::ValuesIn(allSpecies()), [](const auto& species) {
-    return species.param;
-});
+INSTANTIATE_TEST_SUITE_P(Species,
+                         Starts,
+                         testing::ValuesIn(test::allSpeciesNames()),
+                         [](const auto& species) { return species.param; });
 
 // The longer the bend, the further the course turns, and it stays turned.
 TEST_P(Starts, goInThreeAngles) {

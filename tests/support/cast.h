@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The seven species of the show, as their files have them.
+// The seven species of the scene reef, and what the file of any species says.
 #pragma once
 
 #include <array>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The replicas of all species against the fish that they stand for.
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 #include <iterator>
 #include <map>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,33 +12,29 @@
 #include "capture/report/fidelity.h"
 #include "capture/report/segment_count.h"
 #include "common/base/units.h"
+#include "tests/support/all_species.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::report {
 namespace {
 
 constexpr double kSeconds = 30;
+constexpr double kScriptSeconds = 15;
 
-class ReplicaFidelity : public testing::TestWithParam<std::filesystem::path> {};
+class ReplicaFidelity : public testing::TestWithParam<std::string> {};
 
-// The commands of eight scripts, each of 15 s; with AQUARAMA_SOAK in the environment of 60.
-const std::vector<CommandErrors>& commandsOf(const std::filesystem::path& file) {
-    static std::map<std::filesystem::path, std::vector<CommandErrors>> measured;
-    std::vector<CommandErrors>& commands = measured[file];
+// The commands of eight scripts, each of 15 s.
+const std::vector<CommandErrors>& commandsOf(const std::string& name) {
+    static std::map<std::string, std::vector<CommandErrors>> measured;
+    std::vector<CommandErrors>& commands = measured[name];
     if (!commands.empty()) return commands;
-    const double seconds = std::getenv("AQUARAMA_SOAK") == nullptr ? 15 : 60;
-    const config::Species species = config::readSpecies(file.string());
+    const config::Species species = test::castMember(name);
     const motion::Repertoire repertoire = capture::captureRepertoire(species, [](double) {});
     for (std::uint64_t seed = 1; seed <= 8; ++seed)
-        std::ranges::copy(measureFidelity(species, repertoire, seed, seconds).comparison.commands,
-                          std::back_inserter(commands));
+        std::ranges::copy(
+            measureFidelity(species, repertoire, seed, kScriptSeconds).comparison.commands,
+            std::back_inserter(commands));
     return commands;
-}
-
-const std::vector<std::filesystem::path>& allFiles() {
-    static const std::vector<std::filesystem::path> files =
-        capture::speciesFiles({}, std::filesystem::path(AQUARAMA_SOURCE_DIR) / "config");
-    return files;
 }
 
 // Of commands, the share whose path errs by at most so much at its end.
@@ -59,8 +54,8 @@ TEST_P(ReplicaFidelity, staysWithinTheBounds) {
 
 TEST(ReplicaFidelity, sixOfSevenCommandsOfAllSpeciesKeepWithinFivePercentOfTheirPath) {
     std::vector<CommandErrors> all;
-    for (const std::filesystem::path& file : allFiles())
-        std::ranges::copy(commandsOf(file), std::back_inserter(all));
+    for (const std::string& name : test::allSpeciesNames())
+        std::ranges::copy(commandsOf(name), std::back_inserter(all));
     EXPECT_GT(all.size(), 400U);
     EXPECT_GE(shareWithin(all, 0.05), 0.855);
     // One or two are beyond 12 %: what follows a retreat (docs/fidelity.md).
@@ -71,8 +66,8 @@ TEST(ReplicaFidelity, sixOfSevenCommandsOfAllSpeciesKeepWithinFivePercentOfTheir
 
 INSTANTIATE_TEST_SUITE_P(OfAllSpecies,
                          ReplicaFidelity,
-                         testing::ValuesIn(allFiles()),
-                         [](const auto& tested) { return tested.param.stem().string(); });
+                         testing::ValuesIn(test::allSpeciesNames()),
+                         [](const auto& tested) { return tested.param; });
 
 TEST(ReplicaFidelity, ofAReplicaToItselfIsWithoutError) {
     const Script script = makeScript(test::scadRepertoire(), 2, kSeconds);

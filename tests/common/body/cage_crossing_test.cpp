@@ -12,7 +12,7 @@
 
 #include "common/body/fish_body.h"
 #include "tests/common/body/bend.h"
-#include "tests/support/cast.h"
+#include "tests/support/all_species.h"
 
 namespace aquarama::body {
 namespace {
@@ -97,9 +97,10 @@ class CrossingOf : public testing::TestWithParam<std::string> {
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(Cast, CrossingOf, testing::ValuesIn(test::kCast), [](const auto& name) {
-    return name.param;
-});
+INSTANTIATE_TEST_SUITE_P(Cast,
+                         CrossingOf,
+                         testing::ValuesIn(test::allSpeciesNames()),
+                         [](const auto& name) { return name.param; });
 
 TEST_P(CrossingOf, facesIsNowhereAtRest) {
     const FishBody body = makeBody(test::castMember(GetParam()));

@@ -13,7 +13,7 @@
 #include "common/body/fish_body.h"
 #include "common/body/spine.h"
 #include "tests/common/body/bend.h"
-#include "tests/support/cast.h"
+#include "tests/support/all_species.h"
 
 namespace aquarama::body {
 namespace {
@@ -69,9 +69,10 @@ class CageOf : public testing::TestWithParam<std::string> {
     const FishBody& body_ = bodyOf(GetParam());
 };
 
-INSTANTIATE_TEST_SUITE_P(Cast, CageOf, testing::ValuesIn(test::kCast), [](const auto& name) {
-    return name.param;
-});
+INSTANTIATE_TEST_SUITE_P(Cast,
+                         CageOf,
+                         testing::ValuesIn(test::allSpeciesNames()),
+                         [](const auto& name) { return name.param; });
 
 TEST_P(CageOf, hasThePapersNumberOfPointsAndTheTopologyOfAll) {
     EXPECT_EQ(body_.cage.vertices.size(), std::size_t{kControlPoints});
@@ -119,7 +120,11 @@ const std::map<std::string, Weight> kWeights{{"bigeye_scad", {0.24, 0.17}},
                                              {"blue_tang", {0.22, 0.25}},
                                              {"parrotfish", {0.32, 0.70}},
                                              {"trumpetfish", {0.50, 0.25}},
-                                             {"blacktip_reef_shark", {1.30, 15}}};
+                                             {"blacktip_reef_shark", {1.30, 15}},
+                                             {"fusilier", {0.26, 0.23}},
+                                             {"green_chromis", {0.07, 0.0065}},
+                                             {"powder_blue_tang", {0.18, 0.15}},
+                                             {"sea_goldie", {0.09, 0.0095}}};
 
 TEST_P(CageOf, facesOutwardAndWeighsWhatItsAnimalWeighs) {
     const auto [metres, kilograms] = kWeights.at(GetParam());

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "common/body/fins.h"
-#include "tests/support/cast.h"
+#include "tests/support/all_species.h"
 
 namespace aquarama::body {
 namespace {
@@ -58,9 +58,10 @@ class FinsOf : public testing::TestWithParam<std::string> {
     const FinStyle& style_ = body_.fins.style;
 };
 
-INSTANTIATE_TEST_SUITE_P(Cast, FinsOf, testing::ValuesIn(test::kCast), [](const auto& name) {
-    return name.param;
-});
+INSTANTIATE_TEST_SUITE_P(Cast,
+                         FinsOf,
+                         testing::ValuesIn(test::allSpeciesNames()),
+                         [](const auto& name) { return name.param; });
 
 TEST_P(FinsOf, leaveTheBodyAndTheirRootsAlone) {
     const FinDrive drive{

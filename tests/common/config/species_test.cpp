@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/log.h"
-#include "tests/support/cast.h"
+#include "tests/support/all_species.h"
 
 namespace aquarama::config {
 namespace {
@@ -214,7 +214,8 @@ TEST(Species, keepsItsControlPointsOnlyIfItSaysSo) {
 }
 
 TEST(Species, allOfTheCastAreReadUnderTheirFilesNames) {
-    for (const std::string& name : test::kCast) EXPECT_EQ(test::castMember(name).name, name);
+    for (const std::string& name : test::allSpeciesNames())
+        EXPECT_EQ(test::castMember(name).name, name);
 }
 
 TEST(Species, aFileThatIsNotThereIsRefused) {

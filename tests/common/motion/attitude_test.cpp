@@ -230,7 +230,10 @@ TEST_P(Attitude, aTurnInAClimbChangesTheCourseAndLeavesTheClimb) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Attitude, testing::ValuesIn(speciesNames()), OfEachSpecies::suffix);
+INSTANTIATE_TEST_SUITE_P(All,
+                         Attitude,
+                         testing::ValuesIn(allSpeciesNames()),
+                         OfEachSpecies::suffix);
 
 }  // namespace
 }  // namespace aquarama::motion

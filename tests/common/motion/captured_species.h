@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every species of config/species with its repertoire, captured once for all tests of a program.
+// The species of tests/support/all_species.h with their repertoires, captured once for all tests of
+// a program.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +16,7 @@
 
 namespace aquarama::motion {
 
-inline std::vector<std::string> speciesNames() {
-    std::vector<std::string> names;
-    for (const config::Species& species : test::allSpecies()) names.push_back(species.name);
-    return names;
-}
+using test::allSpeciesNames;
 
 inline const Repertoire& repertoireOf(const std::string& name) {
     static std::map<std::string, Repertoire> captured;

@@ -184,7 +184,10 @@ TEST_P(Patterns, aTurnEnteredFastGoesFurtherThanOneEnteredSlowlyAndEndsFaster) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Patterns, testing::ValuesIn(speciesNames()), OfEachSpecies::suffix);
+INSTANTIATE_TEST_SUITE_P(All,
+                         Patterns,
+                         testing::ValuesIn(allSpeciesNames()),
+                         OfEachSpecies::suffix);
 
 }  // namespace
 }  // namespace aquarama::motion

@@ -87,7 +87,10 @@ TEST_P(Switches, noNodalPointMovesFurtherInATickThanAQuarterMoreThanTheRecording
     RecordProperty("share_of_allowed", std::to_string(furthestStep / allowed));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Switches, testing::ValuesIn(speciesNames()), OfEachSpecies::suffix);
+INSTANTIATE_TEST_SUITE_P(All,
+                         Switches,
+                         testing::ValuesIn(allSpeciesNames()),
+                         OfEachSpecies::suffix);
 
 }  // namespace
 }  // namespace aquarama::motion

@@ -12,7 +12,7 @@ namespace aquarama::motion {
 namespace {
 
 class Turns : public OfEachSpecies {};
-INSTANTIATE_TEST_SUITE_P(All, Turns, testing::ValuesIn(speciesNames()), OfEachSpecies::suffix);
+INSTANTIATE_TEST_SUITE_P(All, Turns, testing::ValuesIn(allSpeciesNames()), OfEachSpecies::suffix);
 
 constexpr std::array kTurnActions{Action::TurnLeftGradual,
                                   Action::TurnLeftSharp,

@@ -15,7 +15,7 @@
 
 #include "common/skin/limit_table.h"
 #include "tests/render_node/surface/test_fish.h"
-#include "tests/support/cast.h"
+#include "tests/support/all_species.h"
 
 namespace aquarama::skin {
 namespace {
@@ -92,9 +92,10 @@ class AttachmentsOf : public testing::TestWithParam<std::string> {
     const LimitTable& table_ = madeOf(GetParam()).table;
 };
 
-INSTANTIATE_TEST_SUITE_P(Cast, AttachmentsOf, testing::ValuesIn(test::kCast), [](const auto& name) {
-    return name.param;
-});
+INSTANTIATE_TEST_SUITE_P(Cast,
+                         AttachmentsOf,
+                         testing::ValuesIn(test::allSpeciesNames()),
+                         [](const auto& name) { return name.param; });
 
 TEST_P(AttachmentsOf, eyesSitInTheSkinInEveryPose) {
     const float radius = body_.eye.z;

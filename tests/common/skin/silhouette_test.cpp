@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/skin/limit_table.h"
-#include "tests/support/cast.h"
+#include "tests/support/all_species.h"
 
 namespace aquarama::skin {
 namespace {
@@ -90,7 +90,7 @@ TEST(Silhouette, aMoorishIdolsWhipIsLongerThanItsBody) {
 
 // A fish is wide as well as high: seen from the front none of them is a card.
 TEST(Silhouette, everyBodyHasItsWidth) {
-    for (const std::string& name : test::kCast) {
+    for (const std::string& name : test::allSpeciesNames()) {
         const Drawn fish(name);
         const Range across = fish.along(2, body::CagePart::Body);
         const float widest = 2 * *std::ranges::max_element(fish.body.profileHalfWidth);

@@ -9,13 +9,13 @@
 #include <gtest/gtest.h>
 
 #include "common/skin/limit_table.h"
-#include "tests/support/cast.h"
+#include "tests/support/all_species.h"
 
 namespace aquarama::surface {
 namespace {
 
 TEST(FewTriangles, haveTwentyToFortyOfWhichEachIsReal) {
-    for (const std::string& name : test::kCast) {
+    for (const std::string& name : test::allSpeciesNames()) {
         const body::FishBody body = body::makeBody(test::castMember(name));
         const FewTriangles few = makeFewTriangles(body, skin::makeLimitTable(body, 0));
         EXPECT_GE(few.indices.size() / 3, 20U) << name;
@@ -44,7 +44,7 @@ double sideArea(const std::vector<glm::vec3>& points, std::span<const std::uint3
 
 // Seen from the side their bodies cover what the fish's do.
 TEST(FewTriangles, coverAboutAsMuchAsTheFish) {
-    for (const std::string& name : test::kCast) {
+    for (const std::string& name : test::allSpeciesNames()) {
         const body::FishBody body = body::makeBody(test::castMember(name));
         const FewTriangles few = makeFewTriangles(body, skin::makeLimitTable(body, 0));
         const skin::LimitTable mesh = skin::makeLimitTable(body, 1);

@@ -2,7 +2,6 @@
 // Fish before the eye, in the light of the scene: what tells each species, what tells individuals,
 // silver that vanishes and flashes.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -21,19 +20,12 @@
 #include "render_node/scene/scene.h"
 #include "render_node/water/water_tables.h"
 #include "tests/render_node/surface/test_fish.h"
-#include "tests/support/cast.h"
+#include "tests/support/all_species.h"
 
 namespace aquarama::surface {
 namespace {
 
 constexpr glm::ivec2 kSize{600, 300};
-constexpr std::array kSpecies{"bigeye_scad",
-                              "clownfish",
-                              "moorish_idol",
-                              "blue_tang",
-                              "parrotfish",
-                              "trumpetfish",
-                              "blacktip_reef_shark"};
 constexpr float kLength = 0.24F, kAway = 0.7F;
 
 struct Picture {
@@ -176,6 +168,23 @@ TEST(PaintedFish, everyFishOfTheReefWearsItsColours) {
     EXPECT_LT(luminance(shark.onFish(0.40F, 0.04F)), 0.6F * luminance(shark.onFish(0.40F, -0.03F)));
 }
 
+// The largest sea goldies are males. In the picture all are of one size: a smaller fish is nearer.
+TEST(PaintedFish, seaGoldiesOfATenthOfAMetreAreVioletAndSmallerOnesOrange) {
+    const auto context = gl::makeOffscreenContext("mesa", kSize);
+    const auto flankOf = [](float lengthMetres) {
+        return portrait(Sitter{.species = test::castMember("sea_goldie"),
+                               .fromEye = {0, 0, -kAway * lengthMetres / kLength},
+                               .place = config::PlaceKind::OpenSea,
+                               .lengthMetres = lengthMetres,
+                               .quality = config::QualityTier::Low})
+            .onFish(0.45F, 0.0F);
+    };
+    const glm::vec3 female = flankOf(0.09F), male = flankOf(0.11F);
+    EXPECT_GT(female.g, 1.5F * female.b);
+    EXPECT_GT(male.b, 1.5F * male.g);
+    EXPECT_GT(male.r, male.b);
+}
+
 // A species of which no painter knows is plain: its file's back, flank and belly.
 TEST(PaintedFish, aNewSpeciesWearsTheColoursOfItsFile) {
     const auto context = gl::makeOffscreenContext("mesa", kSize);
@@ -200,7 +209,7 @@ glm::vec3 meanOf(const Picture& picture) {
 // What an id changes is the fish alone, and always in the same way.
 TEST(PaintedFish, individualsDifferAndStayThemselves) {
     const auto context = gl::makeOffscreenContext("mesa", kSize);
-    for (const char* name : kSpecies) {
+    for (const std::string& name : test::allSpeciesNames()) {
         const config::Species species = test::castMember(name);
         const Picture one = portrait(species, 3), other = portrait(species, 8);
         EXPECT_GT(glm::distance(meanOf(one), meanOf(other)), 2.0e-5F) << name;

@@ -13,7 +13,7 @@
 
 #include "tests/render_node/surface/living_cage.h"
 #include "tests/render_node/surface/surface_fixture.h"
-#include "tests/support/cast.h"
+#include "tests/support/all_species.h"
 
 namespace aquarama::surface {
 namespace {
@@ -79,7 +79,7 @@ TEST_F(SchoolSurfaceTest, everyLevelLiesWhereTheCpuPutsIt) {
 TEST_F(SchoolSurfaceTest, everySpeciesMovesItsFinsAsTheCpuDoes) {
     std::vector<SchoolSpecies> cast;
     std::vector<motion::PresentedFish> fish;
-    for (const std::string& name : test::kCast) {
+    for (const std::string& name : test::allSpeciesNames()) {
         const body::FishBody body = body::makeBody(test::castMember(name));
         motion::PresentedFish one = test::fishAt({0, 0, -1}, {1, 0, 0, 0});
         one.id = static_cast<std::uint32_t>(fish.size());
@@ -110,7 +110,7 @@ TEST_F(SchoolSurfaceTest, everySpeciesMovesItsFinsAsTheCpuDoes) {
         }
         EXPECT_LT(largestDistance(surfacePositions(expected.size(), first), expected),
                   2e-4F * shown.lengthMetres)
-            << test::kCast.at(i);
+            << test::allSpeciesNames().at(i);
         first += expected.size();
     }
 }
