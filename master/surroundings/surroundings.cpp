@@ -59,10 +59,12 @@ Surroundings makeSurroundings(const config::Scene& scene,
                               float meanLengthMetres) {
     const place::PlaceKey place = place::placeOf(scene, seed);
     const Obstacles obstacles = obstaclesOf(place, place::waterFor(scene, fish, meanLengthMetres));
+    const std::vector<place::Site> sites = place::sitesOf(place);
     return {.seed = seed,
             .obstacles = obstacles,
-            .sites = place::sitesOf(place),
+            .sites = sites,
             .structures = structuresOf(obstacles),
+            .turf = makeTurf(seed, sites, obstacles),
             .current = {scene.current, obstacles.rocks, obstacles.water},
             .climate = climateOf(scene),
             .food = makeFood(seed, obstacles, scene.plankton),
@@ -75,6 +77,7 @@ Surroundings makeSurroundings(const config::Scene& scene,
 void advanceSurroundings(Surroundings& surroundings, Tick tick) {
     surroundings.daylight = daylight(surroundings.climate.day, tick);
     dropWhatIsDue(surroundings, tick);
+    growTurf(surroundings.turf);
     driftFood(surroundings.food,
               surroundings.seed,
               surroundings.obstacles,
@@ -90,6 +93,7 @@ std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroun
     hash = folded(hash, food.taken);
     hash = folded(hash, food.generation);
     hash = folded(hash, food.absentUntil);
+    hash = folded(hash, surroundings.turf.fill);
     return hash;
 }
 
