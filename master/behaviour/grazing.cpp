@@ -64,7 +64,7 @@ constexpr float kMostHurry = 0.8F;
 constexpr float kArrivesMetres = 0.6F;
 
 // The mouth is at a spot within this share of a body length, and this of a metre more.
-constexpr float kReachLengths = 0.15F;
+constexpr float kReachLengths = 0.2F;
 constexpr float kReachMetres = 0.05F;
 // The way to a spot counts more where it is behind, and up to this share more as drawn.
 constexpr float kBehind = 1.5F;
@@ -77,10 +77,12 @@ constexpr std::uint32_t kSettleTicks = 7 * 60;
 constexpr float kFromAbove = 0.35F;
 constexpr float kMostAbove = 0.45F;
 // A spot within so many body lengths and not within 66 degrees ahead it does not turn to: it swims
-// on first, on a slope of this tangent.
-constexpr float kRunUpLengths = 1.2F;
+// on first, on a slope of this tangent, so far or so long.
+constexpr float kTooNearLengths = 0.8F;
 constexpr float kAheadCosine = 0.4F;
 constexpr float kRunUpSlope = 0.2F;
+constexpr float kRunUpLengths = 1.6F;
+constexpr std::uint32_t kRunUpTicks = 150;
 // To a spot that lies deeper below it than on this slope, and so many body lengths more, it does
 // not turn either: it goes on downwards.
 constexpr float kSteepest = 1.1F;
@@ -88,7 +90,7 @@ constexpr float kSlackLengths = 0.3F;
 constexpr float kDiveSlope = 0.6F;
 // Paces down to a spot, in those of the slow gait.
 constexpr float kLeastSettlingPace = 0.6F;
-constexpr float kSettlingPace = 1.8F;
+constexpr float kSettlingPace = 2.0F;
 // Nose down: sines of 30 and 58 degrees.
 constexpr float kLeastDown = 0.5F;
 constexpr float kMostDown = 0.85F;
@@ -307,9 +309,15 @@ struct Grazer {
                 takeSpot();
                 enter(GrazeStage::Settle);
                 return;
+            case GrazeStage::RunUp:
+                if (off > kRunUpLengths * senses.length || mind.sinceStage > kRunUpTicks)
+                    enter(GrazeStage::Settle);
+                return;
             case GrazeStage::Settle:
                 if (off < kReachLengths * senses.length + kReachMetres)
                     enter(GrazeStage::Bite);
+                else if (cannotTurnTo(lacking()))
+                    enter(GrazeStage::RunUp);
                 else if (mind.sinceStage > kSettleTicks)
                     leaveSpot();
                 return;
@@ -405,19 +413,15 @@ struct Grazer {
     // Whether a near spot is too far to the side or too steep below to be reached by a turn.
     [[nodiscard]] bool cannotTurnTo(glm::vec3 lacks) const {
         const float distance = place::lengthOf(lacks);
-        if (distance > kRunUpLengths * senses.length) return false;
+        if (distance > kTooNearLengths * senses.length) return false;
         return place::dot(lacks, senses.heading) < kAheadCosine * distance;
     }
 
-    // Down to the spot, from above; where it is near and not ahead the fish first swims on, level
-    // and off the rock.
+    // Down to the spot, from above.
     [[nodiscard]] fish::Course settle() const {
         const glm::vec3 lacks = lacking();
         const float length = senses.length;
         const float slow = situation.parameters.slow;
-        if (cannotTurnTo(lacks))
-            return carefully({senses.heading.x, kRunUpSlope, senses.heading.z},
-                             kSettlingPace * slow);
         const float aside = std::sqrt(lacks.x * lacks.x + lacks.z * lacks.z);
         if (-lacks.y > kSteepest * aside + kSlackLengths * length)
             return carefully({senses.heading.x, -kDiveSlope, senses.heading.z},
@@ -432,6 +436,12 @@ struct Grazer {
                          std::clamp(place::lengthOf(through) / length,
                                     kLeastSettlingPace * slow,
                                     kSettlingPace * slow));
+    }
+
+    // Straight on, level and off the rock.
+    [[nodiscard]] fish::Course runUp() const {
+        return carefully({senses.heading.x, kRunUpSlope, senses.heading.z},
+                         kSettlingPace * situation.parameters.slow);
     }
 
     // Turns in its place unless something is in its way.
@@ -553,6 +563,8 @@ fish::Course graze(const Situation& situation, fish::Mind& mind, DeferredEvents&
     switch (grazer.stage()) {
         case GrazeStage::Settle:
             return grazer.settle();
+        case GrazeStage::RunUp:
+            return grazer.runUp();
         case GrazeStage::Bite:
             grazer.bite();
             return grazer.hold();

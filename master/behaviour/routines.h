@@ -94,9 +94,10 @@ enum class HideStage : std::uint8_t { Dive, Hidden, DiveFromRush, HiddenFromRush
 // by.
 [[nodiscard]] fish::Course hover(const Situation& situation);
 
-// Values of Mind::stage while a fish grazes: on its way to the patch, going down to a spot of it,
-// biting, done with the patch, and letting go of sand.
-enum class GrazeStage : std::uint8_t { Travel, Settle, Bite, Done, Puff };
+// Values of Mind::stage while a fish grazes: on its way to the patch; going down to a spot of it;
+// swimming on, where the spot is too near to turn to; biting; done with the patch; and letting go
+// of sand.
+enum class GrazeStage : std::uint8_t { Travel, Settle, RunUp, Bite, Done, Puff };
 // Goes to its patch close over the ground, in file where it follows its shoal; bites at one spot
 // after another, nose down; and lets go of sand on its way. Who leads a shoal or goes its own round
 // is done with a patch after a while, or where little is left on it. The fish must have a patch.
