@@ -58,7 +58,7 @@ enum class Stream : std::uint32_t {
     Loops,
     Bites,
     Sand,
-    GrazingSpells,
+    GrazingPeriods,
     Owners,
     // Food.
     FoodPlace = 401,

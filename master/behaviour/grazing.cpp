@@ -19,8 +19,8 @@ namespace aquarama::behaviour {
 
 namespace {
 
-// A species that grazes for a share of its time does so in spells of this length.
-constexpr std::uint64_t kTicksOfSpell = std::uint64_t{40} * 60;
+// A species that grazes for a share of its time does so in periods of this length.
+constexpr std::uint64_t kTicksOfGrazing = std::uint64_t{40} * 60;
 
 // A shoal goes on to a patch between these distances, where there is one; the value of a farther or
 // nearer one is less. Of the value of a patch a share is drawn.
@@ -116,16 +116,17 @@ Sighting sightingOf(const surroundings::Turf& turf, std::uint32_t patch, glm::ve
     return {patch, offset, place::lengthOf(offset)};
 }
 
-// Whether the group grazes now at all, by the share of its species.
+// Whether the household grazes now at all, by the share of its species.
 bool grazesNow(const Environment& environment,
                const fish::SpeciesParameters& parameters,
                std::uint32_t fish) {
     const auto share = static_cast<float>(parameters.habits.graze->share);
     if (share >= 1) return true;
     const std::uint32_t drawn =
-        own(environment, Stream::GrazingSpells, fish::groupOf(parameters, fish).first);
-    const std::uint64_t spell = (environment.tick.value + drawn % kTicksOfSpell) / kTicksOfSpell;
-    return unitOf(hashOf(drawn, static_cast<std::uint32_t>(spell))) < share;
+        own(environment, Stream::GrazingPeriods, fish::householdOf(parameters, fish).first);
+    const std::uint64_t period =
+        (environment.tick.value + drawn % kTicksOfGrazing) / kTicksOfGrazing;
+    return unitOf(hashOf(drawn, static_cast<std::uint32_t>(period))) < share;
 }
 
 // Falls off to either side of the distances that a shoal likes to go.
@@ -350,9 +351,9 @@ struct Grazer {
     // The fish before this one in the file; kNobody for who leads.
     [[nodiscard]] std::uint32_t ahead() const {
         const fish::FishView& view = *situation.environment.view;
-        const fish::Group group = fish::groupOf(situation.parameters, situation.fish);
+        const fish::Household household = fish::householdOf(situation.parameters, situation.fish);
         if (loops() || leads()) return fish::kNobody;
-        for (std::uint32_t other = situation.fish; other > group.first;) {
+        for (std::uint32_t other = situation.fish; other > household.first;) {
             --other;
             const bool isNear =
                 place::lengthOf(view.position(other) - senses.position) < kFileMetres;
@@ -384,7 +385,7 @@ struct Grazer {
         const std::uint32_t drawn =
             hashOf(own(situation.environment,
                        Stream::Patches,
-                       fish::groupOf(situation.parameters, situation.fish).first),
+                       fish::householdOf(situation.parameters, situation.fish).first),
                    mind.target);
         float pace = situation.parameters.medium * (1 - kPaceSpread * unitOf(drawn));
         glm::vec3 way = senses.patch.offset + patch.normal * kOverGroundMetres;
@@ -480,8 +481,9 @@ std::uint32_t leaderOf(const fish::FishView& view,
                        const fish::SpeciesParameters& parameters,
                        std::uint32_t fish) {
     if (parameters.habits.graze->manner == config::GrazeManner::Loop) return fish;
-    const fish::Group group = fish::groupOf(parameters, fish);
-    for (std::uint32_t leader = group.first; leader < std::min(group.last, group.first + 2);
+    const fish::Household household = fish::householdOf(parameters, fish);
+    for (std::uint32_t leader = household.first;
+         leader < std::min(household.last, household.first + 2);
          ++leader) {
         if (isAway(view, leader)) continue;
         if (leader == fish || view.patch[leader] != fish::kNobody) return leader;

@@ -23,8 +23,8 @@ namespace aquarama::behaviour {
                                 const fish::Mind& mind,
                                 const Senses& senses);
 
-// Whom a fish of a shoal follows from patch to patch: the first of its group, or the second where
-// the first grazes at none; the fish itself where it leads, and on a loop.
+// Whom a fish of a shoal follows from patch to patch: the first of its household, or the second
+// where the first grazes at none; the fish itself where it leads, and on a loop.
 [[nodiscard]] std::uint32_t leaderOf(const fish::FishView& view,
                                      const fish::SpeciesParameters& parameters,
                                      std::uint32_t fish);

@@ -36,11 +36,9 @@ float radiusOf(const fish::SpeciesParameters& parameters) {
     return static_cast<float>(parameters.habits.territory->radiusMetres);
 }
 
-bool isGroupMate(const fish::SpeciesParameters& parameters,
-                 std::uint32_t fish,
-                 std::uint32_t other) {
-    const fish::Group group = fish::groupOf(parameters, fish);
-    return other >= group.first && other < group.last;
+bool livesWith(const fish::SpeciesParameters& parameters, std::uint32_t fish, std::uint32_t other) {
+    const fish::Household household = fish::householdOf(parameters, fish);
+    return other >= household.first && other < household.last;
 }
 
 // Whether the charge that is under way goes on.
@@ -71,7 +69,7 @@ Sighting nearestIntruder(const Environment& environment,
     std::uint32_t count = 0;
     const auto weigh = [&](std::uint32_t other, glm::vec3 fromHome, float squared) {
         if (squared > radius * radius || (parameters.expels >> view.kind[other] & 1U) == 0 ||
-            view.shows(other, fish::kAway) || isGroupMate(parameters, fish, other))
+            view.shows(other, fish::kAway) || livesWith(parameters, fish, other))
             return;
         const float length = view.fish[other].length / senses.length;
         if (length < kLeastLength || length > kMostLength) return;
@@ -114,9 +112,9 @@ bool holdsTerritory(const Environment& environment,
                     std::uint32_t fish) {
     const config::Habits& habits = parameters.habits;
     if (!habits.territory || parameters.homes.empty()) return false;
-    const fish::Group group = fish::groupOf(parameters, fish);
+    const fish::Household household = fish::householdOf(parameters, fish);
     const bool shoals = habits.graze && habits.graze->manner == config::GrazeManner::Shoal;
-    if (shoals && group.last - group.first > 1) return false;
+    if (shoals && household.last - household.first > 1) return false;
     return unitOf(hashOf(hashOf(environment.seed, Stream::Owners), fish)) <
            static_cast<float>(habits.territory->share);
 }

@@ -48,11 +48,12 @@ struct SpeciesParameters {
 }
 
 // Fish [first, last) that share a home; all of a species that keeps to no place.
-struct Group {
+struct Household {
     std::uint32_t first, last;
 };
-// The group of a fish of this species.
-[[nodiscard]] inline Group groupOf(const SpeciesParameters& parameters, std::uint32_t fish) {
+// The household of a fish of this species.
+[[nodiscard]] inline Household householdOf(const SpeciesParameters& parameters,
+                                           std::uint32_t fish) {
     if (parameters.homes.empty()) return {parameters.first, parameters.last};
     const std::uint32_t own = (fish - parameters.first) / parameters.fishAtAHome;
     const std::uint32_t first = parameters.first + own * parameters.fishAtAHome;

@@ -138,8 +138,9 @@ void World::bite(std::uint32_t fish, std::uint32_t patch) {
 void World::remindLeaders(std::uint32_t charged) {
     const fish::SpeciesParameters& parameters = speciesParameters_[columns_.view.kind[charged]];
     if (!parameters.habits.graze) return;
-    const fish::Group group = fish::groupOf(parameters, charged);
-    for (std::uint32_t fish = group.first; fish < std::min(group.last, group.first + 2); ++fish) {
+    const fish::Household household = fish::householdOf(parameters, charged);
+    for (std::uint32_t fish = household.first; fish < std::min(household.last, household.first + 2);
+         ++fish) {
         std::uint8_t& memory = columns_.minds[fish].charged;
         memory = memory == 0 ? fish::kChargedOnce : fish::kChargedTwice;
     }
