@@ -323,10 +323,14 @@ struct Grazer {
                     leaveSpot();
                 return;
             case GrazeStage::Bite:
-                if (bitesAt(mind.sinceStage) > bitesOfBout() || heightLengths() < kTooLow)
+                if (bitesAt(mind.sinceStage) > bitesOfBout()) {
                     leaveSpot();
-                else if (off > kOffMetres + kReachLengths * senses.length)
+                } else if (heightLengths() < kTooLow) {
+                    takeSpot();
                     enter(GrazeStage::Settle);
+                } else if (off > kOffMetres + kReachLengths * senses.length) {
+                    enter(GrazeStage::Settle);
+                }
                 return;
         }
     }
