@@ -69,6 +69,15 @@ TEST(Turf, EveryPatchIsWithinReachAndItsSpotsAreOnItsBoulder) {
     }
 }
 
+// Whether all that graze are at one patch, or on their way to it.
+bool haveOnePatch(const World& world) {
+    std::set<std::uint32_t> patches;
+    for (std::uint32_t fish = 0; fish < world.view().size(); ++fish)
+        if (world.minds()[fish].intention == fish::Intention::Graze)
+            patches.insert(world.minds()[fish].target);
+    return patches.size() <= 1;
+}
+
 TEST(Graze, AShoalStaysTogetherAndBitesAtSeveralPatchesNoseDown) {
     World world(optionsOfRoutine("graze", 1));
     std::set<std::uint32_t> bitten;
@@ -88,7 +97,7 @@ TEST(Graze, AShoalStaysTogetherAndBitesAtSeveralPatchesNoseDown) {
         }
         if (tick < kMinute || tick % 60 != 0) continue;
         ++samples;
-        together += farthestFromMiddle(world) < 3.0F ? 1 : 0;
+        together += farthestFromMiddle(world) < 3.0F && haveOnePatch(world) ? 1 : 0;
     }
     EXPECT_GE(bitten.size(), 3U);
     EXPECT_GT(world.counts().bites, 250U);
