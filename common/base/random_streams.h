@@ -53,6 +53,13 @@ enum class Stream : std::uint32_t {
     VenturesOut = 361,
     Picks,
     CloudPlaces,
+    Spots,
+    Patches,
+    Loops,
+    Bites,
+    Sand,
+    GrazingPeriods,
+    Owners,
     // Food.
     FoodPlace = 401,
     FoodAbsence,

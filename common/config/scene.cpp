@@ -85,7 +85,7 @@ std::vector<SiteGroup> sitesOf(const TextReader& file, const v1::Scene& in, Plac
     return sites;
 }
 
-Current currentOf(const v1::Scene& in) {
+SceneCurrent currentOf(const v1::Scene& in) {
     if (!in.has_current()) return {};
     return {.tideMetresPerSecond = in.current().tide_m_s(),
             .tideSeconds = in.current().tide_s(),

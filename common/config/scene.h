@@ -59,10 +59,10 @@ struct SiteGroup {
 
 // The motion of the water (common/place/current.h). Velocities at their greatest, metres a second,
 // 0 in still water; periods in seconds.
-struct Current {
+struct SceneCurrent {
     double tideMetresPerSecond = 0, tideSeconds = 620;
     double surgeMetresPerSecond = 0, surgeSeconds = 7;
-    friend bool operator==(const Current&, const Current&) = default;
+    friend bool operator==(const SceneCurrent&, const SceneCurrent&) = default;
 };
 
 // What a school is drawn to.
@@ -144,7 +144,7 @@ struct Scene {
     std::uint32_t plankton = 300;  // particles; eaten ones drift in again
     std::vector<Head> heads;
     std::vector<SiteGroup> sites;
-    Current current;
+    SceneCurrent current;
     double livedSeconds = 0;  // of the world, unseen, before a show begins
     Day day;
     std::vector<FoodDrop> drops;

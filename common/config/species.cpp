@@ -240,6 +240,24 @@ Cloud cloudOf(const TextReader& file, const v1::Habits& in) {
     return {.heightMetres = in.cloud().height_m(), .pickSeconds = in.cloud().pick_s()};
 }
 
+Graze grazeOf(const TextReader& file, const v1::Graze& in) {
+    if (in.most_bites() < in.least_bites())
+        file.refuse(in, "most_bites", "most_bites is less than least_bites: exchange them");
+    return {.manner = static_cast<GrazeManner>(in.manner() - v1::Graze::SHOAL),
+            .share = in.share(),
+            .bitesPerSecond = in.bites_per_s(),
+            .leastBites = in.least_bites(),
+            .mostBites = in.most_bites(),
+            .bitesPerParticle = in.bites_per_particle(),
+            .sandSeconds = in.sand_s()};
+}
+
+Territory territoryOf(const TextReader& file, const v1::Habits& in) {
+    if (in.home().kind() != v1::Home::PLACE)
+        file.refuse(in, "territory", "a territory is about a home: add home { kind: PLACE }");
+    return {.radiusMetres = in.territory().radius_m(), .share = in.territory().share()};
+}
+
 // Kinds of sites; no kind twice.
 std::vector<SiteKind> hidingOf(const TextReader& file, const v1::Habits& in) {
     std::vector<SiteKind> kinds;
@@ -288,8 +306,11 @@ void refuseContradictions(const TextReader& file, const v1::Habits& in) {
     if (in.home().kind() == v1::Home::SCHOOL && in.shares().schooling() <= 0)
         file.refuse(
             in.home(), "kind", "nobody of this species schools: its home is a PLACE or none");
-    if (!in.hunger().plankton() && !in.has_hunt())
-        file.refuse(in.hunger(), "plankton", "it would eat nothing: let it eat plankton or hunt");
+    if (!in.hunger().plankton() && !in.has_hunt() && !in.has_graze())
+        file.refuse(
+            in.hunger(), "plankton", "it would eat nothing: let it eat plankton, graze or hunt");
+    if (hunts && in.has_graze())
+        file.refuse(in, "graze", "a predator does not graze: remove it or change the role");
 }
 
 void fearOf(const TextReader& file, const v1::Habits& in, Habits& habits) {
@@ -329,6 +350,8 @@ Habits habitsOf(const TextReader& file, const v1::Habits& in, const std::string&
     habits.persistence = real(in.persistence());
     if (in.has_home()) habits.home = homeOf(file, in.home());
     if (in.has_cloud()) habits.cloud = cloudOf(file, in);
+    if (in.has_graze()) habits.graze = grazeOf(file, in.graze());
+    if (in.has_territory()) habits.territory = territoryOf(file, in);
     habits.hidesIn = hidingOf(file, in);
     if (in.has_hunt()) {
         habits.hunts = othersOf(file, in.hunt(), "prey", in.hunt().prey(), own);

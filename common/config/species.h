@@ -214,6 +214,23 @@ struct Cloud {
     double heightMetres = 1, pickSeconds = 3;
 };
 
+// Feeding on turf. A shoal goes together; on a loop each fish goes round patches of its own. In the
+// schema's order.
+enum class GrazeManner : std::uint8_t { Shoal, Loop };
+struct Graze {
+    GrazeManner manner = GrazeManner::Shoal;
+    double share = 1;  // of the time at ease
+    double bitesPerSecond = 2;
+    std::uint32_t leastBites = 3, mostBites = 10;  // at one spot
+    std::uint32_t bitesPerParticle = 10;           // that feed as much as one particle
+    double sandSeconds = 0;  // from one puff of sand to the next, in the mean; 0: none
+};
+
+// A share of its fish each hold the water about their home.
+struct Territory {
+    double radiusMetres = 1, share = 1;
+};
+
 // Of predators.
 struct Hunt {
     double chaseSeconds = 8;  // at most
@@ -246,6 +263,8 @@ struct Habits {
     float persistence = 0.3F;  // another target must be nearer by this share to be preferred
     Home home;
     std::optional<Cloud> cloud;
+    std::optional<Graze> graze;
+    std::optional<Territory> territory;
     std::vector<SiteKind> hidesIn;  // none: it flees in open water
     bool eatsPlankton = true;
     std::vector<std::string> hunts;  // species by name

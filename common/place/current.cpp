@@ -60,7 +60,7 @@ void bend(const Rock& rock, glm::vec3 place, float way, float& crown, float& lee
 
 }  // namespace
 
-glm::vec3 openCurrent(const config::Current& current, std::int64_t tick) {
+glm::vec3 openCurrent(const config::SceneCurrent& current, std::int64_t tick) {
     const float tide =
         static_cast<float>(current.tideMetresPerSecond) * wave(shareOf(current.tideSeconds, tick));
     const float surge = static_cast<float>(current.surgeMetresPerSecond) *
@@ -68,7 +68,7 @@ glm::vec3 openCurrent(const config::Current& current, std::int64_t tick) {
     return glm::vec3{tide, 0, 0} + kSurgeCourse * surge;
 }
 
-glm::vec3 openDrift(const config::Current& current, std::int64_t tick) {
+glm::vec3 openDrift(const config::SceneCurrent& current, std::int64_t tick) {
     const float tide = static_cast<float>(current.tideMetresPerSecond * current.tideSeconds) *
                        waveIntegral(shareOf(current.tideSeconds, tick));
     const float surge = static_cast<float>(current.surgeMetresPerSecond * current.surgeSeconds) *
@@ -76,7 +76,7 @@ glm::vec3 openDrift(const config::Current& current, std::int64_t tick) {
     return glm::vec3{tide, 0, 0} + kSurgeCourse * surge;
 }
 
-Current::Current(const config::Current& current, std::span<const Rock> rocks, const Region& water)
+Current::Current(const config::SceneCurrent& current, std::span<const Rock> rocks, const Region& water)
     : current_{current}, origin_{water.centre - water.halfExtent} {
     if (current.tideMetresPerSecond <= 0 && current.surgeMetresPerSecond <= 0) return;
     const auto corners = [](float half) { return static_cast<int>(2 * half / kCellMetres) + 2; };

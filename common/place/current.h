@@ -29,8 +29,8 @@ inline constexpr glm::vec3 kSurgeCourse{0.5F, 0.0F, 0.8660254F};
 
 // The water far from boulders: its velocity at a tick, also before tick 0, and the way that it has
 // made since tick 0, the integral of the velocity, which is periodic.
-[[nodiscard]] glm::vec3 openCurrent(const config::Current& current, std::int64_t tick);
-[[nodiscard]] glm::vec3 openDrift(const config::Current& current, std::int64_t tick);
+[[nodiscard]] glm::vec3 openCurrent(const config::SceneCurrent& current, std::int64_t tick);
+[[nodiscard]] glm::vec3 openDrift(const config::SceneCurrent& current, std::int64_t tick);
 
 // The factors over crowns and in the full lee.
 inline constexpr float kOverCrown = 1.5F;
@@ -42,7 +42,7 @@ class Current {
   public:
     // Still water.
     Current() = default;
-    Current(const config::Current& current, std::span<const Rock> rocks, const Region& water);
+    Current(const config::SceneCurrent& current, std::span<const Rock> rocks, const Region& water);
 
     [[nodiscard]] bool isStill() const { return factors_.empty(); }
     // The velocity far from boulders.
@@ -52,7 +52,7 @@ class Current {
     [[nodiscard]] glm::vec3 at(glm::vec3 position, glm::vec3 open) const;
 
   private:
-    config::Current current_;
+    config::SceneCurrent current_;
     // Corners of the grid: origin, how many along each axis, and two factors of each, with the tide
     // towards +x and towards -x.
     glm::vec3 origin_{};

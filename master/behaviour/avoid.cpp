@@ -245,7 +245,8 @@ fish::Course escape(const Situation& situation, const fish::Mind& mind) {
     }
     course.urgency = std::max(course.urgency, kSharpStart);
     course.startsFast =
-        isStartled(situation) && hasRoom(situation, course.direction, kStartLengths);
+        isStartled(situation) &&
+        hasRoom(situation, course.direction, kStartLengths, surroundings::berthOf(senses.length));
     return course;
 }
 

@@ -113,18 +113,6 @@ glm::vec3 pickOf(const Situation& situation, glm::vec3 current) {
            (kDartLengths * senses.length);
 }
 
-// A dive may be as steep as the motor goes.
-constexpr float kSteepestDive = 0.85F;
-
-// A unit direction no steeper than a dive.
-glm::vec3 divingAlong(glm::vec3 direction) {
-    const float y = std::clamp(direction.y, -kSteepestDive, kSteepestDive);
-    const float level = std::sqrt(direction.x * direction.x + direction.z * direction.z);
-    if (level < 1.0e-4F) return {std::sqrt(1 - y * y), y, 0};
-    const float scale = std::sqrt(1 - y * y) / level;
-    return {direction.x * scale, y, direction.z * scale};
-}
-
 // Hidden fish stand beside one another: so far about the middle of the site, in its sizes.
 constexpr float kAboutSite = 0.4F;
 // A dive ends this near to its place.
@@ -198,7 +186,7 @@ fish::Course hide(const Situation& situation, fish::Mind& mind) {
     }
     const float lengths = distance / senses.length;
     fish::Course course{
-        divingAlong(place::directionOf(towards + senses.push * senses.length, senses.heading)),
+        diving(place::directionOf(towards + senses.push * senses.length, senses.heading)),
         std::min(parameters.fast, parameters.slow + lengths),
         lengths > 2 ? 1.0F : 0.0F};
     course.startsFast =

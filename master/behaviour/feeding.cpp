@@ -48,6 +48,9 @@ glm::vec3 awayFrom(glm::vec3 offset, glm::vec3 course, glm::vec3 otherwise) {
     return place::directionOf(away + aside * (kAsideOfItsWay * before), otherwise);
 }
 
+// The sine of the steepest slope that the motor holds.
+constexpr float kSteepestDive = 0.85F;
+
 // Cone of suction before the mouth, in body lengths. It is as long as the way of a fish between two
 // thoughts, so that no particle in its path is missed.
 constexpr float kSuction = 0.3F;
@@ -149,17 +152,25 @@ fish::Course heading(const Situation& situation, glm::vec3 desired, float speed)
     return {direction, speed, senses.urgency};
 }
 
+glm::vec3 diving(glm::vec3 direction) {
+    const float y = std::clamp(direction.y, -kSteepestDive, kSteepestDive);
+    const float level = std::sqrt(direction.x * direction.x + direction.z * direction.z);
+    if (level < 1.0e-4F) return {std::sqrt(1 - y * y), y, 0};
+    const float scale = std::sqrt(1 - y * y) / level;
+    return {direction.x * scale, y, direction.z * scale};
+}
+
 glm::vec3 flightFrom(const Situation& situation) {
     const fish::FishView& view = *situation.environment.view;
     const Senses& senses = situation.senses;
     const glm::vec3 side = place::directionOf({-senses.heading.z, 0, senses.heading.x}, {0, 0, 1});
     glm::vec3 flight{};
-    for (std::size_t i = 0; i < senses.predatorCount; ++i) {
-        const Sighting& predator = senses.predators[i];
-        const float squared =
-            std::max(predator.distance * predator.distance, kNearestSquaredMetres);
-        flight += awayFrom(predator.offset, view.heading(predator.object), side) / squared;
-    }
+    const auto flee = [&](const Sighting& from) {
+        const float squared = std::max(from.distance * from.distance, kNearestSquaredMetres);
+        flight += awayFrom(from.offset, view.heading(from.object), side) / squared;
+    };
+    for (std::size_t i = 0; i < senses.predatorCount; ++i) flee(senses.predators[i]);
+    if (senses.charger.seen()) flee(senses.charger);
     return place::directionOf(flight, {});
 }
 
@@ -189,14 +200,16 @@ fish::Course eat(const Situation& situation, fish::Mind& mind, DeferredEvents& e
     return pursue(situation, fromMouth, medium);
 }
 
-bool hasRoom(const Situation& situation, glm::vec3 direction, float lengths) {
+bool hasRoom(const Situation& situation,
+             glm::vec3 direction,
+             float lengths,
+             const surroundings::Berth& berth) {
     const auto isFree = [&](glm::vec3 way) {
         return surroundings::avoidance(situation.environment.surroundings->obstacles,
                                        situation.senses.position,
                                        way,
                                        lengths * situation.senses.length,
-                                       surroundings::berthOf(situation.senses.length)) ==
-               glm::vec3{};
+                                       berth) == glm::vec3{};
     };
     return isFree(direction) && isFree(situation.senses.heading);
 }
@@ -224,7 +237,8 @@ fish::Course hunt(const Situation& situation, fish::Mind& mind, DeferredEvents& 
     fish::Course course =
         heading(situation, fromMouth + velocityOf(view, prey.object) * seconds, speed);
     course.startsFast =
-        mind.sinceStage < kStrikeTicks && hasRoom(situation, course.direction, kStrikeLengths);
+        mind.sinceStage < kStrikeTicks &&
+        hasRoom(situation, course.direction, kStrikeLengths, surroundings::berthOf(senses.length));
     return course;
 }
 

@@ -2,6 +2,7 @@
 #include "master/behaviour/intention_generator.h"
 
 #include "common/base/units.h"
+#include "master/behaviour/territory.h"
 #include "master/fish/minds.h"
 
 namespace aquarama::behaviour {
@@ -95,6 +96,8 @@ struct Case {
     }
 
     [[nodiscard]] Weighed fear() const {
+        if (senses.charger.seen() && alarm == fish::Alarm::Calm)
+            return {fish::Intention::Escape, senses.charger.object, Verdict::Wins, 1, 0};
         Weighed rule{
             alarm == fish::Alarm::Together ? fish::Intention::School : fish::Intention::Escape,
             alarm == fish::Alarm::Together ? fish::kNobody : senses.predators[0].object,
@@ -107,6 +110,21 @@ struct Case {
             rule.verdict = Verdict::Sheltered;
         else if (alarm == fish::Alarm::Calm)
             rule.verdict = Verdict::TooWeak;
+        return rule;
+    }
+
+    [[nodiscard]] Weighed territory() const {
+        Weighed rule{fish::Intention::Charge,
+                     senses.intruder.object,
+                     Verdict::Wins,
+                     seconds(mind.sinceCharge),
+                     kRefractorySeconds};
+        if (!senses.holdsTerritory)
+            rule.verdict = Verdict::AgainstHabits;
+        else if (aim.intention != fish::Intention::Charge && rule.value < rule.threshold)
+            rule.verdict = Verdict::Resting;
+        else if (!senses.intruder.seen())
+            rule.verdict = Verdict::NoTarget;
         return rule;
     }
 
@@ -131,7 +149,11 @@ struct Case {
             const Weighed now = hunger();
             return now.verdict == Verdict::Wins && now.target == mind.rememberedTarget;
         }
-        if (mind.remembered == fish::Intention::Hide) return false;  // by its own rule
+        // These have rules of their own, before this one.
+        if (mind.remembered == fish::Intention::Hide || mind.remembered == fish::Intention::Charge)
+            return false;
+        if (mind.remembered == fish::Intention::Graze)
+            return senses.patch.seen() && senses.patch.object == mind.rememberedTarget;
         if (mind.remembered == fish::Intention::Mate)
             return senses.mate.seen() && senses.mate.object == mind.rememberedTarget;
         return likesSchooling(parameters, mind);
@@ -229,6 +251,7 @@ struct Case {
     }
 
     [[nodiscard]] Weighed ease() const {
+        if (senses.patch.seen()) return {fish::Intention::Graze, senses.patch.object};
         return {.intention =
                     parameters.habits.cloud ? fish::Intention::Hover : fish::Intention::Wander};
     }
@@ -241,6 +264,7 @@ void applyRules(const Case& of, const IsEnough& isEnough) {
     if (isEnough(PriorityRule::Shelter, of.shelter())) return;
     if (isEnough(PriorityRule::OtherFish, of.otherFish())) return;
     if (isEnough(PriorityRule::Fear, of.fear())) return;
+    if (isEnough(PriorityRule::Territory, of.territory())) return;
     if (isEnough(PriorityRule::Memory, of.memory())) return;
     if (isEnough(PriorityRule::Hunger, of.hunger())) return;
     if (isEnough(PriorityRule::Libido, of.libido())) return;
@@ -308,8 +332,9 @@ void remember(fish::Mind& mind, const Decision& decision) {
         mind.remembered = fish::Intention::Wander;
         mind.rememberedTarget = fish::kNobody;
     } else if (!fish::interrupts(mind.intention, mind.alarm) &&
-               mind.intention >= fish::Intention::School) {
-        // Leave and Wander are not remembered: they come back by themselves.
+               (mind.intention >= fish::Intention::School ||
+                mind.intention == fish::Intention::Graze)) {
+        // Leave, Hover and Wander are not remembered: they come back by themselves.
         mind.remembered = mind.intention;
         mind.rememberedTarget = mind.target;
         mind.sinceRemembered = 0;
@@ -326,6 +351,8 @@ void remember(fish::Mind& mind, const Decision& decision) {
     const bool chased = before.intention == fish::Intention::Eat;
     const bool chases = after.intention == fish::Intention::Eat;
     if (chased != chases) mind.sinceChase = 0;
+    const bool charged = before.intention == fish::Intention::Charge;
+    if (charged != (after.intention == fish::Intention::Charge)) mind.sinceCharge = 0;
 }
 
 bool acceptsRecommendation(const fish::SpeciesParameters& parameters,
@@ -341,7 +368,9 @@ bool acceptsRecommendation(const fish::SpeciesParameters& parameters,
             return true;
         case fish::Intention::Eat:
             return isFarFromMeal(parameters, senses);
+        case fish::Intention::Graze:
         case fish::Intention::Mate:
+        case fish::Intention::Charge:
         case fish::Intention::Hide:
         case fish::Intention::Escape:
         case fish::Intention::AvoidFish:

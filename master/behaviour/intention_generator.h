@@ -40,16 +40,17 @@ enum class PriorityRule : std::uint8_t {
     Obstacle,   // AvoidObstacle
     Shelter,    // Hide
     OtherFish,  // AvoidFish
-    Fear,       // School or Escape
+    Fear,       // School or Escape, from a predator or from who charges it
+    Territory,  // Charge
     Memory,     // what was interrupted
     Hunger,     // Eat
     Libido,     // Mate
     Climate,    // Leave
     Company,    // School
-    // Hover or Wander: always wins.
+    // Graze, Hover or Wander: always wins.
     Ease,
 };
-inline constexpr std::size_t kPriorityRules = 10;
+inline constexpr std::size_t kPriorityRules = 11;
 
 // The verdict on a rule.
 enum class Verdict : std::uint8_t {
@@ -61,7 +62,7 @@ enum class Verdict : std::uint8_t {
     NoTarget,
     Nothing,  // Memory: nothing was interrupted
     TooOld,   // Memory: interrupted for longer than threshold; forgotten
-    // Hunger of a predator: it rests after a chase.
+    // Hunger of a predator, Territory: it rests after a chase or charge.
     Resting,
     Sheltered,  // Fear: a shelter is near, whose rule decides
     // Hunger or libido: the other one is stronger.
@@ -75,8 +76,8 @@ struct Weighed {
     std::uint32_t target = fish::kNobody;
     Verdict verdict = Verdict::Wins;
     // The compared value. Obstacle: urgency. OtherFish: share of the other body in the box. Fear,
-    // Hunger, Libido: the feeling. Shelter: the threat. Memory: seconds since the interruption.
-    // Climate: Senses::discomfort.
+    // Hunger, Libido: the feeling. Shelter: the threat. Territory: seconds since the last charge.
+    // Memory: seconds since the interruption. Climate: Senses::discomfort.
     float value = 0;
     float threshold = 0;
 };
@@ -116,9 +117,13 @@ struct Reasoning {
 // A course along the desired direction (any length), bent by obstacles, no steeper than 25 degrees.
 [[nodiscard]] fish::Course heading(const Situation& situation, glm::vec3 desired, float speed);
 
-// Direction of flight from the predators in sight, a unit vector; zero where there is none. Nearer
-// predators count more. A fish before an approaching predator goes aside rather than ahead and so
-// slips round behind it: the fountain manoeuvre of a school (Hall, Wardle & MacLennan 1986).
+// A unit direction no steeper than the motor holds, some 58 degrees; keeps its course.
+[[nodiscard]] glm::vec3 diving(glm::vec3 direction);
+
+// Direction of flight from who charges it and from the predators in sight, a unit vector; zero
+// where there is none. Nearer predators count more. A fish before an approaching predator goes
+// aside rather than ahead and so slips round behind it: the fountain manoeuvre of a school (Hall,
+// Wardle & MacLennan 1986).
 [[nodiscard]] glm::vec3 flightFrom(const Situation& situation);
 
 }  // namespace aquarama::behaviour

@@ -8,9 +8,11 @@
 
 #include "common/base/random_streams.h"
 #include "common/place/place.h"
+#include "master/behaviour/grazing.h"
 #include "master/behaviour/home.h"
 #include "master/behaviour/points_within.h"
 #include "master/behaviour/routines.h"
+#include "master/behaviour/territory.h"
 #include "master/behaviour/vision.h"
 #include "master/behaviour/ways.h"
 #include "master/fish/fish_view.h"
@@ -429,12 +431,37 @@ glm::vec3 submarinePush(const surroundings::Submarine& submarine,
                                   place::lengthOf(past));
 }
 
+// A fish that goes down to turf feels obstacles so far ahead.
+constexpr float kTurfReachMetres = 0.1F;
+constexpr float kTurfReachSeconds = 0.3F;
+// It has left the turf after so long.
+constexpr std::uint32_t kLeavesTurfTicks = 180;
+
+bool isAtTurf(const fish::Mind& mind) {
+    const auto stage = static_cast<GrazeStage>(mind.stage);
+    return fish::aimOf(mind).intention == fish::Intention::Graze &&
+           (stage != GrazeStage::Travel || mind.sinceStage < kLeavesTurfTicks);
+}
+
+// How far ahead the fish feels obstacles.
+float reachOf(const fish::SpeciesParameters& parameters,
+              const fish::Mind& mind,
+              const Senses& senses) {
+    const float speed = std::max(0.0F, senses.speed);
+    return isAtTurf(mind) ? kTurfReachMetres + speed * kTurfReachSeconds
+                          : kReachMetres + speed * std::max(kReachSeconds, parameters.turnSeconds);
+}
+
 // How far the fish keeps from boulders and sand now.
 surroundings::Berth berthFor(const fish::SpeciesParameters& parameters,
                              std::uint32_t fish,
                              const fish::Mind& mind,
                              const Senses& senses) {
-    if (fish::aimOf(mind).intention == fish::Intention::Hide) return surroundings::kIntoShelter;
+    const fish::Intention aim = fish::aimOf(mind).intention;
+    if (aim == fish::Intention::Hide) return surroundings::kIntoShelter;
+    if (aim == fish::Intention::Graze)
+        return isAtTurf(mind) ? surroundings::kAtTurf : surroundings::kAtHome;
+    if (aim == fish::Intention::Charge) return surroundings::kAtHome;
     const config::Home& home = parameters.habits.home;
     const bool isAtHome = home.site && !parameters.homes.empty() &&
                           place::lengthOf(homeOf(parameters, fish) - senses.position) <
@@ -449,8 +476,7 @@ void feelSurroundings(const Environment& environment,
                       const fish::Mind& mind,
                       Senses& senses) {
     const surroundings::Surroundings& around = *environment.surroundings;
-    const float reach = kReachMetres + std::max(0.0F, senses.speed) *
-                                           std::max(kReachSeconds, parameters.turnSeconds);
+    const float reach = reachOf(parameters, mind, senses);
     const surroundings::Submarine& submarine = around.submarine;
     const glm::vec3 fromSubmarine = submarinePush(submarine, senses, reach);
     senses.push = surroundings::avoidance(around.obstacles,
@@ -521,6 +547,8 @@ Senses perceive(const Environment& environment,
     senseFood(onlooker);
     seeMate(onlooker);
     senseShelter(onlooker);
+    senses.patch = patchFor(environment, parameters, fish, mind, senses);
+    senseTerritory(environment, parameters, fish, mind, senses);
     if ((mind.likes & fish::kLikesSchooling) != 0 &&
         environment.gathering == config::Gathering::None)
         senses.structure = structureFor(environment, mind, fish, senses);

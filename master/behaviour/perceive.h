@@ -119,6 +119,13 @@ struct Senses {
     std::size_t diving = 0;
     // Of a fish that hides: whether it ventures out, where nothing threatens it.
     bool venturesOut = false;
+    // Of those that graze: the patch of turf that it is at or goes to.
+    Sighting patch;
+    // Whether it holds a territory; the intruder that it charges or would.
+    bool holdsTerritory = false;
+    Sighting intruder;
+    // Who charges it.
+    Sighting charger;
     // Of a bold fish in a school: the structure that it makes for or stays at, by index.
     std::uint32_t structure = fish::kNobody;
     float submarineMetres = std::numeric_limits<float>::infinity();

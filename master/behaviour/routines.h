@@ -53,14 +53,17 @@ using DeferredEvents = std::vector<fish::DeferredEvent>;
                                fish::Mind& mind,
                                DeferredEvents& events);
 // Whether nothing is within so many body lengths ahead and in a direction, so that a fish may coast
-// that far after a fast start.
-[[nodiscard]] bool hasRoom(const Situation& situation, glm::vec3 direction, float lengths);
+// that far after a fast start, at this berth.
+[[nodiscard]] bool hasRoom(const Situation& situation,
+                           glm::vec3 direction,
+                           float lengths,
+                           const surroundings::Berth& berth);
 // Whether suction reaches an object. `offset` is from the origin of the body frame, metres.
 [[nodiscard]] bool isBeforeTheMouth(const Senses& senses, glm::vec3 offset);
 
-// Flees from all predators in sight, from nearer ones more, at full speed, and keeps clear of fish
-// that flee beside it (section 5.6.4). A schooling fish leaves its school only as the predator
-// comes near, so that a hollow opens about the attacker and closes behind it.
+// Flees from who charges it, and from all predators in sight, from nearer ones more, at full speed,
+// and keeps clear of fish that flee beside it (section 5.6.4). A schooling fish leaves its school
+// only as the predator comes near, so that a hollow opens about the attacker and closes behind it.
 [[nodiscard]] fish::Course escape(const Situation& situation, const fish::Mind& mind);
 
 // Values of Mind::stage while a predator hunts.
@@ -90,6 +93,23 @@ enum class HideStage : std::uint8_t { Dive, Hidden, DiveFromRush, HiddenFromRush
 // current and where it is threatened, up-current of the home. Now and then it darts at what drifts
 // by.
 [[nodiscard]] fish::Course hover(const Situation& situation);
+
+// Values of Mind::stage while a fish grazes: on its way to the patch; going down to a spot of it;
+// swimming on, where the spot is too near to turn to; biting; done with the patch; and letting go
+// of sand.
+enum class GrazeStage : std::uint8_t { Travel, Settle, RunUp, Bite, Done, Puff };
+// Goes to its patch close over the ground, in file where it follows its shoal; bites at one spot
+// after another, nose down; and lets go of sand on its way. Who leads a shoal or goes its own round
+// is done with a patch after a while, or where little is left on it. The fish must have a patch.
+[[nodiscard]] fish::Course graze(const Situation& situation,
+                                 fish::Mind& mind,
+                                 DeferredEvents& events);
+
+// Charges the intruder of its territory, with a fast start where there is room for one. The fish
+// must see an intruder.
+[[nodiscard]] fish::Course charge(const Situation& situation,
+                                  const fish::Mind& mind,
+                                  DeferredEvents& events);
 
 // Leaves for water whose light and temperature suit its habits. Both change with height alone, so
 // it climbs or dives.

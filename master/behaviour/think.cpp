@@ -58,6 +58,10 @@ fish::Course act(const Situation& situation, fish::Mind& mind, DeferredEvents& e
             return leave(situation);
         case fish::Intention::Hide:
             return hide(situation, mind);
+        case fish::Intention::Charge:
+            return charge(situation, mind, events);
+        case fish::Intention::Graze:
+            return graze(situation, mind, events);
         case fish::Intention::Hover:
             return hover(situation);
         case fish::Intention::Wander:

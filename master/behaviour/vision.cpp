@@ -126,7 +126,10 @@ struct Watch {
     // Whether another fish counts. One that it courts, hunts or follows it wants near; from its
     // hunters prey flees instead.
     [[nodiscard]] bool isHeeded(std::uint32_t other) const {
-        if (other == aim.target && aim.intention == fish::Intention::Mate) return false;
+        if (other == aim.target &&
+            (aim.intention == fish::Intention::Mate || aim.intention == fish::Intention::Charge))
+            return false;
+        if (other == senses.charger.object) return false;
         std::uint64_t unheeded = parameters.hunts | parameters.shadows;
         if (parameters.habits.role == config::Role::Prey) unheeded |= parameters.huntedBy;
         return (unheeded >> view.kind[other] & 1U) == 0;
@@ -277,9 +280,11 @@ void feelCollision(const Environment& environment,
                    const fish::Mind& mind,
                    Senses& senses) {
     Watch watch{environment, parameters, mind, senses};
-    // Fish that like to school tolerate schoolmates near, also while they feed among others.
-    const bool bearsMates =
-        parameters.habits.role == config::Role::Prey && (mind.likes & fish::kLikesSchooling) != 0;
+    // Fish that like to school tolerate schoolmates near, also while they feed among others; so do
+    // those that graze.
+    const bool bearsMates = (parameters.habits.role == config::Role::Prey &&
+                             (mind.likes & fish::kLikesSchooling) != 0) ||
+                            fish::aimOf(mind).intention == fish::Intention::Graze;
     for (std::size_t i = 0; i < senses.schoolmates.count; ++i) {
         const std::uint32_t other = senses.schoolmates.fish[i];
         if (bearsMates)

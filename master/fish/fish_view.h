@@ -3,6 +3,7 @@
 // the start of a tick. World frame, metres.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -26,6 +27,9 @@ struct SpeciesParameters {
     std::uint64_t hunts = 0;
     std::uint64_t huntedBy = 0;
     std::uint64_t shadows = 0;
+    // The kinds that it charges in its territory, and those that charge it.
+    std::uint64_t expels = 0;
+    std::uint64_t expelledBy = 0;
     // Lengths of its fish, metres.
     config::SizeRange size = {};
     // Homes of its groups, metres, in the order of the fish; as many fish share one. Without
@@ -41,6 +45,19 @@ struct SpeciesParameters {
 // Whether the species flees: prey, and whatever is hunted by another species of the cast.
 [[nodiscard]] inline bool flees(const SpeciesParameters& parameters) {
     return parameters.habits.role == config::Role::Prey || parameters.huntedBy != 0;
+}
+
+// Fish [first, last) that share a home; all of a species that keeps to no place.
+struct Household {
+    std::uint32_t first, last;
+};
+// The household of a fish of this species.
+[[nodiscard]] inline Household householdOf(const SpeciesParameters& parameters,
+                                           std::uint32_t fish) {
+    if (parameters.homes.empty()) return {parameters.first, parameters.last};
+    const std::uint32_t own = (fish - parameters.first) / parameters.fishAtAHome;
+    const std::uint32_t first = parameters.first + own * parameters.fishAtAHome;
+    return {first, std::min(parameters.last, first + parameters.fishAtAHome)};
 }
 
 // The visible data of a fish at the start of a tick. The world writes it before the fish think;
@@ -85,6 +102,10 @@ struct FishView {
     std::vector<std::uint32_t> partner;
     // Mind::stage: the stage of its courtship or hunt.
     std::vector<std::uint8_t> stage;
+    // The patch of turf that it grazes at or goes to, by index, or kNobody.
+    std::vector<std::uint32_t> patch;
+    // The fish that it charges, or kNobody.
+    std::vector<std::uint32_t> charged;
 
     // Fish that are added have no partner and no signs.
     void resize(std::size_t count) {
@@ -93,9 +114,13 @@ struct FishView {
         signs.resize(count);
         partner.resize(count, kNobody);
         stage.resize(count);
+        patch.resize(count, kNobody);
+        charged.resize(count, kNobody);
     }
     // Memory in use.
-    [[nodiscard]] std::size_t bytes() const { return bytesIn(fish, kind, signs, partner, stage); }
+    [[nodiscard]] std::size_t bytes() const {
+        return bytesIn(fish, kind, signs, partner, stage, patch, charged);
+    }
     [[nodiscard]] std::size_t size() const { return fish.size(); }
     [[nodiscard]] glm::vec3 position(std::size_t i) const { return fish[i].position; }
     [[nodiscard]] glm::vec3 heading(std::size_t i) const { return fish[i].heading; }

@@ -15,10 +15,12 @@ namespace aquarama::fish {
 const char* nameOf(Intention intention) {
     constexpr std::array<const char*, kIntentions> kNames{"wander",
                                                           "hover",
+                                                          "graze",
                                                           "leave",
                                                           "school",
                                                           "eat",
                                                           "mate",
+                                                          "charge",
                                                           "hide",
                                                           "escape",
                                                           "avoid fish",
@@ -39,10 +41,15 @@ std::uint64_t Minds::hash() const {
     fold(&Mind::sinceMeal);
     fold(&Mind::sinceSpawning);
     fold(&Mind::sinceChase);
+    fold(&Mind::sinceArrival);
+    fold(&Mind::sinceCharge);
     fold(&Mind::alarm);
+    fold(&Mind::spot);
     fold(&Mind::eaten);
     fold(&Mind::likes);
     fold(&Mind::stage);
+    fold(&Mind::bites);
+    fold(&Mind::charged);
     fold(&Mind::sinceStage);
     fold(&Mind::thoughtAt);
     return hash;
@@ -121,8 +128,11 @@ void passTime(const SpeciesParameters& parameters, std::uint32_t ticks, Mind& mi
                                  &mind.sinceMeal,
                                  &mind.sinceSpawning,
                                  &mind.sinceChase,
+                                 &mind.sinceArrival,
+                                 &mind.sinceCharge,
                                  &mind.sinceStage})
         if (*clock < kLongAgo) *clock += ticks;
+    if (mind.charged > 0 && mind.charged <= kChargedOnce) --mind.charged;
     if (undigested(parameters, mind) <= 0) mind.eaten = 0;
 }
 
@@ -150,6 +160,11 @@ void showMood(const SpeciesParameters& parameters,
     assert(minds.size() <= view.size());
     const unsigned away = view.signs[fish] & unsigned{kAway};
     const Mind& mind = minds[fish];
+    if (parameters.habits.graze || parameters.habits.territory) {
+        const Aim about = aimOf(mind);
+        view.patch[fish] = about.intention == Intention::Graze ? about.target : kNobody;
+        view.charged[fish] = about.intention == Intention::Charge ? about.target : kNobody;
+    }
     if (parameters.habits.role ==
         config::Role::Prey) {  // most fish are; they need but three bytes of their mind
         const bool schools =

@@ -11,22 +11,24 @@
 
 namespace aquarama::fish {
 
-// The behaviour routines, which a mind chooses from: those of Tu & Terzopoulos 1994, and Hover and
-// Hide of fish that live at the reef. Those from Escape on always interrupt (see interrupts()).
-// Wander also stands for an empty memory.
+// The behaviour routines, which a mind chooses from: those of Tu & Terzopoulos 1994, and Hover,
+// Graze, Charge and Hide of fish that live at the reef. Those from Escape on always interrupt (see
+// interrupts()). Wander also stands for an empty memory.
 enum class Intention : std::uint8_t {
     Wander,
     Hover,
+    Graze,
     Leave,
     School,
     Eat,
     Mate,
+    Charge,
     Hide,
     Escape,
     AvoidFish,
     AvoidObstacle
 };
-inline constexpr std::size_t kIntentions = 10;
+inline constexpr std::size_t kIntentions = 12;
 // Its name for people, such as "avoid fish".
 [[nodiscard]] const char* nameOf(Intention intention);
 
@@ -47,8 +49,9 @@ enum class Alarm : std::uint8_t {
 // meals, catches, spawning and the arrival of a new fish.
 struct Mind {
     Intention intention = Intention::Wander;
-    // Target of the intention: a fish (Mate, AvoidFish, Escape, Eat of a predator), a particle of
-    // food (Eat of the others) or a site (Hide); kNobody where the routine has none.
+    // Target of the intention: a fish (Mate, Charge, AvoidFish, Escape, Eat of a predator), a
+    // particle of food (Eat of the others), a site (Hide) or a patch of turf (Graze); kNobody where
+    // the routine has none.
     std::uint32_t target = kNobody;
     // Ticks for which it has had the present aim (aimOf()); interruptions count too.
     std::uint32_t pursued = 0;
@@ -60,18 +63,34 @@ struct Mind {
     std::uint32_t sinceSpawning = kLongAgo;
     // Predators: since the present chase began, or since the last one ended.
     std::uint32_t sinceChase = kLongAgo;
+    // Of those that graze: since it came to its patch.
+    std::uint32_t sinceArrival = kLongAgo;
+    // Of those that hold a territory: since it last began or ended a charge.
+    std::uint32_t sinceCharge = kLongAgo;
     Alarm alarm = Alarm::Calm;
+    // Of those that graze: the spot of the patch, by its index.
+    std::uint8_t spot = 0;
     // Particles or prey eaten since the last meal was digested; n_e of the thesis.
     std::uint16_t eaten = 0;
     // Bits of Like.
     std::uint8_t likes = 0;
-    // Stage of a routine that has stages: CourtshipStage, HuntStage, HideStage, or that of eat().
+    // Stage of a routine that has stages: CourtshipStage, HuntStage, HideStage, GrazeStage, or that
+    // of eat().
     std::uint8_t stage = 0;
+    // Bites of turf since they last counted as a particle.
+    std::uint8_t bites = 0;
+    // Of who leads a shoal: thoughts for which it remembers that one of its shoal was charged;
+    // kChargedTwice where that has happened again meanwhile.
+    std::uint8_t charged = 0;
     // Ticks in that stage.
     std::uint32_t sinceStage = 0;
     // Tick of the last thought.
     std::uint64_t thoughtAt = 0;
 };
+
+// Values of Mind::charged: after the first charge (10 s) and after the second.
+inline constexpr std::uint8_t kChargedOnce = 75;
+inline constexpr std::uint8_t kChargedTwice = 255;
 
 // Habits of a single fish, drawn at its beginning (behaviour::likesOf()), as bits of Mind::likes. A
 // fish never has two that contradict each other.
@@ -125,11 +144,12 @@ class Minds {
 // An action that changes more than the fish itself. A thought only reports it. The world applies
 // all events of a tick afterwards, in the order of the fish: of two fish that want the same thing
 // the first gets it.
-enum class DeferredEventKind : std::uint8_t { EatParticle, EatFish, Spawn };
+enum class DeferredEventKind : std::uint8_t { EatParticle, EatFish, Spawn, Bite, PuffSand, Charge };
 struct DeferredEvent {
     DeferredEventKind kind = DeferredEventKind::EatParticle;
     std::uint32_t fish = kNobody;
-    // The particle, the prey or the mate.
+    // The particle, the prey, the mate, the patch of turf or who is charged; kNobody of a puff of
+    // sand.
     std::uint32_t object = kNobody;
 };
 

@@ -221,6 +221,7 @@ class Screen {
     [[nodiscard]] std::string targetOf(fish::Intention intention, std::uint32_t target) const {
         if (target == fish::kNobody) return {};
         if (intention == fish::Intention::Hide) return fmt::format("site {}", target);
+        if (intention == fish::Intention::Graze) return fmt::format("patch {}", target);
         const bool isParticle = intention == fish::Intention::Eat &&
                                 of_.parameters.habits.role != config::Role::Predator;
         return isParticle ? particle(target) : named(target);
@@ -287,6 +288,7 @@ constexpr std::array<const char*, behaviour::kPriorityRules> kPriorityRuleNames{
                                                                                 "shelter",
                                                                                 "other fish",
                                                                                 "fear",
+                                                                                "territory",
                                                                                 "memory",
                                                                                 "hunger",
                                                                                 "libido",
@@ -303,6 +305,8 @@ std::string notInView(behaviour::PriorityRule rule) {
             return "it is nowhere better";
         case behaviour::PriorityRule::Memory:
             return "what was interrupted cannot be resumed";
+        case behaviour::PriorityRule::Territory:
+            return "nobody intrudes";
         case behaviour::PriorityRule::Shelter:
             return "no shelter is near";
         default:
@@ -336,7 +340,8 @@ std::string Screen::verdictOn(behaviour::PriorityRule rule,
             return fmt::format(
                 "forgotten: {:.1f} s ago, more than {:.0f}", weighed.value, weighed.threshold);
         case behaviour::Verdict::Resting:
-            return "rests from the last chase";
+            return rule == behaviour::PriorityRule::Territory ? "rests from the last charge"
+                                                              : "rests from the last chase";
         case behaviour::Verdict::Sheltered:
             return "a shelter is near";
         case behaviour::Verdict::Yields:

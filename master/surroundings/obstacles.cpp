@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "common/place/place.h"
 
@@ -163,6 +164,18 @@ Obstacles obstaclesOf(const place::PlaceKey& place, const place::Region& water) 
     obstacles.stems = stemsIn(place, water);
     obstacles.chart = chartOf(obstacles);
     return obstacles;
+}
+
+float groundAt(const Obstacles& obstacles, glm::vec2 xz) {
+    float ground = obstacles.chart.covers(xz) ? obstacles.chart.sand(xz)
+                                              : plainSand(obstacles, {xz.x, 0, xz.y});
+    for (const place::Rock& rock : obstacles.rocks) {
+        const glm::vec2 from{xz.x - rock.centre.x, xz.y - rock.centre.z};
+        const float within =
+            rock.radiusMetres * rock.radiusMetres - from.x * from.x - from.y * from.y;
+        if (within > 0) ground = std::max(ground, rock.centre.y + std::sqrt(within));
+    }
+    return ground;
 }
 
 glm::vec3 plainAvoidance(const Obstacles& obstacles,

@@ -36,8 +36,13 @@ struct Berth {
 [[nodiscard]] Berth berthOf(float lengthMetres);
 // Of a fish that lives at a site, near its home: boulders are worn within their radius.
 inline constexpr Berth kAtHome{-0.05F, 0.12F, 0.05F, 0.1F};
+// Of a fish that goes down to a boulder and bites.
+inline constexpr Berth kAtTurf{-0.3F, 0.1F, 0.02F, 0.08F};
 // Of a fish that goes into a shelter.
 inline constexpr Berth kIntoShelter{-0.3F, 0.1F, 0.02F, 0.05F};
+
+// Height y of the sand, or of the boulder that is highest there, at (x, z), metres.
+[[nodiscard]] float groundAt(const Obstacles& obstacles, glm::vec2 xz);
 
 // The push of the obstacles on a fish that swims from `position` along `heading` (unit vector). The
 // result has length 0 in open water; at 1 and more only turning away matters. The path is tested

@@ -59,10 +59,12 @@ Surroundings makeSurroundings(const config::Scene& scene,
                               float meanLengthMetres) {
     const place::PlaceKey place = place::placeOf(scene, seed);
     const Obstacles obstacles = obstaclesOf(place, place::waterFor(scene, fish, meanLengthMetres));
+    const std::vector<place::Site> sites = place::sitesOf(place);
     return {.seed = seed,
             .obstacles = obstacles,
-            .sites = place::sitesOf(place),
+            .sites = sites,
             .structures = structuresOf(obstacles),
+            .turf = makeTurf(seed, sites, obstacles),
             .current = {scene.current, obstacles.rocks, obstacles.water},
             .climate = climateOf(scene),
             .food = makeFood(seed, obstacles, scene.plankton),
@@ -77,6 +79,7 @@ void advanceSurroundings(Surroundings& surroundings, Tick tick, std::uint64_t un
     surroundings.openCurrent = surroundings.current.open(
         unseen > 0 ? -static_cast<std::int64_t>(unseen) : static_cast<std::int64_t>(tick.value));
     if (unseen == 0) dropWhatIsDue(surroundings, tick);
+    growTurf(surroundings.turf);
     driftFood(surroundings.food,
               surroundings.seed,
               surroundings.obstacles,
@@ -92,6 +95,7 @@ std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroun
     hash = folded(hash, food.taken);
     hash = folded(hash, food.generation);
     hash = folded(hash, food.absentUntil);
+    hash = folded(hash, surroundings.turf.fill);
     return hash;
 }
 

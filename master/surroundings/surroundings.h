@@ -18,6 +18,7 @@
 #include "master/surroundings/food.h"
 #include "master/surroundings/obstacles.h"
 #include "master/surroundings/structures.h"
+#include "master/surroundings/turf.h"
 
 namespace aquarama::surroundings {
 
@@ -39,6 +40,7 @@ struct Surroundings {
     std::vector<place::Site> sites;
     // Constant.
     std::vector<Structure> structures;
+    Turf turf;
     place::Current current;
     Climate climate;
     Food food;

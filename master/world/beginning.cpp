@@ -227,6 +227,23 @@ std::uint64_t huntersOf(const std::vector<WorldSpecies>& cast, const std::string
     return kinds;
 }
 
+// Whether fish of one kind charge those of another in their territory.
+bool expels(const std::vector<WorldSpecies>& cast, std::size_t owner, std::size_t other) {
+    return cast[owner].habits.territory && (owner == other || cast[other].habits.graze);
+}
+
+// Bits of the species of the cast that this one charges, and of those that charge it.
+std::pair<std::uint64_t, std::uint64_t> expelling(const std::vector<WorldSpecies>& cast,
+                                                  std::size_t kind) {
+    std::uint64_t charges = 0;
+    std::uint64_t chargedBy = 0;
+    for (std::size_t i = 0; i < cast.size(); ++i) {
+        if (expels(cast, kind, i)) charges |= std::uint64_t{1} << i;
+        if (expels(cast, i, kind)) chargedBy |= std::uint64_t{1} << i;
+    }
+    return {charges, chargedBy};
+}
+
 }  // namespace
 
 std::vector<motion::FishTraits> traitsOf(const WorldOptions& options) {
@@ -293,12 +310,15 @@ fish::SpeciesParameters makeSpeciesParameters(const std::vector<WorldSpecies>& c
                                                 cast[kind].homes,
                                                 static_cast<std::uint32_t>(first),
                                                 static_cast<std::uint32_t>(last - first));
+    const auto [charges, chargedBy] = expelling(cast, kind);
     return {.kind = static_cast<std::uint8_t>(kind),
             .first = static_cast<std::uint32_t>(first),
             .last = static_cast<std::uint32_t>(last),
             .hunts = kindsNamed(cast, habits.hunts),
             .huntedBy = huntersOf(cast, cast[kind].name),
             .shadows = kindsNamed(cast, habits.shadows),
+            .expels = charges,
+            .expelledBy = chargedBy,
             .size = cast[kind].size,
             .homes = std::move(homes.places),
             .fishAtAHome = homes.fishAtEach,

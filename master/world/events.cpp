@@ -104,6 +104,16 @@ void World::perform(const fish::DeferredEvent& event) {
             columns_.minds[event.object].sinceSpawning = 0;
             ++counts_.spawnings;
             return;
+        case fish::DeferredEventKind::Bite:
+            bite(event.fish, event.object);
+            return;
+        case fish::DeferredEventKind::PuffSand:
+            ++counts_.puffs;
+            return;
+        case fish::DeferredEventKind::Charge:
+            remindLeaders(event.object);
+            ++counts_.charges;
+            return;
     }
 }
 
@@ -111,6 +121,29 @@ void World::perform(const fish::DeferredEvent& event) {
 void World::feed(std::uint32_t fish) {
     if (columns_.minds[fish].eaten < 0xffffU) ++columns_.minds[fish].eaten;
     columns_.minds[fish].sinceMeal = 0;
+}
+
+// A bite of turf: so many of them count as a particle, but to one that is gorged.
+void World::bite(std::uint32_t fish, std::uint32_t patch) {
+    if (!surroundings::biteTurf(surroundings_.turf, patch)) return;
+    ++counts_.bites;
+    const fish::SpeciesParameters& parameters = speciesParameters_[columns_.view.kind[fish]];
+    fish::Mind& mind = columns_.minds[fish];
+    if (++mind.bites < parameters.habits.graze->bitesPerParticle) return;
+    mind.bites = 0;
+    if (!fish::isGorged(parameters, mind)) feed(fish);
+}
+
+// The two that lead a shoal remember that one of it was charged.
+void World::remindLeaders(std::uint32_t charged) {
+    const fish::SpeciesParameters& parameters = speciesParameters_[columns_.view.kind[charged]];
+    if (!parameters.habits.graze) return;
+    const fish::Household household = fish::householdOf(parameters, charged);
+    for (std::uint32_t fish = household.first; fish < std::min(household.last, household.first + 2);
+         ++fish) {
+        std::uint8_t& memory = columns_.minds[fish].charged;
+        memory = memory == 0 ? fish::kChargedOnce : fish::kChargedTwice;
+    }
 }
 
 // Lets fish return whose absence is over, each with a new mind and new habits.

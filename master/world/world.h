@@ -42,6 +42,10 @@ struct WorldCounts {
     std::uint64_t spawnings = 0;
     // Fish that came in place of those eaten.
     std::uint64_t returns = 0;
+    // Bites of turf, puffs of sand, and charges of those that hold a territory.
+    std::uint64_t bites = 0;
+    std::uint64_t puffs = 0;
+    std::uint64_t charges = 0;
     friend bool operator==(const WorldCounts&, const WorldCounts&) = default;
 };
 
@@ -185,6 +189,8 @@ class World {
     void performEvents();
     void perform(const fish::DeferredEvent& event);
     void feed(std::uint32_t fish);
+    void bite(std::uint32_t fish, std::uint32_t patch);
+    void remindLeaders(std::uint32_t charged);
     void receive();
     void arrive(std::uint32_t fish);
     void moveSubmarine();

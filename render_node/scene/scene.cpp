@@ -55,7 +55,7 @@ glm::vec4 lampOf(const SceneFrame& frame, float exposure) {
 constexpr double kClockSeconds = 9000;
 
 // Way and velocity of the current far from boulders, between two ticks too.
-glm::vec4 currentOf(const config::Current& current, double timeSeconds) {
+glm::vec4 currentOf(const config::SceneCurrent& current, double timeSeconds) {
     const double ticks = timeSeconds * static_cast<double>(kTicksPerSecond);
     const auto tick = static_cast<std::int64_t>(std::floor(ticks));
     const auto share = static_cast<float>(ticks - std::floor(ticks));
@@ -68,7 +68,7 @@ glm::vec4 currentOf(const config::Current& current, double timeSeconds) {
 // The uniforms that all views of a frame share; the rest is left to setView().
 shaders::FrameUniforms frameUniforms(const SceneFrame& frame,
                                      const SeaLight& light,
-                                     const config::Current& current,
+                                     const config::SceneCurrent& current,
                                      float pixelRadians) {
     shaders::FrameUniforms uniforms{};
     const auto clock = static_cast<float>(std::fmod(frame.timeSeconds, kClockSeconds));

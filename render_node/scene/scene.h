@@ -44,7 +44,7 @@ struct SceneFrame {
 struct SceneOptions {
     place::PlaceKey place{.seed = 1};
     config::WaterType water = config::WaterType::IA;
-    config::Current current = {};
+    config::SceneCurrent current = {};
     config::QualityTier quality = config::QualityTier::Low;
     // The angle of the finest pixel of the whole wall, seen from the sweet spot; the same on every
     // node.

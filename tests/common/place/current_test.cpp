@@ -9,7 +9,7 @@
 namespace aquarama::place {
 namespace {
 
-constexpr config::Current kCurrent{.tideMetresPerSecond = 0.05,
+constexpr config::SceneCurrent kCurrent{.tideMetresPerSecond = 0.05,
                                    .tideSeconds = 620,
                                    .surgeMetresPerSecond = 0.02,
                                    .surgeSeconds = 7};
@@ -17,14 +17,14 @@ constexpr Region kWater{{0, -5, -5}, {6, 3, 4}};
 const Rock kRock{.centre = {1, -7, -5}, .radiusMetres = 1, .seed = 1};
 
 TEST(Current, theTideTurnsTwiceInItsPeriodAndTheSurgeInIts) {
-    const config::Current tide{.tideMetresPerSecond = 0.05, .tideSeconds = 600};
+    const config::SceneCurrent tide{.tideMetresPerSecond = 0.05, .tideSeconds = 600};
     EXPECT_NEAR(openCurrent(tide, 0).x, 0, 1e-6F);
     EXPECT_NEAR(openCurrent(tide, 150 * 60).x, 0.05F, 1e-6F);
     EXPECT_NEAR(openCurrent(tide, 300 * 60).x, 0, 1e-6F);
     EXPECT_NEAR(openCurrent(tide, 450 * 60).x, -0.05F, 1e-6F);
     EXPECT_EQ(openCurrent(tide, 150 * 60), openCurrent(tide, 750 * 60));
     EXPECT_EQ(openCurrent(tide, -450 * 60), openCurrent(tide, 150 * 60)) << "before tick 0 too";
-    const config::Current surge{.surgeMetresPerSecond = 0.02, .surgeSeconds = 8};
+    const config::SceneCurrent surge{.surgeMetresPerSecond = 0.02, .surgeSeconds = 8};
     EXPECT_NEAR(lengthOf(openCurrent(surge, 2 * 60)), 0.02F, 1e-6F);
     EXPECT_NEAR(dot(openCurrent(surge, 6 * 60), kSurgeCourse), -0.02F, 1e-6F);
     EXPECT_EQ(openCurrent({}, 1234), glm::vec3(0));
@@ -37,7 +37,7 @@ TEST(Current, itsWayIsTheIntegralOfItsVelocityAndComesBack) {
         ASSERT_LT(lengthOf(way - glm::vec3(sum)), 0.01F) << "tick " << tick;
         sum += glm::dvec3(openCurrent(kCurrent, tick)) / 60.0;
     }
-    const config::Current tide{.tideMetresPerSecond = 0.05, .tideSeconds = 620};
+    const config::SceneCurrent tide{.tideMetresPerSecond = 0.05, .tideSeconds = 620};
     EXPECT_NEAR(openDrift(tide, 310 * 60).x, 0.05F * 620 / 3, 1e-4F) << "furthest at half time";
     EXPECT_NEAR(openDrift(tide, 620 * 60).x, 0, 1e-5F);
 }

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which patch of turf a fish grazes at: a shoal goes where its first two members choose, others go
+// round patches of their own.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "master/behaviour/perceive.h"
+#include "master/fish/fish_view.h"
+#include "master/fish/minds.h"
+#include "master/surroundings/turf.h"
+
+namespace aquarama::behaviour {
+
+// The patch that the fish is at or goes to; nothing where it does not graze now. One that is done
+// with its patch gets the next one.
+[[nodiscard]] Sighting patchFor(const Environment& environment,
+                                const fish::SpeciesParameters& parameters,
+                                std::uint32_t fish,
+                                const fish::Mind& mind,
+                                const Senses& senses);
+
+// Whom a fish of a shoal follows from patch to patch: the first of its household, or the second
+// where the first grazes at none; the fish itself where it leads, and on a loop.
+[[nodiscard]] std::uint32_t leaderOf(const fish::FishView& view,
+                                     const fish::SpeciesParameters& parameters,
+                                     std::uint32_t fish);
+
+// The round of a fish: 8 to 15 patches, by index, far apart from each other, in the order in which
+// it visits them. All where there are fewer.
+struct Loop {
+    static constexpr std::size_t kMost = 15;
+    std::array<std::uint32_t, kMost> patches{};
+    std::size_t count = 0;
+    [[nodiscard]] std::span<const std::uint32_t> all() const {
+        return std::span(patches).first(count);
+    }
+};
+// The turf must have a patch.
+[[nodiscard]] Loop loopOf(const surroundings::Turf& turf, std::uint32_t seed, std::uint32_t fish);
+
+}  // namespace aquarama::behaviour

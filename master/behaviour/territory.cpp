@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/behaviour/territory.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+#include "common/base/random_streams.h"
+#include "common/base/units.h"
+#include "common/place/place.h"
+#include "master/behaviour/home.h"
+#include "master/behaviour/intention_generator.h"
+#include "master/behaviour/points_within.h"
+#include "master/behaviour/routines.h"
+
+namespace aquarama::behaviour {
+
+namespace {
+
+// Lengths of whom an owner charges, in its own.
+constexpr float kLeastLength = 0.6F;
+constexpr float kMostLength = 1.7F;
+// A charge goes this far past the border, the rest drawn, and lasts so long at most.
+constexpr float kPastMetres = 1;
+constexpr float kPastSpread = 1;
+constexpr std::uint32_t kMostTicks = 4 * 60;
+// Who is nearer than this, in lengths of the owner, was touched.
+constexpr float kTouches = 0.5F;
+// A charge begins with a fast start in this time, where there is so much room.
+constexpr std::uint32_t kStartTicks = 16;
+constexpr float kStartLengths = 2.5F;
+// The owner aims at where the intruder will be.
+constexpr float kLeadSeconds = 0.2F;
+
+float radiusOf(const fish::SpeciesParameters& parameters) {
+    return static_cast<float>(parameters.habits.territory->radiusMetres);
+}
+
+bool livesWith(const fish::SpeciesParameters& parameters, std::uint32_t fish, std::uint32_t other) {
+    const fish::Household household = fish::householdOf(parameters, fish);
+    return other >= household.first && other < household.last;
+}
+
+// Whether the charge that is under way goes on.
+bool goesOn(const Environment& environment,
+            const fish::SpeciesParameters& parameters,
+            std::uint32_t fish,
+            const fish::Mind& mind,
+            const Sighting& intruder,
+            const Senses& senses) {
+    const std::uint32_t own =
+        hashOf(hashOf(hashOf(environment.seed, Stream::Owners), fish), intruder.object);
+    const float past = kPastMetres + kPastSpread * unitOf(own);
+    const float from = place::lengthOf(senses.position - homeOf(parameters, fish));
+    return mind.pursued < kMostTicks && from < radiusOf(parameters) + past &&
+           intruder.distance > kTouches * senses.length &&
+           intruder.distance < radiusOf(parameters) + past;
+}
+
+// The nearest of the intruders; nothing where they are too many.
+Sighting nearestIntruder(const Environment& environment,
+                         const fish::SpeciesParameters& parameters,
+                         std::uint32_t fish,
+                         const Senses& senses) {
+    const fish::FishView& view = *environment.view;
+    const glm::vec3 home = homeOf(parameters, fish);
+    const float radius = radiusOf(parameters);
+    Sighting nearest;
+    std::uint32_t count = 0;
+    const auto weigh = [&](std::uint32_t other, glm::vec3 fromHome, float squared) {
+        if (squared > radius * radius || (parameters.expels >> view.kind[other] & 1U) == 0 ||
+            view.shows(other, fish::kAway) || livesWith(parameters, fish, other))
+            return;
+        const float length = view.fish[other].length / senses.length;
+        if (length < kLeastLength || length > kMostLength) return;
+        ++count;
+        const glm::vec3 offset = home + fromHome - senses.position;
+        const float distance = place::lengthOf(offset);
+        const bool isNearer =
+            distance < nearest.distance || (distance == nearest.distance && other < nearest.object);
+        if (isNearer) nearest = {other, offset, distance};
+    };
+    visitPointsWithin(environment.grids->fish, home, radius * radius, weigh);
+    return count > kMostCharged ? Sighting{} : nearest;
+}
+
+// Who charges the fish: the one that it flees, or a neighbour.
+Sighting chargerOf(const fish::FishView& view,
+                   std::uint32_t fish,
+                   const fish::Mind& mind,
+                   const Senses& senses) {
+    const auto charges = [&](std::uint32_t other) {
+        return other < view.size() && view.charged[other] == fish &&
+               !view.shows(other, fish::kAway);
+    };
+    const auto sightingOf = [&](std::uint32_t other) {
+        const glm::vec3 offset = view.position(other) - senses.position;
+        return Sighting{other, offset, place::lengthOf(offset)};
+    };
+    if (mind.intention == fish::Intention::Escape && charges(mind.target))
+        return sightingOf(mind.target);
+    for (const Neighbours* those : {&senses.schoolmates, &senses.others})
+        for (std::size_t i = 0; i < those->count; ++i)
+            if (charges(those->fish[i])) return sightingOf(those->fish[i]);
+    return {};
+}
+
+}  // namespace
+
+bool holdsTerritory(const Environment& environment,
+                    const fish::SpeciesParameters& parameters,
+                    std::uint32_t fish) {
+    const config::Habits& habits = parameters.habits;
+    if (!habits.territory || parameters.homes.empty()) return false;
+    const fish::Household household = fish::householdOf(parameters, fish);
+    const bool shoals = habits.graze && habits.graze->manner == config::GrazeManner::Shoal;
+    if (shoals && household.last - household.first > 1) return false;
+    return unitOf(hashOf(hashOf(environment.seed, Stream::Owners), fish)) <
+           static_cast<float>(habits.territory->share);
+}
+
+void senseTerritory(const Environment& environment,
+                    const fish::SpeciesParameters& parameters,
+                    std::uint32_t fish,
+                    const fish::Mind& mind,
+                    Senses& senses) {
+    const fish::FishView& view = *environment.view;
+    if (parameters.expelledBy != 0) senses.charger = chargerOf(view, fish, mind, senses);
+    senses.holdsTerritory = holdsTerritory(environment, parameters, fish);
+    if (!senses.holdsTerritory) return;
+    const fish::Aim aim = fish::aimOf(mind);
+    if (aim.intention == fish::Intention::Charge && aim.target < view.size()) {
+        const glm::vec3 offset = view.position(aim.target) - senses.position;
+        const Sighting intruder{aim.target, offset, place::lengthOf(offset)};
+        if (!view.shows(aim.target, fish::kAway) &&
+            goesOn(environment, parameters, fish, mind, intruder, senses))
+            senses.intruder = intruder;
+        return;
+    }
+    const float rest = kRefractorySeconds * static_cast<float>(kTicksPerSecond);
+    if (static_cast<float>(mind.sinceCharge) >= rest)
+        senses.intruder = nearestIntruder(environment, parameters, fish, senses);
+}
+
+fish::Course charge(const Situation& situation, const fish::Mind& mind, DeferredEvents& events) {
+    assert(situation.senses.intruder.seen());
+    const fish::FishView& view = *situation.environment.view;
+    const Sighting& intruder = situation.senses.intruder;
+    if (mind.pursued == 0)
+        events.push_back({fish::DeferredEventKind::Charge, situation.fish, intruder.object});
+    const glm::vec3 theirs =
+        view.heading(intruder.object) * (view.fish[intruder.object].speed * kLeadSeconds);
+    fish::Course course{diving(place::directionOf(intruder.offset + theirs + wayRound(situation),
+                                                  situation.senses.heading)),
+                        situation.parameters.fast,
+                        std::max(situation.senses.urgency, 1.0F)};
+    course.startsFast = mind.pursued < kStartTicks &&
+                        hasRoom(situation, course.direction, kStartLengths, surroundings::kAtHome);
+    return course;
+}
+
+}  // namespace aquarama::behaviour
