@@ -53,6 +53,11 @@ enum class Stream : std::uint32_t {
     VenturesOut = 361,
     Picks,
     CloudPlaces,
+    // Cleaners and ambushes.
+    Cleaning = 381,
+    Urge,
+    Pose,
+    Posts,
     // Food.
     FoodPlace = 401,
     FoodAbsence,
@@ -66,6 +71,7 @@ enum class Stream : std::uint32_t {
     IsFemale,
     SinceMeal,
     SinceSpawning,
+    SinceCleaning,
     // Who was eaten.
     Absence = 601,
     Arrival,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
 #include "common/place/place.h"
 #include "master/behaviour/intention_generator.h"
@@ -33,6 +34,9 @@ glm::vec3 lead(const Situation& situation, glm::vec3 towards, float speed, glm::
     return towards +
            velocity * std::min(kMostLeadSeconds, place::lengthOf(towards) / metresPerSecond);
 }
+
+// Sine of 58 degrees, nearly as steep as the motor goes.
+constexpr float kSteepestDive = 0.85F;
 
 // Weight of going aside against straight away, for a fish right before the predator.
 constexpr float kAsideOfItsWay = 1.2F;
@@ -104,16 +108,36 @@ glm::vec3 velocityOf(const fish::FishView& view, std::uint32_t fish) {
     return view.heading(fish) * view.fish[fish].speed;
 }
 
-// Approaches at medium speed; changes to a rush when near.
-fish::Course stalk(const Situation& situation, fish::Mind& mind, const Sighting& prey) {
+// One that hunts from ambush creeps up to its prey by a stroke now and then, in ticks: some 0.1
+// m/s.
+constexpr std::uint64_t kCreepTicks = 60;
+constexpr std::uint64_t kStrokeTicks = 24;
+
+// A stroke towards the prey, as steep as may be, or a rest.
+fish::Course creep(const Situation& situation, glm::vec3 fromMouth) {
+    const std::uint64_t now = situation.environment.tick.value + situation.fish;
+    return {steeply(place::directionOf(fromMouth, situation.senses.heading)),
+            now % kCreepTicks < kStrokeTicks ? situation.parameters.slow : 0.0F,
+            0};
+}
+
+// Approaches at medium speed, or from ambush; changes to a rush when near.
+fish::Course stalk(const Situation& situation,
+                   fish::Mind& mind,
+                   const Sighting& prey,
+                   glm::vec3 fromMouth) {
     const Senses& senses = situation.senses;
-    const bool isBefore = place::dot(prey.offset, senses.heading) > kAheadCosine * prey.distance;
-    if (isBefore && prey.distance < kRushFrom * senses.length) {
+    const std::optional<config::Ambush>& ambush = situation.parameters.habits.hunt.ambush;
+    const bool isNear = ambush
+                            ? place::lengthOf(fromMouth) < static_cast<float>(ambush->strikesMetres)
+                            : prey.distance < kRushFrom * senses.length;
+    if (isNear && place::dot(prey.offset, senses.heading) > kAheadCosine * prey.distance) {
         mind.stage = static_cast<std::uint8_t>(HuntStage::Rush);
         mind.sinceStage = 0;
     }
     if (mind.sinceStage < kStalkTicks) mind.sinceChase = 0;
-    return pursue(situation, prey.offset, situation.parameters.medium);
+    return ambush ? creep(situation, fromMouth)
+                  : pursue(situation, prey.offset, situation.parameters.medium);
 }
 
 }  // namespace
@@ -147,6 +171,14 @@ fish::Course heading(const Situation& situation, glm::vec3 desired, float speed)
     const glm::vec3 direction =
         place::levelled(place::directionOf(desired + wayRound(situation), senses.heading));
     return {direction, speed, senses.urgency};
+}
+
+glm::vec3 steeply(glm::vec3 direction) {
+    const float y = std::clamp(direction.y, -kSteepestDive, kSteepestDive);
+    const float level = std::sqrt(direction.x * direction.x + direction.z * direction.z);
+    if (level < 1.0e-4F) return {std::sqrt(1 - y * y), y, 0};
+    const float scale = std::sqrt(1 - y * y) / level;
+    return {direction.x * scale, y, direction.z * scale};
 }
 
 glm::vec3 flightFrom(const Situation& situation) {
@@ -216,13 +248,16 @@ fish::Course hunt(const Situation& situation, fish::Mind& mind, DeferredEvents& 
     if (isInTheMouth(senses, fromMouth))
         events.push_back({fish::DeferredEventKind::EatFish, situation.fish, prey.object});
     if (mind.stage == static_cast<std::uint8_t>(HuntStage::Stalk))
-        return stalk(situation, mind, prey);
+        return stalk(situation, mind, prey, fromMouth);
     const float speed = situation.parameters.fast;
     // Aims at where the prey will be, but not far ahead: prey that turns gets away.
     const float seconds =
         std::min(kMostHuntLeadSeconds, place::lengthOf(fromMouth) / (speed * senses.length));
     fish::Course course =
         heading(situation, fromMouth + velocityOf(view, prey.object) * seconds, speed);
+    if (situation.parameters.habits.hunt.ambush && senses.urgency < 1)
+        course.direction = steeply(place::directionOf(
+            fromMouth + velocityOf(view, prey.object) * seconds, senses.heading));
     course.startsFast =
         mind.sinceStage < kStrikeTicks && hasRoom(situation, course.direction, kStrikeLengths);
     return course;

@@ -42,14 +42,15 @@ enum class PriorityRule : std::uint8_t {
     OtherFish,  // AvoidFish
     Fear,       // School or Escape
     Memory,     // what was interrupted
+    Cleaning,   // Clean or Visit
     Hunger,     // Eat
     Libido,     // Mate
     Climate,    // Leave
     Company,    // School
-    // Hover or Wander: always wins.
+    // Hover, Clean or Wander: always wins.
     Ease,
 };
-inline constexpr std::size_t kPriorityRules = 10;
+inline constexpr std::size_t kPriorityRules = 11;
 
 // The verdict on a rule.
 enum class Verdict : std::uint8_t {
@@ -64,7 +65,7 @@ enum class Verdict : std::uint8_t {
     // Hunger of a predator: it rests after a chase.
     Resting,
     Sheltered,  // Fear: a shelter is near, whose rule decides
-    // Hunger or libido: the other one is stronger.
+    // Hunger or libido: the other one is stronger. Cleaning: it is about a hunt or a courtship.
     Yields,
 };
 
@@ -76,7 +77,7 @@ struct Weighed {
     Verdict verdict = Verdict::Wins;
     // The compared value. Obstacle: urgency. OtherFish: share of the other body in the box. Fear,
     // Hunger, Libido: the feeling. Shelter: the threat. Memory: seconds since the interruption.
-    // Climate: Senses::discomfort.
+    // Climate: Senses::discomfort. Cleaning: Senses::urge.
     float value = 0;
     float threshold = 0;
 };
@@ -115,6 +116,13 @@ struct Reasoning {
 
 // A course along the desired direction (any length), bent by obstacles, no steeper than 25 degrees.
 [[nodiscard]] fish::Course heading(const Situation& situation, glm::vec3 desired, float speed);
+
+// The direction no steeper than 58 degrees, of a dive or of a strike from above; a unit vector.
+[[nodiscard]] glm::vec3 steeply(glm::vec3 direction);
+
+// A course to a place, relative to the fish, and then one that keeps it against the current. It is
+// there within so many metres.
+[[nodiscard]] fish::Course keptPlace(const Situation& situation, glm::vec3 towards, float metres);
 
 // Direction of flight from the predators in sight, a unit vector; zero where there is none. Nearer
 // predators count more. A fish before an approaching predator goes aside rather than ahead and so

@@ -81,9 +81,9 @@ struct FishView {
     std::vector<std::uint8_t> kind;
     // Bits of Sign.
     std::vector<std::uint8_t> signs;
-    // The fish that it courts, or kNobody.
+    // The fish that it courts or cleans, or the cleaner that it visits; or kNobody.
     std::vector<std::uint32_t> partner;
-    // Mind::stage: the stage of its courtship or hunt.
+    // Mind::stage: the stage of its courtship, cleaning or hunt.
     std::vector<std::uint8_t> stage;
 
     // Fish that are added have no partner and no signs.

@@ -15,6 +15,8 @@ namespace aquarama::fish {
 const char* nameOf(Intention intention) {
     constexpr std::array<const char*, kIntentions> kNames{"wander",
                                                           "hover",
+                                                          "clean",
+                                                          "visit",
                                                           "leave",
                                                           "school",
                                                           "eat",
@@ -39,6 +41,7 @@ std::uint64_t Minds::hash() const {
     fold(&Mind::sinceMeal);
     fold(&Mind::sinceSpawning);
     fold(&Mind::sinceChase);
+    fold(&Mind::sinceCleaning);
     fold(&Mind::alarm);
     fold(&Mind::eaten);
     fold(&Mind::likes);
@@ -84,6 +87,12 @@ unsigned moodOf(std::uint8_t likes, Intention aim) {
            (aim == Intention::School ? unsigned{kSchooling} : 0U);
 }
 
+// Whether the target of an intention is the fish that FishView::partner shows.
+bool hasPartner(Intention intention) {
+    return intention == Intention::Mate || intention == Intention::Clean ||
+           intention == Intention::Visit;
+}
+
 // A dive is seen for so long.
 constexpr std::uint32_t kDiveTicks = 20;
 
@@ -121,6 +130,7 @@ void passTime(const SpeciesParameters& parameters, std::uint32_t ticks, Mind& mi
                                  &mind.sinceMeal,
                                  &mind.sinceSpawning,
                                  &mind.sinceChase,
+                                 &mind.sinceCleaning,
                                  &mind.sinceStage})
         if (*clock < kLongAgo) *clock += ticks;
     if (undigested(parameters, mind) <= 0) mind.eaten = 0;
@@ -167,7 +177,7 @@ void showMood(const SpeciesParameters& parameters,
         signs |= kHunting;
     view.signs[fish] = static_cast<std::uint8_t>(signs);
     view.stage[fish] = mind.stage;
-    view.partner[fish] = aim.intention == Intention::Mate ? aim.target : kNobody;
+    view.partner[fish] = hasPartner(aim.intention) ? aim.target : kNobody;
 }
 
 }  // namespace aquarama::fish

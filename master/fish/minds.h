@@ -11,12 +11,14 @@
 
 namespace aquarama::fish {
 
-// The behaviour routines, which a mind chooses from: those of Tu & Terzopoulos 1994, and Hover and
-// Hide of fish that live at the reef. Those from Escape on always interrupt (see interrupts()).
-// Wander also stands for an empty memory.
+// The behaviour routines, which a mind chooses from: those of Tu & Terzopoulos 1994, and Hover,
+// Clean, Visit (to a cleaner) and Hide of fish that live at the reef. Those from Escape on always
+// interrupt (see interrupts()). Wander also stands for an empty memory.
 enum class Intention : std::uint8_t {
     Wander,
     Hover,
+    Clean,
+    Visit,
     Leave,
     School,
     Eat,
@@ -26,7 +28,7 @@ enum class Intention : std::uint8_t {
     AvoidFish,
     AvoidObstacle
 };
-inline constexpr std::size_t kIntentions = 10;
+inline constexpr std::size_t kIntentions = 12;
 // Its name for people, such as "avoid fish".
 [[nodiscard]] const char* nameOf(Intention intention);
 
@@ -47,8 +49,8 @@ enum class Alarm : std::uint8_t {
 // meals, catches, spawning and the arrival of a new fish.
 struct Mind {
     Intention intention = Intention::Wander;
-    // Target of the intention: a fish (Mate, AvoidFish, Escape, Eat of a predator), a particle of
-    // food (Eat of the others) or a site (Hide); kNobody where the routine has none.
+    // Target of the intention: a fish (Mate, Clean, Visit, AvoidFish, Escape, Eat of a predator), a
+    // particle of food (Eat of the others) or a site (Hide); kNobody where the routine has none.
     std::uint32_t target = kNobody;
     // Ticks for which it has had the present aim (aimOf()); interruptions count too.
     std::uint32_t pursued = 0;
@@ -60,12 +62,15 @@ struct Mind {
     std::uint32_t sinceSpawning = kLongAgo;
     // Predators: since the present chase began, or since the last one ended.
     std::uint32_t sinceChase = kLongAgo;
+    // Since it was last with a cleaner; of a cleaner, since it last cleaned.
+    std::uint32_t sinceCleaning = 0;
     Alarm alarm = Alarm::Calm;
     // Particles or prey eaten since the last meal was digested; n_e of the thesis.
     std::uint16_t eaten = 0;
     // Bits of Like.
     std::uint8_t likes = 0;
-    // Stage of a routine that has stages: CourtshipStage, HuntStage, HideStage, or that of eat().
+    // Stage of a routine that has stages: CourtshipStage, HuntStage, HideStage,
+    // CleanStage, VisitStage, or that of eat().
     std::uint8_t stage = 0;
     // Ticks in that stage.
     std::uint32_t sinceStage = 0;
@@ -89,6 +94,12 @@ enum Like : std::uint8_t {
 [[nodiscard]] constexpr bool interrupts(Intention intention, Alarm alarm) {
     return intention >= Intention::Escape ||
            (intention == Intention::School && alarm == Alarm::Together);
+}
+
+// Whether an intention is resumed after an interruption. The others come back by themselves.
+[[nodiscard]] constexpr bool isResumed(Intention intention) {
+    return intention >= Intention::School || intention == Intention::Clean ||
+           intention == Intention::Visit;
 }
 
 // The aim of a fish: a routine and its target.

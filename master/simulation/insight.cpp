@@ -288,6 +288,7 @@ constexpr std::array<const char*, behaviour::kPriorityRules> kPriorityRuleNames{
                                                                                 "other fish",
                                                                                 "fear",
                                                                                 "memory",
+                                                                                "cleaning",
                                                                                 "hunger",
                                                                                 "libido",
                                                                                 "climate",
@@ -305,6 +306,8 @@ std::string notInView(behaviour::PriorityRule rule) {
             return "what was interrupted cannot be resumed";
         case behaviour::PriorityRule::Shelter:
             return "no shelter is near";
+        case behaviour::PriorityRule::Cleaning:
+            return "no cleaner or client is near";
         default:
             return "none is in view";
     }
@@ -342,6 +345,7 @@ std::string Screen::verdictOn(behaviour::PriorityRule rule,
         case behaviour::Verdict::Yields:
             break;
     }
+    if (rule == behaviour::PriorityRule::Cleaning) return "yields to its aim";
     return rule == behaviour::PriorityRule::Hunger ? "yields to libido" : "yields to hunger";
 }
 

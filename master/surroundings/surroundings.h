@@ -60,6 +60,8 @@ struct Surroundings {
                                             float meanLengthMetres);
 // Advances daylight, scheduled food and drifting food by one tick.
 void advanceSurroundings(Surroundings& surroundings, Tick tick);
+// How active predators are now: 0 by day, 1 at dusk and by night.
+[[nodiscard]] float huntersActive(const Surroundings& surroundings);
 // The hash with everything folded in that fish or visitors can change.
 [[nodiscard]] std::uint64_t foldedSurroundings(std::uint64_t hash,
                                                const Surroundings& surroundings);
