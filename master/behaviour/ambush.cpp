@@ -22,12 +22,14 @@ namespace {
 // A post is kept for so long, and a place at the edge of one.
 constexpr std::uint64_t kTicksOfPost = std::uint64_t{150} * 60;
 constexpr std::uint64_t kTicksOfEdge = std::uint64_t{50} * 60;
+// One post in so many is at a structure.
+constexpr std::uint32_t kStructureOneIn = 4;
 // A place at an edge is so far outside, and begins at this share of the height of the post; the
 // fish sinks from there.
 constexpr float kOutsideMetres = 0.35F;
 constexpr float kBegins = 0.9F;
 constexpr float kSinks = 0.1F;  // metres a second
-constexpr float kLowestMetres = 0.25F;
+constexpr float kLowestMetres = 0.4F;
 // It begins up-current by the way of the water in this time, at most so far.
 constexpr float kUpCurrentSeconds = 6;
 constexpr float kMostUpCurrent = 0.8F;
@@ -61,9 +63,9 @@ std::uint32_t drawn(const Situation& situation, std::uint64_t period) {
         static_cast<std::uint32_t>((situation.environment.tick.value + own % period) / period));
 }
 
-// Calls each(post) for the clouds of its prey and the structures of the reef.
+// The clouds of its prey.
 template <class Each>
-void forEachEdge(const Situation& situation, const Each& each) {
+void forEachCloud(const Situation& situation, const Each& each) {
     for (std::uint64_t kinds = situation.parameters.hunts; kinds != 0; kinds &= kinds - 1) {
         const fish::SpeciesParameters& prey =
             situation.environment.speciesParameters[std::size_t(std::countr_zero(kinds))];
@@ -73,20 +75,26 @@ void forEachEdge(const Situation& situation, const Each& each) {
                       static_cast<float>(prey.habits.home.radiusMetres),
                       static_cast<float>(prey.habits.cloud->heightMetres)});
     }
+}
+
+template <class Each>
+void forEachStructure(const Situation& situation, const Each& each) {
     for (const surroundings::Structure& structure : situation.environment.surroundings->structures)
         each(Post{structure.crown, structure.radiusMetres, kOverStructure});
 }
 
-// The nearer of two that are drawn.
-std::optional<Post> edgePost(const Situation& situation) {
+// Of the posts that `forEach` gives the nearer of two that are drawn.
+template <class ForEach>
+std::optional<Post> nearerDrawn(const Situation& situation,
+                                std::uint32_t now,
+                                const ForEach& forEach) {
     std::uint32_t count = 0;
-    forEachEdge(situation, [&](const Post&) { ++count; });
-    if (count == 0) return {};
-    const std::uint32_t now = drawn(situation, kTicksOfPost);
+    forEach(situation, [&](const Post&) { ++count; });
     std::optional<Post> best;
+    if (count == 0) return best;
     float nearest = std::numeric_limits<float>::infinity();
     std::uint32_t i = 0;
-    forEachEdge(situation, [&](const Post& post) {
+    forEach(situation, [&](const Post& post) {
         const bool isDrawn = i == hashOf(now, 1) % count || i == hashOf(now, 2) % count;
         ++i;
         const float distance = place::lengthOf(post.middle - situation.senses.position);
@@ -95,6 +103,18 @@ std::optional<Post> edgePost(const Situation& situation) {
         best = post;
     });
     return best;
+}
+
+// At a structure in one period of four, else at a cloud where there is one.
+std::optional<Post> edgePost(const Situation& situation) {
+    const std::uint32_t now = drawn(situation, kTicksOfPost);
+    const auto clouds = [](const Situation& of, const auto& each) { forEachCloud(of, each); };
+    const auto structures = [](const Situation& of, const auto& each) {
+        forEachStructure(of, each);
+    };
+    if (now % kStructureOneIn == 0) return nearerDrawn(situation, now, structures);
+    const std::optional<Post> cloud = nearerDrawn(situation, now, clouds);
+    return cloud ? cloud : nearerDrawn(situation, now, structures);
 }
 
 // The place at the edge of a post now, relative to the fish.

@@ -38,9 +38,11 @@ constexpr float kWaitsPerLength = 0.4F;
 // It gives up coming or waiting after this.
 constexpr std::uint32_t kMostComingTicks = 40 * 60;
 constexpr std::uint32_t kMostWaitingTicks = 35 * 60;
-// How long it poses, drawn, and the sine of its tilt, drawn: 20 to 45 degrees.
+// How long it poses, drawn, longer while it is cleaned, and the sine of its tilt, drawn: 20 to 45
+// degrees.
 constexpr float kShortestPoseSeconds = 5;
 constexpr float kPoseSpreadSeconds = 15;
+constexpr float kLongestPoseSeconds = kShortestPoseSeconds + kPoseSpreadSeconds;
 constexpr float kLeastTilt = 0.34F;
 constexpr float kTiltSpread = 0.36F;
 
@@ -147,10 +149,11 @@ void senseClients(const Environment& environment, std::uint32_t fish, Senses& se
                       senses.position + senses.cleaner.offset,
                       kStationMetres * kStationMetres,
                       count);
-    for (std::uint32_t one = household.first; one < household.last; ++one)
-        senses.bitten =
-            senses.bitten || (view.partner[one] == fish &&
-                              view.stage[one] == static_cast<std::uint8_t>(CleanStage::Bite));
+    for (std::uint32_t one = household.first; one < household.last; ++one) {
+        if (view.partner[one] != fish) continue;
+        senses.cleaned = true;
+        senses.bitten = senses.bitten || view.stage[one] == std::uint8_t(CleanStage::Bite);
+    }
 }
 
 // The client of a cleaner: the one that it is with until it is done; after a pause the nearest one
@@ -363,8 +366,9 @@ fish::Course visit(const Situation& situation, fish::Mind& mind) {
     const bool isFree = senses.posing == 0;
     switch (static_cast<VisitStage>(mind.stage)) {
         case VisitStage::Come:
+            if (senses.clients >= kMostClients && senses.cleaner.distance < kStationMetres)
+                leaveCleaner(mind);
             if (place::lengthOf(place) < kAtStation + kWaitsPerLength * senses.length) {
-                if (senses.clients >= kMostClients) leaveCleaner(mind);
                 enter(mind, isFree ? VisitStage::Pose : VisitStage::Wait);
             } else if (mind.sinceStage > kMostComingTicks) {
                 leaveCleaner(mind);
@@ -382,7 +386,9 @@ fish::Course visit(const Situation& situation, fish::Mind& mind) {
         case VisitStage::Pose: {
             const float lasts = kShortestPoseSeconds + kPoseSpreadSeconds * unitOf(drawnNow);
             if (senses.bitten) enter(mind, VisitStage::Chase);
-            if (seconds(mind.sinceStage) > lasts) leaveCleaner(mind);
+            const float posed = seconds(mind.sinceStage);
+            if (posed > kLongestPoseSeconds || (posed > lasts && !senses.cleaned))
+                leaveCleaner(mind);
             return pose(situation, place, drawnNow);
         }
         case VisitStage::Chase:

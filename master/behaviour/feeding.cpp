@@ -85,6 +85,8 @@ bool cannotTurnTo(const Senses& senses, glm::vec3 fromMouth) {
 // A predator rushes from this distance, in body lengths, at prey ahead of it.
 constexpr float kRushFrom = 2.0F;
 constexpr float kAheadCosine = 0.5F;
+// Cosine of 37 degrees: one that hunts from ambush strikes at prey that is so far ahead.
+constexpr float kStrikeCosine = 0.8F;
 // A rush begins with a fast start, where the prey is to the side and nothing else within so many
 // body lengths ahead or that way: the fish coasts as far.
 constexpr std::uint32_t kStrikeTicks = 16;
@@ -131,7 +133,8 @@ fish::Course stalk(const Situation& situation,
     const bool isNear = ambush
                             ? place::lengthOf(fromMouth) < static_cast<float>(ambush->strikesMetres)
                             : prey.distance < kRushFrom * senses.length;
-    if (isNear && place::dot(prey.offset, senses.heading) > kAheadCosine * prey.distance) {
+    const float cosine = ambush ? kStrikeCosine : kAheadCosine;
+    if (isNear && place::dot(prey.offset, senses.heading) > cosine * prey.distance) {
         mind.stage = static_cast<std::uint8_t>(HuntStage::Rush);
         mind.sinceStage = 0;
     }

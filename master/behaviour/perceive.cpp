@@ -208,6 +208,9 @@ bool mayHunt(const Onlooker& onlooker) {
            fish::kDesire * fish::kHysteresis;
 }
 
+// Cosine of 60 degrees: prey that is farther aside does not come before one that lies in wait.
+constexpr float kBeforeCosine = 0.5F;
+
 // Cost of a prey (Tu & Terzopoulos 1994): C_k = d_k (1 + b1 S_k + b2 E_k / pi); S_k: it schools,
 // E_k: angle to it.
 float costOfPrey(const Onlooker& onlooker, std::uint32_t other, glm::vec3 offset, float distance) {
@@ -250,16 +253,20 @@ void seePrey(const Onlooker& onlooker) {
     if (!mayHunt(onlooker)) return;
     onlooker.senses.huntersActive = surroundings::huntersActive(*onlooker.environment.surroundings);
     const config::Hunt& hunt = onlooker.parameters.habits.hunt;
-    // One that lies in wait heeds what is near; it keeps what it rushes at.
+    // One that lies in wait heeds what is near and ahead; it keeps what it is after.
     const bool waits = hunt.ambush && onlooker.aim.intention != fish::Intention::Eat;
+    const float leastCosine = waits ? kBeforeCosine : -1;
     const auto reach = static_cast<float>(waits ? hunt.ambush->noticesMetres : hunt.giveUpMetres);
-    onlooker.senses.prey = attend(onlooker,
-                                  onlooker.environment.grids->fish,
-                                  fish::Intention::Eat,
-                                  std::min(onlooker.sight(1), reach),
-                                  [&](std::uint32_t other, glm::vec3 offset, float distance) {
-                                      return costOfPrey(onlooker, other, offset, distance);
-                                  });
+    onlooker.senses.prey =
+        attend(onlooker,
+               onlooker.environment.grids->fish,
+               fish::Intention::Eat,
+               std::min(onlooker.sight(1), reach),
+               [&](std::uint32_t other, glm::vec3 offset, float distance) {
+                   const bool isMissed =
+                       place::dot(onlooker.senses.heading, offset) < leastCosine * distance;
+                   return isMissed ? kNever : costOfPrey(onlooker, other, offset, distance);
+               });
 }
 
 // Reach within which an object could raise a drive over its threshold, at most `sense`; metres.

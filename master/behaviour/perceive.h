@@ -128,11 +128,12 @@ struct Senses {
     Sighting client;
     // Of one that goes to cleaners: how much it wants to, from 1 on it does; the cleaner, with the
     // offset to its station; how many others are there, and how many of them pose; whether the
-    // cleaner bites it.
+    // cleaner is with it, and bites it.
     float urge = 0;
     Sighting cleaner;
     std::size_t clients = 0;
     std::size_t posing = 0;
+    bool cleaned = false;
     bool bitten = false;
     // Of a bold fish in a school: the structure that it makes for or stays at, by index.
     std::uint32_t structure = fish::kNobody;

@@ -42,7 +42,7 @@ WorldSpecies ledgeHunter() {
                           .site = config::SiteKind::Ledge,
                           .group = 1};
     hunter.habits.hunt = {
-        .chaseSeconds = 1.5, .giveUpMetres = 2.5, .ambush = config::Ambush{1.6, 1.6, 0, 3}};
+        .chaseSeconds = 1.5, .giveUpMetres = 2.5, .ambush = config::Ambush{1.5, 1, 0, 3}};
     return hunter;
 }
 
@@ -84,7 +84,7 @@ void expectsSomeCatches(const Strikes& strikes, int leastRushes) {
 TEST(Hunters, aTrumpetfishHangsHeadDownAtTheEdgeOfACloud) {
     World world(reefWater(1,
                           ledges(),
-                          {cloudOver(kRightHead, "prey", kCloud),
+                          {cloudOver(kRightHead, "green_chromis", kCloud),
                            capturedSpecies(test::castMember("trumpetfish"), 2)}));
     int steep = 0;
     int ticks = 0;
@@ -157,6 +157,7 @@ struct Patrol {
     double outwards = 0;     // as a share of the half extent in plan
     double inTheMiddle = 0;  // share of the time
     std::size_t stretches = 0;
+    float metresOutside = 0;
 };
 
 Patrol patrolOf(double timeOfDay) {
@@ -172,12 +173,14 @@ Patrol patrolOf(double timeOfDay) {
     for (int tick = 0; tick < 20 * 3600; ++tick) {
         world.advance();
         const glm::vec3 from = (world.view().position(0) - water.centre) / water.halfExtent;
-        EXPECT_LT(std::max(std::abs(from.x), std::abs(from.z)), 1.0F);
+        const glm::vec3 beyond =
+            glm::abs(world.view().position(0) - water.centre) - water.halfExtent;
+        patrol.metresOutside = std::max({patrol.metresOutside, beyond.x, beyond.y, beyond.z});
         if (tick < 3600) continue;
         const float out = std::sqrt(from.x * from.x + from.z * from.z);
         patrol.height += static_cast<double>(from.y);
         patrol.outwards += static_cast<double>(out);
-        patrol.inTheMiddle += out < 0.4F ? 1 : 0;
+        patrol.inTheMiddle += out < 0.2F ? 1 : 0;
         stretches.insert(static_cast<int>(std::atan2(from.z, from.x) * 6 / place::kPi + 6.5F));
         ++ticks;
     }
@@ -195,6 +198,7 @@ TEST(Hunters, aSharkPatrolsHighAtTheBorderByDayAndLowerAndNearerByNight) {
               << night.outwards << " out, " << night.height << " high\n";
     EXPECT_GT(day.outwards, 0.6);
     EXPECT_LT(day.inTheMiddle, 0.05);
+    EXPECT_LT(std::max(day.metresOutside, night.metresOutside), 0.6F) << "half a turn";
     EXPECT_GT(day.height, 0.3);
     EXPECT_GE(day.stretches, 5U) << "it does not stay at one place";
     EXPECT_LT(night.outwards, day.outwards - 0.05);
