@@ -183,6 +183,39 @@ TEST(Cleaning, preyAndSmallFishDoNotGoToCleaners) {
     EXPECT_FALSE(behaviour::goesToCleaners(pacifist.parameters, 0.2F));
 }
 
+TEST(Cleaning, aClientGoesOnceItWantsToAndStaysUntilItLeaves) {
+    behaviour::FishInMind client(config::Role::Pacifist);
+    client.senses.length = 0.2F;
+    client.senses.cleaner = {.object = 7, .offset = {1, 0, 0}, .distance = 1};
+    client.senses.urge = 0.9F;
+    EXPECT_EQ(client.think(), fish::Intention::Wander);
+    client.senses.urge = 1;
+    client.feelings.hunger = 1;
+    client.showFood(5);
+    EXPECT_EQ(client.think(), fish::Intention::Visit) << "before its meal";
+    EXPECT_EQ(client.mind.target, 7U);
+    client.threaten(9);
+    EXPECT_EQ(client.think(), fish::Intention::AvoidFish);
+    client.clearTheWay();
+    client.mind.stage = static_cast<std::uint8_t>(VisitStage::Pose);
+    EXPECT_EQ(client.think(), fish::Intention::Visit) << "it resumes its visit";
+    EXPECT_EQ(client.mind.stage, static_cast<std::uint8_t>(VisitStage::Pose));
+    client.senses.urge = 0;
+    EXPECT_EQ(client.think(), fish::Intention::Eat) << "it has left";
+}
+
+TEST(Cleaning, aPredatorOnAHuntDoesNotGo) {
+    behaviour::FishInMind hunter(config::Role::Predator);
+    hunter.senses.length = 1;
+    hunter.feelings.hunger = 1;
+    hunter.showPrey(3);
+    EXPECT_EQ(hunter.think(), fish::Intention::Eat);
+    hunter.senses.cleaner = {.object = 7, .offset = {1, 0, 0}, .distance = 1};
+    hunter.senses.urge = 2;
+    EXPECT_EQ(hunter.think(), fish::Intention::Eat);
+    EXPECT_EQ(hunter.rule(behaviour::PriorityRule::Cleaning).verdict, behaviour::Verdict::Yields);
+}
+
 TEST(Cleaning, aPredatorWithACleanerIsFearedLess) {
     behaviour::FishInMind one;
     one.parameters.habits.fearMetres = 1;

@@ -11,6 +11,7 @@
 #include "common/place/place.h"
 #include "master/behaviour/patrol.h"
 #include "master/behaviour/routines.h"
+#include "tests/master/behaviour/fish_in_mind.h"
 #include "tests/master/world/reef_water.h"
 
 namespace aquarama::world {
@@ -149,6 +150,48 @@ TEST(Hunters, oneAtALedgeStaysAtLedgesAndMovesBetweenThem) {
     std::cout << visited.size() << " ledges, " << 100 * near / ticks << " % of the time there\n";
     EXPECT_GE(visited.size(), 2U);
     EXPECT_GE(near, ticks / 2);
+}
+
+// Fish hide side by side: each has another in its box.
+TEST(Hunters, whoHidesComesOutThoughOthersAreInItsWay) {
+    behaviour::FishInMind prey;
+    prey.parameters.habits.hidesIn = {config::SiteKind::Branching};
+    prey.senses.shelter = {.object = 2, .offset = {0.1F, 0, 0}, .distance = 0.1F};
+    prey.feelings.threat = 1;
+    prey.threaten(9);
+    EXPECT_EQ(prey.think(), fish::Intention::Hide);
+    prey.feelings.threat = 0;
+    EXPECT_EQ(prey.think(), fish::Intention::Hide) << "it does not venture out yet";
+    prey.senses.venturesOut = true;
+    EXPECT_EQ(prey.think(), fish::Intention::AvoidFish);
+    EXPECT_NE(fish::aimOf(prey.mind).intention, fish::Intention::Hide);
+    prey.senses.venturesOut = false;
+    prey.clearTheWay();
+    EXPECT_NE(prey.think(), fish::Intention::Hide);
+}
+
+TEST(Hunters, aSharkRestsLongerByDayThanAtDusk) {
+    behaviour::FishInMind shark(config::Role::Predator);
+    shark.parameters.habits.hunt = {.restSeconds = 300, .restByDaySeconds = 900};
+    shark.feelings.hunger = 1;
+    shark.showPrey(3);
+    shark.mind.sinceChase = 400 * 60;
+    EXPECT_EQ(shark.rule(behaviour::PriorityRule::Hunger).verdict, behaviour::Verdict::Resting);
+    shark.senses.huntersActive = 1;
+    EXPECT_EQ(shark.rule(behaviour::PriorityRule::Hunger).verdict, behaviour::Verdict::Wins);
+}
+
+TEST(Hunters, areActiveFromDuskOnAndNotByDay) {
+    surroundings::Surroundings around;
+    around.climate.day.night = 0.4;
+    around.daylight = 1;
+    EXPECT_FLOAT_EQ(surroundings::huntersActive(around), 0.0F);
+    around.daylight = 0.85F;
+    EXPECT_FLOAT_EQ(surroundings::huntersActive(around), 0.0F) << "in the afternoon";
+    around.daylight = 0.6F;
+    EXPECT_FLOAT_EQ(surroundings::huntersActive(around), 1.0F) << "at dusk";
+    around.daylight = 0.4F;
+    EXPECT_FLOAT_EQ(surroundings::huntersActive(around), 1.0F) << "by night";
 }
 
 // Means over a world with one shark.
