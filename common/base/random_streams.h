@@ -60,6 +60,11 @@ enum class Stream : std::uint32_t {
     Sand,
     GrazingPeriods,
     Owners,
+    // Cleaners and ambushes.
+    Cleaning = 381,
+    Urge,
+    Pose,
+    Posts,
     // Food.
     FoodPlace = 401,
     FoodAbsence,
@@ -72,6 +77,7 @@ enum class Stream : std::uint32_t {
     LikesSchooling,
     SinceMeal = 507,
     SinceSpawning,
+    SinceCleaning,
     // Who was eaten.
     Absence = 601,
     Arrival,

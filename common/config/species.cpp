@@ -258,6 +258,27 @@ Territory territoryOf(const TextReader& file, const v1::Habits& in) {
     return {.radiusMetres = in.territory().radius_m(), .share = in.territory().share()};
 }
 
+std::optional<Ambush> ambushOf(const TextReader& file, const v1::Habits& in) {
+    if (!in.hunt().has_ambush()) return {};
+    const v1::Ambush& ambush = in.hunt().ambush();
+    if (ambush.strikes_m() > ambush.notices_m())
+        file.refuse(ambush, "strikes_m", "strikes_m is more than notices_m: exchange them");
+    if (ambush.posts() > 1 && !siteOf(in.home().at()))
+        file.refuse(ambush, "posts", "posts are sites of its home: let that be at a kind of site");
+    return Ambush{.noticesMetres = ambush.notices_m(),
+                  .strikesMetres = ambush.strikes_m(),
+                  .hangsDegrees = ambush.hangs_deg(),
+                  .posts = ambush.posts()};
+}
+
+Cleans cleansOf(const TextReader& file, const v1::Habits& in) {
+    if (in.role() != v1::Habits::PACIFIST)
+        file.refuse(in, "cleans", "only a pacifist cleans: remove it or change the role");
+    if (in.home().kind() != v1::Home::PLACE)
+        file.refuse(in, "cleans", "it cleans at its home: add home { kind: PLACE }");
+    return {.inspectSeconds = in.cleans().inspect_s()};
+}
+
 // Kinds of sites; no kind twice.
 std::vector<SiteKind> hidingOf(const TextReader& file, const v1::Habits& in) {
     std::vector<SiteKind> kinds;
@@ -357,8 +378,12 @@ Habits habitsOf(const TextReader& file, const v1::Habits& in, const std::string&
         habits.hunts = othersOf(file, in.hunt(), "prey", in.hunt().prey(), own);
         habits.hunt = {.chaseSeconds = in.hunt().chase_s(),
                        .giveUpMetres = in.hunt().give_up_m(),
-                       .restSeconds = in.hunt().rest_s()};
+                       .restSeconds = in.hunt().rest_s(),
+                       .restByDaySeconds = in.hunt().has_rest_by_day_s() ? in.hunt().rest_by_day_s()
+                                                                         : in.hunt().rest_s(),
+                       .ambush = ambushOf(file, in)};
     }
+    if (in.has_cleans()) habits.cleans = cleansOf(file, in);
     habits.pairBodyLengths = in.pair_bl();
     habits.shadows = othersOf(file, in, "shadows", in.shadows(), own);
     return habits;

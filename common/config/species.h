@@ -231,11 +231,26 @@ struct Territory {
     double radiusMetres = 1, share = 1;
 };
 
+// The hunt of one that lies in wait: it creeps up to prey that it notices and rushes at prey that
+// is nearer, both from its mouth; it waits head down by an angle, at so many posts in turn.
+struct Ambush {
+    double noticesMetres = 1, strikesMetres = 0.2;
+    double hangsDegrees = 0;
+    std::uint32_t posts = 1;
+};
+
 // Of predators.
 struct Hunt {
     double chaseSeconds = 8;  // at most
     double giveUpMetres = 6;  // a prey that is farther is let go
-    double restSeconds = 60;  // after a chase
+    // After a chase: at dusk and by night, and by day.
+    double restSeconds = 60, restByDaySeconds = 60;
+    std::optional<Ambush> ambush = {};  // none: it stalks
+};
+
+// It cleans larger fish at its home; each for a third of this time to all of it.
+struct Cleans {
+    double inspectSeconds = 12;
 };
 
 // How a species lives: what it feels, fears, eats and likes. Formulas: Tu & Terzopoulos 1994 and Tu
@@ -269,6 +284,7 @@ struct Habits {
     bool eatsPlankton = true;
     std::vector<std::string> hunts;  // species by name
     Hunt hunt;
+    std::optional<Cleans> cleans;
     double pairBodyLengths = 0;        // keeps this near to a partner of its species; 0: alone
     std::vector<std::string> shadows;  // species that it likes to follow closely
 };

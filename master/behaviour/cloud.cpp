@@ -131,7 +131,33 @@ glm::vec3 placeInShelter(const Situation& situation) {
            site.normal * (0.3F * situation.senses.length);
 }
 
+// A unit vector, and a speed in body lengths a second.
+struct Way {
+    glm::vec3 course;
+    float speed;
+};
+
+// The way through the water that brings the fish to a place relative to it, where it is within so
+// many metres, and keeps it there.
+Way throughWater(const Situation& situation, glm::vec3 wish, glm::vec3 current, float thereMetres) {
+    const Senses& senses = situation.senses;
+    const float most = kMostPace * situation.parameters.medium * senses.length;
+    const float distance = place::lengthOf(wish);
+    const float pace = distance < thereMetres ? 0.0F : std::min(most, distance / kArrivesSeconds);
+    const glm::vec3 through = place::directionOf(wish, {}) * pace - current;
+    const bool faces = place::lengthOf(current) > kFacesFrom;
+    return {pace > 0 || faces ? place::directionOf(through, senses.heading) : senses.heading,
+            place::lengthOf(through) / senses.length};
+}
+
 }  // namespace
+
+fish::Course keptPlace(const Situation& situation, glm::vec3 towards, float metres) {
+    const surroundings::Surroundings& around = *situation.environment.surroundings;
+    const glm::vec3 current = around.current.at(situation.senses.position, around.openCurrent);
+    const Way way = throughWater(situation, towards, current, metres);
+    return heading(situation, way.course, way.speed);
+}
 
 fish::Course hover(const Situation& situation) {
     assert(situation.parameters.habits.cloud);
@@ -142,18 +168,9 @@ fish::Course hover(const Situation& situation) {
     const glm::vec3 pick = pickOf(situation, current);
     if (pick != glm::vec3{})
         return heading(situation, pick, 0.5F * (parameters.medium + parameters.fast));
-    // The wanted velocity over ground, and that through the water.
-    const glm::vec3 wish = wishOf(situation, current);
-    const float most = kMostPace * parameters.medium * senses.length;
-    const float pace = place::lengthOf(wish) < kThereLengths * senses.length
-                           ? 0.0F
-                           : std::min(most, place::lengthOf(wish) / kArrivesSeconds);
-    const glm::vec3 through = place::directionOf(wish, {}) * pace - current;
-    const float speed = place::lengthOf(through) / senses.length;
-    const bool faces = place::lengthOf(current) > kFacesFrom;
-    const glm::vec3 course =
-        pace > 0 || faces ? place::directionOf(through, senses.heading) : senses.heading;
-    return heading(situation, course + roomFrom(situation), speed);
+    const Way way =
+        throughWater(situation, wishOf(situation, current), current, kThereLengths * senses.length);
+    return heading(situation, way.course + roomFrom(situation), way.speed);
 }
 
 fish::Course hide(const Situation& situation, fish::Mind& mind) {
@@ -186,7 +203,7 @@ fish::Course hide(const Situation& situation, fish::Mind& mind) {
     }
     const float lengths = distance / senses.length;
     fish::Course course{
-        diving(place::directionOf(towards + senses.push * senses.length, senses.heading)),
+        steeply(place::directionOf(towards + senses.push * senses.length, senses.heading)),
         std::min(parameters.fast, parameters.slow + lengths),
         lengths > 2 ? 1.0F : 0.0F};
     course.startsFast =

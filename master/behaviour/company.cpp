@@ -321,6 +321,8 @@ std::uint32_t shadowedBy(const Situation& situation) {
     const std::uint64_t now = environment.tick.value + own % kTicksOfBout;
     const std::uint32_t bout = hashOf(own, static_cast<std::uint32_t>(now / kTicksOfBout));
     if (now % kTicksOfBout > kShortestShadowing + bout % kShadowingSpread) return fish::kNobody;
+    // One that lies in wait follows others in one period of three.
+    if (situation.parameters.habits.hunt.ambush && bout % 3 != 0) return fish::kNobody;
     for (std::uint32_t i = 0; i < kHostsTried; ++i) {
         const std::uint32_t host = drawnHost(situation, hashOf(hashOf(bout, Stream::Hosts), i));
         if (isWithin(situation, host, sightOf(situation))) return host;

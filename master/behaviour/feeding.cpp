@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
 #include "common/place/place.h"
 #include "master/behaviour/intention_generator.h"
@@ -34,6 +35,9 @@ glm::vec3 lead(const Situation& situation, glm::vec3 towards, float speed, glm::
            velocity * std::min(kMostLeadSeconds, place::lengthOf(towards) / metresPerSecond);
 }
 
+// Sine of 58 degrees, nearly as steep as the motor goes.
+constexpr float kSteepestDive = 0.85F;
+
 // Weight of going aside against straight away, for a fish right before the predator.
 constexpr float kAsideOfItsWay = 1.2F;
 // Square metres: a predator nearer than 0.1 m does not count more.
@@ -47,9 +51,6 @@ glm::vec3 awayFrom(glm::vec3 offset, glm::vec3 course, glm::vec3 otherwise) {
     const glm::vec3 aside = place::directionOf(away - course * before, otherwise);
     return place::directionOf(away + aside * (kAsideOfItsWay * before), otherwise);
 }
-
-// The sine of the steepest slope that the motor holds.
-constexpr float kSteepestDive = 0.85F;
 
 // Cone of suction before the mouth, in body lengths. It is as long as the way of a fish between two
 // thoughts, so that no particle in its path is missed.
@@ -84,6 +85,8 @@ bool cannotTurnTo(const Senses& senses, glm::vec3 fromMouth) {
 // A predator rushes from this distance, in body lengths, at prey ahead of it.
 constexpr float kRushFrom = 2.0F;
 constexpr float kAheadCosine = 0.5F;
+// Cosine of 37 degrees: one that hunts from ambush strikes at prey that is so far ahead.
+constexpr float kStrikeCosine = 0.8F;
 // A rush begins with a fast start, where the prey is to the side and nothing else within so many
 // body lengths ahead or that way: the fish coasts as far.
 constexpr std::uint32_t kStrikeTicks = 16;
@@ -107,16 +110,37 @@ glm::vec3 velocityOf(const fish::FishView& view, std::uint32_t fish) {
     return view.heading(fish) * view.fish[fish].speed;
 }
 
-// Approaches at medium speed; changes to a rush when near.
-fish::Course stalk(const Situation& situation, fish::Mind& mind, const Sighting& prey) {
+// One that hunts from ambush creeps up to its prey by a stroke now and then, in ticks: some 0.1
+// m/s.
+constexpr std::uint64_t kCreepTicks = 60;
+constexpr std::uint64_t kStrokeTicks = 24;
+
+// A stroke towards the prey, as steep as may be, or a rest.
+fish::Course creep(const Situation& situation, glm::vec3 fromMouth) {
+    const std::uint64_t now = situation.environment.tick.value + situation.fish;
+    return {steeply(place::directionOf(fromMouth, situation.senses.heading)),
+            now % kCreepTicks < kStrokeTicks ? situation.parameters.slow : 0.0F,
+            0};
+}
+
+// Approaches at medium speed, or from ambush; changes to a rush when near.
+fish::Course stalk(const Situation& situation,
+                   fish::Mind& mind,
+                   const Sighting& prey,
+                   glm::vec3 fromMouth) {
     const Senses& senses = situation.senses;
-    const bool isBefore = place::dot(prey.offset, senses.heading) > kAheadCosine * prey.distance;
-    if (isBefore && prey.distance < kRushFrom * senses.length) {
+    const std::optional<config::Ambush>& ambush = situation.parameters.habits.hunt.ambush;
+    const bool isNear = ambush
+                            ? place::lengthOf(fromMouth) < static_cast<float>(ambush->strikesMetres)
+                            : prey.distance < kRushFrom * senses.length;
+    const float cosine = ambush ? kStrikeCosine : kAheadCosine;
+    if (isNear && place::dot(prey.offset, senses.heading) > cosine * prey.distance) {
         mind.stage = static_cast<std::uint8_t>(HuntStage::Rush);
         mind.sinceStage = 0;
     }
     if (mind.sinceStage < kStalkTicks) mind.sinceChase = 0;
-    return pursue(situation, prey.offset, situation.parameters.medium);
+    return ambush ? creep(situation, fromMouth)
+                  : pursue(situation, prey.offset, situation.parameters.medium);
 }
 
 }  // namespace
@@ -152,7 +176,7 @@ fish::Course heading(const Situation& situation, glm::vec3 desired, float speed)
     return {direction, speed, senses.urgency};
 }
 
-glm::vec3 diving(glm::vec3 direction) {
+glm::vec3 steeply(glm::vec3 direction) {
     const float y = std::clamp(direction.y, -kSteepestDive, kSteepestDive);
     const float level = std::sqrt(direction.x * direction.x + direction.z * direction.z);
     if (level < 1.0e-4F) return {std::sqrt(1 - y * y), y, 0};
@@ -229,13 +253,16 @@ fish::Course hunt(const Situation& situation, fish::Mind& mind, DeferredEvents& 
     if (isInTheMouth(senses, fromMouth))
         events.push_back({fish::DeferredEventKind::EatFish, situation.fish, prey.object});
     if (mind.stage == static_cast<std::uint8_t>(HuntStage::Stalk))
-        return stalk(situation, mind, prey);
+        return stalk(situation, mind, prey, fromMouth);
     const float speed = situation.parameters.fast;
     // Aims at where the prey will be, but not far ahead: prey that turns gets away.
     const float seconds =
         std::min(kMostHuntLeadSeconds, place::lengthOf(fromMouth) / (speed * senses.length));
     fish::Course course =
         heading(situation, fromMouth + velocityOf(view, prey.object) * seconds, speed);
+    if (situation.parameters.habits.hunt.ambush && senses.urgency < 1)
+        course.direction = steeply(place::directionOf(
+            fromMouth + velocityOf(view, prey.object) * seconds, senses.heading));
     course.startsFast =
         mind.sinceStage < kStrikeTicks &&
         hasRoom(situation, course.direction, kStrikeLengths, surroundings::berthOf(senses.length));

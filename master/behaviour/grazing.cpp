@@ -349,7 +349,7 @@ struct Grazer {
 
     [[nodiscard]] glm::vec3 current() const {
         const surroundings::Surroundings& around = *situation.environment.surroundings;
-        return around.current.at(senses.position, around.current.open(situation.environment.tick));
+        return around.current.at(senses.position, around.openCurrent);
     }
 
     // The fish before this one in the file; kNobody for who leads.
@@ -408,8 +408,8 @@ struct Grazer {
         const float slope = slopeOver(level) * far + way.y / kAheadMetres * (1 - far);
         const glm::vec3 desired = level + glm::vec3{0, std::clamp(slope, -0.5F, 0.5F), 0};
         if (overGround({}) < kRisesBelow * senses.length)
-            return {diving(place::directionOf(desired + senses.push + glm::vec3{0, kRises, 0},
-                                              senses.heading)),
+            return {steeply(place::directionOf(desired + senses.push + glm::vec3{0, kRises, 0},
+                                               senses.heading)),
                     situation.parameters.slow,
                     0};
         return heading(situation, desired + roomFrom(situation), pace);
@@ -454,7 +454,7 @@ struct Grazer {
         const float lift = std::clamp(2 * (1 - heightLengths() / kLiftedBelow), 0.0F, kMostLift);
         const glm::vec3 way = place::directionOf(desired, senses.heading) + senses.push +
                               place::directionOf(senses.position - patch.boulder, {}) * lift;
-        return {diving(place::directionOf(way, senses.heading)),
+        return {steeply(place::directionOf(way, senses.heading)),
                 speed,
                 senses.urgency < 1 ? 0.0F : senses.urgency};
     }
@@ -475,7 +475,7 @@ struct Grazer {
         const glm::vec3 to = place::directionOf(toSpot(), senses.heading);
         const float y = std::clamp(to.y, -kMostDown, -kLeastDown);
         const glm::vec3 level = place::directionOf({to.x, 0, to.z}, senses.heading);
-        return diving(level * std::sqrt(1 - y * y) + glm::vec3{0, y, 0});
+        return steeply(level * std::sqrt(1 - y * y) + glm::vec3{0, y, 0});
     }
 };
 

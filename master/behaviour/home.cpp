@@ -7,8 +7,10 @@
 
 #include "common/base/random_streams.h"
 #include "common/place/place.h"
+#include "master/behaviour/ambush.h"
 #include "master/behaviour/company.h"
 #include "master/behaviour/intention_generator.h"
+#include "master/behaviour/patrol.h"
 #include "master/behaviour/routines.h"
 
 namespace aquarama::behaviour {
@@ -202,7 +204,7 @@ glm::vec3 beatGoal(const Environment& environment,
                    const fish::SpeciesParameters& parameters,
                    std::uint32_t fish,
                    glm::vec3 position) {
-    if (environment.gathering == config::Gathering::Mill && passes(environment, fish))
+    if (passes(environment, fish))
         return passGoal(environment, position, environment.view->heading(fish));
     const place::Region& water = environment.surroundings->obstacles.water;
     const std::uint32_t own = hashOf(hashOf(environment.seed, Stream::Beats), fish);
@@ -227,7 +229,11 @@ Bound boundFor(const Environment& environment,
     const surroundings::Obstacles& obstacles = environment.surroundings->obstacles;
     const auto depth = static_cast<float>(parameters.habits.bestDepthMetres);
     if (parameters.habits.role == config::Role::Predator && home.kind == config::HomeKind::None)
-        return {beatGoal(environment, parameters, fish, position) - position, 0};
+        return {(environment.gathering == config::Gathering::Mill
+                     ? beatGoal(environment, parameters, fish, position)
+                     : patrolGoal(environment, fish, position)) -
+                    position,
+                0};
     const glm::vec3 goal =
         wanderingGoal(environment.seed, obstacles.water, depth, fish, environment.tick);
     if (home.kind == config::HomeKind::None) return {goal - position, 0};
@@ -263,6 +269,7 @@ fish::Course wander(const Situation& situation) {
     const fish::SpeciesParameters& parameters = situation.parameters;
     const Senses& senses = situation.senses;
     if (const auto course = keptCompany(situation)) return *course;
+    if (const auto course = lieInWait(situation)) return *course;
     const Bound bound = boundFor(environment, parameters, situation.fish, senses.position);
     const Spell spell = spellOf(environment.seed, situation.fish, environment.tick);
     const float calm = std::max(0.0F, 1 - senses.urgency);

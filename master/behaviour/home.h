@@ -43,8 +43,8 @@ struct Homes {
 // The home of a fish of a species that keeps to a place.
 [[nodiscard]] glm::vec3 homeOf(const fish::SpeciesParameters& parameters, std::uint32_t fish);
 
-// The next point of a predator's beat: an oval near the borders of the water; from time to time
-// through the middle of a bait ball.
+// The next point of a predator's beat about a bait ball: an oval near the borders of the water, and
+// from time to time through the middle of the ball.
 [[nodiscard]] glm::vec3 beatGoal(const Environment& environment,
                                  const fish::SpeciesParameters& parameters,
                                  std::uint32_t fish,
@@ -57,8 +57,8 @@ struct Bound {
     // 0 within the range of its home, 1 at its greatest distance (leash) and beyond.
     float strayed = 0;
 };
-// Chooses the destination by the home or role of the species; a predator without a home patrols its
-// beat.
+// Chooses the destination by the home or role of the species; a predator without a home patrols
+// (patrolGoal()), or about a bait ball swims its beat.
 [[nodiscard]] Bound boundFor(const Environment& environment,
                              const fish::SpeciesParameters& parameters,
                              std::uint32_t fish,

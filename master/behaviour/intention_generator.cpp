@@ -2,6 +2,7 @@
 #include "master/behaviour/intention_generator.h"
 
 #include "common/base/units.h"
+#include "master/behaviour/cleaning.h"
 #include "master/behaviour/territory.h"
 #include "master/fish/minds.h"
 
@@ -24,6 +25,9 @@ constexpr float kLeastPursuitSeconds = 2;
 // Senses::discomfort from which a fish leaves, and at which it stops leaving.
 constexpr float kUneasy = 0.02F;
 constexpr float kAtEase = -0.02F;
+// Senses::urge from which a fish visits a cleaner, and at which it stays with it.
+constexpr float kVisitsFor = 1;
+constexpr float kStaysWithCleaner = 0.5F;
 
 float seconds(std::uint32_t ticks) {
     return static_cast<float>(ticks) / static_cast<float>(kTicksPerSecond);
@@ -154,9 +158,36 @@ struct Case {
             return false;
         if (mind.remembered == fish::Intention::Graze)
             return senses.patch.seen() && senses.patch.object == mind.rememberedTarget;
+        if (mind.remembered == fish::Intention::Clean ||
+            mind.remembered == fish::Intention::Visit) {
+            const Weighed now = cleaning();
+            return now.verdict == Verdict::Wins && now.target == mind.rememberedTarget;
+        }
         if (mind.remembered == fish::Intention::Mate)
             return senses.mate.seen() && senses.mate.object == mind.rememberedTarget;
         return likesSchooling(parameters, mind);
+    }
+
+    [[nodiscard]] Weighed cleaning() const {
+        const bool cleans = parameters.habits.cleans.has_value();
+        const bool visits = aim.intention == fish::Intention::Visit;
+        const Sighting& other = cleans ? senses.client : senses.cleaner;
+        Weighed rule{cleans ? fish::Intention::Clean : fish::Intention::Visit,
+                     other.object,
+                     Verdict::Wins,
+                     senses.urge,
+                     cleans ? 0 : (visits ? kStaysWithCleaner : kVisitsFor)};
+        const bool hunts = parameters.habits.role == config::Role::Predator &&
+                           aim.intention == fish::Intention::Eat;
+        if (!cleans && !goesToCleaners(parameters, senses.length))
+            rule.verdict = Verdict::AgainstHabits;
+        else if (rule.value < rule.threshold)
+            rule.verdict = Verdict::TooWeak;
+        else if (!other.seen())
+            rule.verdict = Verdict::NoTarget;
+        else if (hunts || aim.intention == fish::Intention::Mate)
+            rule.verdict = Verdict::Yields;
+        return rule;
     }
 
     // Threshold of a drive, lower for the one that is pursued (hysteresis).
@@ -172,10 +203,13 @@ struct Case {
     // While hunting: the chase has lasted too long. Else: the last one ended too recently.
     [[nodiscard]] bool isRestingFromAChase() const {
         if (parameters.habits.role != config::Role::Predator) return false;
+        const config::Hunt& hunt = parameters.habits.hunt;
         const float since = seconds(mind.sinceChase);
-        return aim.intention == fish::Intention::Eat
-                   ? since > static_cast<float>(parameters.habits.hunt.chaseSeconds)
-                   : since < static_cast<float>(parameters.habits.hunt.restSeconds);
+        const auto byDay = static_cast<float>(hunt.restByDaySeconds);
+        const float rest =
+            byDay + (static_cast<float>(hunt.restSeconds) - byDay) * senses.huntersActive;
+        return aim.intention == fish::Intention::Eat ? since > static_cast<float>(hunt.chaseSeconds)
+                                                     : since < rest;
     }
 
     [[nodiscard]] Weighed hunger() const {
@@ -252,8 +286,9 @@ struct Case {
 
     [[nodiscard]] Weighed ease() const {
         if (senses.patch.seen()) return {fish::Intention::Graze, senses.patch.object};
+        if (parameters.habits.cloud) return {.intention = fish::Intention::Hover};
         return {.intention =
-                    parameters.habits.cloud ? fish::Intention::Hover : fish::Intention::Wander};
+                    parameters.habits.cleans ? fish::Intention::Clean : fish::Intention::Wander};
     }
 };
 
@@ -266,6 +301,7 @@ void applyRules(const Case& of, const IsEnough& isEnough) {
     if (isEnough(PriorityRule::Fear, of.fear())) return;
     if (isEnough(PriorityRule::Territory, of.territory())) return;
     if (isEnough(PriorityRule::Memory, of.memory())) return;
+    if (isEnough(PriorityRule::Cleaning, of.cleaning())) return;
     if (isEnough(PriorityRule::Hunger, of.hunger())) return;
     if (isEnough(PriorityRule::Libido, of.libido())) return;
     if (isEnough(PriorityRule::Climate, of.climate())) return;
@@ -328,13 +364,13 @@ Reasoning reason(const fish::SpeciesParameters& parameters,
 
 void remember(fish::Mind& mind, const Decision& decision) {
     const fish::Aim before = fish::aimOf(mind);
-    if (!fish::interrupts(decision.intention, decision.alarm)) {
+    // An obstacle alone interrupts a fish that hides: where another rule wins, it hides no more.
+    const bool hidNoMore = before.intention == fish::Intention::Hide &&
+                           decision.intention != fish::Intention::AvoidObstacle;
+    if (!fish::interrupts(decision.intention, decision.alarm) || hidNoMore) {
         mind.remembered = fish::Intention::Wander;
         mind.rememberedTarget = fish::kNobody;
-    } else if (!fish::interrupts(mind.intention, mind.alarm) &&
-               (mind.intention >= fish::Intention::School ||
-                mind.intention == fish::Intention::Graze)) {
-        // Leave, Hover and Wander are not remembered: they come back by themselves.
+    } else if (!fish::interrupts(mind.intention, mind.alarm) && fish::isResumed(mind.intention)) {
         mind.remembered = mind.intention;
         mind.rememberedTarget = mind.target;
         mind.sinceRemembered = 0;
@@ -369,6 +405,8 @@ bool acceptsRecommendation(const fish::SpeciesParameters& parameters,
         case fish::Intention::Eat:
             return isFarFromMeal(parameters, senses);
         case fish::Intention::Graze:
+        case fish::Intention::Clean:
+        case fish::Intention::Visit:
         case fish::Intention::Mate:
         case fish::Intention::Charge:
         case fish::Intention::Hide:

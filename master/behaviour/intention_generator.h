@@ -43,14 +43,15 @@ enum class PriorityRule : std::uint8_t {
     Fear,       // School or Escape, from a predator or from who charges it
     Territory,  // Charge
     Memory,     // what was interrupted
+    Cleaning,   // Clean or Visit
     Hunger,     // Eat
     Libido,     // Mate
     Climate,    // Leave
     Company,    // School
-    // Graze, Hover or Wander: always wins.
+    // Graze, Hover, Clean or Wander: always wins.
     Ease,
 };
-inline constexpr std::size_t kPriorityRules = 11;
+inline constexpr std::size_t kPriorityRules = 12;
 
 // The verdict on a rule.
 enum class Verdict : std::uint8_t {
@@ -65,7 +66,7 @@ enum class Verdict : std::uint8_t {
     // Hunger of a predator, Territory: it rests after a chase or charge.
     Resting,
     Sheltered,  // Fear: a shelter is near, whose rule decides
-    // Hunger or libido: the other one is stronger.
+    // Hunger or libido: the other one is stronger. Cleaning: it is about a hunt or a courtship.
     Yields,
 };
 
@@ -77,7 +78,7 @@ struct Weighed {
     Verdict verdict = Verdict::Wins;
     // The compared value. Obstacle: urgency. OtherFish: share of the other body in the box. Fear,
     // Hunger, Libido: the feeling. Shelter: the threat. Territory: seconds since the last charge.
-    // Memory: seconds since the interruption. Climate: Senses::discomfort.
+    // Memory: seconds since the interruption. Climate: Senses::discomfort. Cleaning: Senses::urge.
     float value = 0;
     float threshold = 0;
 };
@@ -117,8 +118,12 @@ struct Reasoning {
 // A course along the desired direction (any length), bent by obstacles, no steeper than 25 degrees.
 [[nodiscard]] fish::Course heading(const Situation& situation, glm::vec3 desired, float speed);
 
-// A unit direction no steeper than the motor holds, some 58 degrees; keeps its course.
-[[nodiscard]] glm::vec3 diving(glm::vec3 direction);
+// The direction no steeper than 58 degrees, of a dive or of a strike from above; a unit vector.
+[[nodiscard]] glm::vec3 steeply(glm::vec3 direction);
+
+// A course to a place, relative to the fish, and then one that keeps it against the current. It is
+// there within so many metres.
+[[nodiscard]] fish::Course keptPlace(const Situation& situation, glm::vec3 towards, float metres);
 
 // Direction of flight from who charges it and from the predators in sight, a unit vector; zero
 // where there is none. Nearer predators count more. A fish before an approaching predator goes

@@ -36,11 +36,16 @@ float hungerOf(const fish::SpeciesParameters& parameters,
     return std::min(1.0F, inner + kHungerStimulus * stimulus);
 }
 
+// Whether a predator may be after this fish: it rushes, or stalks and does not pass by.
+bool isAfterIt(const Sighting& predator) {
+    return predator.rushing || (predator.hunting && !predator.passesBy);
+}
+
 // Fear of one predator, F_i = min(D0 / d_i, 1) (Tu). A predator that is after nobody frightens
-// less: fish watch it and go on feeding (threat sensitivity: Helfman 1989, Behav. Ecol. Sociobiol.
-// 24:47).
+// less, and so does one that stalks another fish: fish watch it and go on feeding (threat
+// sensitivity: Helfman 1989, Behav. Ecol. Sociobiol. 24:47).
 float fearOf(const fish::SpeciesParameters& parameters, const Sighting& predator) {
-    const float heeded = predator.hunting ? 1.0F : kFearOfIdle;
+    const float heeded = predator.heeded * (isAfterIt(predator) ? 1.0F : kFearOfIdle);
     return heeded * std::min(parameters.habits.fearMetres / predator.distance, 1.0F);
 }
 
@@ -61,11 +66,15 @@ float threatOf(const Senses& senses, const Sighting& predator) {
         dives *= kRushed;
     else if (predator.passesBy)
         dives *= kPassingBy;
+    dives *= predator.heeded;
     return std::clamp((2 * dives - predator.distance) / dives, 0.0F, 1.0F);
 }
 
 // Of its schoolmates so many must dive for a fish to dive too.
 constexpr std::size_t kDiversFollowed = 2;
+
+// At the beginning a fish was with a cleaner up to so long ago.
+constexpr float kCleaningSpreadSeconds = 300;
 
 constexpr float kTicks = static_cast<float>(kTicksPerSecond);
 
@@ -144,6 +153,8 @@ fish::Mind freshMind(const fish::SpeciesParameters& parameters,
     if (parameters.habits.libidoPerSecond > 0)
         mind.sinceSpawning = static_cast<std::uint32_t>(share(seed, fish, Stream::SinceSpawning) *
                                                         kTicks / parameters.habits.libidoPerSecond);
+    mind.sinceCleaning = static_cast<std::uint32_t>(share(seed, fish, Stream::SinceCleaning) *
+                                                    kCleaningSpreadSeconds * kTicks);
     return mind;
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/base/random_streams.h"
 #include "common/place/place.h"
+#include "master/behaviour/cleaning.h"
 #include "master/behaviour/grazing.h"
 #include "master/behaviour/home.h"
 #include "master/behaviour/points_within.h"
@@ -120,6 +121,11 @@ void seeNeighbours(const Onlooker& onlooker) {
         for (std::size_t i = 0; i < those->count; ++i) onlooker.view().fetch(those->fish[i]);
 }
 
+// The share of their danger that is heeded of a predator that lies in wait, and of one that is with
+// a cleaner.
+constexpr float kHeededInWait = 0.3F;
+constexpr float kHeededAtCleaner = 0.3F;
+
 // Cosine of 60 degrees: a predator whose course is farther off passes by.
 constexpr float kTowardsCosine = 0.5F;
 
@@ -175,7 +181,19 @@ void seePredators(const Onlooker& onlooker) {
             hunts && view.stage[other] == static_cast<std::uint8_t>(HuntStage::Rush);
         const float distance = std::sqrt(squared);
         const bool passesBy = place::dot(view.heading(other), offset) > -kTowardsCosine * distance;
-        insert(senses, {other, offset, distance, hunts, rushes, view.fish[other].length, passesBy});
+        const fish::SpeciesParameters& hunter =
+            onlooker.environment.speciesParameters[view.kind[other]];
+        const bool waits = hunter.habits.hunt.ambush && !rushes;
+        const bool isCleaned = view.partner[other] != fish::kNobody;
+        insert(senses,
+               {.object = other,
+                .offset = offset,
+                .distance = distance,
+                .hunting = hunts && !waits,
+                .rushing = rushes,
+                .heeded = (waits ? kHeededInWait : 1) * (isCleaned ? kHeededAtCleaner : 1),
+                .length = view.fish[other].length,
+                .passesBy = passesBy});
         const float farthest = senses.predators[kMostPredators - 1].distance;
         if (senses.predatorCount == kMostPredators)
             reachSquared = std::min(reachSquared, farthest * farthest);
@@ -191,6 +209,9 @@ bool mayHunt(const Onlooker& onlooker) {
     return fish::innerHunger(onlooker.parameters, onlooker.mind) >
            fish::kDesire * fish::kHysteresis;
 }
+
+// Cosine of 60 degrees: prey that is farther aside does not come before one that lies in wait.
+constexpr float kBeforeCosine = 0.5F;
 
 // Cost of a prey (Tu & Terzopoulos 1994): C_k = d_k (1 + b1 S_k + b2 E_k / pi); S_k: it schools,
 // E_k: angle to it.
@@ -232,14 +253,22 @@ Sighting attend(const Onlooker& onlooker,
 // The prey of least cost. Prey so far away that a chase would be given up is not considered.
 void seePrey(const Onlooker& onlooker) {
     if (!mayHunt(onlooker)) return;
-    const float giveUp = static_cast<float>(onlooker.parameters.habits.hunt.giveUpMetres);
-    onlooker.senses.prey = attend(onlooker,
-                                  onlooker.environment.grids->fish,
-                                  fish::Intention::Eat,
-                                  std::min(onlooker.sight(1), giveUp),
-                                  [&](std::uint32_t other, glm::vec3 offset, float distance) {
-                                      return costOfPrey(onlooker, other, offset, distance);
-                                  });
+    onlooker.senses.huntersActive = surroundings::huntersActive(*onlooker.environment.surroundings);
+    const config::Hunt& hunt = onlooker.parameters.habits.hunt;
+    // One that lies in wait heeds what is near and ahead; it keeps what it is after.
+    const bool waits = hunt.ambush && onlooker.aim.intention != fish::Intention::Eat;
+    const float leastCosine = waits ? kBeforeCosine : -1;
+    const auto reach = static_cast<float>(waits ? hunt.ambush->noticesMetres : hunt.giveUpMetres);
+    onlooker.senses.prey =
+        attend(onlooker,
+               onlooker.environment.grids->fish,
+               fish::Intention::Eat,
+               std::min(onlooker.sight(1), reach),
+               [&](std::uint32_t other, glm::vec3 offset, float distance) {
+                   const bool isMissed =
+                       place::dot(onlooker.senses.heading, offset) < leastCosine * distance;
+                   return isMissed ? kNever : costOfPrey(onlooker, other, offset, distance);
+               });
 }
 
 // Reach within which an object could raise a drive over its threshold, at most `sense`; metres.
@@ -451,6 +480,10 @@ float reachOf(const fish::SpeciesParameters& parameters,
     return isAtTurf(mind) ? kTurfReachMetres + speed * kTurfReachSeconds
                           : kReachMetres + speed * std::max(kReachSeconds, parameters.turnSeconds);
 }
+// Of a fish that lies in wait beside the reef.
+constexpr surroundings::Berth kInWait{0.05F, 0.2F, 0.15F, 0.2F};
+// Longer fish keep clear of the reef also at a cleaner's, metres.
+constexpr float kLongestAtStation = 0.6F;
 
 // How far the fish keeps from boulders and sand now.
 surroundings::Berth berthFor(const fish::SpeciesParameters& parameters,
@@ -462,7 +495,11 @@ surroundings::Berth berthFor(const fish::SpeciesParameters& parameters,
     if (aim == fish::Intention::Graze)
         return isAtTurf(mind) ? surroundings::kAtTurf : surroundings::kAtHome;
     if (aim == fish::Intention::Charge) return surroundings::kAtHome;
+    if (aim == fish::Intention::Visit && senses.length < kLongestAtStation)
+        return surroundings::kAtHome;
     const config::Home& home = parameters.habits.home;
+    // One that lies in wait does so at several sites.
+    if (parameters.habits.hunt.ambush) return home.site ? surroundings::kAtHome : kInWait;
     const bool isAtHome = home.site && !parameters.homes.empty() &&
                           place::lengthOf(homeOf(parameters, fish) - senses.position) <
                               static_cast<float>(home.leashMetres);
@@ -549,6 +586,7 @@ Senses perceive(const Environment& environment,
     senseShelter(onlooker);
     senses.patch = patchFor(environment, parameters, fish, mind, senses);
     senseTerritory(environment, parameters, fish, mind, senses);
+    senseCleaning(environment, parameters, fish, mind, senses);
     if ((mind.likes & fish::kLikesSchooling) != 0 &&
         environment.gathering == config::Gathering::None)
         senses.structure = structureFor(environment, mind, fish, senses);

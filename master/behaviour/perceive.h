@@ -81,6 +81,9 @@ struct Sighting {
     // For a predator: whether it pursues a fish, and whether it rushes at one.
     bool hunting = false;
     bool rushing = false;
+    // For a predator: the share of the danger that is heeded, less of one that lies in wait or is
+    // with a cleaner.
+    float heeded = 1;
     // For a predator: its length, and whether its course passes this fish by.
     float length = 0;
     bool passesBy = false;
@@ -109,6 +112,8 @@ struct Senses {
     std::size_t predatorCount = 0;
     // Predators: the prey of least cost.
     Sighting prey;
+    // Predators: how active their kind is now (surroundings::huntersActive()).
+    float huntersActive = 0;
     // The willing mate of least cost (dearnessOfMate()).
     Sighting mate;
     // The particle of least cost, seen or smelt.
@@ -126,6 +131,17 @@ struct Senses {
     Sighting intruder;
     // Who charges it.
     Sighting charger;
+    // Of a cleaner: the fish that it cleans or would.
+    Sighting client;
+    // Of one that goes to cleaners: how much it wants to, from 1 on it does; the cleaner, with the
+    // offset to its station; how many others are there, and how many of them pose; whether the
+    // cleaner is with it, and bites it.
+    float urge = 0;
+    Sighting cleaner;
+    std::size_t clients = 0;
+    std::size_t posing = 0;
+    bool cleaned = false;
+    bool bitten = false;
     // Of a bold fish in a school: the structure that it makes for or stays at, by index.
     std::uint32_t structure = fish::kNobody;
     float submarineMetres = std::numeric_limits<float>::infinity();

@@ -110,6 +110,17 @@ enum class GrazeStage : std::uint8_t { Travel, Settle, RunUp, Bite, Done, Puff }
 [[nodiscard]] fish::Course charge(const Situation& situation,
                                   const fish::Mind& mind,
                                   DeferredEvents& events);
+// Values of Mind::stage of a cleaner. A bite is one of skin: the client feels it.
+enum class CleanStage : std::uint8_t { Inspect, Bite, Flee };
+// Goes along the flank of its client and picks. One inspection in six ends in a bite, and the
+// cleaner flees. Without a client it wanders about its home and now and then dances, as a sign.
+[[nodiscard]] fish::Course clean(const Situation& situation, fish::Mind& mind);
+
+// Values of Mind::stage of a client.
+enum class VisitStage : std::uint8_t { Come, Wait, Pose, Chase };
+// Comes to the station of a cleaner, waits while another poses, and poses there: hovers, tilted.
+// One that was bitten chases the cleaner for a second. The fish must sense a cleaner.
+[[nodiscard]] fish::Course visit(const Situation& situation, fish::Mind& mind);
 
 // Leaves for water whose light and temperature suit its habits. Both change with height alone, so
 // it climbs or dives.

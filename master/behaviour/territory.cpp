@@ -150,8 +150,8 @@ fish::Course charge(const Situation& situation, const fish::Mind& mind, Deferred
         events.push_back({fish::DeferredEventKind::Charge, situation.fish, intruder.object});
     const glm::vec3 theirs =
         view.heading(intruder.object) * (view.fish[intruder.object].speed * kLeadSeconds);
-    fish::Course course{diving(place::directionOf(intruder.offset + theirs + wayRound(situation),
-                                                  situation.senses.heading)),
+    fish::Course course{steeply(place::directionOf(intruder.offset + theirs + wayRound(situation),
+                                                   situation.senses.heading)),
                         situation.parameters.fast,
                         std::max(situation.senses.urgency, 1.0F)};
     course.startsFast = mind.pursued < kStartTicks &&

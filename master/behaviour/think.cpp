@@ -64,6 +64,10 @@ fish::Course act(const Situation& situation, fish::Mind& mind, DeferredEvents& e
             return graze(situation, mind, events);
         case fish::Intention::Hover:
             return hover(situation);
+        case fish::Intention::Clean:
+            return clean(situation, mind);
+        case fish::Intention::Visit:
+            return visit(situation, mind);
         case fish::Intention::Wander:
             break;
     }

@@ -123,11 +123,15 @@ struct Watch {
                 parameters.habits.box.asideBodyLengths * scale};
     }
 
-    // Whether another fish counts. One that it courts, hunts or follows it wants near; from its
-    // hunters prey flees instead.
+    // Whether another fish counts. One that it courts, cleans, hunts or follows it wants near, and
+    // its cleaner; from its hunters prey flees instead.
     [[nodiscard]] bool isHeeded(std::uint32_t other) const {
         if (other == aim.target &&
-            (aim.intention == fish::Intention::Mate || aim.intention == fish::Intention::Charge))
+            (aim.intention == fish::Intention::Mate || aim.intention == fish::Intention::Charge ||
+             aim.intention == fish::Intention::Clean))
+            return false;
+        if (aim.intention == fish::Intention::Visit &&
+            environment.speciesParameters[view.kind[other]].habits.cleans)
             return false;
         if (other == senses.charger.object) return false;
         std::uint64_t unheeded = parameters.hunts | parameters.shadows;

@@ -50,6 +50,7 @@ struct SpeciesParameters {
 // Fish [first, last) that share a home; all of a species that keeps to no place.
 struct Household {
     std::uint32_t first, last;
+    [[nodiscard]] bool holds(std::uint32_t fish) const { return fish >= first && fish < last; }
 };
 // The household of a fish of this species.
 [[nodiscard]] inline Household householdOf(const SpeciesParameters& parameters,
@@ -98,9 +99,9 @@ struct FishView {
     std::vector<std::uint8_t> kind;
     // Bits of Sign.
     std::vector<std::uint8_t> signs;
-    // The fish that it courts, or kNobody.
+    // The fish that it courts or cleans, or the cleaner that it visits; or kNobody.
     std::vector<std::uint32_t> partner;
-    // Mind::stage: the stage of its courtship or hunt.
+    // Mind::stage: the stage of its courtship, cleaning or hunt.
     std::vector<std::uint8_t> stage;
     // The patch of turf that it grazes at or goes to, by index, or kNobody.
     std::vector<std::uint32_t> patch;

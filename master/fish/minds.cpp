@@ -16,6 +16,8 @@ const char* nameOf(Intention intention) {
     constexpr std::array<const char*, kIntentions> kNames{"wander",
                                                           "hover",
                                                           "graze",
+                                                          "clean",
+                                                          "visit",
                                                           "leave",
                                                           "school",
                                                           "eat",
@@ -43,6 +45,7 @@ std::uint64_t Minds::hash() const {
     fold(&Mind::sinceChase);
     fold(&Mind::sinceArrival);
     fold(&Mind::sinceCharge);
+    fold(&Mind::sinceCleaning);
     fold(&Mind::alarm);
     fold(&Mind::spot);
     fold(&Mind::eaten);
@@ -91,6 +94,12 @@ unsigned moodOf(std::uint8_t likes, Intention aim) {
            (aim == Intention::School ? unsigned{kSchooling} : 0U);
 }
 
+// Whether the target of an intention is the fish that FishView::partner shows.
+bool hasPartner(Intention intention) {
+    return intention == Intention::Mate || intention == Intention::Clean ||
+           intention == Intention::Visit;
+}
+
 // A dive is seen for so long.
 constexpr std::uint32_t kDiveTicks = 20;
 
@@ -130,6 +139,7 @@ void passTime(const SpeciesParameters& parameters, std::uint32_t ticks, Mind& mi
                                  &mind.sinceChase,
                                  &mind.sinceArrival,
                                  &mind.sinceCharge,
+                                 &mind.sinceCleaning,
                                  &mind.sinceStage})
         if (*clock < kLongAgo) *clock += ticks;
     if (mind.charged > 0 && mind.charged <= kChargedOnce) --mind.charged;
@@ -182,7 +192,7 @@ void showMood(const SpeciesParameters& parameters,
         signs |= kHunting;
     view.signs[fish] = static_cast<std::uint8_t>(signs);
     view.stage[fish] = mind.stage;
-    view.partner[fish] = aim.intention == Intention::Mate ? aim.target : kNobody;
+    view.partner[fish] = hasPartner(aim.intention) ? aim.target : kNobody;
 }
 
 }  // namespace aquarama::fish

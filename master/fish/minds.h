@@ -12,12 +12,14 @@
 namespace aquarama::fish {
 
 // The behaviour routines, which a mind chooses from: those of Tu & Terzopoulos 1994, and Hover,
-// Graze, Charge and Hide of fish that live at the reef. Those from Escape on always interrupt (see
-// interrupts()). Wander also stands for an empty memory.
+// Graze, Clean, Visit (to a cleaner), Charge and Hide of fish that live at the reef. Those from
+// Escape on always interrupt (see interrupts()). Wander also stands for an empty memory.
 enum class Intention : std::uint8_t {
     Wander,
     Hover,
     Graze,
+    Clean,
+    Visit,
     Leave,
     School,
     Eat,
@@ -28,7 +30,7 @@ enum class Intention : std::uint8_t {
     AvoidFish,
     AvoidObstacle
 };
-inline constexpr std::size_t kIntentions = 12;
+inline constexpr std::size_t kIntentions = 14;
 // Its name for people, such as "avoid fish".
 [[nodiscard]] const char* nameOf(Intention intention);
 
@@ -49,9 +51,9 @@ enum class Alarm : std::uint8_t {
 // meals, catches, spawning and the arrival of a new fish.
 struct Mind {
     Intention intention = Intention::Wander;
-    // Target of the intention: a fish (Mate, Charge, AvoidFish, Escape, Eat of a predator), a
-    // particle of food (Eat of the others), a site (Hide) or a patch of turf (Graze); kNobody where
-    // the routine has none.
+    // Target of the intention: a fish (Mate, Charge, Clean, Visit, AvoidFish, Escape, Eat of a
+    // predator), a particle of food (Eat of the others), a site (Hide) or a patch of turf (Graze);
+    // kNobody where the routine has none.
     std::uint32_t target = kNobody;
     // Ticks for which it has had the present aim (aimOf()); interruptions count too.
     std::uint32_t pursued = 0;
@@ -67,6 +69,8 @@ struct Mind {
     std::uint32_t sinceArrival = kLongAgo;
     // Of those that hold a territory: since it last began or ended a charge.
     std::uint32_t sinceCharge = kLongAgo;
+    // Since it was last with a cleaner; of a cleaner, since it last cleaned.
+    std::uint32_t sinceCleaning = 0;
     Alarm alarm = Alarm::Calm;
     // Of those that graze: the spot of the patch, by its index.
     std::uint8_t spot = 0;
@@ -74,8 +78,8 @@ struct Mind {
     std::uint16_t eaten = 0;
     // Bits of Like.
     std::uint8_t likes = 0;
-    // Stage of a routine that has stages: CourtshipStage, HuntStage, HideStage, GrazeStage, or that
-    // of eat().
+    // Stage of a routine that has stages: CourtshipStage, HuntStage, HideStage, GrazeStage,
+    // CleanStage, VisitStage, or that of eat().
     std::uint8_t stage = 0;
     // Bites of turf since they last counted as a particle.
     std::uint8_t bites = 0;
@@ -108,6 +112,12 @@ enum Like : std::uint8_t {
 [[nodiscard]] constexpr bool interrupts(Intention intention, Alarm alarm) {
     return intention >= Intention::Escape ||
            (intention == Intention::School && alarm == Alarm::Together);
+}
+
+// Whether an intention is resumed after an interruption. The others come back by themselves.
+[[nodiscard]] constexpr bool isResumed(Intention intention) {
+    return intention >= Intention::School || intention == Intention::Graze ||
+           intention == Intention::Clean || intention == Intention::Visit;
 }
 
 // The aim of a fish: a routine and its target.

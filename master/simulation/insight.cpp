@@ -290,6 +290,7 @@ constexpr std::array<const char*, behaviour::kPriorityRules> kPriorityRuleNames{
                                                                                 "fear",
                                                                                 "territory",
                                                                                 "memory",
+                                                                                "cleaning",
                                                                                 "hunger",
                                                                                 "libido",
                                                                                 "climate",
@@ -309,6 +310,8 @@ std::string notInView(behaviour::PriorityRule rule) {
             return "nobody intrudes";
         case behaviour::PriorityRule::Shelter:
             return "no shelter is near";
+        case behaviour::PriorityRule::Cleaning:
+            return "no cleaner or client is near";
         default:
             return "none is in view";
     }
@@ -347,6 +350,7 @@ std::string Screen::verdictOn(behaviour::PriorityRule rule,
         case behaviour::Verdict::Yields:
             break;
     }
+    if (rule == behaviour::PriorityRule::Cleaning) return "yields to its aim";
     return rule == behaviour::PriorityRule::Hunger ? "yields to libido" : "yields to hunger";
 }
 

@@ -51,6 +51,11 @@ float ballRadius(std::size_t fish, float lengthMetres) {
     return kRoomOfMill * lengthMetres * cubeRoot(static_cast<float>(fish));
 }
 
+// Share of the light between noon and midnight that is gone when predators become active, and when
+// they are fully so.
+constexpr float kActiveFrom = 0.3F;
+constexpr float kFullyActive = 0.6F;
+
 }  // namespace
 
 Surroundings makeSurroundings(const config::Scene& scene,
@@ -85,6 +90,13 @@ void advanceSurroundings(Surroundings& surroundings, Tick tick, std::uint64_t un
               surroundings.obstacles,
               surroundings.openCurrent,
               tick);
+}
+
+float huntersActive(const Surroundings& surroundings) {
+    const auto night = static_cast<float>(surroundings.climate.day.night);
+    if (night >= 1) return 0;
+    const float lacks = (1 - surroundings.daylight) / (1 - night);
+    return std::clamp((lacks - kActiveFrom) / (kFullyActive - kActiveFrom), 0.0F, 1.0F);
 }
 
 std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroundings) {

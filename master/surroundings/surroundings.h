@@ -65,6 +65,8 @@ struct Surroundings {
 // Advances daylight, current, scheduled food and drifting food by one tick. Of the last `unseen`
 // ticks before a show begins nothing is scheduled, and the light is that of its beginning.
 void advanceSurroundings(Surroundings& surroundings, Tick tick, std::uint64_t unseen = 0);
+// How active predators are now: 0 by day, 1 at dusk and by night.
+[[nodiscard]] float huntersActive(const Surroundings& surroundings);
 // The hash with everything folded in that fish or visitors can change.
 [[nodiscard]] std::uint64_t foldedSurroundings(std::uint64_t hash,
                                                const Surroundings& surroundings);

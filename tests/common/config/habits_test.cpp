@@ -66,9 +66,20 @@ TEST(Habits, ofThePredatorAreReadWithItsPreyInOrder) {
     EXPECT_THAT(shark.hunts, testing::ElementsAre("bigeye_scad", "blue_tang", "parrotfish"));
     EXPECT_DOUBLE_EQ(shark.hunt.chaseSeconds, 8);
     EXPECT_DOUBLE_EQ(shark.hunt.giveUpMetres, 6);
-    EXPECT_DOUBLE_EQ(shark.hunt.restSeconds, 60);
+    EXPECT_DOUBLE_EQ(shark.hunt.restSeconds, 300);
+    EXPECT_DOUBLE_EQ(shark.hunt.restByDaySeconds, 900);
+    EXPECT_FALSE(shark.hunt.ambush) << "it stalks";
     EXPECT_FLOAT_EQ(shark.fearMetres, 0.0F) << "it fears nobody";
     EXPECT_FALSE(shark.eatsPlankton);
+}
+
+TEST(Habits, ofOneThatHuntsFromAmbushAreRead) {
+    const Habits trumpetfish = test::castMember("trumpetfish").habits;
+    ASSERT_TRUE(trumpetfish.hunt.ambush);
+    EXPECT_DOUBLE_EQ(trumpetfish.hunt.ambush->hangsDegrees, 60);
+    EXPECT_EQ(trumpetfish.hunt.ambush->posts, 1U);
+    EXPECT_DOUBLE_EQ(trumpetfish.hunt.restByDaySeconds, trumpetfish.hunt.restSeconds)
+        << "where only one rest is given";
 }
 
 struct Mistake {
@@ -253,6 +264,30 @@ INSTANTIATE_TEST_SUITE_P(
                 "kind: SCHOOL radius_m: 2",
                 "radius_m",
                 "has no radius_m"},
+        Mistake{"aStrikeFromFartherThanItNotices",
+                "trumpetfish",
+                "strikes_m: 0.12",
+                "strikes_m: 2",
+                "strikes_m",
+                "more than notices_m"},
+        Mistake{"postsWithoutAKindOfSite",
+                "trumpetfish",
+                "hangs_deg: 60",
+                "posts: 3",
+                "posts",
+                "posts are sites of its home"},
+        Mistake{"aCleanerWithoutAHome",
+                "moorish_idol",
+                "pair_bl: 2.5",
+                "cleans { inspect_s: 12 }",
+                "cleans",
+                "it cleans at its home"},
+        Mistake{"preyThatCleans",
+                "bigeye_scad",
+                "persistence: 0.2",
+                "cleans { inspect_s: 12 } persistence: 0.2",
+                "cleans",
+                "only a pacifist cleans"},
         Mistake{"aLonerAtHomeWithTheSchool",
                 "clownfish",
                 "kind: PLACE radius_m: 0.35 leash_m: 1 at: ANEMONE",

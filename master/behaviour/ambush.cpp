@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/behaviour/ambush.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "common/base/random_streams.h"
+#include "common/base/units.h"
+#include "common/place/place.h"
+#include "master/behaviour/company.h"
+#include "master/behaviour/home.h"
+#include "master/behaviour/intention_generator.h"
+
+namespace aquarama::behaviour {
+
+namespace {
+
+// A post is kept for so long, and a place at the edge of one.
+constexpr std::uint64_t kTicksOfPost = std::uint64_t{150} * 60;
+constexpr std::uint64_t kTicksOfEdge = std::uint64_t{50} * 60;
+// One post in so many is at a structure.
+constexpr std::uint32_t kStructureOneIn = 4;
+// A place at an edge is so far outside, and begins at this share of the height of the post; the
+// fish sinks from there.
+constexpr float kOutsideMetres = 0.35F;
+constexpr float kBegins = 0.9F;
+constexpr float kSinks = 0.1F;  // metres a second
+constexpr float kLowestMetres = 0.4F;
+// It begins up-current by the way of the water in this time, at most so far.
+constexpr float kUpCurrentSeconds = 6;
+constexpr float kMostUpCurrent = 0.8F;
+// A fish that hangs drifts so far from its place before it comes back; one that comes begins to
+// hang so near. It sinks in short dives, which begin and end so far above its place.
+constexpr float kDrifts = 1.3F;
+constexpr float kArrives = 0.6F;
+constexpr float kDiveFrom = 0.15F;
+constexpr float kDiveUntil = 0.03F;
+// Of the tilt, as a sine, that share is hanging; and of the slow gait that share is moving.
+constexpr float kHangs = 0.5F;
+constexpr float kMoves = 0.5F;
+// Over a structure a post is so high; a fish without tilt waits so far over its site, and in so
+// much of its length off it.
+constexpr float kOverStructure = 1;
+constexpr float kOverSite = 0.3F;
+constexpr float kOffSite = 0.35F;
+
+// A place to lie in wait: about its middle, from its radius outwards, from its height down.
+struct Post {
+    glm::vec3 middle{};
+    float radius = 0;
+    float height = 0;
+};
+
+std::uint32_t drawn(const Situation& situation, std::uint64_t period) {
+    const std::uint32_t own =
+        hashOf(hashOf(situation.environment.seed, Stream::Posts), situation.fish);
+    return hashOf(
+        own,
+        static_cast<std::uint32_t>((situation.environment.tick.value + own % period) / period));
+}
+
+// The clouds of its prey.
+template <class Each>
+void forEachCloud(const Situation& situation, const Each& each) {
+    for (std::uint64_t kinds = situation.parameters.hunts; kinds != 0; kinds &= kinds - 1) {
+        const fish::SpeciesParameters& prey =
+            situation.environment.speciesParameters[std::size_t(std::countr_zero(kinds))];
+        if (!prey.habits.cloud) continue;
+        for (const glm::vec3& home : prey.homes)
+            each(Post{home,
+                      static_cast<float>(prey.habits.home.radiusMetres),
+                      static_cast<float>(prey.habits.cloud->heightMetres)});
+    }
+}
+
+template <class Each>
+void forEachStructure(const Situation& situation, const Each& each) {
+    for (const surroundings::Structure& structure : situation.environment.surroundings->structures)
+        each(Post{structure.crown, structure.radiusMetres, kOverStructure});
+}
+
+// Of the posts that `forEach` gives the nearer of two that are drawn.
+template <class ForEach>
+std::optional<Post> nearerDrawn(const Situation& situation,
+                                std::uint32_t now,
+                                const ForEach& forEach) {
+    std::uint32_t count = 0;
+    forEach(situation, [&](const Post&) { ++count; });
+    std::optional<Post> best;
+    if (count == 0) return best;
+    float nearest = std::numeric_limits<float>::infinity();
+    std::uint32_t i = 0;
+    forEach(situation, [&](const Post& post) {
+        const bool isDrawn = i == hashOf(now, 1) % count || i == hashOf(now, 2) % count;
+        ++i;
+        const float distance = place::lengthOf(post.middle - situation.senses.position);
+        if (!isDrawn || distance >= nearest) return;
+        nearest = distance;
+        best = post;
+    });
+    return best;
+}
+
+// At a structure in one period of four, else at a cloud where there is one.
+std::optional<Post> edgePost(const Situation& situation) {
+    const std::uint32_t now = drawn(situation, kTicksOfPost);
+    const auto clouds = [](const Situation& of, const auto& each) { forEachCloud(of, each); };
+    const auto structures = [](const Situation& of, const auto& each) {
+        forEachStructure(of, each);
+    };
+    if (now % kStructureOneIn == 0) return nearerDrawn(situation, now, structures);
+    const std::optional<Post> cloud = nearerDrawn(situation, now, clouds);
+    return cloud ? cloud : nearerDrawn(situation, now, structures);
+}
+
+// The place at the edge of a post now, relative to the fish.
+glm::vec3 placeAtEdge(const Situation& situation, const Post& post) {
+    const surroundings::Surroundings& around = *situation.environment.surroundings;
+    const std::uint32_t own =
+        hashOf(hashOf(situation.environment.seed, Stream::Posts), situation.fish);
+    const std::uint64_t ticks = situation.environment.tick.value + own % kTicksOfEdge;
+    const std::uint32_t edge = hashOf(own, static_cast<std::uint32_t>(ticks / kTicksOfEdge));
+    const float since =
+        static_cast<float>(ticks % kTicksOfEdge) / static_cast<float>(kTicksPerSecond);
+    const glm::vec3 out = place::directionOf(
+        {signedUnitOf(hashOf(edge, 1)), 0, signedUnitOf(hashOf(edge, 2))}, {1, 0, 0});
+    const glm::vec3 current = around.current.at(situation.senses.position, around.openCurrent);
+    const glm::vec3 up = place::directionOf(current, {}) *
+                         -std::min(kMostUpCurrent, kUpCurrentSeconds * place::lengthOf(current));
+    const float height = std::max(kLowestMetres, kBegins * post.height - kSinks * since);
+    return post.middle + out * (post.radius + kOutsideMetres) + up + glm::vec3{0, height, 0} -
+           situation.senses.position;
+}
+
+// The site where a fish with a home waits now, relative to it: one of the nearest of their kind.
+std::optional<glm::vec3> placeAtSite(const Situation& situation) {
+    const config::Habits& habits = situation.parameters.habits;
+    const std::vector<place::Site>& sites = situation.environment.surroundings->sites;
+    if (!habits.home.site || situation.parameters.homes.empty()) return {};
+    const glm::vec3 home = homeOf(situation.parameters, situation.fish);
+    const std::uint32_t wanted = drawn(situation, kTicksOfPost) % habits.hunt.ambush->posts;
+    // The site of this rank by its distance from home.
+    const place::Site* found = nullptr;
+    float least = -1;
+    for (std::uint32_t rank = 0; rank <= wanted; ++rank) {
+        const place::Site* next = nullptr;
+        float nearest = std::numeric_limits<float>::infinity();
+        for (const place::Site& site : sites) {
+            const float distance = place::lengthOf(site.place - home);
+            if (site.kind != *habits.home.site || distance <= least || distance >= nearest)
+                continue;
+            nearest = distance;
+            next = &site;
+        }
+        if (next == nullptr) break;
+        found = next;
+        least = nearest;
+    }
+    const glm::vec3 over{0, kOverSite, 0};
+    if (found == nullptr) return home + over - situation.senses.position;
+    return found->place + found->normal * (kOffSite * situation.senses.length) + over -
+           situation.senses.position;
+}
+
+// Head down: drifts with the water, sinks, and comes back when it has drifted off.
+fish::Course hang(const Situation& situation, glm::vec3 towards, float tilt) {
+    const Senses& senses = situation.senses;
+    const fish::SpeciesParameters& parameters = situation.parameters;
+    const bool hangs = senses.heading.y < -kHangs * tilt;
+    const float aside = place::lengthOf({towards.x, 0, towards.z});
+    const float far = std::max(aside, towards.y);
+    if (far > (hangs ? kDrifts : kArrives) || senses.urgency >= 1)
+        return heading(situation,
+                       towards,
+                       std::min(parameters.medium, parameters.slow + 0.4F * far / senses.length));
+    const bool dives = senses.speed > kMoves * parameters.slow * senses.length;
+    const float level = std::sqrt(1 - tilt * tilt);
+    const glm::vec3 along = place::directionOf({senses.heading.x, 0, senses.heading.z}, {1, 0, 0});
+    return {{along.x * level, -tilt, along.z * level},
+            towards.y < -(dives ? kDiveUntil : kDiveFrom) ? parameters.slow : 0.0F,
+            0};
+}
+
+// The sine of an angle of 0 to 90 degrees without libm: Bhaskara's approximation, exact to 0.002.
+float sineOf(double degrees) {
+    const double x = degrees * (180 - degrees);
+    return static_cast<float>(4 * x / (40500 - x));
+}
+
+}  // namespace
+
+std::optional<fish::Course> lieInWait(const Situation& situation) {
+    const std::optional<config::Ambush>& ambush = situation.parameters.habits.hunt.ambush;
+    if (!ambush) return {};
+    if (situation.parameters.habits.home.kind != config::HomeKind::None) {
+        const std::optional<glm::vec3> towards = placeAtSite(situation);
+        if (!towards) return {};
+        return keptPlace(situation, *towards + roomFrom(situation) * 0.2F, 0.2F);
+    }
+    const std::optional<Post> post = edgePost(situation);
+    if (!post) return {};
+    return hang(situation, placeAtEdge(situation, *post), sineOf(ambush->hangsDegrees));
+}
+
+}  // namespace aquarama::behaviour
