@@ -121,6 +121,7 @@ Surroundings makeSurroundings(const config::Scene& scene,
                               float meanLengthMetres) {
     const place::PlaceKey place = place::placeOf(scene, seed);
     const Obstacles obstacles = obstaclesOf(place, place::waterFor(scene, fish, meanLengthMetres));
+    const place::DayClock clock = place::clockOf(scene.day);
     return {.seed = seed,
             .obstacles = obstacles,
             .sites = place::sitesOf(place),
@@ -129,12 +130,21 @@ Surroundings makeSurroundings(const config::Scene& scene,
             .food = makeFood(seed, obstacles, scene.plankton),
             .submarine = {.position = scene.eye},
             .clarityMetres = static_cast<float>(scene.water.clarityMetres),
-            .daylight = daylight(scene.day, {}),
+            .clock = clock,
+            .timeOfDay = clock.timeOfDay,
+            .daylight = place::daylightAt(scene.day, clock.timeOfDay),
             .drops = scene.drops};
 }
 
+void setClock(Surroundings& surroundings, const place::DayClock& clock) {
+    surroundings.clock = clock;
+    surroundings.timeOfDay = clock.timeOfDay;
+    surroundings.daylight = place::daylightAt(surroundings.climate.day, clock.timeOfDay);
+}
+
 void advanceSurroundings(Surroundings& surroundings, Tick tick) {
-    surroundings.daylight = daylight(surroundings.climate.day, tick);
+    surroundings.timeOfDay = place::timeOfDayAt(surroundings.clock, tick);
+    surroundings.daylight = place::daylightAt(surroundings.climate.day, surroundings.timeOfDay);
     dropWhatIsDue(surroundings, tick);
     driftFood(surroundings.food,
               surroundings.seed,
@@ -151,7 +161,11 @@ std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroun
     hash = folded(hash, food.taken);
     hash = folded(hash, food.generation);
     hash = folded(hash, food.absentUntil);
-    return hash;
+    // A clock that nobody can set is a function of scene and tick.
+    if (!surroundings.climate.day.followsHall) return hash;
+    const place::DayClock& clock = surroundings.clock;
+    return foldedOne(foldedOne(foldedOne(hash, clock.since.value), clock.timeOfDay),
+                     clock.lengthSeconds);
 }
 
 Goal journeyGoal(std::uint32_t seed, Tick tick) {

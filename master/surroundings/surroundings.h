@@ -12,6 +12,7 @@
 #include "common/base/units.h"
 #include "common/config/scene.h"
 #include "common/place/current.h"
+#include "common/place/day.h"
 #include "common/place/place.h"
 #include "common/place/sites.h"
 #include "master/surroundings/climate.h"
@@ -42,7 +43,9 @@ struct Surroundings {
     Submarine submarine;
     // No fish sees farther than this.
     float clarityMetres = 12;
-    // Light of the sky at this tick, 0 to 1.
+    // The clock of the day, the time of day at this tick and the light of the sky then, 0 to 1.
+    place::DayClock clock;
+    double timeOfDay = 0.5;
     float daylight = 1;
     // Food that the scene drops, in order of time, and the index of the next one.
     std::vector<config::FoodDrop> drops;
@@ -55,7 +58,9 @@ struct Surroundings {
                                             std::uint32_t seed,
                                             std::size_t fish,
                                             float meanLengthMetres);
-// Advances daylight, scheduled food and drifting food by one tick.
+// Sets the clock of the day at this tick. `clock` has a time of day of 0 to 1 (1 excluded).
+void setClock(Surroundings& surroundings, const place::DayClock& clock);
+// Advances the day, scheduled food and drifting food by one tick.
 void advanceSurroundings(Surroundings& surroundings, Tick tick);
 // The hash with everything folded in that fish or visitors can change.
 [[nodiscard]] std::uint64_t foldedSurroundings(std::uint64_t hash,

@@ -163,7 +163,8 @@ void ChannelPicture::drawWorld(const wire::StateFrame& frame) {
                                   .eyePositionMetres = frame.eye.positionMetres,
                                   .fish = {frame.before, frame.after, frame.fraction},
                                   .food = food_,
-                                  .daylight = frame.daylight};
+                                  .daylight = frame.daylight,
+                                  .timeOfDay = frame.timeOfDay};
     scene_->update(scene);
     for (Viewing& eye : eyes_) {
         const scene::View view = viewOf(eye, frame.eye);

@@ -42,6 +42,7 @@ inline wire::Packet packetOf(std::uint64_t session, const wire::StateFrame& stat
                               .foodBefore = state.foodBefore,
                               .foodAfter = state.foodAfter,
                               .daylight = state.daylight,
+                              .timeOfDay = state.timeOfDay,
                               .show = &show});
 }
 

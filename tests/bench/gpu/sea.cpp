@@ -33,6 +33,7 @@ wire::StateFrame frameAfter(const simulation::LivingWorld& world, const wire::St
             .foodBefore = last.foodAfter,
             .foodAfter = std::move(now.food.particles),
             .daylight = now.daylight,
+            .timeOfDay = now.timeOfDay,
             .show = {}};
 }
 

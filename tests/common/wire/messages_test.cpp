@@ -89,6 +89,7 @@ TEST(Messages, aStateKeepsEveryBitOfEveryFish) {
     EXPECT_EQ(state->foodBefore, sent.foodBefore);
     EXPECT_EQ(state->foodAfter, sent.foodAfter);
     EXPECT_EQ(state->daylight, sent.daylight);
+    EXPECT_EQ(state->timeOfDay, sent.timeOfDay);
     EXPECT_EQ(state->show, sent.show);
 }
 
@@ -200,6 +201,7 @@ TEST(Messages, aStateThatLiesIsRefused) {
     EXPECT_TRUE(refused([](StateFrame& s) { s.foodAfter[1].bits = 5; }));  // nothing, somewhere
     EXPECT_TRUE(refused([&](StateFrame& s) { s.foodOriginMetres.z = nan; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.daylight = -0.01F; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.timeOfDay = 1.01F; }));
     EXPECT_TRUE(
         refused([](StateFrame& s) { s.show.quality = static_cast<config::QualityTier>(4); }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.pattern = static_cast<Pattern>(5); }));
@@ -207,6 +209,7 @@ TEST(Messages, aStateThatLiesIsRefused) {
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.scene = "a\nb"; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.pilot = std::string(65, 'x'); }));
     EXPECT_TRUE(refused([&](StateFrame& s) { s.daylight = nan; }));
+    EXPECT_TRUE(refused([&](StateFrame& s) { s.timeOfDay = nan; }));
     EXPECT_TRUE(refused([](StateFrame& s) {
         s.foodBefore.resize(kMostFood + 1);
         s.foodAfter.resize(kMostFood + 1);

@@ -73,6 +73,7 @@ inline StateFrame sampleState(std::uint32_t fish) {
     state.foodBefore = sampleFood();
     state.foodAfter = sampleFood();
     state.daylight = 0.75F;
+    state.timeOfDay = 0.875F;
     state.show = sampleShow();
     return state;
 }
