@@ -50,6 +50,8 @@ enum class Stream : std::uint32_t {
     VenturesOut = 361,
     Picks,
     CloudPlaces,
+    HoursOfRest,
+    RestingPlaces,
     // Food.
     FoodPlace = 401,
     FoodAbsence,

@@ -212,6 +212,17 @@ struct Cloud {
     double heightMetres = 1, pickSeconds = 3;
 };
 
+// When a species is active, in the schema's order.
+enum class Activity : std::uint8_t { Always, Day, Night };
+
+// The hours of a species: it rests outside them. Where they begin and end, as shares of the
+// twilight: one of the day retires in the course of dusk and rises in that of dawn, one of the
+// night retires at dawn and rises at dusk.
+struct ActiveHours {
+    Activity active = Activity::Always;
+    double retires = 0.5, rises = 0.5;
+};
+
 // Of predators.
 struct Hunt {
     double chaseSeconds = 8;  // at most
@@ -245,6 +256,7 @@ struct Habits {
     Home home;
     std::optional<Cloud> cloud;
     std::vector<SiteKind> hidesIn;  // none: it flees in open water
+    ActiveHours hours;
     bool eatsPlankton = true;
     std::vector<std::string> hunts;  // species by name
     Hunt hunt;

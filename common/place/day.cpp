@@ -54,6 +54,12 @@ double passedOf(double timeOfDay) {
     return (time - kBegins[phase]) / (kBegins[phase + 1] - kBegins[phase]);
 }
 
+double timeIn(DayPhase phase, double share) {
+    const auto index = static_cast<std::size_t>(phase);
+    const double time = beginOf(phase) + share * (kBegins[index + 1] - kBegins[index]);
+    return time < 0 ? time + 1 : time >= 1 ? time - 1 : time;
+}
+
 bool isDaytime(double timeOfDay) {
     const DayPhase phase = phaseOf(timeOfDay);
     return phase >= DayPhase::Morning && phase <= DayPhase::Afternoon;

@@ -45,6 +45,9 @@ inline constexpr std::size_t kDayPhases = 8;
 [[nodiscard]] DayPhase phaseOf(double timeOfDay);
 // How much of the phase of a time of day has passed, 0 to 1.
 [[nodiscard]] double passedOf(double timeOfDay);
+// The time of day at which a share of a phase has passed. A share below 0 is before the phase, one
+// above 1 after it, by less than a day.
+[[nodiscard]] double timeIn(DayPhase phase, double share);
 // Whether it is day: from the end of dawn until sunset begins.
 [[nodiscard]] bool isDaytime(double timeOfDay);
 

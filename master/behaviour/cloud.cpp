@@ -8,6 +8,7 @@
 #include "common/place/place.h"
 #include "master/behaviour/company.h"
 #include "master/behaviour/home.h"
+#include "master/behaviour/hours.h"
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/routines.h"
 
@@ -46,13 +47,6 @@ constexpr std::uint64_t kDartTicks = 26;
 constexpr float kDartLengths = 2.5F;
 constexpr float kPicksUntil = 0.2F;
 
-// The rank of a fish by size within its species, 0 the smallest to 1.
-float rankOf(const fish::SpeciesParameters& parameters, float length) {
-    const float range = parameters.size.mostMetres - parameters.size.leastMetres;
-    if (range <= 0) return 0.5F;
-    return std::clamp((length - parameters.size.leastMetres) / range, 0.0F, 1.0F);
-}
-
 // A point drawn from the unit disc, in plan, by the fish and the time.
 glm::vec3 placeInCloud(const Situation& situation) {
     const std::uint32_t own =
@@ -76,10 +70,11 @@ glm::vec3 wishOf(const Situation& situation, glm::vec3 current) {
     const float threat = situation.feelings.threat;
     const float strength = place::lengthOf(current);
     const auto radius = static_cast<float>(habits.home.radiusMetres);
-    const float rank = rankOf(situation.parameters, situation.senses.length);
+    const float rank = sizeRankOf(situation.parameters, situation.senses.length);
     const float high = static_cast<float>(habits.cloud->heightMetres) * (kLowest + kBySize * rank) *
                        (1 - kByCurrent * std::min(1.0F, strength / kStrongCurrent)) *
-                       (1 - kSinks * threat);
+                       (1 - kSinks * threat) *
+                       place::valueAt(kCloudHeight, situation.environment.surroundings->timeOfDay);
     const glm::vec3 up = place::directionOf(current, {}) *
                          -std::min(kMostUpCurrent * radius, kUpCurrentSeconds * strength);
     glm::vec3 aside = placeInCloud(situation) * (radius * (1 - (1 - kShrinks) * threat));
@@ -116,7 +111,15 @@ glm::vec3 pickOf(const Situation& situation, glm::vec3 current) {
 // A dive may be as steep as the motor goes.
 constexpr float kSteepestDive = 0.85F;
 
-// A unit direction no steeper than a dive.
+// Hidden fish stand beside one another: so far about the middle of the site, in its sizes.
+constexpr float kAboutSite = 0.4F;
+// A dive ends this near to its place.
+constexpr float kThereMetres = 0.08F;
+// Ticks at the beginning of a dive in which it may be a fast start.
+constexpr std::uint32_t kStartTicks = 16;
+
+}  // namespace
+
 glm::vec3 divingAlong(glm::vec3 direction) {
     const float y = std::clamp(direction.y, -kSteepestDive, kSteepestDive);
     const float level = std::sqrt(direction.x * direction.x + direction.z * direction.z);
@@ -125,14 +128,6 @@ glm::vec3 divingAlong(glm::vec3 direction) {
     return {direction.x * scale, y, direction.z * scale};
 }
 
-// Hidden fish stand beside one another: so far about the middle of the site, in its sizes.
-constexpr float kAboutSite = 0.4F;
-// A dive ends this near to its place.
-constexpr float kThereMetres = 0.08F;
-// Ticks at the beginning of a dive in which it may be a fast start.
-constexpr std::uint32_t kStartTicks = 16;
-
-// The place of this fish in a shelter, relative to the fish.
 glm::vec3 placeInShelter(const Situation& situation) {
     const place::Site& site =
         situation.environment.surroundings->sites[situation.senses.shelter.object];
@@ -143,7 +138,23 @@ glm::vec3 placeInShelter(const Situation& situation) {
            site.normal * (0.3F * situation.senses.length);
 }
 
-}  // namespace
+fish::Course keepStation(const Situation& situation, glm::vec3 wish) {
+    const Senses& senses = situation.senses;
+    const surroundings::Surroundings& around = *situation.environment.surroundings;
+    const glm::vec3 current =
+        around.current.at(senses.position, around.current.open(situation.environment.tick));
+    // The wanted velocity over ground, and that through the water.
+    const float most = kMostPace * situation.parameters.medium * senses.length;
+    const float pace = place::lengthOf(wish) < kThereLengths * senses.length
+                           ? 0.0F
+                           : std::min(most, place::lengthOf(wish) / kArrivesSeconds);
+    const glm::vec3 through = place::directionOf(wish, {}) * pace - current;
+    const float speed = place::lengthOf(through) / senses.length;
+    const bool faces = place::lengthOf(current) > kFacesFrom;
+    const glm::vec3 course =
+        pace > 0 || faces ? place::directionOf(through, senses.heading) : senses.heading;
+    return heading(situation, course + roomFrom(situation), speed);
+}
 
 fish::Course hover(const Situation& situation) {
     assert(situation.parameters.habits.cloud);
@@ -155,18 +166,7 @@ fish::Course hover(const Situation& situation) {
     const glm::vec3 pick = pickOf(situation, current);
     if (pick != glm::vec3{})
         return heading(situation, pick, 0.5F * (parameters.medium + parameters.fast));
-    // The wanted velocity over ground, and that through the water.
-    const glm::vec3 wish = wishOf(situation, current);
-    const float most = kMostPace * parameters.medium * senses.length;
-    const float pace = place::lengthOf(wish) < kThereLengths * senses.length
-                           ? 0.0F
-                           : std::min(most, place::lengthOf(wish) / kArrivesSeconds);
-    const glm::vec3 through = place::directionOf(wish, {}) * pace - current;
-    const float speed = place::lengthOf(through) / senses.length;
-    const bool faces = place::lengthOf(current) > kFacesFrom;
-    const glm::vec3 course =
-        pace > 0 || faces ? place::directionOf(through, senses.heading) : senses.heading;
-    return heading(situation, course + roomFrom(situation), speed);
+    return keepStation(situation, wishOf(situation, current));
 }
 
 fish::Course hide(const Situation& situation, fish::Mind& mind) {

@@ -8,6 +8,7 @@
 
 #include "common/base/random_streams.h"
 #include "common/place/place.h"
+#include "master/behaviour/hours.h"
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/routines.h"
 
@@ -298,6 +299,12 @@ float alarmOf(const fish::SpeciesParameters& parameters, const fish::Feelings& f
         1.0F);
 }
 
+// A factor of a time of day; in full alarm a school is as by day.
+float factorAt(const place::ByPhase& values, double timeOfDay, float alarm) {
+    const float calm = place::valueAt(values, timeOfDay);
+    return calm + (1 - calm) * alarm;
+}
+
 // A push away from a predator that grows before it is so near that each fish flees alone.
 glm::vec3 clearing(const Situation& situation) {
     const fish::SpeciesParameters& parameters = situation.parameters;
@@ -356,13 +363,15 @@ std::optional<fish::Course> keptCompany(const Situation& situation) {
 Company companyOf(const fish::FishView& view,
                   const Senses& senses,
                   std::uint32_t fish,
-                  float alarm) {
+                  float alarm,
+                  const Togetherness& together) {
     assert(fish < view.size());
     assert(alarm >= 0);
     assert(alarm <= 1);
     Company company;
     const float perLength = 1 / view.fish[fish].length;
-    const float spacing = kSpacing + (kAlarmedSpacing - kSpacing) * alarm;
+    const float calm = kSpacing * together.spacing;
+    const float spacing = calm + (kAlarmedSpacing - calm) * alarm;
     const float attract = kAttractFully + (kAttractAlarmed - kAttractFully) * alarm;
     for (std::size_t i = 0; i < senses.others.count; ++i) {
         // From a larger fish it keeps a distance in that fish's lengths.
@@ -387,8 +396,8 @@ Company companyOf(const fish::FishView& view,
     if (parting > kMostSeparation) company.separation *= kMostSeparation / parting;
     if (senses.schoolmates.count == 0) return company;
     const float share = 1 / static_cast<float>(senses.schoolmates.count);
-    company.alignment *= share;
-    company.cohesion *= share * (1 + kHuddle * alarm);
+    company.alignment *= share * together.alignment;
+    company.cohesion *= share * (1 + kHuddle * alarm) * together.cohesion;
     company.hurry = place::dot(company.cohesion, senses.heading);
     company.speed *= share;
     return company;
@@ -422,9 +431,13 @@ fish::Course school(const Situation& situation) {
     const float alarm = alarmOf(situation.parameters, situation.feelings);
     const bool gathers = environment.gathering != config::Gathering::None;
     const Glance glance = gathers ? Glance{} : glanceOf(situation);
-    const Company company = companyOf(*environment.view, senses, situation.fish, alarm);
+    const double time = environment.surroundings->timeOfDay;
+    const Togetherness together{factorAt(kSchoolSpacing, time, alarm),
+                                factorAt(kSchoolAlignment, time, alarm),
+                                factorAt(kSchoolCohesion, time, alarm)};
+    const Company company = companyOf(*environment.view, senses, situation.fish, alarm, together);
     // Avoiding obstacles comes before following.
-    const float follow = kFollow * std::max(0.0F, 1 - senses.urgency);
+    const float follow = kFollow * std::max(0.0F, 1 - senses.urgency) * together.cohesion;
     const glm::vec3 way = gathers ? commonWay(environment, situation.fish, senses.position)
                                   : glimpses(situation, glance, alarm) * kRejoin;
     const glm::vec3 desired = senses.heading * kKeepCourse + pullOf(company) + way * follow +
@@ -432,7 +445,7 @@ fish::Course school(const Situation& situation) {
                                   (kWander * (1 - kAttentive * alarm)) +
                               clearing(situation) + wayRound(situation) * kSteerClear;
     return {place::levelled(place::directionOf(desired, senses.heading)),
-            wantedSpeed(situation, company, alarm),
+            wantedSpeed(situation, company, alarm) * factorAt(kSchoolSpeed, time, alarm),
             senses.urgency};
 }
 

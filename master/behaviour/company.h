@@ -45,12 +45,18 @@ struct Company {
     float brake = 0;
 };
 
+// How a school keeps together at a time of day, as factors (master/behaviour/hours.h).
+struct Togetherness {
+    float spacing = 1, alignment = 1, cohesion = 1;
+};
+
 // Schoolmates act by all three rules; fish of other species only by separation. `alarm` is 0 at
 // ease and 1 where a predator is near and all close up.
 [[nodiscard]] Company companyOf(const fish::FishView& view,
                                 const Senses& senses,
                                 std::uint32_t fish,
-                                float alarm);
+                                float alarm,
+                                const Togetherness& together = {});
 
 // The weighted sum of the three rules, in units of the unit vector of the present course.
 [[nodiscard]] glm::vec3 pullOf(const Company& company);

@@ -41,6 +41,7 @@ enum class PriorityRule : std::uint8_t {
     Shelter,    // Hide
     OtherFish,  // AvoidFish
     Fear,       // School or Escape
+    Rest,       // Rest, outside the active hours of the species
     Memory,     // what was interrupted
     Hunger,     // Eat
     Libido,     // Mate
@@ -49,7 +50,7 @@ enum class PriorityRule : std::uint8_t {
     // Hover or Wander: always wins.
     Ease,
 };
-inline constexpr std::size_t kPriorityRules = 10;
+inline constexpr std::size_t kPriorityRules = 11;
 
 // The verdict on a rule.
 enum class Verdict : std::uint8_t {
@@ -63,7 +64,8 @@ enum class Verdict : std::uint8_t {
     TooOld,   // Memory: interrupted for longer than threshold; forgotten
     // Hunger of a predator: it rests after a chase.
     Resting,
-    Sheltered,  // Fear: a shelter is near, whose rule decides
+    Sheltered,  // Fear: a shelter is near, whose rule decides; OtherFish: it rests in one
+    Awake,      // Rest: it is active now
     // Hunger or libido: the other one is stronger.
     Yields,
 };

@@ -62,6 +62,8 @@ class Simulation {
     [[nodiscard]] virtual std::uint64_t hash() const = 0;
     [[nodiscard]] virtual Snapshot snapshot() const = 0;
     [[nodiscard]] virtual Explanation explain(std::uint32_t fish) const = 0;
+    // Whether its day follows the hall's clock, which world::SetClock brings to it.
+    [[nodiscard]] virtual bool followsHall() const { return false; }
 };
 
 }  // namespace aquarama::conductor

@@ -19,6 +19,7 @@ const char* nameOf(Intention intention) {
                                                           "school",
                                                           "eat",
                                                           "mate",
+                                                          "rest",
                                                           "hide",
                                                           "escape",
                                                           "avoid fish",

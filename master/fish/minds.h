@@ -11,9 +11,9 @@
 
 namespace aquarama::fish {
 
-// The behaviour routines, which a mind chooses from: those of Tu & Terzopoulos 1994, and Hover and
-// Hide of fish that live at the reef. Those from Escape on always interrupt (see interrupts()).
-// Wander also stands for an empty memory.
+// The behaviour routines, which a mind chooses from: those of Tu & Terzopoulos 1994, and Hover,
+// Rest and Hide of fish that live at the reef. Those from Escape on always interrupt (see
+// interrupts()). Wander also stands for an empty memory.
 enum class Intention : std::uint8_t {
     Wander,
     Hover,
@@ -21,12 +21,13 @@ enum class Intention : std::uint8_t {
     School,
     Eat,
     Mate,
+    Rest,
     Hide,
     Escape,
     AvoidFish,
     AvoidObstacle
 };
-inline constexpr std::size_t kIntentions = 10;
+inline constexpr std::size_t kIntentions = 11;
 // Its name for people, such as "avoid fish".
 [[nodiscard]] const char* nameOf(Intention intention);
 
@@ -48,7 +49,7 @@ enum class Alarm : std::uint8_t {
 struct Mind {
     Intention intention = Intention::Wander;
     // Target of the intention: a fish (Mate, AvoidFish, Escape, Eat of a predator), a particle of
-    // food (Eat of the others) or a site (Hide); kNobody where the routine has none.
+    // food (Eat of the others) or a site (Hide, Rest); kNobody where the routine has none.
     std::uint32_t target = kNobody;
     // Ticks for which it has had the present aim (aimOf()); interruptions count too.
     std::uint32_t pursued = 0;

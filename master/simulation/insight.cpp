@@ -220,7 +220,8 @@ class Screen {
     // is none.
     [[nodiscard]] std::string targetOf(fish::Intention intention, std::uint32_t target) const {
         if (target == fish::kNobody) return {};
-        if (intention == fish::Intention::Hide) return fmt::format("site {}", target);
+        if (intention == fish::Intention::Hide || intention == fish::Intention::Rest)
+            return fmt::format("site {}", target);
         const bool isParticle = intention == fish::Intention::Eat &&
                                 of_.parameters.habits.role != config::Role::Predator;
         return isParticle ? particle(target) : named(target);
@@ -287,6 +288,7 @@ constexpr std::array<const char*, behaviour::kPriorityRules> kPriorityRuleNames{
                                                                                 "shelter",
                                                                                 "other fish",
                                                                                 "fear",
+                                                                                "rest",
                                                                                 "memory",
                                                                                 "hunger",
                                                                                 "libido",
@@ -338,7 +340,10 @@ std::string Screen::verdictOn(behaviour::PriorityRule rule,
         case behaviour::Verdict::Resting:
             return "rests from the last chase";
         case behaviour::Verdict::Sheltered:
-            return "a shelter is near";
+            return rule == behaviour::PriorityRule::OtherFish ? "rests in its shelter"
+                                                              : "a shelter is near";
+        case behaviour::Verdict::Awake:
+            return "awake: these are its active hours";
         case behaviour::Verdict::Yields:
             break;
     }

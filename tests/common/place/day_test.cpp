@@ -45,6 +45,12 @@ TEST(Day, halfADayIsTheMiddleOfNoonAndItsBeginningIsNight) {
     EXPECT_EQ(phaseOf(1), DayPhase::Night);
 }
 
+TEST(Day, aTimeInAPhaseIsWithinTheDay) {
+    EXPECT_NEAR(timeIn(DayPhase::Noon, 0.5), 0.5, 1e-9);
+    EXPECT_NEAR(timeIn(DayPhase::Night, 0.75), 0.0375, 1e-9);
+    EXPECT_NEAR(timeIn(DayPhase::FirstLight, -1.5), 0.975, 1e-9);
+}
+
 TEST(Day, itIsDayFromTheEndOfDawnUntilSunset) {
     EXPECT_FALSE(isDaytime(at(119.9)));
     EXPECT_TRUE(isDaytime(at(120.1)));
