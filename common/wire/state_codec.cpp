@@ -64,8 +64,8 @@ bool hasAllScalars(const v1::State& message) {
     return message.has_frame() && message.has_tick() && message.has_fraction() &&
            message.has_world_hash() && message.has_motion_hash() && message.has_before() &&
            message.has_after() && message.has_food_before() && message.has_food_after() &&
-           message.has_daylight() && message.has_time_of_day() &&
-           message.layout_version() == kLayoutVersion && message.stride() == kStride;
+           message.has_time_of_day() && message.layout_version() == kLayoutVersion &&
+           message.stride() == kStride;
 }
 
 }  // namespace
@@ -102,7 +102,6 @@ Packet encodeState(std::uint64_t session, const StateView& state) {
     for (const float number : {origin.x, origin.y, origin.z}) message.add_food_origin(number);
     writeRecords(state.foodBefore, *message.mutable_food_before());
     writeRecords(state.foodAfter, *message.mutable_food_after());
-    message.set_daylight(state.daylight);
     message.set_time_of_day(state.timeOfDay);
     assert(state.show != nullptr);
     *message.mutable_show() = *state.show;
@@ -118,12 +117,10 @@ std::optional<StateFrame> readState(const v1::State& message) {
     auto foodAfter = readFood(message.food_after());
     if (!eye || !before || !after || !foodBefore || !foodAfter) return std::nullopt;
     const float fraction = message.fraction();
-    const float daylight = message.daylight();
     const float timeOfDay = message.time_of_day();
     auto show = readShow(message.show());
     const auto& origin = message.food_origin();
-    if (!isShare(fraction) || !isShare(daylight) || !isShare(timeOfDay) || !show)
-        return std::nullopt;
+    if (!isShare(fraction) || !isShare(timeOfDay) || !show) return std::nullopt;
     if (origin.size() != kPlaceNumbers || !areFinite(origin)) return std::nullopt;
     if (!arePaired(*before, *after, fraction) || !arePaired(*foodBefore, *foodAfter, fraction))
         return std::nullopt;
@@ -138,7 +135,6 @@ std::optional<StateFrame> readState(const v1::State& message) {
                       .foodOriginMetres = {origin[0], origin[1], origin[2]},
                       .foodBefore = std::move(*foodBefore),
                       .foodAfter = std::move(*foodAfter),
-                      .daylight = daylight,
                       .timeOfDay = timeOfDay,
                       .show = *std::move(show)};
 }

@@ -22,7 +22,6 @@ struct Snapshot {
     net::Moment due{};  // live: when the world was like this; set by the tick thread
     std::uint64_t hash = 0;
     wire::Eye eye;
-    float daylight = 1.0F;   // of the sky, 0 to 1
     float timeOfDay = 0.5F;  // share of the day, 0 to 1: 0 and 1 are midnight
     std::vector<motion::FishRecord> fish;
     wire::FoodCloud food;

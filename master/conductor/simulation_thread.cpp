@@ -33,7 +33,6 @@ wire::StateView showingOne(Frame frame, const Snapshot& snapshot) {
             .foodOriginMetres = snapshot.food.originMetres,
             .foodBefore = {},
             .foodAfter = snapshot.food.particles,
-            .daylight = snapshot.daylight,
             .timeOfDay = snapshot.timeOfDay,
             .show = nullptr};
 }
@@ -86,7 +85,6 @@ std::optional<wire::StateView> SnapshotBuffer::showing(Frame frame, net::Moment 
     view.eye = between(before.eye, after->eye, fraction);
     view.before = before.fish;
     view.foodBefore = before.food.particles;
-    view.daylight = glm::mix(before.daylight, after->daylight, fraction);
     view.timeOfDay = timeBetween(before.timeOfDay, after->timeOfDay, fraction);
     return view;
 }
