@@ -48,6 +48,10 @@ std::string wordsFor(const wire::RecordedInput& input) {
                            s->up,
                            s->turn,
                            s->tilt);
+    if (const auto* clock = std::get_if<wire::RecordedClock>(&input.input))
+        return fmt::format("the hall's clock, {:.4f} of the day, a day in {:.0f} s",
+                           clock->timeOfDay,
+                           clock->lengthSeconds);
     const auto& moved = std::get<wire::RecordedSubmarine>(input.input);
     return fmt::format("submarine at {:.2f} {:.2f} {:.2f} m",
                        moved.position.x,

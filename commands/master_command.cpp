@@ -23,6 +23,7 @@
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
+#include "common/config/hours.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 #include "common/net/channels.h"
@@ -180,6 +181,7 @@ conductor::ConductorOptions conductorOptions(const config::Rig& rig, const Maste
     conductor.traceDirectory = options.show.traceFolder;
     conductor.log = options.log.get();
     conductor.service = options.service;
+    conductor.hoursAt = config::consoleFolderOf(options.show.rigPath) / config::kHoursFile;
     if (!rig.files.empty()) conductor.looks.changedRig = RigFileWatch(rig, options.show.rigPath);
     return conductor;
 }

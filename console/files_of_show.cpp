@@ -217,7 +217,7 @@ Said runAquarama(std::vector<std::string> arguments, bool withErrors) {
 
 // Beside the master's own, by the same name of the rig.
 fs::path stateFolderOf(const std::string& rigPath) {
-    return userFolder("XDG_STATE_HOME", ".local/state") / "console" / fs::path(rigPath).stem();
+    return config::consoleFolderOf(rigPath);
 }
 
 // The path at which the master's openLog() writes.

@@ -18,8 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-// Names in the state folder: the text of the hours, and what was brought about last.
-constexpr const char* kHoursFile = "hours.txtpb";
+// Name in the state folder: what was brought about last.
 constexpr const char* kDoneFile = "opening.json";
 // How long before the opening lamps go on, and how long the shutters wait for the slowest lamp.
 constexpr double kWarmUpSeconds = 180;
@@ -61,11 +60,11 @@ Opening::Opening(std::filesystem::path folder, MakeProjector make)
 
 // The text is kept as it is, so that it can be mended on the page.
 void Opening::readHours() {
-    const std::filesystem::path path = folder_ / kHoursFile;
+    const std::filesystem::path path = folder_ / config::kHoursFile;
     try {
         if (!std::filesystem::exists(path)) return;
         text_ = config::readTextFile(path.string());
-        hours_ = config::parseHours(text_, kHoursFile, &form_);
+        hours_ = config::parseHours(text_, config::kHoursFile, &form_);
     } catch (const std::exception& problem) {
         problem_ = problem.what();
         logWarning("{} (in {}); there are no hours, and nothing is switched, until that is mended",
@@ -119,9 +118,9 @@ void Opening::keep() const {
 void Opening::setText(const std::string& text) {
     std::optional<config::Hours> hours;
     v1::Hours form;
-    if (!text.empty()) hours = config::parseHours(text, kHoursFile, &form);
-    write(folder_ / kHoursFile, text);
-    if (text.empty()) std::filesystem::remove(folder_ / kHoursFile);
+    if (!text.empty()) hours = config::parseHours(text, config::kHoursFile, &form);
+    write(folder_ / config::kHoursFile, text);
+    if (text.empty()) std::filesystem::remove(folder_ / config::kHoursFile);
     text_ = text;
     problem_.clear();
     hours_ = std::move(hours);

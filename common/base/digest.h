@@ -37,11 +37,13 @@ inline constexpr std::size_t kMostBlobBytes = std::size_t{256} << 20U;
 // Folds arrays into one number: equal states have equal hashes. Fast, and the same on every
 // machine; not safe against an attacker.
 
-// A float by its bits, so 0 and -0 differ; an integer or enum by its value.
+// A float or double by its bits, so 0 and -0 differ; an integer or enum by its value.
 template <class Value>
 [[nodiscard]] std::uint64_t bitsOf(Value value) {
     if constexpr (std::is_same_v<Value, float>)
         return std::bit_cast<std::uint32_t>(value);
+    else if constexpr (std::is_same_v<Value, double>)
+        return std::bit_cast<std::uint64_t>(value);
     else
         return static_cast<std::uint64_t>(value);
 }

@@ -60,6 +60,8 @@ enum class Stream : std::uint32_t {
     Sand,
     GrazingPeriods,
     Owners,
+    HoursOfRest,
+    RestingPlaces,
     // Cleaners and ambushes.
     Cleaning = 381,
     Urge,

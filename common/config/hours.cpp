@@ -14,6 +14,7 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 
+#include "common/base/files.h"
 #include "common/config/hours.pb.h"
 #include "common/config/rig.h"
 #include "common/config/text_reader.h"
@@ -380,6 +381,25 @@ CivilTime civilTime(const std::string& zone, long long unixSeconds) {
             local.tm_mday,
             local.tm_wday == 0 ? 7 : local.tm_wday,
             60 * local.tm_hour + local.tm_min};
+}
+
+std::filesystem::path consoleFolderOf(const std::string& rigPath) {
+    return userFolder("XDG_STATE_HOME", ".local/state") / "console" /
+           std::filesystem::path(rigPath).stem();
+}
+
+std::optional<OpenTimes> openTimesOn(const Hours& hours, const CivilTime& now) {
+    const auto exception = std::ranges::find(
+        hours.exceptions, CivilDate{now.year, now.month, now.day}, &ExceptionDay::date);
+    const bool isException = exception != hours.exceptions.end();
+    std::optional<OpenTimes> times;
+    for (const OpenSpan& span : isException ? exception->open : hours.open) {
+        if (!isException && std::ranges::find(span.weekdays, now.weekday) == span.weekdays.end())
+            continue;
+        times = times ? OpenTimes{std::min(times->from, span.from), std::max(times->to, span.to)}
+                      : OpenTimes{span.from, span.to};
+    }
+    return times;
 }
 
 // Asked at any moment of a minute: changes of clocks are at whole minutes. While a time comes the

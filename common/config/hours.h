@@ -3,6 +3,7 @@
 #pragma once
 
 #include <compare>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,10 @@ class Hours;  // hours.proto
 }
 
 namespace aquarama::config {
+
+// The folder in which the console keeps what it knows of a rig, and the file of its hours there.
+[[nodiscard]] std::filesystem::path consoleFolderOf(const std::string& rigPath);
+inline constexpr const char* kHoursFile = "hours.txtpb";
 
 // A moment as the clock on the wall of a hall shows it.
 struct CivilTime {
@@ -76,6 +81,15 @@ struct WantedHours {
 // thread calls it, and what follows. A zone that the system does not know is UTC.
 [[nodiscard]] CivilTime civilTime(const std::string& zone, long long unixSeconds);
 [[nodiscard]] bool isZone(const std::string& zone);
+
+// From the first opening of a day to the last closing. Minutes of the day; `to` may be of the next
+// one, up to 2880.
+struct OpenTimes {
+    int from = 0, to = 0;
+    friend bool operator==(const OpenTimes&, const OpenTimes&) = default;
+};
+// Of the day of the calendar on which a moment is; nothing where the wall is closed on that day.
+[[nodiscard]] std::optional<OpenTimes> openTimesOn(const Hours& hours, const CivilTime& now);
 
 // A function of the calendar and the clock alone: whoever asks at whatever moment gets the same.
 // Where the clock is put back, a time that comes twice counts when it first comes; where it is put

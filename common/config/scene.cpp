@@ -93,6 +93,17 @@ SceneCurrent currentOf(const v1::Scene& in) {
             .surgeSeconds = in.current().surge_s()};
 }
 
+Day dayOf(const TextReader& file, const v1::Day& in) {
+    const bool followsHall = in.follows() == v1::Day::HALL;
+    if (followsHall && in.length_s() > 0)
+        file.refuse(
+            in, "length_s", "a day that follows the hall is as long as the hall's: drop it");
+    return {.lengthSeconds = in.length_s(),
+            .startsAt = in.starts_at(),
+            .night = in.night(),
+            .followsHall = followsHall};
+}
+
 bool isIn(const SceneWater& water, glm::vec3 place, float radius) {
     const glm::vec3 from = place - water.centre;
     return std::abs(from.x) + radius <= water.halfExtent.x &&
@@ -193,9 +204,7 @@ Scene parseScene(const std::string& text, const std::string& source) {
     scene.sites = sitesOf(file, in, scene.place);
     scene.current = currentOf(in);
     scene.livedSeconds = in.lived_s();
-    scene.day = {.lengthSeconds = in.day().length_s(),
-                 .startsAt = in.day().starts_at(),
-                 .night = in.day().night()};
+    scene.day = dayOf(file, in.day());
     scene.drops = dropsOf(file, in, scene.water);
     if (in.has_tour()) scene.tour = tourOf(file, in.tour(), scene.place);
     scene.idleSeconds = in.idle_s();

@@ -103,11 +103,14 @@ struct SceneWater {
     WaterType jerlov = WaterType::IA;                     // what light does in it
 };
 
-// Brightness over a day: 1 at noon, `night` at midnight. Length 0: always as at the start.
+// The day of a scene (common/place/day.h): brightness 1 by day, `night` at night. Length 0: always
+// as at the start. One that follows the hall has no length; it begins as the hall's clock says, or
+// as `startsAt` says where no clock is read.
 struct Day {
     double lengthSeconds = 0;
     double startsAt = 0.5;  // 0 midnight, 0.5 noon
     double night = 0.2;
+    bool followsHall = false;
 };
 
 // Something for the fish: pellets that a visitor could have dropped.

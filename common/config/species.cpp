@@ -374,6 +374,11 @@ Habits habitsOf(const TextReader& file, const v1::Habits& in, const std::string&
     if (in.has_graze()) habits.graze = grazeOf(file, in.graze());
     if (in.has_territory()) habits.territory = territoryOf(file, in);
     habits.hidesIn = hidingOf(file, in);
+    if (in.has_hours())
+        habits.hours = {
+            .active = static_cast<Activity>(in.hours().active() - v1::ActiveHours::ALWAYS),
+            .retires = in.hours().retires(),
+            .rises = in.hours().rises()};
     if (in.has_hunt()) {
         habits.hunts = othersOf(file, in.hunt(), "prey", in.hunt().prey(), own);
         habits.hunt = {.chaseSeconds = in.hunt().chase_s(),

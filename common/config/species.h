@@ -239,6 +239,17 @@ struct Ambush {
     std::uint32_t posts = 1;
 };
 
+// When a species is active, in the schema's order.
+enum class Activity : std::uint8_t { Always, Day, Night };
+
+// The hours of a species: it rests outside them. Where they begin and end, as shares of the
+// twilight: one of the day retires in the course of dusk and rises in that of dawn, one of the
+// night retires at dawn and rises at dusk.
+struct ActiveHours {
+    Activity active = Activity::Always;
+    double retires = 0.5, rises = 0.5;
+};
+
 // Of predators.
 struct Hunt {
     double chaseSeconds = 8;  // at most
@@ -281,6 +292,7 @@ struct Habits {
     std::optional<Graze> graze;
     std::optional<Territory> territory;
     std::vector<SiteKind> hidesIn;  // none: it flees in open water
+    ActiveHours hours;
     bool eatsPlankton = true;
     std::vector<std::string> hunts;  // species by name
     Hunt hunt;

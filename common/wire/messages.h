@@ -23,7 +23,7 @@
 namespace aquarama::wire {
 
 // Peers of another major version are refused.
-inline constexpr std::uint32_t kProtocolMajor = 6;
+inline constexpr std::uint32_t kProtocolMajor = 7;
 
 // Bounds that the code keeps to. All bounds of arriving messages are rules of aquarama.proto; a
 // test compares these with them.

@@ -28,6 +28,7 @@ constexpr std::size_t kMostSmallEntryBytes = 256;             // of inputs and h
 constexpr std::uint64_t kMostTick = std::uint64_t{1} << 32U;  // two years
 constexpr float kMostMetres = 10'000;
 constexpr std::uint32_t kMostPellets = 65'535;
+constexpr double kMostDaySeconds = 1.0e9;
 
 // An entry after its length as a varint, as protobuf's own tools delimit messages.
 Packet delimited(const v1::RecordingEntry& entry) {
@@ -81,6 +82,11 @@ void write(const Steering& steering, v1::RecordedInput& message) {
     written.set_up(steering.up);
     written.set_turn(steering.turn);
     written.set_tilt(steering.tilt);
+}
+
+void write(const RecordedClock& clock, v1::RecordedInput& message) {
+    message.mutable_clock()->set_time_of_day(clock.timeOfDay);
+    message.mutable_clock()->set_length_s(clock.lengthSeconds);
 }
 
 void write(const RecordedHash& hash, v1::RecordedHash& message) {
@@ -222,6 +228,16 @@ class Reader {
         return {axis(0), axis(1), axis(2), axis(3), axis(4)};
     }
 
+    // A number that is none is within no bounds.
+    RecordedClock clockIn(const v1::RecordedClock& clock) const {
+        const bool isTime =
+            clock.has_time_of_day() && clock.time_of_day() >= 0 && clock.time_of_day() < 1;
+        const bool isLength =
+            clock.has_length_s() && clock.length_s() >= 0 && clock.length_s() <= kMostDaySeconds;
+        if (!isTime || !isLength) fail("has a clock that cannot be");
+        return {clock.time_of_day(), clock.length_s()};
+    }
+
     RecordedInput inputIn(const v1::RecordedInput& message) {
         RecordedInput input{tickIn(message.has_tick(), message.tick()), {}};
         if (message.has_food()) {
@@ -236,6 +252,8 @@ class Reader {
         } else if (message.has_steering()) {
             const v1::RecordedSteering& s = message.steering();
             input.input = steeringIn({s.ahead(), s.aside(), s.up(), s.turn(), s.tilt()});
+        } else if (message.has_clock()) {
+            input.input = clockIn(message.clock());
         } else {
             fail("has an input that this program does not know");
         }

@@ -53,10 +53,15 @@ struct RecordedSubmarine {
     glm::vec3 position{};  // metres, world frame
     glm::vec3 velocityMetresPerSecond{};
 };
+// The hall's clock was set: the time of day, 0 to 1 (1 excluded), and the length of a day at its
+// pace, 0 where it stands still.
+struct RecordedClock {
+    double timeOfDay = 0.5, lengthSeconds = 0;
+};
 // An input that reached the world after `tick` and before the next.
 struct RecordedInput {
     Tick tick;
-    std::variant<RecordedFood, RecordedSubmarine, Steering> input;
+    std::variant<RecordedFood, RecordedSubmarine, Steering, RecordedClock> input;
 };
 
 // A hash of the world at the tick, before any input that reaches it then.

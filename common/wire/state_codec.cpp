@@ -64,7 +64,7 @@ bool hasAllScalars(const v1::State& message) {
     return message.has_frame() && message.has_tick() && message.has_fraction() &&
            message.has_world_hash() && message.has_motion_hash() && message.has_before() &&
            message.has_after() && message.has_food_before() && message.has_food_after() &&
-           message.has_daylight() && message.layout_version() == kLayoutVersion &&
+           message.has_time_of_day() && message.layout_version() == kLayoutVersion &&
            message.stride() == kStride;
 }
 
@@ -102,7 +102,7 @@ Packet encodeState(std::uint64_t session, const StateView& state) {
     for (const float number : {origin.x, origin.y, origin.z}) message.add_food_origin(number);
     writeRecords(state.foodBefore, *message.mutable_food_before());
     writeRecords(state.foodAfter, *message.mutable_food_after());
-    message.set_daylight(state.daylight);
+    message.set_time_of_day(state.timeOfDay);
     assert(state.show != nullptr);
     *message.mutable_show() = *state.show;
     return encode(session, std::move(envelope));
@@ -117,10 +117,10 @@ std::optional<StateFrame> readState(const v1::State& message) {
     auto foodAfter = readFood(message.food_after());
     if (!eye || !before || !after || !foodBefore || !foodAfter) return std::nullopt;
     const float fraction = message.fraction();
-    const float daylight = message.daylight();
+    const float timeOfDay = message.time_of_day();
     auto show = readShow(message.show());
     const auto& origin = message.food_origin();
-    if (!isShare(fraction) || !isShare(daylight) || !show) return std::nullopt;
+    if (!isShare(fraction) || !isShare(timeOfDay) || !show) return std::nullopt;
     if (origin.size() != kPlaceNumbers || !areFinite(origin)) return std::nullopt;
     if (!arePaired(*before, *after, fraction) || !arePaired(*foodBefore, *foodAfter, fraction))
         return std::nullopt;
@@ -135,7 +135,7 @@ std::optional<StateFrame> readState(const v1::State& message) {
                       .foodOriginMetres = {origin[0], origin[1], origin[2]},
                       .foodBefore = std::move(*foodBefore),
                       .foodAfter = std::move(*foodAfter),
-                      .daylight = daylight,
+                      .timeOfDay = timeOfDay,
                       .show = *std::move(show)};
 }
 

@@ -135,7 +135,7 @@ struct BasicState {
     glm::vec3 foodOriginMetres{};  // of FoodRecord::offsetMetres
     FoodRecords foodBefore;
     FoodRecords foodAfter;
-    float daylight = 1.0F;  // of the sky: 1 at noon, less towards the night, never below 0
+    float timeOfDay = 0.5F;  // share of the day: 0 and 1 midnight, 0.5 noon
     Shown show{};
 };
 // What a node has received: owns its records.

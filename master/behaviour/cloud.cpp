@@ -8,6 +8,7 @@
 #include "common/place/place.h"
 #include "master/behaviour/company.h"
 #include "master/behaviour/home.h"
+#include "master/behaviour/hours.h"
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/routines.h"
 
@@ -46,13 +47,6 @@ constexpr std::uint64_t kDartTicks = 26;
 constexpr float kDartLengths = 2.5F;
 constexpr float kPicksUntil = 0.2F;
 
-// The rank of a fish by size within its species, 0 the smallest to 1.
-float rankOf(const fish::SpeciesParameters& parameters, float length) {
-    const float range = parameters.size.mostMetres - parameters.size.leastMetres;
-    if (range <= 0) return 0.5F;
-    return std::clamp((length - parameters.size.leastMetres) / range, 0.0F, 1.0F);
-}
-
 // A point drawn from the unit disc, in plan, by the fish and the time.
 glm::vec3 placeInCloud(const Situation& situation) {
     const std::uint32_t own =
@@ -76,10 +70,11 @@ glm::vec3 wishOf(const Situation& situation, glm::vec3 current) {
     const float threat = situation.feelings.threat;
     const float strength = place::lengthOf(current);
     const auto radius = static_cast<float>(habits.home.radiusMetres);
-    const float rank = rankOf(situation.parameters, situation.senses.length);
+    const float rank = sizeRankOf(situation.parameters, situation.senses.length);
     const float high = static_cast<float>(habits.cloud->heightMetres) * (kLowest + kBySize * rank) *
                        (1 - kByCurrent * std::min(1.0F, strength / kStrongCurrent)) *
-                       (1 - kSinks * threat);
+                       (1 - kSinks * threat) *
+                       place::valueAt(kCloudHeight, situation.environment.surroundings->timeOfDay);
     const glm::vec3 up = place::directionOf(current, {}) *
                          -std::min(kMostUpCurrent * radius, kUpCurrentSeconds * strength);
     glm::vec3 aside = placeInCloud(situation) * (radius * (1 - (1 - kShrinks) * threat));
@@ -120,17 +115,6 @@ constexpr float kThereMetres = 0.08F;
 // Ticks at the beginning of a dive in which it may be a fast start.
 constexpr std::uint32_t kStartTicks = 16;
 
-// The place of this fish in a shelter, relative to the fish.
-glm::vec3 placeInShelter(const Situation& situation) {
-    const place::Site& site =
-        situation.environment.surroundings->sites[situation.senses.shelter.object];
-    const std::uint32_t own = hashOf(site.seed, situation.fish);
-    const glm::vec3 aside{
-        signedUnitOf(hashOf(own, 1)), 0.5F * unitOf(hashOf(own, 2)), signedUnitOf(hashOf(own, 3))};
-    return situation.senses.shelter.offset + aside * (kAboutSite * site.sizeMetres) +
-           site.normal * (0.3F * situation.senses.length);
-}
-
 // A unit vector, and a speed in body lengths a second.
 struct Way {
     glm::vec3 course;
@@ -152,6 +136,23 @@ Way throughWater(const Situation& situation, glm::vec3 wish, glm::vec3 current, 
 
 }  // namespace
 
+glm::vec3 placeInShelter(const Situation& situation) {
+    const place::Site& site =
+        situation.environment.surroundings->sites[situation.senses.shelter.object];
+    const std::uint32_t own = hashOf(site.seed, situation.fish);
+    const glm::vec3 aside{
+        signedUnitOf(hashOf(own, 1)), 0.5F * unitOf(hashOf(own, 2)), signedUnitOf(hashOf(own, 3))};
+    return situation.senses.shelter.offset + aside * (kAboutSite * site.sizeMetres) +
+           site.normal * (0.3F * situation.senses.length);
+}
+
+fish::Course keepStation(const Situation& situation, glm::vec3 wish) {
+    const surroundings::Surroundings& around = *situation.environment.surroundings;
+    const glm::vec3 current = around.current.at(situation.senses.position, around.openCurrent);
+    const Way way = throughWater(situation, wish, current, kThereLengths * situation.senses.length);
+    return heading(situation, way.course + roomFrom(situation), way.speed);
+}
+
 fish::Course keptPlace(const Situation& situation, glm::vec3 towards, float metres) {
     const surroundings::Surroundings& around = *situation.environment.surroundings;
     const glm::vec3 current = around.current.at(situation.senses.position, around.openCurrent);
@@ -168,9 +169,7 @@ fish::Course hover(const Situation& situation) {
     const glm::vec3 pick = pickOf(situation, current);
     if (pick != glm::vec3{})
         return heading(situation, pick, 0.5F * (parameters.medium + parameters.fast));
-    const Way way =
-        throughWater(situation, wishOf(situation, current), current, kThereLengths * senses.length);
-    return heading(situation, way.course + roomFrom(situation), way.speed);
+    return keepStation(situation, wishOf(situation, current));
 }
 
 fish::Course hide(const Situation& situation, fish::Mind& mind) {

@@ -8,6 +8,7 @@
 
 #include "common/base/random_streams.h"
 #include "common/place/place.h"
+#include "master/behaviour/hours.h"
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/routines.h"
 #include "master/behaviour/ways.h"
@@ -178,6 +179,8 @@ constexpr float kAlarmedPace = 0.5F;
 constexpr std::uint32_t kGlimpses = 4;
 constexpr std::uint64_t kTicksOfGlance = 60;
 constexpr float kRejoin = 1.5F;
+// The share by which a school spreads where it likes to be.
+constexpr float kSpreads = 1.2F;
 // And where the school likes to be: there its parts stay apart for a while, but nobody alone.
 constexpr float kRejoinAtRest = 0.3F;
 constexpr std::size_t kPart = 4;
@@ -295,6 +298,12 @@ float alarmOf(const fish::SpeciesParameters& parameters, const fish::Feelings& f
         1.0F);
 }
 
+// A factor of a time of day; in full alarm a school is as by day.
+float factorAt(const place::ByPhase& values, double timeOfDay, float alarm) {
+    const float calm = place::valueAt(values, timeOfDay);
+    return calm + (1 - calm) * alarm;
+}
+
 // A push away from a predator that grows before it is so near that each fish flees alone.
 glm::vec3 clearing(const Situation& situation) {
     const fish::SpeciesParameters& parameters = situation.parameters;
@@ -352,15 +361,18 @@ std::optional<fish::Course> keptCompany(const Situation& situation) {
     return alongside(situation, partner, view.position(partner) + level * apart);
 }
 
-Company companyOf(
-    const fish::FishView& view, const Senses& senses, std::uint32_t fish, float alarm, float rest) {
+Company companyOf(const fish::FishView& view,
+                  const Senses& senses,
+                  std::uint32_t fish,
+                  float alarm,
+                  const Togetherness& together) {
     assert(fish < view.size());
     assert(alarm >= 0);
     assert(alarm <= 1);
     Company company;
     const float perLength = 1 / view.fish[fish].length;
-    const float atEase = kSpacing + (kRestingSpacing - kSpacing) * rest;
-    const float spacing = atEase + (kAlarmedSpacing - atEase) * alarm;
+    const float calm = kSpacing * together.spacing;
+    const float spacing = calm + (kAlarmedSpacing - calm) * alarm;
     const float attract = kAttractFully + (kAttractAlarmed - kAttractFully) * alarm;
     for (std::size_t i = 0; i < senses.others.count; ++i) {
         // From a larger fish it keeps a distance in that fish's lengths.
@@ -385,8 +397,8 @@ Company companyOf(
     if (parting > kMostSeparation) company.separation *= kMostSeparation / parting;
     if (senses.schoolmates.count == 0) return company;
     const float share = 1 / static_cast<float>(senses.schoolmates.count);
-    company.alignment *= share;
-    company.cohesion *= share * (1 + kHuddle * alarm);
+    company.alignment *= share * together.alignment;
+    company.cohesion *= share * (1 + kHuddle * alarm) * together.cohesion;
     company.hurry = place::dot(company.cohesion, senses.heading);
     company.speed *= share;
     return company;
@@ -420,11 +432,15 @@ fish::Course school(const Situation& situation) {
     const float alarm = alarmOf(situation.parameters, situation.feelings);
     const bool gathers = environment.gathering == config::Gathering::Mill;
     const Glance glance = gathers ? Glance{} : glanceOf(situation);
+    const double time = environment.surroundings->timeOfDay;
     const float rest =
         gathers ? 0.0F : likingOf(*environment.surroundings, senses.position) * (1 - alarm);
-    const Company company = companyOf(*environment.view, senses, situation.fish, alarm, rest);
+    const Togetherness together{factorAt(kSchoolSpacing, time, alarm) * (1 + kSpreads * rest),
+                                factorAt(kSchoolAlignment, time, alarm),
+                                factorAt(kSchoolCohesion, time, alarm)};
+    const Company company = companyOf(*environment.view, senses, situation.fish, alarm, together);
     // Avoiding obstacles comes before following.
-    const float follow = kFollow * std::max(0.0F, 1 - senses.urgency);
+    const float follow = kFollow * std::max(0.0F, 1 - senses.urgency) * together.cohesion;
     const float apart = senses.schoolmates.count < kPart ? 0.0F : rest;
     const float rejoin = kRejoin + (kRejoinAtRest - kRejoin) * apart;
     const glm::vec3 way =
@@ -435,7 +451,7 @@ fish::Course school(const Situation& situation) {
                                   (kWander * (1 - kAttentive * alarm)) +
                               clearing(situation) + wayRound(situation) * kSteerClear;
     return {place::levelled(place::directionOf(desired, senses.heading)),
-            wantedSpeed(situation, company, alarm),
+            wantedSpeed(situation, company, alarm) * factorAt(kSchoolSpeed, time, alarm),
             senses.urgency};
 }
 

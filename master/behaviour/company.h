@@ -30,10 +30,9 @@ namespace aquarama::behaviour {
 // The influence of neighbours on a fish: separation, alignment and cohesion (Reynolds 1987; Huth &
 // Wissel 1992).
 
-// Wanted distance between the middles of neighbours, in body lengths: on the way, where the school
-// likes to be and spreads, and when a predator is near.
+// Wanted distance between the middles of neighbours, in body lengths: on the way, and when a
+// predator is near.
 inline constexpr float kSpacing = 0.9F;
-inline constexpr float kRestingSpacing = 2.0F;
 inline constexpr float kAlarmedSpacing = 0.65F;
 
 // The influence of all neighbours of one fish. Directions in the world frame; weights in pullOf().
@@ -46,13 +45,18 @@ struct Company {
     float brake = 0;
 };
 
+// How a school keeps together at a time of day, as factors (master/behaviour/hours.h).
+struct Togetherness {
+    float spacing = 1, alignment = 1, cohesion = 1;
+};
+
 // Schoolmates act by all three rules; fish of other species only by separation. `alarm` is 0 at
-// ease and 1 where a predator is near and all close up; `rest` is 1 where the school likes to be.
+// ease and 1 where a predator is near and all close up.
 [[nodiscard]] Company companyOf(const fish::FishView& view,
                                 const Senses& senses,
                                 std::uint32_t fish,
                                 float alarm,
-                                float rest = 0);
+                                const Togetherness& together = {});
 
 // The weighted sum of the three rules, in units of the unit vector of the present course.
 [[nodiscard]] glm::vec3 pullOf(const Company& company);

@@ -9,6 +9,7 @@
 #include "common/place/place.h"
 #include "master/behaviour/ambush.h"
 #include "master/behaviour/company.h"
+#include "master/behaviour/hours.h"
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/patrol.h"
 #include "master/behaviour/routines.h"
@@ -212,11 +213,13 @@ glm::vec3 beatGoal(const Environment& environment,
     const glm::vec3 from = (position - water.centre) / water.halfExtent;
     const glm::vec3 at = place::directionOf({from.x, 0, from.z}, {1, 0, 0});
     const glm::vec3 ahead{at.x * kBeatCosine - at.z * sine, 0, at.x * sine + at.z * kBeatCosine};
-    const glm::vec3 wandered = wanderingGoal(environment.seed,
-                                             water,
-                                             static_cast<float>(parameters.habits.bestDepthMetres),
-                                             fish,
-                                             environment.tick);
+    const float deeper = place::valueAt(kPatrolsDeeper, environment.surroundings->timeOfDay);
+    const glm::vec3 wandered =
+        wanderingGoal(environment.seed,
+                      water,
+                      static_cast<float>(parameters.habits.bestDepthMetres) + deeper,
+                      fish,
+                      environment.tick);
     const glm::vec3 goal = water.centre + ahead * (kInside * water.halfExtent);
     return {goal.x, wandered.y, goal.z};
 }

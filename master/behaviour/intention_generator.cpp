@@ -16,6 +16,8 @@ constexpr float kTurnedAway = 0.7F;
 // Threat from which a fish dives, and at which it stays hidden.
 constexpr float kDivesFor = 1;
 constexpr float kStaysFor = 0.2F;
+// A fish that rests so near to its shelter makes room for nobody.
+constexpr float kRestsInMetres = 0.6F;
 // An interrupted intention is forgotten after this.
 constexpr float kMemorySeconds = 12;
 // To take over, hunger or libido must be stronger than the other by kPreference, and the other must
@@ -92,11 +94,25 @@ struct Case {
     }
 
     [[nodiscard]] Weighed otherFish() const {
+        const bool isInShelter =
+            aim.intention == fish::Intention::Rest && senses.shelter.distance < kRestsInMetres;
         return {fish::Intention::AvoidFish,
                 senses.collision.object,
-                senses.collision.seen() ? Verdict::Wins : Verdict::NoTarget,
+                isInShelter               ? Verdict::Sheltered
+                : senses.collision.seen() ? Verdict::Wins
+                                          : Verdict::NoTarget,
                 senses.collisionShare,
                 0};
+    }
+
+    // In a shelter, where one is known.
+    [[nodiscard]] Weighed rest() const {
+        Weighed rule{.intention = fish::Intention::Rest, .target = senses.shelter.object};
+        if (parameters.habits.hours.active == config::Activity::Always)
+            rule.verdict = Verdict::AgainstHabits;
+        else if (!senses.rests)
+            rule.verdict = Verdict::Awake;
+        return rule;
     }
 
     [[nodiscard]] Weighed fear() const {
@@ -154,7 +170,8 @@ struct Case {
             return now.verdict == Verdict::Wins && now.target == mind.rememberedTarget;
         }
         // These have rules of their own, before this one.
-        if (mind.remembered == fish::Intention::Hide || mind.remembered == fish::Intention::Charge)
+        if (mind.remembered == fish::Intention::Hide || mind.remembered == fish::Intention::Rest ||
+            mind.remembered == fish::Intention::Charge)
             return false;
         if (mind.remembered == fish::Intention::Graze)
             return senses.patch.seen() && senses.patch.object == mind.rememberedTarget;
@@ -299,6 +316,7 @@ void applyRules(const Case& of, const IsEnough& isEnough) {
     if (isEnough(PriorityRule::Shelter, of.shelter())) return;
     if (isEnough(PriorityRule::OtherFish, of.otherFish())) return;
     if (isEnough(PriorityRule::Fear, of.fear())) return;
+    if (isEnough(PriorityRule::Rest, of.rest())) return;
     if (isEnough(PriorityRule::Territory, of.territory())) return;
     if (isEnough(PriorityRule::Memory, of.memory())) return;
     if (isEnough(PriorityRule::Cleaning, of.cleaning())) return;
@@ -409,6 +427,7 @@ bool acceptsRecommendation(const fish::SpeciesParameters& parameters,
         case fish::Intention::Visit:
         case fish::Intention::Mate:
         case fish::Intention::Charge:
+        case fish::Intention::Rest:
         case fish::Intention::Hide:
         case fish::Intention::Escape:
         case fish::Intention::AvoidFish:

@@ -41,6 +41,7 @@ enum class PriorityRule : std::uint8_t {
     Shelter,    // Hide
     OtherFish,  // AvoidFish
     Fear,       // School or Escape, from a predator or from who charges it
+    Rest,       // Rest, outside the active hours of the species
     Territory,  // Charge
     Memory,     // what was interrupted
     Cleaning,   // Clean or Visit
@@ -51,7 +52,7 @@ enum class PriorityRule : std::uint8_t {
     // Graze, Hover, Clean or Wander: always wins.
     Ease,
 };
-inline constexpr std::size_t kPriorityRules = 12;
+inline constexpr std::size_t kPriorityRules = 13;
 
 // The verdict on a rule.
 enum class Verdict : std::uint8_t {
@@ -65,7 +66,8 @@ enum class Verdict : std::uint8_t {
     TooOld,   // Memory: interrupted for longer than threshold; forgotten
     // Hunger of a predator, Territory: it rests after a chase or charge.
     Resting,
-    Sheltered,  // Fear: a shelter is near, whose rule decides
+    Sheltered,  // Fear: a shelter is near, whose rule decides; OtherFish: it rests in one
+    Awake,      // Rest: it is active now
     // Hunger or libido: the other one is stronger. Cleaning: it is about a hunt or a courtship.
     Yields,
 };

@@ -6,11 +6,14 @@
 #include <cassert>
 #include <limits>
 
+#include <glm/common.hpp>
+
 #include "common/base/random_streams.h"
 #include "common/place/place.h"
 #include "master/behaviour/cleaning.h"
 #include "master/behaviour/grazing.h"
 #include "master/behaviour/home.h"
+#include "master/behaviour/hours.h"
 #include "master/behaviour/points_within.h"
 #include "master/behaviour/routines.h"
 #include "master/behaviour/territory.h"
@@ -381,12 +384,21 @@ void seeMate(const Onlooker& onlooker) {
                                   });
 }
 
+// From its home, no shelter for a night is farther.
+constexpr float kFarthestBedMetres = 4;
 // A site costs up to this share more, drawn by fish and site: so not all dive into the same one.
 constexpr float kOwnTaste = 0.5F;
 // Mean time until a hidden fish ventures out: after a predator that passed, and after one that
 // rushed.
 constexpr float kHiddenSeconds = 4;
 constexpr float kHiddenFromRushSeconds = 15;
+
+// A fish can rest at a site where the border of the water does not turn it away.
+constexpr float kWithinMetres = 0.15F;
+bool isInReach(const place::Region& water, glm::vec3 site) {
+    const glm::vec3 inside = water.halfExtent - glm::abs(site - water.centre);
+    return std::min({inside.x, inside.y, inside.z}) > kWithinMetres;
+}
 
 // The shelter of least way, or the present one; how many others dive; whether it ventures out.
 void senseShelter(const Onlooker& onlooker) {
@@ -398,14 +410,16 @@ void senseShelter(const Onlooker& onlooker) {
         senses.diving += static_cast<std::size_t>(
             onlooker.view().shows(senses.schoolmates.fish[i], fish::kDiving));
     const bool hides = onlooker.aim.intention == fish::Intention::Hide;
-    if (senses.predatorCount == 0 && senses.diving == 0 && !hides) return;
+    const bool rests = senses.rests || onlooker.aim.intention == fish::Intention::Rest;
+    if (senses.predatorCount == 0 && senses.diving == 0 && !hides && !rests) return;
     const std::vector<place::Site>& sites = environment.surroundings->sites;
     const auto sightingOf = [&](std::uint32_t site) {
         const glm::vec3 offset = sites[site].place - senses.position;
         return Sighting{site, offset, place::lengthOf(offset)};
     };
-    if (hides && onlooker.aim.target < sites.size()) {
+    if ((hides || rests) && onlooker.aim.target < sites.size()) {
         senses.shelter = sightingOf(onlooker.aim.target);
+        if (!hides) return;
         const bool rushed = isFromRush(static_cast<HideStage>(onlooker.mind.stage));
         const float perThought =
             static_cast<float>(fish::kTicksBetweenThoughts) / static_cast<float>(kTicksPerSecond);
@@ -417,15 +431,19 @@ void senseShelter(const Onlooker& onlooker) {
             perThought;
         return;
     }
-    float least = onlooker.sight(1);
+    // To rest it goes to a shelter near its home, which it knows, else to one that it sees.
+    const bool goesHome = rests && !onlooker.parameters.homes.empty();
+    const glm::vec3 from = goesHome ? homeOf(onlooker.parameters, onlooker.fish) : senses.position;
+    float least = goesHome ? kFarthestBedMetres : onlooker.sight(1);
     for (std::uint32_t site = 0; site < sites.size(); ++site) {
         if (std::ranges::find(kinds, sites[site].kind) == kinds.end()) continue;
-        const Sighting sighting = sightingOf(site);
-        const float cost =
-            sighting.distance * (1 + kOwnTaste * unitOf(hashOf(sites[site].seed, onlooker.fish)));
+        if (rests && !isInReach(environment.surroundings->obstacles.water, sites[site].place))
+            continue;
+        const float cost = place::lengthOf(sites[site].place - from) *
+                           (1 + kOwnTaste * unitOf(hashOf(sites[site].seed, onlooker.fish)));
         if (cost >= least) continue;
         least = cost;
-        senses.shelter = sighting;
+        senses.shelter = sightingOf(site);
     }
 }
 
@@ -492,6 +510,8 @@ surroundings::Berth berthFor(const fish::SpeciesParameters& parameters,
                              const Senses& senses) {
     const fish::Intention aim = fish::aimOf(mind).intention;
     if (aim == fish::Intention::Hide) return surroundings::kIntoShelter;
+    if (aim == fish::Intention::Rest && fish::aimOf(mind).target != fish::kNobody)
+        return surroundings::kIntoShelter;
     if (aim == fish::Intention::Graze)
         return isAtTurf(mind) ? surroundings::kAtTurf : surroundings::kAtHome;
     if (aim == fish::Intention::Charge) return surroundings::kAtHome;
@@ -577,6 +597,7 @@ Senses perceive(const Environment& environment,
     assert(fish < environment.view->size());
     Senses senses;
     feelItself(*environment.view, fish, senses);
+    feelTheHour(environment, parameters, fish, senses);
     const Onlooker onlooker{environment, parameters, fish, mind, senses};
     seeNeighbours(onlooker);
     seePredators(onlooker);

@@ -118,8 +118,13 @@ struct Senses {
     Sighting mate;
     // The particle of least cost, seen or smelt.
     Sighting food;
-    // Of species that hide: the site that it dives into or would, by index of the surroundings.
+    // Of species that hide: the site that it dives into or rests in, or would, by index of the
+    // surroundings.
     Sighting shelter;
+    // Whether it is outside the active hours of its species.
+    bool rests = false;
+    // Predators: a factor on the time between two chases, by the time of day.
+    float restBetweenChases = 1;
     // How many of its schoolmates near by dive.
     std::size_t diving = 0;
     // Of a fish that hides: whether it ventures out, where nothing threatens it.

@@ -89,6 +89,14 @@ enum class HideStage : std::uint8_t { Dive, Hidden, DiveFromRush, HiddenFromRush
 // out.
 [[nodiscard]] fish::Course hide(const Situation& situation, fish::Mind& mind);
 
+// The place of a fish in the shelter that it senses, relative to the fish.
+[[nodiscard]] glm::vec3 placeInShelter(const Situation& situation);
+// The course through the water to a place, relative to the fish, and against the current there.
+[[nodiscard]] fish::Course keepStation(const Situation& situation, glm::vec3 wish);
+
+// Rests: goes slowly to its shelter and stays there; without one it stands low at its home.
+[[nodiscard]] fish::Course rest(const Situation& situation);
+
 // Keeps its place in the cloud over its home: the larger the fish the higher, lower in a strong
 // current and where it is threatened, up-current of the home. Now and then it darts at what drifts
 // by.

@@ -56,6 +56,8 @@ fish::Course act(const Situation& situation, fish::Mind& mind, DeferredEvents& e
             return school(situation);
         case fish::Intention::Leave:
             return leave(situation);
+        case fish::Intention::Rest:
+            return rest(situation);
         case fish::Intention::Hide:
             return hide(situation, mind);
         case fish::Intention::Charge:

@@ -128,6 +128,7 @@ ShowReport Conductor::run() {
         hear(now);
         visitors_.answer();
         changeShow(now);
+        followHall(now);
         presentation_.turn(now);
         nameMissing(now);
         const v1::WantedShow& wanted = orders_.control().wanted();
@@ -432,7 +433,23 @@ void Conductor::changeShow(net::Moment now) {
     keeper_.keep(control.kept());
 }
 
+void Conductor::followHall(net::Moment now) {
+    constexpr auto kBetween = std::chrono::seconds(kClockCorrectionSeconds);
+    if (!clockSet_ || now - *clockSet_ < kBetween) return;
+    const HallClock hall = readHallClock(options_.hoursAt, unixNow());
+    const auto correct = [hall](Simulation& simulation) {
+        simulation.apply(hall.correction(double{simulation.snapshot().timeOfDay}));
+    };
+    if (simulationThread_->betweenTicks(correct)) clockSet_ = now;
+}
+
 void Conductor::startSimulation(std::uint32_t fish) {
+    // In lockstep no clock is read.
+    clockSet_.reset();
+    if (!isLockstep() && simulation_->followsHall()) {
+        simulation_->apply(readHallClock(options_.hoursAt, unixNow()).setting());
+        clockSet_ = net::monotonicNow();
+    }
     std::optional<Tick> lastTick;
     if (isLockstep() && options_.frames) lastTick = Tick{*options_.frames - 1};
     simulationThread_ = std::make_unique<SimulationThread>(

@@ -18,6 +18,7 @@
 #include "common/machine/service_notifier.h"
 #include "common/net/channels.h"
 #include "master/conductor/gauges.h"
+#include "master/conductor/hall_clock.h"
 #include "master/conductor/looks.h"
 #include "master/conductor/orders.h"
 #include "master/conductor/presentation.h"
@@ -40,6 +41,7 @@ struct ConductorOptions {
     std::optional<std::uint64_t> frames;                         // the show ends after so many
     std::vector<std::string> expected;     // the channels that take part; empty: all of the rig
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
+    std::filesystem::path hoursAt;         // hours of the hall, for scenes that follow it
     LogFile* log = nullptr;                // of the whole show; null: none
     machine::ServiceNotifier* service = nullptr;  // hears of every turn of the loop; null: nobody
     // Lockstep: silence of a node that ends the show.
@@ -98,6 +100,8 @@ class Conductor final : private FrameSource {
     // A step of the change that is under way.
     void changeShow(net::Moment now);
     void startSimulation(std::uint32_t fish);
+    // Corrects the clock of a scene that follows the hall, every few minutes.
+    void followHall(net::Moment now);
     // What the wall shows now, with the brightness of the last frame.
     [[nodiscard]] v1::Show shown(net::Moment now) const;
     // The channel of the window that steers, "pilot" for anybody else, empty for nobody.
@@ -128,6 +132,7 @@ class Conductor final : private FrameSource {
     net::Moment lastRoll_ = net::monotonicNow();          // when missing nodes were last named
     v1::Show shown_;                                      // of the frame that was last published
     float brightness_ = 1.0F;                             // of that frame
+    std::optional<net::Moment> clockSet_;                 // of a scene that follows the hall
     std::optional<net::Moment> dimmedSince_;              // on the way to the next scene
     std::optional<Frame> black_;                          // the first without light, on that way
     std::unique_ptr<SimulationThread> simulationThread_;  // last: it uses all of the above

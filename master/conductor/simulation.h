@@ -22,7 +22,7 @@ struct Snapshot {
     net::Moment due{};  // live: when the world was like this; set by the tick thread
     std::uint64_t hash = 0;
     wire::Eye eye;
-    float daylight = 1.0F;  // of the sky, 0 to 1
+    float timeOfDay = 0.5F;  // share of the day, 0 to 1: 0 and 1 are midnight
     std::vector<motion::FishRecord> fish;
     wire::FoodCloud food;
 };
@@ -61,6 +61,8 @@ class Simulation {
     [[nodiscard]] virtual std::uint64_t hash() const = 0;
     [[nodiscard]] virtual Snapshot snapshot() const = 0;
     [[nodiscard]] virtual Explanation explain(std::uint32_t fish) const = 0;
+    // Whether its day follows the hall's clock, which world::SetClock brings to it.
+    [[nodiscard]] virtual bool followsHall() const { return false; }
 };
 
 }  // namespace aquarama::conductor

@@ -33,7 +33,7 @@ wire::StateView showingOne(Frame frame, const Snapshot& snapshot) {
             .foodOriginMetres = snapshot.food.originMetres,
             .foodBefore = {},
             .foodAfter = snapshot.food.particles,
-            .daylight = snapshot.daylight,
+            .timeOfDay = snapshot.timeOfDay,
             .show = nullptr};
 }
 
@@ -41,6 +41,13 @@ wire::StateView showingOne(Frame frame, const Snapshot& snapshot) {
 wire::Eye between(const wire::Eye& before, const wire::Eye& after, float fraction) {
     return {glm::mix(before.positionMetres, after.positionMetres, fraction),
             glm::slerp(before.worldFromWall, after.worldFromWall, fraction)};
+}
+
+// The time of day at a fraction of the way between two ticks, between which midnight may lie.
+float timeBetween(float before, float after, float fraction) {
+    const float next = after < before - 0.5F ? after + 1 : after;
+    const float time = glm::mix(before, next, fraction);
+    return time > 1 ? time - 1 : time;
 }
 
 }  // namespace
@@ -78,7 +85,7 @@ std::optional<wire::StateView> SnapshotBuffer::showing(Frame frame, net::Moment 
     view.eye = between(before.eye, after->eye, fraction);
     view.before = before.fish;
     view.foodBefore = before.food.particles;
-    view.daylight = glm::mix(before.daylight, after->daylight, fraction);
+    view.timeOfDay = timeBetween(before.timeOfDay, after->timeOfDay, fraction);
     return view;
 }
 

@@ -23,6 +23,7 @@ const char* nameOf(Intention intention) {
                                                           "eat",
                                                           "mate",
                                                           "charge",
+                                                          "rest",
                                                           "hide",
                                                           "escape",
                                                           "avoid fish",

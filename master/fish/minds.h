@@ -12,8 +12,8 @@
 namespace aquarama::fish {
 
 // The behaviour routines, which a mind chooses from: those of Tu & Terzopoulos 1994, and Hover,
-// Graze, Clean, Visit (to a cleaner), Charge and Hide of fish that live at the reef. Those from
-// Escape on always interrupt (see interrupts()). Wander also stands for an empty memory.
+// Graze, Clean, Visit (to a cleaner), Charge, Rest and Hide of fish that live at the reef. Those
+// from Escape on always interrupt (see interrupts()). Wander also stands for an empty memory.
 enum class Intention : std::uint8_t {
     Wander,
     Hover,
@@ -25,12 +25,13 @@ enum class Intention : std::uint8_t {
     Eat,
     Mate,
     Charge,
+    Rest,
     Hide,
     Escape,
     AvoidFish,
     AvoidObstacle
 };
-inline constexpr std::size_t kIntentions = 14;
+inline constexpr std::size_t kIntentions = 15;
 // Its name for people, such as "avoid fish".
 [[nodiscard]] const char* nameOf(Intention intention);
 
@@ -52,8 +53,8 @@ enum class Alarm : std::uint8_t {
 struct Mind {
     Intention intention = Intention::Wander;
     // Target of the intention: a fish (Mate, Charge, Clean, Visit, AvoidFish, Escape, Eat of a
-    // predator), a particle of food (Eat of the others), a site (Hide) or a patch of turf (Graze);
-    // kNobody where the routine has none.
+    // predator), a particle of food (Eat of the others), a site (Hide, Rest) or a patch of turf
+    // (Graze); kNobody where the routine has none.
     std::uint32_t target = kNobody;
     // Ticks for which it has had the present aim (aimOf()); interruptions count too.
     std::uint32_t pursued = 0;

@@ -220,7 +220,8 @@ class Screen {
     // is none.
     [[nodiscard]] std::string targetOf(fish::Intention intention, std::uint32_t target) const {
         if (target == fish::kNobody) return {};
-        if (intention == fish::Intention::Hide) return fmt::format("site {}", target);
+        if (intention == fish::Intention::Hide || intention == fish::Intention::Rest)
+            return fmt::format("site {}", target);
         if (intention == fish::Intention::Graze) return fmt::format("patch {}", target);
         const bool isParticle = intention == fish::Intention::Eat &&
                                 of_.parameters.habits.role != config::Role::Predator;
@@ -288,6 +289,7 @@ constexpr std::array<const char*, behaviour::kPriorityRules> kPriorityRuleNames{
                                                                                 "shelter",
                                                                                 "other fish",
                                                                                 "fear",
+                                                                                "rest",
                                                                                 "territory",
                                                                                 "memory",
                                                                                 "cleaning",
@@ -346,7 +348,10 @@ std::string Screen::verdictOn(behaviour::PriorityRule rule,
             return rule == behaviour::PriorityRule::Territory ? "rests from the last charge"
                                                               : "rests from the last chase";
         case behaviour::Verdict::Sheltered:
-            return "a shelter is near";
+            return rule == behaviour::PriorityRule::OtherFish ? "rests in its shelter"
+                                                              : "a shelter is near";
+        case behaviour::Verdict::Awake:
+            return "awake: these are its active hours";
         case behaviour::Verdict::Yields:
             break;
     }

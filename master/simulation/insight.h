@@ -52,9 +52,9 @@ struct Insight {
 // from the thread of the world.
 [[nodiscard]] std::optional<Insight> insightInto(const world::World& world, std::uint32_t fish);
 
-// An insight as a screen of text: at most 30 lines of 78 characters, printable ASCII.
+// An insight as a screen of text: at most 31 lines of 78 characters, printable ASCII.
 
-inline constexpr std::size_t kScreenLines = 30;
+inline constexpr std::size_t kScreenLines = 31;
 inline constexpr std::size_t kScreenColumns = 78;
 
 // The data about other fish that the text needs: the view, and the names of the species by

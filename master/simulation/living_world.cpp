@@ -108,7 +108,7 @@ conductor::Snapshot LivingWorld::snapshot() const {
     conductor::Snapshot snapshot{.tick = world_.tick(),
                                  .hash = world_.hash(),
                                  .eye = eyeOf(world_.pilot().vessel),
-                                 .daylight = world_.surroundings().daylight,
+                                 .timeOfDay = static_cast<float>(world_.surroundings().timeOfDay),
                                  .fish = {},
                                  .food = foodOf(world_.surroundings())};
     world_.records(snapshot.fish);

@@ -26,6 +26,9 @@ class LivingWorld : public conductor::Simulation {
     [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
     [[nodiscard]] conductor::Snapshot snapshot() const override;
     [[nodiscard]] conductor::Explanation explain(std::uint32_t fish) const override;
+    [[nodiscard]] bool followsHall() const override {
+        return world_.surroundings().climate.day.followsHall;
+    }
 
     // The world itself, for measurements.
     [[nodiscard]] const world::World& world() const { return world_; }

@@ -111,6 +111,9 @@ wire::RecordedSubmarine recordedOne(const world::MoveSubmarine& moved) {
 Steering recordedOne(const Steering& steering) {
     return steering;
 }
+wire::RecordedClock recordedOne(const world::SetClock& clock) {
+    return {clock.timeOfDay, clock.lengthSeconds};
+}
 world::DropFood inputOfOne(const wire::RecordedFood& food) {
     return {food.position, food.pellets};
 }
@@ -119,6 +122,9 @@ world::MoveSubmarine inputOfOne(const wire::RecordedSubmarine& moved) {
 }
 Steering inputOfOne(const Steering& steering) {
     return steering;
+}
+world::SetClock inputOfOne(const wire::RecordedClock& clock) {
+    return {clock.timeOfDay, clock.lengthSeconds};
 }
 
 }  // namespace

@@ -73,6 +73,7 @@ class RecordedWorld final : public SimulationDecorator {
 
     void advance() override;
     void apply(const world::WorldInput& input) override { pending_.push_back(input); }
+    [[nodiscard]] bool followsHall() const override { return world_.followsHall(); }
 
   private:
     // The present tick and hash.

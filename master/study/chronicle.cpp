@@ -100,7 +100,8 @@ void Chronicle::notePlaces(const world::World& world) {
     }
 }
 
-// A fish that is away makes no way, and starts anew where it comes back.
+// A fish that is away makes no way, and starts anew where it comes back. One that rests is meant to
+// stay.
 void Chronicle::noteWay(const world::World& world, std::size_t fish) {
     Way& way = ways_[fish];
     const glm::vec3 place = world.view().position(fish);
@@ -114,7 +115,8 @@ void Chronicle::noteWay(const world::World& world, std::size_t fish) {
     // Length of the way from steps of half a second.
     way.metres += static_cast<double>(glm::distance(place, way.last));
     way.last = place;
-    if (glm::distance(place, way.anchor) > kStayMetres) {
+    const bool rests = fish::aimOf(world.minds()[fish]).intention == fish::Intention::Rest;
+    if (rests || glm::distance(place, way.anchor) > kStayMetres) {
         way.anchor = place;
         way.anchoredAt = tick;
     }

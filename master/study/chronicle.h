@@ -39,7 +39,7 @@ struct Hour {
 
     // Way of the fish that swam least.
     float shortestWayMetres = 0;
-    // Longest time that a fish stayed within kStayMetres, and which fish.
+    // Longest time that a fish stayed within kStayMetres without resting, and which fish.
     double longestStaySeconds = 0;
     std::uint32_t whoStayed = 0;
     // Farthest that a fish was outside the water; negative while all were inside.

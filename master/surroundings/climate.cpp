@@ -106,19 +106,6 @@ Climate climateOf(const config::Scene& scene) {
             static_cast<float>(scene.water.celsiusPerMetre)};
 }
 
-float daylight(const config::Day& day, Tick tick) {
-    // Time of day: 0 and 1 are midnight, 0.5 is noon.
-    double time = day.startsAt;
-    if (day.lengthSeconds > 0)
-        time += static_cast<double>(tick.value) /
-                (day.lengthSeconds * static_cast<double>(kTicksPerSecond));
-    time -= static_cast<double>(static_cast<std::int64_t>(time));
-    // Smoothstep up to noon and down again: no libm.
-    const double half = time < 0.5 ? 2 * time : 2 - 2 * time;
-    const double risen = half * half * (3 - 2 * half);
-    return static_cast<float>(day.night + (1 - day.night) * risen);
-}
-
 float lightAt(const Climate& /*climate*/, float daylight, float y) {
     return daylight * std::max(0.0F, 1 + kLostPerMetre * std::min(y, 0.0F));
 }

@@ -87,9 +87,6 @@ struct Climate {
 };
 [[nodiscard]] Climate climateOf(const config::Scene& scene);
 
-// Light of the sky at a tick, before it enters the water: 1 at noon, Day::night at midnight, a
-// smooth curve in between. A day of length 0 stands still.
-[[nodiscard]] float daylight(const config::Day& day, Tick tick);
 // Light at height y (negative under water), 0 to 1. `daylight` is that of the sky.
 [[nodiscard]] float lightAt(const Climate& climate, float daylight, float y);
 // Temperature at height y.

@@ -51,10 +51,9 @@ float ballRadius(std::size_t fish, float lengthMetres) {
     return kRoomOfMill * lengthMetres * cubeRoot(static_cast<float>(fish));
 }
 
-// Share of the light between noon and midnight that is gone when predators become active, and when
-// they are fully so.
-constexpr float kActiveFrom = 0.3F;
-constexpr float kFullyActive = 0.6F;
+// How active predators are, by phase: dawn, morning, noon, afternoon, sunset, dusk, night, first
+// light.
+constexpr place::ByPhase kHuntersActive{0.5F, 0, 0, 0, 0.3F, 1, 0.8F, 0.8F};
 
 }  // namespace
 
@@ -65,6 +64,7 @@ Surroundings makeSurroundings(const config::Scene& scene,
     const place::PlaceKey place = place::placeOf(scene, seed);
     const Obstacles obstacles = obstaclesOf(place, place::waterFor(scene, fish, meanLengthMetres));
     const std::vector<place::Site> sites = place::sitesOf(place);
+    const place::DayClock clock = place::clockOf(scene.day);
     return {.seed = seed,
             .obstacles = obstacles,
             .sites = sites,
@@ -75,12 +75,22 @@ Surroundings makeSurroundings(const config::Scene& scene,
             .food = makeFood(seed, obstacles, scene.plankton),
             .submarine = {.position = scene.eye},
             .clarityMetres = static_cast<float>(scene.water.clarityMetres),
-            .daylight = daylight(scene.day, {}),
+            .clock = clock,
+            .timeOfDay = clock.timeOfDay,
+            .daylight = place::daylightAt(scene.day, clock.timeOfDay),
             .drops = scene.drops};
 }
 
+void setClock(Surroundings& surroundings, const place::DayClock& clock) {
+    surroundings.clock = clock;
+    surroundings.timeOfDay = clock.timeOfDay;
+    surroundings.daylight = place::daylightAt(surroundings.climate.day, clock.timeOfDay);
+}
+
 void advanceSurroundings(Surroundings& surroundings, Tick tick, std::uint64_t unseen) {
-    surroundings.daylight = daylight(surroundings.climate.day, unseen > 0 ? Tick{} : tick);
+    surroundings.timeOfDay =
+        place::timeOfDayAt(surroundings.clock, unseen > 0 ? surroundings.clock.since : tick);
+    surroundings.daylight = place::daylightAt(surroundings.climate.day, surroundings.timeOfDay);
     surroundings.openCurrent = surroundings.current.open(
         unseen > 0 ? -static_cast<std::int64_t>(unseen) : static_cast<std::int64_t>(tick.value));
     if (unseen == 0) dropWhatIsDue(surroundings, tick);
@@ -93,10 +103,7 @@ void advanceSurroundings(Surroundings& surroundings, Tick tick, std::uint64_t un
 }
 
 float huntersActive(const Surroundings& surroundings) {
-    const auto night = static_cast<float>(surroundings.climate.day.night);
-    if (night >= 1) return 0;
-    const float lacks = (1 - surroundings.daylight) / (1 - night);
-    return std::clamp((lacks - kActiveFrom) / (kFullyActive - kActiveFrom), 0.0F, 1.0F);
+    return place::valueAt(kHuntersActive, surroundings.timeOfDay);
 }
 
 std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroundings) {
@@ -108,7 +115,11 @@ std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroun
     hash = folded(hash, food.generation);
     hash = folded(hash, food.absentUntil);
     hash = folded(hash, surroundings.turf.fill);
-    return hash;
+    // A clock that nobody can set is a function of scene and tick.
+    if (!surroundings.climate.day.followsHall) return hash;
+    const place::DayClock& clock = surroundings.clock;
+    return foldedOne(foldedOne(foldedOne(hash, clock.since.value), clock.timeOfDay),
+                     clock.lengthSeconds);
 }
 
 float millRadiusMetres(const place::Region& water, std::size_t fish, float lengthMetres) {

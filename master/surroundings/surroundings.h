@@ -12,6 +12,7 @@
 #include "common/base/units.h"
 #include "common/config/scene.h"
 #include "common/place/current.h"
+#include "common/place/day.h"
 #include "common/place/place.h"
 #include "common/place/sites.h"
 #include "master/surroundings/climate.h"
@@ -47,7 +48,9 @@ struct Surroundings {
     Submarine submarine;
     // No fish sees farther than this.
     float clarityMetres = 12;
-    // Light of the sky at this tick, 0 to 1.
+    // The clock of the day, the time of day at this tick and the light of the sky then, 0 to 1.
+    place::DayClock clock;
+    double timeOfDay = 0.5;
     float daylight = 1;
     // Velocity of the water far from boulders at this tick, metres a second.
     glm::vec3 openCurrent{};
@@ -62,8 +65,10 @@ struct Surroundings {
                                             std::uint32_t seed,
                                             std::size_t fish,
                                             float meanLengthMetres);
-// Advances daylight, current, scheduled food and drifting food by one tick. Of the last `unseen`
-// ticks before a show begins nothing is scheduled, and the light is that of its beginning.
+// Sets the clock of the day at this tick. `clock` has a time of day of 0 to 1 (1 excluded).
+void setClock(Surroundings& surroundings, const place::DayClock& clock);
+// Advances the day, the current, scheduled food and drifting food by one tick. Of the last `unseen`
+// ticks before a show begins nothing is scheduled, and the time of day is that of its beginning.
 void advanceSurroundings(Surroundings& surroundings, Tick tick, std::uint64_t unseen = 0);
 // How active predators are now: 0 by day, 1 at dusk and by night.
 [[nodiscard]] float huntersActive(const Surroundings& surroundings);

@@ -30,8 +30,15 @@ struct MoveSubmarine {
     glm::vec3 velocityMetresPerSecond{};
 };
 
+// The hall's clock says what time of day it is and how fast it goes. Without effect in a scene that
+// does not follow the hall.
+struct SetClock {
+    double timeOfDay = 0.5;    // 0 to 1, 1 excluded
+    double lengthSeconds = 0;  // of a day at this pace; 0: it stands still
+};
+
 // World::apply() takes it, between two ticks.
-using WorldInput = std::variant<DropFood, MoveSubmarine, Steering>;
+using WorldInput = std::variant<DropFood, MoveSubmarine, Steering, SetClock>;
 
 // Food on its way into a mouth: a fish that snaps draws it in with the water (Tu 1996, section
 // 5.6.3). That takes a few ticks, in which the particle can be seen to move.

@@ -266,6 +266,9 @@ void World::apply(const WorldInput& input) {
         pilot_.vessel.velocity = moved->velocityMetresPerSecond;
         showSubmarine();
     }
+    const auto* clock = std::get_if<SetClock>(&input);
+    if (clock != nullptr && surroundings_.climate.day.followsHall)
+        surroundings::setClock(surroundings_, {tick_, clock->timeOfDay, clock->lengthSeconds});
     if (const auto* steered = std::get_if<Steering>(&input))
         surroundings::steer(pilot_, voyage_, *steered, tick_);
 }

@@ -19,6 +19,7 @@
 #include "render_node/reef/ground.h"
 #include "render_node/reef/mesh.h"
 #include "render_node/reef/reef.h"
+#include "render_node/scene/day_light.h"
 #include "render_node/scene/scene_picture.h"
 #include "render_node/scene/sea_light.h"
 #include "render_node/shaders/frame_uniforms.h"
@@ -29,24 +30,15 @@ namespace aquarama::scene {
 
 namespace {
 
-// The share of noon's light that reaches the water: of the sun (x), and of the sky's red, green and
-// blue (yzw). When the sun is low the surface reflects its light away; what remains is bluer and
-// comes from above. Never 0, so that the wall is not dark at night. Exactly 1 at noon.
-glm::vec4 daylightOf(float daylight) {
-    const glm::vec4 night{0.02F, 0.16F, 0.24F, 0.36F};
-    const float sun = daylight * daylight;
-    return glm::mix(night, glm::vec4{1.0F}, glm::vec4{sun, glm::vec3{daylight}});
-}
-
 // The floodlight 1 m above the shared eye: position in the world, and power (w). By day it is weak
 // near the surface, where it would flatten the shading by the sun, and stronger where the sun does
 // not reach. In the deep the exposure is higher, so the power is divided by it; at night the
 // exposure is the same as by day, so power is added.
-glm::vec4 lampOf(const SceneFrame& frame, float exposure) {
+glm::vec4 lampOf(const SceneFrame& frame, const DayLight& dayLight, float exposure) {
     const glm::vec3 above{0.0F, 1.0F, 0.0F};
     const float deep = glm::smoothstep(9.0F, 24.0F, -frame.eyePositionMetres.y);
     const float power = glm::mix(8.0F, 12.0F, deep) / exposure + 8.0F * (1.0F - frame.daylight);
-    return {frame.eyePositionMetres + above, power};
+    return {frame.eyePositionMetres + above, power * dayLight.lamp};
 }
 
 // Shaders count time in 32-bit floats, which would become coarse after months. The clock therefore
@@ -77,8 +69,10 @@ shaders::FrameUniforms frameUniforms(const SceneFrame& frame,
     uniforms.sunAndFilterDepth = glm::vec4(
         sunInWater(), static_cast<float>(filterDepthMetres(-double{frame.eyePositionMetres.y})));
     uniforms.kdAndExposure = light.kdAndExposure(frame.eyePositionMetres);
-    uniforms.daylight = daylightOf(frame.daylight);
-    uniforms.lamp = lampOf(frame, uniforms.kdAndExposure.w);
+    const DayLight dayLight = dayLightAt(frame.timeOfDay, frame.daylight);
+    uniforms.sunlight = glm::vec4(dayLight.sun, 0.0F);
+    uniforms.skylight = glm::vec4(dayLight.sky, 0.0F);
+    uniforms.lamp = lampOf(frame, dayLight, uniforms.kdAndExposure.w);
     uniforms.current = currentOf(current, frame.timeSeconds);
     return uniforms;
 }

@@ -36,8 +36,10 @@ struct SceneFrame {
     // Fish of each species in turn, as many as the cast says.
     surface::SchoolMoment fish = {};
     std::span<const FoodParticle> food = {};
-    // Light of the sky: 1 at noon, towards 0 at night.
+    // Light of the sky: 1 at noon, towards 0 at night; and the time of day, 0 and 1 midnight, which
+    // gives it its colour.
     float daylight = 1.0F;
+    float timeOfDay = 0.5F;
 };
 
 // The options of a scene. A change needs a new SceneRenderer.

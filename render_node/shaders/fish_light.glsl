@@ -23,7 +23,7 @@ vec3 litSkin(Skin skin, vec3 place, vec3 n) {
 const float kBottomAlbedo = 0.30;
 vec3 around(vec3 direction, vec3 place) {
     float share = unscatteredShare(max(-place.y, 0.1));
-    vec3 light = 0.8 * share * daylight.x + (1.0 - share) * daylight.yzw;
+    vec3 light = 0.8 * share * sunlight.rgb + (1.0 - share) * skylight.rgb;
     float bottomShare = 0.85 * bottom.x * smoothstep(0.30, -0.40, direction.y);
     return mix(max(mirrored(direction, place), 0.0), light * (kBottomAlbedo / kPi), bottomShare);
 }
@@ -84,6 +84,6 @@ vec3 cornea(vec3 direction, float facing) {
     float window = 0.09 * smoothstep(0.86, 0.93, direction.y);
     float grazing = 1.0 - facing;
     float share = 0.8 + 2.0 * grazing * grazing * grazing;
-    return share * (window * daylight.yzw + 0.8 * exp(110.0 * towardsSun) * daylight.x);
+    return share * (window * skylight.rgb + 0.8 * exp(110.0 * towardsSun) * sunlight.rgb);
 }
 #endif

@@ -21,8 +21,8 @@ layout(std140, binding = kFrameBlock) uniform FrameUniforms {
     vec4 sunAndFilterDepth;  // unit vector towards the refracted sun; w: depth of the diver's
                              // filter, metres
     vec4 viewport;           // width, height in pixels, 1/width, 1/height
-    vec4 daylight;           // what there is of noon's light: of the sun's (x), and of the sky's
-                             // red, green and blue (yzw)
+    vec4 sunlight;           // what there is of the sun's light at noon: red, green, blue; w: 0
+    vec4 skylight;           // the same of the sky's
     vec4 lamp;               // the submarine's floodlight in world metres; w: its power at 1 m, the
                              // sun's at the surface being 1
     vec4 kdAndExposure;      // Kd of the three primaries where the filter looks, 1/m; w: what light

@@ -21,9 +21,9 @@ void main() {
     side = vec3(side.x * cos(turn) - side.z * sin(turn), side.y, side.x * sin(turn) + side.z * cos(turn));
     float glint = pow(abs(dot(side, normalize(sunAndFilterDepth.xyz - way / range))), 24.0);
     float phase = 1.1 * lobe(dot(way / range, sunAndFilterDepth.xyz), 0.7) + 0.16;
-    float lit = daylight.x * unscatteredShare(-speck.place.y) * caustic(speck.place, 1.0) * (phase + 0.9 * glint);
+    vec3 lit = sunlight.rgb * (unscatteredShare(-speck.place.y) * caustic(speck.place, 1.0) * (phase + 0.9 * glint));
     float fade = smoothstep(0.25, 0.6, range) * smoothstep(kPlanktonMetres, 0.6 * kPlanktonMetres, range);
-    vec3 outgoing = kTint * ((lit + 0.35 * phase * daylight.z) / kPi);
+    vec3 outgoing = kTint * ((lit + 0.35 * phase * skylight.rgb) / kPi);
     light = direct(outgoing, range, max(-speck.place.y, 0.1)) *
             (0.8 * fade * sharp * sharp / (size * size));
     gl_Position = clipFromWorld * vec4(speck.place, 1.0);

@@ -25,7 +25,8 @@ void main() {
     float range = length(way), depth = max(-place.y, 0.1);
     // All light without the sun's, at the mean of the waves.
     vec3 all = litAt(5.0, Occlusion(0.0, it.open.y), it.tint, place, n, 0.0);
-    vec3 sun = it.tint * (unscatteredShare(depth) * it.open.x * daylight.x *
+    vec3 sun = it.tint * sunlight.rgb *
+               (unscatteredShare(depth) * it.open.x *
                           max(dot(n, sunAndFilterDepth.xyz), 0.0) / kPi);
     sunlit = direct(sun, range, depth);
     skylit = direct(all, range, depth);

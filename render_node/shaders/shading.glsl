@@ -27,9 +27,9 @@ vec3 litAt(float lod, Occlusion open, vec3 albedo, vec3 place, vec3 normal, floa
     float depth = max(-place.y, 0.1);
     float share = unscatteredShare(depth);
     float towardsSun = dot(normal, sunAndFilterDepth.xyz);
-    vec3 sun = causticColour(place, lod) * (share * open.sun * daylight.x);
-    vec3 sky = (1.0 - share) * open.sky * daylight.yzw;
-    vec3 sand = 0.6 * open.sky * (0.5 * (daylight.x + daylight.yzw));
+    vec3 sun = causticColour(place, lod) * (share * open.sun) * sunlight.rgb;
+    vec3 sky = (1.0 - share) * open.sky * skylight.rgb;
+    vec3 sand = 0.6 * open.sky * (0.5 * (sunlight.rgb + skylight.rgb));
     float up = 0.5 + 0.5 * normal.y;
     vec3 front = sun * max(towardsSun, 0.0) + sky * mix(0.16, 1.0, up * sqrt(up));
     vec3 bounce = 0.24 * (1.0 - up) * (sky + sand);
@@ -51,8 +51,8 @@ vec3 mirrored(vec3 direction, vec3 worldPosition) {
     float depth = max(-worldPosition.y, 0.1);
     float towardsSun = dot(direction, sunAndFilterDepth.xyz) - 1.0;
     vec3 water = openWater(direction, depth);
-    vec3 window = 0.11 * smoothstep(0.55, 0.85, direction.y) * daylight.yzw;
-    float sun = (6.0 * exp(90.0 * towardsSun) + 0.9 * exp(22.0 * towardsSun)) * daylight.x;
+    vec3 window = 0.11 * smoothstep(0.55, 0.85, direction.y) * skylight.rgb;
+    vec3 sun = (6.0 * exp(90.0 * towardsSun) + 0.9 * exp(22.0 * towardsSun)) * sunlight.rgb;
     vec3 fromSurface = window + sun * unscatteredShare(depth) * caustic(worldPosition, 1.0);
     vec3 undone = exp(kdAndExposure.xyz * (depth - sunAndFilterDepth.w));
     return water * undone + fromSurface;

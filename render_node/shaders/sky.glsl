@@ -36,6 +36,6 @@ vec3 sky(vec3 direction, float spread) {
     float away = dot(direction, sunInAir()) - 1.0;
     float sun = spreadLobe(away, 2600.0, 70.0, spread) + spreadLobe(away, 260.0, 1.2, spread) +
                 0.045 * exp(14.0 * away);
-    return blue * daylight.yzw + daylight.x * vec3(1.0, 0.93, 0.82) * sun;
+    return blue * skylight.rgb + sunlight.rgb * vec3(1.0, 0.93, 0.82) * sun;
 }
 #endif

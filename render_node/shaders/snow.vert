@@ -27,7 +27,8 @@ void main() {
     float size = sqrt(sharp * sharp + blur * blur + 2.2);
     float fade = smoothstep(0.7, 1.6, range) * smoothstep(0.5, 0.36, range / kBoxMetres);
     float phase = 1.4 * lobe(dot(away / range, sunAndFilterDepth.xyz), 0.75) + 0.12;
-    float lit = unscatteredShare(-place.y) * caustic(place, 1.0) * pastFish(place).sun * daylight.x + 0.35 * daylight.z;
+    vec3 lit = unscatteredShare(-place.y) * caustic(place, 1.0) * pastFish(place).sun * sunlight.rgb +
+               0.35 * skylight.rgb;
     light = direct(vec3(0.95, 0.97, 1.0) * (phase * lit / kPi), range, max(-place.y, 0.1)) *
             (0.5 * fade * sharp * sharp / (size * size));
     gl_Position = place.y < -0.1 ? clipFromWorld * vec4(place, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);

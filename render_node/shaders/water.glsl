@@ -58,14 +58,14 @@ vec3 inscatter(vec3 direction, float range) {
     vec3 at = vec3(rangeAxis(range), 0.5 + 0.5 * direction.y, 0.5 + 0.5 * azimuth);
     at = (at * (kInscatterTexels - 1.0) + 0.5) / kInscatterTexels;
     return texture(inscatterTable, at).rgb *
-           (sunLobe(direction) * shaft(direction, range) * daylight.x +
-            skyLobe(direction) * daylight.yzw);
+           (sunLobe(direction) * shaft(direction, range) * sunlight.rgb +
+            skyLobe(direction) * skylight.rgb);
 }
 
 // The light of open water, seen from a place at this depth with nothing in the way.
 vec3 openWater(vec3 direction, float depth) {
     vec2 uv = atTexelCentres(vec2(depthAxis(depth), 0.5 + 0.5 * direction.y), kOpenWaterTexels);
     return texture(openWaterTable, uv).rgb *
-           (sunLobe(direction) * daylight.x + skyLobe(direction) * daylight.yzw);
+           (sunLobe(direction) * sunlight.rgb + skyLobe(direction) * skylight.rgb);
 }
 #endif

@@ -16,6 +16,7 @@
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 #include "common/motion/repertoire.h"
+#include "common/place/day.h"
 #include "render_node/gl/program.h"
 #include "render_node/shaders/shader_interface.h"
 #include "render_node/show/presented.h"
@@ -103,6 +104,7 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
                                std::shared_ptr<const wall::Wall> wall)
     : stereo_{wall::stereoOf(admission.rig, channel)},
       school_{admission.school},
+      day_{admission.scene.day},
       channel_{channel} {
     assert(channel < admission.rig.channels.size());
     const config::Rig& rig = admission.rig;
@@ -164,7 +166,8 @@ void ChannelPicture::drawWorld(const wire::StateFrame& frame) {
                                   .eyePositionMetres = frame.eye.positionMetres,
                                   .fish = {frame.before, frame.after, frame.fraction},
                                   .food = food_,
-                                  .daylight = frame.daylight};
+                                  .daylight = place::daylightAt(day_, double{frame.timeOfDay}),
+                                  .timeOfDay = frame.timeOfDay};
     scene_->update(scene);
     for (Viewing& eye : eyes_) {
         const scene::View view = viewOf(eye, frame.eye);

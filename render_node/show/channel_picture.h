@@ -103,6 +103,8 @@ class ChannelPicture {
 
     config::Stereo stereo_;
     std::vector<motion::FishTraits> school_;
+    // Of the scene: its brightness follows from the time of day.
+    config::Day day_;
     // The map for the point between the eyes.
     ProjectionMap map_;
     // Sizes of the world's picture, of a pattern's, and of the picture that was drawn last.

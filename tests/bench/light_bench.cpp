@@ -36,7 +36,8 @@ void light(benchmark::State& state) {
     uniforms.eyeAndTime = glm::vec4(place::kEyePosition, 0.0F);
     uniforms.sharedEyeAndPixel = glm::vec4(place::kEyePosition, 0.0016F);
     uniforms.sunAndFilterDepth = glm::vec4(scene::sunInWater(), 4.9F);
-    uniforms.daylight = glm::vec4(1.0F);
+    uniforms.sunlight = glm::vec4(1.0F);
+    uniforms.skylight = glm::vec4(1.0F);
     const gl::Buffer block;
     glNamedBufferStorage(block.name(), sizeof(uniforms), &uniforms, 0);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, block.name());

@@ -99,7 +99,7 @@ TEST(Visitor, whatIsDroppedFallsWhereItWasDroppedAndSinks) {
     ASSERT_TRUE(first);
     EXPECT_TRUE(pelletsIn(*first).empty());
     EXPECT_GT(first->foodAfter.size(), 100U) << "plankton and room for pellets";
-    EXPECT_GT(first->daylight, 0.0F);
+    EXPECT_GT(first->timeOfDay, 0.0F);
 
     const glm::vec3 drop = first->eye.positionMetres + glm::vec3(0, 0, -2.5F);
     session->dropFood(drop);

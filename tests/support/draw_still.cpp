@@ -104,6 +104,7 @@ int main(int argc, char** argv) try {
     app.add_option("--height", still.camera.sizePixels.y, "pixels");
     app.add_option("--time", still.timeSeconds, "seconds");
     app.add_option("--daylight", still.daylight, "1 noon .. 0 night");
+    app.add_option("--time-of-day", still.timeOfDay, "0 midnight, 0.5 noon, 1 midnight");
     app.add_option("--seed", still.options.place.seed, "of the place");
     app.add_option("--quality", options.tier, "tier")
         ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));

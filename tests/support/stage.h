@@ -49,7 +49,7 @@ class CountingWorld final : public conductor::Simulation {
         return {.tick = tick_,
                 .hash = hashAt(tick_),
                 .eye = {.positionMetres = {0, 0, -static_cast<float>(ahead_)}},
-                .daylight = daylightAt(tick_),
+                .timeOfDay = timeOfDayAt(tick_),
                 .fish = {fish, fish, fish},
                 .food = {kFoodOrigin, food_}};
     }
@@ -62,7 +62,7 @@ class CountingWorld final : public conductor::Simulation {
                 .feelings = {.hunger = 0.25F, .libido = 0.5F, .fear = 0.75F},
                 .seen = {{Kind::Food, "particle 7", 4, -90}, {Kind::Prey, "#1 tang", 2, 30}}};
     }
-    static float daylightAt(Tick tick) { return 1.0F / static_cast<float>(1 + tick.value); }
+    static float timeOfDayAt(Tick tick) { return 1.0F / static_cast<float>(1 + tick.value); }
     static constexpr glm::vec3 kFoodOrigin{1, 2, 3};
     static std::uint64_t hashAt(Tick tick) { return tick.value * 0x9E3779B97F4A7C15U + 1; }
 

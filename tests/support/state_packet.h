@@ -41,7 +41,7 @@ inline wire::Packet packetOf(std::uint64_t session, const wire::StateFrame& stat
                               .foodOriginMetres = state.foodOriginMetres,
                               .foodBefore = state.foodBefore,
                               .foodAfter = state.foodAfter,
-                              .daylight = state.daylight,
+                              .timeOfDay = state.timeOfDay,
                               .show = &show});
 }
 

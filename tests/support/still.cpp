@@ -156,6 +156,7 @@ Picture Photographer::pictureOf(const Still& still) {
     frame.eyePositionMetres = still.camera.eyeMetres;
     frame.fish.after = cast.fish;
     frame.daylight = still.daylight;
+    frame.timeOfDay = still.timeOfDay;
     scene_->update(frame);
     return encoded(scene_->draw(viewOf(still.camera)), still.camera.sizePixels);
 }

@@ -58,6 +58,7 @@ struct Still {
     double timeSeconds = 12.0;
     scene::SceneOptions options;  // quality, place, seed; not pixelRadians
     float daylight = 1.0F;
+    float timeOfDay = 0.5F;
 };
 // Takes stills, and grows a sea only where the one before was of other options or with other fish:
 // that takes seconds. Construct, use and destroy with the same context current.

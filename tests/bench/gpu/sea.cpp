@@ -32,7 +32,7 @@ wire::StateFrame frameAfter(const simulation::LivingWorld& world, const wire::St
             .foodOriginMetres = now.food.originMetres,
             .foodBefore = last.foodAfter,
             .foodAfter = std::move(now.food.particles),
-            .daylight = now.daylight,
+            .timeOfDay = now.timeOfDay,
             .show = {}};
 }
 

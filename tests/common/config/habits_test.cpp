@@ -44,6 +44,7 @@ TEST(Habits, ofThePreyAreRead) {
     EXPECT_FLOAT_EQ(scad.box.aheadBodyLengths, 1.2F);
     EXPECT_FLOAT_EQ(scad.persistence, 0.2F);
     EXPECT_EQ(scad.home.kind, HomeKind::School);
+    EXPECT_EQ(scad.hours.active, Activity::Always);
     EXPECT_TRUE(scad.eatsPlankton);
     EXPECT_TRUE(scad.hunts.empty());
 }
@@ -56,6 +57,9 @@ TEST(Habits, ofAPacifistAreRead) {
     EXPECT_LT(tang.home.radiusMetres, tang.home.leashMetres);
     EXPECT_TRUE(tang.home.onTheReef);
     EXPECT_DOUBLE_EQ(tang.pairBodyLengths, 3);
+    EXPECT_EQ(tang.hours.active, Activity::Day);
+    EXPECT_DOUBLE_EQ(tang.hours.retires, 0.45);
+    EXPECT_DOUBLE_EQ(tang.hours.rises, 0.4);
     EXPECT_THAT(test::castMember("trumpetfish").habits.shadows,
                 testing::ElementsAre("parrotfish", "blue_tang"));
 }

@@ -94,7 +94,16 @@ TEST(Scene, fillsInWhatIsLeftOut) {
     EXPECT_EQ(scene.water.jerlov, WaterType::IA);
     EXPECT_DOUBLE_EQ(scene.day.lengthSeconds, 0);
     EXPECT_DOUBLE_EQ(scene.day.startsAt, 0.5);
+    EXPECT_FALSE(scene.day.followsHall);
     EXPECT_DOUBLE_EQ(scene.cast[1].start->hunger, 0);
+}
+
+TEST(Scene, aDayMayFollowTheHall) {
+    std::string text = kScene;
+    const std::string length = "length_s: 600 starts_at: 0.25";
+    text.replace(text.find(length), length.size(), "follows: HALL");
+    EXPECT_TRUE(parseScene(text, "small.txtpb").day.followsHall);
+    EXPECT_FALSE(parseScene(kScene, "small.txtpb").day.followsHall);
 }
 
 std::string withTour(const std::string& tour) {
@@ -280,6 +289,11 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"soup", "plankton: 40", "plankton: 60001", "plankton", "must be from"},
         Mistake{"negativePlankton", "plankton: 40", "plankton: -1", "-1", "Expected"},
         Mistake{"dayBeforeItBegins", "length_s: 600", "length_s: -1", "length_s", "must be from"},
+        Mistake{"hallOfItsOwnLength",
+                "starts_at: 0.25",
+                "follows: HALL",
+                "length_s",
+                "as long as the hall's"},
         Mistake{"brightNight", "night: 0.1", "night: 1.1", "night", "must be from"},
         Mistake{"foodOutsideTheWater",
                 "x_m: 1 y_m: -8",

@@ -36,7 +36,7 @@ TEST(RecordingFormat, everyEntryComesBack) {
     EXPECT_EQ(recording.assets.cast[0].text, sampleAssets().cast[0].text);
     EXPECT_EQ(recording.assets.cast[0].repertoire, sampleAssets().cast[0].repertoire);
     EXPECT_EQ(recording.assets.cast[0].fish, 51U);
-    ASSERT_EQ(recording.inputs.size(), 3U);
+    ASSERT_EQ(recording.inputs.size(), 4U);
     EXPECT_EQ(recording.inputs[0].tick, Tick{17});
     const auto& food = std::get<RecordedFood>(recording.inputs[0].input);
     EXPECT_EQ(food.position, glm::vec3(1.5F, -2.0F, 30.25F));
@@ -45,6 +45,9 @@ TEST(RecordingFormat, everyEntryComesBack) {
     const auto& moved = std::get<RecordedSubmarine>(recording.inputs[2].input);
     EXPECT_EQ(moved.position, glm::vec3(0, -6, 0));
     EXPECT_EQ(moved.velocityMetresPerSecond, glm::vec3(0.5F, 0, -0.25F));
+    const auto& clock = std::get<RecordedClock>(recording.inputs[3].input);
+    EXPECT_EQ(clock.timeOfDay, 0.75);
+    EXPECT_EQ(clock.lengthSeconds, 43'200);
     const std::vector<RecordedHash> checkpoints{{{0}, 0xFEDCBA9876543210U}, {{600}, 1}};
     EXPECT_EQ(recording.checkpoints, checkpoints);
     ASSERT_TRUE(recording.end);
@@ -122,6 +125,13 @@ TEST(RecordingFormat, whatCannotBeIsRefusedWithItsPlace) {
                 HasSubstr("beyond full"));
     EXPECT_THAT(refusal(entryOf(RecordedInput{{700}, RecordedFood{{}, 1U << 30U}})),
                 HasSubstr("input"));
+    for (const RecordedClock& clock : {RecordedClock{1, 600},
+                                       RecordedClock{-0.1, 600},
+                                       RecordedClock{nan, 600},
+                                       RecordedClock{0.5, -1},
+                                       RecordedClock{0.5, 2e9},
+                                       RecordedClock{0.5, nan}})
+        EXPECT_THAT(refusal(entryOf(RecordedInput{{700}, clock})), HasSubstr("clock"));
     EXPECT_THAT(refusal(beginningOf(sampleAssets())), HasSubstr("cannot be there"));
     EXPECT_THAT(refusal(Packet{std::byte{0}}), HasSubstr("byte"));
     EXPECT_THAT(refusal(Packet(5, std::byte{0xFF})), HasSubstr("damaged"));

@@ -72,7 +72,7 @@ inline StateFrame sampleState(std::uint32_t fish) {
     state.foodOriginMetres = {-3.5F, -6.0F, 0.25F};
     state.foodBefore = sampleFood();
     state.foodAfter = sampleFood();
-    state.daylight = 0.75F;
+    state.timeOfDay = 0.875F;
     state.show = sampleShow();
     return state;
 }

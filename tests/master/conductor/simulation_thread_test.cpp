@@ -158,12 +158,18 @@ TEST(RequestClient, saysWhenNoMasterAnswers) {
 
 constexpr net::Moment kStart{std::chrono::seconds(100)};
 
+// Midnight lies between ticks 2 and 3.
+float timeOfDayAt(std::uint64_t tick) {
+    return tick < 3 ? 0.9F + 0.04F * static_cast<float>(tick)
+                    : 0.04F * static_cast<float>(tick) - 0.1F;
+}
+
 Snapshot at(std::uint64_t tick, net::Moment due) {
     return {{tick},
             due,
             tick * 10,
             {glm::vec3(static_cast<float>(tick), 0, 0), {1, 0, 0, 0}},
-            1.0F / static_cast<float>(1 + tick),
+            timeOfDayAt(tick),
             {motion::FishRecord{.x = static_cast<std::int32_t>(tick)}},
             {{7, 8, 9}, {{tick}}}};
 }
@@ -194,7 +200,7 @@ TEST(SnapshotBuffer, lockstepShowsTheTickItself) {
     EXPECT_EQ(state->foodOriginMetres, glm::vec3(7, 8, 9));
     EXPECT_TRUE(state->foodBefore.empty());
     EXPECT_EQ(state->foodAfter[0].bits, 3U);
-    EXPECT_EQ(state->daylight, 0.25F);
+    EXPECT_EQ(state->timeOfDay, timeOfDayAt(3));
     EXPECT_EQ(state->worldHash, 30U);
     EXPECT_FALSE(snapshots.showing({9}, Tick{6}));
 }
@@ -210,7 +216,10 @@ TEST(SnapshotBuffer, aMomentBetweenTwoTicksShowsBothAndTheFraction) {
     EXPECT_NEAR(state->eye.positionMetres.x, 2.25F, 1e-5F);
     EXPECT_EQ(state->foodBefore[0].bits, 2U);
     EXPECT_EQ(state->foodAfter[0].bits, 3U);
-    EXPECT_NEAR(state->daylight, 0.75F / 3 + 0.25F / 4, 1e-6F);
+    EXPECT_NEAR(state->timeOfDay, 0.99F, 1e-6F);
+    const auto later = snapshots.showing({1}, kStart + 2 * kTickPeriod + 3 * kTickPeriod / 4);
+    ASSERT_TRUE(later);
+    EXPECT_NEAR(later->timeOfDay, 0.01F, 1e-6F) << "past midnight";
 }
 
 TEST(SnapshotBuffer, aTicksOwnMomentShowsItAlone) {

@@ -112,8 +112,17 @@ std::string sectorOf(float degreesRight) {
 }
 
 TEST(Explain, theValuesAreThoseOfTheLines) {
-    constexpr std::array kIntentions{
-        "wander", "leave", "school", "eat", "mate", "escape", "avoid fish", "avoid obstacle"};
+    constexpr std::array kIntentions{"wander",
+                                     "hover",
+                                     "leave",
+                                     "school",
+                                     "eat",
+                                     "mate",
+                                     "rest",
+                                     "hide",
+                                     "escape",
+                                     "avoid fish",
+                                     "avoid obstacle"};
     constexpr std::array kSightings{"predator    ", "food        ", "mate        ", "prey "};
     Lived world(worldOptionsOf(test::syntheticAssets()), 300);
     int sightings = 0;

@@ -82,6 +82,51 @@ TEST_F(Record, aReplayIsTheSameWorldTickForTickOnAnyNumberOfThreads) {
     }
 }
 
+// The hall's clock is set as the show begins and later: its day is part of the recording.
+TEST_F(Record, aShowThatFollowsTheHallReplaysToTheSameHash) {
+    wire::AssetBundle assets = test::syntheticAssets();
+    assets.scene += "day { follows: HALL night: 0.5 }\n";
+    std::uint64_t shown = 0;
+    double evening = 0;
+    {
+        LivingWorld world(worldOptionsOf(assets));
+        ASSERT_TRUE(world.followsHall());
+        RecordingFile file(path(), assets);
+        RecordedWorld recorded(world, file);
+        while (recorded.tick().value < kTicks) {
+            const std::uint64_t tick = recorded.tick().value;
+            if (tick == 0) recorded.apply(world::SetClock{0.84, 600});
+            if (tick == 300) recorded.apply(world::SetClock{0.9, 7200});
+            recorded.advance();
+        }
+        shown = recorded.hash();
+        evening = world.world().surroundings().timeOfDay;
+    }
+    EXPECT_NEAR(evening, 0.9 + (kTicks - 1 - 300) / 60.0 / 7200, 1e-9);
+    const wire::Recording recording = wire::readRecording(path());
+    ASSERT_EQ(recording.inputs.size(), 2U);
+    LivingWorld again(worldOptionsOf(recording.assets));
+    Playback playback(recording, again);
+    while (!playback.over()) playback.advance();
+    EXPECT_FALSE(playback.difference());
+    EXPECT_EQ(again.hash(), shown);
+    for (std::size_t left = 0; left < recording.inputs.size(); ++left) {
+        wire::Recording without = recording;
+        without.inputs.erase(without.inputs.begin() + static_cast<std::ptrdiff_t>(left));
+        EXPECT_TRUE(differenceOf(without)) << left;
+    }
+}
+
+// A clock that nobody asked for changes nothing.
+TEST_F(Record, aSceneWithADayOfItsOwnHasNoHallsClock) {
+    const wire::AssetBundle assets = test::syntheticAssets();
+    LivingWorld world(worldOptionsOf(assets)), other(worldOptionsOf(assets));
+    world.apply(world::SetClock{0.9, 60});
+    for (int tick = 0; tick < 60; ++tick) world.advance(), other.advance();
+    EXPECT_FALSE(world.followsHall());
+    EXPECT_EQ(world.hash(), other.hash());
+}
+
 // Else the test above would prove little.
 TEST_F(Record, theInputsMatter) {
     const std::vector<std::uint64_t> hashes = recordAShow();

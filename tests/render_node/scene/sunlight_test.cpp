@@ -40,7 +40,8 @@ class Sunlight : public testing::Test {
         uniforms_.eyeAndTime = glm::vec4(place::kEyePosition, 0.0F);
         uniforms_.sharedEyeAndPixel = glm::vec4(place::kEyePosition, 0.002F);
         uniforms_.sunAndFilterDepth = glm::vec4(sunInWater(), kFilterDepthMetres);
-        uniforms_.daylight = glm::vec4(1.0F);
+        uniforms_.sunlight = glm::vec4(1.0F);
+        uniforms_.skylight = glm::vec4(1.0F);
         glNamedBufferStorage(
             block_.name(), sizeof(shaders::FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
         setUniforms();
@@ -200,7 +201,7 @@ TEST_F(Sunlight, theWindowOfACalmSeaEndsAtTheCriticalAngle) {
     uniforms_.eyeAndTime = glm::vec4(eye, 0.0F);
     uniforms_.sharedEyeAndPixel = glm::vec4(eye, 1.0e-4F);
     uniforms_.sunAndFilterDepth.w = 0.0F;
-    uniforms_.daylight.x = 0.0F;  // the sky alone
+    uniforms_.sunlight = glm::vec4(0.0F);  // the sky alone
     setUniforms();
     SeaLight light{{.quality = {}, .calm = true}};
     light.update(0.0, eye);
