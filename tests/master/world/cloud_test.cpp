@@ -135,8 +135,10 @@ TEST(Cloud, divesFromASharkHidesAndReturns) {
     WorldOptions options = headWithACloud(4);
     WorldSpecies hunter = sharks(1);
     hunter.habits.hunts = {"cloud"};
-    // A sated shark that comes straight over the crown.
-    hunter.start = config::Start{.centre = {-3.2F, -6.2F, -4}, .radiusMetres = 0.1};
+    // A hungry shark before the crown.
+    hunter.start =
+        config::Start{.centre = {-3.2F, -6.2F, -4}, .radiusMetres = 0.1, .hunger = 1};
+    hunter.habits.hunt.restByDaySeconds = 60;
     options.cast.push_back(hunter);
     World world(options);
     std::uint32_t mostHidden = 0;
