@@ -502,10 +502,10 @@ void checkRowing(const TextReader& file, const v1::Species& in) {
             rowing,
             "feather_deg",
             "twist_deg and feather_deg together twist a fin by more than 180 degrees: lower one");
-    for (const v1::Gait& gait : {in.swim().slow(), in.swim().medium(), in.swim().fast()})
-        if (gait.rows() > 0 && (gait.gain() > 0 || rowing.stroke_deg() == 0))
-            file.refuse(in,
-                        "swim",
+    for (const v1::Gait* gait : {&in.swim().slow(), &in.swim().medium(), &in.swim().fast()})
+        if (gait->rows() > 0 && (gait->gain() > 0 || rowing.stroke_deg() == 0))
+            file.refuse(*gait,
+                        "rows",
                         "a gait that rows has gain: 0, and fin_motion a rowing with a stroke_deg: "
                         "change one of them");
 }

@@ -15,7 +15,7 @@ namespace {
 // keeps K within its 8 bits.
 constexpr float kSmallestStepBodyLengths = 1.0F / 128.0F;
 
-// Nodal points, and both pectoral fins: their angles times kFinReach. In body lengths.
+// Nodal points, and both pectoral fins: their angles times kFinReachBodyLengths. In body lengths.
 using Pose = std::array<glm::vec3, body::kNodalPoints + 2>;
 // A fin that beats as fast as any moves no more than a tail does, so that a warp gives it time.
 constexpr float kFinReachBodyLengths = 0.05F;
@@ -99,13 +99,16 @@ float travelFromCell(const Travels& travels, std::size_t cell, std::size_t to) {
     return std::max(travels[cell][to], travels[cell + 1][to]);
 }
 
+// The length of a warp is a byte.
+constexpr int kMostFrames = 255;
+
 // The entry phase whose pose is nearest, and as many frames as keep each step within `step`
 // (section 4.2).
 WarpPlan planToPhase(const Travels& travels, std::size_t cell, std::size_t entry, float step) {
     const float steps = std::sqrt(travelFromCell(travels, cell, entry)) / step;
     const auto frames = static_cast<int>(steps);  // ceil(steps) - 1, but for whole numbers
     return {static_cast<std::uint16_t>(entry << kPhaseCellBits),
-            static_cast<std::uint8_t>(std::min(frames, 255))};
+            static_cast<std::uint8_t>(std::min(frames, kMostFrames))};
 }
 
 WarpPlan planToCycle(const Travels& travels, std::size_t cell, float step) {
@@ -118,7 +121,6 @@ WarpPlan planToCycle(const Travels& travels, std::size_t cell, float step) {
 
 // A fast start is not delayed: two frames lead to it at most, or a tenth of a long one.
 int mostFramesToStart(std::int16_t rate) {
-    constexpr int kMostFrames = 250;  // a length is a byte
     return std::clamp(65536 / (10 * rate), 2, kMostFrames);
 }
 
@@ -158,7 +160,7 @@ WarpPlans planWarps(const Repertoire& repertoire,
                                   cell,
                                   step,
                                   phaseRates[to],
-                                  isStart(next) ? mostFramesToStart(phaseRates[to]) : 255);
+                                  isStart(next) ? mostFramesToStart(phaseRates[to]) : kMostFrames);
             else
                 plan = planToCycle(travels, cell, step);
         }

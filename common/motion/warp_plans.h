@@ -25,7 +25,7 @@ struct WarpPlan {
 using WarpPlans = std::array<std::array<std::array<WarpPlan, kActions>, kPhases>, kActions>;
 
 // phaseRates: as recorded, 1/65536 of a cycle in a tick. For every pair of actions compares all
-// pairs of phases, about 1.6 million pairs of poses.
+// pairs of phases, about 3 million pairs of poses.
 [[nodiscard]] WarpPlans planWarps(const Repertoire& repertoire,
                                   const std::array<std::int16_t, kActions>& phaseRates);
 

@@ -52,8 +52,8 @@ using DeferredEvents = std::vector<fish::DeferredEvent>;
 [[nodiscard]] fish::Course eat(const Situation& situation,
                                fish::Mind& mind,
                                DeferredEvents& events);
-// Whether nothing is within so many body lengths ahead and in a direction, so that a fish may coast
-// that far after a fast start, at this berth.
+// Whether the way is free for so many body lengths, straight ahead and in a direction, at this
+// berth: so far a fish coasts after a fast start.
 [[nodiscard]] bool hasRoom(const Situation& situation,
                            glm::vec3 direction,
                            float lengths,

@@ -52,12 +52,13 @@ TEST(Species, theScadIsReadInItsUnits) {
     EXPECT_DOUBLE_EQ(scad.skeleton.rings[1].nodeMass, 11);
 }
 
-// The tail beats in the gait that rows, a fin without a beat has a stroke, a fin turns about
-// itself.
+// A gait that rows and beats the tail, a stroke without a beat, a fin twisted by more than half a
+// turn. The error names the line of the gait.
 TEST(Species, finsThatCannotRowAreRefused) {
     EXPECT_THAT(refusalOf(edited("slow { beat_hz: 2 gain: 0.793 }",
-                                 "slow { beat_hz: 2 gain: 0.793 rows: 1 }")),
-                testing::HasSubstr("a gait that rows has gain: 0"));
+                                 "\nslow { beat_hz: 2 gain: 0.793\nrows: 1 }")),
+                testing::AllOf(testing::HasSubstr("a gait that rows has gain: 0"),
+                               testing::HasSubstr("fish.txtpb:112:1: ")));
     EXPECT_THAT(refusalOf(edited("beat_hz: 2.5 stroke_deg: 55", "beat_hz: 0 stroke_deg: 55")),
                 testing::HasSubstr("row at 0.1 Hz at least"));
     EXPECT_THAT(refusalOf(edited("feather_deg: 80", "feather_deg: 80 twist_deg: 120")),
