@@ -215,11 +215,6 @@ Said runAquarama(std::vector<std::string> arguments, bool withErrors) {
 
 }  // namespace
 
-// Beside the master's own, by the same name of the rig.
-fs::path stateFolderOf(const std::string& rigPath) {
-    return config::consoleFolderOf(rigPath);
-}
-
 // The path at which the master's openLog() writes.
 fs::path logOf(const std::string& rigPath) {
     return userFolder("XDG_STATE_HOME", ".local/state") / "logs" /

@@ -16,8 +16,6 @@
 
 namespace aquarama::console {
 
-// Where the console of a rig keeps what it has to remember.
-[[nodiscard]] std::filesystem::path stateFolderOf(const std::string& rigPath);
 // The log of all nodes, which its master writes.
 [[nodiscard]] std::filesystem::path logOf(const std::string& rigPath);
 // Names of the scenes beside the rig's.

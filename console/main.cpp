@@ -16,6 +16,7 @@
 #include "common/base/log.h"
 #include "common/base/output_file.h"
 #include "common/cli/command_line.h"
+#include "common/config/hours.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
 #include "common/machine/service_notifier.h"
@@ -88,7 +89,7 @@ void describe(CLI::App& app, Options& options) {
 
 // Beside the sessions, which lie as safely.
 std::filesystem::path certificateFolder(const Options& options) {
-    return console::stateFolderOf(options.rig) / "tls";
+    return config::consoleFolderOf(options.rig) / "tls";
 }
 
 // Past this machine only over TLS.
@@ -189,7 +190,7 @@ void serve(const Options& options, const config::Rig& rig, console::Access& acce
 void run(const Options& options) {
     const config::Rig rig = config::readRig(options.rig);
     if (!options.certify.empty()) return certify(options);
-    const auto folder = console::stateFolderOf(options.rig);
+    const auto folder = config::consoleFolderOf(options.rig);
     // What these two print only counts where the running console reads it.
     if (!options.pair.empty() || !options.token.empty()) requireWritableFolder(folder);
     console::Access access(folder, static_cast<double>(builtAt()));

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "common/config/hours.h"
 #include "common/config/rig.h"
 #include "console/access.h"
 #include "console/alerts.h"
@@ -28,8 +29,8 @@ struct State {
           rigFile{std::move(rigPath)},
           build{std::move(buildText)},
           access{accessBook},
-          events{stateFolderOf(rigFile) / "events.jsonl"},
-          opening{stateFolderOf(rigFile)},
+          events{config::consoleFolderOf(rigFile) / "events.jsonl"},
+          opening{config::consoleFolderOf(rigFile)},
           panorama{rigFile} {
         wall.set_heard(false);
     }
