@@ -18,6 +18,7 @@ declare -A way=(
     [screen_televisions_3.webp]="screen televisions_3"
     [screen_cave_4.webp]="screen cave_4"
     [portraits.png]=portraits
+    [portraits_reef.png]=portraits_reef
     [tiers.png]=tiers
     [water_types.png]=water_types
     [species.png]=species
@@ -28,6 +29,8 @@ declare -A way=(
     [chase.png]="routine chase 490 14 medium"
     [eat.webp]="routine eat 700 20 low"
     [mate.webp]="routine mate 880 22 low"
+    [hide.webp]="routine hide 1860 46 low"
+    [dusk.webp]=dusk
     [controllers.svg]=controllers
     [forward_medium.svg]=report
     [turn_right_sharp.svg]=report
@@ -85,6 +88,28 @@ portraits() {
     $bin/aquarama_draw_still --plate --fov 40 --azimuth 10 --width 1280 --height 720 --quality ultra \
         --out "$drawn/portraits.png"
 }
+# The species beside the paper's seven, one by one and each as large as the others: name and metres.
+portraits_reef() {
+    local name length
+    local -a pictures=()
+    while read -r name length; do
+        $bin/aquarama_draw_still --portrait "$name" --length "$length" --away "$(awk "BEGIN { print 1.5 * $length }")" \
+            --turn 12 --fov 40 --azimuth 10 --width 400 --height 300 --quality ultra --out "$drawn/$name.png"
+        pictures+=("$drawn/$name.png")
+    done <<'END'
+sea_goldie 0.083
+green_chromis 0.075
+fusilier 0.26
+powder_blue_tang 0.18
+butterflyfish 0.17
+cleaner_wrasse 0.09
+coral_grouper 0.3
+sergeant 0.14
+lionfish 0.28
+bigeye_trevally 0.5
+END
+    $bin/aquarama_draw_sheet "$drawn/portraits_reef.png" 5 "${pictures[@]}"
+}
 tiers() {
     local tier
     for tier in low medium high ultra; do
@@ -99,14 +124,22 @@ water_types() {
 }
 species() {
     $bin/aquarama_draw_species "$drawn" \
-        config/species/{blacktip_reef_shark,trumpetfish,parrotfish,fusilier,bigeye_scad,blue_tang}.txtpb \
-        config/species/{powder_blue_tang,moorish_idol,clownfish,sea_goldie,green_chromis}.txtpb
+        config/species/{blacktip_reef_shark,trumpetfish,bigeye_trevally,parrotfish,coral_grouper,lionfish}.txtpb \
+        config/species/{fusilier,bigeye_scad,blue_tang,powder_blue_tang,moorish_idol,butterflyfish}.txtpb \
+        config/species/{sergeant,cleaner_wrasse,clownfish,sea_goldie,green_chromis}.txtpb
 }
 # A routine as it is seen on the wall: scene, frames, every how manieth of them, tier.
 routine() {
     $bin/aquarama run config/desk.txtpb --scene "config/scenes/routines/$1.txtpb" --quality "$4" --headless \
         --frames "$2" --film-every "$3" --clip "$drawn/$1.webp" --snapshot "$drawn/$1"
     mv "$drawn/$1/panorama.png" "$drawn/$1.png"
+}
+# The reef from the end of its afternoon to its night: sunset and dusk of a day of four minutes.
+dusk() {
+    sed -e "s#\"../species/#\"$PWD/config/species/#" \
+        -e 's#^day {.*#day { length_s: 240 starts_at: 0.735 night: 0.5 }#' config/scenes/reef.txtpb >"$drawn/dusk.txtpb"
+    $bin/aquarama run config/desk.txtpb --scene "$drawn/dusk.txtpb" --quality low --headless --frames 2160 \
+        --film-every 54 --clip "$drawn/dusk.webp" --snapshot "$drawn/dusk"
 }
 controllers() { $bin/aquarama controllers --out "$drawn"; }
 report() {

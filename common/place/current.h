@@ -44,6 +44,7 @@ class Current {
     Current() = default;
     Current(const config::SceneCurrent& current, std::span<const Rock> rocks, const Region& water);
 
+    // Whether no water moves, anywhere and at any time.
     [[nodiscard]] bool isStill() const { return factors_.empty(); }
     // The velocity far from boulders.
     [[nodiscard]] glm::vec3 open(std::int64_t tick) const { return openCurrent(current_, tick); }

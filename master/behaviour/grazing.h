@@ -35,6 +35,7 @@ struct Loop {
     static constexpr std::size_t kMost = 15;
     std::array<std::uint32_t, kMost> patches{};
     std::size_t count = 0;
+    // The patches in use, in the order of the round.
     [[nodiscard]] std::span<const std::uint32_t> all() const {
         return std::span(patches).first(count);
     }

@@ -50,6 +50,7 @@ struct SpeciesParameters {
 // Fish [first, last) that share a home; all of a species that keeps to no place.
 struct Household {
     std::uint32_t first, last;
+    // Whether a fish, by its index, belongs to it.
     [[nodiscard]] bool holds(std::uint32_t fish) const { return fish >= first && fish < last; }
 };
 // The household of a fish of this species.

@@ -17,7 +17,8 @@ vec2 dotsAt(vec2 at, uint id, float pixel) {
         for (int i = -1; i <= 1; ++i) {
             ivec2 here = ivec2(cell) + ivec2(i, j) + 4096;
             vec2 shift = vec2(hash(uvec2(here), 11u), hash(uvec2(here), 12u)) - 0.5;
-            vec2 middle = (cell + vec2(i, j) + 0.5 + 0.5 * shift + vec2(0.5 * mod(cell.y + float(j), 2.0), 0.0)) * kPitch;
+            vec2 row = vec2(0.5 * mod(cell.y + float(j), 2.0), 0.0);
+            vec2 middle = (cell + vec2(i, j) + 0.5 + 0.5 * shift + row) * kPitch;
             float radius = 0.0068 * (0.75 + 0.5 * hash(uvec2(here), 13u)) * ownBetween(id, 4u, 0.9, 1.1);
             float d = length(at - middle), soft = 0.6 * pixel + 0.0012;
             found.x = max(found.x, falling(radius - soft, radius + soft, d));
