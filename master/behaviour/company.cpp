@@ -96,6 +96,10 @@ constexpr float kMostSeparation = 0.9F;
 constexpr float kAlign = 1.05F;
 constexpr float kCohere = 1.2F;
 
+// A fish turns sharply if of seven schoolmates three have turned by more than 45 degrees.
+constexpr float kTurnedCosine = 0.707F;
+constexpr std::size_t kQuorum = 3;
+
 // Weight and reach of roomFrom(); the reach in lengths of the longer of the two fish.
 constexpr float kGiveWay = 1.5F;
 constexpr float kRoomBodyLengths = 1.2F;
@@ -154,6 +158,7 @@ glm::vec3 roomFromThose(const Situation& situation, const Neighbours& those) {
 
 // Weights of the school's steering against the unit vector of the present course.
 constexpr float kKeepCourse = 0.8F;
+constexpr float kKeepCourseTurning = 0.3F;
 constexpr float kFollow = 0.7F;
 constexpr float kWander = 0.55F;
 // Share by which the random part decreases at full alarm.
@@ -380,6 +385,7 @@ Company companyOf(const fish::FishView& view,
         const float per = std::min(perLength, 1 / view.fish[other].length);
         giveWay(company, neighbourOf(view, senses, other, per), senses.heading, spacing);
     }
+    std::size_t turned = 0;
     for (std::size_t i = 0; i < senses.schoolmates.count; ++i) {
         const std::uint32_t other = senses.schoolmates.fish[i];
         const Neighbour mate = neighbourOf(view, senses, other, perLength);
@@ -391,7 +397,9 @@ Company companyOf(const fish::FishView& view,
         company.cohesion += mate.towards * tooFar;
         company.alignment += view.heading(other) * inStep;
         company.speed += view.fish[other].speed * perLength;
+        turned += place::dot(view.heading(other), senses.heading) < kTurnedCosine ? 1 : 0;
     }
+    company.hasTurned = turned >= kQuorum;
     // Separation is limited: at a larger angle between the courses the tails would meet.
     const float parting = place::lengthOf(company.separation) * kSeparate;
     if (parting > kMostSeparation) company.separation *= kMostSeparation / parting;
@@ -446,7 +454,8 @@ fish::Course school(const Situation& situation) {
     const glm::vec3 way =
         gathers ? wayInBall(environment, situation.fish, senses.position)
                 : glimpses(situation, glance, alarm) * rejoin + ownWay(situation) * (1 - alarm);
-    const glm::vec3 desired = senses.heading * kKeepCourse + pullOf(company) + way * follow +
+    const float keep = company.hasTurned && !gathers ? kKeepCourseTurning : kKeepCourse;
+    const glm::vec3 desired = senses.heading * keep + pullOf(company) + way * follow +
                               whim(environment.seed, situation.fish, environment.tick) *
                                   (kWander * (1 - kAttentive * alarm)) +
                               clearing(situation) + wayRound(situation) * kSteerClear;

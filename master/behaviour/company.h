@@ -43,6 +43,8 @@ struct Company {
     // Change of speed to close up, and to stay behind those ahead, both in body lengths a second.
     float hurry = 0;
     float brake = 0;
+    // Whether so many of the schoolmates have turned off the course of the fish that it turns too.
+    bool hasTurned = false;
 };
 
 // How a school keeps together at a time of day, as factors (master/behaviour/hours.h).

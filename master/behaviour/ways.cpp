@@ -29,6 +29,19 @@ constexpr float kNearMetres = 0.8F;
 constexpr float kFarMetres = 3;
 constexpr float kGoneMetres = 6.5F;
 
+// A school tires of a place at which all its bold fish stay in so many seconds, and forgets that,
+// and a fright, in so many.
+constexpr float kTiresSeconds = 90;
+constexpr float kForgetsSeconds = 300;
+constexpr float kCalmsSeconds = 90;
+// A fish is beside a structure within this distance of its crown, beyond the radius.
+constexpr float kBesideMetres = 3;
+constexpr std::uint32_t kTicksOfSecond = 60;
+// Fright by one alarmed fish in a second.
+constexpr float kFrightOfOne = 0.25F;
+// How much of the liking is lost at most.
+constexpr float kTiredShare = 0.8F;
+
 // A school stands so far over a crown and up-current of it.
 constexpr float kOverMetres = 0.9F;
 constexpr float kUpCurrentMetres = 1.6F;
@@ -42,7 +55,50 @@ constexpr float kHold = 0.6F;
 constexpr float kHoldsFrom = 0.03F;
 constexpr float kLikes = 0.6F;
 
+// The share of the liking for a structure that is left by what schools remember of it.
+float remembered(const surroundings::Structure& structure) {
+    return (1 - kTiredShare * structure.tiredOf) * (1 - structure.fright);
+}
+
+// How much a tick of one of these fish counts for those that are beside the structures: by tiring
+// where it is bold, and by fright where it is alarmed.
+void countOne(const Environment& environment,
+              const fish::SpeciesParameters& parameters,
+              std::uint32_t fish,
+              std::vector<surroundings::Structure>& structures) {
+    const fish::FishView& view = *environment.view;
+    if (!view.shows(fish, fish::kSchooling)) return;
+    const bool isAlarmed = view.shows(fish, fish::kAlarmed);
+    const bool isLeading = isBold(environment.seed, fish);
+    if (!isAlarmed && !isLeading) return;
+    const float bold = std::max(
+        1.0F,
+        static_cast<float>(parameters.last - parameters.first) / static_cast<float>(kBoldOneIn));
+    for (surroundings::Structure& structure : structures) {
+        const float reach = structure.radiusMetres + kBesideMetres;
+        const glm::vec3 from = view.position(fish) - structure.crown;
+        if (place::dot(from, from) > reach * reach) continue;
+        if (isLeading)
+            structure.tiredOf = std::min(1.0F, structure.tiredOf + 1 / (kTiresSeconds * bold));
+        if (isAlarmed) structure.fright = std::min(1.0F, structure.fright + kFrightOfOne);
+    }
+}
+
 }  // namespace
+
+void rememberPlaces(const Environment& environment,
+                    std::vector<surroundings::Structure>& structures) {
+    for (surroundings::Structure& structure : structures) {
+        structure.tiredOf *= 1 - 1 / (kForgetsSeconds * kTicksOfSecond);
+        structure.fright *= 1 - 1 / (kCalmsSeconds * kTicksOfSecond);
+    }
+    if (structures.empty()) return;
+    const auto turn = static_cast<std::uint32_t>(environment.tick.value % kTicksOfSecond);
+    for (const fish::SpeciesParameters& parameters : environment.speciesParameters)
+        for (std::uint32_t fish = parameters.first + turn; fish < parameters.last;
+             fish += kTicksOfSecond)
+            countOne(environment, parameters, fish, structures);
+}
 
 bool isBold(std::uint32_t seed, std::uint32_t fish) {
     return hashOf(hashOf(seed, Stream::Bold), fish) % kBoldOneIn == 0;
@@ -64,7 +120,7 @@ std::uint32_t structureFor(const Environment& environment,
     for (std::size_t i = 0; i < structures.size(); ++i) {
         const float distance = place::lengthOf(structures[i].crown - senses.position);
         const float far = distance / kHalfMetres;
-        weights[i] = structures[i].liking / (1 + far * far);
+        weights[i] = structures[i].liking * remembered(structures[i]) / (1 + far * far);
         if (distance < kLeftMetres || (has && i == aim.target)) weights[i] *= kLeftWeight;
         sum += weights[i];
     }
@@ -78,12 +134,16 @@ std::uint32_t structureFor(const Environment& environment,
 
 float likingOf(const surroundings::Surroundings& surroundings, glm::vec3 place) {
     float nearest = std::numeric_limits<float>::infinity();
-    for (const surroundings::Structure& structure : surroundings.structures)
-        nearest =
-            std::min(nearest, place::lengthOf(structure.crown - place) - structure.radiusMetres);
+    float share = 0;
+    for (const surroundings::Structure& structure : surroundings.structures) {
+        const float away = place::lengthOf(structure.crown - place) - structure.radiusMetres;
+        if (away >= nearest) continue;
+        nearest = away;
+        share = remembered(structure);
+    }
     const float near = std::clamp(nearest / kNearMetres, 0.0F, 1.0F);
     const float far = std::clamp((kGoneMetres - nearest) / (kGoneMetres - kFarMetres), 0.0F, 1.0F);
-    return near * far;
+    return near * far * share;
 }
 
 glm::vec3 ownWay(const Situation& situation) {

@@ -216,12 +216,13 @@ class Screen {
         if (!of_.parameters.habits.hidesIn.empty()) add("", "threat " + bar(of_.feelings.threat));
     }
 
-    // The target is a particle for those that eat food, a fish for all others; empty where there
-    // is none.
+    // The target is a place for some intentions, a particle for those that eat food, a fish for all
+    // others; empty where there is none.
     [[nodiscard]] std::string targetOf(fish::Intention intention, std::uint32_t target) const {
         if (target == fish::kNobody) return {};
         if (intention == fish::Intention::Hide || intention == fish::Intention::Rest)
             return fmt::format("site {}", target);
+        if (intention == fish::Intention::School) return fmt::format("structure {}", target);
         if (intention == fish::Intention::Graze) return fmt::format("patch {}", target);
         const bool isParticle = intention == fish::Intention::Eat &&
                                 of_.parameters.habits.role != config::Role::Predator;
@@ -243,7 +244,7 @@ class Screen {
         add("INTENDS",
             fmt::format("{}, its aim for {:.1f} s",
                         targeted(mind.intention, mind.target),
-                        seconds(mind.pursued)));
+                        told_.pursuedSeconds));
         if (mind.remembered != fish::Intention::Wander)
             add("",
                 fmt::format("remembers: {}, {:.1f} s ago",

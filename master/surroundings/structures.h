@@ -16,6 +16,9 @@ struct Structure {
     float radiusMetres = 1;
     // How much schools like it, 0.3 to 1; drawn by the seed, so that one place leads.
     float liking = 1;
+    // What schools remember of it, 0 to 1: how tired they are of it, and how lately fish of a
+    // school were frightened there. rememberPlaces() changes both (master/behaviour/ways.h).
+    float tiredOf = 0, fright = 0;
 };
 
 // At most this many, the highest first.

@@ -115,6 +115,8 @@ std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroun
     hash = folded(hash, food.generation);
     hash = folded(hash, food.absentUntil);
     hash = folded(hash, surroundings.turf.fill);
+    for (const Structure& structure : surroundings.structures)
+        hash = foldedOne(foldedOne(hash, structure.tiredOf), structure.fright);
     // A clock that nobody can set is a function of scene and tick.
     if (!surroundings.climate.day.followsHall) return hash;
     const place::DayClock& clock = surroundings.clock;

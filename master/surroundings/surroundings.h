@@ -39,7 +39,7 @@ struct Surroundings {
     Obstacles obstacles;
     // Of the whole place, in the scene's order; constant.
     std::vector<place::Site> sites;
-    // Constant.
+    // Only what schools remember of them changes.
     std::vector<Structure> structures;
     Turf turf;
     place::Current current;

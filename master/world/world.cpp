@@ -14,6 +14,7 @@
 #include "common/place/place.h"
 #include "master/behaviour/routines.h"
 #include "master/behaviour/think.h"
+#include "master/behaviour/ways.h"
 #include "master/fish/minds.h"
 #include "master/world/beginning.h"
 
@@ -291,6 +292,7 @@ void World::advance() {
     beginTick();
     swallow();
     findRushes();
+    behaviour::rememberPlaces(environment(), surroundings_.structures);
     thinkAll();
     pool_.run(chunks_.size(), [this](std::size_t i) { swim(chunks_[i]); });
     performEvents();

@@ -112,17 +112,6 @@ std::string sectorOf(float degreesRight) {
 }
 
 TEST(Explain, theValuesAreThoseOfTheLines) {
-    constexpr std::array kIntentions{"wander",
-                                     "hover",
-                                     "leave",
-                                     "school",
-                                     "eat",
-                                     "mate",
-                                     "rest",
-                                     "hide",
-                                     "escape",
-                                     "avoid fish",
-                                     "avoid obstacle"};
     constexpr std::array kSightings{"predator    ", "food        ", "mate        ", "prey "};
     Lived world(worldOptionsOf(test::syntheticAssets()), 300);
     int sightings = 0;
@@ -133,7 +122,7 @@ TEST(Explain, theValuesAreThoseOfTheLines) {
         const std::string target = one.target.empty() ? "" : " " + one.target;
         EXPECT_THAT(text,
                     HasSubstr(fmt::format("INTENDS  {}{}, its aim for {:.1f} s",
-                                          kIntentions.at(static_cast<std::size_t>(*one.intention)),
+                                          fish::nameOf(*one.intention),
                                           target,
                                           one.pursuedSeconds)));
         for (const float feeling : {one.feelings.hunger, one.feelings.libido, one.feelings.fear})

@@ -123,7 +123,7 @@ inline std::string fileText(const std::string& path) {
 inline session::Admission admissionTo(wire::Pattern pattern) {
     session::Admission admission;
     admission.rig = wall::shippedRig("desk");
-    admission.scene = config::readScene(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb");
+    admission.scene = config::readScene(AQUARAMA_SOURCE_DIR "/config/scenes/reef_1998.txtpb");
     admission.seed = 1;
     admission.world = pattern == wire::Pattern::World;
     return admission;
