@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cassert>
+#include <cmath>
 
 #include "common/base/random_streams.h"
 #include "common/place/place.h"
@@ -84,6 +85,9 @@ std::uint32_t drawnHost(const Situation& situation, std::uint32_t hash) {
 constexpr float kAbreastToFile = 0.6F;
 // Share of a push in file that acts along the file; the rest acts sideways.
 constexpr float kAsideShare = 0.25F;
+// Fish that meet at one level pass over and under each other: so much of height is added to that
+// between them, body lengths.
+constexpr float kOverOrUnder = 0.15F;
 constexpr float kAlignFully = 2.0F;
 constexpr float kAttractFully = 5.0F;
 constexpr float kAttractAlarmed = 1.5F;
@@ -129,12 +133,13 @@ Neighbour neighbourOf(const fish::FishView& view,
 // and moves aside.
 void giveWay(Company& company, const Neighbour& neighbour, glm::vec3 heading, float spacing) {
     const float ahead = place::dot(neighbour.offset, heading);
-    const glm::vec3 aside = neighbour.offset - heading * ahead;
+    glm::vec3 aside = neighbour.offset - heading * ahead;
     const float room = place::lengthOf(aside + heading * (ahead * kAbreastToFile));
     if (room >= spacing) return;
     const float tooNear = 1 - room / spacing;
     // Linear at first, then with the cube: weak at the spacing, strong at contact.
     const float repulsion = tooNear * (1 + 2 * tooNear * tooNear);
+    aside.y += std::copysign(kOverOrUnder, aside.y);
     company.separation -=
         place::directionOf(aside + heading * (ahead * kAsideShare), {0, 1, 0}) * repulsion;
     company.brake += repulsion * std::max(0.0F, place::dot(neighbour.towards, heading));

@@ -51,6 +51,8 @@ constexpr float kThereMetres = 1.2F;
 // course against the current.
 constexpr float kLead = 1.6F;
 constexpr float kHold = 0.6F;
+// A bold fish leads with full weight if so many schoolmates are near.
+constexpr std::size_t kFollowers = 4;
 // A school holds its place in a current above this (m/s) where it likes to be.
 constexpr float kHoldsFrom = 0.03F;
 constexpr float kLikes = 0.6F;
@@ -160,7 +162,11 @@ glm::vec3 ownWay(const Situation& situation) {
         if (flows) goal += against * (structure.radiusMetres + kUpCurrentMetres);
         goal.y = std::min(goal.y, water.centre.y + 0.6F * water.halfExtent.y);
         const glm::vec3 towards = goal - senses.position;
-        if (place::lengthOf(towards) > kThereMetres) way += place::directionOf(towards, {}) * kLead;
+        // A bold fish leads; it does not leave alone.
+        const float followed = std::min(
+            1.0F, static_cast<float>(senses.schoolmates.count) / static_cast<float>(kFollowers));
+        if (place::lengthOf(towards) > kThereMetres)
+            way += place::directionOf(towards, {}) * (kLead * followed);
     }
     if (flows && likingOf(around, senses.position) > kLikes) way += against * kHold;
     return way;
