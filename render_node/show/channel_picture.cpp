@@ -114,9 +114,9 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
     const wall::PatternGround ground = wall->screen().patternGround();
     const wall::ChannelFrustum between = wall->frustum(channel, kMarginRadians);
     map_ = projectionMap(warp, between);
-    patternSize_ = between.sizePixels ? *between.sizePixels : scenePictureSize(map_);
-    worldSize_ = glm::ceil(glm::vec2(patternSize_) * scene::qualityOf(quality).pictureShare);
-    sceneSize_ = worldSize_;
+    sizes_.pattern = between.sizePixels ? *between.sizePixels : scenePictureSize(map_);
+    sizes_.world = glm::ceil(glm::vec2(sizes_.pattern) * scene::qualityOf(quality).pictureShare);
+    sizes_.scene = sizes_.world;
     // Two eyes for any stereo mode, else one between them.
     const bool two = stereo_.mode != config::StereoMode::Mono;
     for (const wall::EyeSide side : two ? std::vector{wall::EyeSide::Left, wall::EyeSide::Right}
@@ -128,7 +128,7 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
         codes_.emplace(*colour);
     // The scene has one texture: all eyes but the last need a copy.
     for (Viewing& eye : eyes_)
-        if (&eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, worldSize_);
+        if (&eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, sizes_.world);
     if (admission.world)
         scene_.emplace(
             scene::SceneOptions{.place = place::placeOf(admission.scene, admission.seed),
@@ -148,13 +148,13 @@ void ChannelPicture::drawScene(const wire::StateFrame& frame,
     if (scan_ && frame.show.black) scan_->lit = 0;  // black takes effect at once
     if (scan_) return;
     const bool isWorld = scene_ && frame.show.pattern == wire::Pattern::World;
-    sceneSize_ = isWorld ? worldSize_ : patternSize_;
+    sizes_.scene = isWorld ? sizes_.world : sizes_.pattern;
     if (brightness_ == 0 && eyes_.front().sceneTexture != 0) return;
     if (isWorld) drawWorld(frame);
     for (Viewing& eye : eyes_) {
         if (!isWorld) drawPattern(eye, frame.show.pattern);
         glNamedFramebufferTexture(eye.onScene.name(), GL_COLOR_ATTACHMENT0, eye.sceneTexture, 0);
-        if (overlays.warpGrid) eye.pattern.addGrid(eye.onScene.name(), sceneSize_);
+        if (overlays.warpGrid) eye.pattern.addGrid(eye.onScene.name(), sizes_.scene);
         if (overlays.fishIds) drawFishIds(eye, frame);
         if (mind) drawMind(eye, frame, *mind);
     }
@@ -186,27 +186,27 @@ void ChannelPicture::drawWorld(const wire::StateFrame& frame) {
                            0,
                            0,
                            0,
-                           sceneSize_.x,
-                           sceneSize_.y,
+                           sizes_.scene.x,
+                           sizes_.scene.y,
                            1);
         eye.sceneTexture = eye.kept->texture();
     }
 }
 
 void ChannelPicture::drawPattern(Viewing& eye, wire::Pattern pattern) const {
-    if (!eye.patterned) eye.patterned.emplace(GL_RGBA16F, patternSize_);
+    if (!eye.patterned) eye.patterned.emplace(GL_RGBA16F, sizes_.pattern);
     eye.sceneTexture = eye.patterned->texture();
     if (pattern == wire::Pattern::Grid)
-        eye.pattern.drawGrid(eye.patterned->framebuffer(), patternSize_);
+        eye.pattern.drawGrid(eye.patterned->framebuffer(), sizes_.pattern);
     else
-        eye.pattern.drawGrey(eye.patterned->framebuffer(), patternSize_);
+        eye.pattern.drawGrey(eye.patterned->framebuffer(), sizes_.pattern);
 }
 
 std::optional<FishPlace> ChannelPicture::placeOf(const glm::mat4& clipFromWorld,
                                                  const motion::PresentedFish& fish) const {
     const glm::vec4 clip = clipFromWorld * glm::vec4(fish.positionMetres, 1);
     if (clip.w <= 0) return std::nullopt;
-    const glm::vec2 size(sceneSize_);
+    const glm::vec2 size(sizes_.scene);
     const glm::vec2 place = (glm::vec2(clip.x, -clip.y) / clip.w * 0.5F + 0.5F) * size;
     if (place.x < 0 || place.y < 0 || place.x >= size.x || place.y >= size.y) return std::nullopt;
     // The first row of the matrix: its length is the horizontal scale, from metres to half widths
@@ -218,7 +218,7 @@ std::optional<FishPlace> ChannelPicture::placeOf(const glm::mat4& clipFromWorld,
 
 // Writes the number of each fish at the origin of its body frame.
 void ChannelPicture::drawFishIds(const Viewing& eye, const wire::StateFrame& frame) {
-    const float dot = dotPixels(sceneSize_);
+    const float dot = dotPixels(sizes_.scene);
     std::vector<Label> labels;
     for (const motion::PresentedFish& fish : presentedFish(frame, school_)) {
         const auto place = placeOf(eye.clipFromWorld, fish);
@@ -226,7 +226,7 @@ void ChannelPicture::drawFishIds(const Viewing& eye, const wire::StateFrame& fra
         const std::string text = std::to_string(fish.id);
         labels.push_back({place->middle - extentInDots(text) * dot / 2.0F, text});
     }
-    text_.draw(labels, eye.onScene.name(), sceneSize_, dot);
+    text_.draw(labels, eye.onScene.name(), sizes_.scene, dot);
 }
 
 void ChannelPicture::drawMind(const Viewing& eye,
@@ -236,8 +236,8 @@ void ChannelPicture::drawMind(const Viewing& eye,
     if (!fish) return;
     const auto place = placeOf(eye.clipFromWorld, *fish);
     if (!place) return;
-    const float dot = smallDotPixels(sceneSize_);
-    text_.draw(mindLabels(*place, mind, sceneSize_, dot), eye.onScene.name(), sceneSize_, dot);
+    const float dot = smallDotPixels(sizes_.scene);
+    text_.draw(mindLabels(*place, mind, sizes_.scene, dot), eye.onScene.name(), sizes_.scene, dot);
 }
 
 std::optional<std::uint32_t> ChannelPicture::fishNearest(const wire::StateFrame& frame,
@@ -248,7 +248,7 @@ std::optional<std::uint32_t> ChannelPicture::fishNearest(const wire::StateFrame&
     const glm::ivec2 texel = glm::clamp(glm::ivec2(own), glm::ivec2(0), map_.sizePixels - 1);
     const glm::vec4 lit =
         map_.placeAndWeight[static_cast<std::size_t>(texel.y * map_.sizePixels.x + texel.x)];
-    const glm::vec2 wanted = glm::vec2(lit.x, 1.0F - lit.y) * glm::vec2(sceneSize_);
+    const glm::vec2 wanted = glm::vec2(lit.x, 1.0F - lit.y) * glm::vec2(sizes_.scene);
     std::optional<std::uint32_t> nearest;
     float least = std::numeric_limits<float>::infinity();
     const glm::mat4 clipFromWorld = clipOf(viewOf(eyes_.front(), frame.eye));
@@ -309,7 +309,7 @@ void ChannelPicture::projectScan(unsigned framebuffer, Shown shown) {
 scene::View ChannelPicture::viewOf(const Viewing& viewing, const wire::Eye& submarine) const {
     return {.clipFromCamera = wall::clipFromCamera(viewing.frustum, kNearMetres),
             .cameraFromWorld = glm::mat4(viewing.frustum.cameraFromWall * wallFromWorld(submarine)),
-            .sizePixels = sceneSize_};
+            .sizePixels = sizes_.scene};
 }
 
 }  // namespace aquarama::show

@@ -88,6 +88,11 @@ class ChannelPicture {
         unsigned sceneTexture = 0;
     };
 
+    // Of pictures, in pixels: of the world, of a pattern, and of the one that was drawn last.
+    struct Sizes {
+        glm::ivec2 world{}, pattern{}, scene{};
+    };
+
     // Draws the world for each eye; drawPattern() draws a test pattern in its place.
     void drawWorld(const wire::StateFrame& frame);
     void drawPattern(Viewing& eye, wire::Pattern pattern) const;
@@ -107,8 +112,7 @@ class ChannelPicture {
     config::Day day_;
     // The map for the point between the eyes.
     ProjectionMap map_;
-    // Sizes of the world's picture, of a pattern's, and of the picture that was drawn last.
-    glm::ivec2 worldSize_{}, patternSize_{}, sceneSize_{};
+    Sizes sizes_;
     // One, or left and right.
     std::deque<Viewing> eyes_;
     // Set where one picture holds both eyes.
