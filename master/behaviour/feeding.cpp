@@ -82,15 +82,16 @@ bool cannotTurnTo(const Senses& senses, glm::vec3 fromMouth) {
            std::abs(fromMouth.y) > 2 * place::kSteepest * distance;
 }
 
-// A predator rushes from this distance, in body lengths, at prey ahead of it.
+// A predator rushes from this distance, in body lengths, once it aims at its prey: within 20
+// degrees of ahead (Webb & Skadsen 1980). One that first has to turn is too slow.
 constexpr float kRushFrom = 2.0F;
-constexpr float kAheadCosine = 0.5F;
+constexpr float kAimedCosine = 0.94F;
 // Cosine of 37 degrees: one that hunts from ambush strikes at prey that is so far ahead.
 constexpr float kStrikeCosine = 0.8F;
-// A rush begins with a fast start, where the prey is to the side and nothing else within so many
-// body lengths ahead or that way: the fish coasts as far.
+// A rush begins with a fast start, where the prey is to the side and nothing else is as near ahead
+// or that way; from ambush where nothing is within so many body lengths.
 constexpr std::uint32_t kStrikeTicks = 16;
-constexpr float kStrikeLengths = 4.0F;
+constexpr float kAmbushLengths = 4.0F;
 // Stalking for longer counts as part of the chase, whose time is limited.
 constexpr std::uint32_t kStalkTicks = 20 * 60;
 // Reach of a bite from the mouth, in body lengths, by its gape and suction; twice as far straight
@@ -133,7 +134,7 @@ fish::Course stalk(const Situation& situation,
     const bool isNear = ambush
                             ? place::lengthOf(fromMouth) < static_cast<float>(ambush->strikesMetres)
                             : prey.distance < kRushFrom * senses.length;
-    const float cosine = ambush ? kStrikeCosine : kAheadCosine;
+    const float cosine = ambush ? kStrikeCosine : kAimedCosine;
     if (isNear && place::dot(prey.offset, senses.heading) > cosine * prey.distance) {
         mind.stage = static_cast<std::uint8_t>(HuntStage::Rush);
         mind.sinceStage = 0;
@@ -260,12 +261,14 @@ fish::Course hunt(const Situation& situation, fish::Mind& mind, DeferredEvents& 
         std::min(kMostHuntLeadSeconds, place::lengthOf(fromMouth) / (speed * senses.length));
     fish::Course course =
         heading(situation, fromMouth + velocityOf(view, prey.object) * seconds, speed);
-    if (situation.parameters.habits.hunt.ambush && senses.urgency < 1)
+    const bool ambush = situation.parameters.habits.hunt.ambush.has_value();
+    if (ambush && senses.urgency < 1)
         course.direction = steeply(place::directionOf(
             fromMouth + velocityOf(view, prey.object) * seconds, senses.heading));
+    const float room = ambush ? kAmbushLengths : prey.distance / senses.length;
     course.startsFast =
         mind.sinceStage < kStrikeTicks &&
-        hasRoom(situation, course.direction, kStrikeLengths, surroundings::berthOf(senses.length));
+        hasRoom(situation, course.direction, room, surroundings::berthOf(senses.length));
     return course;
 }
 

@@ -46,14 +46,4 @@ bool restsAt(const fish::SpeciesParameters& parameters,
     return until(retires, timeOfDay) < until(retires, rises);
 }
 
-void feelTheHour(const Environment& environment,
-                 const fish::SpeciesParameters& parameters,
-                 std::uint32_t fish,
-                 Senses& senses) {
-    const double time = environment.surroundings->timeOfDay;
-    senses.rests = restsAt(parameters, environment.seed, fish, senses.length, time);
-    if (parameters.habits.role == config::Role::Predator)
-        senses.restBetweenChases = place::valueAt(kBetweenChases, time);
-}
-
 }  // namespace aquarama::behaviour

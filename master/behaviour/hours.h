@@ -6,7 +6,6 @@
 #include <cstdint>
 
 #include "common/place/day.h"
-#include "master/behaviour/perceive.h"
 #include "master/fish/fish_view.h"
 
 namespace aquarama::behaviour {
@@ -23,8 +22,7 @@ inline constexpr place::ByPhase kSchoolSpacing{1, 1, 1, 1, 1, 1.6F, 2.5F, 1.3F};
 inline constexpr place::ByPhase kSchoolSpeed{1, 1, 1, 1, 1, 1.4F, 0.8F, 1};
 inline constexpr place::ByPhase kSchoolAlignment{1, 1, 1, 1, 1, 1.3F, 0.1F, 0.7F};
 inline constexpr place::ByPhase kSchoolCohesion{1, 1, 1, 1, 1, 1, 0.15F, 0.8F};
-// Of predators: the time between two chases, and how much deeper than by day they patrol, metres.
-inline constexpr place::ByPhase kBetweenChases{0.8F, 1, 1, 1, 0.8F, 0.4F, 0.6F, 0.6F};
+// How much deeper than by day predators go about a bait ball, metres.
 inline constexpr place::ByPhase kPatrolsDeeper{0.5F, 0, 0, 0, 0.5F, 1.5F, 1.5F, 1};
 
 // The rank of a fish by size within its species, 0 the smallest to 1.
@@ -37,11 +35,5 @@ inline constexpr place::ByPhase kPatrolsDeeper{0.5F, 0, 0, 0, 0.5F, 1.5F, 1.5F, 
                            std::uint32_t fish,
                            float lengthMetres,
                            double timeOfDay);
-
-// Writes rests and restBetweenChases of a fish whose length is sensed.
-void feelTheHour(const Environment& environment,
-                 const fish::SpeciesParameters& parameters,
-                 std::uint32_t fish,
-                 Senses& senses);
 
 }  // namespace aquarama::behaviour

@@ -490,14 +490,29 @@ bool isAtTurf(const fish::Mind& mind) {
            (stage != GrazeStage::Travel || mind.sinceStage < kLeavesTurfTicks);
 }
 
-// How far ahead the fish feels obstacles.
+// Whether a predator rushes at the prey that it sees, and not from ambush. Turning aside for a
+// moment does not end a rush.
+bool rushesAtPrey(const fish::SpeciesParameters& parameters,
+                  const fish::Mind& mind,
+                  const Senses& senses) {
+    return senses.prey.seen() && !parameters.habits.hunt.ambush &&
+           fish::aimOf(mind).intention == fish::Intention::Eat &&
+           mind.stage == static_cast<std::uint8_t>(HuntStage::Rush);
+}
+
+// How far ahead the fish feels obstacles. One that rushes at prey feels none beyond it: else all
+// prey near a border or the reef would be safe.
 float reachOf(const fish::SpeciesParameters& parameters,
               const fish::Mind& mind,
               const Senses& senses) {
     const float speed = std::max(0.0F, senses.speed);
-    return isAtTurf(mind) ? kTurfReachMetres + speed * kTurfReachSeconds
-                          : kReachMetres + speed * std::max(kReachSeconds, parameters.turnSeconds);
+    if (isAtTurf(mind)) return kTurfReachMetres + speed * kTurfReachSeconds;
+    const float reach = kReachMetres + speed * std::max(kReachSeconds, parameters.turnSeconds);
+    return rushesAtPrey(parameters, mind, senses)
+               ? std::clamp(senses.prey.distance, kReachMetres, reach)
+               : reach;
 }
+
 // Of a fish that lies in wait beside the reef.
 constexpr surroundings::Berth kInWait{0.05F, 0.2F, 0.15F, 0.2F};
 // Longer fish keep clear of the reef also at a cleaner's, metres.
@@ -597,7 +612,8 @@ Senses perceive(const Environment& environment,
     assert(fish < environment.view->size());
     Senses senses;
     feelItself(*environment.view, fish, senses);
-    feelTheHour(environment, parameters, fish, senses);
+    senses.rests = restsAt(
+        parameters, environment.seed, fish, senses.length, environment.surroundings->timeOfDay);
     const Onlooker onlooker{environment, parameters, fish, mind, senses};
     seeNeighbours(onlooker);
     seePredators(onlooker);

@@ -123,8 +123,6 @@ struct Senses {
     Sighting shelter;
     // Whether it is outside the active hours of its species.
     bool rests = false;
-    // Predators: a factor on the time between two chases, by the time of day.
-    float restBetweenChases = 1;
     // How many of its schoolmates near by dive.
     std::size_t diving = 0;
     // Of a fish that hides: whether it ventures out, where nothing threatens it.

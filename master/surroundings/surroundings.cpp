@@ -53,7 +53,7 @@ float ballRadius(std::size_t fish, float lengthMetres) {
 
 // How active predators are, by phase: dawn, morning, noon, afternoon, sunset, dusk, night, first
 // light.
-constexpr place::ByPhase kHuntersActive{0.5F, 0, 0, 0, 0.3F, 1, 0.8F, 0.8F};
+constexpr place::ByPhase kHuntersActive{0.5F, 0, 0, 0, 0.3F, 1, 1, 0.8F};
 
 }  // namespace
 

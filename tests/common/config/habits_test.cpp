@@ -70,8 +70,8 @@ TEST(Habits, ofThePredatorAreReadWithItsPreyInOrder) {
     EXPECT_THAT(shark.hunts, testing::ElementsAre("bigeye_scad", "blue_tang", "parrotfish"));
     EXPECT_DOUBLE_EQ(shark.hunt.chaseSeconds, 8);
     EXPECT_DOUBLE_EQ(shark.hunt.giveUpMetres, 6);
-    EXPECT_DOUBLE_EQ(shark.hunt.restSeconds, 300);
-    EXPECT_DOUBLE_EQ(shark.hunt.restByDaySeconds, 900);
+    EXPECT_DOUBLE_EQ(shark.hunt.restSeconds, 120);
+    EXPECT_DOUBLE_EQ(shark.hunt.restByDaySeconds, 240);
     EXPECT_FALSE(shark.hunt.ambush) << "it stalks";
     EXPECT_FLOAT_EQ(shark.fearMetres, 0.0F) << "it fears nobody";
     EXPECT_FALSE(shark.eatsPlankton);

@@ -70,12 +70,8 @@ TEST(Hours, theLargerRetireLaterAndRiseEarlier) {
 TEST(Hours, byDayNothingIsOtherwise) {
     for (double time = place::timeIn(DayPhase::Noon, 0); time < place::beginOf(DayPhase::Sunset);
          time += 0.001)
-        for (const place::ByPhase* values : {&kCloudHeight,
-                                             &kSchoolSpacing,
-                                             &kSchoolSpeed,
-                                             &kSchoolAlignment,
-                                             &kSchoolCohesion,
-                                             &kBetweenChases})
+        for (const place::ByPhase* values :
+             {&kCloudHeight, &kSchoolSpacing, &kSchoolSpeed, &kSchoolAlignment, &kSchoolCohesion})
             ASSERT_EQ(place::valueAt(*values, time), 1.0F) << time;
     EXPECT_EQ(place::valueAt(kPatrolsDeeper, 0.5), 0.0F);
 }

@@ -183,14 +183,12 @@ TEST(Hunters, aSharkRestsLongerByDayThanAtDusk) {
 
 TEST(Hunters, areActiveFromDuskOnAndNotByDay) {
     surroundings::Surroundings around;
-    around.climate.day.night = 0.4;
-    around.daylight = 1;
     EXPECT_FLOAT_EQ(surroundings::huntersActive(around), 0.0F);
-    around.daylight = 0.85F;
+    around.timeOfDay = 0.7;
     EXPECT_FLOAT_EQ(surroundings::huntersActive(around), 0.0F) << "in the afternoon";
-    around.daylight = 0.6F;
+    around.timeOfDay = 0.87;
     EXPECT_FLOAT_EQ(surroundings::huntersActive(around), 1.0F) << "at dusk";
-    around.daylight = 0.4F;
+    around.timeOfDay = 0;
     EXPECT_FLOAT_EQ(surroundings::huntersActive(around), 1.0F) << "by night";
 }
 
