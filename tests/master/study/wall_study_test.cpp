@@ -167,8 +167,10 @@ TEST(WallStudy, itWatchesASceneEverySecondAndChangesNothing) {
     const SpeciesFigures school = study.species(part).front();
     EXPECT_GT(school.nearestNeighbour.median, 0);
     double shares = 0;
-    for (const double share : school.intentionShare) shares += share;
+    for (const double share : school.occupationShare) shares += share;
     EXPECT_NEAR(shares, 1, 1e-9);
+    EXPECT_GT(school.swims, 0.9);
+    EXPECT_FALSE(school.atHome) << "it lives at no site";
     const auto lines = [](const std::string& csv) { return std::ranges::count(csv, '\n'); };
     EXPECT_EQ(lines(secondsCsv(study)), 31);
     EXPECT_EQ(lines(eventsCsv(study)), 1 + static_cast<std::ptrdiff_t>(kWallEvents));
