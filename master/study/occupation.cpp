@@ -68,6 +68,12 @@ bool inspects(const StudiedFish& of, std::uint32_t fish) {
            of.view.fish[aim.target].length;
 }
 
+bool isSheltered(const StudiedFish& of, std::uint32_t fish) {
+    const fish::Intention aim = fish::aimOf(of.minds[fish]).intention;
+    return !of.species[of.view.kind[fish]].habits.hidesIn.empty() &&
+           (aim == fish::Intention::Hide || aim == fish::Intention::Rest);
+}
+
 Occupation occupationOf(const StudiedFish& of, std::uint32_t fish) {
     assert(!of.view.shows(fish, fish::kAway));
     const fish::Intention present = of.minds[fish].intention;

@@ -46,4 +46,7 @@ inline constexpr float kBesideMetres = 0.5F;
 // Whether it is a cleaner, and within a length of its client.
 [[nodiscard]] bool inspects(const StudiedFish& of, std::uint32_t fish);
 
+// Whether it hides or rests in a shelter, or goes there: among branches, in a hole, under a ledge.
+[[nodiscard]] bool isSheltered(const StudiedFish& of, std::uint32_t fish);
+
 }  // namespace aquarama::study

@@ -2,6 +2,7 @@
 #include "master/study/wall_study.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -137,6 +138,15 @@ TEST(SchoolPath, thePeakIsBeyondTheFirstZeroAndNotAtTheEnd) {
     EXPECT_EQ(peak.lag, 5U);
     EXPECT_EQ(peak.height, 0.3);
     EXPECT_EQ(peak.firstLag, 5U);
+}
+
+TEST(SchoolPath, peaksOfKnownPeriodsAreLeftOut) {
+    const std::vector<double> correlation{1, -0.1, 0.2, 0.1, 0.5, 0.1, 0.2, 0.1, 0.55, 0.1};
+    constexpr std::array<std::size_t, 1> kFour{4};
+    EXPECT_EQ(highestPeak(correlation, kFour).height, 0.2);
+    constexpr std::array<std::size_t, 1> kSeven{7};
+    EXPECT_EQ(highestPeak(correlation, kSeven, 1).lag, 4U);
+    EXPECT_EQ(highestPeak(correlation, kSeven, 0).lag, 8U);
 }
 
 // At multiples of a period the path is as much like itself: the period is the shortest of them.
