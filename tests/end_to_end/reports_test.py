@@ -145,7 +145,8 @@ class Reports(Case):
         self.assertEqual(set(files), {"seconds.csv", "measures.csv", "events.csv", "species.csv", "wall.svg"})
         self.assert_picture(files["wall.svg"])
         self.assertRegex(said, r"\Awall: cells \d+ %, thirds \d+ \d+ \d+ %, all \d+ %, gap \d+ s, "
-                               r"largest school \d+ %, species \d+, events \d+\.\d a minute\nseen from the eye at rest\n"
+                               r"largest school \d+ %, species \d+, events \d+\.\d a minute\n"
+                               r"seen from the eye at rest\n"
                                r"path of the school: highest peak \d\.\d\d after \d+ s, the first nearly as high "
                                r"after \d+ s\n\n\| ")
         self.assertIn("| time, s | 72 | – | – | – |", said)
