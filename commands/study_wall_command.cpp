@@ -69,6 +69,11 @@ std::string pathLine(const study::WallStudy& study) {
         peak.firstLag);
 }
 
+// Where the visitor is.
+std::string placeLine(const WallStudyOptions& options) {
+    return options.tours ? "seen from the submarine on its tour" : "seen from the eye at rest";
+}
+
 void studyWall(const WallStudyOptions& options) {
     StudyData::require(wallScript(), options.out);
     const config::Rig rig = config::readRig(options.rig);
@@ -86,6 +91,7 @@ void studyWall(const WallStudyOptions& options) {
     data.write("events.csv", study::eventsCsv(study));
     data.write("species.csv", study::wallSpeciesCsv(study, world, scenario.world.cast));
     cli::say(study::wallLine(mainFigures(study)));
+    cli::say(placeLine(options));
     cli::say(pathLine(study));
     data.show("wall", data.isKept() ? "figure" : "");
     std::cout << versionsLine();
@@ -97,10 +103,14 @@ void addStudyWall(CommandLine& line, CLI::App& studies) {
     const auto [command, options] = line.addTo<WallStudyOptions>(
         studies, "wall", "what a visitor sees of a scene on a wall", studyWall);
     command.group("Commands");
-    command.footer("Prints a line that sums up the day, and its tables in Markdown.");
+    command.footer(
+        "Prints a line that sums up the day, and its tables in Markdown. The bounds that the "
+        "default "
+        "scene is held to (docs/scenes.md) are of the eye at rest; --tour is held to none.");
     command.add_option("RIG", options.rig, "the wall's file")->required();
     command.add_option("--scene", options.scene, "another scene than the rig's");
-    command.add_flag("--tour", options.tours, "the submarine tours; it stays at the eye without");
+    command.add_flag(
+        "--tour", options.tours, "the submarine tours; without, it rests at the scene's eye");
     command.add_option("--out", options.out, "folder for the tables as CSV and a figure");
     command.add_option("--hours", options.hours, "of the scene")
         ->check(cli::number(0.01, 1000))

@@ -121,6 +121,8 @@ struct Rock {
     float radiusMetres = 0.0F;
     std::uint32_t seed = 0;
 };
+// The surface that is drawn, in radii: a boulder is worn within its radius.
+inline constexpr float kDrawnRadii = 0.9F;
 // All rocks, computed at every call, those of heads last; none in the open sea.
 [[nodiscard]] std::vector<Rock> rocksOf(const PlaceKey& place);
 

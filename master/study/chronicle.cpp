@@ -36,7 +36,10 @@ world::WorldCounts since(const world::WorldCounts& before, const world::WorldCou
     return {now.meals - before.meals,
             now.catches - before.catches,
             now.spawnings - before.spawnings,
-            now.returns - before.returns};
+            now.returns - before.returns,
+            now.bites - before.bites,
+            now.puffs - before.puffs,
+            now.charges - before.charges};
 }
 
 }  // namespace

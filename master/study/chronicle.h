@@ -34,7 +34,7 @@ struct Hour {
     double touches = 0;
     // Share of a fish's time in overlaps.
     double overlapPercent = 0;
-    // Times that a fish got into rock, sand or surface.
+    // Times that a fish that was not in its shelter got into rock, sand or surface.
     std::uint64_t bumps = 0;
 
     // Way of the fish that swam least.

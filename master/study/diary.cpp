@@ -9,6 +9,7 @@
 
 #include "common/place/place.h"
 #include "master/behaviour/routines.h"
+#include "master/study/occupation.h"
 #include "master/study/quantities.h"
 
 namespace aquarama::study {
@@ -26,7 +27,7 @@ bool isInTerrain(const surroundings::Obstacles& obstacles, const Rod& rod) {
     if (at.y > -rod.halfWidth) return true;
     if (at.y < place::floorHeight(obstacles.place, {at.x, at.z}) + rod.halfWidth) return true;
     return std::ranges::any_of(obstacles.rocks, [&](const place::Rock& rock) {
-        return glm::distance(rock.centre, at) < rock.radiusMetres + rod.halfWidth;
+        return glm::distance(rock.centre, at) < place::kDrawnRadii * rock.radiusMetres;
     });
 }
 
@@ -88,8 +89,10 @@ void Diary::noteBodies(const world::World& world) {
     const std::uint64_t before = overlaps_.pairTicks();
     tally_.touches += overlaps_.note(world.tick(), rods_, intention_).size();
     tally_.overlapTicks += 2 * static_cast<double>(overlaps_.pairTicks() - before);
-    for (std::size_t fish = 0; fish < rods_.size(); ++fish) {
-        const bool bumps = isInTerrain(world.surroundings().obstacles, rods_[fish]);
+    const StudiedFish studied{world.view(), world.minds(), world.speciesParameters()};
+    for (std::uint32_t fish = 0; fish < rods_.size(); ++fish) {
+        const bool bumps =
+            isInTerrain(world.surroundings().obstacles, rods_[fish]) && !isSheltered(studied, fish);
         tally_.bumps += bumps && bumps_[fish] == 0 ? 1 : 0;
         bumps_[fish] = bumps ? 1 : 0;
     }

@@ -25,7 +25,7 @@ struct Tally {
     std::uint64_t touches = 0;
     // Ticks of overlap, summed over fish: each pair counts twice.
     double overlapTicks = 0;
-    // Times that a fish got into rock, sand or surface.
+    // Times that a fish that was not in its shelter got into rock, sand or surface.
     std::uint64_t bumps = 0;
     // Sums of SchoolFigures and Synchrony of the school over all glances.
     double nearestNeighbour = 0, polarisation = 0, rotation = 0;
@@ -75,8 +75,8 @@ class Diary {
     world::WorldCounts before_;
 };
 
-// Whether the origin of the body is inside a rock, less than its half-width over the sand, or at
-// the surface. A fish that is away is not.
+// Whether the origin of the body is inside a rock as it is drawn, less than its half-width over the
+// sand, or at the surface. A fish that is away is not.
 [[nodiscard]] bool isInTerrain(const surroundings::Obstacles& obstacles, const Rod& rod);
 
 }  // namespace aquarama::study

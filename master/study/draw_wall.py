@@ -34,19 +34,26 @@ MEASURES = {
     "mean_in_view": ("fish of half a degree, mean", 1, 1),
 }
 
-# What living fish do by day, of their time. Species, the words and the source, and the columns of species.csv whose sum
-# is comparable. Where no source is named the figure is from memory of the literature.
+# What living fish do by day, of their time. Species, what it is called, the columns of species.csv whose sum is
+# comparable, and the published share, %, with its source. Without a source it is from memory of the literature. A fish
+# of a cloud that hovers picks what drifts by, so it forages.
 PUBLISHED = [
-    ("parrotfish", "feeding 84-91 % (Bellwood 1995)", ["eat"]),
-    ("powder_blue_tang", "feeding 80 %, defence 10 % in the afternoon (*A. lineatus*, Craig 1996)", ["eat"]),
-    ("green_chromis", "picking 80 %, hidden 2-5 %; *Dascyllus* foraging above 85 %", ["eat", "hover"]),
-    ("sea_goldie", "picking 80 %, chasing 3-5 %, hidden 2-5 %", ["eat", "hover"]),
-    ("butterflyfish", "feeding 33 % (*C. trifascialis*, Irons 1989)", ["eat"]),
-    ("cleaner_wrasse", "inspecting 36 % (Grutter 1996)", ["eat"]),
-    ("trumpetfish", "hanging 55 %, following 25 %", ["wander"]),
-    ("coral_grouper", "resting 80 %, patrolling 15 %, hunting 2 %", ["wander"]),
-    ("clownfish", "within 0.3 m of the anemone 80 %", ["wander"]),
-    ("blacktip_reef_shark", "swimming 100 %", ["wander", "eat", "avoid fish", "avoid obstacle"]),
+    ("parrotfish", "feeding", ["graze share", "eat share"], "84-91 (Bellwood 1995)"),
+    ("powder_blue_tang", "feeding", ["graze share", "eat share"], "80 (*A. lineatus*, Craig 1996)"),
+    ("powder_blue_tang", "defence", ["charge share"], "10 (*A. lineatus*, Craig 1996)"),
+    ("green_chromis", "foraging", ["hover share", "eat share"], "above 85 (*Dascyllus albisella*); picking 80"),
+    ("green_chromis", "hidden", ["hide share"], "2-5"),
+    ("sea_goldie", "foraging", ["hover share", "eat share"], "picking 80"),
+    ("sea_goldie", "hidden", ["hide share"], "2-5"),
+    ("butterflyfish", "feeding", ["graze share", "eat share"], "33 (*C. trifascialis*, Irons 1989)"),
+    ("cleaner_wrasse", "inspecting", ["inspect share"], "36 (Grutter 1996)"),
+    ("trumpetfish", "hanging", ["lie in wait share"], "55"),
+    ("trumpetfish", "following", ["shadow share"], "25"),
+    ("coral_grouper", "resting", ["lie in wait share", "rest share"], "80"),
+    ("coral_grouper", "patrolling", ["patrol share"], "15"),
+    ("coral_grouper", "hunting", ["eat share"], "2"),
+    ("clownfish", "within 0.3 m of an anemone", ["at_home"], "80"),
+    ("blacktip_reef_shark", "swimming", ["swims"], "100"),
 ]
 
 
@@ -78,7 +85,7 @@ def print_events(rows):
 
 
 def shares_of(row):
-    """The shares of a species' time by intention, which name the columns."""
+    """The shares of a species' time by occupation, which name the columns."""
     return {key.removesuffix(" share"): value for key, value in row.items() if key.endswith(" share")}
 
 
@@ -97,12 +104,12 @@ def print_species(rows):
 
 def print_budgets(rows):
     """Time by day of the species that something is published about."""
-    by_day = {row["species"]: shares_of(row) for row in rows if row["is_day"]}
-    budgets = [[species, " + ".join(routines),
-                f"{100 * sum(by_day[species].get(routine, 0) for routine in routines):.0f}", words]
-               for species, words, routines in PUBLISHED if species in by_day and sum(by_day[species].values()) > 0]
+    by_day = {row["species"]: row for row in rows if row["is_day"] and sum(shares_of(row).values()) > 0}
+    budgets = [[species, words, " + ".join(column.removesuffix(" share").replace("_", " ") for column in columns),
+                f"{100 * sum(by_day[species][column] or 0 for column in columns):.0f}", published]
+               for species, words, columns, published in PUBLISHED if species in by_day]
     if budgets:
-        print(markdown_table(["species", "intention", "share of the day, %", "published"], budgets))
+        print(markdown_table(["species", "by day", "counted as", "share of the time, %", "published, %"], budgets))
 
 
 # Pieces of the day of which a curve shows the figures.

@@ -44,7 +44,15 @@ std::vector<double> autocorrelationOf(std::span<const glm::dvec3> path, std::siz
     return correlation;
 }
 
-PathPeak highestPeak(std::span<const double> autocorrelation) {
+PathPeak highestPeak(std::span<const double> autocorrelation,
+                     std::span<const std::size_t> periods,
+                     std::size_t tolerance) {
+    const auto isOfAPeriod = [&](std::size_t lag) {
+        return std::ranges::any_of(periods, [&](std::size_t period) {
+            const std::size_t past = lag % period;
+            return std::min(past, period - past) <= tolerance;
+        });
+    };
     const auto zero =
         std::ranges::find_if(autocorrelation, [](double value) { return value <= 0; });
     std::vector<PathPeak> peaks;
@@ -53,7 +61,7 @@ PathPeak highestPeak(std::span<const double> autocorrelation) {
         const double height = autocorrelation[lag];
         const bool isPeak =
             height >= autocorrelation[lag - 1] && height >= autocorrelation[lag + 1];
-        if (isPeak && height > 0) peaks.push_back({height, lag, lag});
+        if (isPeak && height > 0 && !isOfAPeriod(lag)) peaks.push_back({height, lag, lag});
     }
     if (peaks.empty()) return {};
     PathPeak highest = *std::ranges::max_element(peaks, {}, &PathPeak::height);

@@ -26,7 +26,10 @@ struct PathPeak {
     std::size_t firstLag = 0;
 };
 inline constexpr double kAlikePeaks = 0.1;
-// Of peaks beyond the first zero, not at the end; all 0 where there is none.
-[[nodiscard]] PathPeak highestPeak(std::span<const double> autocorrelation);
+// Of peaks beyond the first zero, not at the end, and not within `tolerance` samples of a multiple
+// of one of `periods`; all 0 where there is none.
+[[nodiscard]] PathPeak highestPeak(std::span<const double> autocorrelation,
+                                   std::span<const std::size_t> periods = {},
+                                   std::size_t tolerance = 0);
 
 }  // namespace aquarama::study

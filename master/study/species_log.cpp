@@ -48,7 +48,9 @@ int quantileDegrees(const std::array<std::uint64_t, 91>& slip, double share) {
 }
 
 SpeciesLog::SpeciesLog(const world::World& world, std::span<const world::WorldSpecies> cast)
-    : tallies_(world.speciesParameters().size()), fish_(world.view().size()) {
+    : tallies_(world.speciesParameters().size()),
+      fish_(world.view().size()),
+      spawnings_(world.counts().spawnings) {
     for (const world::WorldSpecies& species : cast) tables_.push_back(species.tables);
     assert(tables_.size() == tallies_.size());
 }
@@ -56,7 +58,24 @@ SpeciesLog::SpeciesLog(const world::World& world, std::span<const world::WorldSp
 void SpeciesLog::note(const world::World& world) {
     assert(world.view().size() == fish_.size());
     const bool glances = world.tick().value % kTicksOfSlip == 0;
+    noteSpawnings(world);
     for (std::size_t fish = 0; fish < fish_.size(); ++fish) noteFish(world, fish, glances);
+}
+
+// Where a pair spawned in this tick, its clocks begin anew at once; who gives up a courtship begins
+// anew alone.
+void SpeciesLog::noteSpawnings(const world::World& world) {
+    if (world.counts().spawnings == spawnings_) return;
+    spawnings_ = world.counts().spawnings;
+    const auto beginsAnew = [&](std::size_t fish) {
+        return world.minds()[fish].sinceSpawning == 0 && fish_[fish].sinceSpawning != 0;
+    };
+    for (std::size_t fish = 0; fish < fish_.size(); ++fish) {
+        const fish::Aim aim = fish::aimOf(world.minds()[fish]);
+        if (beginsAnew(fish) && aim.intention == fish::Intention::Mate && fish < aim.target &&
+            beginsAnew(aim.target))
+            ++tallies_[world.view().kind[fish]].spawnings;
+    }
 }
 
 // The view shows the world before the tick, so it shows what the commands of the tick before did.
@@ -98,6 +117,8 @@ void SpeciesLog::noteFish(const world::World& world, std::size_t fish, bool glan
     seen.addedPitch = addedPitch(world, fish);
     seen.command = command;
     seen.intention = world.minds()[fish].intention;
+    seen.aim = fish::aimOf(world.minds()[fish]).intention;
+    seen.sinceSpawning = world.minds()[fish].sinceSpawning;
     seen.eaten = world.minds()[fish].eaten;
     seen.sinceMeal = world.minds()[fish].sinceMeal;
     const bool startles = world.view().shows(fish, fish::kStartled);
@@ -140,6 +161,8 @@ void SpeciesLog::noteLife(const fish::Mind& mind, const Fish& fish, SpeciesTally
     tally.meals += mind.sinceMeal == 0 && isAnother ? 1 : 0;
     tally.flights += begins(fish::Intention::Escape);
     tally.courtships += begins(fish::Intention::Mate);
+    const bool hides = fish::aimOf(mind).intention == fish::Intention::Hide;
+    tally.dives += hides && fish.aim != fish::Intention::Hide ? 1 : 0;
 }
 
 void SpeciesLog::noteSlip(const fish::VisibleFish& now, const Fish& fish, SpeciesTally& tally) {
@@ -161,7 +184,9 @@ SpeciesTally SpeciesLog::all() const {
         sum.fishSeconds += tally.fishSeconds;
         sum.meals += tally.meals;
         sum.flights += tally.flights;
+        sum.dives += tally.dives;
         sum.courtships += tally.courtships;
+        sum.spawnings += tally.spawnings;
         sum.fastStarts += tally.fastStarts;
         for (std::size_t i = 0; i < sum.meanSlip.size(); ++i) {
             sum.meanSlip.at(i) += tally.meanSlip.at(i);

@@ -48,8 +48,10 @@ struct SpeciesTally {
     // Commands that differ from the one before, and seconds summed over fish.
     std::uint64_t changes = 0;
     double fishSeconds = 0;
-    // Particles or prey eaten, and times that fish began to flee and to court.
-    std::uint64_t meals = 0, flights = 0, courtships = 0;
+    // Particles, prey or what counts as a particle of turf eaten, and times that fish began to
+    // flee, to hide and to court.
+    std::uint64_t meals = 0, flights = 0, dives = 0, courtships = 0;
+    std::uint64_t spawnings = 0;
     std::uint64_t fastStarts = 0;
     // Angles between what a fish faces and its path through the water over half a second, by whole
     // degrees: of its mean frame, which is what the motor adds to the captured motion, and of the
@@ -87,12 +89,13 @@ class SpeciesLog {
         std::uint64_t command = 0;
         bool isNew = true;                    // just here: nothing to compare with
         glm::vec3 from{}, faces{}, bodies{};  // since the last glance: place, sums of directions
-        fish::Intention intention{};
+        fish::Intention intention{}, aim{};
         std::uint16_t eaten = 0;
-        std::uint32_t sinceMeal = 0;
+        std::uint32_t sinceMeal = 0, sinceSpawning = 0;
         bool startles = false;
     };
     void noteFish(const world::World& world, std::size_t fish, bool glances);
+    void noteSpawnings(const world::World& world);
     static void noteLife(const fish::Mind& mind, const Fish& fish, SpeciesTally& tally);
     static void noteSlip(const fish::VisibleFish& now, const Fish& fish, SpeciesTally& tally);
 
@@ -107,6 +110,7 @@ class SpeciesLog {
     std::vector<std::shared_ptr<const motion::MotorTables>> tables_;  // by kind
     std::vector<SpeciesTally> tallies_;
     std::vector<Fish> fish_;
+    std::uint64_t spawnings_;  // of the world, so far
     std::set<std::uint64_t> commands_;
 };
 

@@ -71,8 +71,8 @@ void addSpecies(std::ostream& text, const std::string& name, const SpeciesTally&
     slip(tally.meanSlip);
     slip(tally.bodySlip);
     text << " | " << static_cast<double>(tally.changes) / tally.fishSeconds << " | " << tally.meals
-         << " | " << tally.flights << " | " << tally.fastStarts << " | " << tally.courtships
-         << " |\n";
+         << " | " << tally.flights << " | " << tally.dives << " | " << tally.fastStarts << " | "
+         << tally.courtships << " | " << tally.spawnings << " |\n";
 }
 
 }  // namespace
@@ -200,8 +200,8 @@ std::string speciesText(const SpeciesLog& log, std::span<const world::WorldSpeci
          << "| species | captured, %: heading | pitch | way | path against captured motion, "
             "degrees: "
             "median / 99 % | path against the body | changes of command a second | meals | flights "
-            "that began | fast starts | courtships that began |\n"
-            "|---|---|---|---|---|---|---|---|---|---|---|\n";
+            "that began | dives | fast starts | courtships that began | spawnings |\n"
+            "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (std::size_t kind = 0; kind < cast.size(); ++kind)
         addSpecies(text, cast[kind].name, log.byKind()[kind]);
     const SpeciesTally all = log.all();

@@ -6,6 +6,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "master/behaviour/grazing.h"
+#include "master/behaviour/routines.h"
+#include "master/study/occupation.h"
+
 namespace aquarama::study {
 
 namespace {
@@ -13,11 +17,20 @@ namespace {
 // One function for each kind of event that fish make: whether a fish takes part by what it does.
 
 bool flees(const Deed& deed) {
-    return deed.intention == fish::Intention::Escape;
+    return deed.intention == fish::Intention::Escape && !deed.isExpelled;
 }
 
+bool dives(const Deed& deed) {
+    return deed.aim == fish::Intention::Hide;
+}
+
+bool charges(const Deed& deed) {
+    return deed.aim == fish::Intention::Charge;
+}
+
+// That of a dive or a charge belongs to it.
 bool makesFastStart(const Deed& deed) {
-    return deed.isStartled;
+    return deed.isStartled && !dives(deed) && !charges(deed) && !deed.isExpelled;
 }
 
 bool hunts(const Deed& deed) {
@@ -32,11 +45,23 @@ bool goesForFood(const Deed& deed) {
     return !deed.isPredator && deed.aim == fish::Intention::Eat;
 }
 
+bool inspectsAClient(const Deed& deed) {
+    return deed.inspects;
+}
+
+bool stopsToGraze(const Deed& deed) {
+    return deed.stopsToGraze;
+}
+
+bool shadowsAnother(const Deed& deed) {
+    return deed.shadows;
+}
+
 // A kind of event.
 struct EventKind {
     WallEvent kind;
     const char* name;
-    // Null for what noteSchools() notes.
+    // Null for what noteSchools() and noteClouds() note.
     bool (*takesPart)(const Deed& deed);
     float nearMetres = kNearMetres;
     // So many fish that begin in so many seconds make an event; it goes on while one of them does
@@ -62,6 +87,12 @@ constexpr std::array<EventKind, kWallEvents> kKinds{{
     {WallEvent::FeedingRush, "feeding rush", goesForFood, kNearMetres, kFishOfARush, 1},
     {WallEvent::Split, "split of a school", nullptr},
     {WallEvent::Meeting, "meeting of a school", nullptr},
+    {WallEvent::Dive, "dive", dives, kNearMetres, kFishOfADive},
+    {WallEvent::Cleaning, "cleaning", inspectsAClient},
+    {WallEvent::GrazeStop, "graze stop", stopsToGraze},
+    {WallEvent::Charge, "charge", charges},
+    {WallEvent::Shadowing, "shadowing", shadowsAnother},
+    {WallEvent::Flip, "flip of a cloud", nullptr},
 }};
 
 constexpr bool areInOrder() {
@@ -75,21 +106,72 @@ std::uint64_t ticksOf(double seconds) {
     return static_cast<std::uint64_t>(seconds * kTicksPerSecond);
 }
 
-Deed deedOf(const WatchedFish& now, std::size_t fish) {
+// Whether a fish flees from one that does not hunt it. Of a hunter out of its sight it knows
+// nothing.
+bool isExpelled(const WatchedFish& now, const fish::Mind& mind, std::uint32_t fish) {
+    if (mind.intention != fish::Intention::Escape || mind.target == fish::kNobody) return false;
+    const std::uint64_t hunters = now.species[now.view.kind[fish]].huntedBy;
+    return (hunters >> now.view.kind[mind.target] & 1U) == 0;
+}
+
+// Whether a fish leads a shoal at its patch, or is at one of its round.
+bool leadsAtAPatch(const WatchedFish& now, const fish::Mind& mind, std::uint32_t fish) {
+    const fish::SpeciesParameters& species = now.species[now.view.kind[fish]];
+    if (fish::aimOf(mind).intention != fish::Intention::Graze) return false;
+    const auto stage = static_cast<behaviour::GrazeStage>(mind.stage);
+    const bool isThere = stage == behaviour::GrazeStage::Settle ||
+                         stage == behaviour::GrazeStage::RunUp ||
+                         stage == behaviour::GrazeStage::Bite;
+    if (!isThere || behaviour::leaderOf(now.view, species, fish) != fish) return false;
+    const fish::Household shoal = fish::householdOf(species, fish);
+    return species.habits.graze->manner == config::GrazeManner::Loop ||
+           shoal.last - shoal.first >= kFishOfAShoal;
+}
+
+Deed deedOf(const WatchedFish& now, std::uint32_t fish) {
     const fish::Mind& mind = now.minds[fish];
     // Who is away does nothing.
     if (now.view.shows(fish, fish::kAway)) return {};
+    const StudiedFish studied{now.view, now.minds, now.species};
+    const fish::Intention aim = fish::aimOf(mind).intention;
     return {.intention = mind.intention,
-            .aim = fish::aimOf(mind).intention,
+            .aim = aim,
             .isPredator = now.species[now.view.kind[fish]].habits.role == config::Role::Predator,
-            .isStartled = now.view.shows(fish, fish::kStartled)};
+            .isStartled = now.view.shows(fish, fish::kStartled),
+            .isExpelled = isExpelled(now, mind, fish),
+            .inspects = inspects(studied, fish),
+            .stopsToGraze = leadsAtAPatch(now, mind, fish),
+            .shadows = aim == fish::Intention::Wander && ridesBesideAnother(studied, fish)};
+}
+
+// A cloud faces a way where the mean of the headings of those that hover, in plan, is so long; so
+// many must hover.
+constexpr float kFaces = 0.5F;
+constexpr std::size_t kFewestOfCloud = 5;
+
+// The way that a cloud faces, a unit vector; 0 where it faces none.
+glm::vec3 facingOf(const WatchedFish& now, std::uint32_t first, std::uint32_t last) {
+    glm::vec3 sum{};
+    std::size_t there = 0;
+    for (std::uint32_t fish = first; fish < last; ++fish) {
+        if (now.view.shows(fish, fish::kAway) ||
+            now.minds[fish].intention != fish::Intention::Hover)
+            continue;
+        const glm::vec3 heading = now.view.heading(fish);
+        sum += glm::vec3{heading.x, 0, heading.z};
+        ++there;
+    }
+    const float length = glm::length(sum);
+    return there >= kFewestOfCloud && length > kFaces * static_cast<float>(there) ? sum / length
+                                                                                  : glm::vec3{};
 }
 
 // Parts of a school: a number of parts holds once it has lasted so long.
 constexpr std::uint32_t kSecondsToSettle = 3;
 constexpr std::size_t kLeastPart = 3;
 constexpr std::size_t kShareOfPart = 10;  // a part holds one of so many fish at least
-// A split or meeting is in view where so many of its species are.
+// A split or meeting is in view where so many of its species are; a flip where so many of its
+// cloud are.
 constexpr std::size_t kLeastInView = 5;
 
 // Whether more than half of the fish swim in a school.
@@ -104,9 +186,9 @@ bool isSchool(const fish::FishView& view, const fish::SpeciesParameters& species
     return 2 * schooling > there;
 }
 
-bool isInView(const fish::SpeciesParameters& species, const EventWatch::Sees& sees) {
+bool isInView(std::uint32_t first, std::uint32_t last, const EventWatch::Sees& sees) {
     std::size_t inView = 0;
-    for (std::uint32_t fish = species.first; fish < species.last; ++fish)
+    for (std::uint32_t fish = first; fish < last; ++fish)
         if (sees(fish) && ++inView == kLeastInView) return true;
     return false;
 }
@@ -121,7 +203,7 @@ WatchedFish watchedFishOf(const world::World& world) {
     return {world.view(), world.minds(), world.speciesParameters(), world.tick()};
 }
 
-std::uint32_t partsOf(const fish::FishView& view,
+std::uint32_t partsOf([[maybe_unused]] const fish::FishView& view,
                       std::size_t first,
                       std::size_t last,
                       std::span<const std::uint32_t> groups) {
@@ -140,13 +222,22 @@ std::uint32_t partsOf(const fish::FishView& view,
 }
 
 EventWatch::EventWatch(const WatchedFish& now) : lastLook_(now.tick), parts_(now.species.size()) {
-    for (std::size_t fish = 0; fish < now.view.size(); ++fish) before_.push_back(deedOf(now, fish));
+    for (std::uint32_t fish = 0; fish < now.view.size(); ++fish)
+        before_.push_back(deedOf(now, fish));
+    for (const fish::SpeciesParameters& species : now.species) {
+        if (!species.habits.cloud) continue;
+        for (std::uint32_t fish = species.first; fish < species.last;) {
+            const fish::Household cloud = fish::householdOf(species, fish);
+            clouds_.push_back({cloud.first, cloud.last});
+            fish = cloud.last;
+        }
+    }
 }
 
 void EventWatch::note(const WatchedFish& now, const Sees& sees) {
     assert(now.view.size() == before_.size());
     std::vector<Deed> deeds(before_.size());
-    for (std::size_t fish = 0; fish < deeds.size(); ++fish) deeds[fish] = deedOf(now, fish);
+    for (std::uint32_t fish = 0; fish < deeds.size(); ++fish) deeds[fish] = deedOf(now, fish);
     // By kind, since one kind may be part of another that is before it in the table.
     for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
         const auto takesPart = kKinds.at(kind).takesPart;
@@ -222,8 +313,22 @@ void EventWatch::noteSchools(const WatchedFish& now,
         if (isNoted)
             events_.push_back({count > parts.settled ? WallEvent::Split : WallEvent::Meeting,
                                now.tick,
-                               isInView(species, sees)});
+                               isInView(species.first, species.last, sees)});
         parts.settled = count;
+    }
+}
+
+void EventWatch::noteClouds(const WatchedFish& now, const Sees& sees) {
+    for (Cloud& cloud : clouds_) {
+        const glm::vec3 facing = facingOf(now, cloud.first, cloud.last);
+        const bool isFirst = cloud.facing == glm::vec3{};
+        const bool isOther = facing != glm::vec3{} && glm::dot(facing, cloud.facing) < 0;
+        cloud.seconds = isOther ? cloud.seconds + 1 : 0;
+        if (isFirst) cloud.facing = facing;
+        if (cloud.seconds < kSecondsToSettle) continue;
+        events_.push_back({WallEvent::Flip, now.tick, isInView(cloud.first, cloud.last, sees)});
+        cloud.facing = facing;
+        cloud.seconds = 0;
     }
 }
 

@@ -27,8 +27,14 @@ enum class WallEvent : std::uint8_t {
     FeedingRush,  // several begin to go for food
     Split,        // a school parts
     Meeting,      // parts of a school meet
+    Dive,         // several begin to dive into shelter
+    Cleaning,     // a cleaner begins to inspect a client
+    GrazeStop,    // a shoal, or a fish on its round, begins to graze at a patch
+    Charge,       // the owner of a territory begins to charge
+    Shadowing,    // a fish begins to ride beside another
+    Flip,         // a cloud has turned to face the other way
 };
-inline constexpr std::size_t kWallEvents = 7;
+inline constexpr std::size_t kWallEvents = 13;
 // The words for a kind in tables.
 [[nodiscard]] const char* nameOf(WallEvent kind);
 
@@ -40,6 +46,10 @@ inline constexpr float kNearMetres = 2;
 inline constexpr float kNearInFlightMetres = 4;
 // So many fish that begin to go for food within a second, near by, make a feeding rush.
 inline constexpr std::size_t kFishOfARush = 5;
+// So many that begin to dive within kOneEventSeconds, near by, make a dive.
+inline constexpr std::size_t kFishOfADive = 3;
+// Who leads fewer fish than a shoal has makes no stop that is noticed.
+inline constexpr std::uint32_t kFishOfAShoal = 3;
 
 // An event and the tick at which it was first noticed.
 struct NotedEvent {
@@ -56,6 +66,14 @@ struct Deed {
     fish::Intention aim{};
     bool isPredator = false;
     bool isStartled = false;
+    // Flees from the owner of a territory, not from a hunter.
+    bool isExpelled = false;
+    // Is a cleaner beside its client.
+    bool inspects = false;
+    // Leads a shoal, or goes its own round, and is at its patch.
+    bool stopsToGraze = false;
+    // Rides beside another fish (ridesBesideAnother()).
+    bool shadows = false;
 };
 
 // What a watch looks at: a world after a tick, or one that a test made up.
@@ -92,6 +110,9 @@ class EventWatch {
     void noteSchools(const WatchedFish& now,
                      std::span<const std::uint32_t> groups,
                      const Sees& sees);
+    // Notes the clouds that have turned by more than 90 degrees since they last settled. Call it
+    // every second.
+    void noteClouds(const WatchedFish& now, const Sees& sees);
     // All events so far, in the order in which they were noticed.
     [[nodiscard]] std::span<const NotedEvent> all() const { return events_; }
 
@@ -112,6 +133,13 @@ class EventWatch {
         std::uint32_t other = 0;
         std::uint32_t seconds = 0;
     };
+    // The fish about one home, the way in plan that they last settled to face (a unit vector, or
+    // 0), and for how long they have faced another one.
+    struct Cloud {
+        std::uint32_t first = 0, last = 0;
+        glm::vec3 facing{};
+        std::uint32_t seconds = 0;
+    };
     void follow(const WatchedFish& now, std::size_t kind, const std::vector<Deed>& deeds);
     void begin(std::size_t kind, Actor actor);
     [[nodiscard]] std::vector<Actor*> near(std::size_t kind, const Actor& actor);
@@ -123,6 +151,7 @@ class EventWatch {
     std::array<std::vector<Actor>, kWallEvents> actors_;
     // By species.
     std::vector<Parts> parts_;
+    std::vector<Cloud> clouds_;
 };
 
 }  // namespace aquarama::study

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "capture/report/report_data.h"
 #include "common/base/statistics.h"
@@ -186,6 +187,8 @@ WallStudy::WallStudy(const config::Rig& rig, const world::World& world)
       view_{extent_, sightOf(world), double{world.surroundings().clarityMetres}},
       watch_{watchedFishOf(world)} {
     species_.fill(std::vector<SpeciesSeconds>(world.speciesParameters().size()));
+    for (const fish::SpeciesParameters& species : world.speciesParameters())
+        livesAtASite_.push_back(species.habits.home.site.has_value());
 }
 
 void WallStudy::note(const world::World& world) {
@@ -211,9 +214,11 @@ void WallStudy::noteSecond(const world::World& world, const WallPose& pose) {
         second.centre = centreOf(view, school);
     }
     seconds_.push_back(second);
-    watch_.noteSchools(watchedFishOf(world), groups, [&](std::uint32_t fish) {
+    const EventWatch::Sees sees = [&](std::uint32_t fish) {
         return std::ranges::binary_search(seen, fish, {}, &SeenFish::fish);
-    });
+    };
+    watch_.noteSchools(watchedFishOf(world), groups, sees);
+    watch_.noteClouds(watchedFishOf(world), sees);
     noteSpecies(world, second.part);
 }
 
@@ -222,16 +227,31 @@ void WallStudy::noteSpecies(const world::World& world, DayPart part) {
     for (const fish::SpeciesParameters& parameters : world.speciesParameters()) {
         SpeciesSeconds& species = species_.at(indexOf(part))[parameters.kind];
         std::size_t there = 0;
-        for (std::size_t fish = parameters.first; fish < parameters.last; ++fish) {
+        for (std::uint32_t fish = parameters.first; fish < parameters.last; ++fish) {
             if (view.shows(fish, fish::kAway)) continue;
             ++there;
-            ++species.intentionSeconds.at(static_cast<std::size_t>(world.minds()[fish].intention));
+            noteFish(world, fish, species);
         }
         if (there < 2) continue;
         const SchoolFigures figures = schoolFigures(view, parameters.first, parameters.last);
         species.nearestNeighbour.push_back(static_cast<float>(figures.nearestNeighbour));
         species.polarisation.push_back(static_cast<float>(figures.polarisation));
     }
+}
+
+void WallStudy::noteFish(const world::World& world, std::uint32_t fish, SpeciesSeconds& species) {
+    const fish::VisibleFish& seen = world.view().fish[fish];
+    const Occupation does =
+        occupationOf({world.view(), world.minds(), world.speciesParameters()}, fish);
+    ++species.occupationSeconds.at(static_cast<std::size_t>(does));
+    ++species.fishSeconds;
+    species.swims += std::abs(seen.speed) >= kSwimmingLengths * seen.length ? 1 : 0;
+    const auto& site = world.speciesParameters()[world.view().kind[fish]].habits.home.site;
+    const auto isNear = [&](const place::Site& of) {
+        return site == of.kind &&
+               glm::distance(of.place, seen.position) < kAtHomeMetres + of.sizeMetres / 2;
+    };
+    species.atHome += std::ranges::any_of(world.surroundings().sites, isNear) ? 1 : 0;
 }
 
 WallFigures WallStudy::figures(DayPart part) const {
@@ -243,11 +263,15 @@ std::vector<SpeciesFigures> WallStudy::species(DayPart part) const {
     for (const SpeciesSeconds& species : species_.at(indexOf(part))) {
         SpeciesFigures figures{.nearestNeighbour = typicalOf(species.nearestNeighbour),
                                .polarisation = typicalOf(species.polarisation)};
-        std::uint64_t sum = 0;
-        for (const std::uint64_t seconds : species.intentionSeconds) sum += seconds;
-        for (std::size_t i = 0; i < fish::kIntentions && sum > 0; ++i)
-            figures.intentionShare.at(i) =
-                static_cast<double>(species.intentionSeconds.at(i)) / static_cast<double>(sum);
+        const auto shareOfTime = [&](std::uint64_t seconds) {
+            return species.fishSeconds > 0
+                       ? static_cast<double>(seconds) / static_cast<double>(species.fishSeconds)
+                       : 0;
+        };
+        for (std::size_t i = 0; i < kOccupations; ++i)
+            figures.occupationShare.at(i) = shareOfTime(species.occupationSeconds.at(i));
+        figures.swims = shareOfTime(species.swims);
+        if (livesAtASite_[all.size()]) figures.atHome = shareOfTime(species.atHome);
         all.push_back(figures);
     }
     return all;
@@ -378,9 +402,9 @@ std::string wallSpeciesCsv(const WallStudy& study,
                            const world::World& world,
                            std::span<const world::WorldSpecies> cast) {
     std::ostringstream csv;
-    csv << "species,fish,is_day,nearest,nearest_low,polarisation,polarisation_low";
-    for (std::size_t i = 0; i < fish::kIntentions; ++i)
-        csv << ',' << fish::nameOf(static_cast<fish::Intention>(i)) << " share";
+    csv << "species,fish,is_day,nearest,nearest_low,polarisation,polarisation_low,swims,at_home";
+    for (std::size_t i = 0; i < kOccupations; ++i)
+        csv << ',' << nameOf(static_cast<Occupation>(i)) << " share";
     csv << '\n';
     for (const DayPart part : kAllDayParts) {
         const std::vector<SpeciesFigures> species = study.species(part);
@@ -389,8 +413,9 @@ std::string wallSpeciesCsv(const WallStudy& study,
             csv << cast[parameters.kind].name << ',' << parameters.last - parameters.first << ','
                 << (part == DayPart::Day ? 1 : 0) << ',' << figures.nearestNeighbour.median << ','
                 << figures.nearestNeighbour.low << ',' << figures.polarisation.median << ','
-                << figures.polarisation.low;
-            for (const double share : figures.intentionShare) csv << ',' << share;
+                << figures.polarisation.low << ',' << figures.swims << ',';
+            if (figures.atHome) csv << *figures.atHome;
+            for (const double share : figures.occupationShare) csv << ',' << share;
             csv << '\n';
         }
     }

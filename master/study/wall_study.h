@@ -16,7 +16,7 @@
 #include "common/base/units.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
-#include "master/fish/minds.h"
+#include "master/study/occupation.h"
 #include "master/study/school_path.h"
 #include "master/study/wall_events.h"
 #include "master/study/wall_view.h"
@@ -81,9 +81,16 @@ struct SpeciesFigures {
     // Mean distance to the nearest neighbour, in body lengths, and polarisation (SchoolFigures), of
     // a species of two fish and more.
     Typical nearestNeighbour, polarisation;
-    // Share of the time of its fish, by intention.
-    std::array<double, fish::kIntentions> intentionShare{};
+    // Share of the time of its fish, by occupation; and of that in which they swim, at
+    // kSwimmingLengths a second and more.
+    std::array<double, kOccupations> occupationShare{};
+    double swims = 0;
+    // Share of the time within kAtHomeMetres of a site of the kind that the species lives at;
+    // nothing for species without.
+    std::optional<double> atHome = {};
 };
+inline constexpr float kSwimmingLengths = 0.1F;
+inline constexpr float kAtHomeMetres = 0.3F;
 
 // Watches one world through one wall.
 class WallStudy {
@@ -113,10 +120,12 @@ class WallStudy {
     // The figures of a species in one part of the day, a value for each second.
     struct SpeciesSeconds {
         std::vector<float> nearestNeighbour, polarisation;
-        std::array<std::uint64_t, fish::kIntentions> intentionSeconds{};
+        std::array<std::uint64_t, kOccupations> occupationSeconds{};
+        std::uint64_t fishSeconds = 0, swims = 0, atHome = 0;
     };
     void noteSecond(const world::World& world, const WallPose& pose);
     void noteSpecies(const world::World& world, DayPart part);
+    static void noteFish(const world::World& world, std::uint32_t fish, SpeciesSeconds& species);
 
     const config::Rig& rig_;
     config::Day day_;
@@ -125,6 +134,7 @@ class WallStudy {
     EventWatch watch_;
     std::vector<WallSecond> seconds_;
     std::array<std::vector<SpeciesSeconds>, kDayParts> species_;  // by kind
+    std::vector<bool> livesAtASite_;                              // by kind
 };
 
 // CSV files; draw_wall.py draws tables and a figure from them.

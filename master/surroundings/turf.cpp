@@ -15,8 +15,6 @@ namespace {
 // Spots lie within this distance of the middle of their patch, and so far apart.
 constexpr float kSpreadMetres = 0.5F;
 constexpr float kApartMetres = 0.14F;
-// The surface of a boulder, in radii: it is worn within its radius.
-constexpr float kSurface = 0.9F;
 // A spot is at least this far from the sand, and from other boulders in their radii.
 constexpr float kOverSandMetres = 0.15F;
 constexpr float kClearRadii = 1.02F;
@@ -57,7 +55,7 @@ glm::vec3 spotOf(const Obstacles& obstacles,
                               signedUnitOf(hashOf(own, 3))};
         const glm::vec3 direction =
             place::directionOf(patch.place + aside * kSpreadMetres - rock.centre, patch.normal);
-        const glm::vec3 spot = rock.centre + direction * (kSurface * rock.radiusMetres);
+        const glm::vec3 spot = rock.centre + direction * (place::kDrawnRadii * rock.radiusMetres);
         const bool isApart =
             std::none_of(patch.spots.begin(), patch.spots.begin() + spots, [&](glm::vec3 other) {
                 return place::lengthOf(other - spot) < kApartMetres;
@@ -78,10 +76,11 @@ Turf makeTurf(std::uint32_t seed,
             continue;
         const auto rock = std::ranges::find(obstacles.rocks, site.rockSeed, &place::Rock::seed);
         if (rock == obstacles.rocks.end()) continue;
-        TurfPatch patch{.place = rock->centre + site.normal * (kSurface * rock->radiusMetres),
-                        .normal = site.normal,
-                        .boulder = rock->centre,
-                        .surfaceMetres = kSurface * rock->radiusMetres};
+        TurfPatch patch{
+            .place = rock->centre + site.normal * (place::kDrawnRadii * rock->radiusMetres),
+            .normal = site.normal,
+            .boulder = rock->centre,
+            .surfaceMetres = place::kDrawnRadii * rock->radiusMetres};
         const std::uint32_t own = hashOf(hashOf(seed, Stream::Spots), site.seed);
         for (std::uint32_t i = 0; i < kSpots; ++i)
             patch.spots[i] = spotOf(obstacles, *rock, patch, i, hashOf(own, i));

@@ -145,18 +145,20 @@ class Reports(Case):
         self.assertEqual(set(files), {"seconds.csv", "measures.csv", "events.csv", "species.csv", "wall.svg"})
         self.assert_picture(files["wall.svg"])
         self.assertRegex(said, r"\Awall: cells \d+ %, thirds \d+ \d+ \d+ %, all \d+ %, gap \d+ s, "
-                               r"largest school \d+ %, species \d, events \d+\.\d a minute\n"
+                               r"largest school \d+ %, species \d+, events \d+\.\d a minute\n"
+                               r"seen from the eye at rest\n"
                                r"path of the school: highest peak \d\.\d\d after \d+ s, the first nearly as high "
                                r"after \d+ s\n\n\| ")
         self.assertIn("| time, s | 72 | – | – | – |", said)
         self.assertRegex(said, r"\n\| bigeye_scad \| 51 \| day \| \d\.\d / \d\.\d \| \d\.\d\d / \d\.\d\d \| 0\.0 / ")
-        self.assertIn("| parrotfish | 1 | day | – | – |", said)
-        self.assertRegex(said, r"\n\| blacktip_reef_shark \| .* \| swimming 100 % \|\n")
+        self.assertRegex(said, r"\n\| blacktip_reef_shark \| swimming \| swims \| \d+ \| 100 \|\n")
         self.assertRegex(said, r"\nmotor \d+, minds \d+\n")
         # Without a folder the same is printed; with the tour the submarine, and so the view, moves.
         again = aquarama("study", "wall", THEATRE, "--hours", 0.02)
         self.assertEqual(again.stdout, said)
-        self.assertNotEqual(aquarama("study", "wall", THEATRE, "--hours", 0.02, "--tour").stdout, said)
+        toured = aquarama("study", "wall", THEATRE, "--hours", 0.02, "--tour").stdout
+        self.assertIn("\nseen from the submarine on its tour\n", toured)
+        self.assertNotEqual(toured.replace("submarine on its tour", "eye at rest"), said)
         empty = aquarama("study", "wall", THEATRE, "--scene", ROOT / "config/scenes/empty_sea.txtpb")
         self.assertEqual(empty.returncode, 1)
         self.assertRegex(empty.stderr, r"\Aaquarama study wall: .*empty_sea.*has no fish to see.*\n\Z")

@@ -2,11 +2,13 @@
 #include "master/study/wall_events.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "master/behaviour/routines.h"
 #include "master/study/wall_view.h"
 
 namespace aquarama::study {
@@ -41,6 +43,19 @@ class MadeUp {
             if (tick_.value % 60 == 0) watch_->noteSchools(now(), groupsOf(view), sees());
         }
     }
+    // So many seconds with the fish's headings given by `headingAt` of each second.
+    template <class HeadingAt>
+    void turn(int seconds, const HeadingAt& headingAt) {
+        for (int second = 0; second < seconds; ++second) {
+            for (std::size_t fish = 0; fish < view.size(); ++fish)
+                view.fish[fish].heading = headingAt(second, fish);
+            tick_.value += 60;
+            watch_->noteClouds(now(), sees());
+        }
+    }
+    [[nodiscard]] fish::SpeciesParameters& species(std::size_t kind) { return species_[kind]; }
+    // Begins anew, after changes of species.
+    void watch() { watch_.emplace(now()); }
     void all(Intention intention) {
         for (std::size_t fish = 0; fish < minds.size(); ++fish) minds[fish].intention = intention;
     }
@@ -228,6 +243,163 @@ TEST(WallEvents, aPartIsATenthOfThoseWhoAreThereAndThreeAtLeast) {
     groups[27] = groups[28] = groups[29] = 27;
     groups[37] = groups[38] = groups[39] = 37;
     EXPECT_EQ(partsOf(view, 0, 40, groups), 4U) << "of thirteen: 3, 4, 3 and 3";
+}
+
+TEST(WallEvents, threeThatHideNearByAreADiveAndFewerAreNone) {
+    MadeUp world(4, 0);
+    world.view.fish[3].position = {5, 0, 0};
+    world.minds[0].intention = world.minds[1].intention = world.minds[3].intention =
+        Intention::Hide;
+    world.pass(1);
+    EXPECT_EQ(world.count(WallEvent::Dive), 0) << "two, and one elsewhere";
+    world.minds[2].intention = Intention::Hide;
+    world.pass(1);
+    EXPECT_EQ(world.count(WallEvent::Dive), 1);
+    EXPECT_EQ(world.count(WallEvent::Flight), 0);
+}
+
+TEST(WallEvents, aFastStartIntoADiveBelongsToIt) {
+    MadeUp world(3, 0);
+    world.all(Intention::Hide);
+    for (std::uint8_t& signs : world.view.signs) signs = fish::kStartled;
+    world.pass(0.2);
+    EXPECT_EQ(world.count(WallEvent::Dive), 1);
+    EXPECT_EQ(world.count(WallEvent::FastStart), 0);
+}
+
+TEST(WallEvents, aCleaningBeginsWhereACleanerIsBesideItsClient) {
+    MadeUp world(3, 0);
+    world.view.fish[1].position = {0.5F, 0, 0};
+    world.minds[0].intention = Intention::Clean;
+    world.pass(1);
+    EXPECT_EQ(world.count(WallEvent::Cleaning), 0) << "nobody to clean";
+    world.minds[0].target = 1;
+    world.pass(1);
+    EXPECT_EQ(world.count(WallEvent::Cleaning), 0) << "on its way";
+    world.view.fish[1].position = {0.15F, 0, 0};
+    world.pass(5);
+    EXPECT_EQ(world.count(WallEvent::Cleaning), 1);
+    world.minds[0].target = fish::kNobody;
+    world.pass(4);
+    world.minds[0].target = 2;
+    world.pass(1);
+    EXPECT_EQ(world.count(WallEvent::Cleaning), 2);
+}
+
+// Fish of one shoal at their patch, or on the way to it.
+void graze(MadeUp& world, behaviour::GrazeStage stage) {
+    world.all(Intention::Graze);
+    for (std::size_t fish = 0; fish < world.minds.size(); ++fish) {
+        world.minds[fish].target = world.view.patch[fish] = 0;
+        world.minds[fish].stage = static_cast<std::uint8_t>(stage);
+    }
+}
+
+TEST(WallEvents, aShoalMakesOneStopAtEachPatchAndOneFishOnItsRoundToo) {
+    for (const std::uint32_t fish : {4U, 1U}) {
+        MadeUp world(fish, 0);
+        world.species(0).habits.graze = config::Graze{
+            .manner = fish == 1 ? config::GrazeManner::Loop : config::GrazeManner::Shoal};
+        graze(world, behaviour::GrazeStage::Travel);
+        world.pass(5);
+        EXPECT_EQ(world.count(WallEvent::GrazeStop), 0);
+        graze(world, behaviour::GrazeStage::Settle);
+        world.pass(2);
+        graze(world, behaviour::GrazeStage::Bite);
+        world.pass(5);
+        EXPECT_EQ(world.count(WallEvent::GrazeStop), 1);
+        graze(world, behaviour::GrazeStage::Travel);
+        world.pass(5);
+        graze(world, behaviour::GrazeStage::Bite);
+        world.pass(1);
+        EXPECT_EQ(world.count(WallEvent::GrazeStop), 2);
+    }
+}
+
+TEST(WallEvents, twoThatGrazeAreNoShoal) {
+    MadeUp world(2, 0);
+    world.species(0).habits.graze = config::Graze{};
+    graze(world, behaviour::GrazeStage::Bite);
+    world.pass(1);
+    EXPECT_EQ(world.count(WallEvent::GrazeStop), 0);
+}
+
+TEST(WallEvents, aChargeIsOneEventAndSoIsTheFlightOfWhoIsCharged) {
+    MadeUp world(2, 1);
+    world.species(0).huntedBy = 2;
+    world.minds[0].intention = Intention::Charge;
+    world.minds[0].target = 1;
+    world.view.signs[0] = fish::kStartled;
+    world.minds[1].intention = Intention::Escape;
+    world.minds[1].target = 0;
+    world.pass(1);
+    EXPECT_EQ(world.count(WallEvent::Charge), 1);
+    EXPECT_EQ(world.events().size(), 1U);
+    world.minds[1].target = 2;
+    world.pass(1);
+    EXPECT_EQ(world.count(WallEvent::Flight), 1) << "from a hunter";
+}
+
+TEST(WallEvents, aFishThatRidesBesideAnotherOfTheRightSpeciesShadowsIt) {
+    MadeUp world(2, 1);
+    world.species(1).shadows = 1;
+    for (fish::VisibleFish& one : world.view.fish) {
+        one.heading = {1, 0, 0};
+        one.speed = 0.3F;
+    }
+    world.view.fish[1].position = {0, 0.2F, 0};
+    world.view.fish[2].position = {3, 0, 0};
+    world.pass(1);
+    EXPECT_EQ(world.count(WallEvent::Shadowing), 0) << "far off, and those who shadow nobody";
+    world.view.fish[2].position = {0, 0.3F, 0};
+    world.view.fish[2].heading = {0, 0, 1};
+    world.pass(1);
+    EXPECT_EQ(world.count(WallEvent::Shadowing), 0) << "it crosses";
+    world.view.fish[2].heading = {1, 0, 0};
+    world.pass(1);
+    EXPECT_EQ(world.count(WallEvent::Shadowing), 1);
+}
+
+TEST(WallEvents, aCloudThatTurnsRoundFlipsOnceHoweverSlowly) {
+    MadeUp world(6, 0);
+    world.species(0).habits.cloud = config::Cloud{};
+    world.all(Intention::Hover);
+    world.watch();
+    const auto ahead = [](int, std::size_t) { return glm::vec3{1, 0, 0}; };
+    const auto back = [](int, std::size_t) { return glm::vec3{-1, 0, 0}; };
+    const auto everywhere = [](int, std::size_t fish) {
+        return glm::vec3{fish % 2 == 0 ? -1 : 1, 0, 0};
+    };
+    world.turn(5, ahead);
+    world.turn(10, everywhere);
+    world.turn(2, back);
+    world.turn(5, ahead);
+    EXPECT_TRUE(world.events().empty()) << "two seconds are no flip";
+    // Half a turn in 40 s, in steps of a few degrees.
+    world.turn(40, [](int second, std::size_t) {
+        const float x = 1 - static_cast<float>(second) / 20;
+        return glm::vec3{x, 0, std::sqrt(1 - x * x)};
+    });
+    world.turn(20, back);
+    EXPECT_EQ(world.count(WallEvent::Flip), 1);
+    world.turn(3, ahead);
+    EXPECT_EQ(world.count(WallEvent::Flip), 2);
+    EXPECT_EQ(world.inView(WallEvent::Flip), 2);
+}
+
+TEST(WallEvents, onlyFishThatHoverAreACloud) {
+    MadeUp world(6, 0);
+    world.watch();
+    world.all(Intention::Hover);
+    world.turn(5, [](int, std::size_t) { return glm::vec3{1, 0, 0}; });
+    world.turn(5, [](int, std::size_t) { return glm::vec3{-1, 0, 0}; });
+    EXPECT_TRUE(world.events().empty()) << "its species keeps no cloud";
+    world.species(0).habits.cloud = config::Cloud{};
+    world.watch();
+    world.all(Intention::Rest);
+    world.turn(5, [](int, std::size_t) { return glm::vec3{1, 0, 0}; });
+    world.turn(5, [](int, std::size_t) { return glm::vec3{-1, 0, 0}; });
+    EXPECT_TRUE(world.events().empty()) << "it rests";
 }
 
 }  // namespace

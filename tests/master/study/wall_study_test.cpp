@@ -2,6 +2,7 @@
 #include "master/study/wall_study.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -139,6 +140,15 @@ TEST(SchoolPath, thePeakIsBeyondTheFirstZeroAndNotAtTheEnd) {
     EXPECT_EQ(peak.firstLag, 5U);
 }
 
+TEST(SchoolPath, peaksOfKnownPeriodsAreLeftOut) {
+    const std::vector<double> correlation{1, -0.1, 0.2, 0.1, 0.5, 0.1, 0.2, 0.1, 0.55, 0.1};
+    constexpr std::array<std::size_t, 1> kFour{4};
+    EXPECT_EQ(highestPeak(correlation, kFour).height, 0.2);
+    constexpr std::array<std::size_t, 1> kSeven{7};
+    EXPECT_EQ(highestPeak(correlation, kSeven, 1).lag, 4U);
+    EXPECT_EQ(highestPeak(correlation, kSeven, 0).lag, 8U);
+}
+
 // At multiples of a period the path is as much like itself: the period is the shortest of them.
 TEST(SchoolPath, thePeriodIsTheFirstPeakNearlyAsHighAsTheHighest) {
     const std::vector<double> correlation{1, -0.1, 0.2, 0.1, 0.5, 0.1, 0.2, 0.1, 0.55, 0.1};
@@ -167,8 +177,10 @@ TEST(WallStudy, itWatchesASceneEverySecondAndChangesNothing) {
     const SpeciesFigures school = study.species(part).front();
     EXPECT_GT(school.nearestNeighbour.median, 0);
     double shares = 0;
-    for (const double share : school.intentionShare) shares += share;
+    for (const double share : school.occupationShare) shares += share;
     EXPECT_NEAR(shares, 1, 1e-9);
+    EXPECT_GT(school.swims, 0.9);
+    EXPECT_FALSE(school.atHome) << "it lives at no site";
     const auto lines = [](const std::string& csv) { return std::ranges::count(csv, '\n'); };
     EXPECT_EQ(lines(secondsCsv(study)), 31);
     EXPECT_EQ(lines(eventsCsv(study)), 1 + static_cast<std::ptrdiff_t>(kWallEvents));
