@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/base/random_streams.h"
+#include "master/fish/minds.h"
 
 namespace aquarama::behaviour {
 
@@ -52,6 +53,7 @@ void feelTheHour(const Environment& environment,
                  Senses& senses) {
     const double time = environment.surroundings->timeOfDay;
     senses.rests = restsAt(parameters, environment.seed, fish, senses.length, time);
+    senses.mates = fish::matesAt(parameters, time);
     if (parameters.habits.role == config::Role::Predator)
         senses.restBetweenChases = place::valueAt(kBetweenChases, time);
 }

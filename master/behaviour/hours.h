@@ -38,7 +38,7 @@ inline constexpr place::ByPhase kPatrolsDeeper{0.5F, 0, 0, 0, 0.5F, 1.5F, 1.5F, 
                            float lengthMetres,
                            double timeOfDay);
 
-// Writes rests and restBetweenChases of a fish whose length is sensed.
+// Writes rests, mates and restBetweenChases of a fish whose length is sensed.
 void feelTheHour(const Environment& environment,
                  const fish::SpeciesParameters& parameters,
                  std::uint32_t fish,

@@ -123,6 +123,8 @@ struct Senses {
     Sighting shelter;
     // Whether it is outside the active hours of its species.
     bool rests = false;
+    // Whether its species mates at this time of day (fish::matesAt()).
+    bool mates = true;
     // Predators: a factor on the time between two chases, by the time of day.
     float restBetweenChases = 1;
     // How many of its schoolmates near by dive.

@@ -10,6 +10,7 @@
 
 #include "common/motion/motion_state.h"
 #include "common/place/place.h"
+#include "master/behaviour/courtship.h"
 
 namespace aquarama::study {
 
@@ -100,6 +101,7 @@ void SpeciesLog::noteFish(const world::World& world, std::size_t fish, bool glan
     seen.intention = world.minds()[fish].intention;
     seen.eaten = world.minds()[fish].eaten;
     seen.sinceMeal = world.minds()[fish].sinceMeal;
+    seen.sinceSpawning = world.minds()[fish].sinceSpawning;
     const bool startles = world.view().shows(fish, fish::kStartled);
     tally.fastStarts += startles && !seen.startles ? 1 : 0;
     seen.startles = startles;
@@ -140,6 +142,14 @@ void SpeciesLog::noteLife(const fish::Mind& mind, const Fish& fish, SpeciesTally
     tally.meals += mind.sinceMeal == 0 && isAnother ? 1 : 0;
     tally.flights += begins(fish::Intention::Escape);
     tally.courtships += begins(fish::Intention::Mate);
+    // It is the male that reports a spawning, from the last stage. One that gives up has been in it
+    // for longer.
+    constexpr auto kLast = behaviour::CourtshipStage::Nuzzle;
+    const bool hasSpawned = mind.sinceSpawning == 0 && fish.sinceSpawning != 0 &&
+                            mind.intention == fish::Intention::Mate &&
+                            mind.stage == static_cast<std::uint8_t>(kLast) &&
+                            mind.sinceStage <= behaviour::longestTicks(kLast);
+    tally.spawnings += hasSpawned && (mind.likes & fish::kIsFemale) == 0 ? 1 : 0;
 }
 
 void SpeciesLog::noteSlip(const fish::VisibleFish& now, const Fish& fish, SpeciesTally& tally) {
@@ -162,6 +172,7 @@ SpeciesTally SpeciesLog::all() const {
         sum.meals += tally.meals;
         sum.flights += tally.flights;
         sum.courtships += tally.courtships;
+        sum.spawnings += tally.spawnings;
         sum.fastStarts += tally.fastStarts;
         for (std::size_t i = 0; i < sum.meanSlip.size(); ++i) {
             sum.meanSlip.at(i) += tally.meanSlip.at(i);

@@ -50,6 +50,7 @@ struct SpeciesTally {
     double fishSeconds = 0;
     // Particles or prey eaten, and times that fish began to flee and to court.
     std::uint64_t meals = 0, flights = 0, courtships = 0;
+    std::uint64_t spawnings = 0;
     std::uint64_t fastStarts = 0;
     // Angles between what a fish faces and its path through the water over half a second, by whole
     // degrees: of its mean frame, which is what the motor adds to the captured motion, and of the
@@ -90,6 +91,7 @@ class SpeciesLog {
         fish::Intention intention{};
         std::uint16_t eaten = 0;
         std::uint32_t sinceMeal = 0;
+        std::uint32_t sinceSpawning = 0;
         bool startles = false;
     };
     void noteFish(const world::World& world, std::size_t fish, bool glances);

@@ -72,7 +72,7 @@ void addSpecies(std::ostream& text, const std::string& name, const SpeciesTally&
     slip(tally.bodySlip);
     text << " | " << static_cast<double>(tally.changes) / tally.fishSeconds << " | " << tally.meals
          << " | " << tally.flights << " | " << tally.fastStarts << " | " << tally.courtships
-         << " |\n";
+         << " | " << tally.spawnings << " |\n";
 }
 
 }  // namespace
@@ -200,8 +200,9 @@ std::string speciesText(const SpeciesLog& log, std::span<const world::WorldSpeci
          << "| species | captured, %: heading | pitch | way | path against captured motion, "
             "degrees: "
             "median / 99 % | path against the body | changes of command a second | meals | flights "
-            "that began | fast starts | courtships that began |\n"
-            "|---|---|---|---|---|---|---|---|---|---|---|\n";
+            "that began | fast starts | courtships that began | "
+            "spawnings |\n"
+            "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (std::size_t kind = 0; kind < cast.size(); ++kind)
         addSpecies(text, cast[kind].name, log.byKind()[kind]);
     const SpeciesTally all = log.all();

@@ -114,9 +114,14 @@ TEST_F(Reef, fishTurnByCapturedSegmentsAndDoNotSlide) {
     expectCapturedMotion(life().species);
 }
 
-TEST_F(Reef, mealsBySpeciesAreThoseOfTheWorld) {
-    std::uint64_t meals = 0;
-    for (const Hour& hour : life().hours) meals += hour.counts.meals + hour.counts.catches;
+TEST_F(Reef, mealsAndSpawningsBySpeciesAreThoseOfTheWorld) {
+    std::uint64_t meals = 0, spawnings = 0;
+    for (const Hour& hour : life().hours) {
+        meals += hour.counts.meals + hour.counts.catches;
+        spawnings += hour.counts.spawnings;
+    }
+    EXPECT_GT(spawnings, 0U);
+    EXPECT_EQ(life().species.spawnings, spawnings);
     EXPECT_GT(meals, 0U);
     EXPECT_EQ(life().species.meals, meals);
     EXPECT_GT(life().species.flights, 0U);
