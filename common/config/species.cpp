@@ -318,8 +318,8 @@ void refuseContradictions(const TextReader& file, const v1::Habits& in) {
         file.refuse(in, "hunt", "only a predator hunts: remove it or change the role");
     if (hunts && in.has_fear()) file.refuse(in, "fear", "a predator fears nobody: remove it");
     if (!hunts && !in.has_fear()) file.refuse(in, "role", "all but predators fear: add fear");
-    if (in.role() != v1::Habits::PACIFIST && in.has_libido_per_s())
-        file.refuse(in, "libido_per_s", "only a pacifist mates: remove it or change the role");
+    if (in.has_spawns() && in.libido_per_s() <= 0)
+        file.refuse(in, "spawns", "it never mates: add libido_per_s or remove this line");
     if (hunts && in.has_pair_bl())
         file.refuse(in, "pair_bl", "a predator keeps no partner: remove it or change the role");
     if (in.role() != v1::Habits::PREY && in.shares().schooling() > 0)
@@ -354,6 +354,7 @@ Habits habitsOf(const TextReader& file, const v1::Habits& in, const std::string&
     habits.digestionPerSecond = real(in.hunger().digestion_per_s());
     habits.eatsPlankton = in.hunger().plankton();
     habits.libidoPerSecond = real(in.libido_per_s());
+    habits.spawnsInRush = in.spawns() == v1::Habits::RUSH;
     fearOf(file, in, habits);
     habits.shares = sharesOf(file, in.shares());
     comfortOf(file, in.comfort(), habits);

@@ -163,8 +163,8 @@ struct Paint {
     glm::vec3 linear{};  // Rec. 709
 };
 
-// Prey escapes and schools and does not mate; a pacifist mates and neither escapes nor schools; a
-// predator hunts, and neither escapes, schools, mates nor leaves. In the schema's order.
+// Prey escapes and schools; a pacifist does neither; a predator hunts, and neither escapes, schools
+// nor leaves. In the schema's order.
 enum class Role : std::uint8_t { Prey, Pacifist, Predator };
 
 // From one bound to the other, both included.
@@ -273,6 +273,9 @@ struct Habits {
     // Hunger: appetite alpha in particles of plankton, digestion p0 per second.
     float appetiteParticles = 4, digestionPerSecond = 0.004F;
     float libidoPerSecond = 0;  // p1; 0: never mates
+    // At sunset and dusk a female rises fast and males follow; else pairs court at all active
+    // hours.
+    bool spawnsInRush = false;
     // Fear: a predator at this distance or nearer frightens wholly (D0); fear above f0 is heeded,
     // above f1 a schooling fish flees alone.
     float fearMetres = 1.6F, fearFrom = 0.25F, fearAlone = 0.6F;

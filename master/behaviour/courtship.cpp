@@ -106,8 +106,10 @@ fish::Course circle(const Situation& situation, const Couple& couple) {
 }
 
 fish::Course rise(const Situation& situation) {
-    return heading(
-        situation, level(situation.senses.heading) + kUp * kRise, situation.parameters.slow);
+    const fish::SpeciesParameters& parameters = situation.parameters;
+    return heading(situation,
+                   level(situation.senses.heading) + kUp * kRise,
+                   parameters.habits.spawnsInRush ? parameters.medium : parameters.slow);
 }
 
 // Keeps a place below her: pursues it from afar, matches her speed when near.
@@ -119,9 +121,12 @@ fish::Course keepBelow(const Situation& situation, const Couple& couple, float b
     const glm::vec3 astray = place / couple.length;
     const float behind = place::dot(astray, couple.matesHeading);
     const float pace = couple.matesSpeed / situation.senses.length + kCatchUp * behind;
-    return heading(situation,
-                   couple.matesHeading + astray * kClose,
-                   std::clamp(pace, 0.5F * parameters.slow, parameters.medium));
+    return heading(
+        situation,
+        couple.matesHeading + astray * kClose,
+        std::clamp(pace,
+                   0.5F * parameters.slow,
+                   parameters.habits.spawnsInRush ? parameters.fast : parameters.medium));
 }
 
 Couple coupleOf(const Situation& situation, const fish::Mind& mind) {
@@ -147,15 +152,20 @@ void enter(fish::Mind& mind, CourtshipStage stage) {
 }
 
 // Sets the stage by what the other fish does now. Of two fish that court each other the one that is
-// behind catches up.
+// behind catches up. In a rush a female rises as soon as a male follows her, and others join him.
 void fallIn(const Situation& situation, fish::Mind& mind) {
     const fish::FishView& view = *situation.environment.view;
+    const bool rushes = situation.parameters.habits.spawnsInRush;
+    const bool isMale = (mind.likes & fish::kIsFemale) == 0;
     const std::uint32_t courted = view.partner[mind.target];
-    if (courted != situation.fish)
-        return enter(mind,
-                     courted == fish::kNobody ? CourtshipStage::Follow : CourtshipStage::Impress);
+    const bool joins = rushes && isMale && courted != fish::kNobody;
+    if (courted != situation.fish && !joins)
+        return enter(
+            mind,
+            courted == fish::kNobody || rushes ? CourtshipStage::Follow : CourtshipStage::Impress);
     const CourtshipStage theirs = stageOf(view.stage[mind.target]);
-    enter(mind, std::max({stageOf(mind.stage), theirs, CourtshipStage::Loop}));
+    const CourtshipStage first = rushes ? CourtshipStage::Ascend : CourtshipStage::Loop;
+    enter(mind, std::max({stageOf(mind.stage), theirs, first}));
 }
 
 // Enters the next stage when this one is complete. After the last the male reports the spawning.

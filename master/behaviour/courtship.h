@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The courtship of a pair (Tu 1996, section 5.6.6): the male loops before the female while she
 // hovers and bobs; they circle; she rises and he follows from below; he nuzzles her belly and they
-// spawn. Each fish knows only its own stage and what it sees of the other.
+// spawn. Each fish knows only its own stage and what it sees of the other. A species that spawns in
+// a rush begins with the rise, at a faster gait, and several males may follow one female.
 #pragma once
 
 #include <cstdint>

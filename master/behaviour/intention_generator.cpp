@@ -251,7 +251,8 @@ struct Case {
                senses.mate.seen();
     }
     [[nodiscard]] bool wouldEat() const {
-        return feelings.hunger > desireFor(fish::Intention::Eat) && meal().seen();
+        return feelings.hunger > desireFor(fish::Intention::Eat) && !isRestingFromAChase() &&
+               meal().seen();
     }
     // H > L as published, but with a preference for the drive that is pursued already.
     [[nodiscard]] bool hungerIsStronger() const {

@@ -15,12 +15,12 @@ namespace {
 // Share of the fear of a predator that is after nobody.
 constexpr float kFearOfIdle = 0.5F;
 
-// Always 0 for species that do not mate, whatever is in sight.
+// Always 0 for species that do not mate now, whatever is in sight.
 float libidoOf(const fish::SpeciesParameters& parameters,
                const fish::Mind& mind,
                const Senses& senses,
                float hunger) {
-    if (!fish::mates(parameters)) return 0;
+    if (!fish::mates(parameters) || !senses.mates) return 0;
     const float stimulus = stimulusOf(kMateStimulus, senses.mate.distance / senses.length);
     return std::min(1.0F, fish::innerLibido(parameters, mind, hunger) + kLibidoStimulus * stimulus);
 }

@@ -369,12 +369,17 @@ float costOfMate(const Onlooker& onlooker, std::uint32_t other, glm::vec3 offset
 }
 
 void seeMate(const Onlooker& onlooker) {
-    if (!fish::mates(onlooker.parameters)) return;
+    if (!onlooker.senses.mates) return;
     const float hunger = fish::innerHunger(onlooker.parameters, onlooker.mind);
     const float libido = fish::innerLibido(onlooker.parameters, onlooker.mind, hunger);
     if (libido < kTemptedFrom) return;
-    const float sight =
-        worthLooking(onlooker, libido, kLibidoStimulus, kMateStimulus, onlooker.sight(1));
+    // Hunters live alone and know of each other as far as the water is clear.
+    const bool isAlone = onlooker.parameters.habits.role == config::Role::Predator;
+    const float sight = worthLooking(onlooker,
+                                     libido,
+                                     kLibidoStimulus,
+                                     kMateStimulus,
+                                     isAlone ? onlooker.clarity() : onlooker.sight(1));
     onlooker.senses.mate = attend(onlooker,
                                   onlooker.environment.grids->mates,
                                   fish::Intention::Mate,
@@ -612,8 +617,9 @@ Senses perceive(const Environment& environment,
     assert(fish < environment.view->size());
     Senses senses;
     feelItself(*environment.view, fish, senses);
-    senses.rests = restsAt(
-        parameters, environment.seed, fish, senses.length, environment.surroundings->timeOfDay);
+    const double time = environment.surroundings->timeOfDay;
+    senses.rests = restsAt(parameters, environment.seed, fish, senses.length, time);
+    senses.mates = fish::matesAt(parameters, time);
     const Onlooker onlooker{environment, parameters, fish, mind, senses};
     seeNeighbours(onlooker);
     seePredators(onlooker);

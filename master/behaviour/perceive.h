@@ -123,6 +123,8 @@ struct Senses {
     Sighting shelter;
     // Whether it is outside the active hours of its species.
     bool rests = false;
+    // Whether its species mates at this time of day (fish::matesAt()).
+    bool mates = true;
     // How many of its schoolmates near by dive.
     std::size_t diving = 0;
     // Of a fish that hides: whether it ventures out, where nothing threatens it.

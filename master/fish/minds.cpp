@@ -8,6 +8,7 @@
 
 #include "common/base/digest.h"
 #include "common/base/units.h"
+#include "common/place/day.h"
 #include "master/fish/secondary_controller.h"
 
 namespace aquarama::fish {
@@ -71,6 +72,11 @@ float seconds(std::uint32_t ticks) {
     return static_cast<float>(ticks) / kTicksASecond;
 }
 
+// What hunger leaves of the libido. A hunter is hungry nearly always: that takes half at most.
+float leftBy(const SpeciesParameters& parameters, float hunger) {
+    return 1 - (parameters.habits.role == config::Role::Predator ? 0.5F : 1.0F) * hunger;
+}
+
 // Limited to half of kLongAgo, so that the clock can still advance.
 std::uint32_t ticksOf(float seconds) {
     return static_cast<std::uint32_t>(
@@ -84,12 +90,11 @@ float undigested(const SpeciesParameters& parameters, const Mind& mind) {
 
 // Whether the fish shows that it is willing: it courts already, or its inner libido is high.
 bool wouldMate(const SpeciesParameters& parameters, const Mind& mind, Intention aim) {
-    if (!mates(parameters)) return false;
     return aim == Intention::Mate ||
            innerLibido(parameters, mind, innerHunger(parameters, mind)) > kDesire;
 }
 
-// The signs that every species has. Prey, which neither mates nor hunts, has no others.
+// The signs that every species has. Prey that does not mate now has no others.
 unsigned moodOf(std::uint8_t likes, Intention aim) {
     return ((likes & kIsFemale) != 0 ? unsigned{kFemale} : 0U) |
            (aim == Intention::School ? unsigned{kSchooling} : 0U);
@@ -124,12 +129,17 @@ bool isGorged(const SpeciesParameters& parameters, const Mind& mind) {
 float innerLibido(const SpeciesParameters& parameters, const Mind& mind, float hunger) {
     if (!mates(parameters)) return 0;
     return std::min(1.0F, parameters.habits.libidoPerSecond * seconds(mind.sinceSpawning)) *
-           (1 - hunger);
+           leftBy(parameters, hunger);
 }
 
 bool mates(const SpeciesParameters& parameters) {
-    return parameters.habits.role == config::Role::Pacifist &&
-           parameters.habits.libidoPerSecond > 0;
+    return parameters.habits.libidoPerSecond > 0;
+}
+
+bool matesAt(const SpeciesParameters& parameters, double timeOfDay) {
+    if (!mates(parameters) || !parameters.habits.spawnsInRush) return mates(parameters);
+    const place::DayPhase phase = place::phaseOf(timeOfDay);
+    return phase == place::DayPhase::Sunset || phase == place::DayPhase::Dusk;
 }
 
 void passTime(const SpeciesParameters& parameters, std::uint32_t ticks, Mind& mind) {
@@ -159,13 +169,14 @@ void setMood(const SpeciesParameters& parameters, float hunger, float libido, Mi
     mind.eaten = static_cast<std::uint16_t>(meal);
     mind.sinceMeal = ticksOf((1 - left) / parameters.habits.digestionPerSecond);
     // Inverts innerLibido() for the time since spawning.
-    const float growth = parameters.habits.libidoPerSecond * std::max(1 - hunger, 0.0F);
+    const float growth = parameters.habits.libidoPerSecond * leftBy(parameters, hunger);
     mind.sinceSpawning = growth > 0 ? ticksOf(libido / growth) : 0;
 }
 
 void showMood(const SpeciesParameters& parameters,
               const Minds& minds,
               std::uint32_t fish,
+              bool mates,
               FishView& view) {
     assert(fish < minds.size());
     assert(minds.size() <= view.size());
@@ -176,19 +187,20 @@ void showMood(const SpeciesParameters& parameters,
         view.patch[fish] = about.intention == Intention::Graze ? about.target : kNobody;
         view.charged[fish] = about.intention == Intention::Charge ? about.target : kNobody;
     }
-    if (parameters.habits.role ==
-        config::Role::Prey) {  // most fish are; they need but three bytes of their mind
+    const bool isPrey = parameters.habits.role == config::Role::Prey;
+    if (isPrey && !mates) {  // most fish; they need but three bytes of their mind
         const bool schools =
             mind.intention == Intention::School || mind.remembered == Intention::School;
         view.signs[fish] = static_cast<std::uint8_t>(
             away | moodOf(mind.likes, schools ? Intention::School : mind.intention) |
             (mind.alarm == Alarm::Calm ? 0U : unsigned{kAlarmed}) | divingOf(mind));
+        view.partner[fish] = kNobody;
         return;
     }
     const Aim aim = aimOf(mind);
     unsigned signs = away | moodOf(mind.likes, aim.intention) | divingOf(mind);
     if (mind.alarm != Alarm::Calm) signs |= kAlarmed;
-    if (wouldMate(parameters, mind, aim.intention)) signs |= kWilling;
+    if (mates && wouldMate(parameters, mind, aim.intention)) signs |= kWilling;
     if (parameters.habits.role == config::Role::Predator && aim.intention == Intention::Eat)
         signs |= kHunting;
     view.signs[fish] = static_cast<std::uint8_t>(signs);

@@ -195,13 +195,16 @@ inline constexpr float kHysteresis = 0.8F;
 [[nodiscard]] bool isGorged(const SpeciesParameters& parameters, const Mind& mind);
 
 // Inner libido p1 dt (1 - H), at most 1: dt is the time since it spawned, in seconds, H the given
-// hunger. Always 0 for species that do not mate.
+// hunger, half of it for predators. Always 0 for species that do not mate.
 [[nodiscard]] float innerLibido(const SpeciesParameters& parameters,
                                 const Mind& mind,
                                 float hunger);
 
-// Whether the species mates: only pacifists do (Tu & Terzopoulos 1994).
+// Whether the species mates.
 [[nodiscard]] bool mates(const SpeciesParameters& parameters);
+
+// Whether it does so at this time of day: one that spawns in a rush at sunset and dusk only.
+[[nodiscard]] bool matesAt(const SpeciesParameters& parameters, double timeOfDay);
 
 // Advances all clocks of the mind by the ticks since its last thought; forgets a meal that is
 // digested. Called once per thought, before perception.
@@ -213,11 +216,13 @@ void setMood(const SpeciesParameters& parameters, float hunger, float libido, Mi
 
 // The signs of a mood, derived from the mind.
 
-// Writes the signs of a fish, except kAway, which is kept; for species other than prey also its
-// stage and the fish that it courts. Touches only this fish's elements.
+// Writes the signs of a fish, except kAway, which is kept; its stage and the fish that it courts,
+// except for prey that does not mate now. `mates` is matesAt() now. Touches only this fish's
+// elements.
 void showMood(const SpeciesParameters& parameters,
               const Minds& minds,
               std::uint32_t fish,
+              bool mates,
               FishView& view);
 
 }  // namespace aquarama::fish

@@ -238,7 +238,7 @@ void World::begin(const WorldOptions& options) {
                               static_cast<float>(columns_.traits[fish].lengthMillimetres) * 0.001F);
             columns_.view.kind[fish] = parameters.kind;
         }
-        look(kind, kind.first, kind.last);
+        look(kind, kind.first, kind.last, surroundings_.timeOfDay);
     }
     grids_.expect(columns_.view, speciesParameters_);
     for (std::size_t fish = 0; fish < columns_.traits.size(); ++fish)
@@ -303,21 +303,23 @@ void World::advance() {
 // first part also advances the surroundings, while others look at fish: neither reads what the
 // other writes.
 void World::beginTick() {
+    const double timeOfDay = surroundings_.timeOfDay;
     grids_.rebuild(
         columns_.view,
         surroundings_.food,
         speciesParameters_,
         [this](std::size_t jobs, const auto& job) { pool_.run(jobs, job); },
-        [this](std::size_t first, std::size_t last) {
+        [this, timeOfDay](std::size_t first, std::size_t last) {
             if (first == 0) surroundings::advanceSurroundings(surroundings_, tick_, unseen_);
             for (const Kind& kind : kinds_)
-                look(kind, std::max(first, kind.first), std::min(last, kind.last));
+                look(kind, std::max(first, kind.first), std::min(last, kind.last), timeOfDay);
         });
 }
 
-// Writes the view of fish [first, last) from their motion states and minds. Headings are computed
+// Writes the view of fish [first, last) from their motion states and minds, and the time of day of
+// the tick before. Headings are computed
 // for 256 fish at a time, by vectors.
-void World::look(const Kind& kind, std::size_t first, std::size_t last) {
+void World::look(const Kind& kind, std::size_t first, std::size_t last, double timeOfDay) {
     constexpr std::size_t kAtATime = 256;
     std::array<float, kAtATime> x;
     std::array<float, kAtATime> y;
@@ -327,6 +329,7 @@ void World::look(const Kind& kind, std::size_t first, std::size_t last) {
         motion::meanHeadings(
             *kind.tables, columns_.states, from, to, {x.data(), y.data(), z.data()});
         const fish::SpeciesParameters& parameters = speciesParameters_[columns_.view.kind[from]];
+        const bool mates = fish::matesAt(parameters, timeOfDay);
         for (std::size_t fish = from; fish < to; ++fish) {
             const std::size_t i = fish - from;
             const float length =
@@ -341,7 +344,7 @@ void World::look(const Kind& kind, std::size_t first, std::size_t last) {
                 lengthsASecond * length,
                 length};
             fish::showMood(
-                parameters, columns_.minds, static_cast<std::uint32_t>(fish), columns_.view);
+                parameters, columns_.minds, static_cast<std::uint32_t>(fish), mates, columns_.view);
             if (motion::isStart(motion::actionOf(columns_.states.segment[fish])))
                 columns_.view.signs[fish] |= fish::kStartled;
         }

@@ -177,7 +177,7 @@ class World {
     void begin(const WorldOptions& options);
     void live(std::uint64_t ticks);
     void beginTick();
-    void look(const Kind& kind, std::size_t first, std::size_t last);
+    void look(const Kind& kind, std::size_t first, std::size_t last, double timeOfDay);
     void makeRoomForEvents();
     void thinkAll();
     void findRushes();

@@ -28,7 +28,8 @@ TEST(Habits, ofThePreyAreRead) {
     EXPECT_EQ(scad.role, Role::Prey);
     EXPECT_FLOAT_EQ(scad.appetiteParticles, 4.0F);
     EXPECT_FLOAT_EQ(scad.digestionPerSecond, 0.004F);
-    EXPECT_FLOAT_EQ(scad.libidoPerSecond, 0.0F);
+    EXPECT_FLOAT_EQ(scad.libidoPerSecond, 0.0006F);
+    EXPECT_TRUE(scad.spawnsInRush);
     EXPECT_FLOAT_EQ(scad.fearMetres, 1.6F);
     EXPECT_FLOAT_EQ(scad.fearFrom, 0.25F);
     EXPECT_FLOAT_EQ(scad.fearAlone, 0.6F);
@@ -53,6 +54,7 @@ TEST(Habits, ofAPacifistAreRead) {
     const Habits tang = test::castMember("blue_tang").habits;
     EXPECT_EQ(tang.role, Role::Pacifist);
     EXPECT_FLOAT_EQ(tang.libidoPerSecond, 0.003F);
+    EXPECT_FALSE(tang.spawnsInRush);
     EXPECT_EQ(tang.home.kind, HomeKind::Place);
     EXPECT_LT(tang.home.radiusMetres, tang.home.leashMetres);
     EXPECT_TRUE(tang.home.onTheReef);
@@ -158,12 +160,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "hunt { prey: \"clownfish\" chase_s: 1 give_up_m: 1 rest_s: 1 } persistence: 0.2",
                 "hunt",
                 "only a predator hunts"},
-        Mistake{"preyThatMates",
-                "bigeye_scad",
-                "persistence: 0.2",
-                "libido_per_s: 0.1 persistence: 0.2",
-                "libido_per_s",
-                "only a pacifist mates"},
+        Mistake{"aRushOfWhoNeverMates",
+                "blacktip_reef_shark",
+                "persistence: 0.7",
+                "persistence: 0.7 spawns: RUSH",
+                "spawns",
+                "it never mates"},
         Mistake{"aPacifistThatSchools",
                 "clownfish",
                 "shares {",
@@ -182,12 +184,6 @@ INSTANTIATE_TEST_SUITE_P(
                 "persistence: 0.7 pair_bl: 2",
                 "pair_bl",
                 "keeps no partner"},
-        Mistake{"aPredatorThatMates",
-                "blacktip_reef_shark",
-                "persistence: 0.7",
-                "persistence: 0.7 libido_per_s: 0.01",
-                "libido_per_s",
-                "only a pacifist"},
         Mistake{"aPredatorWithoutPrey",
                 "blacktip_reef_shark",
                 "prey: \"bigeye_scad\"\n    prey: \"blue_tang\"\n    prey: \"parrotfish\"",

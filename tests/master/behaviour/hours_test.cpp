@@ -47,6 +47,19 @@ TEST(Hours, aSpeciesOfTheNightRestsByDayAndOneOfAllHoursNever) {
         EXPECT_FALSE(restsAt(always, 1, 7, 0.2F, time)) << time;
 }
 
+TEST(Hours, oneThatSpawnsInARushMatesAtSunsetAndDuskOnly) {
+    fish::SpeciesParameters parameters = speciesOf(config::Activity::Always);
+    EXPECT_FALSE(fish::matesAt(parameters, 0.5)) << "no libido";
+    parameters.habits.libidoPerSecond = 0.001F;
+    EXPECT_TRUE(fish::matesAt(parameters, 0.5));
+    parameters.habits.spawnsInRush = true;
+    for (int minute = 0; minute < 1440; ++minute) {
+        const DayPhase phase = place::phaseOf(minute / 1440.0);
+        EXPECT_EQ(fish::matesAt(parameters, minute / 1440.0),
+                  phase == DayPhase::Sunset || phase == DayPhase::Dusk);
+    }
+}
+
 // Over a day each fish has one rest, however early and late it is.
 TEST(Hours, theLargerRetireLaterAndRiseEarlier) {
     for (const double share : {0.0, 0.5, 1.0}) {

@@ -88,12 +88,30 @@ TEST(IntentionGenerator, aPacifistNeitherEscapesNorSchoolsButMates) {
     EXPECT_EQ(tang.mind.target, 3U);
 }
 
-TEST(IntentionGenerator, preyDoesNotMate) {
+TEST(IntentionGenerator, preyLeavesItsSchoolToMateIfItsSpeciesDoes) {
     FishInMind scad;
-    scad.parameters.habits.libidoPerSecond = 0.003F;
     scad.feelings.libido = 0.9F;
     scad.showMate(3);
     EXPECT_EQ(scad.think(), fish::Intention::School);
+    scad.parameters.habits.libidoPerSecond = 0.003F;
+    EXPECT_EQ(scad.think(), fish::Intention::Mate);
+    scad.frighten(0.9F, 0.9F);
+    EXPECT_EQ(scad.think(), fish::Intention::Escape);
+}
+
+TEST(IntentionGenerator, aHunterMatesWhileItRestsFromAChaseWhateverPreyIsInSight) {
+    FishInMind grouper(config::Role::Predator);
+    grouper.parameters.habits.libidoPerSecond = 0.003F;
+    grouper.parameters.habits.hunt.restSeconds = grouper.parameters.habits.hunt.restByDaySeconds =
+        60;
+    grouper.feelings.hunger = 1;
+    grouper.feelings.libido = 0.6F;
+    grouper.showPrey(4);
+    grouper.showMate(3);
+    EXPECT_EQ(grouper.think(), fish::Intention::Eat) << "rested";
+    grouper.mind = {};
+    grouper.mind.sinceChase = 0;
+    EXPECT_EQ(grouper.think(), fish::Intention::Mate);
 }
 
 TEST(IntentionGenerator, theStrongerOfHungerAndLibidoWins) {

@@ -117,14 +117,32 @@ TEST(Libido, isRaisedByAMateInSight) {
     EXPECT_NEAR(feel(parameters, fed(3), senses).libido, 0.5F, 1e-6F) << "a_l S_l alone";
 }
 
-TEST(Libido, isAPacifistsAlone) {
-    for (const config::Role role : {config::Role::Prey, config::Role::Predator}) {
-        fish::SpeciesParameters parameters = tang();
+TEST(Libido, isOfSpeciesThatMateAndAtTheirHours) {
+    fish::SpeciesParameters parameters = tang();
+    fish::Mind mind = fed(3);
+    mind.sinceSpawning = fish::kLongAgo;
+    Senses senses = lonely();
+    senses.mate = {5, {0.8F, 0, 0}, 4 * senses.length};
+    for (const config::Role role :
+         {config::Role::Prey, config::Role::Pacifist, config::Role::Predator}) {
         parameters.habits.role = role;
-        fish::Mind mind = fed(3);
-        mind.sinceSpawning = fish::kLongAgo;
-        EXPECT_EQ(feel(parameters, mind, lonely()).libido, 0);
+        senses.mates = true;
+        EXPECT_GT(feel(parameters, mind, senses).libido, 0.25F);
+        senses.mates = false;
+        EXPECT_EQ(feel(parameters, mind, senses).libido, 0);
     }
+    parameters.habits.libidoPerSecond = 0;
+    senses.mates = true;
+    EXPECT_EQ(feel(parameters, mind, senses).libido, 0);
+}
+
+TEST(Libido, ofAHungryHunterIsHalf) {
+    fish::SpeciesParameters parameters = tang();
+    fish::Mind mind = fed(0);
+    mind.sinceSpawning = fish::kLongAgo;
+    EXPECT_EQ(fish::innerLibido(parameters, mind, 1), 0);
+    parameters.habits.role = config::Role::Predator;
+    EXPECT_FLOAT_EQ(fish::innerLibido(parameters, mind, 1), 0.5F);
 }
 
 TEST(Fear, addsUpOverThePredatorsInSightAndIsCutAtOne) {

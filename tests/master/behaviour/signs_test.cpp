@@ -14,7 +14,7 @@ struct Shown {
     [[nodiscard]] bool shows(fish::Sign sign) const { return (signs & sign) != 0; }
 };
 
-Shown shown(config::Role role, const fish::Mind& mind, std::uint8_t before = 0) {
+Shown shown(config::Role role, const fish::Mind& mind, std::uint8_t before = 0, bool mates = true) {
     fish::SpeciesParameters parameters;
     parameters.habits.role = role;
     parameters.habits.libidoPerSecond = 0.003F;
@@ -24,7 +24,8 @@ Shown shown(config::Role role, const fish::Mind& mind, std::uint8_t before = 0) 
     fish::Minds minds;
     minds.resize(1);
     minds[0] = mind;
-    fish::showMood(parameters, minds, 0, view);
+    view.partner[0] = 5;
+    fish::showMood(parameters, minds, 0, mates, view);
     return {view.signs[0], view.partner[0]};
 }
 
@@ -71,16 +72,24 @@ TEST(Signs, whoCourtsShowsWhom) {
     EXPECT_EQ(shown(config::Role::Pacifist, about(fish::Intention::Eat, 9)).partner, fish::kNobody);
 }
 
-TEST(Signs, libidoMakesAPacifistWillingAndNobodyElse) {
-    fish::Mind mind = about(fish::Intention::Wander);
-    EXPECT_FALSE(shown(config::Role::Pacifist, mind).shows(fish::kWilling))
-        << "it has just spawned";
-    mind.sinceSpawning = fish::kLongAgo;
-    EXPECT_TRUE(shown(config::Role::Pacifist, mind).shows(fish::kWilling));
-    EXPECT_FALSE(shown(config::Role::Prey, mind).shows(fish::kWilling));
-    EXPECT_FALSE(shown(config::Role::Predator, mind).shows(fish::kWilling));
-    mind.eaten = 0;
-    EXPECT_FALSE(shown(config::Role::Pacifist, mind).shows(fish::kWilling)) << "it hungers";
+TEST(Signs, libidoMakesAFishWillingWhenItsSpeciesMates) {
+    for (const config::Role role :
+         {config::Role::Prey, config::Role::Pacifist, config::Role::Predator}) {
+        fish::Mind mind = about(fish::Intention::Wander);
+        EXPECT_FALSE(shown(role, mind).shows(fish::kWilling)) << "it has just spawned";
+        mind.sinceSpawning = fish::kLongAgo;
+        EXPECT_TRUE(shown(role, mind).shows(fish::kWilling));
+        EXPECT_FALSE(shown(role, mind, 0, false).shows(fish::kWilling)) << "not at this hour";
+        mind.eaten = 0;
+        EXPECT_EQ(shown(role, mind).shows(fish::kWilling), role == config::Role::Predator)
+            << "it hungers: that stops all but hunters";
+    }
+}
+
+TEST(Signs, preyShowsWhomItCourtsWhenItsSpeciesMates) {
+    const fish::Mind courting = about(fish::Intention::Mate, 9);
+    EXPECT_EQ(shown(config::Role::Prey, courting).partner, 9U);
+    EXPECT_EQ(shown(config::Role::Prey, courting, 0, false).partner, fish::kNobody);
 }
 
 TEST(Signs, sexIsShownAndAnAbsentFishStaysAway) {

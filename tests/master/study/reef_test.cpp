@@ -114,13 +114,17 @@ TEST_F(Reef, fishTurnByCapturedSegmentsAndDoNotSlide) {
     expectCapturedMotion(life().species);
 }
 
-TEST_F(Reef, mealsBySpeciesAreThoseOfTheWorld) {
+TEST_F(Reef, mealsAndSpawningsBySpeciesAreThoseOfTheWorld) {
     std::uint64_t meals = 0;
     std::uint64_t bites = 0;
+    std::uint64_t spawnings = 0;
     for (const Hour& hour : life().hours) {
         meals += hour.counts.meals + hour.counts.catches;
         bites += hour.counts.bites;
+        spawnings += hour.counts.spawnings;
     }
+    EXPECT_GT(spawnings, 0U);
+    EXPECT_EQ(life().species.spawnings, spawnings);
     EXPECT_GT(meals, 0U);
     // Of the species that graze, eight bites at least feed as much as a particle; some are begun.
     constexpr std::uint64_t fewestBites = 8;

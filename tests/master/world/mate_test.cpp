@@ -132,5 +132,57 @@ TEST(Mate, WhoIsNotAnsweredGivesUp) {
         EXPECT_LT(longest[fish], 33 * 60) << "fish " << fish;
 }
 
+// A school in a day that stands still at this time of day.
+WorldOptions schoolAt(double timeOfDay) {
+    WorldSpecies school = scads(30);
+    school.habits.libidoPerSecond = 0.004F;
+    school.habits.spawnsInRush = true;
+    WorldOptions options = openWater(2, {inTheMood(school, 0.5)});
+    options.scene.day.startsAt = timeOfDay;
+    return options;
+}
+
+TEST(Mate, ASchoolSpawnsInRushesAtSunsetAndNotByDay) {
+    for (const double timeOfDay : {0.5, 0.78}) {
+        World world(schoolAt(timeOfDay));
+        std::array<std::uint32_t, 30> followers{};
+        std::uint32_t mostFollowers = 0;
+        for (int i = 0; i < 60 * 60; ++i) {
+            world.advance();
+            followers = {};
+            for (std::uint32_t fish = 0; fish < 30; ++fish) {
+                const fish::Mind mind = world.minds()[fish];
+                if (mind.intention != fish::Intention::Mate) continue;
+                ASSERT_TRUE(mind.stage == 0 || mind.stage >= 4) << "no loop, no circle";
+                if (!isFemale(world, fish) && mind.stage >= 4)
+                    mostFollowers = std::max(mostFollowers, ++followers.at(mind.target));
+            }
+        }
+        if (timeOfDay < 0.6) {
+            EXPECT_EQ(world.counts().spawnings, 0U);
+            EXPECT_EQ(mostFollowers, 0U);
+        } else {
+            EXPECT_GE(world.counts().spawnings, 4U);
+            EXPECT_GE(mostFollowers, 2U) << "several males rise with one female";
+        }
+    }
+}
+
+TEST(Mate, HuntersFindEachOtherFromAfarThoughTheyHunger) {
+    WorldSpecies lone = pacifists(2);
+    lone.habits.role = config::Role::Predator;
+    lone.habits.visionBodyLengths = 3;
+    lone.start =
+        config::Start{.centre = {0, -5.5F, -5}, .radiusMetres = 3, .hunger = 1, .libido = 0.45};
+    World world(openWater(1, {lone}));
+    const auto apart = [&] {
+        return place::lengthOf(world.view().position(0) - world.view().position(1));
+    };
+    world.advance();
+    ASSERT_GT(apart(), 1.0F) << "farther than they see others";
+    for (int i = 0; i < 4 * 3600 && world.counts().spawnings == 0; ++i) world.advance();
+    EXPECT_GT(world.counts().spawnings, 0U);
+}
+
 }  // namespace
 }  // namespace aquarama::world
