@@ -506,17 +506,13 @@ bool rushesAtPrey(const fish::SpeciesParameters& parameters,
            mind.stage == static_cast<std::uint8_t>(HuntStage::Rush);
 }
 
-// How far ahead the fish feels obstacles. One that rushes at prey feels none beyond it: else all
-// prey near a border or the reef would be safe.
+// How far ahead the fish feels obstacles.
 float reachOf(const fish::SpeciesParameters& parameters,
               const fish::Mind& mind,
               const Senses& senses) {
     const float speed = std::max(0.0F, senses.speed);
     if (isAtTurf(mind)) return kTurfReachMetres + speed * kTurfReachSeconds;
-    const float reach = kReachMetres + speed * std::max(kReachSeconds, parameters.turnSeconds);
-    return rushesAtPrey(parameters, mind, senses)
-               ? std::clamp(senses.prey.distance, kReachMetres, reach)
-               : reach;
+    return kReachMetres + speed * std::max(kReachSeconds, parameters.turnSeconds);
 }
 
 // Of a fish that lies in wait beside the reef.
@@ -557,10 +553,15 @@ void feelSurroundings(const Environment& environment,
     const float reach = reachOf(parameters, mind, senses);
     const surroundings::Submarine& submarine = around.submarine;
     const glm::vec3 fromSubmarine = submarinePush(submarine, senses, reach);
+    // One that rushes at prey feels no obstacle beyond it but the submarine: else all prey near a
+    // border or the reef would be safe.
+    const float ahead = rushesAtPrey(parameters, mind, senses)
+                            ? std::clamp(senses.prey.distance, kReachMetres, reach)
+                            : reach;
     senses.push = surroundings::avoidance(around.obstacles,
                                           senses.position,
                                           senses.heading,
-                                          reach,
+                                          ahead,
                                           berthFor(parameters, fish, mind, senses)) +
                   fromSubmarine;
     if (submarine.velocityMetresPerSecond != glm::vec3{})
