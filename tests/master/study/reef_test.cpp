@@ -154,7 +154,7 @@ TEST_F(Reef, theChronicleHasALineForEachHourAndOverlap) {
 }
 
 TEST_F(Reef, noSpeciesDiesOut) {
-    everyHour([](const Hour& hour) { EXPECT_GE(hour.fewest, 381U) << "of 387"; });
+    everyHour([](const Hour& hour) { EXPECT_GE(hour.fewest, 375U) << "of 381"; });
 }
 
 TEST_F(Reef, inADayEveryRoutineIsSeenAndFishEatHuntAndSpawn) {
