@@ -188,15 +188,16 @@ void comfortOf(const TextReader& file, const v1::Comfort& in, Habits& habits) {
                 in, most, std::string(most) + " must be more than " + least + ": exchange them");
         return span;
     };
-    habits.depthMetres =
+    habits.comfort.depthMetres =
         rising("least_depth_m", "most_depth_m", {in.least_depth_m(), in.most_depth_m()});
-    habits.bestDepthMetres = in.best_depth_m();
+    habits.comfort.bestDepthMetres = in.best_depth_m();
     if (in.best_depth_m() < in.least_depth_m() || in.best_depth_m() > in.most_depth_m())
         file.refuse(in,
                     "best_depth_m",
                     "best_depth_m must be from least_depth_m to most_depth_m: move it in between");
-    habits.light = rising("least_light", "most_light", {in.least_light(), in.most_light()});
-    habits.waterCelsius = rising("coldest_c", "warmest_c", {in.coldest_c(), in.warmest_c()});
+    habits.comfort.light = rising("least_light", "most_light", {in.least_light(), in.most_light()});
+    habits.comfort.waterCelsius =
+        rising("coldest_c", "warmest_c", {in.coldest_c(), in.warmest_c()});
 }
 
 Paces pacesOf(const TextReader& file, const v1::Paces& in) {
@@ -335,13 +336,13 @@ void refuseContradictions(const TextReader& file, const v1::Habits& in) {
 }
 
 void fearOf(const TextReader& file, const v1::Habits& in, Habits& habits) {
-    habits.fearMetres = 0, habits.fearFrom = 1, habits.fearAlone = 1;
+    habits.fear.metres = 0, habits.fear.from = 1, habits.fear.alone = 1;
     if (!in.has_fear()) return;
     const v1::Fear& fear = in.fear();
-    habits.fearMetres = real(fear.whole_m());
-    habits.fearFrom = real(fear.heeded_from());
-    habits.fearAlone = real(fear.alone_from());
-    if (habits.fearAlone <= habits.fearFrom)
+    habits.fear.metres = real(fear.whole_m());
+    habits.fear.from = real(fear.heeded_from());
+    habits.fear.alone = real(fear.alone_from());
+    if (habits.fear.alone <= habits.fear.from)
         file.refuse(fear, "alone_from", "alone_from must be more than heeded_from: exchange them");
 }
 
@@ -350,9 +351,9 @@ Habits habitsOf(const TextReader& file, const v1::Habits& in, const std::string&
     refuseContradictions(file, in);
     Habits habits;
     habits.role = static_cast<Role>(in.role() - v1::Habits::PREY);
-    habits.appetiteParticles = real(in.hunger().appetite_particles());
-    habits.digestionPerSecond = real(in.hunger().digestion_per_s());
-    habits.eatsPlankton = in.hunger().plankton();
+    habits.hunger.appetiteParticles = real(in.hunger().appetite_particles());
+    habits.hunger.digestionPerSecond = real(in.hunger().digestion_per_s());
+    habits.hunger.eatsPlankton = in.hunger().plankton();
     habits.libidoPerSecond = real(in.libido_per_s());
     habits.spawnsInRush = in.spawns() == v1::Habits::RUSH;
     fearOf(file, in, habits);

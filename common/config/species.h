@@ -264,26 +264,40 @@ struct Cleans {
     double inspectSeconds = 12;
 };
 
+// Appetite alpha in particles of plankton, digestion p0 per second.
+struct Hunger {
+    float appetiteParticles = 4, digestionPerSecond = 0.004F;
+    bool eatsPlankton = true;
+};
+
+// A predator at this distance or nearer frightens wholly (D0); fear above f0 is heeded, above f1 a
+// schooling fish flees alone.
+struct Fear {
+    float metres = 1.6F, from = 0.25F, alone = 0.6F;
+};
+
+// The water that a species likes.
+struct Comfort {
+    Span depthMetres{1, 40};
+    double bestDepthMetres = 6;
+    Span light{0, 1};
+    Span waterCelsius{20, 32};
+};
+
 // How a species lives: what it feels, fears, eats and likes. Formulas: Tu & Terzopoulos 1994 and Tu
 // 1996, with their time units taken as seconds and their distances given in metres or body lengths
 // (docs/minds.md). The values here are those of habits built in code; species.proto says which a
 // file may leave out.
 struct Habits {
     Role role = Role::Prey;
-    // Hunger: appetite alpha in particles of plankton, digestion p0 per second.
-    float appetiteParticles = 4, digestionPerSecond = 0.004F;
+    Hunger hunger;
     float libidoPerSecond = 0;  // p1; 0: never mates
     // At sunset and dusk a female rises fast and males follow; else pairs court at all active
     // hours.
     bool spawnsInRush = false;
-    // Fear: a predator at this distance or nearer frightens wholly (D0); fear above f0 is heeded,
-    // above f1 a schooling fish flees alone.
-    float fearMetres = 1.6F, fearFrom = 0.25F, fearAlone = 0.6F;
+    Fear fear;
     HabitShares shares;
-    Span depthMetres{1, 40};
-    double bestDepthMetres = 6;
-    Span light{0, 1};
-    Span waterCelsius{20, 32};
+    Comfort comfort;
     Paces paces;
     double gradualShare = 0.8;  // of turns for no reason; the others are sharp
     float visionBodyLengths = 14;
@@ -296,7 +310,6 @@ struct Habits {
     std::optional<Territory> territory;
     std::vector<SiteKind> hidesIn;  // none: it flees in open water
     ActiveHours hours;
-    bool eatsPlankton = true;
     std::vector<std::string> hunts;  // species by name
     Hunt hunt;
     std::optional<Cleans> cleans;

@@ -106,8 +106,9 @@ float beyond(const config::Span& span, float value) {
 float illAt(const Situation& situation, float y) {
     const surroundings::Surroundings& around = *situation.environment.surroundings;
     const config::Habits& habits = situation.parameters.habits;
-    return beyond(habits.light, surroundings::lightAt(around.climate, around.daylight, y)) +
-           kPerCelsius * beyond(habits.waterCelsius, surroundings::celsiusAt(around.climate, y));
+    return beyond(habits.comfort.light, surroundings::lightAt(around.climate, around.daylight, y)) +
+           kPerCelsius *
+               beyond(habits.comfort.waterCelsius, surroundings::celsiusAt(around.climate, y));
 }
 
 // Weight of flight against the unit vector of the present course.
@@ -118,8 +119,8 @@ constexpr float kSharpStart = 1.0F;
 // How much flight outweighs the school: 0 when it has just left the school, 1 when the predator is
 // so near that only flight counts.
 float dread(const fish::SpeciesParameters& parameters, const fish::Feelings& feelings) {
-    const float more = feelings.greatestFear - parameters.habits.fearAlone;
-    return std::clamp(more / std::max(1 - parameters.habits.fearAlone, 0.01F), 0.0F, 1.0F);
+    const float more = feelings.greatestFear - parameters.habits.fear.alone;
+    return std::clamp(more / std::max(1 - parameters.habits.fear.alone, 0.01F), 0.0F, 1.0F);
 }
 
 // A fast start needs so much room, in body lengths.

@@ -125,22 +125,24 @@ Sighting nearestStation(const Environment& environment, glm::vec3 position) {
 
 void senseClients(const Environment& environment, std::uint32_t fish, Senses& senses) {
     const fish::FishView& view = *environment.view;
-    const std::uint32_t cleaner = senses.cleaner.object;
+    const std::uint32_t cleaner = senses.cleaning.cleaner.object;
     const fish::Household household =
         fish::householdOf(environment.speciesParameters[view.kind[cleaner]], cleaner);
     const auto count = [&](std::uint32_t other, glm::vec3 /*offset*/, float /*squared*/) {
         if (other == fish || !household.holds(view.partner[other])) return;
-        ++senses.clients;
-        senses.posing += view.stage[other] >= static_cast<std::uint8_t>(VisitStage::Pose) ? 1U : 0U;
+        ++senses.cleaning.clients;
+        senses.cleaning.posing +=
+            view.stage[other] >= static_cast<std::uint8_t>(VisitStage::Pose) ? 1U : 0U;
     };
     visitPointsWithin(environment.grids->fish,
-                      senses.position + senses.cleaner.offset,
+                      senses.position + senses.cleaning.cleaner.offset,
                       kStationMetres * kStationMetres,
                       count);
     for (std::uint32_t one = household.first; one < household.last; ++one) {
         if (view.partner[one] != fish) continue;
-        senses.cleaned = true;
-        senses.bitten = senses.bitten || view.stage[one] == std::uint8_t(CleanStage::Bite);
+        senses.cleaning.cleaned = true;
+        senses.cleaning.bitten =
+            senses.cleaning.bitten || view.stage[one] == std::uint8_t(CleanStage::Bite);
     }
 }
 
@@ -164,7 +166,7 @@ void senseClient(const Environment& environment,
         const bool isThere =
             household.holds(view.partner[aim.target]) && !view.shows(aim.target, fish::kAway);
         if (!isDone && isThere && present.distance < 2 * kStationMetres) {
-            senses.client = present;
+            senses.cleaning.client = present;
             return;
         }
     }
@@ -177,10 +179,10 @@ void senseClient(const Environment& environment,
             view.stage[other] != static_cast<std::uint8_t>(VisitStage::Pose))
             return;
         const Sighting seen = sightingOf(other);
-        const bool nearer =
-            seen.distance < senses.client.distance ||
-            (seen.distance == senses.client.distance && other < senses.client.object);
-        if (nearer) senses.client = seen;
+        const bool nearer = seen.distance < senses.cleaning.client.distance ||
+                            (seen.distance == senses.cleaning.client.distance &&
+                             other < senses.cleaning.client.object);
+        if (nearer) senses.cleaning.client = seen;
     };
     visitPointsWithin(environment.grids->fish,
                       homeOf(parameters, fish),
@@ -208,15 +210,15 @@ void senseCleaning(const Environment& environment,
     const float period = (kShortestUrgeSeconds +
                           kUrgeSpreadSeconds * unitOf(drawn(environment, Stream::Urge, fish, 0))) *
                          (parameters.habits.role == config::Role::Predator ? kPredatorUrge : 1.0F);
-    senses.urge = seconds(mind.sinceCleaning) / period;
+    senses.cleaning.urge = seconds(mind.sinceCleaning) / period;
     const fish::Aim aim = fish::aimOf(mind);
     const bool visits = aim.intention == fish::Intention::Visit;
-    if (!visits && senses.urge < 1) return;
-    senses.cleaner = visits ? stationOf(environment, aim.target, senses.position)
-                            : nearestStation(environment, senses.position);
-    if (!senses.cleaner.seen()) return;
+    if (!visits && senses.cleaning.urge < 1) return;
+    senses.cleaning.cleaner = visits ? stationOf(environment, aim.target, senses.position)
+                                     : nearestStation(environment, senses.position);
+    if (!senses.cleaning.cleaner.seen()) return;
     senseClients(environment, fish, senses);
-    if (!visits && senses.clients >= kMostClients) senses.cleaner = {};
+    if (!visits && senses.cleaning.clients >= kMostClients) senses.cleaning.cleaner = {};
 }
 
 namespace {
@@ -238,7 +240,7 @@ float alongFlank(std::uint64_t ticks) {
 fish::Course inspect(const Situation& situation) {
     const Environment& environment = situation.environment;
     const Senses& senses = situation.senses;
-    const fish::VisibleFish& client = environment.view->fish[senses.client.object];
+    const fish::VisibleFish& client = environment.view->fish[senses.cleaning.client.object];
     const std::uint64_t now = environment.tick.value + situation.fish * 7;
     const std::uint32_t flank =
         drawn(environment, Stream::Cleaning, situation.fish, now / kFlankTicks);
@@ -247,7 +249,7 @@ fish::Course inspect(const Situation& situation) {
     const glm::vec3 side = place::directionOf({-client.heading.z, 0, client.heading.x}, {0, 0, 1}) *
                            ((flank & 1U) != 0 ? 1.0F : -1.0F);
     const float off = kAside * client.length + kAsideOwn * senses.length;
-    const glm::vec3 spot = senses.client.offset +
+    const glm::vec3 spot = senses.cleaning.client.offset +
                            client.heading * (kAlong * client.length * alongFlank(now)) +
                            side * off + glm::vec3{0, 0.1F * client.length * signedUnitOf(pick), 0};
     // Every other part of a pick it darts at the skin.
@@ -281,7 +283,7 @@ fish::Course clean(const Situation& situation, fish::Mind& mind) {
     assert(situation.parameters.habits.cleans);
     const Environment& environment = situation.environment;
     const Senses& senses = situation.senses;
-    if (!senses.client.seen()) {
+    if (!senses.cleaning.client.seen()) {
         const glm::vec3 towards = homeOf(situation.parameters, situation.fish) - senses.position;
         const std::uint64_t now = environment.tick.value + situation.fish * 31;
         const bool dances =
@@ -295,8 +297,8 @@ fish::Course clean(const Situation& situation, fish::Mind& mind) {
         longest * (kShortestInspection + (1 - kShortestInspection) * unitOf(hashOf(visit, 1)));
     auto stage = static_cast<CleanStage>(mind.stage);
     // The inspection begins where it is beside its client.
-    const float length = environment.view->fish[senses.client.object].length;
-    const bool isThere = senses.client.distance < kBesideLengths * length + kBesideMetres;
+    const float length = environment.view->fish[senses.cleaning.client.object].length;
+    const bool isThere = senses.cleaning.client.distance < kBesideLengths * length + kBesideMetres;
     if (stage == CleanStage::Inspect && !isThere) mind.sinceStage = 0;
     const bool isDone =
         seconds(mind.sinceStage) > lasts || seconds(mind.pursued) > longest + kReachesWithin;
@@ -314,7 +316,7 @@ fish::Course clean(const Situation& situation, fish::Mind& mind) {
     if (stage != CleanStage::Flee) return inspect(situation);
     const glm::vec3 home = homeOf(situation.parameters, situation.fish) - senses.position;
     return heading(situation,
-                   place::directionOf(-senses.client.offset, senses.heading) + home * 0.5F,
+                   place::directionOf(-senses.cleaning.client.offset, senses.heading) + home * 0.5F,
                    situation.parameters.fast);
 }
 
@@ -343,18 +345,19 @@ fish::Course pose(const Situation& situation, glm::vec3 towards, std::uint32_t v
 
 fish::Course visit(const Situation& situation, fish::Mind& mind) {
     const Senses& senses = situation.senses;
-    assert(senses.cleaner.seen());
-    const glm::vec3 station = senses.cleaner.offset;
+    assert(senses.cleaning.cleaner.seen());
+    const glm::vec3 station = senses.cleaning.cleaner.offset;
     const glm::vec3 place =
         station + glm::vec3{0, kOverStation + kOverPerLength * senses.length, 0};
     const std::uint32_t drawnNow = drawn(situation.environment,
                                          Stream::Pose,
                                          situation.fish,
                                          situation.environment.tick.value - mind.pursued);
-    const bool isFree = senses.posing == 0;
+    const bool isFree = senses.cleaning.posing == 0;
     switch (static_cast<VisitStage>(mind.stage)) {
         case VisitStage::Come:
-            if (senses.clients >= kMostClients && senses.cleaner.distance < kStationMetres)
+            if (senses.cleaning.clients >= kMostClients &&
+                senses.cleaning.cleaner.distance < kStationMetres)
                 leaveCleaner(mind);
             if (place::lengthOf(place) < kAtStation + kWaitsPerLength * senses.length) {
                 enter(mind, isFree ? VisitStage::Pose : VisitStage::Wait);
@@ -373,9 +376,9 @@ fish::Course visit(const Situation& situation, fish::Mind& mind) {
         }
         case VisitStage::Pose: {
             const float lasts = kShortestPoseSeconds + kPoseSpreadSeconds * unitOf(drawnNow);
-            if (senses.bitten) enter(mind, VisitStage::Chase);
+            if (senses.cleaning.bitten) enter(mind, VisitStage::Chase);
             const float posed = seconds(mind.sinceStage);
-            if (posed > kLongestPoseSeconds || (posed > lasts && !senses.cleaned))
+            if (posed > kLongestPoseSeconds || (posed > lasts && !senses.cleaning.cleaned))
                 leaveCleaner(mind);
             return pose(situation, place, drawnNow);
         }
@@ -384,7 +387,7 @@ fish::Course visit(const Situation& situation, fish::Mind& mind) {
     }
     if (mind.sinceStage > kChaseTicks) leaveCleaner(mind);
     const glm::vec3 cleaner =
-        situation.environment.view->position(senses.cleaner.object) - senses.position;
+        situation.environment.view->position(senses.cleaning.cleaner.object) - senses.position;
     fish::Course course = heading(situation, cleaner, situation.parameters.fast);
     course.startsFast =
         mind.sinceStage < kBiteTicks &&

@@ -138,11 +138,11 @@ Way throughWater(const Situation& situation, glm::vec3 wish, glm::vec3 current, 
 
 glm::vec3 placeInShelter(const Situation& situation) {
     const place::Site& site =
-        situation.environment.surroundings->sites[situation.senses.shelter.object];
+        situation.environment.surroundings->sites[situation.senses.shelter.site.object];
     const std::uint32_t own = hashOf(site.seed, situation.fish);
     const glm::vec3 aside{
         signedUnitOf(hashOf(own, 1)), 0.5F * unitOf(hashOf(own, 2)), signedUnitOf(hashOf(own, 3))};
-    return situation.senses.shelter.offset + aside * (kAboutSite * site.sizeMetres) +
+    return situation.senses.shelter.site.offset + aside * (kAboutSite * site.sizeMetres) +
            site.normal * (0.3F * situation.senses.length);
 }
 
@@ -173,7 +173,7 @@ fish::Course hover(const Situation& situation) {
 }
 
 fish::Course hide(const Situation& situation, fish::Mind& mind) {
-    assert(situation.senses.shelter.seen());
+    assert(situation.senses.shelter.site.seen());
     const Senses& senses = situation.senses;
     const bool rushed = std::ranges::any_of(std::span(senses.predators).first(senses.predatorCount),
                                             &Sighting::rushing);

@@ -292,9 +292,9 @@ glm::vec3 glimpses(const Situation& situation, const Glance& glance, float alarm
 // Alarm of a school, 0 to 1: 0 up to the fear that is heeded (f0), 1 from the fear at which each
 // fish flees alone (f1). So a predator far off does not compress the school.
 float alarmOf(const fish::SpeciesParameters& parameters, const fish::Feelings& feelings) {
-    const float more = feelings.fear - parameters.habits.fearFrom;
+    const float more = feelings.fear - parameters.habits.fear.from;
     return std::clamp(
-        more / std::max(parameters.habits.fearAlone - parameters.habits.fearFrom, 0.01F),
+        more / std::max(parameters.habits.fear.alone - parameters.habits.fear.from, 0.01F),
         0.0F,
         1.0F);
 }
@@ -308,10 +308,10 @@ float factorAt(const place::ByPhase& values, double timeOfDay, float alarm) {
 // A push away from a predator that grows before it is so near that each fish flees alone.
 glm::vec3 clearing(const Situation& situation) {
     const fish::SpeciesParameters& parameters = situation.parameters;
-    const float fear = situation.feelings.greatestFear - parameters.habits.fearFrom;
+    const float fear = situation.feelings.greatestFear - parameters.habits.fear.from;
     if (fear <= 0) return {};
     const float share = std::min(
-        1.0F, fear / std::max(parameters.habits.fearAlone - parameters.habits.fearFrom, 0.01F));
+        1.0F, fear / std::max(parameters.habits.fear.alone - parameters.habits.fear.from, 0.01F));
     return flightFrom(situation) * (kGiveWayToHunter * share);
 }
 

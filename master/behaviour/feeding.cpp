@@ -194,7 +194,7 @@ glm::vec3 flightFrom(const Situation& situation) {
         flight += awayFrom(from.offset, view.heading(from.object), side) / squared;
     };
     for (std::size_t i = 0; i < senses.predatorCount; ++i) flee(senses.predators[i]);
-    if (senses.charger.seen()) flee(senses.charger);
+    if (senses.territory.charger.seen()) flee(senses.territory.charger);
     return place::directionOf(flight, {});
 }
 

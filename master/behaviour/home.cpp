@@ -185,7 +185,7 @@ Homes homesOf(const surroundings::Surroundings& surroundings,
         } else {
             glm::vec3 place = wanderingGoal(own,
                                             obstacles.water,
-                                            static_cast<float>(habits.bestDepthMetres),
+                                            static_cast<float>(habits.comfort.bestDepthMetres),
                                             firstOfKind + group,
                                             {});
             if (count > 0) place.x = wanted[group].x, place.z = wanted[group].y;
@@ -217,7 +217,7 @@ glm::vec3 beatGoal(const Environment& environment,
     const glm::vec3 wandered =
         wanderingGoal(environment.seed,
                       water,
-                      static_cast<float>(parameters.habits.bestDepthMetres) + deeper,
+                      static_cast<float>(parameters.habits.comfort.bestDepthMetres) + deeper,
                       fish,
                       environment.tick);
     const glm::vec3 goal = water.centre + ahead * (kInside * water.halfExtent);
@@ -230,7 +230,7 @@ Bound boundFor(const Environment& environment,
                glm::vec3 position) {
     const config::Home& home = parameters.habits.home;
     const surroundings::Obstacles& obstacles = environment.surroundings->obstacles;
-    const auto depth = static_cast<float>(parameters.habits.bestDepthMetres);
+    const auto depth = static_cast<float>(parameters.habits.comfort.bestDepthMetres);
     if (parameters.habits.role == config::Role::Predator && home.kind == config::HomeKind::None)
         return {(environment.gathering == config::Gathering::Mill
                      ? beatGoal(environment, parameters, fish, position)

@@ -48,10 +48,10 @@ fish::Alarm alarmOf(const fish::SpeciesParameters& parameters,
                     const fish::Feelings& feelings) {
     if (!fish::flees(parameters)) return fish::Alarm::Calm;
     const float heeded =
-        parameters.habits.fearFrom * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis);
+        parameters.habits.fear.from * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis);
     if (feelings.fear <= heeded) return fish::Alarm::Calm;
     const float alone =
-        parameters.habits.fearAlone * (mind.alarm == fish::Alarm::Alone ? fish::kHysteresis : 1);
+        parameters.habits.fear.alone * (mind.alarm == fish::Alarm::Alone ? fish::kHysteresis : 1);
     const bool together = feelings.greatestFear < alone && likesSchooling(parameters, mind) &&
                           senses.schoolmates.count > 0;
     return together ? fish::Alarm::Together : fish::Alarm::Alone;
@@ -80,22 +80,22 @@ struct Case {
     [[nodiscard]] Weighed shelter() const {
         const bool hides = aim.intention == fish::Intention::Hide;
         Weighed rule{fish::Intention::Hide,
-                     senses.shelter.object,
+                     senses.shelter.site.object,
                      Verdict::Wins,
                      feelings.threat,
                      hides ? kStaysFor : kDivesFor};
         if (parameters.habits.hidesIn.empty())
             rule.verdict = Verdict::AgainstHabits;
-        else if (!senses.shelter.seen())
+        else if (!senses.shelter.site.seen())
             rule.verdict = Verdict::NoTarget;
-        else if (rule.value < rule.threshold && !(hides && !senses.venturesOut))
+        else if (rule.value < rule.threshold && !(hides && !senses.shelter.venturesOut))
             rule.verdict = Verdict::TooWeak;
         return rule;
     }
 
     [[nodiscard]] Weighed otherFish() const {
         const bool isInShelter =
-            aim.intention == fish::Intention::Rest && senses.shelter.distance < kRestsInMetres;
+            aim.intention == fish::Intention::Rest && senses.shelter.site.distance < kRestsInMetres;
         return {fish::Intention::AvoidFish,
                 senses.collision.object,
                 isInShelter               ? Verdict::Sheltered
@@ -107,7 +107,7 @@ struct Case {
 
     // In a shelter, where one is known.
     [[nodiscard]] Weighed rest() const {
-        Weighed rule{.intention = fish::Intention::Rest, .target = senses.shelter.object};
+        Weighed rule{.intention = fish::Intention::Rest, .target = senses.shelter.site.object};
         if (parameters.habits.hours.active == config::Activity::Always)
             rule.verdict = Verdict::AgainstHabits;
         else if (!senses.rests)
@@ -116,17 +116,18 @@ struct Case {
     }
 
     [[nodiscard]] Weighed fear() const {
-        if (senses.charger.seen() && alarm == fish::Alarm::Calm)
-            return {fish::Intention::Escape, senses.charger.object, Verdict::Wins, 1, 0};
+        if (senses.territory.charger.seen() && alarm == fish::Alarm::Calm)
+            return {fish::Intention::Escape, senses.territory.charger.object, Verdict::Wins, 1, 0};
         Weighed rule{
             alarm == fish::Alarm::Together ? fish::Intention::School : fish::Intention::Escape,
             alarm == fish::Alarm::Together ? fish::kNobody : senses.predators[0].object,
             Verdict::Wins,
             feelings.fear,
-            parameters.habits.fearFrom * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis)};
+            parameters.habits.fear.from *
+                (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis)};
         if (!fish::flees(parameters))
             rule.verdict = Verdict::AgainstHabits;
-        else if (senses.shelter.seen())
+        else if (senses.shelter.site.seen())
             rule.verdict = Verdict::Sheltered;
         else if (alarm == fish::Alarm::Calm)
             rule.verdict = Verdict::TooWeak;
@@ -135,15 +136,15 @@ struct Case {
 
     [[nodiscard]] Weighed territory() const {
         Weighed rule{fish::Intention::Charge,
-                     senses.intruder.object,
+                     senses.territory.intruder.object,
                      Verdict::Wins,
                      seconds(mind.sinceCharge),
                      kRefractorySeconds};
-        if (!senses.holdsTerritory)
+        if (!senses.territory.holds)
             rule.verdict = Verdict::AgainstHabits;
         else if (aim.intention != fish::Intention::Charge && rule.value < rule.threshold)
             rule.verdict = Verdict::Resting;
-        else if (!senses.intruder.seen())
+        else if (!senses.territory.intruder.seen())
             rule.verdict = Verdict::NoTarget;
         return rule;
     }
@@ -188,11 +189,11 @@ struct Case {
     [[nodiscard]] Weighed cleaning() const {
         const bool cleans = parameters.habits.cleans.has_value();
         const bool visits = aim.intention == fish::Intention::Visit;
-        const Sighting& other = cleans ? senses.client : senses.cleaner;
+        const Sighting& other = cleans ? senses.cleaning.client : senses.cleaning.cleaner;
         Weighed rule{cleans ? fish::Intention::Clean : fish::Intention::Visit,
                      other.object,
                      Verdict::Wins,
-                     senses.urge,
+                     senses.cleaning.urge,
                      cleans ? 0 : (visits ? kStaysWithCleaner : kVisitsFor)};
         const bool hunts = parameters.habits.role == config::Role::Predator &&
                            aim.intention == fish::Intention::Eat;
@@ -283,13 +284,16 @@ struct Case {
 
     [[nodiscard]] Weighed climate() const {
         const float threshold = aim.intention == fish::Intention::Leave ? kAtEase : kUneasy;
-        Weighed rule{
-            fish::Intention::Leave, fish::kNobody, Verdict::Wins, senses.discomfort, threshold};
+        Weighed rule{fish::Intention::Leave,
+                     fish::kNobody,
+                     Verdict::Wins,
+                     senses.climate.discomfort,
+                     threshold};
         if (parameters.habits.role == config::Role::Predator)
             rule.verdict = Verdict::AgainstHabits;
-        else if (senses.discomfort <= threshold)
+        else if (senses.climate.discomfort <= threshold)
             rule.verdict = Verdict::TooWeak;
-        else if (senses.betterUp == 0)
+        else if (senses.climate.betterUp == 0)
             rule.verdict = Verdict::NoTarget;
         return rule;
     }
@@ -414,7 +418,7 @@ bool acceptsRecommendation(const fish::SpeciesParameters& parameters,
                            const fish::Mind& mind,
                            const Senses& senses,
                            const fish::Feelings& feelings) {
-    if (senses.urgency > kCalm || feelings.fear > parameters.habits.fearFrom) return false;
+    if (senses.urgency > kCalm || feelings.fear > parameters.habits.fear.from) return false;
     switch (mind.intention) {
         case fish::Intention::Wander:
         case fish::Intention::Hover:

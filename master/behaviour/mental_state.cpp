@@ -46,7 +46,7 @@ bool isAfterIt(const Sighting& predator) {
 // sensitivity: Helfman 1989, Behav. Ecol. Sociobiol. 24:47).
 float fearOf(const fish::SpeciesParameters& parameters, const Sighting& predator) {
     const float heeded = predator.heeded * (isAfterIt(predator) ? 1.0F : kFearOfIdle);
-    return heeded * std::min(parameters.habits.fearMetres / predator.distance, 1.0F);
+    return heeded * std::min(parameters.habits.fear.metres / predator.distance, 1.0F);
 }
 
 // The distance at which a fish dives from a danger, metres: it grows with the predator, with the
@@ -61,7 +61,7 @@ constexpr float kRushed = 1.5F;
 // 1 at the distance of diving and nearer, 0 at twice that distance.
 float threatOf(const Senses& senses, const Sighting& predator) {
     float dives = kDiveMetres + kPerPredatorLength * predator.length +
-                  kPerWay * senses.shelter.distance + kPerLength * senses.length;
+                  kPerWay * senses.shelter.site.distance + kPerLength * senses.length;
     if (predator.rushing)
         dives *= kRushed;
     else if (predator.passesBy)
@@ -108,10 +108,10 @@ fish::Feelings feel(const fish::SpeciesParameters& parameters,
         const float fear = fearOf(parameters, senses.predators[i]);
         feelings.fear = std::min(1.0F, feelings.fear + fear);
         feelings.greatestFear = std::max(feelings.greatestFear, fear);
-        if (senses.shelter.seen())
+        if (senses.shelter.site.seen())
             feelings.threat = std::max(feelings.threat, threatOf(senses, senses.predators[i]));
     }
-    if (senses.shelter.seen() && senses.diving >= kDiversFollowed) feelings.threat = 1;
+    if (senses.shelter.site.seen() && senses.shelter.diving >= kDiversFollowed) feelings.threat = 1;
     return feelings;
 }
 
@@ -140,15 +140,16 @@ fish::Mind freshMind(const fish::SpeciesParameters& parameters,
                      std::uint32_t seed,
                      std::uint32_t fish,
                      float length) {
-    assert(parameters.habits.digestionPerSecond > 0);
+    assert(parameters.habits.hunger.digestionPerSecond > 0);
     fish::Mind mind;
     mind.likes = likesOf(parameters, seed, fish, length);
     // A fish that finds food at all times eats until it is gorged, then digests; a predator eats
     // just its appetite.
     const bool grazes = parameters.habits.role != config::Role::Predator;
-    mind.eaten = static_cast<std::uint16_t>(grazes ? 2 * parameters.habits.appetiteParticles + 1
-                                                   : parameters.habits.appetiteParticles);
-    const float digested = kTicks / parameters.habits.digestionPerSecond;
+    mind.eaten =
+        static_cast<std::uint16_t>(grazes ? 2 * parameters.habits.hunger.appetiteParticles + 1
+                                          : parameters.habits.hunger.appetiteParticles);
+    const float digested = kTicks / parameters.habits.hunger.digestionPerSecond;
     mind.sinceMeal = static_cast<std::uint32_t>(share(seed, fish, Stream::SinceMeal) * digested);
     if (parameters.habits.libidoPerSecond > 0)
         mind.sinceSpawning = static_cast<std::uint32_t>(share(seed, fish, Stream::SinceSpawning) *

@@ -320,7 +320,8 @@ float costOfFood(const Onlooker& onlooker, glm::vec3 offset, float distance) {
 // Food is sensed in all directions and never hidden, as it smells.
 void senseFood(const Onlooker& onlooker) {
     const fish::SpeciesParameters& parameters = onlooker.parameters;
-    if (!parameters.habits.eatsPlankton || parameters.habits.role == config::Role::Predator ||
+    if (!parameters.habits.hunger.eatsPlankton ||
+        parameters.habits.role == config::Role::Predator ||
         fish::isGorged(parameters, onlooker.mind))
         return;
     Senses& senses = onlooker.senses;
@@ -412,25 +413,25 @@ void senseShelter(const Onlooker& onlooker) {
     Senses& senses = onlooker.senses;
     const Environment& environment = onlooker.environment;
     for (std::size_t i = 0; i < senses.schoolmates.count; ++i)
-        senses.diving += static_cast<std::size_t>(
+        senses.shelter.diving += static_cast<std::size_t>(
             onlooker.view().shows(senses.schoolmates.fish[i], fish::kDiving));
     const bool hides = onlooker.aim.intention == fish::Intention::Hide;
     const bool rests = senses.rests || onlooker.aim.intention == fish::Intention::Rest;
-    if (senses.predatorCount == 0 && senses.diving == 0 && !hides && !rests) return;
+    if (senses.predatorCount == 0 && senses.shelter.diving == 0 && !hides && !rests) return;
     const std::vector<place::Site>& sites = environment.surroundings->sites;
     const auto sightingOf = [&](std::uint32_t site) {
         const glm::vec3 offset = sites[site].place - senses.position;
         return Sighting{site, offset, place::lengthOf(offset)};
     };
     if ((hides || rests) && onlooker.aim.target < sites.size()) {
-        senses.shelter = sightingOf(onlooker.aim.target);
+        senses.shelter.site = sightingOf(onlooker.aim.target);
         if (!hides) return;
         const bool rushed = isFromRush(static_cast<HideStage>(onlooker.mind.stage));
         const float perThought =
             static_cast<float>(fish::kTicksBetweenThoughts) / static_cast<float>(kTicksPerSecond);
         const std::uint32_t own =
             hashOf(hashOf(environment.seed, Stream::VenturesOut), onlooker.fish);
-        senses.venturesOut =
+        senses.shelter.venturesOut =
             unitOf(hashOf(own, static_cast<std::uint32_t>(environment.tick.value))) *
                 (rushed ? kHiddenFromRushSeconds : kHiddenSeconds) <
             perThought;
@@ -448,7 +449,7 @@ void senseShelter(const Onlooker& onlooker) {
                            (1 + kOwnTaste * unitOf(hashOf(sites[site].seed, onlooker.fish)));
         if (cost >= least) continue;
         least = cost;
-        senses.shelter = sightingOf(site);
+        senses.shelter.site = sightingOf(site);
     }
 }
 
@@ -572,14 +573,14 @@ Ambient ambientAt(const surroundings::Surroundings& around, float y) {
 float lackOf(fish::Like habit, const config::Habits& habits, const Ambient& ambient) {
     switch (habit) {
         case fish::kLikesBrightness:
-            return static_cast<float>(habits.light.least) - ambient.light;
+            return static_cast<float>(habits.comfort.light.least) - ambient.light;
         case fish::kLikesDarkness:
-            return ambient.light - static_cast<float>(habits.light.most);
+            return ambient.light - static_cast<float>(habits.comfort.light.most);
         case fish::kLikesWarmth:
-            return (static_cast<float>(habits.waterCelsius.least) - ambient.celsius) /
+            return (static_cast<float>(habits.comfort.waterCelsius.least) - ambient.celsius) /
                    kDegreesOfComfort;
         case fish::kLikesCold:
-            return (ambient.celsius - static_cast<float>(habits.waterCelsius.most)) /
+            return (ambient.celsius - static_cast<float>(habits.comfort.waterCelsius.most)) /
                    kDegreesOfComfort;
         default:
             return -1;
@@ -627,18 +628,18 @@ void feelClimate(const surroundings::Surroundings& around,
                  std::uint8_t likes,
                  Senses& senses) {
     const Ambient here = ambientAt(around, senses.position.y);
-    senses.light = here.light;
-    senses.celsius = here.celsius;
+    senses.climate.light = here.light;
+    senses.climate.celsius = here.celsius;
     fish::Like worst = fish::kIsFemale;
     for (const fish::Like habit :
          {fish::kLikesBrightness, fish::kLikesDarkness, fish::kLikesWarmth, fish::kLikesCold}) {
         if ((likes & habit) == 0) continue;
         const float lack = lackOf(habit, parameters.habits, here);
-        if (lack <= senses.discomfort) continue;
-        senses.discomfort = lack;
+        if (lack <= senses.climate.discomfort) continue;
+        senses.climate.discomfort = lack;
         worst = habit;
     }
-    if (senses.discomfort <= -kNoticeable) return;  // at ease
+    if (senses.climate.discomfort <= -kNoticeable) return;  // at ease
     // Both change with depth alone, so the best place is at the top or at the bottom of the water.
     const place::Region& water = around.obstacles.water;
     const float atTop =
@@ -646,7 +647,8 @@ void feelClimate(const surroundings::Surroundings& around,
     const float atBottom =
         lackOf(worst, parameters.habits, ambientAt(around, water.centre.y - water.halfExtent.y));
     const float best = std::min(atTop, atBottom);
-    if (senses.discomfort - best > kNoticeable) senses.betterUp = atTop < atBottom ? 1.0F : -1.0F;
+    if (senses.climate.discomfort - best > kNoticeable)
+        senses.climate.betterUp = atTop < atBottom ? 1.0F : -1.0F;
 }
 
 bool suitsAsMate(const fish::FishView& view,

@@ -93,6 +93,52 @@ struct Sighting {
 // Number of predators that a fish keeps in mind; the nearest.
 inline constexpr std::size_t kMostPredators = 4;
 
+// Of species that hide.
+struct ShelterSenses {
+    // The site that it dives into or rests in, or would, by index of the surroundings.
+    Sighting site;
+    // How many of its schoolmates near by dive.
+    std::size_t diving = 0;
+    // Of a fish that hides: whether it ventures out, where nothing threatens it.
+    bool venturesOut = false;
+};
+
+// Of a territory (territory.h).
+struct TerritorySenses {
+    // Whether it holds one; the intruder that it charges or would.
+    bool holds = false;
+    Sighting intruder;
+    // Who charges it.
+    Sighting charger;
+};
+
+// Of cleaners and those that go to them (cleaning.h).
+struct CleaningSenses {
+    // Of a cleaner: the fish that it cleans or would.
+    Sighting client;
+    // Of one that goes to cleaners: how much it wants to, from 1 on it does; the cleaner, with the
+    // offset to its station; how many others are there, and how many of them pose; whether the
+    // cleaner is with it, and bites it.
+    float urge = 0;
+    Sighting cleaner;
+    std::size_t clients = 0;
+    std::size_t posing = 0;
+    bool cleaned = false;
+    bool bitten = false;
+};
+
+// Of light and warmth.
+struct ClimateSenses {
+    // Light where the fish is, 0 to 1.
+    float light = 1;
+    float celsius = 26;
+    // How far light or temperature is outside what its habits like; 1 is all the light, or ten
+    // degrees. Below 0 it is at ease.
+    float discomfort = -1;
+    // The direction in which its habits are met better: 1 up, -1 down, 0 nowhere in its water.
+    float betterUp = 0;
+};
+
 // Made anew at every thought, on the stack.
 struct Senses {
     // The fish itself.
@@ -118,37 +164,17 @@ struct Senses {
     Sighting mate;
     // The particle of least cost, seen or smelt.
     Sighting food;
-    // Of species that hide: the site that it dives into or rests in, or would, by index of the
-    // surroundings.
-    Sighting shelter;
     // Whether it is outside the active hours of its species.
     bool rests = false;
     // Whether its species mates at this time of day (fish::matesAt()).
     bool mates = true;
     // Predators: a factor on the time between two chases, by the time of day.
     float restBetweenChases = 1;
-    // How many of its schoolmates near by dive.
-    std::size_t diving = 0;
-    // Of a fish that hides: whether it ventures out, where nothing threatens it.
-    bool venturesOut = false;
+    ShelterSenses shelter;
     // Of those that graze: the patch of turf that it is at or goes to.
     Sighting patch;
-    // Whether it holds a territory; the intruder that it charges or would.
-    bool holdsTerritory = false;
-    Sighting intruder;
-    // Who charges it.
-    Sighting charger;
-    // Of a cleaner: the fish that it cleans or would.
-    Sighting client;
-    // Of one that goes to cleaners: how much it wants to, from 1 on it does; the cleaner, with the
-    // offset to its station; how many others are there, and how many of them pose; whether the
-    // cleaner is with it, and bites it.
-    float urge = 0;
-    Sighting cleaner;
-    std::size_t clients = 0;
-    std::size_t posing = 0;
-    bool cleaned = false;
-    bool bitten = false;
+    TerritorySenses territory;
+    CleaningSenses cleaning;
     // Of a bold fish in a school: the structure that it makes for or stays at, by index.
     std::uint32_t structure = fish::kNobody;
     float submarineMetres = std::numeric_limits<float>::infinity();
@@ -158,14 +184,7 @@ struct Senses {
     float urgency = 0;
     // For a fish in the way of a moving submarine: how urgently it must get away, 0 to 1.
     float hurry = 0;
-    // Light where the fish is, 0 to 1.
-    float light = 1;
-    float celsius = 26;
-    // How far light or temperature is outside what its habits like; 1 is all the light, or ten
-    // degrees. Below 0 it is at ease.
-    float discomfort = -1;
-    // The direction in which its habits are met better: 1 up, -1 down, 0 nowhere in its water.
-    float betterUp = 0;
+    ClimateSenses climate;
 };
 
 // All senses of one fish. `mind` says which target it pursues: it is kept unless another is better

@@ -60,7 +60,7 @@ glm::vec3 lowPlace(const Situation& situation) {
 }  // namespace
 
 fish::Course rest(const Situation& situation) {
-    if (situation.senses.shelter.seen()) return restInShelter(situation);
+    if (situation.senses.shelter.site.seen()) return restInShelter(situation);
     return keepStation(situation, lowPlace(situation));
 }
 

@@ -125,27 +125,27 @@ void senseTerritory(const Environment& environment,
                     const fish::Mind& mind,
                     Senses& senses) {
     const fish::FishView& view = *environment.view;
-    if (parameters.expelledBy != 0) senses.charger = chargerOf(view, fish, mind, senses);
-    senses.holdsTerritory = holdsTerritory(environment, parameters, fish);
-    if (!senses.holdsTerritory) return;
+    if (parameters.expelledBy != 0) senses.territory.charger = chargerOf(view, fish, mind, senses);
+    senses.territory.holds = holdsTerritory(environment, parameters, fish);
+    if (!senses.territory.holds) return;
     const fish::Aim aim = fish::aimOf(mind);
     if (aim.intention == fish::Intention::Charge && aim.target < view.size()) {
         const glm::vec3 offset = view.position(aim.target) - senses.position;
         const Sighting intruder{aim.target, offset, place::lengthOf(offset)};
         if (!view.shows(aim.target, fish::kAway) &&
             goesOn(environment, parameters, fish, mind, intruder, senses))
-            senses.intruder = intruder;
+            senses.territory.intruder = intruder;
         return;
     }
     const float rest = kRefractorySeconds * static_cast<float>(kTicksPerSecond);
     if (static_cast<float>(mind.sinceCharge) >= rest)
-        senses.intruder = nearestIntruder(environment, parameters, fish, senses);
+        senses.territory.intruder = nearestIntruder(environment, parameters, fish, senses);
 }
 
 fish::Course charge(const Situation& situation, const fish::Mind& mind, DeferredEvents& events) {
-    assert(situation.senses.intruder.seen());
+    assert(situation.senses.territory.intruder.seen());
     const fish::FishView& view = *situation.environment.view;
-    const Sighting& intruder = situation.senses.intruder;
+    const Sighting& intruder = situation.senses.territory.intruder;
     if (mind.pursued == 0)
         events.push_back({fish::DeferredEventKind::Charge, situation.fish, intruder.object});
     const glm::vec3 theirs =

@@ -133,7 +133,7 @@ struct Watch {
         if (aim.intention == fish::Intention::Visit &&
             environment.speciesParameters[view.kind[other]].habits.cleans)
             return false;
-        if (other == senses.charger.object) return false;
+        if (other == senses.territory.charger.object) return false;
         std::uint64_t unheeded = parameters.hunts | parameters.shadows;
         if (parameters.habits.role == config::Role::Prey) unheeded |= parameters.huntedBy;
         return (unheeded >> view.kind[other] & 1U) == 0;

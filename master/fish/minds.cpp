@@ -85,7 +85,8 @@ std::uint32_t ticksOf(float seconds) {
 
 // R of the thesis: 1 right after a meal, falling linearly to 0 when it is digested.
 float undigested(const SpeciesParameters& parameters, const Mind& mind) {
-    return std::max(0.0F, 1 - parameters.habits.digestionPerSecond * seconds(mind.sinceMeal));
+    return std::max(0.0F,
+                    1 - parameters.habits.hunger.digestionPerSecond * seconds(mind.sinceMeal));
 }
 
 // Whether the fish shows that it is willing: it courts already, or its inner libido is high.
@@ -117,13 +118,13 @@ unsigned divingOf(const Mind& mind) {
 }  // namespace
 
 float innerHunger(const SpeciesParameters& parameters, const Mind& mind) {
-    assert(parameters.habits.appetiteParticles > 0);
+    assert(parameters.habits.hunger.appetiteParticles > 0);
     const float stomach = static_cast<float>(mind.eaten) * undigested(parameters, mind);
-    return std::clamp(1 - stomach / parameters.habits.appetiteParticles, 0.0F, 1.0F);
+    return std::clamp(1 - stomach / parameters.habits.hunger.appetiteParticles, 0.0F, 1.0F);
 }
 
 bool isGorged(const SpeciesParameters& parameters, const Mind& mind) {
-    return static_cast<float>(mind.eaten) > 2 * parameters.habits.appetiteParticles;
+    return static_cast<float>(mind.eaten) > 2 * parameters.habits.hunger.appetiteParticles;
 }
 
 float innerLibido(const SpeciesParameters& parameters, const Mind& mind, float hunger) {
@@ -163,11 +164,11 @@ void setMood(const SpeciesParameters& parameters, float hunger, float libido, Mi
     assert(libido >= 0);
     assert(libido <= 1);
     // A meal of whole particles, digested so far that n_e R / alpha = 1 - hunger.
-    const float meal = std::max(1.0F, std::ceil(parameters.habits.appetiteParticles));
+    const float meal = std::max(1.0F, std::ceil(parameters.habits.hunger.appetiteParticles));
     const float left =
-        std::clamp((1 - hunger) * parameters.habits.appetiteParticles / meal, 0.0F, 1.0F);
+        std::clamp((1 - hunger) * parameters.habits.hunger.appetiteParticles / meal, 0.0F, 1.0F);
     mind.eaten = static_cast<std::uint16_t>(meal);
-    mind.sinceMeal = ticksOf((1 - left) / parameters.habits.digestionPerSecond);
+    mind.sinceMeal = ticksOf((1 - left) / parameters.habits.hunger.digestionPerSecond);
     // Inverts innerLibido() for the time since spawning.
     const float growth = parameters.habits.libidoPerSecond * leftBy(parameters, hunger);
     mind.sinceSpawning = growth > 0 ? ticksOf(libido / growth) : 0;

@@ -196,8 +196,8 @@ class Screen {
         add("",
             fmt::format("submarine   {:.1f} m   light {:.0f} %   water {:.1f} C",
                         senses.submarineMetres,
-                        100 * static_cast<double>(senses.light),
-                        senses.celsius));
+                        100 * static_cast<double>(senses.climate.light),
+                        senses.climate.celsius));
     }
 
     // A bar of 20 cells for a value of 0 to 1.

@@ -162,7 +162,7 @@ glm::vec3 restingPlace(std::uint32_t seed,
     const config::Habits& habits = parameters.habits;
     if (parameters.homes.empty())
         return behaviour::wanderingGoal(
-            seed, water, static_cast<float>(habits.bestDepthMetres), fish, {});
+            seed, water, static_cast<float>(habits.comfort.bestDepthMetres), fish, {});
     const std::uint32_t own = hashOf(hashOf(seed, Stream::BeginningPlace), fish);
     glm::vec3 aside = signedUnits(own) * (0.5F * static_cast<float>(habits.home.radiusMetres));
     if (habits.cloud)

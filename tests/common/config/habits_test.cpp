@@ -26,19 +26,19 @@ std::string fileOf(const std::string& species) {
 TEST(Habits, ofThePreyAreRead) {
     const Habits scad = test::castMember("bigeye_scad").habits;
     EXPECT_EQ(scad.role, Role::Prey);
-    EXPECT_FLOAT_EQ(scad.appetiteParticles, 4.0F);
-    EXPECT_FLOAT_EQ(scad.digestionPerSecond, 0.004F);
+    EXPECT_FLOAT_EQ(scad.hunger.appetiteParticles, 4.0F);
+    EXPECT_FLOAT_EQ(scad.hunger.digestionPerSecond, 0.004F);
     EXPECT_FLOAT_EQ(scad.libidoPerSecond, 0.0006F);
     EXPECT_TRUE(scad.spawnsInRush);
-    EXPECT_FLOAT_EQ(scad.fearMetres, 1.6F);
-    EXPECT_FLOAT_EQ(scad.fearFrom, 0.25F);
-    EXPECT_FLOAT_EQ(scad.fearAlone, 0.6F);
+    EXPECT_FLOAT_EQ(scad.fear.metres, 1.6F);
+    EXPECT_FLOAT_EQ(scad.fear.from, 0.25F);
+    EXPECT_FLOAT_EQ(scad.fear.alone, 0.6F);
     EXPECT_DOUBLE_EQ(scad.shares.schooling, 1);
     EXPECT_DOUBLE_EQ(scad.shares.darkness, 0);
-    EXPECT_DOUBLE_EQ(scad.depthMetres.most, 30);
-    EXPECT_DOUBLE_EQ(scad.bestDepthMetres, 9);
-    EXPECT_DOUBLE_EQ(scad.light.least, 0.25);
-    EXPECT_DOUBLE_EQ(scad.waterCelsius.most, 30);
+    EXPECT_DOUBLE_EQ(scad.comfort.depthMetres.most, 30);
+    EXPECT_DOUBLE_EQ(scad.comfort.bestDepthMetres, 9);
+    EXPECT_DOUBLE_EQ(scad.comfort.light.least, 0.25);
+    EXPECT_DOUBLE_EQ(scad.comfort.waterCelsius.most, 30);
     EXPECT_DOUBLE_EQ(scad.paces.medium, 0.65);
     EXPECT_DOUBLE_EQ(scad.gradualShare, 0.85);
     EXPECT_FLOAT_EQ(scad.visionBodyLengths, 14.0F);
@@ -46,7 +46,7 @@ TEST(Habits, ofThePreyAreRead) {
     EXPECT_FLOAT_EQ(scad.persistence, 0.2F);
     EXPECT_EQ(scad.home.kind, HomeKind::School);
     EXPECT_EQ(scad.hours.active, Activity::Always);
-    EXPECT_TRUE(scad.eatsPlankton);
+    EXPECT_TRUE(scad.hunger.eatsPlankton);
     EXPECT_TRUE(scad.hunts.empty());
 }
 
@@ -62,7 +62,7 @@ TEST(Habits, ofAPacifistAreRead) {
     EXPECT_EQ(tang.hours.active, Activity::Day);
     EXPECT_DOUBLE_EQ(tang.hours.retires, 0.45);
     EXPECT_DOUBLE_EQ(tang.hours.rises, 0.4);
-    EXPECT_FALSE(test::castMember("parrotfish").habits.eatsPlankton) << "it grazes";
+    EXPECT_FALSE(test::castMember("parrotfish").habits.hunger.eatsPlankton) << "it grazes";
     EXPECT_THAT(test::castMember("trumpetfish").habits.shadows,
                 testing::ElementsAre("parrotfish", "blue_tang"));
 }
@@ -76,8 +76,8 @@ TEST(Habits, ofThePredatorAreReadWithItsPreyInOrder) {
     EXPECT_DOUBLE_EQ(shark.hunt.restSeconds, 300);
     EXPECT_DOUBLE_EQ(shark.hunt.restByDaySeconds, 900);
     EXPECT_FALSE(shark.hunt.ambush) << "it stalks";
-    EXPECT_FLOAT_EQ(shark.fearMetres, 0.0F) << "it fears nobody";
-    EXPECT_FALSE(shark.eatsPlankton);
+    EXPECT_FLOAT_EQ(shark.fear.metres, 0.0F) << "it fears nobody";
+    EXPECT_FALSE(shark.hunger.eatsPlankton);
 }
 
 TEST(Habits, ofOneThatHuntsFromAmbushAreRead) {

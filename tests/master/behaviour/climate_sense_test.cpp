@@ -13,8 +13,8 @@ struct Deep {
         around.obstacles.water = {{0, -6, 0}, {5, 4, 5}};
         around.climate.surfaceCelsius = 28;
         around.climate.celsiusPerMetre = -0.5F;
-        parameters.habits.light = {0.5, 0.7};
-        parameters.habits.waterCelsius = {25, 26};
+        parameters.habits.comfort.light = {0.5, 0.7};
+        parameters.habits.comfort.waterCelsius = {25, 26};
     }
     [[nodiscard]] Senses at(float depth, unsigned likes) const {
         Senses senses;
@@ -34,8 +34,8 @@ TEST(Climate, aFishWithoutHabitsIsAtEaseAnywhere) {
 
 TEST(Climate, lightAndWarmthAreThoseOfItsDepth) {
     const Senses senses = Deep().at(8, 0);
-    EXPECT_NEAR(senses.light, 0.84F, 1e-5F);
-    EXPECT_NEAR(senses.celsius, 24, 1e-4F);
+    EXPECT_NEAR(senses.climate.light, 0.84F, 1e-5F);
+    EXPECT_NEAR(senses.climate.celsius, 24, 1e-4F);
 }
 
 TEST(Climate, whoLikesBrightnessOrWarmthWantsUpAndTheOthersDown) {
@@ -62,15 +62,15 @@ TEST(Climate, atNightNowhereIsBetterForWhoIsAtTheTop) {
     Deep deep;
     deep.around.daylight = 0.2F;
     const Senses senses = deep.at(2, fish::kLikesBrightness);
-    EXPECT_GT(senses.discomfort, 0.2F);
-    EXPECT_EQ(senses.betterUp, 0);
+    EXPECT_GT(senses.climate.discomfort, 0.2F);
+    EXPECT_EQ(senses.climate.betterUp, 0);
 }
 
 TEST(Climate, ofTwoThingsAmissTheWorseDecides) {
     Deep deep;
     deep.around.daylight = 0.75F;  // 0.72 at 2 m: a little bright
     const Senses senses = deep.at(9, fish::kLikesDarkness | fish::kLikesWarmth);
-    EXPECT_EQ(senses.betterUp, 1) << "too cold";
+    EXPECT_EQ(senses.climate.betterUp, 1) << "too cold";
 }
 
 }  // namespace

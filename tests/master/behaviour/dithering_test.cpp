@@ -26,8 +26,8 @@ void waver(FishInMind& fish, int thought) {
     fish.feelings.hunger = wavering(1, thought, 0.25F, 0.3F);
     fish.feelings.libido = wavering(2, thought, 0.25F, 0.3F);
     fish.senses.urgency = wavering(3, thought, 0.4F, 1.0F);
-    fish.senses.discomfort = wavering(4, thought, 0.1F, 0.2F) - 0.1F;
-    fish.senses.betterUp = 1;
+    fish.senses.climate.discomfort = wavering(4, thought, 0.1F, 0.2F) - 0.1F;
+    fish.senses.climate.betterUp = 1;
     const float fear = wavering(5, thought, 0.1F, 0.5F);
     fish.calm();
     if (fear > 0) fish.frighten(std::min(1.0F, fear), 0.9F * fear);

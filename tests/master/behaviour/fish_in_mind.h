@@ -12,8 +12,8 @@ namespace aquarama::behaviour {
 struct FishInMind {
     explicit FishInMind(config::Role role = config::Role::Prey) {
         parameters.habits.role = role;
-        parameters.habits.fearFrom = 0.25F;
-        parameters.habits.fearAlone = 0.6F;
+        parameters.habits.fear.from = 0.25F;
+        parameters.habits.fear.alone = 0.6F;
         if (role == config::Role::Pacifist) parameters.habits.libidoPerSecond = 0.003F;
         if (role == config::Role::Predator) parameters.hunts = 1;
         if (role == config::Role::Prey) {

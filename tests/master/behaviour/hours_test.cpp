@@ -121,7 +121,7 @@ TEST(Rest, isKeptInAShelterBesideOthers) {
     FishInMind fish(config::Role::Pacifist);
     fish.parameters.habits.hours.active = config::Activity::Day;
     fish.senses.rests = true;
-    fish.senses.shelter = {4, {0.2F, 0, 0}, 0.2F};
+    fish.senses.shelter.site = {4, {0.2F, 0, 0}, 0.2F};
     EXPECT_EQ(fish.think(), fish::Intention::Rest);
     EXPECT_EQ(fish.mind.target, 4U);
     fish.threaten(9);

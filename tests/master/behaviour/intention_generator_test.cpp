@@ -19,8 +19,8 @@ TEST(IntentionGenerator, keepsThePublishedOrderOfPrey) {
     fish.frighten(0.9F, 0.9F);
     fish.feelings.hunger = 0.8F;
     fish.showFood(5);
-    fish.senses.discomfort = 0.3F;
-    fish.senses.betterUp = 1;
+    fish.senses.climate.discomfort = 0.3F;
+    fish.senses.climate.betterUp = 1;
     EXPECT_EQ(fish.think(), fish::Intention::AvoidObstacle);
     fish.senses.urgency = 0;
     EXPECT_EQ(fish.think(), fish::Intention::AvoidFish);
@@ -33,7 +33,7 @@ TEST(IntentionGenerator, keepsThePublishedOrderOfPrey) {
     EXPECT_EQ(fish.mind.target, 5U);
     fish.feelings.hunger = 0.1F;
     EXPECT_EQ(fish.think(), fish::Intention::Leave);
-    fish.senses.discomfort = -0.5F;
+    fish.senses.climate.discomfort = -0.5F;
     EXPECT_EQ(fish.think(), fish::Intention::School);
     fish.mind.likes = 0;
     EXPECT_EQ(fish.think(), fish::Intention::Wander);
@@ -69,8 +69,8 @@ TEST(IntentionGenerator, aPredatorNeverEscapesSchoolsMatesOrLeaves) {
     shark.frighten(1, 1);
     shark.feelings.libido = 1;
     shark.showMate(3);
-    shark.senses.discomfort = 0.5F;
-    shark.senses.betterUp = -1;
+    shark.senses.climate.discomfort = 0.5F;
+    shark.senses.climate.betterUp = -1;
     EXPECT_EQ(shark.think(), fish::Intention::Wander);
     for (const PriorityRule rule :
          {PriorityRule::Fear, PriorityRule::Libido, PriorityRule::Climate, PriorityRule::Company})
@@ -294,8 +294,8 @@ TEST(Reasoning, tellsOfTheDecisionThatIsTaken) {
         if (drawn() < 0.6F) fish.showPrey(7);
         fish.feelings.hunger = drawn();
         fish.feelings.libido = drawn();
-        fish.senses.discomfort = drawn() - 0.7F;
-        fish.senses.betterUp = drawn() < 0.5F ? 1.0F : 0.0F;
+        fish.senses.climate.discomfort = drawn() - 0.7F;
+        fish.senses.climate.betterUp = drawn() < 0.5F ? 1.0F : 0.0F;
         fish.mind.remembered = static_cast<fish::Intention>(drawn() < 0.5F ? 0 : 2 + 3 * drawn());
         fish.mind.rememberedTarget = 5;
         fish.mind.sinceRemembered = static_cast<std::uint32_t>(1200 * drawn());

@@ -18,10 +18,10 @@ constexpr float kThoughtSeconds = static_cast<float>(fish::kTicksBetweenThoughts
 fish::SpeciesParameters tang() {
     fish::SpeciesParameters parameters;
     parameters.habits.role = config::Role::Pacifist;
-    parameters.habits.appetiteParticles = 3;
-    parameters.habits.digestionPerSecond = 0.0045F;
+    parameters.habits.hunger.appetiteParticles = 3;
+    parameters.habits.hunger.digestionPerSecond = 0.0045F;
     parameters.habits.libidoPerSecond = 0.003F;
-    parameters.habits.fearMetres = 0.9F;
+    parameters.habits.fear.metres = 0.9F;
     return parameters;
 }
 
@@ -49,7 +49,8 @@ TEST(Hunger, risesAsTheMealIsDigestedAndIsOneWhenItIs) {
     for (int thought = 1; thought < 2500; ++thought) {
         fish::passTime(parameters, fish::kTicksBetweenThoughts, mind);
         const float seconds = static_cast<float>(thought) * kThoughtSeconds;
-        const float expected = std::min(1.0F, parameters.habits.digestionPerSecond * seconds);
+        const float expected =
+            std::min(1.0F, parameters.habits.hunger.digestionPerSecond * seconds);
         ASSERT_NEAR(feel(parameters, mind, lonely()).hunger, expected, 2e-5F) << seconds << " s";
     }
     EXPECT_EQ(mind.eaten, 0) << "a digested meal does not count again with the next";

@@ -44,7 +44,7 @@ TEST(Recommendation, isRefusedNearAnObstacle) {
 
 TEST(Recommendation, isRefusedByASchoolInFear) {
     Moment moment(fish::Intention::School);
-    moment.feelings.fear = moment.parameters.habits.fearFrom + 0.1F;
+    moment.feelings.fear = moment.parameters.habits.fear.from + 0.1F;
     EXPECT_FALSE(moment.accepts());
 }
 

@@ -94,7 +94,7 @@ TEST(Mood, beginsAsTheSceneWantsIt) {
 TEST(Mood, holdsForEveryAppetite) {
     for (const float appetite : {0.5F, 1.0F, 2.5F, 6.0F}) {
         fish::SpeciesParameters parameters;
-        parameters.habits.appetiteParticles = appetite;
+        parameters.habits.hunger.appetiteParticles = appetite;
         fish::Mind mind;
         fish::setMood(parameters, 0.4F, 0, mind);
         EXPECT_NEAR(feel(parameters, mind, {}).hunger, 0.4F, 0.01F) << appetite;

@@ -21,7 +21,7 @@ TEST(World, advancingTakesNoMemory) {
 TEST(World, mealsCatchesAndReturnsTakeNone) {
     WorldSpecies prey = scads(60);
     prey.start = config::Start{.centre = {0, -5.5F, -5}, .radiusMetres = 1, .hunger = 0.8};
-    prey.habits.fearMetres = 0.4F;  // it flees late, and some are caught
+    prey.habits.fear.metres = 0.4F;  // it flees late, and some are caught
     WorldSpecies hunter = sharks(1);
     hunter.start = config::Start{.centre = {-4, -5.5F, -5}, .radiusMetres = 0.5, .hunger = 1};
     hunter.habits.hunt.restSeconds = 5;

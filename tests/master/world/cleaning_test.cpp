@@ -186,10 +186,10 @@ TEST(Cleaning, preyAndSmallFishDoNotGoToCleaners) {
 TEST(Cleaning, aClientGoesOnceItWantsToAndStaysUntilItLeaves) {
     behaviour::FishInMind client(config::Role::Pacifist);
     client.senses.length = 0.2F;
-    client.senses.cleaner = {.object = 7, .offset = {1, 0, 0}, .distance = 1};
-    client.senses.urge = 0.9F;
+    client.senses.cleaning.cleaner = {.object = 7, .offset = {1, 0, 0}, .distance = 1};
+    client.senses.cleaning.urge = 0.9F;
     EXPECT_EQ(client.think(), fish::Intention::Wander);
-    client.senses.urge = 1;
+    client.senses.cleaning.urge = 1;
     client.feelings.hunger = 1;
     client.showFood(5);
     EXPECT_EQ(client.think(), fish::Intention::Visit) << "before its meal";
@@ -200,7 +200,7 @@ TEST(Cleaning, aClientGoesOnceItWantsToAndStaysUntilItLeaves) {
     client.mind.stage = static_cast<std::uint8_t>(VisitStage::Pose);
     EXPECT_EQ(client.think(), fish::Intention::Visit) << "it resumes its visit";
     EXPECT_EQ(client.mind.stage, static_cast<std::uint8_t>(VisitStage::Pose));
-    client.senses.urge = 0;
+    client.senses.cleaning.urge = 0;
     EXPECT_EQ(client.think(), fish::Intention::Eat) << "it has left";
 }
 
@@ -210,15 +210,15 @@ TEST(Cleaning, aPredatorOnAHuntDoesNotGo) {
     hunter.feelings.hunger = 1;
     hunter.showPrey(3);
     EXPECT_EQ(hunter.think(), fish::Intention::Eat);
-    hunter.senses.cleaner = {.object = 7, .offset = {1, 0, 0}, .distance = 1};
-    hunter.senses.urge = 2;
+    hunter.senses.cleaning.cleaner = {.object = 7, .offset = {1, 0, 0}, .distance = 1};
+    hunter.senses.cleaning.urge = 2;
     EXPECT_EQ(hunter.think(), fish::Intention::Eat);
     EXPECT_EQ(hunter.rule(behaviour::PriorityRule::Cleaning).verdict, behaviour::Verdict::Yields);
 }
 
 TEST(Cleaning, aPredatorWithACleanerIsFearedLess) {
     behaviour::FishInMind one;
-    one.parameters.habits.fearMetres = 1;
+    one.parameters.habits.fear.metres = 1;
     one.senses.length = 0.2F;
     one.senses.predators[0] = {.object = 40, .offset = {2, 0, 0}, .distance = 2};
     one.senses.predatorCount = 1;

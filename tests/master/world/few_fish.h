@@ -24,8 +24,8 @@ inline WorldSpecies sharks(std::uint32_t fish) {
     sharks.name = "blacktip_reef_shark";
     config::Habits& habits = sharks.habits;
     habits.role = config::Role::Predator;
-    habits.eatsPlankton = false;
-    habits.digestionPerSecond = 0.002F;
+    habits.hunger.eatsPlankton = false;
+    habits.hunger.digestionPerSecond = 0.002F;
     habits.shares = {};
     habits.hunts = {"bigeye_scad"};
     habits.visionBodyLengths = 10;

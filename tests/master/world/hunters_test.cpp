@@ -22,7 +22,7 @@ constexpr std::uint32_t kCloud = 60;
 // A hunter of the cloud that is hungry again soon, so that a test sees it strike.
 WorldSpecies hungry(WorldSpecies hunter) {
     hunter.habits.hunts = {"prey"};
-    hunter.habits.digestionPerSecond = 0.02F;
+    hunter.habits.hunger.digestionPerSecond = 0.02F;
     hunter.habits.hunt.restSeconds = hunter.habits.hunt.restByDaySeconds = 20;
     return hunter;
 }
@@ -33,8 +33,8 @@ WorldSpecies ledgeHunter() {
     hunter.name = "ledge_hunter";
     hunter.habits.role = config::Role::Predator;
     hunter.habits.libidoPerSecond = 0;
-    hunter.habits.eatsPlankton = false;
-    hunter.habits.appetiteParticles = 1;
+    hunter.habits.hunger.eatsPlankton = false;
+    hunter.habits.hunger.appetiteParticles = 1;
     hunter.habits.shares = {};
     hunter.habits.home = {.kind = config::HomeKind::Place,
                           .radiusMetres = 0.6,
@@ -156,16 +156,16 @@ TEST(Hunters, oneAtALedgeStaysAtLedgesAndMovesBetweenThem) {
 TEST(Hunters, whoHidesComesOutThoughOthersAreInItsWay) {
     behaviour::FishInMind prey;
     prey.parameters.habits.hidesIn = {config::SiteKind::Branching};
-    prey.senses.shelter = {.object = 2, .offset = {0.1F, 0, 0}, .distance = 0.1F};
+    prey.senses.shelter.site = {.object = 2, .offset = {0.1F, 0, 0}, .distance = 0.1F};
     prey.feelings.threat = 1;
     prey.threaten(9);
     EXPECT_EQ(prey.think(), fish::Intention::Hide);
     prey.feelings.threat = 0;
     EXPECT_EQ(prey.think(), fish::Intention::Hide) << "it does not venture out yet";
-    prey.senses.venturesOut = true;
+    prey.senses.shelter.venturesOut = true;
     EXPECT_EQ(prey.think(), fish::Intention::AvoidFish);
     EXPECT_NE(fish::aimOf(prey.mind).intention, fish::Intention::Hide);
-    prey.senses.venturesOut = false;
+    prey.senses.shelter.venturesOut = false;
     prey.clearTheWay();
     EXPECT_NE(prey.think(), fish::Intention::Hide);
 }

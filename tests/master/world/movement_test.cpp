@@ -83,7 +83,7 @@ WorldOptions scadBeforeAShark(std::uint32_t scad) {
     options.cast[0].fish = scad;
     options.cast[0].start->centre = {-1.2F, -9, -5};
     options.cast[1].start->hunger = 0;
-    options.cast[1].habits.digestionPerSecond = 1e-6F;
+    options.cast[1].habits.hunger.digestionPerSecond = 1e-6F;
     options.cast[1].habits.paces = {0, 1, 0, 0};
     return options;
 }
@@ -170,7 +170,7 @@ TEST(SchoolRoutine, anAlarmedSchoolClosesUp) {
     calm.cast.pop_back();
     options.cast[1].start->centre = {3, -9, -8.5F};  // seen, and not near
     options.cast[1].habits.paces = {1, 0, 0, 0};
-    options.cast[0].habits.fearMetres *= 2;  // it hunts nobody, which is half as frightening
+    options.cast[0].habits.fear.metres *= 2;  // it hunts nobody, which is half as frightening
     double close = 0;
     double wide = 0;
     for (const std::uint32_t seed : {1U, 2U, 3U, 4U}) {
@@ -201,8 +201,8 @@ TEST(Leave, fishInTheDarkAndColdRiseToWaterThatSuits) {
         const float light = surroundings::lightAt(around.climate, around.daylight, y);
         const float celsius = surroundings::celsiusAt(around.climate, y);
         constexpr float kNearly = 0.05F;  // at the edge of what suits a fish stops
-        return light >= static_cast<float>(habits.light.least) - kNearly &&
-               celsius >= static_cast<float>(habits.waterCelsius.least) - kNearly;
+        return light >= static_cast<float>(habits.comfort.light.least) - kNearly &&
+               celsius >= static_cast<float>(habits.comfort.waterCelsius.least) - kNearly;
     };
     const std::uint32_t fish = 3;
     for (std::uint32_t i = 0; i < fish; ++i) EXPECT_FALSE(suits(i)) << "there was no need";
@@ -337,7 +337,7 @@ TEST(Reef, allMakeWayForASubmarineOnItsTour) {
 TEST(BaitBall, millsOpensBeforeASharkAndClosesBehindIt) {
     WorldOptions options = optionsOfScene("bait_ball");
     options.scene.plankton = 0;
-    options.cast[1].habits.digestionPerSecond = 1e-6F;
+    options.cast[1].habits.hunger.digestionPerSecond = 1e-6F;
     options.cast[1].habits.paces = {0, 0, 1, 0};
     options.cast[1].start = config::Start{.centre = {4.5F, -11, -7}, .radiusMetres = 1.5};
     World world(options);

@@ -23,7 +23,7 @@ WorldOptions livingSea() {
     WorldSpecies hunter = sharks(1);
     hunter.habits.hunts.emplace_back("blue_tang");
     WorldSpecies prey = scads(kScads);
-    prey.habits.fearMetres = 0.8F;  // in so little water farther sight would be endless fear
+    prey.habits.fear.metres = 0.8F;  // in so little water farther sight would be endless fear
     WorldOptions options = openWater(4, {prey, pacifists(kTangs), hunter});
     options.scene.gathering = config::Gathering::None;
     options.scene.plankton = 300;
