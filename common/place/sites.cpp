@@ -40,6 +40,10 @@ constexpr float kApartMetres = 0.3F;
 constexpr std::uint32_t kTries = 400;
 constexpr int kCompared = 10;
 
+// Fish that graze turn back nearer than this to the borders of their water.
+constexpr float kBorderMetres = 1.1F;
+constexpr float kBottomMetres = 0.3F;
+
 bool isIn(const Region& water, glm::vec3 place) {
     const glm::vec3 from = place - water.centre;
     return std::abs(from.x) < water.halfExtent.x && std::abs(from.z) < water.halfExtent.z &&
@@ -137,6 +141,7 @@ class Settling {
         if (direction.y < demand.leastUp || direction.y > demand.mostUp) return false;
         const glm::vec3 place = placeOn(rock, direction);
         if (!isIn(place_.settled, place)) return false;
+        if (kind == config::SiteKind::Turf && !isGrazed(place_.settled, place)) return false;
         if (place.y < floorHeight(place_, {place.x, place.z}) + kOverSandMetres) return false;
         const bool buried = std::ranges::any_of(rocks_, [&](const Rock& other) {
             return other.seed != rock.seed &&
@@ -169,6 +174,14 @@ class Settling {
 };
 
 }  // namespace
+
+bool isGrazed(const Region& water, glm::vec3 place) {
+    const glm::vec3 from = place - water.centre;
+    return std::abs(from.x) < water.halfExtent.x - kBorderMetres &&
+           std::abs(from.z) < water.halfExtent.z - kBorderMetres &&
+           from.y < water.halfExtent.y - kBorderMetres &&
+           from.y > kBottomMetres - water.halfExtent.y;
+}
 
 std::vector<Site> sitesOf(const PlaceKey& place) {
     if (place.sites.empty()) return {};

@@ -24,8 +24,11 @@ struct Site {
 };
 
 // All sites, computed at every call, in the order of the scene's groups. None where no boulder
-// reaches into the settled water. Exact arithmetic only.
+// reaches into the settled water; of turf, where fish graze. Exact arithmetic only.
 [[nodiscard]] std::vector<Site> sitesOf(const PlaceKey& place);
+
+// Whether fish that keep within this water can graze at a place: they turn back near its borders.
+[[nodiscard]] bool isGrazed(const Region& water, glm::vec3 place);
 
 // Whether fish can hide at a site of this kind.
 [[nodiscard]] constexpr bool isShelter(config::SiteKind kind) {

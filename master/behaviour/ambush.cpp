@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/common.hpp>
+
 #include "common/base/random_streams.h"
 #include "common/base/units.h"
 #include "common/place/place.h"
@@ -20,8 +22,8 @@ namespace aquarama::behaviour {
 namespace {
 
 // A post is kept for so long, and a place at the edge of one.
-constexpr std::uint64_t kTicksOfPost = std::uint64_t{150} * 60;
-constexpr std::uint64_t kTicksOfEdge = std::uint64_t{50} * 60;
+constexpr std::uint64_t kTicksOfPost = std::uint64_t{240} * 60;
+constexpr std::uint64_t kTicksOfEdge = std::uint64_t{80} * 60;
 // One post in so many is at a structure.
 constexpr std::uint32_t kStructureOneIn = 4;
 // A place at an edge is so far outside, and begins at this share of the height of the post; the
@@ -33,12 +35,18 @@ constexpr float kLowestMetres = 0.4F;
 // It begins up-current by the way of the water in this time, at most so far.
 constexpr float kUpCurrentSeconds = 6;
 constexpr float kMostUpCurrent = 0.8F;
+// Nearer to the borders of the water and to the ground it would have to give way to them.
+constexpr float kOffBorders = 1;
+constexpr float kOffGround = 0.9F;
 // A fish that hangs drifts so far from its place before it comes back; one that comes begins to
 // hang so near. It sinks in short dives, which begin and end so far above its place.
-constexpr float kDrifts = 1.3F;
+constexpr float kDrifts = 2;
 constexpr float kArrives = 0.6F;
 constexpr float kDiveFrom = 0.15F;
 constexpr float kDiveUntil = 0.03F;
+// It comes from above, over what stands between: by so much of the way, at most for so many metres.
+constexpr float kFromAbove = 0.4F;
+constexpr float kMostAbove = 2.5F;
 // Of the tilt, as a sine, that share is hanging; and of the slow gait that share is moving.
 constexpr float kHangs = 0.5F;
 constexpr float kMoves = 0.5F;
@@ -117,6 +125,15 @@ std::optional<Post> edgePost(const Situation& situation) {
     return cloud ? cloud : nearerDrawn(situation, now, structures);
 }
 
+// The place nearest to a place that is off the borders of the water and over the ground.
+glm::vec3 clearOf(const surroundings::Obstacles& obstacles, glm::vec3 place) {
+    const place::Region& water = obstacles.water;
+    const glm::vec3 room = glm::max(water.halfExtent - glm::vec3{kOffBorders}, glm::vec3{0});
+    glm::vec3 clear = glm::clamp(place, water.centre - room, water.centre + room);
+    clear.y = std::max(clear.y, surroundings::groundAt(obstacles, {clear.x, clear.z}) + kOffGround);
+    return clear;
+}
+
 // The place at the edge of a post now, relative to the fish.
 glm::vec3 placeAtEdge(const Situation& situation, const Post& post) {
     const surroundings::Surroundings& around = *situation.environment.surroundings;
@@ -132,8 +149,9 @@ glm::vec3 placeAtEdge(const Situation& situation, const Post& post) {
     const glm::vec3 up = place::directionOf(current, {}) *
                          -std::min(kMostUpCurrent, kUpCurrentSeconds * place::lengthOf(current));
     const float height = std::max(kLowestMetres, kBegins * post.height - kSinks * since);
-    return post.middle + out * (post.radius + kOutsideMetres) + up + glm::vec3{0, height, 0} -
-           situation.senses.position;
+    const glm::vec3 place =
+        post.middle + out * (post.radius + kOutsideMetres) + up + glm::vec3{0, height, 0};
+    return clearOf(around.obstacles, place) - situation.senses.position;
 }
 
 // The site where a fish with a home waits now, relative to it: one of the nearest of their kind.
@@ -175,7 +193,7 @@ fish::Course hang(const Situation& situation, glm::vec3 towards, float tilt) {
     const float far = std::max(aside, towards.y);
     if (far > (hangs ? kDrifts : kArrives) || senses.urgency >= 1)
         return heading(situation,
-                       towards,
+                       towards + glm::vec3{0, kFromAbove * std::min(aside, kMostAbove), 0},
                        std::min(parameters.medium, parameters.slow + 0.4F * far / senses.length));
     const bool dives = senses.speed > kMoves * parameters.slow * senses.length;
     const float level = std::sqrt(1 - tilt * tilt);

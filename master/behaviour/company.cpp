@@ -22,7 +22,8 @@ namespace {
 constexpr std::uint64_t kTicksOfBout = std::uint64_t{50} * 60;
 constexpr std::uint32_t kShortestShadowing = 10 * 60;
 constexpr std::uint32_t kShadowingSpread = 30 * 60;
-constexpr std::uint32_t kHostsTried = 4;
+constexpr std::uint64_t kLongerBouts = 3;
+constexpr std::uint32_t kHostsTried = 12;
 
 // A shadowing fish keeps this far over the back of its host.
 constexpr float kOverBackMetres = 0.15F;
@@ -337,11 +338,15 @@ std::uint32_t shadowedBy(const Situation& situation) {
     if (situation.parameters.shadows == 0) return fish::kNobody;
     const Environment& environment = situation.environment;
     const std::uint32_t own = hashOf(hashOf(environment.seed, Stream::Bouts), situation.fish);
-    const std::uint64_t now = environment.tick.value + own % kTicksOfBout;
-    const std::uint32_t bout = hashOf(own, static_cast<std::uint32_t>(now / kTicksOfBout));
-    if (now % kTicksOfBout > kShortestShadowing + bout % kShadowingSpread) return fish::kNobody;
-    // One that lies in wait follows others in one period of three.
-    if (situation.parameters.habits.hunt.ambush && bout % 3 != 0) return fish::kNobody;
+    // One that lies in wait follows others in one period of two, and for longer.
+    const bool waits = situation.parameters.habits.hunt.ambush.has_value();
+    const std::uint64_t longer = waits ? kLongerBouts : 1;
+    const std::uint64_t now = environment.tick.value + own % (longer * kTicksOfBout);
+    const std::uint32_t bout =
+        hashOf(own, static_cast<std::uint32_t>(now / (longer * kTicksOfBout)));
+    const std::uint64_t passed = now % (longer * kTicksOfBout) / longer;
+    if (passed > kShortestShadowing + bout % kShadowingSpread) return fish::kNobody;
+    if (waits && bout % 2 != 0) return fish::kNobody;
     for (std::uint32_t i = 0; i < kHostsTried; ++i) {
         const std::uint32_t host = drawnHost(situation, hashOf(hashOf(bout, Stream::Hosts), i));
         if (isWithin(situation, host, sightOf(situation))) return host;

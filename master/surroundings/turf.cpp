@@ -21,18 +21,6 @@ constexpr float kClearRadii = 1.02F;
 // Lowest height of the normal at a spot: fish bite from above.
 constexpr float kLeastUp = 0.15F;
 constexpr std::uint32_t kTries = 12;
-// Fish turn back nearer than this to the borders of their water.
-constexpr float kBorderMetres = 1.1F;
-constexpr float kBottomMetres = 0.3F;
-
-bool isWithinReach(const place::Region& water, glm::vec3 place) {
-    const glm::vec3 from = place - water.centre;
-    return std::abs(from.x) < water.halfExtent.x - kBorderMetres &&
-           std::abs(from.z) < water.halfExtent.z - kBorderMetres &&
-           from.y < water.halfExtent.y - kBorderMetres &&
-           from.y > kBottomMetres - water.halfExtent.y;
-}
-
 bool isClear(const Obstacles& obstacles, const place::Rock& own, glm::vec3 spot) {
     if (spot.y < place::floorHeight(obstacles.place, {spot.x, spot.z}) + kOverSandMetres)
         return false;
@@ -72,7 +60,7 @@ Turf makeTurf(std::uint32_t seed,
               const Obstacles& obstacles) {
     Turf turf;
     for (const place::Site& site : sites) {
-        if (site.kind != config::SiteKind::Turf || !isWithinReach(obstacles.water, site.place))
+        if (site.kind != config::SiteKind::Turf || !place::isGrazed(obstacles.water, site.place))
             continue;
         const auto rock = std::ranges::find(obstacles.rocks, site.rockSeed, &place::Rock::seed);
         if (rock == obstacles.rocks.end()) continue;

@@ -62,6 +62,7 @@ TEST(Habits, ofAPacifistAreRead) {
     EXPECT_EQ(tang.hours.active, Activity::Day);
     EXPECT_DOUBLE_EQ(tang.hours.retires, 0.45);
     EXPECT_DOUBLE_EQ(tang.hours.rises, 0.4);
+    EXPECT_FALSE(test::castMember("parrotfish").habits.hunger.eatsPlankton) << "it grazes";
     EXPECT_THAT(test::castMember("trumpetfish").habits.shadows,
                 testing::ElementsAre("parrotfish", "blue_tang"));
 }

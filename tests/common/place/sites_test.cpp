@@ -106,6 +106,20 @@ TEST(Sites, eachKindIsWhereItBelongs) {
         }
 }
 
+TEST(Sites, ofTurfAreWhereFishGraze) {
+    PlaceKey place = withHeads(1);
+    place.sites = {{.kind = config::SiteKind::Turf, .number = 40}};
+    const std::vector<Site> sites = sitesOf(place);
+    EXPECT_GT(sites.size(), 20U);
+    for (const Site& site : sites) EXPECT_TRUE(isGrazed(place.settled, site.place));
+    // The borders are 1.1 m wide, the bottom 0.3 m.
+    const Region water{{0, 0, 0}, {4, 2, 4}};
+    EXPECT_TRUE(isGrazed(water, {2.8F, -1.6F, 2.8F}));
+    EXPECT_FALSE(isGrazed(water, {3, 0, 0}));
+    EXPECT_FALSE(isGrazed(water, {0, -1.8F, 0}));
+    EXPECT_FALSE(isGrazed(water, {0, 1, 0}));
+}
+
 TEST(Sites, wantedAtAPlaceLieOnTheBoulderThere) {
     PlaceKey place = withHeads(3);
     place.sites = {{.kind = config::SiteKind::Anemone, .xz = glm::vec2{-2.4F, -2.9F}}};

@@ -57,6 +57,10 @@ TEST(Turf, EveryPatchIsWithinReachAndItsSpotsAreOnItsBoulder) {
     const World world(optionsOfRoutine("loop", 3));
     const surroundings::Turf& turf = world.surroundings().turf;
     ASSERT_GT(turf.patches.size(), 5U);
+    EXPECT_EQ(
+        turf.patches.size(),
+        std::ranges::count(world.surroundings().sites, config::SiteKind::Turf, &place::Site::kind))
+        << "no site is out of reach";
     const place::Region& water = world.surroundings().obstacles.water;
     for (const surroundings::TurfPatch& patch : turf.patches) {
         const glm::vec3 from = patch.place - water.centre;
