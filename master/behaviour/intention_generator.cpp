@@ -110,7 +110,7 @@ struct Case {
         Weighed rule{.intention = fish::Intention::Rest, .target = senses.shelter.site.object};
         if (parameters.habits.hours.active == config::Activity::Always)
             rule.verdict = Verdict::AgainstHabits;
-        else if (!senses.rests)
+        else if (!senses.hour.rests)
             rule.verdict = Verdict::Awake;
         return rule;
     }

@@ -20,7 +20,7 @@ float libidoOf(const fish::SpeciesParameters& parameters,
                const fish::Mind& mind,
                const Senses& senses,
                float hunger) {
-    if (!fish::mates(parameters) || !senses.mates) return 0;
+    if (!fish::mates(parameters) || !senses.hour.mates) return 0;
     const float stimulus = stimulusOf(kMateStimulus, senses.mate.distance / senses.length);
     return std::min(1.0F, fish::innerLibido(parameters, mind, hunger) + kLibidoStimulus * stimulus);
 }

@@ -370,7 +370,7 @@ float costOfMate(const Onlooker& onlooker, std::uint32_t other, glm::vec3 offset
 }
 
 void seeMate(const Onlooker& onlooker) {
-    if (!onlooker.senses.mates) return;
+    if (!onlooker.senses.hour.mates) return;
     const float hunger = fish::innerHunger(onlooker.parameters, onlooker.mind);
     const float libido = fish::innerLibido(onlooker.parameters, onlooker.mind, hunger);
     if (libido < kTemptedFrom) return;
@@ -416,7 +416,7 @@ void senseShelter(const Onlooker& onlooker) {
         senses.shelter.diving += static_cast<std::size_t>(
             onlooker.view().shows(senses.schoolmates.fish[i], fish::kDiving));
     const bool hides = onlooker.aim.intention == fish::Intention::Hide;
-    const bool rests = senses.rests || onlooker.aim.intention == fish::Intention::Rest;
+    const bool rests = senses.hour.rests || onlooker.aim.intention == fish::Intention::Rest;
     if (senses.predatorCount == 0 && senses.shelter.diving == 0 && !hides && !rests) return;
     const std::vector<place::Site>& sites = environment.surroundings->sites;
     const auto sightingOf = [&](std::uint32_t site) {
@@ -620,8 +620,8 @@ Senses perceive(const Environment& environment,
     Senses senses;
     feelItself(*environment.view, fish, senses);
     const double time = environment.surroundings->timeOfDay;
-    senses.rests = restsAt(parameters, environment.seed, fish, senses.length, time);
-    senses.mates = fish::matesAt(parameters, time);
+    senses.hour.rests = restsAt(parameters, environment.seed, fish, senses.length, time);
+    senses.hour.mates = fish::matesAt(parameters, time);
     const Onlooker onlooker{environment, parameters, fish, mind, senses};
     seeNeighbours(onlooker);
     seePredators(onlooker);

@@ -93,6 +93,14 @@ struct Sighting {
 // Number of predators that a fish keeps in mind; the nearest.
 inline constexpr std::size_t kMostPredators = 4;
 
+// Of the time of day.
+struct HourSenses {
+    // Whether it is outside the active hours of its species.
+    bool rests = false;
+    // Whether its species mates now (fish::matesAt()).
+    bool mates = true;
+};
+
 // Of species that hide.
 struct ShelterSenses {
     // The site that it dives into or rests in, or would, by index of the surroundings.
@@ -164,10 +172,7 @@ struct Senses {
     Sighting mate;
     // The particle of least cost, seen or smelt.
     Sighting food;
-    // Whether it is outside the active hours of its species.
-    bool rests = false;
-    // Whether its species mates at this time of day (fish::matesAt()).
-    bool mates = true;
+    HourSenses hour;
     ShelterSenses shelter;
     // Of those that graze: the patch of turf that it is at or goes to.
     Sighting patch;

@@ -248,9 +248,9 @@ void World::begin(const WorldOptions& options) {
 // Reserves room for the events of a tick, so that thoughts allocate nothing: where a predator
 // begins to rush all fish may think at a tick, and each reports one event at most.
 void World::makeRoomForEvents() {
-    slices_.resize((columns_.traits.size() + kSlotsInSlice - 1) / kSlotsInSlice);
-    for (behaviour::DeferredEvents& slice : slices_) slice.reserve(kSlotsInSlice);
-    events_.reserve(columns_.traits.size());
+    events_.slices.resize((columns_.traits.size() + kSlotsInSlice - 1) / kSlotsInSlice);
+    for (behaviour::DeferredEvents& slice : events_.slices) slice.reserve(kSlotsInSlice);
+    events_.all.reserve(columns_.traits.size());
     columns_.rushes.reserve(kMostRushes);
 }
 
@@ -370,7 +370,7 @@ behaviour::Environment World::environment() const {
 void World::thinkAll() {
     const behaviour::SpatialGrid& grid = grids_.fish;
     const behaviour::Environment around = environment();
-    pool_.run(slices_.size(), [&](std::size_t i) {
+    pool_.run(events_.slices.size(), [&](std::size_t i) {
         const std::size_t first = std::min(grid.size(), i * kSlotsInSlice);
         const std::size_t last = std::min(grid.size(), first + kSlotsInSlice);
         std::array<std::uint32_t, kSlotsInSlice + kFetchedAhead> thinkers{};
@@ -380,7 +380,7 @@ void World::thinkAll() {
             thinkers[count] = grid.index()[slot];
             count += thinks(thinkers[count]) ? 1 : 0;
         }
-        behaviour::DeferredEvents& events = slices_[i];
+        behaviour::DeferredEvents& events = events_.slices[i];
         events.clear();
         for (std::size_t t = 0; t < count; ++t) {
             if (t + kFetchedAhead < count)
@@ -465,12 +465,12 @@ void World::carry(const Chunk& chunk) {
 // Applies the events of all slices sorted by fish, so that the result does not depend on the order
 // of the grid.
 void World::performEvents() {
-    events_.clear();
-    for (const behaviour::DeferredEvents& slice : slices_)
-        events_.insert(events_.end(), slice.begin(), slice.end());
-    assert(events_.size() <= columns_.traits.size());
-    std::ranges::sort(events_, {}, &fish::DeferredEvent::fish);
-    for (const fish::DeferredEvent& event : events_) perform(event);
+    events_.all.clear();
+    for (const behaviour::DeferredEvents& slice : events_.slices)
+        events_.all.insert(events_.all.end(), slice.begin(), slice.end());
+    assert(events_.all.size() <= columns_.traits.size());
+    std::ranges::sort(events_.all, {}, &fish::DeferredEvent::fish);
+    for (const fish::DeferredEvent& event : events_.all) perform(event);
 }
 
 // Folds in all that decides how the world goes on and is no function of seed, scene and tick.

@@ -122,6 +122,13 @@ class SchoolGoal {
     surroundings::Goal goal_;
 };
 
+// What the fish of a tick want done, performed once all have thought: of parts of the fish, in grid
+// order, and of all together.
+struct ThoughtEvents {
+    std::vector<behaviour::DeferredEvents> slices;
+    behaviour::DeferredEvents all;
+};
+
 // Owns everything that a tick changes. Called from one thread; its pool shares out the work of a
 // tick. References that it returns stay valid; what they show changes with advance() and apply().
 class World {
@@ -203,8 +210,7 @@ class World {
     std::vector<Kind> kinds_;
     std::vector<fish::SpeciesParameters> speciesParameters_;  // one for each kind
     std::vector<Chunk> chunks_;
-    std::vector<behaviour::DeferredEvents> slices_;  // events of parts of the fish, in grid order
-    behaviour::DeferredEvents events_;               // of all slices together
+    ThoughtEvents events_;
     FishColumns columns_;
     surroundings::Surroundings surroundings_;
     surroundings::Voyage voyage_;

@@ -30,6 +30,12 @@ enum class Shown : std::uint8_t { Display, LeftEye, RightEye };
 // Index of the channel of this name in rig.channels. Throws Error where the rig has none.
 [[nodiscard]] std::size_t channelIndex(const config::Rig& rig, const std::string& name);
 
+// Of a channel's pictures, in pixels: of the world, of a pattern, and of the one that was drawn
+// last.
+struct PictureSizes {
+    glm::ivec2 world{}, pattern{}, scene{};
+};
+
 // Draws in two steps, so that a frame is drawn once and projected as often as needed: drawScene(),
 // then project(). Owns its GL objects; construct, use and destroy it with the same context current.
 class ChannelPicture {
@@ -88,11 +94,6 @@ class ChannelPicture {
         unsigned sceneTexture = 0;
     };
 
-    // Of pictures, in pixels: of the world, of a pattern, and of the one that was drawn last.
-    struct Sizes {
-        glm::ivec2 world{}, pattern{}, scene{};
-    };
-
     // Draws the world for each eye; drawPattern() draws a test pattern in its place.
     void drawWorld(const wire::StateFrame& frame);
     void drawPattern(Viewing& eye, wire::Pattern pattern) const;
@@ -112,7 +113,7 @@ class ChannelPicture {
     config::Day day_;
     // The map for the point between the eyes.
     ProjectionMap map_;
-    Sizes sizes_;
+    PictureSizes sizes_;
     // One, or left and right.
     std::deque<Viewing> eyes_;
     // Set where one picture holds both eyes.

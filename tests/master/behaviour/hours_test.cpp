@@ -99,7 +99,7 @@ TEST(Rest, comesBeforeHungerAndLibidoAndAfterDangers) {
     fish.showMate(3);
     EXPECT_EQ(fish.think(), fish::Intention::Mate);
     EXPECT_EQ(fish.rule(PriorityRule::Rest).verdict, Verdict::Awake);
-    fish.senses.rests = true;
+    fish.senses.hour.rests = true;
     EXPECT_EQ(fish.think(), fish::Intention::Rest);
     EXPECT_EQ(fish.rule(PriorityRule::Libido).verdict, Verdict::Outranked);
     fish.threaten(9);
@@ -109,14 +109,14 @@ TEST(Rest, comesBeforeHungerAndLibidoAndAfterDangers) {
     EXPECT_EQ(fish.think(), fish::Intention::Escape);
     fish.calm();
     EXPECT_EQ(fish.think(), fish::Intention::Rest);
-    fish.senses.rests = false;
+    fish.senses.hour.rests = false;
     EXPECT_EQ(fish.think(), fish::Intention::Mate);
 }
 
 TEST(Rest, isKeptInAShelterBesideOthers) {
     FishInMind fish(config::Role::Pacifist);
     fish.parameters.habits.hours.active = config::Activity::Day;
-    fish.senses.rests = true;
+    fish.senses.hour.rests = true;
     fish.senses.shelter.site = {4, {0.2F, 0, 0}, 0.2F};
     EXPECT_EQ(fish.think(), fish::Intention::Rest);
     EXPECT_EQ(fish.mind.target, 4U);

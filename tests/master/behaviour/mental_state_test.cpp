@@ -127,13 +127,13 @@ TEST(Libido, isOfSpeciesThatMateAndAtTheirHours) {
     for (const config::Role role :
          {config::Role::Prey, config::Role::Pacifist, config::Role::Predator}) {
         parameters.habits.role = role;
-        senses.mates = true;
+        senses.hour.mates = true;
         EXPECT_GT(feel(parameters, mind, senses).libido, 0.25F);
-        senses.mates = false;
+        senses.hour.mates = false;
         EXPECT_EQ(feel(parameters, mind, senses).libido, 0);
     }
     parameters.habits.libidoPerSecond = 0;
-    senses.mates = true;
+    senses.hour.mates = true;
     EXPECT_EQ(feel(parameters, mind, senses).libido, 0);
 }
 
