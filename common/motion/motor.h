@@ -19,8 +19,8 @@ namespace aquarama::motion {
 class MotorTables;
 [[nodiscard]] std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire);
 
-// The way of the water at each fish in the coming tick, in units of 2^-16 m, by index: the fish is
-// carried by it. Its speed and what it plays are relative to the water.
+// The way that each fish is carried in the coming tick, by the water and by contact, in units of
+// 2^-16 m, by index. Its speed and what it plays are relative to the water.
 struct Advection {
     std::vector<std::int32_t> x, y, z;
 };

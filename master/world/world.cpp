@@ -16,6 +16,7 @@
 #include "master/behaviour/think.h"
 #include "master/behaviour/ways.h"
 #include "master/fish/minds.h"
+#include "master/surroundings/contact.h"
 #include "master/world/beginning.h"
 
 namespace aquarama::world {
@@ -90,6 +91,23 @@ fish::Mind beginningMind(const fish::SpeciesParameters& parameters,
         fish::setMood(
             parameters, static_cast<float>(start->hunger), static_cast<float>(start->libido), mind);
     return mind;
+}
+
+// Half the width of a body, as a share of its length.
+constexpr float kHalfWidth = 0.06F;
+
+// The velocity that the water has at a fish, and that it has by contact with rocks and sand; in its
+// shelter it touches nothing. Fish that are away rest. Metres a second.
+glm::vec3 velocityOf(const FishColumns& columns,
+                     const surroundings::Surroundings& around,
+                     std::uint32_t fish) {
+    if (columns.view.shows(fish, fish::kAway)) return {};
+    const fish::VisibleFish& body = columns.view.fish[fish];
+    const glm::vec3 water = around.current.at(body.position, around.openCurrent);
+    const fish::Intention aim = fish::aimOf(columns.minds[fish]).intention;
+    if (aim == fish::Intention::Hide || aim == fish::Intention::Rest) return water;
+    return water +
+           surroundings::contactVelocity(around.obstacles, body.position, kHalfWidth * body.length);
 }
 
 }  // namespace
@@ -430,29 +448,25 @@ void World::swim(const Chunk& chunk) {
                               &columns_.commands,
                               &columns_.memory}
         .run(chunk.first, chunk.last);
-    const bool isStill = surroundings_.current.isStill();
-    if (!isStill) carry(chunk);
+    carry(chunk);
     motion::MotorStep{own.tables.get(),
                       columns_.traits,
                       &columns_.commands,
                       &columns_.states,
                       chunk.first,
                       chunk.last,
-                      isStill ? nullptr : &columns_.advection}
+                      &columns_.advection}
         .run();
 }
 
-// Writes the way of the water at each fish of a chunk in this tick. Fish that are away rest.
+// Writes the way that water and contact carry each fish of a chunk in this tick.
 void World::carry(const Chunk& chunk) {
     constexpr float kUnitsATick =
         1 / (motion::kPositionUnitMetres * static_cast<float>(kTicksPerSecond));
-    const glm::vec3 open = surroundings_.openCurrent;
     motion::Advection& advection = columns_.advection;
     for (std::size_t fish = chunk.first; fish < chunk.last; ++fish) {
         const glm::vec3 velocity =
-            columns_.view.shows(fish, fish::kAway)
-                ? glm::vec3{}
-                : surroundings_.current.at(columns_.view.position(fish), open);
+            velocityOf(columns_, surroundings_, static_cast<std::uint32_t>(fish));
         const auto units = [&](float metresPerSecond) {
             return static_cast<std::int32_t>(motion::roundToEven(metresPerSecond * kUnitsATick));
         };

@@ -29,7 +29,7 @@ struct Deep {
 TEST(Climate, aFishWithoutHabitsIsAtEaseAnywhere) {
     Deep deep;
     deep.around.daylight = 0.1F;
-    EXPECT_LT(deep.at(9, fish::kIsFemale | fish::kLikesSchooling).discomfort, 0);
+    EXPECT_LT(deep.at(9, fish::kIsFemale | fish::kLikesSchooling).climate.discomfort, 0);
 }
 
 TEST(Climate, lightAndWarmthAreThoseOfItsDepth) {
@@ -41,21 +41,21 @@ TEST(Climate, lightAndWarmthAreThoseOfItsDepth) {
 TEST(Climate, whoLikesBrightnessOrWarmthWantsUpAndTheOthersDown) {
     Deep deep;
     deep.around.daylight = 0.55F;  // 0.44 at 10 m
-    EXPECT_GT(deep.at(10, fish::kLikesBrightness).discomfort, 0.05F);
-    EXPECT_EQ(deep.at(10, fish::kLikesBrightness).betterUp, 1);
-    EXPECT_GT(deep.at(9, fish::kLikesWarmth).discomfort, 0.1F);
-    EXPECT_EQ(deep.at(9, fish::kLikesWarmth).betterUp, 1);
-    EXPECT_GT(deep.at(2.5F, fish::kLikesCold).discomfort, 0);
-    EXPECT_EQ(deep.at(2.5F, fish::kLikesCold).betterUp, -1);
+    EXPECT_GT(deep.at(10, fish::kLikesBrightness).climate.discomfort, 0.05F);
+    EXPECT_EQ(deep.at(10, fish::kLikesBrightness).climate.betterUp, 1);
+    EXPECT_GT(deep.at(9, fish::kLikesWarmth).climate.discomfort, 0.1F);
+    EXPECT_EQ(deep.at(9, fish::kLikesWarmth).climate.betterUp, 1);
+    EXPECT_GT(deep.at(2.5F, fish::kLikesCold).climate.discomfort, 0);
+    EXPECT_EQ(deep.at(2.5F, fish::kLikesCold).climate.betterUp, -1);
     deep.around.daylight = 0.8F;
-    EXPECT_GT(deep.at(2, fish::kLikesDarkness).discomfort, 0);
-    EXPECT_EQ(deep.at(2, fish::kLikesDarkness).betterUp, -1);
+    EXPECT_GT(deep.at(2, fish::kLikesDarkness).climate.discomfort, 0);
+    EXPECT_EQ(deep.at(2, fish::kLikesDarkness).climate.betterUp, -1);
 }
 
 TEST(Climate, withinItsRangeAFishIsAtEase) {
     Deep deep;
-    EXPECT_LT(deep.at(5, fish::kLikesBrightness | fish::kLikesWarmth).discomfort, 0);
-    EXPECT_EQ(deep.at(5, fish::kLikesBrightness | fish::kLikesWarmth).betterUp, 0);
+    EXPECT_LT(deep.at(5, fish::kLikesBrightness | fish::kLikesWarmth).climate.discomfort, 0);
+    EXPECT_EQ(deep.at(5, fish::kLikesBrightness | fish::kLikesWarmth).climate.betterUp, 0);
 }
 
 TEST(Climate, atNightNowhereIsBetterForWhoIsAtTheTop) {

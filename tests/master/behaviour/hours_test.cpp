@@ -138,7 +138,8 @@ TEST(Rest, aFishKnowsTheShelterNearItsHome) {
     const auto shelterAt = [&](double time) {
         aquarium.surroundings.timeOfDay = time;
         Grids grids = aquarium.freshGrids();
-        return perceive(aquarium.environment(grids), aquarium.speciesParameters[0], 0, {}).shelter;
+        return perceive(aquarium.environment(grids), aquarium.speciesParameters[0], 0, {})
+            .shelter.site;
     };
     EXPECT_FALSE(shelterAt(0.5).seen());
     EXPECT_EQ(shelterAt(0).object, 0U);
