@@ -82,9 +82,9 @@ behaviour::Senses sensesOfOwner(std::uint32_t tangs) {
 
 TEST(Charge, AShoalOfMoreThanEightIsBorne) {
     EXPECT_TRUE(sensesOfOwner(8).territory.holds);
-    EXPECT_TRUE(sensesOfOwner(8).territory.territory.intruder.seen());
-    EXPECT_FALSE(sensesOfOwner(9).territory.territory.intruder.seen());
-    EXPECT_FALSE(sensesOfOwner(0).territory.territory.intruder.seen());
+    EXPECT_TRUE(sensesOfOwner(8).territory.intruder.seen());
+    EXPECT_FALSE(sensesOfOwner(9).territory.intruder.seen());
+    EXPECT_FALSE(sensesOfOwner(0).territory.intruder.seen());
 }
 
 TEST(Charge, WhoLeadsAShoalRemembersItAndGoesOnAfterTheSecond) {
