@@ -208,9 +208,8 @@ World::World(const WorldOptions& options)
     meals_ = makeMeals(columns_.traits.size());
     absences_ = makeAbsences(speciesParameters_);
     makeRoomForEvents();
-    if (!surroundings_.current.isStill())
-        for (auto* column : {&columns_.advection.x, &columns_.advection.y, &columns_.advection.z})
-            column->resize(columns_.traits.size());
+    for (auto* column : {&columns_.advection.x, &columns_.advection.y, &columns_.advection.z})
+        column->resize(columns_.traits.size());
     begin(options);
     live(static_cast<std::uint64_t>(options.scene.livedSeconds *
                                     static_cast<double>(kTicksPerSecond)));

@@ -70,7 +70,15 @@ TEST(Habits, ofAPacifistAreRead) {
 TEST(Habits, ofThePredatorAreReadWithItsPreyInOrder) {
     const Habits shark = test::castMember("blacktip_reef_shark").habits;
     EXPECT_EQ(shark.role, Role::Predator);
-    EXPECT_THAT(shark.hunts, testing::ElementsAre("bigeye_scad", "blue_tang", "parrotfish"));
+    EXPECT_THAT(shark.hunts,
+                testing::ElementsAre("bigeye_scad",
+                                     "fusilier",
+                                     "sea_goldie",
+                                     "green_chromis",
+                                     "sergeant",
+                                     "powder_blue_tang",
+                                     "blue_tang",
+                                     "parrotfish"));
     EXPECT_DOUBLE_EQ(shark.hunt.chaseSeconds, 8);
     EXPECT_DOUBLE_EQ(shark.hunt.giveUpMetres, 6);
     EXPECT_DOUBLE_EQ(shark.hunt.restSeconds, 120);
@@ -187,7 +195,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "keeps no partner"},
         Mistake{"aPredatorWithoutPrey",
                 "blacktip_reef_shark",
-                "prey: \"bigeye_scad\"\n    prey: \"blue_tang\"\n    prey: \"parrotfish\"",
+                "prey: \"bigeye_scad\"\n    prey: \"fusilier\"\n    prey: \"sea_goldie\"\n"
+                "    prey: \"green_chromis\"\n    prey: \"sergeant\"\n"
+                "    prey: \"powder_blue_tang\"\n    prey: \"blue_tang\"\n"
+                "    prey: \"parrotfish\"",
                 "",
                 "^hunt {",
                 "lacks prey"},
@@ -278,9 +289,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "posts",
                 "posts are sites of its home"},
         Mistake{"aCleanerWithoutAHome",
-                "moorish_idol",
-                "pair_bl: 2.5",
-                "cleans { inspect_s: 12 }",
+                "cleaner_wrasse",
+                "home { kind: PLACE radius_m: 0.35 leash_m: 1.5 at: CLEANING }",
+                "",
                 "cleans",
                 "it cleans at its home"},
         Mistake{"preyThatCleans",
