@@ -86,16 +86,17 @@ void Diary::noteMind(const world::World& world, std::size_t fish) {
 
 void Diary::noteBodies(const world::World& world) {
     rodsOf(world.view(), halfWidths_, rods_);
-    const std::uint64_t before = overlaps_.pairTicks();
-    tally_.touches += overlaps_.note(world.tick(), rods_, intention_).size();
-    tally_.overlapTicks += 2 * static_cast<double>(overlaps_.pairTicks() - before);
     const StudiedFish studied{world.view(), world.minds(), world.speciesParameters()};
     for (std::uint32_t fish = 0; fish < rods_.size(); ++fish) {
-        const bool bumps =
-            isInTerrain(world.surroundings().obstacles, rods_[fish]) && !isSheltered(studied, fish);
+        // Those in a shelter lie close together: they count for nothing.
+        if (isSheltered(studied, fish)) rods_[fish].length = 0;
+        const bool bumps = isInTerrain(world.surroundings().obstacles, rods_[fish]);
         tally_.bumps += bumps && bumps_[fish] == 0 ? 1 : 0;
         bumps_[fish] = bumps ? 1 : 0;
     }
+    const std::uint64_t before = overlaps_.pairTicks();
+    tally_.touches += overlaps_.note(world.tick(), rods_, intention_).size();
+    tally_.overlapTicks += 2 * static_cast<double>(overlaps_.pairTicks() - before);
 }
 
 void Diary::noteSchool(const world::World& world) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contact of a body with rocks and sand: what minds did not avoid in time does not go through.
+// The contact of a body with rocks, sand and the border of its water: what minds did not avoid in
+// time does not go through.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,9 +9,10 @@
 
 namespace aquarama::surroundings {
 
-// The velocity, metres a second, at which the surface that is drawn pushes a body out whose middle
-// is nearer to it than half its width: ten times the depth a second, 0.6 m/s at most; 0 clear of
-// rocks and sand, and off the chart. World frame.
+// The velocity, metres a second, world frame, of a body by contact; 0 clear of all. The surface
+// that is drawn pushes it out where its middle is nearer than half its width and 1 cm: thirty times
+// the depth a second, 1 m/s at most. Beyond 0.3 m out of the water the current does not carry it
+// off for ever: it drifts back at half the way a second, 0.1 m/s at most.
 [[nodiscard]] glm::vec3 contactVelocity(const Obstacles& obstacles,
                                         glm::vec3 position,
                                         float halfWidthMetres);

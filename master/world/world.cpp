@@ -96,16 +96,14 @@ fish::Mind beginningMind(const fish::SpeciesParameters& parameters,
 // Half the width of a body, as a share of its length.
 constexpr float kHalfWidth = 0.06F;
 
-// The velocity that the water has at a fish, and that it has by contact with rocks and sand; in its
-// shelter it touches nothing. Fish that are away rest. Metres a second.
+// The velocity that the water has at a fish, and that it has by contact with rocks and sand. Fish
+// that are away rest. Metres a second.
 glm::vec3 velocityOf(const FishColumns& columns,
                      const surroundings::Surroundings& around,
                      std::uint32_t fish) {
     if (columns.view.shows(fish, fish::kAway)) return {};
     const fish::VisibleFish& body = columns.view.fish[fish];
     const glm::vec3 water = around.current.at(body.position, around.openCurrent);
-    const fish::Intention aim = fish::aimOf(columns.minds[fish]).intention;
-    if (aim == fish::Intention::Hide || aim == fish::Intention::Rest) return water;
     return water +
            surroundings::contactVelocity(around.obstacles, body.position, kHalfWidth * body.length);
 }
