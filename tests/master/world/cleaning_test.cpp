@@ -87,8 +87,10 @@ class Observed {
         const float metres = place::lengthOf(world_.view().position(fish) - station_);
         if (stage == int(VisitStage::Pose)) {
             if (stage_[fish] != stage) ++visits;
-            ++posed_[fish];
-            if (posed_[fish] % 60 == 0 && posed_[fish] > 180) {
+            // Making way for another interrupts a pose, and its time stands still.
+            const bool isPosing = mind.intention == fish::Intention::Visit;
+            posed_[fish] += isPosing ? 1 : 0;
+            if (isPosing && posed_[fish] % 60 == 0 && posed_[fish] > 180) {
                 poseMetres.push_back(metres);
                 tilts.push_back(std::abs(world_.view().heading(fish).y));
             }
