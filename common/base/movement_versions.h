@@ -11,6 +11,6 @@ namespace aquarama {
 inline constexpr int kMotorVersion = 1;
 // Of the minds and what they perceive: scenes, habits, routines, secondary controller. Raise it
 // when the fish of a scene move otherwise with the same motor.
-inline constexpr int kMindsVersion = 1;
+inline constexpr int kMindsVersion = 2;
 
 }  // namespace aquarama

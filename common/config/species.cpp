@@ -346,6 +346,36 @@ void fearOf(const TextReader& file, const v1::Habits& in, Habits& habits) {
         file.refuse(fear, "alone_from", "alone_from must be more than heeded_from: exchange them");
 }
 
+void sensesOf(const TextReader& file, const v1::Habits& in, Habits& habits) {
+    habits.visionBodyLengths = real(in.senses().vision_bl());
+    habits.smellBodyLengths = real(in.senses().smell_bl());
+    if (habits.smellBodyLengths < habits.visionBodyLengths)
+        file.refuse(in.senses(),
+                    "smell_bl",
+                    "smell_bl is less than vision_bl: food that is seen is sensed too");
+}
+
+// `own`: the name of the species itself, which it does not hunt.
+void huntOf(const TextReader& file, const v1::Habits& in, const std::string& own, Habits& habits) {
+    if (!in.has_hunt()) return;
+    const v1::Hunt& hunt = in.hunt();
+    habits.hunts = othersOf(file, hunt, "prey", hunt.prey(), own);
+    habits.hunt = {
+        .chaseSeconds = hunt.chase_s(),
+        .giveUpMetres = hunt.give_up_m(),
+        .restSeconds = hunt.rest_s(),
+        .restByDaySeconds = hunt.has_rest_by_day_s() ? hunt.rest_by_day_s() : hunt.rest_s(),
+        .ambush = ambushOf(file, in)};
+}
+
+void hoursOf(const v1::Habits& in, Habits& habits) {
+    if (!in.has_hours()) return;
+    const v1::ActiveHours& hours = in.hours();
+    habits.hours = {.active = static_cast<Activity>(hours.active() - v1::ActiveHours::ALWAYS),
+                    .retires = hours.retires(),
+                    .rises = hours.rises()};
+}
+
 // `own`: the name of the species itself, which it neither hunts nor shadows.
 Habits habitsOf(const TextReader& file, const v1::Habits& in, const std::string& own) {
     refuseContradictions(file, in);
@@ -361,12 +391,7 @@ Habits habitsOf(const TextReader& file, const v1::Habits& in, const std::string&
     comfortOf(file, in.comfort(), habits);
     habits.paces = pacesOf(file, in.paces());
     habits.gradualShare = in.gradual_share();
-    habits.visionBodyLengths = real(in.senses().vision_bl());
-    habits.smellBodyLengths = real(in.senses().smell_bl());
-    if (habits.smellBodyLengths < habits.visionBodyLengths)
-        file.refuse(in.senses(),
-                    "smell_bl",
-                    "smell_bl is less than vision_bl: food that is seen is sensed too");
+    sensesOf(file, in, habits);
     habits.box = {.aheadBodyLengths = real(in.box().ahead_bl()),
                   .asideBodyLengths = real(in.box().aside_bl()),
                   .upBodyLengths = real(in.box().up_bl())};
@@ -376,20 +401,8 @@ Habits habitsOf(const TextReader& file, const v1::Habits& in, const std::string&
     if (in.has_graze()) habits.graze = grazeOf(file, in.graze());
     if (in.has_territory()) habits.territory = territoryOf(file, in);
     habits.hidesIn = hidingOf(file, in);
-    if (in.has_hours())
-        habits.hours = {
-            .active = static_cast<Activity>(in.hours().active() - v1::ActiveHours::ALWAYS),
-            .retires = in.hours().retires(),
-            .rises = in.hours().rises()};
-    if (in.has_hunt()) {
-        habits.hunts = othersOf(file, in.hunt(), "prey", in.hunt().prey(), own);
-        habits.hunt = {.chaseSeconds = in.hunt().chase_s(),
-                       .giveUpMetres = in.hunt().give_up_m(),
-                       .restSeconds = in.hunt().rest_s(),
-                       .restByDaySeconds = in.hunt().has_rest_by_day_s() ? in.hunt().rest_by_day_s()
-                                                                         : in.hunt().rest_s(),
-                       .ambush = ambushOf(file, in)};
-    }
+    hoursOf(in, habits);
+    huntOf(file, in, own, habits);
     if (in.has_cleans()) habits.cleans = cleansOf(file, in);
     habits.pairBodyLengths = in.pair_bl();
     habits.shadows = othersOf(file, in, "shadows", in.shadows(), own);

@@ -140,9 +140,18 @@ class Settling {
         const Demand& demand = kDemands.at(static_cast<std::size_t>(kind));
         if (direction.y < demand.leastUp || direction.y > demand.mostUp) return false;
         const glm::vec3 place = placeOn(rock, direction);
+        return isWhereKindLies(kind, place) && isFree(rock, place);
+    }
+
+    // Whether a place is in the settled water and over the sand, and turf where fish graze.
+    [[nodiscard]] bool isWhereKindLies(config::SiteKind kind, glm::vec3 place) const {
         if (!isIn(place_.settled, place)) return false;
         if (kind == config::SiteKind::Turf && !isGrazed(place_.settled, place)) return false;
-        if (place.y < floorHeight(place_, {place.x, place.z}) + kOverSandMetres) return false;
+        return place.y >= floorHeight(place_, {place.x, place.z}) + kOverSandMetres;
+    }
+
+    // Whether no other boulder buries a place on a boulder, and no site is near.
+    [[nodiscard]] bool isFree(const Rock& rock, glm::vec3 place) const {
         const bool buried = std::ranges::any_of(rocks_, [&](const Rock& other) {
             return other.seed != rock.seed &&
                    lengthOf(other.centre - place) < kClearRadii * other.radiusMetres;

@@ -154,6 +154,38 @@ glm::vec3 placeAtEdge(const Situation& situation, const Post& post) {
     return clearOf(around.obstacles, place) - situation.senses.position;
 }
 
+// The site of a kind that is nearest to a place, of those farther than `beyond` metres; null where
+// there is none.
+const place::Site* nextSite(const std::vector<place::Site>& sites,
+                            config::SiteKind kind,
+                            glm::vec3 from,
+                            float beyond) {
+    const place::Site* next = nullptr;
+    float nearest = std::numeric_limits<float>::infinity();
+    for (const place::Site& site : sites) {
+        const float distance = place::lengthOf(site.place - from);
+        if (site.kind != kind || distance <= beyond || distance >= nearest) continue;
+        nearest = distance;
+        next = &site;
+    }
+    return next;
+}
+
+// The site of this rank, from 0 on, by its distance from a place; where there are fewer the
+// farthest, null where there is none.
+const place::Site* siteOfRank(const std::vector<place::Site>& sites,
+                              config::SiteKind kind,
+                              glm::vec3 from,
+                              std::uint32_t rank) {
+    const place::Site* found = nextSite(sites, kind, from, -1);
+    for (std::uint32_t i = 0; found != nullptr && i < rank; ++i) {
+        const place::Site* next = nextSite(sites, kind, from, place::lengthOf(found->place - from));
+        if (next == nullptr) break;
+        found = next;
+    }
+    return found;
+}
+
 // The site where a fish with a home waits now, relative to it: one of the nearest of their kind.
 std::optional<glm::vec3> placeAtSite(const Situation& situation) {
     const config::Habits& habits = situation.parameters.habits;
@@ -161,23 +193,7 @@ std::optional<glm::vec3> placeAtSite(const Situation& situation) {
     if (!habits.home.site || situation.parameters.homes.empty()) return {};
     const glm::vec3 home = homeOf(situation.parameters, situation.fish);
     const std::uint32_t wanted = drawn(situation, kTicksOfPost) % habits.hunt.ambush->posts;
-    // The site of this rank by its distance from home.
-    const place::Site* found = nullptr;
-    float least = -1;
-    for (std::uint32_t rank = 0; rank <= wanted; ++rank) {
-        const place::Site* next = nullptr;
-        float nearest = std::numeric_limits<float>::infinity();
-        for (const place::Site& site : sites) {
-            const float distance = place::lengthOf(site.place - home);
-            if (site.kind != *habits.home.site || distance <= least || distance >= nearest)
-                continue;
-            nearest = distance;
-            next = &site;
-        }
-        if (next == nullptr) break;
-        found = next;
-        least = nearest;
-    }
+    const place::Site* found = siteOfRank(sites, *habits.home.site, home, wanted);
     const glm::vec3 over{0, kOverSite, 0};
     if (found == nullptr) return home + over - situation.senses.position;
     return found->place + found->normal * (kOffSite * situation.senses.length) + over -

@@ -123,6 +123,18 @@ Sighting nearestStation(const Environment& environment, glm::vec3 position) {
     return nearest;
 }
 
+// Whether a cleaner of the household is with the fish, and whether one bites it.
+void feelCleaners(const fish::FishView& view,
+                  const fish::Household& household,
+                  std::uint32_t fish,
+                  CleaningSenses& cleaning) {
+    for (std::uint32_t one = household.first; one < household.last; ++one) {
+        if (view.partner[one] != fish) continue;
+        cleaning.cleaned = true;
+        cleaning.bitten = cleaning.bitten || view.stage[one] == std::uint8_t(CleanStage::Bite);
+    }
+}
+
 void senseClients(const Environment& environment, std::uint32_t fish, Senses& senses) {
     const fish::FishView& view = *environment.view;
     const std::uint32_t cleaner = senses.cleaning.cleaner.object;
@@ -138,12 +150,36 @@ void senseClients(const Environment& environment, std::uint32_t fish, Senses& se
                       senses.position + senses.cleaning.cleaner.offset,
                       kStationMetres * kStationMetres,
                       count);
-    for (std::uint32_t one = household.first; one < household.last; ++one) {
-        if (view.partner[one] != fish) continue;
-        senses.cleaning.cleaned = true;
-        senses.cleaning.bitten =
-            senses.cleaning.bitten || view.stage[one] == std::uint8_t(CleanStage::Bite);
-    }
+    feelCleaners(view, household, fish, senses.cleaning);
+}
+
+// Whether the cleaner is not done with a client, which is still there.
+bool staysWith(const fish::FishView& view,
+               const fish::Household& household,
+               const fish::Mind& mind,
+               std::uint32_t client) {
+    const bool isDone = mind.sinceCleaning < mind.pursued;
+    return !isDone && household.holds(view.partner[client]) && !view.shows(client, fish::kAway);
+}
+
+// The client that a cleaner is with, until it is done.
+Sighting presentClient(const fish::FishView& view,
+                       const fish::Household& household,
+                       const fish::Mind& mind,
+                       glm::vec3 position) {
+    const fish::Aim aim = fish::aimOf(mind);
+    if (aim.intention != fish::Intention::Clean || aim.target == fish::kNobody) return {};
+    if (!staysWith(view, household, mind, aim.target)) return {};
+    const Sighting present = sightingOf(view, aim.target, position);
+    return present.distance < 2 * kStationMetres ? present : Sighting{};
+}
+
+// Whether a cleaner pauses after its last client.
+bool pauses(const Environment& environment, std::uint32_t fish, const fish::Mind& mind) {
+    const std::uint32_t pause =
+        drawn(environment, Stream::Cleaning, fish, environment.tick.value - mind.sinceCleaning);
+    return seconds(mind.sinceCleaning) <
+           kShortestPauseSeconds + kPauseSpreadSeconds * unitOf(pause);
 }
 
 // The client of a cleaner: the one that it is with until it is done; after a pause the nearest one
@@ -155,39 +191,52 @@ void senseClient(const Environment& environment,
                  Senses& senses) {
     const fish::FishView& view = *environment.view;
     const fish::Household household = fish::householdOf(parameters, fish);
-    const fish::Aim aim = fish::aimOf(mind);
-    const auto sightingOf = [&](std::uint32_t other) {
-        const glm::vec3 offset = view.position(other) - senses.position;
-        return Sighting{.object = other, .offset = offset, .distance = place::lengthOf(offset)};
-    };
-    if (aim.intention == fish::Intention::Clean && aim.target != fish::kNobody) {
-        const Sighting present = sightingOf(aim.target);
-        const bool isDone = mind.sinceCleaning < mind.pursued;
-        const bool isThere =
-            household.holds(view.partner[aim.target]) && !view.shows(aim.target, fish::kAway);
-        if (!isDone && isThere && present.distance < 2 * kStationMetres) {
-            senses.cleaning.client = present;
-            return;
-        }
-    }
-    const std::uint32_t pause =
-        drawn(environment, Stream::Cleaning, fish, environment.tick.value - mind.sinceCleaning);
-    if (seconds(mind.sinceCleaning) < kShortestPauseSeconds + kPauseSpreadSeconds * unitOf(pause))
-        return;
+    senses.cleaning.client = presentClient(view, household, mind, senses.position);
+    if (senses.cleaning.client.seen() || pauses(environment, fish, mind)) return;
     const auto consider = [&](std::uint32_t other, glm::vec3 /*offset*/, float /*squared*/) {
         if (!household.holds(view.partner[other]) ||
             view.stage[other] != static_cast<std::uint8_t>(VisitStage::Pose))
             return;
-        const Sighting seen = sightingOf(other);
-        const bool nearer = seen.distance < senses.cleaning.client.distance ||
-                            (seen.distance == senses.cleaning.client.distance &&
-                             other < senses.cleaning.client.object);
-        if (nearer) senses.cleaning.client = seen;
+        const Sighting seen = sightingOf(view, other, senses.position);
+        if (isNearer(seen, senses.cleaning.client)) senses.cleaning.client = seen;
     };
     visitPointsWithin(environment.grids->fish,
                       homeOf(parameters, fish),
                       kStationMetres * kStationMetres,
                       consider);
+}
+
+// The time after which a client wants a cleaner again.
+float urgePeriodSeconds(const Environment& environment,
+                        const fish::SpeciesParameters& parameters,
+                        std::uint32_t fish) {
+    return (kShortestUrgeSeconds +
+            kUrgeSpreadSeconds * unitOf(drawn(environment, Stream::Urge, fish, 0))) *
+           (parameters.habits.role == config::Role::Predator ? kPredatorUrge : 1.0F);
+}
+
+bool isVisiting(const fish::Mind& mind) {
+    return fish::aimOf(mind).intention == fish::Intention::Visit;
+}
+
+// The cleaner that a client visits; else the nearest one, where its urge is strong enough.
+Sighting cleanerFor(const Environment& environment, const fish::Mind& mind, const Senses& senses) {
+    if (isVisiting(mind)) return stationOf(environment, fish::aimOf(mind).target, senses.position);
+    return senses.cleaning.urge < 1 ? Sighting{} : nearestStation(environment, senses.position);
+}
+
+// Urge, cleaner and other clients of a fish that goes to cleaners.
+void senseCleaner(const Environment& environment,
+                  const fish::SpeciesParameters& parameters,
+                  std::uint32_t fish,
+                  const fish::Mind& mind,
+                  Senses& senses) {
+    senses.cleaning.urge =
+        seconds(mind.sinceCleaning) / urgePeriodSeconds(environment, parameters, fish);
+    senses.cleaning.cleaner = cleanerFor(environment, mind, senses);
+    if (!senses.cleaning.cleaner.seen()) return;
+    senseClients(environment, fish, senses);
+    if (!isVisiting(mind) && senses.cleaning.clients >= kMostClients) senses.cleaning.cleaner = {};
 }
 
 }  // namespace
@@ -202,23 +251,10 @@ void senseCleaning(const Environment& environment,
                    std::uint32_t fish,
                    const fish::Mind& mind,
                    Senses& senses) {
-    if (parameters.habits.cleans) {
+    if (parameters.habits.cleans)
         senseClient(environment, parameters, fish, mind, senses);
-        return;
-    }
-    if (!goesToCleaners(parameters, senses.length)) return;
-    const float period = (kShortestUrgeSeconds +
-                          kUrgeSpreadSeconds * unitOf(drawn(environment, Stream::Urge, fish, 0))) *
-                         (parameters.habits.role == config::Role::Predator ? kPredatorUrge : 1.0F);
-    senses.cleaning.urge = seconds(mind.sinceCleaning) / period;
-    const fish::Aim aim = fish::aimOf(mind);
-    const bool visits = aim.intention == fish::Intention::Visit;
-    if (!visits && senses.cleaning.urge < 1) return;
-    senses.cleaning.cleaner = visits ? stationOf(environment, aim.target, senses.position)
-                                     : nearestStation(environment, senses.position);
-    if (!senses.cleaning.cleaner.seen()) return;
-    senseClients(environment, fish, senses);
-    if (!visits && senses.cleaning.clients >= kMostClients) senses.cleaning.cleaner = {};
+    else if (goesToCleaners(parameters, senses.length))
+        senseCleaner(environment, parameters, fish, mind, senses);
 }
 
 namespace {
@@ -277,47 +313,70 @@ fish::Course dance(const Situation& situation, glm::vec3 towards) {
             senses.urgency};
 }
 
-}  // namespace
+// About its home, now and then in its dance.
+fish::Course awaitClients(const Situation& situation) {
+    const glm::vec3 towards =
+        homeOf(situation.parameters, situation.fish) - situation.senses.position;
+    const std::uint64_t now = situation.environment.tick.value + situation.fish * 31;
+    const bool dances =
+        now % kDancePeriodTicks < kDanceTicks && place::lengthOf(towards) < kDanceMetres;
+    return dances ? dance(situation, towards) : wander(situation);
+}
 
-fish::Course clean(const Situation& situation, fish::Mind& mind) {
-    assert(situation.parameters.habits.cleans);
+// Ends an inspection that has lasted its time, in some cases with a bite.
+void endInspection(const Situation& situation, fish::Mind& mind) {
     const Environment& environment = situation.environment;
-    const Senses& senses = situation.senses;
-    if (!senses.cleaning.client.seen()) {
-        const glm::vec3 towards = homeOf(situation.parameters, situation.fish) - senses.position;
-        const std::uint64_t now = environment.tick.value + situation.fish * 31;
-        const bool dances =
-            now % kDancePeriodTicks < kDanceTicks && place::lengthOf(towards) < kDanceMetres;
-        return dances ? dance(situation, towards) : wander(situation);
-    }
+    const Sighting& client = situation.senses.cleaning.client;
     const std::uint32_t visit =
         drawn(environment, Stream::Cleaning, situation.fish, environment.tick.value - mind.pursued);
     const auto longest = static_cast<float>(situation.parameters.habits.cleans->inspectSeconds);
     const float lasts =
         longest * (kShortestInspection + (1 - kShortestInspection) * unitOf(hashOf(visit, 1)));
-    auto stage = static_cast<CleanStage>(mind.stage);
     // The inspection begins where it is beside its client.
-    const float length = environment.view->fish[senses.cleaning.client.object].length;
-    const bool isThere = senses.cleaning.client.distance < kBesideLengths * length + kBesideMetres;
-    if (stage == CleanStage::Inspect && !isThere) mind.sinceStage = 0;
+    const float length = environment.view->fish[client.object].length;
+    const bool isThere = client.distance < kBesideLengths * length + kBesideMetres;
+    if (!isThere) mind.sinceStage = 0;
     const bool isDone =
         seconds(mind.sinceStage) > lasts || seconds(mind.pursued) > longest + kReachesWithin;
-    if (stage == CleanStage::Inspect && isDone) {
-        if (visit % kBitesOneIn == 0)
-            enter(mind, CleanStage::Bite);
-        else
-            mind.sinceCleaning = 0;
-    } else if (stage == CleanStage::Bite && mind.sinceStage > kBiteTicks) {
-        enter(mind, CleanStage::Flee);
-    } else if (stage == CleanStage::Flee && mind.sinceStage > kChaseTicks) {
+    if (!isDone) return;
+    if (visit % kBitesOneIn == 0)
+        enter(mind, CleanStage::Bite);
+    else
         mind.sinceCleaning = 0;
+}
+
+// Enters the next stage when this one is over; after the last one it is done with its client.
+void goOn(const Situation& situation, fish::Mind& mind) {
+    switch (static_cast<CleanStage>(mind.stage)) {
+        case CleanStage::Inspect:
+            endInspection(situation, mind);
+            return;
+        case CleanStage::Bite:
+            if (mind.sinceStage > kBiteTicks) enter(mind, CleanStage::Flee);
+            return;
+        case CleanStage::Flee:
+            if (mind.sinceStage > kChaseTicks) mind.sinceCleaning = 0;
+            return;
     }
-    stage = static_cast<CleanStage>(mind.stage);
-    if (stage != CleanStage::Flee) return inspect(situation);
+}
+
+// Away from the client that it bit, and towards its home.
+fish::Course fleeFromClient(const Situation& situation) {
+    const Senses& senses = situation.senses;
     const glm::vec3 home = homeOf(situation.parameters, situation.fish) - senses.position;
     return heading(situation,
                    place::directionOf(-senses.cleaning.client.offset, senses.heading) + home * 0.5F,
                    situation.parameters.fast);
+}
+
+}  // namespace
+
+fish::Course clean(const Situation& situation, fish::Mind& mind) {
+    assert(situation.parameters.habits.cleans);
+    if (!situation.senses.cleaning.client.seen()) return awaitClients(situation);
+    goOn(situation, mind);
+    return static_cast<CleanStage>(mind.stage) == CleanStage::Flee ? fleeFromClient(situation)
+                                                                   : inspect(situation);
 }
 
 namespace {
@@ -341,58 +400,77 @@ fish::Course pose(const Situation& situation, glm::vec3 towards, std::uint32_t v
     return {{along.x * level, tilt, along.z * level}, course.speed, 0};
 }
 
-}  // namespace
+// On its way to its place at the station.
+fish::Course comeToStation(const Situation& situation, fish::Mind& mind, glm::vec3 place) {
+    const CleaningSenses& cleaning = situation.senses.cleaning;
+    if (cleaning.clients >= kMostClients && cleaning.cleaner.distance < kStationMetres)
+        leaveCleaner(mind);
+    if (place::lengthOf(place) < kAtStation + kWaitsPerLength * situation.senses.length) {
+        enter(mind, cleaning.posing == 0 ? VisitStage::Pose : VisitStage::Wait);
+    } else if (mind.sinceStage > kMostComingTicks) {
+        leaveCleaner(mind);
+    }
+    return pursue(situation, place, situation.parameters.medium);
+}
 
-fish::Course visit(const Situation& situation, fish::Mind& mind) {
+// Beside the station, until nobody else poses there.
+fish::Course waitForTurn(const Situation& situation, fish::Mind& mind, glm::vec3 place) {
     const Senses& senses = situation.senses;
-    assert(senses.cleaning.cleaner.seen());
     const glm::vec3 station = senses.cleaning.cleaner.offset;
-    const glm::vec3 place =
-        station + glm::vec3{0, kOverStation + kOverPerLength * senses.length, 0};
+    if (senses.cleaning.posing == 0) enter(mind, VisitStage::Pose);
+    if (mind.sinceStage > kMostWaitingTicks) leaveCleaner(mind);
+    const glm::vec3 out = place::directionOf({-station.x, 0, -station.z}, senses.heading);
+    return keptPlace(
+        situation,
+        place + out * (kWaitsAt + kWaitsPerLength * senses.length) + roomFrom(situation) * 0.3F,
+        0.25F);
+}
+
+// Poses for its time, longer while it is cleaned, unless it is bitten.
+fish::Course poseUntilDone(const Situation& situation, fish::Mind& mind, glm::vec3 place) {
+    const CleaningSenses& cleaning = situation.senses.cleaning;
     const std::uint32_t drawnNow = drawn(situation.environment,
                                          Stream::Pose,
                                          situation.fish,
                                          situation.environment.tick.value - mind.pursued);
-    const bool isFree = senses.cleaning.posing == 0;
-    switch (static_cast<VisitStage>(mind.stage)) {
-        case VisitStage::Come:
-            if (senses.cleaning.clients >= kMostClients &&
-                senses.cleaning.cleaner.distance < kStationMetres)
-                leaveCleaner(mind);
-            if (place::lengthOf(place) < kAtStation + kWaitsPerLength * senses.length) {
-                enter(mind, isFree ? VisitStage::Pose : VisitStage::Wait);
-            } else if (mind.sinceStage > kMostComingTicks) {
-                leaveCleaner(mind);
-            }
-            return pursue(situation, place, situation.parameters.medium);
-        case VisitStage::Wait: {
-            if (isFree) enter(mind, VisitStage::Pose);
-            if (mind.sinceStage > kMostWaitingTicks) leaveCleaner(mind);
-            const glm::vec3 out = place::directionOf({-station.x, 0, -station.z}, senses.heading);
-            return keptPlace(situation,
-                             place + out * (kWaitsAt + kWaitsPerLength * senses.length) +
-                                 roomFrom(situation) * 0.3F,
-                             0.25F);
-        }
-        case VisitStage::Pose: {
-            const float lasts = kShortestPoseSeconds + kPoseSpreadSeconds * unitOf(drawnNow);
-            if (senses.cleaning.bitten) enter(mind, VisitStage::Chase);
-            const float posed = seconds(mind.sinceStage);
-            if (posed > kLongestPoseSeconds || (posed > lasts && !senses.cleaning.cleaned))
-                leaveCleaner(mind);
-            return pose(situation, place, drawnNow);
-        }
-        case VisitStage::Chase:
-            break;
-    }
+    const float lasts = kShortestPoseSeconds + kPoseSpreadSeconds * unitOf(drawnNow);
+    if (cleaning.bitten) enter(mind, VisitStage::Chase);
+    const float posed = seconds(mind.sinceStage);
+    if (posed > kLongestPoseSeconds || (posed > lasts && !cleaning.cleaned)) leaveCleaner(mind);
+    return pose(situation, place, drawnNow);
+}
+
+// After the cleaner that bit it.
+fish::Course chaseCleaner(const Situation& situation, fish::Mind& mind) {
+    const Senses& senses = situation.senses;
     if (mind.sinceStage > kChaseTicks) leaveCleaner(mind);
     const glm::vec3 cleaner =
         situation.environment.view->position(senses.cleaning.cleaner.object) - senses.position;
     fish::Course course = heading(situation, cleaner, situation.parameters.fast);
     course.startsFast =
         mind.sinceStage < kBiteTicks &&
-        hasRoom(situation, course.direction, 2, surroundings::berthOf(situation.senses.length));
+        hasRoom(situation, course.direction, 2, surroundings::berthOf(senses.length));
     return course;
+}
+
+}  // namespace
+
+fish::Course visit(const Situation& situation, fish::Mind& mind) {
+    const Senses& senses = situation.senses;
+    assert(senses.cleaning.cleaner.seen());
+    const glm::vec3 place = senses.cleaning.cleaner.offset +
+                            glm::vec3{0, kOverStation + kOverPerLength * senses.length, 0};
+    switch (static_cast<VisitStage>(mind.stage)) {
+        case VisitStage::Come:
+            return comeToStation(situation, mind, place);
+        case VisitStage::Wait:
+            return waitForTurn(situation, mind, place);
+        case VisitStage::Pose:
+            return poseUntilDone(situation, mind, place);
+        case VisitStage::Chase:
+            break;
+    }
+    return chaseCleaner(situation, mind);
 }
 
 }  // namespace aquarama::behaviour

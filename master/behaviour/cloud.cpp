@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include "common/base/random_streams.h"
 #include "common/base/units.h"
@@ -82,11 +83,8 @@ glm::vec3 wishOf(const Situation& situation, glm::vec3 current) {
     return homeOf(situation.parameters, situation.fish) + aside + up - situation.senses.position;
 }
 
-// The particle that the fish darts at now, relative to it: one that it senses, else one too small
-// to be drawn, up-current. Zero where it picks nothing now.
-glm::vec3 pickOf(const Situation& situation, glm::vec3 current) {
-    const Senses& senses = situation.senses;
-    if (situation.feelings.threat > kPicksUntil) return {};
+// The number drawn for the dart that is under way; nothing between two darts.
+std::optional<std::uint32_t> presentDart(const Situation& situation) {
     const auto gap = static_cast<std::uint64_t>(
         static_cast<float>(situation.parameters.habits.cloud->pickSeconds) *
         static_cast<float>(kTicksPerSecond));
@@ -98,12 +96,22 @@ glm::vec3 pickOf(const Situation& situation, glm::vec3 current) {
     const std::uint64_t begins = pick % (gap > kDartTicks ? gap - kDartTicks : 1);
     const std::uint64_t since = now % gap;
     if (since < begins || since >= begins + kDartTicks) return {};
+    return pick;
+}
+
+// The particle that the fish darts at now, relative to it: one that it senses, else one too small
+// to be drawn, up-current. Zero where it picks nothing now.
+glm::vec3 pickOf(const Situation& situation, glm::vec3 current) {
+    const Senses& senses = situation.senses;
+    if (situation.feelings.threat > kPicksUntil) return {};
+    const std::optional<std::uint32_t> pick = presentDart(situation);
+    if (!pick) return {};
     if (senses.food.seen() && senses.food.distance < kDartLengths * senses.length)
         return senses.food.offset;
     const glm::vec3 against = place::directionOf(-current, senses.heading);
-    const glm::vec3 aside{signedUnitOf(hashOf(pick, 1)),
-                          0.5F * signedUnitOf(hashOf(pick, 2)),
-                          signedUnitOf(hashOf(pick, 3))};
+    const glm::vec3 aside{signedUnitOf(hashOf(*pick, 1)),
+                          0.5F * signedUnitOf(hashOf(*pick, 2)),
+                          signedUnitOf(hashOf(*pick, 3))};
     return place::directionOf(senses.heading + against * 0.6F + aside, senses.heading) *
            (kDartLengths * senses.length);
 }
@@ -172,35 +180,50 @@ fish::Course hover(const Situation& situation) {
     return keepStation(situation, wishOf(situation, current));
 }
 
-fish::Course hide(const Situation& situation, fish::Mind& mind) {
-    assert(situation.senses.shelter.site.seen());
-    const Senses& senses = situation.senses;
+namespace {
+
+HideStage stageOf(const fish::Mind& mind) {
+    return static_cast<HideStage>(mind.stage);
+}
+
+// The clock of the stage begins anew only where the fish arrives.
+void enter(fish::Mind& mind, HideStage next) {
+    const HideStage before = stageOf(mind);
+    mind.stage = static_cast<std::uint8_t>(next);
+    if (isThere(next) != isThere(before)) mind.sinceStage = 0;
+}
+
+// It hides as from a rush once a predator has rushed.
+void heedRush(const Senses& senses, fish::Mind& mind) {
     const bool rushed = std::ranges::any_of(std::span(senses.predators).first(senses.predatorCount),
                                             &Sighting::rushing);
-    auto stage = static_cast<HideStage>(mind.stage);
-    const auto enter = [&](HideStage next) {
-        if (next == stage) return;
-        mind.stage = static_cast<std::uint8_t>(next);
-        if (isThere(next) != isThere(stage)) mind.sinceStage = 0;
-        stage = next;
-    };
-    if (rushed && !isFromRush(stage))
-        enter(isThere(stage) ? HideStage::HiddenFromRush : HideStage::DiveFromRush);
-    const glm::vec3 towards = placeInShelter(situation);
-    const float distance = place::lengthOf(towards);
-    if (!isThere(stage) && distance < kThereMetres + kThereLengths * senses.length)
-        enter(isFromRush(stage) ? HideStage::HiddenFromRush : HideStage::Hidden);
+    if (!rushed || isFromRush(stageOf(mind))) return;
+    enter(mind, isThere(stageOf(mind)) ? HideStage::HiddenFromRush : HideStage::DiveFromRush);
+}
+
+// A dive ends near its place.
+void arrive(const Senses& senses, fish::Mind& mind, float distance) {
+    if (!isThere(stageOf(mind)) && distance < kThereMetres + kThereLengths * senses.length)
+        enter(mind, isFromRush(stageOf(mind)) ? HideStage::HiddenFromRush : HideStage::Hidden);
+}
+
+// Keeps its place, and turns its head outwards.
+fish::Course stayHidden(const Situation& situation, const fish::Mind& mind, glm::vec3 towards) {
+    const Senses& senses = situation.senses;
+    const float slow = situation.parameters.slow;
+    const glm::vec3 out = situation.environment.surroundings->sites[mind.target].normal;
+    const bool strays = place::lengthOf(towards) > kThereMetres + 2 * kThereLengths * senses.length;
+    const glm::vec3 course = strays ? towards : glm::vec3{out.x, 0.2F, out.z};
+    return {place::levelled(place::directionOf(course, senses.heading)),
+            strays ? slow : 0.1F * slow,
+            0};
+}
+
+// To its place, with a fast start where it is startled.
+fish::Course dive(const Situation& situation, const fish::Mind& mind, glm::vec3 towards) {
+    const Senses& senses = situation.senses;
     const fish::SpeciesParameters& parameters = situation.parameters;
-    if (isThere(stage)) {
-        // It keeps its place, and turns its head outwards.
-        const glm::vec3 out = situation.environment.surroundings->sites[mind.target].normal;
-        const bool strays = distance > kThereMetres + 2 * kThereLengths * senses.length;
-        const glm::vec3 course = strays ? towards : glm::vec3{out.x, 0.2F, out.z};
-        return {place::levelled(place::directionOf(course, senses.heading)),
-                strays ? parameters.slow : 0.1F * parameters.slow,
-                0};
-    }
-    const float lengths = distance / senses.length;
+    const float lengths = place::lengthOf(towards) / senses.length;
     fish::Course course{
         steeply(place::directionOf(towards + senses.push * senses.length, senses.heading)),
         std::min(parameters.fast, parameters.slow + lengths),
@@ -208,6 +231,17 @@ fish::Course hide(const Situation& situation, fish::Mind& mind) {
     course.startsFast =
         mind.sinceStage < kStartTicks && lengths > 3 && situation.feelings.threat >= 1;
     return course;
+}
+
+}  // namespace
+
+fish::Course hide(const Situation& situation, fish::Mind& mind) {
+    assert(situation.senses.shelter.site.seen());
+    heedRush(situation.senses, mind);
+    const glm::vec3 towards = placeInShelter(situation);
+    arrive(situation.senses, mind, place::lengthOf(towards));
+    return isThere(stageOf(mind)) ? stayHidden(situation, mind, towards)
+                                  : dive(situation, mind, towards);
 }
 
 }  // namespace aquarama::behaviour

@@ -151,15 +151,19 @@ void enter(fish::Mind& mind, CourtshipStage stage) {
     mind.sinceStage = 0;
 }
 
+// Whether a male joins a female that spawns in a rush with another one.
+bool joinsRush(const Situation& situation, const fish::Mind& mind, std::uint32_t courted) {
+    const bool isMale = (mind.likes & fish::kIsFemale) == 0;
+    return situation.parameters.habits.spawnsInRush && isMale && courted != fish::kNobody;
+}
+
 // Sets the stage by what the other fish does now. Of two fish that court each other the one that is
 // behind catches up. In a rush a female rises as soon as a male follows her, and others join him.
 void fallIn(const Situation& situation, fish::Mind& mind) {
     const fish::FishView& view = *situation.environment.view;
     const bool rushes = situation.parameters.habits.spawnsInRush;
-    const bool isMale = (mind.likes & fish::kIsFemale) == 0;
     const std::uint32_t courted = view.partner[mind.target];
-    const bool joins = rushes && isMale && courted != fish::kNobody;
-    if (courted != situation.fish && !joins)
+    if (courted != situation.fish && !joinsRush(situation, mind, courted))
         return enter(
             mind,
             courted == fish::kNobody || rushes ? CourtshipStage::Follow : CourtshipStage::Impress);

@@ -136,6 +136,21 @@ float nearness(float metres) {
     return 1 / (far * far);
 }
 
+// How far a fish goes from its home to graze.
+float grazingRange(const Environment& environment,
+                   const fish::SpeciesParameters& parameters,
+                   std::uint32_t fish) {
+    if (parameters.homes.empty()) return std::numeric_limits<float>::infinity();
+    return holdsTerritory(environment, parameters, fish)
+               ? static_cast<float>(parameters.habits.territory->radiusMetres)
+               : static_cast<float>(parameters.habits.home.leashMetres);
+}
+
+// Distance of a place from the home of a fish; 0 where it has none.
+float awayFromHome(const fish::SpeciesParameters& parameters, std::uint32_t fish, glm::vec3 place) {
+    return parameters.homes.empty() ? 0 : place::lengthOf(place - homeOf(parameters, fish));
+}
+
 // The patch of most value within reach of the fish: one that holds a territory or has a home stays
 // by it. `present`: the one that it leaves.
 std::uint32_t chosenPatch(const Environment& environment,
@@ -144,19 +159,14 @@ std::uint32_t chosenPatch(const Environment& environment,
                           std::uint32_t present,
                           const Senses& senses) {
     const surroundings::Turf& turf = environment.surroundings->turf;
-    const bool hasHome = !parameters.homes.empty();
-    const glm::vec3 home = hasHome ? homeOf(parameters, fish) : glm::vec3{};
-    const float range = !hasHome ? std::numeric_limits<float>::infinity()
-                        : holdsTerritory(environment, parameters, fish)
-                            ? static_cast<float>(parameters.habits.territory->radiusMetres)
-                            : static_cast<float>(parameters.habits.home.leashMetres);
+    const float range = grazingRange(environment, parameters, fish);
     const std::uint32_t drawn = hashOf(own(environment, Stream::Patches, fish),
                                        static_cast<std::uint32_t>(environment.tick.value));
     std::uint32_t best = 0;
     float most = -std::numeric_limits<float>::infinity();
     for (std::uint32_t patch = 0; patch < turf.patches.size(); ++patch) {
         const glm::vec3 place = turf.patches[patch].place;
-        const float away = hasHome ? place::lengthOf(place - home) : 0;
+        const float away = awayFromHome(parameters, fish, place);
         const float fill = turf.shareOf(patch);
         float value = fill * fill * nearness(place::lengthOf(place - senses.position)) *
                       (1 - kDrawn * unitOf(hashOf(drawn, patch)));
@@ -241,6 +251,11 @@ struct Grazer {
         if (loops() || !leads()) return false;
         if (mind.charged == fish::kChargedTwice) return true;
         if (stage() == GrazeStage::Travel) return mind.sinceStage > kTravelTicks;
+        return isDoneWithPatch();
+    }
+
+    // Whether little is left on its patch, or it has been there long enough.
+    [[nodiscard]] bool isDoneWithPatch() const {
         const std::uint32_t stay =
             kShortestStayTicks +
             hashOf(own(situation.environment, Stream::Patches, situation.fish), mind.target) %
@@ -295,43 +310,56 @@ struct Grazer {
 
     // Enters the stage that follows from where it is.
     void goOn() const {
-        const float arrives = kArrivesMetres + senses.length;
+        if (isAtPatch(stage()))
+            goOnAtPatch();
+        else
+            goOnToPatch();
+    }
+
+    void goOnToPatch() const {
+        if (stage() == GrazeStage::Travel)
+            arrive();
+        else if (stage() == GrazeStage::Done || mind.sinceStage >= kPuffTicks)
+            enter(GrazeStage::Travel);
+    }
+
+    // It goes down to a spot once it is near its patch.
+    void arrive() const {
+        if (senses.patch.distance > kArrivesMetres + senses.length) return;
+        mind.sinceArrival = 0;
+        takeSpot();
+        enter(GrazeStage::Settle);
+    }
+
+    void goOnAtPatch() const {
         const float off = place::lengthOf(lacking());
-        switch (stage()) {
-            case GrazeStage::Puff:
-                if (mind.sinceStage >= kPuffTicks) enter(GrazeStage::Travel);
-                return;
-            case GrazeStage::Done:
-                enter(GrazeStage::Travel);
-                return;
-            case GrazeStage::Travel:
-                if (senses.patch.distance > arrives) return;
-                mind.sinceArrival = 0;
-                takeSpot();
-                enter(GrazeStage::Settle);
-                return;
-            case GrazeStage::RunUp:
-                if (off > kRunUpLengths * senses.length || mind.sinceStage > kRunUpTicks)
-                    enter(GrazeStage::Settle);
-                return;
-            case GrazeStage::Settle:
-                if (off < kReachLengths * senses.length + kReachMetres)
-                    enter(GrazeStage::Bite);
-                else if (cannotTurnTo(lacking()))
-                    enter(GrazeStage::RunUp);
-                else if (mind.sinceStage > kSettleTicks)
-                    leaveSpot();
-                return;
-            case GrazeStage::Bite:
-                if (bitesAt(mind.sinceStage) > bitesOfBout()) {
-                    leaveSpot();
-                } else if (heightLengths() < kTooLow) {
-                    takeSpot();
-                    enter(GrazeStage::Settle);
-                } else if (off > kOffMetres + kReachLengths * senses.length) {
-                    enter(GrazeStage::Settle);
-                }
-                return;
+        if (stage() == GrazeStage::Bite)
+            goOnBiting(off);
+        else if (stage() == GrazeStage::Settle)
+            goOnSettling(off);
+        else if (off > kRunUpLengths * senses.length || mind.sinceStage > kRunUpTicks)
+            enter(GrazeStage::Settle);
+    }
+
+    // Bites at the spot once the mouth is there. `off`: metres from the mouth to the spot.
+    void goOnSettling(float off) const {
+        if (off < kReachLengths * senses.length + kReachMetres)
+            enter(GrazeStage::Bite);
+        else if (cannotTurnTo(lacking()))
+            enter(GrazeStage::RunUp);
+        else if (mind.sinceStage > kSettleTicks)
+            leaveSpot();
+    }
+
+    // Until the bout is over, or it is too low or off its spot.
+    void goOnBiting(float off) const {
+        if (bitesAt(mind.sinceStage) > bitesOfBout()) {
+            leaveSpot();
+        } else if (heightLengths() < kTooLow) {
+            takeSpot();
+            enter(GrazeStage::Settle);
+        } else if (off > kOffMetres + kReachLengths * senses.length) {
+            enter(GrazeStage::Settle);
         }
     }
 
@@ -352,16 +380,20 @@ struct Grazer {
         return around.current.at(senses.position, around.openCurrent);
     }
 
+    // Whether another fish of the shoal is near and goes to the same patch.
+    [[nodiscard]] bool isOnSameWay(std::uint32_t other) const {
+        const fish::FishView& view = *situation.environment.view;
+        const bool isNear = place::lengthOf(view.position(other) - senses.position) < kFileMetres;
+        return !isAway(view, other) && view.patch[other] == mind.target && isNear;
+    }
+
     // The fish before this one in the file; kNobody for who leads.
     [[nodiscard]] std::uint32_t ahead() const {
-        const fish::FishView& view = *situation.environment.view;
         const fish::Household household = fish::householdOf(situation.parameters, situation.fish);
         if (loops() || leads()) return fish::kNobody;
         for (std::uint32_t other = situation.fish; other > household.first;) {
             --other;
-            const bool isNear =
-                place::lengthOf(view.position(other) - senses.position) < kFileMetres;
-            if (!isAway(view, other) && view.patch[other] == mind.target && isNear) return other;
+            if (isOnSameWay(other)) return other;
         }
         return fish::kNobody;
     }
@@ -420,6 +452,15 @@ struct Grazer {
         const float distance = place::lengthOf(lacks);
         if (distance > kTooNearLengths * senses.length) return false;
         return place::dot(lacks, senses.heading) < kAheadCosine * distance;
+    }
+
+    // One step of the present stage.
+    [[nodiscard]] fish::Course course() const {
+        if (stage() == GrazeStage::Settle) return settle();
+        if (stage() == GrazeStage::RunUp) return runUp();
+        if (stage() != GrazeStage::Bite) return travel();
+        bite();
+        return hold();
     }
 
     // Down to the spot, from above.
@@ -530,21 +571,36 @@ Loop loopOf(const surroundings::Turf& turf, std::uint32_t seed, std::uint32_t fi
     return loop;
 }
 
+namespace {
+
+// Whether the fish grazes now, and there is turf.
+bool mayGraze(const Environment& environment,
+              const fish::SpeciesParameters& parameters,
+              std::uint32_t fish) {
+    return parameters.habits.graze && !environment.surroundings->turf.patches.empty() &&
+           grazesNow(environment, parameters, fish);
+}
+
+// The patch that a fish grazes at or goes to already.
+std::uint32_t presentPatch(const surroundings::Turf& turf, const fish::Mind& mind) {
+    const fish::Aim aim = fish::aimOf(mind);
+    const bool has = aim.intention == fish::Intention::Graze && aim.target < turf.patches.size();
+    return has ? aim.target : fish::kNobody;
+}
+
+}  // namespace
+
 Sighting patchFor(const Environment& environment,
                   const fish::SpeciesParameters& parameters,
                   std::uint32_t fish,
                   const fish::Mind& mind,
                   const Senses& senses) {
     const surroundings::Turf& turf = environment.surroundings->turf;
-    if (!parameters.habits.graze || turf.patches.empty() ||
-        !grazesNow(environment, parameters, fish))
-        return {};
-    const fish::Aim aim = fish::aimOf(mind);
-    const bool has = aim.intention == fish::Intention::Graze && aim.target < turf.patches.size();
-    const std::uint32_t present = has ? aim.target : fish::kNobody;
+    if (!mayGraze(environment, parameters, fish)) return {};
+    const std::uint32_t present = presentPatch(turf, mind);
     const std::uint32_t leader = leaderOf(*environment.view, parameters, fish);
     if (leader != fish) return sightingOf(turf, environment.view->patch[leader], senses.position);
-    if (has && mind.stage != static_cast<std::uint8_t>(GrazeStage::Done))
+    if (present != fish::kNobody && mind.stage != static_cast<std::uint8_t>(GrazeStage::Done))
         return sightingOf(turf, present, senses.position);
     const bool loops = parameters.habits.graze->manner == config::GrazeManner::Loop;
     return sightingOf(turf,
@@ -566,20 +622,7 @@ fish::Course graze(const Situation& situation, fish::Mind& mind, DeferredEvents&
     } else {
         grazer.goOn();
     }
-    switch (grazer.stage()) {
-        case GrazeStage::Settle:
-            return grazer.settle();
-        case GrazeStage::RunUp:
-            return grazer.runUp();
-        case GrazeStage::Bite:
-            grazer.bite();
-            return grazer.hold();
-        case GrazeStage::Travel:
-        case GrazeStage::Done:
-        case GrazeStage::Puff:
-            break;
-    }
-    return grazer.travel();
+    return grazer.course();
 }
 
 }  // namespace aquarama::behaviour

@@ -136,6 +136,50 @@ glm::vec3 turnOf(const fish::SpeciesParameters& parameters, const Spell& spell, 
     return {course.x * cosine - course.z * sine, 0, course.x * sine + course.z * cosine};
 }
 
+// Where the homes of a species may be: at sites, else over boulders, else anywhere in the water.
+struct HomePlaces {
+    const place::Region& water;
+    // Wanted places in plan, by group; empty where they are drawn.
+    std::span<const glm::vec2> wanted;
+    std::vector<place::Site> sites;
+    std::vector<place::Rock> boulders;
+    float bestDepthMetres = 0;
+
+    [[nodiscard]] const place::Site& siteFor(std::uint32_t group) const {
+        return wanted.empty() ? sites[group % sites.size()]
+                              : nearestTo(wanted[group], sites, [](const place::Site& one) {
+                                    return one.place;
+                                });
+    }
+
+    [[nodiscard]] const place::Rock& boulderFor(std::uint32_t group, std::uint32_t drawn) const {
+        return wanted.empty() ? boulders[drawn % boulders.size()]
+                              : nearestTo(wanted[group], boulders, [](const place::Rock& one) {
+                                    return one.centre;
+                                });
+    }
+
+    [[nodiscard]] glm::vec3 inTheWater(std::uint32_t group,
+                                       std::uint32_t drawn,
+                                       std::uint32_t firstOfKind) const {
+        glm::vec3 place = wanderingGoal(drawn, water, bestDepthMetres, firstOfKind + group, {});
+        if (!wanted.empty()) place.x = wanted[group].x, place.z = wanted[group].y;
+        return place;
+    }
+
+    // The home of a group of fish; `drawn`: its random number.
+    [[nodiscard]] glm::vec3 homeFor(std::uint32_t group,
+                                    std::uint32_t drawn,
+                                    std::uint32_t firstOfKind) const {
+        if (!sites.empty()) {
+            const place::Site& site = siteFor(group);
+            return site.place + site.normal * kOffSiteMetres;
+        }
+        if (!boulders.empty()) return over(water, boulderFor(group, drawn));
+        return inTheWater(group, drawn, firstOfKind);
+    }
+};
+
 }  // namespace
 
 glm::vec3 wanderingGoal(std::uint32_t seed,
@@ -161,36 +205,17 @@ Homes homesOf(const surroundings::Surroundings& surroundings,
     const auto count = static_cast<std::uint32_t>(wanted.size());
     Homes homes{.places = {}, .fishAtEach = count > 0 ? (fish + count - 1) / count : home.group};
     const surroundings::Obstacles& obstacles = surroundings.obstacles;
-    const std::vector<place::Site> sites = sitesOf(surroundings, home.site);
-    const std::vector<place::Rock> boulders =
-        home.onTheReef ? bouldersIn(obstacles) : std::vector<place::Rock>{};
+    const HomePlaces places{
+        .water = obstacles.water,
+        .wanted = wanted,
+        .sites = sitesOf(surroundings, home.site),
+        .boulders = home.onTheReef ? bouldersIn(obstacles) : std::vector<place::Rock>{},
+        .bestDepthMetres = static_cast<float>(habits.comfort.bestDepthMetres)};
     const std::uint32_t groups = (fish + homes.fishAtEach - 1) / homes.fishAtEach;
     for (std::uint32_t group = 0; group < groups; ++group) {
         const std::uint32_t own =
             hashOf(hashOf(surroundings.seed, Stream::Homes), firstOfKind + group);
-        if (!sites.empty()) {
-            const place::Site& site =
-                count > 0
-                    ? nearestTo(
-                          wanted[group], sites, [](const place::Site& one) { return one.place; })
-                    : sites[group % sites.size()];
-            homes.places.push_back(site.place + site.normal * kOffSiteMetres);
-        } else if (!boulders.empty()) {
-            const place::Rock& rock =
-                count > 0 ? nearestTo(wanted[group],
-                                      boulders,
-                                      [](const place::Rock& one) { return one.centre; })
-                          : boulders[own % boulders.size()];
-            homes.places.push_back(over(obstacles.water, rock));
-        } else {
-            glm::vec3 place = wanderingGoal(own,
-                                            obstacles.water,
-                                            static_cast<float>(habits.comfort.bestDepthMetres),
-                                            firstOfKind + group,
-                                            {});
-            if (count > 0) place.x = wanted[group].x, place.z = wanted[group].y;
-            homes.places.push_back(place);
-        }
+        homes.places.push_back(places.homeFor(group, own, firstOfKind));
     }
     return homes;
 }

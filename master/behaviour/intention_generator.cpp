@@ -40,6 +40,15 @@ bool likesSchooling(const fish::SpeciesParameters& parameters, const fish::Mind&
            (mind.likes & fish::kLikesSchooling) != 0;
 }
 
+// The fear that a fish heeds, f0, and that in which it flees alone, f1, with hysteresis.
+float heededFrom(const fish::SpeciesParameters& parameters, const fish::Mind& mind) {
+    return parameters.habits.fear.from * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis);
+}
+float aloneFrom(const fish::SpeciesParameters& parameters, const fish::Mind& mind) {
+    return parameters.habits.fear.alone *
+           (mind.alarm == fish::Alarm::Alone ? fish::kHysteresis : 1);
+}
+
 // Only species that are hunted heed their fear. A schooling fish shelters in the school while the
 // fear of each predator is below f1 and there is a school. All thresholds have hysteresis.
 fish::Alarm alarmOf(const fish::SpeciesParameters& parameters,
@@ -47,14 +56,20 @@ fish::Alarm alarmOf(const fish::SpeciesParameters& parameters,
                     const Senses& senses,
                     const fish::Feelings& feelings) {
     if (!fish::flees(parameters)) return fish::Alarm::Calm;
-    const float heeded =
-        parameters.habits.fear.from * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis);
-    if (feelings.fear <= heeded) return fish::Alarm::Calm;
-    const float alone =
-        parameters.habits.fear.alone * (mind.alarm == fish::Alarm::Alone ? fish::kHysteresis : 1);
-    const bool together = feelings.greatestFear < alone && likesSchooling(parameters, mind) &&
-                          senses.schoolmates.count > 0;
+    if (feelings.fear <= heededFrom(parameters, mind)) return fish::Alarm::Calm;
+    const bool together = feelings.greatestFear < aloneFrom(parameters, mind) &&
+                          likesSchooling(parameters, mind) && senses.schoolmates.count > 0;
     return together ? fish::Alarm::Together : fish::Alarm::Alone;
+}
+
+// Those intentions have rules of their own, before that of the memory.
+bool hasRuleBeforeMemory(fish::Intention intention) {
+    return intention == fish::Intention::Hide || intention == fish::Intention::Rest ||
+           intention == fish::Intention::Charge;
+}
+
+bool isOfCleaning(fish::Intention intention) {
+    return intention == fish::Intention::Clean || intention == fish::Intention::Visit;
 }
 
 // One thought: what the rules compare. There is one function for each rule; none knows the others.
@@ -76,6 +91,10 @@ struct Case {
                 threshold};
     }
 
+    [[nodiscard]] bool staysHidden() const {
+        return aim.intention == fish::Intention::Hide && !senses.shelter.venturesOut;
+    }
+
     // A hidden fish stays until nothing threatens it and it ventures out.
     [[nodiscard]] Weighed shelter() const {
         const bool hides = aim.intention == fish::Intention::Hide;
@@ -88,7 +107,7 @@ struct Case {
             rule.verdict = Verdict::AgainstHabits;
         else if (!senses.shelter.site.seen())
             rule.verdict = Verdict::NoTarget;
-        else if (rule.value < rule.threshold && !(hides && !senses.shelter.venturesOut))
+        else if (rule.value < rule.threshold && !staysHidden())
             rule.verdict = Verdict::TooWeak;
         return rule;
     }
@@ -115,16 +134,19 @@ struct Case {
         return rule;
     }
 
+    // A predator comes before who charges it.
+    [[nodiscard]] bool fleesCharger() const {
+        return senses.territory.charger.seen() && alarm == fish::Alarm::Calm;
+    }
+
     [[nodiscard]] Weighed fear() const {
-        if (senses.territory.charger.seen() && alarm == fish::Alarm::Calm)
+        if (fleesCharger())
             return {fish::Intention::Escape, senses.territory.charger.object, Verdict::Wins, 1, 0};
-        Weighed rule{
-            alarm == fish::Alarm::Together ? fish::Intention::School : fish::Intention::Escape,
-            alarm == fish::Alarm::Together ? fish::kNobody : senses.predators[0].object,
-            Verdict::Wins,
-            feelings.fear,
-            parameters.habits.fear.from *
-                (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis)};
+        Weighed rule = alarm == fish::Alarm::Together
+                           ? Weighed{fish::Intention::School, fish::kNobody}
+                           : Weighed{fish::Intention::Escape, senses.predators[0].object};
+        rule.value = feelings.fear;
+        rule.threshold = heededFrom(parameters, mind);
         if (!fish::flees(parameters))
             rule.verdict = Verdict::AgainstHabits;
         else if (senses.shelter.site.seen())
@@ -164,46 +186,59 @@ struct Case {
         return rule;
     }
 
+    [[nodiscard]] bool remembers(const Sighting& target) const {
+        return target.seen() && target.object == mind.rememberedTarget;
+    }
+    [[nodiscard]] bool remembers(const Weighed& now) const {
+        return now.verdict == Verdict::Wins && now.target == mind.rememberedTarget;
+    }
+
     // An intention is resumed only with the target that it had.
     [[nodiscard]] bool canGoOn() const {
-        if (mind.remembered == fish::Intention::Eat) {
-            const Weighed now = hunger();
-            return now.verdict == Verdict::Wins && now.target == mind.rememberedTarget;
-        }
-        // These have rules of their own, before this one.
-        if (mind.remembered == fish::Intention::Hide || mind.remembered == fish::Intention::Rest ||
-            mind.remembered == fish::Intention::Charge)
-            return false;
-        if (mind.remembered == fish::Intention::Graze)
-            return senses.patch.seen() && senses.patch.object == mind.rememberedTarget;
-        if (mind.remembered == fish::Intention::Clean ||
-            mind.remembered == fish::Intention::Visit) {
-            const Weighed now = cleaning();
-            return now.verdict == Verdict::Wins && now.target == mind.rememberedTarget;
-        }
-        if (mind.remembered == fish::Intention::Mate)
-            return senses.mate.seen() && senses.mate.object == mind.rememberedTarget;
+        if (hasRuleBeforeMemory(mind.remembered)) return false;
+        if (isOfCleaning(mind.remembered)) return remembers(cleaning());
+        if (mind.remembered == fish::Intention::Eat) return remembers(hunger());
+        if (mind.remembered == fish::Intention::Graze) return remembers(senses.patch);
+        if (mind.remembered == fish::Intention::Mate) return remembers(senses.mate);
         return likesSchooling(parameters, mind);
     }
 
+    // Senses::urge from which it takes part; a cleaner always does.
+    [[nodiscard]] float urgeNeeded() const {
+        if (parameters.habits.cleans) return 0;
+        return aim.intention == fish::Intention::Visit ? kStaysWithCleaner : kVisitsFor;
+    }
+
+    // Whether it is about a hunt or a courtship, which come before cleaning.
+    [[nodiscard]] bool isBusy() const {
+        const bool hunts = parameters.habits.role == config::Role::Predator &&
+                           aim.intention == fish::Intention::Eat;
+        return hunts || aim.intention == fish::Intention::Mate;
+    }
+
+    [[nodiscard]] bool takesPartInCleaning() const {
+        return parameters.habits.cleans || goesToCleaners(parameters, senses.length);
+    }
+
+    // The client of a cleaner, or the cleaner of a client.
+    [[nodiscard]] const Sighting& partnerInCleaning() const {
+        return parameters.habits.cleans ? senses.cleaning.client : senses.cleaning.cleaner;
+    }
+
     [[nodiscard]] Weighed cleaning() const {
-        const bool cleans = parameters.habits.cleans.has_value();
-        const bool visits = aim.intention == fish::Intention::Visit;
-        const Sighting& other = cleans ? senses.cleaning.client : senses.cleaning.cleaner;
-        Weighed rule{cleans ? fish::Intention::Clean : fish::Intention::Visit,
+        const Sighting& other = partnerInCleaning();
+        Weighed rule{parameters.habits.cleans ? fish::Intention::Clean : fish::Intention::Visit,
                      other.object,
                      Verdict::Wins,
                      senses.cleaning.urge,
-                     cleans ? 0 : (visits ? kStaysWithCleaner : kVisitsFor)};
-        const bool hunts = parameters.habits.role == config::Role::Predator &&
-                           aim.intention == fish::Intention::Eat;
-        if (!cleans && !goesToCleaners(parameters, senses.length))
+                     urgeNeeded()};
+        if (!takesPartInCleaning())
             rule.verdict = Verdict::AgainstHabits;
         else if (rule.value < rule.threshold)
             rule.verdict = Verdict::TooWeak;
         else if (!other.seen())
             rule.verdict = Verdict::NoTarget;
-        else if (hunts || aim.intention == fish::Intention::Mate)
+        else if (isBusy())
             rule.verdict = Verdict::Yields;
         return rule;
     }
@@ -385,10 +420,12 @@ Reasoning reason(const fish::SpeciesParameters& parameters,
     return reasoning;
 }
 
-void remember(fish::Mind& mind, const Decision& decision) {
-    const fish::Aim before = fish::aimOf(mind);
+namespace {
+
+// Remembers what a decision interrupts; else forgets what was remembered.
+void rememberInterrupted(fish::Mind& mind, const Decision& decision) {
     // An obstacle alone interrupts a fish that hides: where another rule wins, it hides no more.
-    const bool hidNoMore = before.intention == fish::Intention::Hide &&
+    const bool hidNoMore = fish::aimOf(mind).intention == fish::Intention::Hide &&
                            decision.intention != fish::Intention::AvoidObstacle;
     if (!fish::interrupts(decision.intention, decision.alarm) || hidNoMore) {
         mind.remembered = fish::Intention::Wander;
@@ -398,20 +435,32 @@ void remember(fish::Mind& mind, const Decision& decision) {
         mind.rememberedTarget = mind.target;
         mind.sinceRemembered = 0;
     }
+}
+
+// A new aim: its clock and stage begin anew, and those of a chase and a charge where one begins or
+// ends.
+void restartClocks(fish::Mind& mind, fish::Intention before, fish::Intention after) {
+    mind.pursued = 0;
+    mind.stage = 0;
+    mind.sinceStage = 0;
+    const bool chased = before == fish::Intention::Eat;
+    const bool chases = after == fish::Intention::Eat;
+    if (chased != chases) mind.sinceChase = 0;
+    const bool charged = before == fish::Intention::Charge;
+    if (charged != (after == fish::Intention::Charge)) mind.sinceCharge = 0;
+}
+
+}  // namespace
+
+void remember(fish::Mind& mind, const Decision& decision) {
+    const fish::Aim before = fish::aimOf(mind);
+    rememberInterrupted(mind, decision);
     mind.intention = decision.intention;
     mind.target = decision.target;
     mind.alarm = decision.alarm;
     const fish::Aim after = fish::aimOf(mind);
     // An interruption does not change the aim, so that clocks and stage go on.
-    if (after == before) return;
-    mind.pursued = 0;
-    mind.stage = 0;
-    mind.sinceStage = 0;
-    const bool chased = before.intention == fish::Intention::Eat;
-    const bool chases = after.intention == fish::Intention::Eat;
-    if (chased != chases) mind.sinceChase = 0;
-    const bool charged = before.intention == fish::Intention::Charge;
-    if (charged != (after.intention == fish::Intention::Charge)) mind.sinceCharge = 0;
+    if (after != before) restartClocks(mind, before.intention, after.intention);
 }
 
 bool acceptsRecommendation(const fish::SpeciesParameters& parameters,

@@ -62,8 +62,7 @@ struct Onlooker {
     }
     // Sighting of another fish, without asking whether something hides it.
     [[nodiscard]] Sighting sightingOf(std::uint32_t other) const {
-        const glm::vec3 offset = view().position(other) - senses.position;
-        return {other, offset, place::lengthOf(offset)};
+        return behaviour::sightingOf(view(), other, senses.position);
     }
 };
 
@@ -134,15 +133,13 @@ constexpr float kTowardsCosine = 0.5F;
 
 // Inserts a predator in order of distance if it is among the nearest; ties go to the lower index.
 void insert(Senses& senses, const Sighting& predator) {
-    const auto isNearer = [&](std::size_t place) {
-        const Sighting& other = senses.predators[place];
-        return predator.distance < other.distance ||
-               (predator.distance == other.distance && predator.object < other.object);
+    const auto isNearerThan = [&](std::size_t place) {
+        return isNearer(predator, senses.predators[place]);
     };
-    if (senses.predatorCount == kMostPredators && !isNearer(kMostPredators - 1)) return;
+    if (senses.predatorCount == kMostPredators && !isNearerThan(kMostPredators - 1)) return;
     if (senses.predatorCount < kMostPredators) ++senses.predatorCount;
     std::size_t place = senses.predatorCount - 1;
-    for (; place > 0 && isNearer(place - 1); --place)
+    for (; place > 0 && isNearerThan(place - 1); --place)
         senses.predators[place] = senses.predators[place - 1];
     senses.predators[place] = predator;
 }
@@ -406,51 +403,102 @@ bool isInReach(const place::Region& water, glm::vec3 site) {
     return std::min({inside.x, inside.y, inside.z}) > kWithinMetres;
 }
 
-// The shelter of least way, or the present one; how many others dive; whether it ventures out.
-void senseShelter(const Onlooker& onlooker) {
+// How many of its schoolmates near by dive.
+std::size_t divingSchoolmates(const Onlooker& onlooker) {
+    const Neighbours& schoolmates = onlooker.senses.schoolmates;
+    std::size_t diving = 0;
+    for (std::size_t i = 0; i < schoolmates.count; ++i)
+        diving +=
+            static_cast<std::size_t>(onlooker.view().shows(schoolmates.fish[i], fish::kDiving));
+    return diving;
+}
+
+bool hides(const Onlooker& onlooker) {
+    return onlooker.aim.intention == fish::Intention::Hide;
+}
+
+bool restsOrIsAboutTo(const Onlooker& onlooker) {
+    return onlooker.senses.hour.rests || onlooker.aim.intention == fish::Intention::Rest;
+}
+
+// Whether it is in a shelter or wants one.
+bool needsShelter(const Onlooker& onlooker) {
+    return onlooker.senses.predatorCount > 0 || onlooker.senses.shelter.diving > 0 ||
+           hides(onlooker) || restsOrIsAboutTo(onlooker);
+}
+
+// Whether it aims at a shelter already.
+bool hasShelter(const Onlooker& onlooker) {
+    return (hides(onlooker) || restsOrIsAboutTo(onlooker)) &&
+           onlooker.aim.target < onlooker.environment.surroundings->sites.size();
+}
+
+// Whether a hidden fish ventures out at this thought, by a draw.
+bool venturesOut(const Onlooker& onlooker) {
+    const bool rushed = isFromRush(static_cast<HideStage>(onlooker.mind.stage));
+    const float perThought =
+        static_cast<float>(fish::kTicksBetweenThoughts) / static_cast<float>(kTicksPerSecond);
+    const std::uint32_t own =
+        hashOf(hashOf(onlooker.environment.seed, Stream::VenturesOut), onlooker.fish);
+    return unitOf(hashOf(own, static_cast<std::uint32_t>(onlooker.environment.tick.value))) *
+               (rushed ? kHiddenFromRushSeconds : kHiddenSeconds) <
+           perThought;
+}
+
+Sighting siteFrom(const Onlooker& onlooker, std::uint32_t site) {
+    const glm::vec3 offset =
+        onlooker.environment.surroundings->sites[site].place - onlooker.senses.position;
+    return {site, offset, place::lengthOf(offset)};
+}
+
+// Where a fish looks for a shelter: within so many metres of a place.
+struct ShelterRange {
+    glm::vec3 from{};
+    float metres = 0;
+};
+// To rest it goes to a shelter near its home, which it knows, else to one that it sees.
+ShelterRange shelterRangeOf(const Onlooker& onlooker) {
+    if (restsOrIsAboutTo(onlooker) && !onlooker.parameters.homes.empty())
+        return {homeOf(onlooker.parameters, onlooker.fish), kFarthestBedMetres};
+    return {onlooker.senses.position, onlooker.sight(1)};
+}
+
+bool isFitShelter(const Onlooker& onlooker, const place::Site& site) {
     const std::vector<config::SiteKind>& kinds = onlooker.parameters.habits.hidesIn;
-    if (kinds.empty()) return;
-    Senses& senses = onlooker.senses;
-    const Environment& environment = onlooker.environment;
-    for (std::size_t i = 0; i < senses.schoolmates.count; ++i)
-        senses.shelter.diving += static_cast<std::size_t>(
-            onlooker.view().shows(senses.schoolmates.fish[i], fish::kDiving));
-    const bool hides = onlooker.aim.intention == fish::Intention::Hide;
-    const bool rests = senses.hour.rests || onlooker.aim.intention == fish::Intention::Rest;
-    if (senses.predatorCount == 0 && senses.shelter.diving == 0 && !hides && !rests) return;
-    const std::vector<place::Site>& sites = environment.surroundings->sites;
-    const auto sightingOf = [&](std::uint32_t site) {
-        const glm::vec3 offset = sites[site].place - senses.position;
-        return Sighting{site, offset, place::lengthOf(offset)};
-    };
-    if ((hides || rests) && onlooker.aim.target < sites.size()) {
-        senses.shelter.site = sightingOf(onlooker.aim.target);
-        if (!hides) return;
-        const bool rushed = isFromRush(static_cast<HideStage>(onlooker.mind.stage));
-        const float perThought =
-            static_cast<float>(fish::kTicksBetweenThoughts) / static_cast<float>(kTicksPerSecond);
-        const std::uint32_t own =
-            hashOf(hashOf(environment.seed, Stream::VenturesOut), onlooker.fish);
-        senses.shelter.venturesOut =
-            unitOf(hashOf(own, static_cast<std::uint32_t>(environment.tick.value))) *
-                (rushed ? kHiddenFromRushSeconds : kHiddenSeconds) <
-            perThought;
-        return;
-    }
-    // To rest it goes to a shelter near its home, which it knows, else to one that it sees.
-    const bool goesHome = rests && !onlooker.parameters.homes.empty();
-    const glm::vec3 from = goesHome ? homeOf(onlooker.parameters, onlooker.fish) : senses.position;
-    float least = goesHome ? kFarthestBedMetres : onlooker.sight(1);
+    if (std::ranges::find(kinds, site.kind) == kinds.end()) return false;
+    return !restsOrIsAboutTo(onlooker) ||
+           isInReach(onlooker.environment.surroundings->obstacles.water, site.place);
+}
+
+// The shelter of least way.
+Sighting nearestShelter(const Onlooker& onlooker) {
+    const std::vector<place::Site>& sites = onlooker.environment.surroundings->sites;
+    const ShelterRange range = shelterRangeOf(onlooker);
+    float least = range.metres;
+    Sighting nearest;
     for (std::uint32_t site = 0; site < sites.size(); ++site) {
-        if (std::ranges::find(kinds, sites[site].kind) == kinds.end()) continue;
-        if (rests && !isInReach(environment.surroundings->obstacles.water, sites[site].place))
-            continue;
-        const float cost = place::lengthOf(sites[site].place - from) *
+        if (!isFitShelter(onlooker, sites[site])) continue;
+        const float cost = place::lengthOf(sites[site].place - range.from) *
                            (1 + kOwnTaste * unitOf(hashOf(sites[site].seed, onlooker.fish)));
         if (cost >= least) continue;
         least = cost;
-        senses.shelter.site = sightingOf(site);
+        nearest = siteFrom(onlooker, site);
     }
+    return nearest;
+}
+
+// The present shelter, or the one of least way; how many others dive; whether it ventures out.
+void senseShelter(const Onlooker& onlooker) {
+    if (onlooker.parameters.habits.hidesIn.empty()) return;
+    ShelterSenses& shelter = onlooker.senses.shelter;
+    shelter.diving = divingSchoolmates(onlooker);
+    if (!needsShelter(onlooker)) return;
+    if (hasShelter(onlooker)) {
+        shelter.site = siteFrom(onlooker, onlooker.aim.target);
+        shelter.venturesOut = hides(onlooker) && venturesOut(onlooker);
+        return;
+    }
+    shelter.site = nearestShelter(onlooker);
 }
 
 // From the middle of a fish to its ends, as a share of its length.
@@ -520,20 +568,21 @@ constexpr surroundings::Berth kInWait{0.05F, 0.2F, 0.15F, 0.2F};
 // Longer fish keep clear of the reef also at a cleaner's, metres.
 constexpr float kLongestAtStation = 0.6F;
 
-// How far the fish keeps from boulders and sand now.
-surroundings::Berth berthFor(const fish::SpeciesParameters& parameters,
-                             std::uint32_t fish,
-                             const fish::Mind& mind,
-                             const Senses& senses) {
-    const fish::Intention aim = fish::aimOf(mind).intention;
-    if (aim == fish::Intention::Hide) return surroundings::kIntoShelter;
-    if (aim == fish::Intention::Rest && fish::aimOf(mind).target != fish::kNobody)
-        return surroundings::kIntoShelter;
-    if (aim == fish::Intention::Graze)
-        return isAtTurf(mind) ? surroundings::kAtTurf : surroundings::kAtHome;
-    if (aim == fish::Intention::Charge) return surroundings::kAtHome;
-    if (aim == fish::Intention::Visit && senses.length < kLongestAtStation)
-        return surroundings::kAtHome;
+bool goesIntoShelter(const fish::Aim& aim) {
+    return aim.intention == fish::Intention::Hide ||
+           (aim.intention == fish::Intention::Rest && aim.target != fish::kNobody);
+}
+
+// Whether what it is about brings a fish near the reef.
+bool goesToReef(const fish::Aim& aim, const Senses& senses) {
+    return aim.intention == fish::Intention::Graze || aim.intention == fish::Intention::Charge ||
+           (aim.intention == fish::Intention::Visit && senses.length < kLongestAtStation);
+}
+
+// The berth of a fish that nothing brings to the reef but its home or its post.
+surroundings::Berth berthAtEase(const fish::SpeciesParameters& parameters,
+                                std::uint32_t fish,
+                                const Senses& senses) {
     const config::Home& home = parameters.habits.home;
     // One that lies in wait does so at several sites.
     if (parameters.habits.hunt.ambush) return home.site ? surroundings::kAtHome : kInWait;
@@ -541,6 +590,18 @@ surroundings::Berth berthFor(const fish::SpeciesParameters& parameters,
                           place::lengthOf(homeOf(parameters, fish) - senses.position) <
                               static_cast<float>(home.leashMetres);
     return isAtHome ? surroundings::kAtHome : surroundings::berthOf(senses.length);
+}
+
+// How far the fish keeps from boulders and sand now.
+surroundings::Berth berthFor(const fish::SpeciesParameters& parameters,
+                             std::uint32_t fish,
+                             const fish::Mind& mind,
+                             const Senses& senses) {
+    const fish::Aim aim = fish::aimOf(mind);
+    if (goesIntoShelter(aim)) return surroundings::kIntoShelter;
+    if (isAtTurf(mind)) return surroundings::kAtTurf;
+    if (goesToReef(aim, senses)) return surroundings::kAtHome;
+    return berthAtEase(parameters, fish, senses);
 }
 
 // A fish feels what it would meet while it turns by a right angle.
@@ -608,6 +669,11 @@ constexpr float kTakenDearness = 1.5F;
 constexpr float kDevotion = 3;
 
 }  // namespace
+
+Sighting sightingOf(const fish::FishView& view, std::uint32_t other, glm::vec3 position) {
+    const glm::vec3 offset = view.position(other) - position;
+    return {other, offset, place::lengthOf(offset)};
+}
 
 Senses perceive(const Environment& environment,
                 const fish::SpeciesParameters& parameters,

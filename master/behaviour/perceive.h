@@ -89,6 +89,15 @@ struct Sighting {
     bool passesBy = false;
     [[nodiscard]] bool seen() const { return object != fish::kNobody; }
 };
+// Whether one object is nearer than another; of equally near ones the lower index is.
+[[nodiscard]] constexpr bool isNearer(const Sighting& one, const Sighting& other) {
+    return one.distance < other.distance ||
+           (one.distance == other.distance && one.object < other.object);
+}
+// Another fish from a position, without asking whether something hides it.
+[[nodiscard]] Sighting sightingOf(const fish::FishView& view,
+                                  std::uint32_t other,
+                                  glm::vec3 position);
 
 // Number of predators that a fish keeps in mind; the nearest.
 inline constexpr std::size_t kMostPredators = 4;

@@ -106,6 +106,9 @@ enum class HideStage : std::uint8_t { Dive, Hidden, DiveFromRush, HiddenFromRush
 // swimming on, where the spot is too near to turn to; biting; done with the patch; and letting go
 // of sand.
 enum class GrazeStage : std::uint8_t { Travel, Settle, RunUp, Bite, Done, Puff };
+[[nodiscard]] constexpr bool isAtPatch(GrazeStage stage) {
+    return stage == GrazeStage::Settle || stage == GrazeStage::RunUp || stage == GrazeStage::Bite;
+}
 // Goes to its patch close over the ground, in file where it follows its shoal; bites at one spot
 // after another, nose down; and lets go of sand on its way. Who leads a shoal or goes its own round
 // is done with a patch after a while, or where little is left on it. The fish must have a patch.

@@ -57,6 +57,19 @@ bool goesOn(const Environment& environment,
            intruder.distance < radiusOf(parameters) + past;
 }
 
+// Whether the owner of a territory charges another fish that comes into it.
+bool isExpelled(const fish::FishView& view,
+                const fish::SpeciesParameters& parameters,
+                std::uint32_t fish,
+                std::uint32_t other,
+                float ownLength) {
+    if ((parameters.expels >> view.kind[other] & 1U) == 0 || view.shows(other, fish::kAway) ||
+        livesWith(parameters, fish, other))
+        return false;
+    const float length = view.fish[other].length / ownLength;
+    return length >= kLeastLength && length <= kMostLength;
+}
+
 // The nearest of the intruders; nothing where they are too many.
 Sighting nearestIntruder(const Environment& environment,
                          const fish::SpeciesParameters& parameters,
@@ -68,20 +81,32 @@ Sighting nearestIntruder(const Environment& environment,
     Sighting nearest;
     std::uint32_t count = 0;
     const auto weigh = [&](std::uint32_t other, glm::vec3 fromHome, float squared) {
-        if (squared > radius * radius || (parameters.expels >> view.kind[other] & 1U) == 0 ||
-            view.shows(other, fish::kAway) || livesWith(parameters, fish, other))
+        if (squared > radius * radius || !isExpelled(view, parameters, fish, other, senses.length))
             return;
-        const float length = view.fish[other].length / senses.length;
-        if (length < kLeastLength || length > kMostLength) return;
         ++count;
         const glm::vec3 offset = home + fromHome - senses.position;
-        const float distance = place::lengthOf(offset);
-        const bool isNearer =
-            distance < nearest.distance || (distance == nearest.distance && other < nearest.object);
-        if (isNearer) nearest = {other, offset, distance};
+        const Sighting intruder{other, offset, place::lengthOf(offset)};
+        if (isNearer(intruder, nearest)) nearest = intruder;
     };
     visitPointsWithin(environment.grids->fish, home, radius * radius, weigh);
     return count > kMostCharged ? Sighting{} : nearest;
+}
+
+// The intruder that the owner charges already, while the charge goes on.
+Sighting presentIntruder(const Environment& environment,
+                         const fish::SpeciesParameters& parameters,
+                         std::uint32_t fish,
+                         const fish::Mind& mind,
+                         const Senses& senses) {
+    const std::uint32_t target = fish::aimOf(mind).target;
+    const Sighting intruder = sightingOf(*environment.view, target, senses.position);
+    const bool goes = !environment.view->shows(target, fish::kAway) &&
+                      goesOn(environment, parameters, fish, mind, intruder, senses);
+    return goes ? intruder : Sighting{};
+}
+
+bool isChargedBy(const fish::FishView& view, std::uint32_t fish, std::uint32_t other) {
+    return other < view.size() && view.charged[other] == fish && !view.shows(other, fish::kAway);
 }
 
 // Who charges the fish: the one that it flees, or a neighbour.
@@ -89,19 +114,12 @@ Sighting chargerOf(const fish::FishView& view,
                    std::uint32_t fish,
                    const fish::Mind& mind,
                    const Senses& senses) {
-    const auto charges = [&](std::uint32_t other) {
-        return other < view.size() && view.charged[other] == fish &&
-               !view.shows(other, fish::kAway);
-    };
-    const auto sightingOf = [&](std::uint32_t other) {
-        const glm::vec3 offset = view.position(other) - senses.position;
-        return Sighting{other, offset, place::lengthOf(offset)};
-    };
-    if (mind.intention == fish::Intention::Escape && charges(mind.target))
-        return sightingOf(mind.target);
+    if (mind.intention == fish::Intention::Escape && isChargedBy(view, fish, mind.target))
+        return sightingOf(view, mind.target, senses.position);
     for (const Neighbours* those : {&senses.schoolmates, &senses.others})
         for (std::size_t i = 0; i < those->count; ++i)
-            if (charges(those->fish[i])) return sightingOf(those->fish[i]);
+            if (isChargedBy(view, fish, those->fish[i]))
+                return sightingOf(view, those->fish[i], senses.position);
     return {};
 }
 
@@ -130,11 +148,7 @@ void senseTerritory(const Environment& environment,
     if (!senses.territory.holds) return;
     const fish::Aim aim = fish::aimOf(mind);
     if (aim.intention == fish::Intention::Charge && aim.target < view.size()) {
-        const glm::vec3 offset = view.position(aim.target) - senses.position;
-        const Sighting intruder{aim.target, offset, place::lengthOf(offset)};
-        if (!view.shows(aim.target, fish::kAway) &&
-            goesOn(environment, parameters, fish, mind, intruder, senses))
-            senses.territory.intruder = intruder;
+        senses.territory.intruder = presentIntruder(environment, parameters, fish, mind, senses);
         return;
     }
     const float rest = kRefractorySeconds * static_cast<float>(kTicksPerSecond);

@@ -123,13 +123,17 @@ struct Watch {
                 parameters.habits.box.asideBodyLengths * scale};
     }
 
+    // Whether it courts, charges or cleans another fish.
+    [[nodiscard]] bool isWantedNear(std::uint32_t other) const {
+        return other == aim.target && (aim.intention == fish::Intention::Mate ||
+                                       aim.intention == fish::Intention::Charge ||
+                                       aim.intention == fish::Intention::Clean);
+    }
+
     // Whether another fish counts. One that it courts, cleans, hunts or follows it wants near, and
     // its cleaner; from its hunters prey flees instead.
     [[nodiscard]] bool isHeeded(std::uint32_t other) const {
-        if (other == aim.target &&
-            (aim.intention == fish::Intention::Mate || aim.intention == fish::Intention::Charge ||
-             aim.intention == fish::Intention::Clean))
-            return false;
+        if (isWantedNear(other)) return false;
         if (aim.intention == fish::Intention::Visit &&
             environment.speciesParameters[view.kind[other]].habits.cleans)
             return false;

@@ -34,6 +34,11 @@ std::size_t degreesBetween(glm::vec3 a, glm::vec3 b) {
     return static_cast<std::size_t>(std::min(std::ceil(degrees), 90.0F));
 }
 
+// 1 where a fish begins an intention, else 0.
+std::uint64_t begins(fish::Intention intention, fish::Intention before, fish::Intention now) {
+    return now == intention && before != intention ? 1 : 0;
+}
+
 }  // namespace
 
 int quantileDegrees(const std::array<std::uint64_t, 91>& slip, double share) {
@@ -62,20 +67,22 @@ void SpeciesLog::note(const world::World& world) {
     for (std::size_t fish = 0; fish < fish_.size(); ++fish) noteFish(world, fish, glances);
 }
 
-// Where a pair spawned in this tick, its clocks begin anew at once; who gives up a courtship begins
-// anew alone.
 void SpeciesLog::noteSpawnings(const world::World& world) {
     if (world.counts().spawnings == spawnings_) return;
     spawnings_ = world.counts().spawnings;
-    const auto beginsAnew = [&](std::size_t fish) {
-        return world.minds()[fish].sinceSpawning == 0 && fish_[fish].sinceSpawning != 0;
+    for (std::size_t fish = 0; fish < fish_.size(); ++fish)
+        if (spawned(world, fish)) ++tallies_[world.view().kind[fish]].spawnings;
+}
+
+// Whether a fish spawned in this tick, as the first of its pair. Where a pair spawns, its clocks
+// begin anew at once; who gives up a courtship begins anew alone.
+bool SpeciesLog::spawned(const world::World& world, std::size_t fish) const {
+    const auto beginsAnew = [&](std::size_t one) {
+        return world.minds()[one].sinceSpawning == 0 && fish_[one].sinceSpawning != 0;
     };
-    for (std::size_t fish = 0; fish < fish_.size(); ++fish) {
-        const fish::Aim aim = fish::aimOf(world.minds()[fish]);
-        if (beginsAnew(fish) && aim.intention == fish::Intention::Mate && fish < aim.target &&
-            beginsAnew(aim.target))
-            ++tallies_[world.view().kind[fish]].spawnings;
-    }
+    const fish::Aim aim = fish::aimOf(world.minds()[fish]);
+    return beginsAnew(fish) && aim.intention == fish::Intention::Mate && fish < aim.target &&
+           beginsAnew(aim.target);
 }
 
 // The view shows the world before the tick, so it shows what the commands of the tick before did.
@@ -152,17 +159,13 @@ void SpeciesLog::noteWay(const world::World& world, std::size_t fish, SpeciesTal
 }
 
 void SpeciesLog::noteLife(const fish::Mind& mind, const Fish& fish, SpeciesTally& tally) {
-    const auto begins = [&](fish::Intention intention) {
-        return mind.intention == intention && fish.intention != intention ? 1U : 0U;
-    };
     // What was eaten since the last thought; time passes in thoughts. After a digested meal the
     // next one has its number again.
     const bool isAnother = mind.eaten != fish.eaten || fish.sinceMeal != 0;
     tally.meals += mind.sinceMeal == 0 && isAnother ? 1 : 0;
-    tally.flights += begins(fish::Intention::Escape);
-    tally.courtships += begins(fish::Intention::Mate);
-    const bool hides = fish::aimOf(mind).intention == fish::Intention::Hide;
-    tally.dives += hides && fish.aim != fish::Intention::Hide ? 1 : 0;
+    tally.flights += begins(fish::Intention::Escape, fish.intention, mind.intention);
+    tally.courtships += begins(fish::Intention::Mate, fish.intention, mind.intention);
+    tally.dives += begins(fish::Intention::Hide, fish.aim, fish::aimOf(mind).intention);
 }
 
 void SpeciesLog::noteSlip(const fish::VisibleFish& now, const Fish& fish, SpeciesTally& tally) {

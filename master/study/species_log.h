@@ -96,6 +96,7 @@ class SpeciesLog {
     };
     void noteFish(const world::World& world, std::size_t fish, bool glances);
     void noteSpawnings(const world::World& world);
+    [[nodiscard]] bool spawned(const world::World& world, std::size_t fish) const;
     static void noteLife(const fish::Mind& mind, const Fish& fish, SpeciesTally& tally);
     static void noteSlip(const fish::VisibleFish& now, const Fish& fish, SpeciesTally& tally);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
 #include <glm/geometric.hpp>
 
@@ -118,10 +119,7 @@ bool isExpelled(const WatchedFish& now, const fish::Mind& mind, std::uint32_t fi
 bool leadsAtAPatch(const WatchedFish& now, const fish::Mind& mind, std::uint32_t fish) {
     const fish::SpeciesParameters& species = now.species[now.view.kind[fish]];
     if (fish::aimOf(mind).intention != fish::Intention::Graze) return false;
-    const auto stage = static_cast<behaviour::GrazeStage>(mind.stage);
-    const bool isThere = stage == behaviour::GrazeStage::Settle ||
-                         stage == behaviour::GrazeStage::RunUp ||
-                         stage == behaviour::GrazeStage::Bite;
+    const bool isThere = behaviour::isAtPatch(static_cast<behaviour::GrazeStage>(mind.stage));
     if (!isThere || behaviour::leaderOf(now.view, species, fish) != fish) return false;
     const fish::Household shoal = fish::householdOf(species, fish);
     return species.habits.graze->manner == config::GrazeManner::Loop ||
@@ -142,6 +140,13 @@ Deed deedOf(const WatchedFish& now, std::uint32_t fish) {
             .inspects = inspects(studied, fish),
             .stopsToGraze = leadsAtAPatch(now, mind, fish),
             .shadows = aim == fish::Intention::Wander && ridesBesideAnother(studied, fish)};
+}
+
+// By fish.
+std::vector<Deed> deedsOf(const WatchedFish& now) {
+    std::vector<Deed> deeds(now.view.size());
+    for (std::uint32_t fish = 0; fish < deeds.size(); ++fish) deeds[fish] = deedOf(now, fish);
+    return deeds;
 }
 
 // A cloud faces a way where the mean of the headings of those that hover, in plan, is so long; so
@@ -186,6 +191,12 @@ bool isSchool(const fish::FishView& view, const fish::SpeciesParameters& species
     return 2 * schooling > there;
 }
 
+// What a school does whose number of parts changes; nothing where it comes or goes as a whole.
+std::optional<WallEvent> changeOf(std::uint32_t before, std::uint32_t parts) {
+    if (before == 0 || parts == 0) return {};
+    return parts > before ? WallEvent::Split : WallEvent::Meeting;
+}
+
 bool isInView(std::uint32_t first, std::uint32_t last, const EventWatch::Sees& sees) {
     std::size_t inView = 0;
     for (std::uint32_t fish = first; fish < last; ++fish)
@@ -221,9 +232,8 @@ std::uint32_t partsOf([[maybe_unused]] const fish::FishView& view,
     }));
 }
 
-EventWatch::EventWatch(const WatchedFish& now) : lastLook_(now.tick), parts_(now.species.size()) {
-    for (std::uint32_t fish = 0; fish < now.view.size(); ++fish)
-        before_.push_back(deedOf(now, fish));
+EventWatch::EventWatch(const WatchedFish& now)
+    : lastLook_(now.tick), before_(deedsOf(now)), parts_(now.species.size()) {
     for (const fish::SpeciesParameters& species : now.species) {
         if (!species.habits.cloud) continue;
         for (std::uint32_t fish = species.first; fish < species.last;) {
@@ -236,8 +246,7 @@ EventWatch::EventWatch(const WatchedFish& now) : lastLook_(now.tick), parts_(now
 
 void EventWatch::note(const WatchedFish& now, const Sees& sees) {
     assert(now.view.size() == before_.size());
-    std::vector<Deed> deeds(before_.size());
-    for (std::uint32_t fish = 0; fish < deeds.size(); ++fish) deeds[fish] = deedOf(now, fish);
+    std::vector<Deed> deeds = deedsOf(now);
     // By kind, since one kind may be part of another that is before it in the table.
     for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
         const auto takesPart = kKinds.at(kind).takesPart;
@@ -299,6 +308,12 @@ void EventWatch::begin(std::size_t kind, Actor actor) {
     actors_.at(kind).push_back(actor);
 }
 
+bool EventWatch::Parts::settlesAt(std::uint32_t count) {
+    seconds = count == other ? seconds + 1 : 1;
+    other = count;
+    return count != settled && seconds >= kSecondsToSettle;
+}
+
 void EventWatch::noteSchools(const WatchedFish& now,
                              std::span<const std::uint32_t> groups,
                              const Sees& sees) {
@@ -306,14 +321,10 @@ void EventWatch::noteSchools(const WatchedFish& now,
         const fish::SpeciesParameters& species = now.species[kind];
         Parts& parts = parts_[kind];
         const std::uint32_t count = partsOf(now.view, species.first, species.last, groups);
-        parts.seconds = count == parts.other ? parts.seconds + 1 : 1;
-        parts.other = count;
-        if (count == parts.settled || parts.seconds < kSecondsToSettle) continue;
-        const bool isNoted = parts.settled > 0 && count > 0 && isSchool(now.view, species);
-        if (isNoted)
-            events_.push_back({count > parts.settled ? WallEvent::Split : WallEvent::Meeting,
-                               now.tick,
-                               isInView(species.first, species.last, sees)});
+        if (!parts.settlesAt(count)) continue;
+        const std::optional<WallEvent> change = changeOf(parts.settled, count);
+        if (change && isSchool(now.view, species))
+            events_.push_back({*change, now.tick, isInView(species.first, species.last, sees)});
         parts.settled = count;
     }
 }

@@ -132,6 +132,8 @@ class EventWatch {
         std::uint32_t settled = 0;
         std::uint32_t other = 0;
         std::uint32_t seconds = 0;
+        // Counts a second; whether another number than the settled one has lasted.
+        [[nodiscard]] bool settlesAt(std::uint32_t count);
     };
     // The fish about one home, the way in plan that they last settled to face (a unit vector, or
     // 0), and for how long they have faced another one.

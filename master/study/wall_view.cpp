@@ -71,11 +71,16 @@ void WallExtent::measure() {
     toAllSides([&](glm::dvec2 at) {
         if (isOnScreen(directionOf(at))) enclose(directionOf(at));
     });
-    // No direction that was tried is quite at the back, the zenith or the nadir.
+    reachPoles();
+    assert(high_.x > low_.x && high_.y > low_.y);
+}
+
+// No direction that was tried is quite at the back, the zenith or the nadir.
+void WallExtent::reachPoles() {
+    constexpr double kQuarter = std::numbers::pi / 2;
     if (high_.x - low_.x > 4 * kQuarter - 2 * kStep) low_.x = -2 * kQuarter, high_.x = 2 * kQuarter;
     if (high_.y > kQuarter - kStep) high_.y = kQuarter;
     if (low_.y < kStep - kQuarter) low_.y = -kQuarter;
-    assert(high_.x > low_.x && high_.y > low_.y);
 }
 
 void WallExtent::enclose(glm::dvec3 direction) {
@@ -127,7 +132,7 @@ std::optional<SeenFish> WallView::seen(const fish::FishView& view,
     constexpr double kToMiddle = double{fish::kNoseBodyLengths} - 0.5;
     const glm::dvec3 offset = glm::dvec3(body.position) + kToMiddle * length * heading - pose.eye;
     const double distance = glm::length(offset);
-    if (distance <= 0 || distance > clarityMetres_) return std::nullopt;
+    if (!isInClearWater(distance)) return std::nullopt;
     const glm::dvec3 sight = offset / distance;
     const double across = length * glm::length(heading - glm::dot(heading, sight) * sight);
     const double angle = across / distance;
@@ -196,6 +201,18 @@ double largestShare(std::span<const SeenFish> seen, std::span<const std::uint32_
 
 }  // namespace
 
+namespace {
+
+// The names of the sets of all fish; a fish that is away has none.
+std::vector<std::uint32_t> namesOf(JoinedSets& sets, const fish::FishView& view) {
+    std::vector<std::uint32_t> names(view.size(), fish::kNobody);
+    for (std::uint32_t fish = 0; fish < view.size(); ++fish)
+        if (!view.shows(fish, fish::kAway)) names[fish] = sets.nameOf(fish);
+    return names;
+}
+
+}  // namespace
+
 std::vector<std::uint32_t> groupsOf(const fish::FishView& view) {
     JoinedSets sets(view.size());
     std::vector<std::uint32_t> species;
@@ -206,10 +223,7 @@ std::vector<std::uint32_t> groupsOf(const fish::FishView& view) {
         joinLinked(view, species, sets);
         species.clear();
     }
-    std::vector<std::uint32_t> groups(view.size(), fish::kNobody);
-    for (std::uint32_t fish = 0; fish < view.size(); ++fish)
-        if (!view.shows(fish, fish::kAway)) groups[fish] = sets.nameOf(fish);
-    return groups;
+    return namesOf(sets, view);
 }
 
 WallGlance glanceOf(std::span<const SeenFish> seen,

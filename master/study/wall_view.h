@@ -56,6 +56,7 @@ class WallExtent {
   private:
     void measure();
     void enclose(glm::dvec3 direction);
+    void reachPoles();
     void nameCells();
     [[nodiscard]] bool isOnScreen(glm::dvec3 direction) const;
 
@@ -107,6 +108,10 @@ class WallView {
     [[nodiscard]] const WallExtent& extent() const { return extent_; }
 
   private:
+    [[nodiscard]] bool isInClearWater(double metres) const {
+        return metres > 0 && metres <= clarityMetres_;
+    }
+
     const WallExtent& extent_;
     surroundings::Obstacles sight_;
     double clarityMetres_;

@@ -211,6 +211,10 @@ void plant(std::vector<Instance>& all,
     all.push_back(instanceOf(*bed.place, bed.others, sunk, placement, dice));
 }
 
+const Way& wayOf(Form form) {
+    return *std::ranges::find(kWays, form, &Way::form);
+}
+
 // Plants one large coral on top of a boulder, so that each boulder has an outline of its own: a
 // table, a thicket or a fan. The best of 25 random spots is the highest and most upright.
 void crownRock(std::vector<Instance>& all,
@@ -226,7 +230,7 @@ void crownRock(std::vector<Instance>& all,
     }
     if (isBuried(bed, best.place)) return;
     const Form form = kCrowns.at(dice.seed() % kCrowns.size());
-    const Way& way = *std::ranges::find(kWays, form, &Way::form);
+    const Way& way = wayOf(form);
     const float size = glm::clamp(0.52F * radius, 0.3F, 1.15F) * dice.between(0.8F, 1.15F);
     planted.push_back({best.place, size});
     plant(all, bed, way, best, size, dice);
@@ -242,46 +246,55 @@ Spot spotTowards(const Bed& bed, glm::vec3 direction) {
             glm::normalize(bed.turn * glm::vec3(vertex.normal))};
 }
 
-// Plants what is seen of a site: an anemone with two smaller ones, a branching coral, or short
-// turf. The simulation knows the same sites.
+// Plants what is seen of a site.
+struct SiteBed {
+    std::vector<Instance>& all;
+    const Bed& bed;
+    const place::Site& site;
+    Dice dice{hashOf(site.seed, 81)};
+
+    void grow(const Way& way, glm::vec3 direction, float size) {
+        plant(all, bed, way, spotTowards(bed, glm::normalize(direction)), size, dice);
+    }
+    // A direction drawn near that of the site; `share` of its size.
+    glm::vec3 beside(float share) {
+        return site.normal + (share * site.sizeMetres / bed.rock->radiusMetres) *
+                                 glm::vec3{dice.between(-1, 1), 0, dice.between(-1, 1)};
+    }
+
+    // One with two smaller ones.
+    void growAnemones() {
+        grow(wayOf(Form::Anemone), site.normal, site.sizeMetres);
+        for (int i = 0; i < 2; ++i)
+            grow(wayOf(Form::Anemone), beside(0.9F), 0.7F * site.sizeMetres);
+    }
+    void growBranchingCorals() {
+        const Form form = dice.unit() < 0.65F ? Form::Staghorn : Form::Bush;
+        grow(wayOf(form), site.normal, site.sizeMetres);
+        grow(wayOf(Form::Staghorn), beside(0.8F), 0.7F * site.sizeMetres);
+    }
+    void growTurf() {
+        for (int i = 0; i < 9; ++i)
+            grow(kTurfPatch, beside(0.8F), dice.between(kTurfPatch.least, 0.12F));
+    }
+};
+
+// Plants what is seen of a site: anemones, branching corals or short turf; nothing of the other
+// kinds. The simulation knows the same sites.
 void plantSite(std::vector<Instance>& all,
                const Bed& bed,
                std::vector<Planted>& planted,
                const place::Site& site) {
-    Dice dice{hashOf(site.seed, 81)};
-    const Spot spot = spotTowards(bed, site.normal);
-    const auto grow = [&](const Way& way, glm::vec3 direction, float size) {
-        plant(all, bed, way, spotTowards(bed, glm::normalize(direction)), size, dice);
-    };
-    const auto beside = [&](float share) {
-        return site.normal + (share * site.sizeMetres / bed.rock->radiusMetres) *
-                                 glm::vec3{dice.between(-1, 1), 0, dice.between(-1, 1)};
-    };
-    const auto wayOf = [](Form form) -> const Way& {
-        return *std::ranges::find(kWays, form, &Way::form);
-    };
-    switch (site.kind) {
-        case config::SiteKind::Anemone:
-            grow(wayOf(Form::Anemone), site.normal, site.sizeMetres);
-            for (int i = 0; i < 2; ++i)
-                grow(wayOf(Form::Anemone), beside(0.9F), 0.7F * site.sizeMetres);
-            break;
-        case config::SiteKind::Branching:
-            grow(wayOf(dice.unit() < 0.65F ? Form::Staghorn : Form::Bush),
-                 site.normal,
-                 site.sizeMetres);
-            grow(wayOf(Form::Staghorn), beside(0.8F), 0.7F * site.sizeMetres);
-            break;
-        case config::SiteKind::Turf:
-            for (int i = 0; i < 9; ++i)
-                grow(kTurfPatch, beside(0.8F), dice.between(kTurfPatch.least, 0.12F));
-            break;
-        case config::SiteKind::Ledge:
-        case config::SiteKind::Hole:
-        case config::SiteKind::Cleaning:
-            return;
-    }
-    planted.push_back({spot.place, 1.2F * site.sizeMetres});
+    SiteBed siteBed{all, bed, site};
+    if (site.kind == config::SiteKind::Anemone)
+        siteBed.growAnemones();
+    else if (site.kind == config::SiteKind::Branching)
+        siteBed.growBranchingCorals();
+    else if (site.kind == config::SiteKind::Turf)
+        siteBed.growTurf();
+    else
+        return;
+    planted.push_back({spotTowards(bed, site.normal).place, 1.2F * site.sizeMetres});
 }
 
 // Covers a rock with corals, large ones first so that small ones fill the gaps, then with turf. The

@@ -70,7 +70,21 @@ std::uint64_t digestOfMinds() {
     for (const Scenario& scenario : scenariosOf(config))
         for (const Condition& condition : {kConditions.front(), kConditions.back()})
             digest = foldedOne(digest, digestOfScene(scenario, condition.adaptation));
-    for (const char* routine : {"chase", "eat", "escape", "leave", "mate", "school", "wander"})
+    for (const char* routine : {"ambush",
+                                "charge",
+                                "chase",
+                                "clean",
+                                "eat",
+                                "escape",
+                                "graze",
+                                "hang",
+                                "hide",
+                                "leave",
+                                "loop",
+                                "mate",
+                                "patrol",
+                                "school",
+                                "wander"})
         digest = foldedOne(
             digest,
             digestOfScene(
