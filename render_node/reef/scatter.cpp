@@ -274,8 +274,10 @@ struct SiteBed {
         grow(wayOf(Form::Staghorn), beside(0.8F), 0.7F * site.sizeMetres);
     }
     void growTurf() {
-        for (int i = 0; i < 9; ++i)
-            grow(kTurfPatch, beside(0.8F), dice.between(kTurfPatch.least, 0.12F));
+        for (int i = 0; i < 9; ++i) {
+            const float size = dice.between(kTurfPatch.least, 0.12F);
+            grow(kTurfPatch, beside(0.8F), size);
+        }
     }
 };
 
