@@ -102,7 +102,7 @@ constexpr float kAlign = 1.05F;
 constexpr float kCohere = 1.2F;
 
 // A fish turns sharply if of seven schoolmates three have turned by more than 45 degrees.
-constexpr float kTurnedCosine = 0.707F;
+constexpr float kTurnedCosine = 0.5F;
 constexpr std::size_t kQuorum = 3;
 
 // Weight and reach of roomFrom(); the reach in lengths of the longer of the two fish.
@@ -164,7 +164,7 @@ glm::vec3 roomFromThose(const Situation& situation, const Neighbours& those) {
 
 // Weights of the school's steering against the unit vector of the present course.
 constexpr float kKeepCourse = 0.8F;
-constexpr float kKeepCourseTurning = 0.3F;
+constexpr float kKeepCourseTurning = 0.5F;
 constexpr float kFollow = 0.7F;
 constexpr float kWander = 0.55F;
 // Share by which the random part decreases at full alarm.
@@ -254,7 +254,7 @@ float wantedSpeed(const Situation& situation, const Company& company, float alar
         own = goalPace + (kBaitBallPace - goalPace) * std::abs(goal.mill);
     } else {
         // Where they like to be they slow down: by this alone a school stays.
-        own *= 1 - kSlowsDown * likingOf(*situation.environment.surroundings, senses.position);
+        own *= 1 - kSlowsDown * likingOf(*situation.environment.surroundings, senses.position).now;
     }
     const float pace = company.speed > 0 ? 0.5F * (own + company.speed) : own;
     // An obstacle ahead slows it too, but a fish in the way of the submarine hurries.
@@ -452,7 +452,7 @@ fish::Course school(const Situation& situation) {
     const Glance glance = gathers ? Glance{} : glanceOf(situation);
     const double time = environment.surroundings->timeOfDay;
     const float rest =
-        gathers ? 0.0F : likingOf(*environment.surroundings, senses.position) * (1 - alarm);
+        gathers ? 0.0F : likingOf(*environment.surroundings, senses.position).place * (1 - alarm);
     const Togetherness together{factorAt(kSchoolSpacing, time, alarm) * (1 + kSpreads * rest),
                                 factorAt(kSchoolAlignment, time, alarm),
                                 factorAt(kSchoolCohesion, time, alarm)};

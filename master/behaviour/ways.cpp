@@ -52,7 +52,7 @@ constexpr float kThereMetres = 1.2F;
 constexpr float kLead = 1.6F;
 constexpr float kHold = 0.6F;
 // A bold fish leads with full weight if so many schoolmates are near.
-constexpr std::size_t kFollowers = 4;
+constexpr std::size_t kFollowers = 2;
 // A school holds its place in a current above this (m/s) where it likes to be.
 constexpr float kHoldsFrom = 0.03F;
 constexpr float kLikes = 0.6F;
@@ -134,7 +134,7 @@ std::uint32_t structureFor(const Environment& environment,
     return static_cast<std::uint32_t>(structures.size() - 1);
 }
 
-float likingOf(const surroundings::Surroundings& surroundings, glm::vec3 place) {
+Liking likingOf(const surroundings::Surroundings& surroundings, glm::vec3 place) {
     float nearest = std::numeric_limits<float>::infinity();
     float share = 0;
     for (const surroundings::Structure& structure : surroundings.structures) {
@@ -145,7 +145,7 @@ float likingOf(const surroundings::Surroundings& surroundings, glm::vec3 place) 
     }
     const float near = std::clamp(nearest / kNearMetres, 0.0F, 1.0F);
     const float far = std::clamp((kGoneMetres - nearest) / (kGoneMetres - kFarMetres), 0.0F, 1.0F);
-    return near * far * share;
+    return {near * far, near * far * share};
 }
 
 glm::vec3 ownWay(const Situation& situation) {
@@ -168,7 +168,7 @@ glm::vec3 ownWay(const Situation& situation) {
         if (place::lengthOf(towards) > kThereMetres)
             way += place::directionOf(towards, {}) * (kLead * followed);
     }
-    if (flows && likingOf(around, senses.position) > kLikes) way += against * kHold;
+    if (flows && likingOf(around, senses.position).now > kLikes) way += against * kHold;
     return way;
 }
 

@@ -31,8 +31,12 @@ void rememberPlaces(const Environment& environment,
                                          const Senses& senses);
 
 // How much a school likes to be at a place, 0 to 1: most beside a structure, a little off its
-// crown; less where it is tired of it, not at all where it was frightened.
-[[nodiscard]] float likingOf(const surroundings::Surroundings& surroundings, glm::vec3 place);
+// crown. By the place alone, and now: less where it is tired of it, not at all where it was
+// frightened.
+struct Liking {
+    float place = 0, now = 0;
+};
+[[nodiscard]] Liking likingOf(const surroundings::Surroundings& surroundings, glm::vec3 place);
 
 // The way that a fish would go by itself, in units of the unit vector of its present course: a bold
 // one towards its structure and to the side of it from which the current comes; all against the

@@ -9,8 +9,8 @@ namespace aquarama::surroundings {
 namespace {
 
 constexpr float kClearMetres = 0.01F;
-constexpr float kPerSecond = 30;
-constexpr float kFastest = 1;
+constexpr float kPerSecond = 40;
+constexpr float kFastest = 2;
 constexpr float kOutMetres = 0.3F;
 constexpr float kBackPerSecond = 0.5F;
 constexpr float kFastestBack = 0.1F;
