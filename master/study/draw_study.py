@@ -40,7 +40,7 @@ QUANTITIES = {
 PANELS = [("recommendations", "no recommendations", "school", "same_segment_percent"),
           ("recommendations", "no recommendations", "school", "in_step_percent"),
           ("enlarged regions", "regions not enlarged", "crowded tank", "touches_per_fish_minute"),
-          ("enlarged regions", "regions not enlarged", "reef", "touches_per_fish_minute"),
+          ("enlarged regions", "regions not enlarged", "reef_1998", "touches_per_fish_minute"),
           ("earlier pursuit", "late pursuit", "alone: bigeye_scad", "pursuit_seconds_per_particle"),
           ("earlier pursuit", "late pursuit", "alone: blue_tang", "pursuit_seconds_per_particle")]
 # Scenarios of a single fish have this before the name of its species; of them only these quantities are printed.

@@ -112,7 +112,7 @@ class Reports(Case):
         files, said = self.written("study", "study", "--minutes", 0.1, "--seeds", 2, "--out", self.folder / "study")
         self.assertEqual(set(files), {"adaptation.csv", "adaptation.svg"})
         self.assert_picture(files["adaptation.svg"])
-        for scenario in ["reef", "school", "crowded tank", "feeding"]:
+        for scenario in ["reef_1998", "school", "crowded tank", "feeding"]:
             self.assertEqual(said.count(f"### {scenario}\n"), 1)
         self.assertEqual(said.count("| overlaps that begin, a fish and minute |"), 4)
         self.assertRegex(said, r"\n### alone: pursuit for each particle eaten, s\n\n.*\n.*\n\| bigeye_scad \|")
@@ -133,11 +133,11 @@ class Reports(Case):
         self.assertRegex(said, r"\n\| bigeye_scad, bigeye_scad \| [\d.]+ \|")
         # An hour takes minutes: one that is made up.
         with open(files["hours.csv"], "a", encoding="utf-8") as hours:
-            hours.write(",".join(str(i) for i in range(24)) + "\n")
+            hours.write(",".join(str(i) for i in range(31)) + "\n")
         tables = drawn("master/study/draw_study.py", "chronicle", self.folder / "c", "1")
         self.assertEqual(tables.count("\n|---|"), 3)
-        self.assertIn("| 0 | 1 | 2 | 3 | 4 | 5 | 600.0 / 700.0 / 800.0 / 900.0 / 1000.0 / 1100.0 / 1200.0 / 1300.0 | "
-                      "14.0 | 15.000 | 16.00 | 17 | 18 | 19 (20) | 21.00 | 22.00 | 23 |", tables)
+        self.assertIn("| 0 | 1 | 2 | 3 | 4 | 5 | " + " / ".join(f"{100 * i}.0" for i in range(6, 21)) +
+                      " | 21.0 | 22.000 | 23.00 | 24 | 25 | 26 (27) | 28.00 | 29.00 | 30 |", tables)
 
 
     def test_what_a_visitor_sees(self):

@@ -80,7 +80,7 @@ TEST_F(Program, checkSaysWhatIsInASceneAndInASpecies) {
     EXPECT_EQ(scene.status, 0);
     EXPECT_THAT(scene.said, testing::HasSubstr("51 bigeye_scad, prey"));
     EXPECT_THAT(scene.said, testing::HasSubstr("reef.txtpb: good"));
-    EXPECT_THAT(scene.said, testing::HasSubstr("tours 6 stops at 0.4 m/s after 20 s"));
+    EXPECT_THAT(scene.said, testing::HasSubstr("tours 5 stops at 0.4 m/s after 20 s"));
     const Outcome species =
         compose("check " AQUARAMA_SOURCE_DIR "/config/species/blacktip_reef_shark.txtpb");
     EXPECT_EQ(species.status, 0);

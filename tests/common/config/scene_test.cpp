@@ -194,7 +194,7 @@ stops { at { x_m: 0 y_m: -5 z_m: 1 } } })",
 
 // Yu & Terzopoulos 1998, section 5.
 TEST(Scene, theReefHasThePapersCast) {
-    const std::string path = kConfig + "/scenes/reef.txtpb";
+    const std::string path = kConfig + "/scenes/reef_1998.txtpb";
     const Scene scene = readScene(path);
     const auto cast = readCastSpecies(scene, path);
     std::uint32_t fish = 0;

@@ -90,7 +90,7 @@ TEST(ReefByDay, tenMinutesKeepTheBounds) {
 // How the fish of a species lived for an hour.
 struct Living {
     std::string name = {};
-    bool isHunted = false;
+    bool isHunted = false, isHunter = false;
     SpeciesTally tally = {};
     std::uint64_t spawningsOfADay = 0;
     // Shares of its time outside shelter: in overlaps, and in sand, rock or air.
@@ -122,13 +122,16 @@ class Bodies {
         intentions_.resize(world.view().size());
     }
 
-    // Who is in a shelter touches nobody: its rod has no length.
+    // Who is in a shelter touches nobody: its rod has no length. Nor has that of a cleaner at work,
+    // which lives by touching its clients.
     void note(const world::World& world) {
         if (world.tick().value % kTicksBetweenGlances != 0) return;
         rodsOf(world.view(), halfWidths_, rods_);
         const StudiedFish studied{world.view(), world.minds(), world.speciesParameters()};
         for (std::uint32_t fish = 0; fish < rods_.size(); ++fish) {
-            if (isSheltered(studied, fish)) rods_[fish].length = 0;
+            if (isSheltered(studied, fish) ||
+                fish::aimOf(world.minds()[fish]).intention == fish::Intention::Clean)
+                rods_[fish].length = 0;
             intentions_[fish] = world.minds()[fish].intention;
             if (rods_[fish].length == 0) continue;
             ++outside_[fish];
@@ -221,6 +224,7 @@ Life livedFor(std::uint64_t hours, const std::string& scene, std::uint32_t seed)
         Living& living = life.species[parameters.kind];
         living.name = scenario.world.cast[parameters.kind].name;
         living.isHunted = parameters.huntedBy != 0;
+        living.isHunter = parameters.habits.role == config::Role::Predator;
         living.tally = log.byKind()[parameters.kind];
     }
     bodies.share(world, life);
@@ -291,6 +295,17 @@ TEST_F(ReefForHours, bodiesOverlapForTwoPercentOfTheTimeOutsideShelterAtMost) {
 // A shark bears its young alive: it courts nobody here.
 constexpr const char* kBearsLiveYoung = "blacktip_reef_shark";
 
+// Hunters eat seldom: all three hours together tell whether they do.
+TEST_F(ReefForHours, huntersEat) {
+    std::map<std::string, std::uint64_t> meals;
+    everyLife([&](const Life& life) {
+        for (const Living& species : life.species)
+            if (species.isHunter) meals[species.name] += species.tally.meals;
+    });
+    EXPECT_FALSE(meals.empty());
+    for (const auto& [name, count] : meals) EXPECT_GT(count, 0U) << name;
+}
+
 TEST_F(ReefForHours, everySpeciesEatsFleesAndSpawnsWithinADay) {
     everyLife([](const Life& life) {
         for (const Living& species : life.species) {
@@ -303,7 +318,9 @@ TEST_F(ReefForHours, everySpeciesEatsFleesAndSpawnsWithinADay) {
                 tally.dives,
                 tally.spawnings,
                 species.spawningsOfADay);
-            EXPECT_GT(tally.meals, 0U) << species.name;
+            if (!species.isHunter) {
+                EXPECT_GT(tally.meals, 0U) << species.name;
+            }
             if (species.isHunted) {
                 EXPECT_GT(tally.flights + tally.dives, 0U) << species.name;
             }
