@@ -102,7 +102,7 @@ constexpr float kAlign = 1.05F;
 constexpr float kCohere = 1.2F;
 
 // A fish turns sharply if of seven schoolmates three have turned by more than 45 degrees.
-constexpr float kTurnedCosine = 0.5F;
+constexpr float kTurnedCosine = 0.707F;
 constexpr std::size_t kQuorum = 3;
 
 // Weight and reach of roomFrom(); the reach in lengths of the longer of the two fish.
@@ -164,7 +164,7 @@ glm::vec3 roomFromThose(const Situation& situation, const Neighbours& those) {
 
 // Weights of the school's steering against the unit vector of the present course.
 constexpr float kKeepCourse = 0.8F;
-constexpr float kKeepCourseTurning = 0.5F;
+constexpr float kKeepCourseTurning = 0.3F;
 constexpr float kFollow = 0.7F;
 constexpr float kWander = 0.55F;
 // Share by which the random part decreases at full alarm.
