@@ -61,7 +61,7 @@ class Start(unittest.TestCase):
 
     def test_a_first_start_says_what_the_master_prepares(self):
         log, cache = self.folder / "log", self.folder / "none"
-        prepares = r"the master prepares: (capturing 7 of 7 species, \d+ %|making the world)"
+        prepares = r"the master prepares: (capturing 15 of 15 species, \d+ %|making the world)"
         environment = os.environ | {"LP_NUM_THREADS": "1", "XDG_CACHE_HOME": str(cache)}
         with log.open("w") as output:
             master, node = (subprocess.Popen([BIN / program, *arguments], stdout=output, stderr=output, cwd=ROOT,
@@ -70,7 +70,7 @@ class Start(unittest.TestCase):
                                                        ("aquarama-node",
                                                         ["left", "--master", control_address(self.rig), "--headless"])))
         try:
-            wait_until(lambda: "capturing 7 of 7 species: once on this machine" in log.read_text(), 30,
+            wait_until(lambda: "capturing 15 of 15 species: once on this machine" in log.read_text(), 30,
                        "a line of the master")
             status = aquarama("status", self.rig)
             self.assertEqual(status.returncode, 1)
