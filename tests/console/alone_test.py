@@ -72,7 +72,7 @@ class FirstStart(Alone):
             self.start()
             client = Socket(self, Origin=None, Authorization=f"Bearer {self.token()}")
             wall = client.hear_until(lambda message: message.get("wall", {}).get("preparing"))["wall"]
-            self.assertRegex(wall["preparing"], r"^the master prepares: capturing 7 of 7 species, \d+ %$")
+            self.assertRegex(wall["preparing"], r"^the master prepares: capturing 15 of 15 species, \d+ %$")
             self.assertFalse(wall["heard"])
             client.close()
         finally:
