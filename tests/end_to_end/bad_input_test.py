@@ -282,7 +282,7 @@ class Files(Case):
         (self.path / "odd.txtpb").write_text(species.replace("persistence:", hunt + " persistence:"))
         own = self.path / "own.txtpb"
         for wrong, expected in [
-            (scene.replace("plankton: 300", "plankton: -3"), r"\S+/own\.txtpb:\d+:\d+: .*"),
+            (scene.replace("plankton: 1200", "plankton: -3"), r"\S+/own\.txtpb:\d+:\d+: .*"),
             (scene.replace("blue_tang", "mermaid"), r"\S+/own\.txtpb:\d+:\d+: .*mermaid.*"),
             (scene.replace(str(ROOT / "config/species/parrotfish"), "odd"), r"\S+/odd\.txtpb:\d+:\d+: .*hunts.*"),
         ]:
