@@ -58,7 +58,7 @@ class Metrics(unittest.TestCase):
         wait_until(lambda: self.master("aquarama_frames_total") > before["aquarama_frames_total"] + 30, PATIENCE,
                    "30 frames")
         wait_until(lambda: self.master("aquarama_release_skew_seconds_count") > 0, PATIENCE, "a skew of all three")
-        self.assertEqual(before["aquarama_fish"], 60)
+        self.assertEqual(before["aquarama_fish"], 381)
         self.assertEqual(before["aquarama_black"], 0)
         self.assertGreater(self.master("aquarama_state_bytes_total"), before["aquarama_state_bytes_total"])
         for place, name in enumerate(CHANNELS):
