@@ -76,7 +76,9 @@ glm::vec3 openDrift(const config::SceneCurrent& current, std::int64_t tick) {
     return glm::vec3{tide, 0, 0} + kSurgeCourse * surge;
 }
 
-Current::Current(const config::SceneCurrent& current, std::span<const Rock> rocks, const Region& water)
+Current::Current(const config::SceneCurrent& current,
+                 std::span<const Rock> rocks,
+                 const Region& water)
     : current_{current}, origin_{water.centre - water.halfExtent} {
     if (current.tideMetresPerSecond <= 0 && current.surgeMetresPerSecond <= 0) return;
     const auto corners = [](float half) { return static_cast<int>(2 * half / kCellMetres) + 2; };

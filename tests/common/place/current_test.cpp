@@ -10,9 +10,9 @@ namespace aquarama::place {
 namespace {
 
 constexpr config::SceneCurrent kCurrent{.tideMetresPerSecond = 0.05,
-                                   .tideSeconds = 620,
-                                   .surgeMetresPerSecond = 0.02,
-                                   .surgeSeconds = 7};
+                                        .tideSeconds = 620,
+                                        .surgeMetresPerSecond = 0.02,
+                                        .surgeSeconds = 7};
 constexpr Region kWater{{0, -5, -5}, {6, 3, 4}};
 const Rock kRock{.centre = {1, -7, -5}, .radiusMetres = 1, .seed = 1};
 

@@ -136,8 +136,7 @@ TEST(Cloud, divesFromASharkHidesAndReturns) {
     WorldSpecies hunter = sharks(1);
     hunter.habits.hunts = {"cloud"};
     // A hungry shark before the crown.
-    hunter.start =
-        config::Start{.centre = {-3.2F, -6.2F, -4}, .radiusMetres = 0.1, .hunger = 1};
+    hunter.start = config::Start{.centre = {-3.2F, -6.2F, -4}, .radiusMetres = 0.1, .hunger = 1};
     hunter.habits.hunt.restByDaySeconds = 60;
     options.cast.push_back(hunter);
     World world(options);
