@@ -2,7 +2,9 @@
 // A school that nothing gathers goes from place to place by itself, and by no schedule.
 #include "master/behaviour/ways.h"
 
+#include <algorithm>
 #include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -52,6 +54,40 @@ TEST(Ways, theSchoolVisitsSeveralStructuresInTenMinutes) {
         EXPECT_GE(visited.size(), 3U) << "seed " << seed;
         EXPECT_GT(way, 30) << "metres of the middle, seed " << seed;
     }
+}
+
+// A place at which the school was tires it, and one that it never saw does not. Nothing frightens
+// it here; where a fish is alarmed beside a structure, that one frightens, and is forgotten in
+// minutes.
+TEST(Ways, theSchoolRemembersWhereItWas) {
+    World world(schoolOfTheReef(1));
+    for (int i = 0; i < 120 * 60; ++i) world.advance();
+    float most = 0;
+    float least = 1;
+    for (const surroundings::Structure& structure : world.surroundings().structures) {
+        most = std::max(most, structure.tiredOf);
+        least = std::min(least, structure.tiredOf);
+        EXPECT_EQ(structure.fright, 0);
+    }
+    EXPECT_GT(most, 0.1F);
+    EXPECT_LE(most, 1);
+    EXPECT_LT(least, 0.5F * most);
+
+    std::vector<surroundings::Structure> structures = world.surroundings().structures;
+    fish::FishView view = world.view();
+    for (fish::VisibleFish& fish : view.fish) fish.position = structures[0].crown;
+    for (std::uint8_t& signs : view.signs) signs = fish::kSchooling | fish::kAlarmed;
+    behaviour::Environment around = world.environment();
+    around.view = &view;
+    const auto remember = [&](int seconds) {
+        for (int i = 0; i < seconds * 60; ++i, ++around.tick.value)
+            behaviour::rememberPlaces(around, structures);
+    };
+    remember(1);
+    EXPECT_NEAR(structures[0].fright, 1, 0.02F);
+    for (std::uint8_t& signs : view.signs) signs = 0;
+    remember(90);
+    EXPECT_NEAR(structures[0].fright, 0.368F, 0.01F) << "1/e after 90 s";
 }
 
 TEST(Ways, theSchoolNeedsNoSubmarine) {
