@@ -16,50 +16,65 @@ namespace {
 constexpr float kSmallestStepBodyLengths = 1.0F / 128.0F;
 
 // Nodal points, and both pectoral fins: their angles times kFinReachBodyLengths. In body lengths.
-using Pose = std::array<glm::vec3, body::kNodalPoints + 2>;
+constexpr std::size_t kPoints = body::kNodalPoints + 2;
+using Pose = std::array<glm::vec3, kPoints>;
 // A fin that beats as fast as any moves no more than a tail does, so that a warp gives it time.
 constexpr float kFinReachBodyLengths = 0.05F;
-using Cycle = std::array<Pose, kPhases + 1>;  // the last pose repeats the first
+// [point][axis][phase]: one pose is compared with all of a cycle at once. The last phase repeats
+// the first.
+using PhaseValues = std::array<float, kPhases + 1>;
+using Cycle = std::array<std::array<PhaseValues, 3>, kPoints>;
 // [phase of A][phase of B]: the largest squared travel from one pose to the other, either way.
-using Travels = std::array<std::array<float, kPhases + 1>, kPhases + 1>;
+using Travels = std::array<PhaseValues, kPhases + 1>;
 
 Cycle cycleOf(const ActionSegment& segment) {
     Cycle cycle;
-    for (std::size_t k = 0; k < cycle.size(); ++k) {
-        for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
-            const auto& d = segment.nodes[k % kPhases][i];
-            cycle[k][i] = glm::vec3(d[0], d[1], d[2]) * kPoseUnit;
+    for (std::size_t k = 0; k <= kPhases; ++k)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            for (std::size_t i = 0; i < body::kNodalPoints; ++i)
+                cycle[i][axis][k] = segment.nodes[k % kPhases][i][axis] * kPoseUnit;
+            for (std::size_t side = 0; side < 2; ++side)
+                cycle[body::kNodalPoints + side][axis][k] =
+                    segment.fins[k % kPhases][side][axis] * (kFinUnit * kFinReachBodyLengths);
         }
-        for (std::size_t side = 0; side < 2; ++side) {
-            const FinAngles& fin = segment.fins[k % kPhases][side];
-            cycle[k][body::kNodalPoints + side] =
-                glm::vec3(fin[0], fin[1], fin[2]) * (kFinUnit * kFinReachBodyLengths);
-        }
-    }
     return cycle;
 }
 
-// How far a warp between two poses has to move a nodal point, at most. The paper compares node 22,
-// the tail; we compare every nodal point, since a tail that comes back to its place may leave the
-// head far from its own.
-float squaredTravel(const Pose& a, const Pose& b) {
-    float most = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const glm::vec3 d = a[i] - b[i];
-        most = std::max(most, (d.x * d.x + d.y * d.y) + d.z * d.z);
+Pose sampleAt(const Cycle& cycle, std::size_t k) {
+    Pose pose;
+    for (std::size_t i = 0; i < kPoints; ++i)
+        pose[i] = {cycle[i][0][k], cycle[i][1][k], cycle[i][2][k]};
+    return pose;
+}
+
+// How far a warp between a pose and each of a cycle has to move a nodal point, at most, squared.
+// The paper compares node 22, the tail; we compare every nodal point, since a tail that comes back
+// to its place may leave the head far from its own.
+PhaseValues squaredTravels(const Pose& pose, const Cycle& cycle) {
+    PhaseValues most{};
+    for (std::size_t i = 0; i < kPoints; ++i) {
+        const auto& [x, y, z] = cycle[i];
+        for (std::size_t m = 0; m <= kPhases; ++m) {
+            const glm::vec3 d = pose[i] - glm::vec3(x[m], y[m], z[m]);
+            most[m] = std::max(most[m], (d.x * d.x + d.y * d.y) + d.z * d.z);
+        }
     }
     return most;
 }
 
-// The pose at a phase in 1/65536 of a cycle, between two samples; the cycle repeats.
-Pose poseAt(const Cycle& cycle, unsigned phase) {
+// How far any point of a cycle moves, squared, from sample k to a phase in 1/65536 of a cycle,
+// which lies between two samples; the cycle repeats.
+float squaredStep(const Cycle& cycle, std::size_t k, unsigned phase) {
     const std::size_t cell = (phase & 0xFFFFU) >> kPhaseCellBits;
     const float share = static_cast<float>(phase & 1023U) * kPhaseCellUnit;
-    Pose pose;
-    for (std::size_t i = 0; i < pose.size(); ++i) {
-        pose[i] = cycle[cell][i] + share * (cycle[cell + 1][i] - cycle[cell][i]);
+    const Pose now = sampleAt(cycle, k), before = sampleAt(cycle, cell),
+               after = sampleAt(cycle, cell + 1);
+    float most = 0;
+    for (std::size_t i = 0; i < kPoints; ++i) {
+        const glm::vec3 d = now[i] - (before[i] + share * (after[i] - before[i]));
+        most = std::max(most, (d.x * d.x + d.y * d.y) + d.z * d.z);
     }
-    return pose;
+    return most;
 }
 
 // The longest distance that any nodal point moves in a tick of any segment but a fast start: a warp
@@ -70,9 +85,8 @@ float largestStep(const std::vector<Cycle>& cycles,
     for (std::size_t action = 0; action < cycles.size(); ++action) {
         if (isStart(static_cast<Action>(action))) continue;
         for (unsigned k = 0; k < kPhases; ++k) {
-            const Pose next = poseAt(
-                cycles[action], (k << kPhaseCellBits) + static_cast<unsigned>(phaseRates[action]));
-            most = std::max(most, squaredTravel(cycles[action][k], next));
+            const unsigned next = (k << kPhaseCellBits) + static_cast<unsigned>(phaseRates[action]);
+            most = std::max(most, squaredStep(cycles[action], k, next));
         }
     }
     return std::sqrt(most);
@@ -80,9 +94,7 @@ float largestStep(const std::vector<Cycle>& cycles,
 
 Travels travelsBetween(const Cycle& a, const Cycle& b) {
     Travels travels;
-    for (std::size_t k = 0; k <= kPhases; ++k) {
-        for (std::size_t m = 0; m <= kPhases; ++m) travels[k][m] = squaredTravel(a[k], b[m]);
-    }
+    for (std::size_t k = 0; k <= kPhases; ++k) travels[k] = squaredTravels(sampleAt(a, k), b);
     return travels;
 }
 
