@@ -89,5 +89,12 @@ enum class Stream : std::uint32_t {
 [[nodiscard]] constexpr std::uint32_t hashOf(std::uint32_t seed, Stream stream) {
     return hashOf(seed, static_cast<std::uint32_t>(stream));
 }
+// The number that a thing, such as a fish by its index, has of a stream. Hashed with a time or a
+// count it gives the draws of that thing.
+[[nodiscard]] constexpr std::uint32_t hashOf(std::uint32_t seed,
+                                             Stream stream,
+                                             std::uint32_t thing) {
+    return hashOf(hashOf(seed, stream), thing);
+}
 
 }  // namespace aquarama

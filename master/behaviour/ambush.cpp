@@ -64,8 +64,7 @@ struct Post {
 };
 
 std::uint32_t drawn(const Situation& situation, std::uint64_t period) {
-    const std::uint32_t own =
-        hashOf(hashOf(situation.environment.seed, Stream::Posts), situation.fish);
+    const std::uint32_t own = hashOf(situation.environment.seed, Stream::Posts, situation.fish);
     return hashOf(
         own,
         static_cast<std::uint32_t>((situation.environment.tick.value + own % period) / period));
@@ -137,8 +136,7 @@ glm::vec3 clearOf(const surroundings::Obstacles& obstacles, glm::vec3 place) {
 // The place at the edge of a post now, relative to the fish.
 glm::vec3 placeAtEdge(const Situation& situation, const Post& post) {
     const surroundings::Surroundings& around = *situation.environment.surroundings;
-    const std::uint32_t own =
-        hashOf(hashOf(situation.environment.seed, Stream::Posts), situation.fish);
+    const std::uint32_t own = hashOf(situation.environment.seed, Stream::Posts, situation.fish);
     const std::uint64_t ticks = situation.environment.tick.value + own % kTicksOfEdge;
     const std::uint32_t edge = hashOf(own, static_cast<std::uint32_t>(ticks / kTicksOfEdge));
     const float since =

@@ -97,7 +97,7 @@ std::uint32_t drawn(const Environment& environment,
                     Stream stream,
                     std::uint32_t fish,
                     std::uint64_t at) {
-    return hashOf(hashOf(hashOf(environment.seed, stream), fish), static_cast<std::uint32_t>(at));
+    return hashOf(hashOf(environment.seed, stream, fish), static_cast<std::uint32_t>(at));
 }
 
 // A cleaner as a client knows it: with the way to its station.

@@ -51,7 +51,7 @@ constexpr float kPicksUntil = 0.2F;
 // A point drawn from the unit disc, in plan, by the fish and the time.
 glm::vec3 placeInCloud(const Situation& situation) {
     const std::uint32_t own =
-        hashOf(hashOf(situation.environment.seed, Stream::CloudPlaces), situation.fish);
+        hashOf(situation.environment.seed, Stream::CloudPlaces, situation.fish);
     const std::uint64_t turn =
         (situation.environment.tick.value + own % kTicksAtAPlace) / kTicksAtAPlace;
     const std::uint32_t drawn = hashOf(own, static_cast<std::uint32_t>(turn));
@@ -88,8 +88,7 @@ std::optional<std::uint32_t> presentDart(const Situation& situation) {
     const auto gap = static_cast<std::uint64_t>(
         static_cast<float>(situation.parameters.habits.cloud->pickSeconds) *
         static_cast<float>(kTicksPerSecond));
-    const std::uint32_t own =
-        hashOf(hashOf(situation.environment.seed, Stream::Picks), situation.fish);
+    const std::uint32_t own = hashOf(situation.environment.seed, Stream::Picks, situation.fish);
     const std::uint64_t now = situation.environment.tick.value + own % gap;
     const std::uint32_t pick = hashOf(own, static_cast<std::uint32_t>(now / gap));
     // It begins at some time within the gap, so that nobody picks in time with another.

@@ -269,8 +269,7 @@ float wantedSpeed(const Situation& situation, const Company& company, float alar
 using Glance = std::array<std::uint32_t, kGlimpses>;
 Glance glanceOf(const Situation& situation) {
     const fish::SpeciesParameters& parameters = situation.parameters;
-    const std::uint32_t own =
-        hashOf(hashOf(situation.environment.seed, Stream::Glances), situation.fish);
+    const std::uint32_t own = hashOf(situation.environment.seed, Stream::Glances, situation.fish);
     const auto when = static_cast<std::uint32_t>(situation.environment.tick.value / kTicksOfGlance);
     Glance glance{};
     for (std::uint32_t i = 0; i < kGlimpses; ++i) {
@@ -337,7 +336,7 @@ std::uint32_t partnerOf(const fish::SpeciesParameters& parameters, std::uint32_t
 std::uint32_t shadowedBy(const Situation& situation) {
     if (situation.parameters.shadows == 0) return fish::kNobody;
     const Environment& environment = situation.environment;
-    const std::uint32_t own = hashOf(hashOf(environment.seed, Stream::Bouts), situation.fish);
+    const std::uint32_t own = hashOf(environment.seed, Stream::Bouts, situation.fish);
     // One that lies in wait follows others in one period of two, and for longer.
     const bool waits = situation.parameters.habits.hunt.ambush.has_value();
     const std::uint64_t longer = waits ? kLongerBouts : 1;
@@ -348,7 +347,7 @@ std::uint32_t shadowedBy(const Situation& situation) {
     if (passed > kShortestShadowing + bout % kShadowingSpread) return fish::kNobody;
     if (waits && bout % 2 != 0) return fish::kNobody;
     for (std::uint32_t i = 0; i < kHostsTried; ++i) {
-        const std::uint32_t host = drawnHost(situation, hashOf(hashOf(bout, Stream::Hosts), i));
+        const std::uint32_t host = drawnHost(situation, hashOf(bout, Stream::Hosts, i));
         if (isWithin(situation, host, sightOf(situation))) return host;
     }
     return fish::kNobody;
@@ -432,7 +431,7 @@ glm::vec3 roomFrom(const Situation& situation) {
 }
 
 float levelInBall(std::uint32_t seed, std::uint32_t fish) {
-    const std::uint32_t own = hashOf(hashOf(seed, Stream::SchoolLevels), fish);
+    const std::uint32_t own = hashOf(seed, Stream::SchoolLevels, fish);
     // The sum of two uniform numbers: a triangular distribution.
     return unitOf(own) + unitOf(hashOf(own)) - 1;
 }

@@ -120,7 +120,7 @@ struct Spell {
     std::uint64_t ticks;
 };
 Spell spellOf(std::uint32_t seed, std::uint32_t fish, Tick tick) {
-    const std::uint32_t own = hashOf(hashOf(seed, Stream::Pace), fish);
+    const std::uint32_t own = hashOf(seed, Stream::Pace, fish);
     const std::uint64_t now = tick.value + own % kTicksOfPace;
     return {hashOf(own, static_cast<std::uint32_t>(now / kTicksOfPace)), now % kTicksOfPace};
 }
@@ -187,8 +187,7 @@ glm::vec3 wanderingGoal(std::uint32_t seed,
                         float bestDepthMetres,
                         std::size_t fish,
                         Tick tick) {
-    const std::uint32_t own =
-        hashOf(hashOf(seed, Stream::HomePlaces), static_cast<std::uint32_t>(fish));
+    const std::uint32_t own = hashOf(seed, Stream::HomePlaces, static_cast<std::uint32_t>(fish));
     const std::uint64_t place = (tick.value + own % kTicksToAPlace) / kTicksToAPlace;
     const glm::vec3 share = shareOf(hashOf(own, static_cast<std::uint32_t>(place)));
     const glm::vec3 goal = water.centre + water.halfExtent * share * kInside;
@@ -213,8 +212,7 @@ Homes homesOf(const surroundings::Surroundings& surroundings,
         .bestDepthMetres = static_cast<float>(habits.comfort.bestDepthMetres)};
     const std::uint32_t groups = (fish + homes.fishAtEach - 1) / homes.fishAtEach;
     for (std::uint32_t group = 0; group < groups; ++group) {
-        const std::uint32_t own =
-            hashOf(hashOf(surroundings.seed, Stream::Homes), firstOfKind + group);
+        const std::uint32_t own = hashOf(surroundings.seed, Stream::Homes, firstOfKind + group);
         homes.places.push_back(places.homeFor(group, own, firstOfKind));
     }
     return homes;
@@ -233,7 +231,7 @@ glm::vec3 beatGoal(const Environment& environment,
     if (passes(environment, fish))
         return passGoal(environment, position, environment.view->heading(fish));
     const place::Region& water = environment.surroundings->obstacles.water;
-    const std::uint32_t own = hashOf(hashOf(environment.seed, Stream::Beats), fish);
+    const std::uint32_t own = hashOf(environment.seed, Stream::Beats, fish);
     const float sine = (own & 1U) != 0 ? kBeatSine : -kBeatSine;
     const glm::vec3 from = (position - water.centre) / water.halfExtent;
     const glm::vec3 at = place::directionOf({from.x, 0, from.z}, {1, 0, 0});

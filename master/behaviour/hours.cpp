@@ -35,7 +35,7 @@ bool restsAt(const fish::SpeciesParameters& parameters,
     const config::ActiveHours& hours = parameters.habits.hours;
     if (hours.active == config::Activity::Always) return false;
     const auto rank = static_cast<double>(sizeRankOf(parameters, lengthMetres));
-    const std::uint32_t own = hashOf(hashOf(seed, Stream::HoursOfRest), fish);
+    const std::uint32_t own = hashOf(seed, Stream::HoursOfRest, fish);
     const double longer =
         kBySize * (rank - 0.5) + kByItself * static_cast<double>(signedUnitOf(own));
     const bool isOfTheDay = hours.active == config::Activity::Day;

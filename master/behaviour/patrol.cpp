@@ -107,7 +107,7 @@ float heightOf(const Environment& environment, std::uint32_t own, float active) 
 
 glm::vec3 patrolGoal(const Environment& environment, std::uint32_t fish, glm::vec3 position) {
     const place::Region& water = environment.surroundings->obstacles.water;
-    const std::uint32_t own = hashOf(hashOf(environment.seed, Stream::Beats), fish);
+    const std::uint32_t own = hashOf(environment.seed, Stream::Beats, fish);
     const float active = surroundings::huntersActive(*environment.surroundings);
     const glm::vec2 direction = kDirections[stretchOf(environment, own, active)];
     const glm::vec2 half{water.halfExtent.x, water.halfExtent.z};

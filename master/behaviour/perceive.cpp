@@ -6,16 +6,16 @@
 #include <cassert>
 #include <limits>
 
-#include <glm/common.hpp>
-
-#include "common/base/random_streams.h"
 #include "common/place/place.h"
 #include "master/behaviour/cleaning.h"
-#include "master/behaviour/grazing.h"
-#include "master/behaviour/home.h"
+#include "master/behaviour/feel_climate.h"
+#include "master/behaviour/feel_surroundings.h"
 #include "master/behaviour/hours.h"
+#include "master/behaviour/onlooker.h"
+#include "master/behaviour/patches.h"
 #include "master/behaviour/points_within.h"
 #include "master/behaviour/routines.h"
+#include "master/behaviour/shelter.h"
 #include "master/behaviour/territory.h"
 #include "master/behaviour/vision.h"
 #include "master/behaviour/ways.h"
@@ -27,44 +27,9 @@ namespace aquarama::behaviour {
 
 namespace {
 
-// Obstacles are felt this time ahead at the present speed, and a little farther.
-constexpr float kReachSeconds = 2.2F;
-constexpr float kReachMetres = 0.4F;
-// A submarine that approaches counts as larger by its way in this time.
-constexpr float kBowWaveSeconds = 1.5F;
-// Time for which the submarine is assumed to continue; a fish turns aside in two to four seconds.
-constexpr float kSubmarineSeconds = 3.0F;
-// Urgency for each unit of the submarine's push: half a push gives the greatest urgency.
-constexpr float kHurry = 2.0F;
-
 // b1 and b2 of the cost of a prey: schooling and turning make it costlier (Tu & Terzopoulos 1994).
 constexpr float kSchoolingCost = 0.5F;
 constexpr float kTurningCost = 0.2F;
-
-// One act of perception: who looks, at what, and where the result goes.
-struct Onlooker {
-    const Environment& environment;
-    const fish::SpeciesParameters& parameters;
-    std::uint32_t fish;
-    const fish::Mind& mind;
-    Senses& senses;
-    fish::Aim aim = fish::aimOf(mind);
-
-    [[nodiscard]] const fish::FishView& view() const { return *environment.view; }
-    [[nodiscard]] float clarity() const { return environment.surroundings->clarityMetres; }
-    // How far it sees a body so conspicuous, metres.
-    [[nodiscard]] float sight(float conspicuous) const {
-        return sightMetres(parameters, senses.length, conspicuous, clarity());
-    }
-    [[nodiscard]] bool isHidden(const Sighting& sighting) const {
-        return behaviour::isHidden(
-            environment, fish, sighting.object, {senses.position, sighting.offset});
-    }
-    // Sighting of another fish, without asking whether something hides it.
-    [[nodiscard]] Sighting sightingOf(std::uint32_t other) const {
-        return behaviour::sightingOf(view(), other, senses.position);
-    }
-};
 
 // A reach of at most this many cells is searched as a whole by vectors; a longer one from the fish
 // outwards, which can stop early.
@@ -387,283 +352,6 @@ void seeMate(const Onlooker& onlooker) {
                                   });
 }
 
-// From its home, no shelter for a night is farther.
-constexpr float kFarthestBedMetres = 4;
-// A site costs up to this share more, drawn by fish and site: so not all dive into the same one.
-constexpr float kOwnTaste = 0.5F;
-// Mean time until a hidden fish ventures out: after a predator that passed, and after one that
-// rushed.
-constexpr float kHiddenSeconds = 4;
-constexpr float kHiddenFromRushSeconds = 15;
-
-// A fish can rest at a site where the border of the water does not turn it away.
-constexpr float kWithinMetres = 0.15F;
-bool isInReach(const place::Region& water, glm::vec3 site) {
-    const glm::vec3 inside = water.halfExtent - glm::abs(site - water.centre);
-    return std::min({inside.x, inside.y, inside.z}) > kWithinMetres;
-}
-
-// How many of its schoolmates near by dive.
-std::size_t divingSchoolmates(const Onlooker& onlooker) {
-    const Neighbours& schoolmates = onlooker.senses.schoolmates;
-    std::size_t diving = 0;
-    for (std::size_t i = 0; i < schoolmates.count; ++i)
-        diving +=
-            static_cast<std::size_t>(onlooker.view().shows(schoolmates.fish[i], fish::kDiving));
-    return diving;
-}
-
-bool hides(const Onlooker& onlooker) {
-    return onlooker.aim.intention == fish::Intention::Hide;
-}
-
-bool restsOrIsAboutTo(const Onlooker& onlooker) {
-    return onlooker.senses.hour.rests || onlooker.aim.intention == fish::Intention::Rest;
-}
-
-// Whether it is in a shelter or wants one.
-bool needsShelter(const Onlooker& onlooker) {
-    return onlooker.senses.predatorCount > 0 || onlooker.senses.shelter.diving > 0 ||
-           hides(onlooker) || restsOrIsAboutTo(onlooker);
-}
-
-// Whether it aims at a shelter already.
-bool hasShelter(const Onlooker& onlooker) {
-    return (hides(onlooker) || restsOrIsAboutTo(onlooker)) &&
-           onlooker.aim.target < onlooker.environment.surroundings->sites.size();
-}
-
-// Whether a hidden fish ventures out at this thought, by a draw.
-bool venturesOut(const Onlooker& onlooker) {
-    const bool rushed = isFromRush(static_cast<HideStage>(onlooker.mind.stage));
-    const float perThought =
-        static_cast<float>(fish::kTicksBetweenThoughts) / static_cast<float>(kTicksPerSecond);
-    const std::uint32_t own =
-        hashOf(hashOf(onlooker.environment.seed, Stream::VenturesOut), onlooker.fish);
-    return unitOf(hashOf(own, static_cast<std::uint32_t>(onlooker.environment.tick.value))) *
-               (rushed ? kHiddenFromRushSeconds : kHiddenSeconds) <
-           perThought;
-}
-
-Sighting siteFrom(const Onlooker& onlooker, std::uint32_t site) {
-    const glm::vec3 offset =
-        onlooker.environment.surroundings->sites[site].place - onlooker.senses.position;
-    return {site, offset, place::lengthOf(offset)};
-}
-
-// Where a fish looks for a shelter: within so many metres of a place.
-struct ShelterRange {
-    glm::vec3 from{};
-    float metres = 0;
-};
-// To rest it goes to a shelter near its home, which it knows, else to one that it sees.
-ShelterRange shelterRangeOf(const Onlooker& onlooker) {
-    if (restsOrIsAboutTo(onlooker) && !onlooker.parameters.homes.empty())
-        return {homeOf(onlooker.parameters, onlooker.fish), kFarthestBedMetres};
-    return {onlooker.senses.position, onlooker.sight(1)};
-}
-
-bool isFitShelter(const Onlooker& onlooker, const place::Site& site) {
-    const std::vector<config::SiteKind>& kinds = onlooker.parameters.habits.hidesIn;
-    if (std::ranges::find(kinds, site.kind) == kinds.end()) return false;
-    return !restsOrIsAboutTo(onlooker) ||
-           isInReach(onlooker.environment.surroundings->obstacles.water, site.place);
-}
-
-// The shelter of least way.
-Sighting nearestShelter(const Onlooker& onlooker) {
-    const std::vector<place::Site>& sites = onlooker.environment.surroundings->sites;
-    const ShelterRange range = shelterRangeOf(onlooker);
-    float least = range.metres;
-    Sighting nearest;
-    for (std::uint32_t site = 0; site < sites.size(); ++site) {
-        if (!isFitShelter(onlooker, sites[site])) continue;
-        const float cost = place::lengthOf(sites[site].place - range.from) *
-                           (1 + kOwnTaste * unitOf(hashOf(sites[site].seed, onlooker.fish)));
-        if (cost >= least) continue;
-        least = cost;
-        nearest = siteFrom(onlooker, site);
-    }
-    return nearest;
-}
-
-// The present shelter, or the one of least way; how many others dive; whether it ventures out.
-void senseShelter(const Onlooker& onlooker) {
-    if (onlooker.parameters.habits.hidesIn.empty()) return;
-    ShelterSenses& shelter = onlooker.senses.shelter;
-    shelter.diving = divingSchoolmates(onlooker);
-    if (!needsShelter(onlooker)) return;
-    if (hasShelter(onlooker)) {
-        shelter.site = siteFrom(onlooker, onlooker.aim.target);
-        shelter.venturesOut = hides(onlooker) && venturesOut(onlooker);
-        return;
-    }
-    shelter.site = nearestShelter(onlooker);
-}
-
-// From the middle of a fish to its ends, as a share of its length.
-constexpr float kHalfBody = 0.5F;
-// From the submarine's radius on, where its push begins.
-constexpr float kSubmarineMarginMetres = 0.6F;
-
-// Push of the submarine. Both move, so the path is that of the fish relative to the submarine. A
-// submarine that approaches is felt from farther away.
-glm::vec3 submarinePush(const surroundings::Submarine& submarine,
-                        const Senses& senses,
-                        float reach) {
-    const glm::vec3 velocity = submarine.velocityMetresPerSecond;
-    // A long body needs more room to turn.
-    const float radius = submarine.radiusMetres + kHalfBody * senses.length;
-    if (velocity == glm::vec3{})
-        return surroundings::ballPush(submarine.position,
-                                      radius,
-                                      kSubmarineMarginMetres,
-                                      senses.position,
-                                      senses.heading,
-                                      reach);
-    const glm::vec3 past = senses.heading * reach - velocity * kSubmarineSeconds;
-    const glm::vec3 towards = place::directionOf(senses.position - submarine.position, {});
-    const float comingOn = std::max(0.0F, place::dot(velocity, towards));
-    return surroundings::ballPush(submarine.position,
-                                  radius + comingOn * kBowWaveSeconds,
-                                  kSubmarineMarginMetres,
-                                  senses.position,
-                                  place::directionOf(past, senses.heading),
-                                  place::lengthOf(past));
-}
-
-// A fish that goes down to turf feels obstacles so far ahead.
-constexpr float kTurfReachMetres = 0.1F;
-constexpr float kTurfReachSeconds = 0.3F;
-// It has left the turf after so long.
-constexpr std::uint32_t kLeavesTurfTicks = 180;
-
-bool isAtTurf(const fish::Mind& mind) {
-    const auto stage = static_cast<GrazeStage>(mind.stage);
-    return fish::aimOf(mind).intention == fish::Intention::Graze &&
-           (stage != GrazeStage::Travel || mind.sinceStage < kLeavesTurfTicks);
-}
-
-// Whether a predator rushes at the prey that it sees, and not from ambush. Turning aside for a
-// moment does not end a rush.
-bool rushesAtPrey(const fish::SpeciesParameters& parameters,
-                  const fish::Mind& mind,
-                  const Senses& senses) {
-    return senses.prey.seen() && !parameters.habits.hunt.ambush &&
-           fish::aimOf(mind).intention == fish::Intention::Eat &&
-           mind.stage == static_cast<std::uint8_t>(HuntStage::Rush);
-}
-
-// How far ahead the fish feels obstacles.
-float reachOf(const fish::SpeciesParameters& parameters,
-              const fish::Mind& mind,
-              const Senses& senses) {
-    const float speed = std::max(0.0F, senses.speed);
-    if (isAtTurf(mind)) return kTurfReachMetres + speed * kTurfReachSeconds;
-    return kReachMetres + speed * std::max(kReachSeconds, parameters.turnSeconds);
-}
-
-// Of a fish that lies in wait beside the reef.
-constexpr surroundings::Berth kInWait{0.05F, 0.2F, 0.15F, 0.2F};
-// Longer fish keep clear of the reef also at a cleaner's, metres.
-constexpr float kLongestAtStation = 0.6F;
-
-bool goesIntoShelter(const fish::Aim& aim) {
-    return aim.intention == fish::Intention::Hide ||
-           (aim.intention == fish::Intention::Rest && aim.target != fish::kNobody);
-}
-
-// Whether what it is about brings a fish near the reef.
-bool goesToReef(const fish::Aim& aim, const Senses& senses) {
-    return aim.intention == fish::Intention::Graze || aim.intention == fish::Intention::Charge ||
-           (aim.intention == fish::Intention::Visit && senses.length < kLongestAtStation);
-}
-
-// The berth of a fish that nothing brings to the reef but its home or its post.
-surroundings::Berth berthAtEase(const fish::SpeciesParameters& parameters,
-                                std::uint32_t fish,
-                                const Senses& senses) {
-    const config::Home& home = parameters.habits.home;
-    // One that lies in wait does so at several sites.
-    if (parameters.habits.hunt.ambush) return home.site ? surroundings::kAtHome : kInWait;
-    const bool isAtHome = home.site && !parameters.homes.empty() &&
-                          place::lengthOf(homeOf(parameters, fish) - senses.position) <
-                              static_cast<float>(home.leashMetres);
-    return isAtHome ? surroundings::kAtHome : surroundings::berthOf(senses.length);
-}
-
-// How far the fish keeps from boulders and sand now.
-surroundings::Berth berthFor(const fish::SpeciesParameters& parameters,
-                             std::uint32_t fish,
-                             const fish::Mind& mind,
-                             const Senses& senses) {
-    const fish::Aim aim = fish::aimOf(mind);
-    if (goesIntoShelter(aim)) return surroundings::kIntoShelter;
-    if (isAtTurf(mind)) return surroundings::kAtTurf;
-    if (goesToReef(aim, senses)) return surroundings::kAtHome;
-    return berthAtEase(parameters, fish, senses);
-}
-
-// A fish feels what it would meet while it turns by a right angle.
-void feelSurroundings(const Environment& environment,
-                      const fish::SpeciesParameters& parameters,
-                      std::uint32_t fish,
-                      const fish::Mind& mind,
-                      Senses& senses) {
-    const surroundings::Surroundings& around = *environment.surroundings;
-    const float reach = reachOf(parameters, mind, senses);
-    const surroundings::Submarine& submarine = around.submarine;
-    const glm::vec3 fromSubmarine = submarinePush(submarine, senses, reach);
-    // One that rushes at prey feels no obstacle beyond it but the submarine: else all prey near a
-    // border or the reef would be safe.
-    const float ahead = rushesAtPrey(parameters, mind, senses)
-                            ? std::clamp(senses.prey.distance, kReachMetres, reach)
-                            : reach;
-    senses.push = surroundings::avoidance(around.obstacles,
-                                          senses.position,
-                                          senses.heading,
-                                          ahead,
-                                          berthFor(parameters, fish, mind, senses)) +
-                  fromSubmarine;
-    if (submarine.velocityMetresPerSecond != glm::vec3{})
-        senses.hurry = std::min(1.0F, kHurry * place::lengthOf(fromSubmarine));
-    senses.urgency = place::lengthOf(senses.push);
-    senses.submarineMetres = place::lengthOf(submarine.position - senses.position);
-}
-
-// A temperature difference that weighs as much as all the light.
-constexpr float kDegreesOfComfort = 10;
-// A smaller difference between two places moves no fish.
-constexpr float kNoticeable = 0.02F;
-
-// Light and temperature at one height.
-struct Ambient {
-    float light, celsius;
-};
-
-Ambient ambientAt(const surroundings::Surroundings& around, float y) {
-    return {surroundings::lightAt(around.climate, around.daylight, y),
-            surroundings::celsiusAt(around.climate, y)};
-}
-
-// How far a place is outside what one habit likes; each habit concerns one end of one range.
-float lackOf(fish::Like habit, const config::Habits& habits, const Ambient& ambient) {
-    switch (habit) {
-        case fish::kLikesBrightness:
-            return static_cast<float>(habits.comfort.light.least) - ambient.light;
-        case fish::kLikesDarkness:
-            return ambient.light - static_cast<float>(habits.comfort.light.most);
-        case fish::kLikesWarmth:
-            return (static_cast<float>(habits.comfort.waterCelsius.least) - ambient.celsius) /
-                   kDegreesOfComfort;
-        case fish::kLikesCold:
-            return (ambient.celsius - static_cast<float>(habits.comfort.waterCelsius.most)) /
-                   kDegreesOfComfort;
-        default:
-            return -1;
-    }
-}
-
 // Factors for a mate that courts another, and for any other one when the courtship is answered.
 constexpr float kTakenDearness = 1.5F;
 constexpr float kDevotion = 3;
@@ -705,34 +393,6 @@ Senses perceive(const Environment& environment,
     feelClimate(*environment.surroundings, parameters, mind.likes, senses);
     feelCollision(environment, parameters, fish, mind, senses);
     return senses;
-}
-
-void feelClimate(const surroundings::Surroundings& around,
-                 const fish::SpeciesParameters& parameters,
-                 std::uint8_t likes,
-                 Senses& senses) {
-    const Ambient here = ambientAt(around, senses.position.y);
-    senses.climate.light = here.light;
-    senses.climate.celsius = here.celsius;
-    fish::Like worst = fish::kIsFemale;
-    for (const fish::Like habit :
-         {fish::kLikesBrightness, fish::kLikesDarkness, fish::kLikesWarmth, fish::kLikesCold}) {
-        if ((likes & habit) == 0) continue;
-        const float lack = lackOf(habit, parameters.habits, here);
-        if (lack <= senses.climate.discomfort) continue;
-        senses.climate.discomfort = lack;
-        worst = habit;
-    }
-    if (senses.climate.discomfort <= -kNoticeable) return;  // at ease
-    // Both change with depth alone, so the best place is at the top or at the bottom of the water.
-    const place::Region& water = around.obstacles.water;
-    const float atTop =
-        lackOf(worst, parameters.habits, ambientAt(around, water.centre.y + water.halfExtent.y));
-    const float atBottom =
-        lackOf(worst, parameters.habits, ambientAt(around, water.centre.y - water.halfExtent.y));
-    const float best = std::min(atTop, atBottom);
-    if (senses.climate.discomfort - best > kNoticeable)
-        senses.climate.betterUp = atTop < atBottom ? 1.0F : -1.0F;
 }
 
 bool suitsAsMate(const fish::FishView& view,

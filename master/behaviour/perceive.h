@@ -206,15 +206,6 @@ struct Senses {
                               std::uint32_t fish,
                               const fish::Mind& mind);
 
-// Whether light and temperature suit the habits of a fish, and where they would (Tu 1996, section
-// 5.1).
-
-// Writes light, celsius, discomfort and betterUp for a fish with these habits (bits of Like).
-void feelClimate(const surroundings::Surroundings& around,
-                 const fish::SpeciesParameters& parameters,
-                 std::uint8_t likes,
-                 Senses& senses);
-
 // Choice of a mate (Tu 1996, section 5.6.6): one of the same species and the other sex that is
 // willing and about as long. A male prefers the nearer, a female the larger.
 

@@ -42,7 +42,7 @@ glm::vec3 lowPlace(const Situation& situation) {
     glm::vec3 place = senses.position;
     if (!situation.parameters.homes.empty()) {
         const std::uint32_t own =
-            hashOf(hashOf(situation.environment.seed, Stream::RestingPlaces), situation.fish);
+            hashOf(situation.environment.seed, Stream::RestingPlaces, situation.fish);
         const auto radius = static_cast<float>(situation.parameters.habits.home.radiusMetres);
         place =
             homeOf(situation.parameters, situation.fish) +

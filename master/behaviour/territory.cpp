@@ -49,7 +49,7 @@ bool goesOn(const Environment& environment,
             const Sighting& intruder,
             const Senses& senses) {
     const std::uint32_t own =
-        hashOf(hashOf(hashOf(environment.seed, Stream::Owners), fish), intruder.object);
+        hashOf(hashOf(environment.seed, Stream::Owners, fish), intruder.object);
     const float past = kPastMetres + kPastSpread * unitOf(own);
     const float from = place::lengthOf(senses.position - homeOf(parameters, fish));
     return mind.pursued < kMostTicks && from < radiusOf(parameters) + past &&
@@ -133,7 +133,7 @@ bool holdsTerritory(const Environment& environment,
     const fish::Household household = fish::householdOf(parameters, fish);
     const bool shoals = habits.graze && habits.graze->manner == config::GrazeManner::Shoal;
     if (shoals && household.last - household.first > 1) return false;
-    return unitOf(hashOf(hashOf(environment.seed, Stream::Owners), fish)) <
+    return unitOf(hashOf(environment.seed, Stream::Owners, fish)) <
            static_cast<float>(habits.territory->share);
 }
 

@@ -103,7 +103,7 @@ void rememberPlaces(const Environment& environment,
 }
 
 bool isBold(std::uint32_t seed, std::uint32_t fish) {
-    return hashOf(hashOf(seed, Stream::Bold), fish) % kBoldOneIn == 0;
+    return hashOf(seed, Stream::Bold, fish) % kBoldOneIn == 0;
 }
 
 std::uint32_t structureFor(const Environment& environment,
@@ -113,7 +113,7 @@ std::uint32_t structureFor(const Environment& environment,
     const std::vector<surroundings::Structure>& structures = environment.surroundings->structures;
     if (structures.empty() || !isBold(environment.seed, fish)) return fish::kNobody;
     const fish::Aim aim = fish::aimOf(mind);
-    const std::uint32_t own = hashOf(hashOf(environment.seed, Stream::Ways), fish);
+    const std::uint32_t own = hashOf(environment.seed, Stream::Ways, fish);
     const bool has = aim.intention == fish::Intention::School && aim.target < structures.size();
     const std::uint32_t stays = kShortestStayTicks + hashOf(own, aim.target) % kStaySpreadTicks;
     if (has && mind.pursued < stays && mind.alarm == fish::Alarm::Calm) return aim.target;

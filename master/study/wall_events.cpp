@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "master/behaviour/grazing.h"
+#include "master/behaviour/patches.h"
 #include "master/behaviour/routines.h"
 #include "master/study/occupation.h"
 

@@ -87,7 +87,7 @@ glm::vec3 strewn(std::uint32_t seed,
     glm::vec3 place{};
     for (std::uint32_t i = 0; i < kPlacesTried; ++i) {
         const std::uint32_t hash =
-            hashOf(hashOf(hashOf(hashOf(seed, Stream::FoodPlace), particle), turn), i);
+            hashOf(hashOf(hashOf(seed, Stream::FoodPlace, particle), turn), i);
         glm::vec3 share{
             signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
         if (origin == Origin::Left) share.x = -0.9F + 0.1F * share.x;
@@ -248,7 +248,7 @@ void dropPellets(Food& food,
     const auto now = static_cast<std::uint32_t>(tick.value);
     for (std::size_t i = food.size() - kMostPellets; i < food.size() && pellets > 0; ++i) {
         if (food.isThere(i)) continue;
-        const std::uint32_t hash = hashOf(hashOf(hashOf(seed, Stream::FoodSpread), now), pellets--);
+        const std::uint32_t hash = hashOf(hashOf(seed, Stream::FoodSpread, now), pellets--);
         const glm::vec3 aside{
             signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
         glm::vec3 place = position + aside * kSpreadMetres;
@@ -280,8 +280,7 @@ void removeFood(Food& food, std::uint32_t particle, Tick tick) {
     food.taken[particle] = 0;
     const auto now = static_cast<std::uint32_t>(tick.value);
     food.absentUntil[particle] =
-        now + kShortestAbsence +
-        hashOf(hashOf(particle, Stream::FoodAbsence), now) % kShortestAbsence;
+        now + kShortestAbsence + hashOf(particle, Stream::FoodAbsence, now) % kShortestAbsence;
 }
 
 glm::vec3 swellAt(const place::Region& water, glm::vec3 position, Tick tick) {

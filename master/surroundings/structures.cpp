@@ -40,7 +40,7 @@ std::vector<Structure> structuresOf(const Obstacles& obstacles) {
             return from.x * from.x + from.z * from.z < kTogetherMetres * kTogetherMetres;
         });
         if (belongs) continue;
-        const float share = unitOf(hashOf(hashOf(rock.seed, Stream::Liking), obstacles.place.seed));
+        const float share = unitOf(hashOf(rock.seed, Stream::Liking, obstacles.place.seed));
         structures.push_back({crown, rock.radiusMetres, kLeastLiking + (1 - kLeastLiking) * share});
     }
     return structures;

@@ -69,7 +69,7 @@ Turf makeTurf(std::uint32_t seed,
             .normal = site.normal,
             .boulder = rock->centre,
             .surfaceMetres = place::kDrawnRadii * rock->radiusMetres};
-        const std::uint32_t own = hashOf(hashOf(seed, Stream::Spots), site.seed);
+        const std::uint32_t own = hashOf(seed, Stream::Spots, site.seed);
         for (std::uint32_t i = 0; i < kSpots; ++i)
             patch.spots[i] = spotOf(obstacles, *rock, patch, i, hashOf(own, i));
         turf.patches.push_back(patch);

@@ -83,7 +83,7 @@ void begin(std::uint32_t seed,
            motion::MotionStates& states) {
     motion::setBodyFrame(states, fish, frame);
     const std::uint32_t phase =
-        hashOf(hashOf(seed, Stream::BeginningPhase), static_cast<std::uint32_t>(fish)) >> 16U;
+        hashOf(seed, Stream::BeginningPhase, static_cast<std::uint32_t>(fish)) >> 16U;
     states.phase[fish] = static_cast<std::uint16_t>(phase);
     states.segment[fish] = static_cast<std::uint8_t>(motion::Action::ForwardMedium);
     states.fromPhase[fish] = states.phase[fish];
@@ -109,7 +109,7 @@ void placeSchool(std::uint32_t seed,
     glm::vec3 reach{1.0e-6F};
     for (std::size_t i = 0; i < fish; ++i) {
         const std::uint32_t own =
-            hashOf(hashOf(seed, Stream::BeginningPlace), static_cast<std::uint32_t>(i));
+            hashOf(seed, Stream::BeginningPlace, static_cast<std::uint32_t>(i));
         offsets[i] = rotation * ((offsets[i] + signedUnits(own) * kOffCell) * kSpacingMetres);
         reach = glm::max(reach, glm::abs(offsets[i]));
     }
@@ -122,7 +122,7 @@ void placeSchool(std::uint32_t seed,
     const glm::vec3 course = place::directionOf(goal.velocityMetresPerSecond, {1, 0, 0});
     for (std::size_t i = 0; i < fish; ++i) {
         const std::uint32_t own =
-            hashOf(hashOf(seed, Stream::BeginningHeading), static_cast<std::uint32_t>(i));
+            hashOf(seed, Stream::BeginningHeading, static_cast<std::uint32_t>(i));
         const glm::vec3 place =
             glm::clamp(middle + offsets[i] * fit, water.centre - room, water.centre + room);
         begin(seed, i, {place, facing(course + signedUnits(own) * kOffCourse)}, states);
@@ -139,7 +139,7 @@ void placeBall(std::uint32_t seed,
     constexpr float kInnermost = 0.7F;  // of the radius
     const glm::vec3 room = water.halfExtent * 0.85F;
     for (std::uint32_t i = 0; i < fish; ++i) {
-        const std::uint32_t own = hashOf(hashOf(seed, Stream::BeginningPlace), i);
+        const std::uint32_t own = hashOf(seed, Stream::BeginningPlace, i);
         const glm::vec3 out = place::directionOf(
             {signedUnitOf(hashOf(own, 0)), 0, signedUnitOf(hashOf(own, 1))}, {1, 0, 0});
         const float away = radius * (kInnermost + unitOf(hashOf(own, 2)));
@@ -163,7 +163,7 @@ glm::vec3 restingPlace(std::uint32_t seed,
     if (parameters.homes.empty())
         return behaviour::wanderingGoal(
             seed, water, static_cast<float>(habits.comfort.bestDepthMetres), fish, {});
-    const std::uint32_t own = hashOf(hashOf(seed, Stream::BeginningPlace), fish);
+    const std::uint32_t own = hashOf(seed, Stream::BeginningPlace, fish);
     glm::vec3 aside = signedUnits(own) * (0.5F * static_cast<float>(habits.home.radiusMetres));
     if (habits.cloud)
         aside.y = unitOf(hashOf(own)) * static_cast<float>(habits.cloud->heightMetres);
@@ -199,7 +199,7 @@ void placeAbout(std::uint32_t seed,
     const glm::quat rotation{cosine, 0, sine, 0};
     for (std::size_t fish = first; fish < last; ++fish) {
         const std::uint32_t own =
-            hashOf(hashOf(seed, Stream::BeginningPlace), static_cast<std::uint32_t>(fish));
+            hashOf(seed, Stream::BeginningPlace, static_cast<std::uint32_t>(fish));
         const glm::vec3 share = signedUnits(own);
         const glm::vec3 place = start.centre + share * static_cast<float>(start.radiusMetres);
         begin(seed, fish, {place, rotation}, states);
@@ -252,7 +252,7 @@ std::vector<motion::FishTraits> traitsOf(const WorldOptions& options) {
     for (const WorldSpecies& species : options.cast) {
         const config::SizeRange& size = species.size;
         for (std::uint32_t i = 0; i < species.fish; ++i, ++id) {
-            const float own = bell(hashOf(hashOf(options.seed, Stream::BeginningLength), id));
+            const float own = bell(hashOf(options.seed, Stream::BeginningLength, id));
             const float metres = std::clamp(
                 size.meanMetres + size.deviationMetres * own, size.leastMetres, size.mostMetres);
             traits.push_back({id, static_cast<std::uint16_t>(std::lround(metres * 1000))});

@@ -121,14 +121,14 @@ std::vector<Absence> makeAbsences(std::span<const fish::SpeciesParameters> speci
 
 Absence absenceFrom(std::uint32_t seed, std::uint32_t fish, Tick now) {
     const std::uint32_t hash =
-        hashOf(hashOf(hashOf(seed, Stream::Absence), fish), static_cast<std::uint32_t>(now.value));
+        hashOf(hashOf(seed, Stream::Absence, fish), static_cast<std::uint32_t>(now.value));
     return {fish, {now.value + kShortestAbsence + hash % (kLongestAbsence - kShortestAbsence)}};
 }
 
 glm::vec3 arrivalPlace(const surroundings::Surroundings& surroundings,
                        std::uint32_t fish,
                        Tick tick) {
-    const std::uint32_t own = hashOf(hashOf(hashOf(surroundings.seed, Stream::Arrival), fish),
+    const std::uint32_t own = hashOf(hashOf(surroundings.seed, Stream::Arrival, fish),
                                      static_cast<std::uint32_t>(tick.value));
     glm::vec3 best = surroundings.obstacles.water.centre;
     float farthest = -1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "master/behaviour/perceive.h"
+#include "master/behaviour/feel_climate.h"
 #include "master/fish/minds.h"
 
 namespace aquarama::behaviour {

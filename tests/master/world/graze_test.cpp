@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/place/place.h"
-#include "master/behaviour/grazing.h"
+#include "master/behaviour/patches.h"
 #include "master/behaviour/routines.h"
 #include "tests/master/world/grazing_world.h"
 
