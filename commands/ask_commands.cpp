@@ -2,10 +2,12 @@
 // `aquarama status`, `set`, `pilot` and `explain`: they query or command the master of a running
 // show.
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <iostream>
 #include <span>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -199,6 +201,15 @@ v1::WantedShow::Tier tierIn(const SetOptions& options) {
     throw Error("quality is low, medium, high, ultra or auto, not \"" + options.value + "\"");
 }
 
+// Throws Error for anything but a number from 0 to 1.
+double shareIn(const SetOptions& options) {
+    double share = -1;
+    const char* const end = options.value.data() + options.value.size();
+    const auto [rest, error] = std::from_chars(options.value.data(), end, share);
+    if (error == std::errc{} && rest == end && share >= 0 && share <= 1) return share;
+    throw Error("colour is a share from 0, as in nature, to 1, not \"" + options.value + "\"");
+}
+
 // Returns when it is done.
 void set(const SetOptions& options) {
     v1::Order order;
@@ -210,6 +221,8 @@ void set(const SetOptions& options) {
         order.mutable_show()->set_quality(tierIn(options));
     else if (options.what == "pattern")
         order.mutable_show()->set_pattern(patternIn(options));
+    else if (options.what == "colour")
+        order.mutable_show()->set_colour_returned(shareIn(options));
     else if (options.what == "black")
         order.mutable_show()->set_black(switchedOn(options));
     else
@@ -234,14 +247,18 @@ void addSet(CommandLine& line) {
         "set", "set what the running wall shows: scene, pattern, black ...", set);
     describeMaster(command, options.asked);
     command.get_option("RIG")->required();
-    command.add_option("WHAT", options.what, "scene, quality, pattern, black, freeze or restart")
-        ->required()
-        ->check(CLI::IsMember({"scene", "quality", "pattern", "black", "freeze", "restart"}));
     command
-        .add_option("VALUE",
-                    options.value,
-                    "a scene's name; low, medium, high, ultra or auto; world, grid or grey; on or "
-                    "off; a channel, whose node is started again")
+        .add_option(
+            "WHAT", options.what, "scene, quality, pattern, colour, black, freeze or restart")
+        ->required()
+        ->check(
+            CLI::IsMember({"scene", "quality", "pattern", "colour", "black", "freeze", "restart"}));
+    command
+        .add_option(
+            "VALUE",
+            options.value,
+            "a scene's name; low, medium, high, ultra or auto; world, grid or grey; a share "
+            "of colour, 0 to 1; on or off; a channel, whose node is started again")
         ->required()
         ->check(cli::plainWord());
     command.footer("What is set is kept: a master that is started again shows it.");

@@ -122,8 +122,8 @@ void chooseWanted(const config::Rig& rig,
     const v1::WantedShow chosen = chosenBy(options);
     const auto& [under, over] =
         options.resume ? std::pair{chosen, conductor.kept} : std::pair{conductor.kept, chosen};
-    conductor.wanted.MergeFrom(under);
-    conductor.wanted.MergeFrom(over);
+    wire::apply(conductor.wanted, under);
+    wire::apply(conductor.wanted, over);
     if (const std::string text = wire::textOf(conductor.kept); !text.empty())
         logInfo("as it was set before: {} (change it with aquarama set)", text);
 }

@@ -187,6 +187,7 @@ std::vector<std::string> changesOf(const browser::Wall& before, const browser::W
     note(was.frozen != is.frozen, is.frozen ? "frozen" : "the world moves again");
     note(was.scene != is.scene, "scene " + is.scene);
     note(was.pattern != is.pattern, fmt::format("pattern {}", wire::nameOf(is.pattern)));
+    note(was.colourReturned != is.colourReturned, fmt::format("colour {:.2f}", is.colourReturned));
     note(was.quality != is.quality, fmt::format("quality {}", config::nameOf(is.quality)));
     const auto& nodesBefore = before.status().nodes();
     const auto& nodes = after.status().nodes();

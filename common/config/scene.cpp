@@ -42,7 +42,8 @@ SceneWater waterOf(const TextReader& file, const v1::SceneWater& in) {
                            .clarityMetres = in.clarity_m(),
                            .surfaceCelsius = in.surface_c(),
                            .celsiusPerMetre = in.celsius_per_metre(),
-                           .jerlov = waterTypeOf(file, in)};
+                           .jerlov = waterTypeOf(file, in),
+                           .colourReturned = in.colour_returned()};
     if (water.centre.y + water.halfExtent.y >= 0)
         file.refuse(
             in, "centre", "the water reaches out of the sea, whose surface is y = 0: lower it");

@@ -266,7 +266,8 @@ std::optional<Show> readShow(const v1::Show& m) {
                 .frozen = m.frozen(),
                 .pilot = m.pilot(),
                 .calibration = m.calibration(),
-                .scan = scan};
+                .scan = scan,
+                .colourReturned = static_cast<float>(m.colour_returned()) / kAllColour};
 }
 
 bool areFinite(const google::protobuf::RepeatedField<float>& numbers) {

@@ -23,7 +23,7 @@
 namespace aquarama::wire {
 
 // Peers of another major version are refused.
-inline constexpr std::uint32_t kProtocolMajor = 7;
+inline constexpr std::uint32_t kProtocolMajor = 8;
 
 // Bounds that the code keeps to. All bounds of arriving messages are rules of aquarama.proto; a
 // test compares these with them.
@@ -37,6 +37,7 @@ inline constexpr int kMostExplanationLines = 48;
 inline constexpr std::size_t kMostExplanationLineBytes = 120;
 inline constexpr std::size_t kMostJpegBytes = std::size_t{60} << 10U;
 inline constexpr float kFullLight = 255;  // of Show.brightness
+inline constexpr float kAllColour = 255;  // of Show.colour_returned
 // The fields of a larger packet are counted before it is parsed. Nothing larger goes from a node to
 // the master.
 inline constexpr std::size_t kMostSmallPacketBytes = std::size_t{64} << 10U;

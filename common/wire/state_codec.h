@@ -116,6 +116,8 @@ struct Show {
     std::string pilot;        // whose hand steers; empty: nobody's
     std::uint64_t calibration = 0;                 // shortHash() of the rig's text
     std::optional<config::ScanPattern> scan = {};  // where the pattern is Scan
+    // Share of the colour that water takes which is given back, 0 to 1 in 255 steps.
+    float colourReturned = 0.0F;
     friend bool operator==(const Show&, const Show&) = default;
 };
 

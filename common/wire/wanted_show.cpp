@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <google/protobuf/text_format.h>
 
 #include "common/base/files.h"
@@ -44,6 +45,11 @@ std::optional<config::QualityTier> tierIn(const v1::WantedShow& show) {
     return config::tierAt(static_cast<std::uint32_t>(show.quality() - v1::WantedShow::LOW));
 }
 
+void apply(v1::WantedShow& show, const v1::WantedShow& change) {
+    if (change.has_scene()) show.clear_colour_returned();
+    show.MergeFrom(change);
+}
+
 bool areSame(const v1::WantedShow& one, const v1::WantedShow& other) {
     return one.SerializeAsString() == other.SerializeAsString();
 }
@@ -58,6 +64,8 @@ std::string textOf(const v1::WantedShow& show) {
     if (show.has_pattern()) add(text, "pattern", nameOf(static_cast<Pattern>(show.pattern())));
     if (show.has_black()) add(text, "black", onOff(show.black()));
     if (show.has_freeze()) add(text, "freeze", onOff(show.freeze()));
+    if (show.has_colour_returned())
+        add(text, "colour", fmt::format("{:.2f}", show.colour_returned()));
     return text;
 }
 

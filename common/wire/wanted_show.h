@@ -16,6 +16,8 @@ namespace aquarama::wire {
 [[nodiscard]] v1::WantedShow::Tier tierOf(const std::optional<config::QualityTier>& quality);
 // The tier of the message; nothing where it is AUTO or unset.
 [[nodiscard]] std::optional<config::QualityTier> tierIn(const v1::WantedShow& show);
+// Takes over the values of `change` that are set. A scene comes with its own colour.
+void apply(v1::WantedShow& show, const v1::WantedShow& change);
 // Whether two have the same values, and the same values unset.
 [[nodiscard]] bool areSame(const v1::WantedShow& one, const v1::WantedShow& other);
 // For logs: "scene reef, black on"; empty where nothing is set.

@@ -5,7 +5,7 @@ import {calibrationPage} from '/calibration.js';
 import {nodesPage} from '/nodes.js';
 import {schedulePage} from '/schedule.js';
 import {QUALITIES, button, channelsOf, chooser, conditionOf, dateTime, filter, holdButton, ms, namesOf,
-  patternChooser, patternOf, qualityOf, state, t, time, views, wholeWall, word} from '/widgets.js';
+  patternChooser, patternOf, percentOf, qualityOf, slider, state, t, time, views, wholeWall, word} from '/widgets.js';
 
 // --- the wall
 
@@ -97,6 +97,8 @@ const wallPage = {
         ${chooser(link, 'quality', QUALITIES, qualityOf(link), value => link.show({quality: value.toUpperCase()},
         `${t('wall.quality')}: ${word(value)}`))}
         ${patternChooser(link)}
+        ${slider(link, 'colour', (link.shown.colourReturned ?? 0) / 255, value => link.show({colourReturned: value},
+          `${t('wall.colour')}: ${percentOf(value)}`))}
         </div><p class="note">${t('wall.patternNote')}</p></section>
       ${helmPanel(link)}</div>${figures(link)}</div>`,
 };

@@ -78,6 +78,20 @@ export const patternChooser = link =>
   chooser(link, 'pattern', PATTERNS, patternOf(link), value => link.show({pattern: value.toUpperCase()},
     `${t('wall.pattern')}: ${word(value)}`));
 
+// --- a share that is set while one looks
+
+export const percentOf = share => `${Math.round(100 * share)} %`;
+// Told when the hand lets go; `shown` is followed while nobody moves it.
+export function slider(link, what, shown, act) {
+  const value = wish[what] ?? shown;
+  const move = event => { wish[what] = Number(event.target.value); link.dispatchEvent(new Event('change')); };
+  const set = event => { delete wish[what]; act(Number(event.target.value)); };
+  return html`<label for=${what}>${t(`wall.${what}`)}</label>
+    <input id=${what} type="range" min="0" max="1" step="0.05" .value=${String(value)}
+      ?disabled=${!link.may('OPERATOR')} @input=${move} @change=${set}>
+    <output for=${what}>${percentOf(value)}</output>`;
+}
+
 // --- what is said in words
 
 export const time = seconds => new Date(seconds * 1000).toLocaleTimeString(language());

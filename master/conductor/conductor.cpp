@@ -493,6 +493,8 @@ v1::Show Conductor::shown(net::Moment now) const {
     show.set_black(control.wanted().black());
     show.set_brightness(static_cast<std::uint32_t>(std::lround(wire::kFullLight * brightness_)));
     show.set_frozen(control.wanted().freeze());
+    show.set_colour_returned(static_cast<std::uint32_t>(
+        std::lround(double{wire::kAllColour} * looks_.colourReturned())));
     show.set_pilot(pilotName(now));
     show.set_calibration(looks_.calibration());
     if (scan) wire::writeScanPattern(*scan, *show.mutable_scan());

@@ -8,6 +8,7 @@
 #include "common/base/characters.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/config/scene.h"
 
 namespace aquarama::conductor {
 namespace {
@@ -101,6 +102,12 @@ void Looks::tellShown() {
     welcomePacket_ = sender_.packetOf(std::move(message));
     const std::filesystem::path scene = control_.wanted().scene();
     sceneName_ = legible(scene.stem().string(), wire::kMostNameBytes);
+    ownColour_ = config::parseScene(shown().scene_text(), sceneName_).water.colourReturned;
+}
+
+double Looks::colourReturned() const {
+    const v1::WantedShow& wanted = control_.wanted();
+    return wanted.has_colour_returned() ? wanted.colour_returned() : ownColour_;
 }
 
 config::QualityTier Looks::quality() const {

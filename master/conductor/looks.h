@@ -77,6 +77,8 @@ class Looks {
     // Its scene's name, and what names the geometry of its wall, as in each frame.
     [[nodiscard]] const std::string& sceneName() const { return sceneName_; }
     [[nodiscard]] std::uint64_t calibration() const { return calibration_; }
+    // The share of the water's colour that is given back: as it was set, or the scene's own.
+    [[nodiscard]] double colourReturned() const;
     // The tier of the whole wall: as chosen, or the finest that every node bears.
     [[nodiscard]] config::QualityTier quality() const;
     // Null where nothing of this digest is shown or prepared.
@@ -111,6 +113,7 @@ class Looks {
     v1::Welcome welcome_;         // with the look that is shown
     wire::Packet welcomePacket_;  // encoded once for many
     std::string sceneName_;
+    double ownColour_ = 0;  // of the scene: SceneWater::colourReturned
     std::uint64_t calibration_ = 0;
     Blobs blobs_;
     RigFiles rigFiles_;                     // of the look that is shown

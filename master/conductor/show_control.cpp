@@ -30,6 +30,12 @@ v1::WantedShow completed(const v1::WantedShow& show) {
     return all;
 }
 
+// Also where there is none: the scene's own.
+void takeColour(v1::WantedShow& show, const v1::WantedShow& from) {
+    show.clear_colour_returned();
+    if (from.has_colour_returned()) show.set_colour_returned(from.colour_returned());
+}
+
 bool isWorld(const v1::WantedShow& show) {
     return show.pattern() == v1::WantedShow::WORLD;
 }
@@ -72,7 +78,7 @@ ShowControl::ShowControl(v1::WantedShow wanted, v1::WantedShow kept, ask::OrderB
 Answer ShowControl::set(std::uint64_t request, const v1::WantedShow& change) {
     if (const Answer* known = book_.find(request)) return *known;
     v1::WantedShow goal = wanted_;
-    goal.MergeFrom(change);
+    wire::apply(goal, change);
     const bool lacksWorld = isWorld(goal) && !hasWorld_;
     const bool isAnotherLook =
         goal.scene() != wanted_.scene() || goal.quality() != wanted_.quality() || lacksWorld;
@@ -91,7 +97,9 @@ Answer ShowControl::set(std::uint64_t request, const v1::WantedShow& change) {
     if (isAnotherLook) return begin(request, goal, change);
     wanted_.set_pattern(goal.pattern());
     next_.set_pattern(goal.pattern());
-    kept_.MergeFrom(ofLook(change));
+    takeColour(wanted_, goal);
+    if (next_.scene() == wanted_.scene()) takeColour(next_, goal);
+    wire::apply(kept_, ofLook(change));
     return book_.enter(request, {});
 }
 
@@ -139,7 +147,7 @@ void ShowControl::switched() {
     assert(phase_ == Phase::Switching);
     hasWorld_ = nextHasWorld_;
     wanted_ = next_;
-    kept_.MergeFrom(change_);
+    wire::apply(kept_, change_);
     phase_ = Phase::Steady;
     look_ = nextLook_;
     ++version_;

@@ -52,7 +52,7 @@ class ScanHold {
 // A state machine without clock, sockets or worlds, so that every change can be played through in a
 // test. Black, freeze and a pattern hold from the next frame on. Another scene or quality is
 // another look: its world is made and every node builds it while the present one is shown; a scene
-// also goes through black.
+// also goes through black. The colour that is set holds until a scene is set: each has its own.
 class ShowControl {
   public:
     // `wanted`: values that are left out are auto, the world, and off. `kept`: what was set in

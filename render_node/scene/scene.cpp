@@ -69,6 +69,7 @@ shaders::FrameUniforms frameUniforms(const SceneFrame& frame,
     uniforms.sunAndFilterDepth = glm::vec4(
         sunInWater(), static_cast<float>(filterDepthMetres(-double{frame.eyePositionMetres.y})));
     uniforms.kdAndExposure = light.kdAndExposure(frame.eyePositionMetres);
+    uniforms.grading.x = frame.colourReturned;
     const DayLight dayLight = dayLightAt(frame.timeOfDay, frame.daylight);
     uniforms.sunlight = glm::vec4(dayLight.sun, 0.0F);
     uniforms.skylight = glm::vec4(dayLight.sky, 0.0F);
@@ -231,6 +232,7 @@ SceneRenderer::~SceneRenderer() = default;
 void SceneRenderer::update(const SceneFrame& frame) {
     assert(std::isfinite(frame.timeSeconds));
     Parts& parts = *parts_;
+    parts.light.grade(double{frame.colourReturned});
     parts.uniforms =
         frameUniforms(frame, parts.light, parts.options.current, parts.options.pixelRadians);
     parts.uniforms.bottom.x = parts.bottom ? 1.0F : 0.0F;

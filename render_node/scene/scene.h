@@ -40,6 +40,8 @@ struct SceneFrame {
     // gives it its colour.
     float daylight = 1.0F;
     float timeOfDay = 0.5F;
+    // The share of the colour that water takes on the way which is given back (water_tables.h).
+    float colourReturned = 0.0F;
 };
 
 // The options of a scene. A change needs a new SceneRenderer.

@@ -109,11 +109,14 @@ gl::Texture makeClouds(std::uint32_t seed) {
 SeaLight::SeaLight(const SeaLightOptions& options, WaterTables tables)
     : quality_{options.quality},
       sea_{options.calm ? calmSea() : seaOf(options.seed, place::kMeanFloorDepthMetres)},
+      water_{seaWater(options.water)},
       inscatter_{std::move(tables.inscatter)},
+      gradedDirect_{std::move(tables.direct)},
       tableDepthMetres_{-place::kEyePosition.y},
       atEye_{inscatter_.atDepth(double{tableDepthMetres_})},
-      primariesKd_{primariesDownwelling(seaWater(options.water))},
-      direct_{makeTexture(tables.direct)},
+      graded_{gradedDirect_.at(colourReturned_)},
+      primariesKd_{primariesDownwelling(water_)},
+      direct_{makeTexture(graded_)},
       inscatterTable_{makeVolume(atEye_)},
       openWater_{makeTexture(tables.openWater)},
       cloudTile_{makeClouds(options.seed)},
@@ -158,6 +161,14 @@ void SeaLight::update(double timeSeconds, glm::vec3 sharedEyeMetres) {
     glDisable(GL_DEPTH_TEST);
     drawWaves();
     drawCaustics();
+}
+
+void SeaLight::grade(double colourReturned) {
+    if (colourReturned_ == colourReturned) return;
+    colourReturned_ = colourReturned;
+    gradedDirect_.mixAt(colourReturned, graded_);
+    refill(direct_, graded_);
+    primariesKd_ = primariesDownwelling(water_, gradeOf(colourReturned));
 }
 
 glm::vec4 SeaLight::kdAndExposure(glm::vec3 sharedEyeMetres) const {

@@ -36,6 +36,10 @@ class SeaLight {
     // tables: those of options.water.
     SeaLight(const SeaLightOptions& options, WaterTables tables);
 
+    // Sets the share of colour that is given back (Grade), 0 to 1; 0 until it is set. Mixes and
+    // uploads the table only where it has changed.
+    void grade(double colourReturned);
+
     // For the frame's uniforms: Kd of the three primaries (xyz, 1/m), and the exposure at this eye
     // (w).
     [[nodiscard]] glm::vec4 kdAndExposure(glm::vec3 sharedEyeMetres) const;
@@ -63,10 +67,14 @@ class SeaLight {
 
     LightQuality quality_;
     Sea sea_;
+    WaterSpectra water_;
     Inscatter inscatter_;
+    GradedDirect gradedDirect_;
     // Depth of the eye that atEye_ and inscatterTable_ were mixed for, metres.
     float tableDepthMetres_;
     Table atEye_;
+    double colourReturned_ = 0;
+    Table graded_;  // gradedDirect_ for that share
     glm::vec3 primariesKd_;
     gl::Texture direct_, inscatterTable_, openWater_, cloudTile_;
     gl::Texture waveTile_, rippleTile_, causticLayers_;

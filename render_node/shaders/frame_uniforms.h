@@ -27,6 +27,7 @@ layout(std140, binding = kFrameBlock) uniform FrameUniforms {
                              // sun's at the surface being 1
     vec4 kdAndExposure;      // Kd of the three primaries where the filter looks, 1/m; w: what light
                              // is multiplied by before the tone
+    vec4 grading;            // x: the share of the colour that water takes which is given back
     vec4 bottom;             // x: 1 over a sea floor, 0 in the open sea
     vec4 current;  // way of the water since tick 0 along x and z, metres; velocity along x
                    // and z, metres a second

@@ -8,15 +8,16 @@
 // The submarine's own floodlights, either side of the eye, bring back the reds that the sea has taken
 // from the sun. They fall off with the square of the distance and by the water on their way. Their
 // beams cross a few metres ahead, so that what swims at the glass is not burnt white: metres within
-// which they pass by; attenuation of the three primaries, 1/m.
+// which they pass by; attenuation of the three primaries, 1/m, in nature
+// and where all colour is given back.
 const float kLampCrossing = 2.45;
-const vec3 kLampAttenuation = vec3(0.28, 0.075, 0.045);
+const vec3 kLampAttenuation = vec3(0.28, 0.075, 0.045), kGradedLampAttenuation = vec3(0.095);
 vec3 lampLight(vec3 place, vec3 normal) {
     vec3 way = lamp.xyz - place;
     float range2 = dot(way, way), range = sqrt(range2);
     float facing = 0.15 + 0.85 * max(dot(normal, way) / range, 0.0);
     float crossed = range2 / (range2 + kLampCrossing * kLampCrossing);
-    return vec3(1.0, 0.93, 0.82) * exp(-kLampAttenuation * range) *
+    return vec3(1.0, 0.93, 0.82) * exp(-mix(kLampAttenuation, kGradedLampAttenuation, grading.x) * range) *
            (lamp.w * facing * crossed * crossed / (range2 + 1.0));
 }
 
@@ -55,7 +56,7 @@ vec3 mirrored(vec3 direction, vec3 worldPosition) {
     vec3 sun = (6.0 * exp(90.0 * towardsSun) + 0.9 * exp(22.0 * towardsSun)) * sunlight.rgb;
     vec3 fromSurface = window + sun * unscatteredShare(depth) * caustic(worldPosition, 1.0);
     vec3 undone = exp(kdAndExposure.xyz * (depth - sunAndFilterDepth.w));
-    return water * undone + fromSurface;
+    return ungraded(water, distance(worldPosition, eyeAndTime.xyz), depth) * undone + fromSurface;
 }
 
 // The light that reaches the shared eye: absorbed on the way, plus the light that is scattered into it.

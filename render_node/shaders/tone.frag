@@ -7,8 +7,9 @@
 layout(binding = kSceneUnit) uniform sampler2D scene;
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 display;
-// A magenta filter before the lens, as divers have for green water: luminance stays.
-const vec3 kFilter = vec3(1.15, 0.96, 1.07);
+// A filter before the lens: luminance stays. Magenta, as divers have for green water; the more colour
+// is given back, the less of it is needed, and then a warm one.
+const vec3 kFilter = vec3(1.15, 0.96, 1.07), kGradedFilter = vec3(1.0875, 0.99125, 0.945);
 const float kSaturation = 1.08;
 
 // Water is bluer than the display can show (red below 0): a soft floor at 4.5 % of the brightest
@@ -29,7 +30,7 @@ vec3 curve(vec3 x) {
 
 void main() {
     vec3 c = intoGamut(sceneLight(scene, uv)) * kdAndExposure.w;
-    c *= kFilter;
+    c *= mix(kFilter, kGradedFilter, grading.x);
     c = mix(vec3(dot(c, vec3(0.2126, 0.7152, 0.0722))), c, kSaturation);
     // Bright blue goes to white through its neighbours, not to a flat cyan.
     c = mat3(0.86, 0.07, 0.07, 0.07, 0.86, 0.07, 0.06, 0.06, 0.88) * c;

@@ -8,7 +8,7 @@
 #include "frame_uniforms.h"
 #include "sunlight.glsl"
 
-layout(binding = kDirectTableUnit) uniform sampler2DArray directTable;  // columns of a 3x3 matrix over range, depth
+layout(binding = kDirectTableUnit) uniform sampler2DArray directTable;  // over range, depth: columns of a 3x3 matrix; what undoes the grade
 layout(binding = kInscatterTableUnit) uniform sampler3D inscatterTable;    // of the eye's depth: range, rise, azimuth
 layout(binding = kOpenWaterTableUnit) uniform sampler2D openWaterTable;   // 60 m of water: over depth, rise
 
@@ -48,6 +48,13 @@ vec3 direct(vec3 radiance, float range, float depth) {
     return texture(directTable, vec3(uv, 0.0)).rgb * radiance.r +
            texture(directTable, vec3(uv, 1.0)).rgb * radiance.g +
            texture(directTable, vec3(uv, 2.0)).rgb * radiance.b;
+}
+
+// Light that water has coloured already, as mirrors show it, is not graded, like the sea behind the
+// mirror: what the grade will add in `direct` is taken out beforehand.
+vec3 ungraded(vec3 light, float range, float depth) {
+    vec2 uv = atTexelCentres(vec2(rangeAxis(range), depthAxis(depth)), kDirectTexels);
+    return light * texture(directTable, vec3(uv, 3.0)).rgb;
 }
 
 // Light scattered into the way from the eye over this range.

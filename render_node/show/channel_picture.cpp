@@ -167,7 +167,8 @@ void ChannelPicture::drawWorld(const wire::StateFrame& frame) {
                                   .fish = {frame.before, frame.after, frame.fraction},
                                   .food = food_,
                                   .daylight = place::daylightAt(day_, double{frame.timeOfDay}),
-                                  .timeOfDay = frame.timeOfDay};
+                                  .timeOfDay = frame.timeOfDay,
+                                  .colourReturned = frame.show.colourReturned};
     scene_->update(scene);
     for (Viewing& eye : eyes_) {
         const scene::View view = viewOf(eye, frame.eye);

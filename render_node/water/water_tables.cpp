@@ -215,6 +215,7 @@ namespace {
 
 // Sizes of the tables' axes.
 constexpr int kRanges = 64, kDepths = 64, kRises = 32;
+constexpr int kDirectLayers = 4;
 // The depth of water behind which open water looks the same.
 constexpr double kOpenWaterMetres = 60.0;
 // Depths of the eye for which Inscatter has tables: closer together near the surface, where the
@@ -253,18 +254,45 @@ glm::dvec3 integrated(const WaterSpectra& water, const Spectrum& light) {
     return sum;
 }
 
-// Columns: what remains of each unit reflectance after this depth and range, in linear Rec. 709.
-glm::dmat3 transmitted(const WaterSpectra& water, double range, double depth) {
+// What remains of a band's light after this depth and range, where `grade` is given back.
+double leftOf(
+    const WaterSpectra& water, std::size_t band, double range, double depth, Grade grade) {
+    return std::exp(-(1.0 - grade.down) * water.downwelling[band] * depth -
+                    (1.0 - grade.toEye) * beamAttenuation(water, band) * range);
+}
+
+// Luminance of white light after this depth and range.
+double whiteOf(const WaterSpectra& water, double range, double depth, Grade grade) {
+    Spectrum light;
+    for (std::size_t band = 0; band < kBands; ++band)
+        light[band] = leftOf(water, band, range, depth, grade);
+    return luminance(integrated(water, light));
+}
+
+// Columns: what remains of each unit reflectance after this depth and range, in linear Rec. 709;
+// graded, with the luminance that white has without a grade.
+glm::dmat3 transmitted(const WaterSpectra& water, double range, double depth, Grade grade = {}) {
     glm::dmat3 columns{0.0};
+    const double kept = whiteOf(water, range, depth, {}) / whiteOf(water, range, depth, grade);
     for (std::size_t band = 0; band < kBands; ++band) {
-        const double left =
-            std::exp(-water.downwelling[band] * depth - beamAttenuation(water, band) * range);
+        const double left = kept * leftOf(water, band, range, depth, grade);
         for (int surface = 0; surface < 3; ++surface)
             for (int c = 0; c < 3; ++c)
                 columns[surface][c] +=
                     water.weights[c][band] * left * water.reflectances[surface][band];
     }
     return columns;
+}
+
+// The light without a grade as a share of that with it, by primary. Where red has left the gamut
+// there is none to be changed.
+glm::vec3 ungraded(glm::dvec3 plain, glm::dvec3 graded) {
+    constexpr double kMost = 8.0;
+    glm::vec3 share{1.0F};
+    for (int c = 0; c < 3; ++c)
+        if (graded[c] > 0)
+            share[c] = static_cast<float>(std::clamp(plain[c] / graded[c], 0.0, kMost));
+    return share;
 }
 
 // Light scattered into one direction of view, by band: source at the eye (1/m) and loss along the
@@ -309,6 +337,25 @@ double eyePlace(double depth) {
     return std::sqrt(std::clamp(depth / kDeepestEyeMetres, 0.0, 1.0)) * (kEyes - 1);
 }
 
+// The texels of all tables, one table after the other.
+std::vector<glm::vec3> allTexels(std::span<const Table> slices) {
+    std::vector<glm::vec3> all;
+    for (const Table& slice : slices)
+        all.insert(all.end(), slice.texels.begin(), slice.texels.end());
+    return all;
+}
+
+// Mixes the two tables on both sides of a fractional index into one of their size.
+void mixSlices(std::span<const Table> slices, double place, Table& table) {
+    const auto left = std::min(static_cast<std::size_t>(place), slices.size() - 2);
+    const auto share = static_cast<float>(place - static_cast<double>(left));
+    const auto& near = slices[left].texels;
+    const auto& far = slices[left + 1].texels;
+    assert(table.texels.size() == near.size());
+    for (std::size_t i = 0; i < near.size(); ++i)
+        table.texels[i] = glm::mix(near[i], far[i], share);
+}
+
 // Exposure for an eye at this depth: kKey divided by a geometric mean of near sand and of open
 // water across the sun, weighted by kWater.
 double exposureOf(const WaterSpectra& water, double eyeDepth) {
@@ -337,19 +384,29 @@ double filterDepthMetres(double eyeDepthMetres) {
     return depth / std::hypot(1.0, depth / kMost);
 }
 
-Table bakeDirect(const WaterSpectra& water) {
-    Table table{kRanges, kDepths, 3, {}};
-    table.texels.resize(std::size_t{kRanges} * kDepths * 3);
+Grade gradeOf(double colourReturned) {
+    constexpr double kBalancedAt = 0.8;
+    assert(colourReturned >= 0);
+    assert(colourReturned <= 1);
+    return {.toEye = colourReturned, .down = std::min(colourReturned / kBalancedAt, 1.0)};
+}
+
+Table bakeDirect(const WaterSpectra& water, Grade grade) {
+    constexpr std::size_t kLayer = std::size_t{kRanges} * kDepths;
+    Table table{kRanges, kDepths, kDirectLayers, {}};
+    table.texels.resize(kLayer * kDirectLayers);
     std::size_t at = 0;
     // A colour is taken as the sum of the three surfaces that gives it at no depth and no range.
     const glm::dmat3 surfacesFromColour = glm::inverse(transmitted(water, 0.0, 0.0));
     for (int depth = 0; depth < kDepths; ++depth)
         for (int range = 0; range < kRanges; ++range) {
-            const glm::dmat3 seen =
-                transmitted(water, rangeAt(range, kRanges), depthAt(depth)) * surfacesFromColour;
-            for (int column = 0; column < 3; ++column)
-                table.texels[at + static_cast<std::size_t>(column) * kRanges * kDepths] =
-                    glm::vec3(seen[column]);
+            const double metres = rangeAt(range, kRanges);
+            const glm::dmat3 left = transmitted(water, metres, depthAt(depth), grade);
+            const glm::dmat3 seen = left * surfacesFromColour;
+            for (std::size_t column = 0; column < 3; ++column)
+                table.texels[at + column * kLayer] = glm::vec3(seen[static_cast<int>(column)]);
+            const glm::dmat3 plain = transmitted(water, metres, depthAt(depth));
+            table.texels[at + 3 * kLayer] = ungraded(plain * glm::dvec3{1}, left * glm::dvec3{1});
             ++at;
         }
     return table;
@@ -389,10 +446,7 @@ Inscatter::Inscatter(std::span<const glm::vec3> texels, std::vector<double> expo
 }
 
 std::vector<glm::vec3> Inscatter::texels() const {
-    std::vector<glm::vec3> all;
-    for (const Table& slice : slices_)
-        all.insert(all.end(), slice.texels.begin(), slice.texels.end());
-    return all;
+    return allTexels(slices_);
 }
 
 Table Inscatter::baked(const WaterSpectra& water, double eyeDepthMetres) const {
@@ -416,20 +470,48 @@ Table Inscatter::atDepth(double eyeDepthMetres) const {
 }
 
 void Inscatter::mixAtDepth(double eyeDepthMetres, Table& table) const {
-    const double place = eyePlace(eyeDepthMetres);
-    const auto left = std::min(static_cast<std::size_t>(place), slices_.size() - 2);
-    const auto share = static_cast<float>(place - static_cast<double>(left));
-    const auto& near = slices_[left].texels;
-    const auto& far = slices_[left + 1].texels;
-    assert(table.texels.size() == near.size());
-    for (std::size_t i = 0; i < near.size(); ++i)
-        table.texels[i] = glm::mix(near[i], far[i], share);
+    mixSlices(slices_, eyePlace(eyeDepthMetres), table);
 }
 
 double Inscatter::exposureAt(double eyeDepthMetres) const {
     const double place = eyePlace(eyeDepthMetres);
     const auto left = std::min(static_cast<std::size_t>(place), exposures_.size() - 2);
     return std::lerp(exposures_[left], exposures_[left + 1], place - static_cast<double>(left));
+}
+
+namespace {
+
+// Shares of colour returned for which there are tables.
+constexpr std::size_t kShares = 6;
+
+}  // namespace
+
+GradedDirect::GradedDirect(const WaterSpectra& water) {
+    for (std::size_t i = 0; i < kShares; ++i)
+        slices_.push_back(bakeDirect(water, gradeOf(evenly(static_cast<int>(i), kShares))));
+}
+
+GradedDirect::GradedDirect(std::span<const glm::vec3> texels) {
+    constexpr std::size_t kTexels = std::size_t{kRanges} * kDepths * kDirectLayers;
+    assert(texels.size() == kShares * kTexels);
+    for (std::size_t i = 0; i < kShares; ++i) {
+        const auto own = texels.subspan(i * kTexels, kTexels);
+        slices_.push_back({kRanges, kDepths, kDirectLayers, {own.begin(), own.end()}});
+    }
+}
+
+std::vector<glm::vec3> GradedDirect::texels() const {
+    return allTexels(slices_);
+}
+
+Table GradedDirect::at(double colourReturned) const {
+    Table table = slices_.front();
+    mixAt(colourReturned, table);
+    return table;
+}
+
+void GradedDirect::mixAt(double colourReturned, Table& table) const {
+    mixSlices(slices_, colourReturned * (kShares - 1), table);
 }
 
 namespace {
@@ -449,19 +531,19 @@ WaterTables waterTables(config::WaterType type) {
         const WaterSpectra water = seaWater(type);
         const Inscatter inscatter{water};
         return WaterArrays{inscatter.texels(),
-                           bakeDirect(water).texels,
+                           GradedDirect{water}.texels(),
                            bakeOpenWater(water).texels,
                            inscatter.exposures()};
     });
     return {Inscatter{kept.inscatter, std::move(kept.exposures)},
-            {kRanges, kDepths, 3, std::move(kept.direct)},
+            GradedDirect{kept.direct},
             {kDepths, kRises, 1, std::move(kept.openWater)}};
 }
 
-glm::vec3 primariesDownwelling(const WaterSpectra& water) {
+glm::vec3 primariesDownwelling(const WaterSpectra& water, Grade grade) {
     constexpr double kFrom = -2.0, kTo = 2.0;
-    const glm::dvec3 above = transmitted(water, 0, kFrom) * glm::dvec3{1.0};
-    const glm::dvec3 below = transmitted(water, 0, kTo) * glm::dvec3{1.0};
+    const glm::dvec3 above = transmitted(water, 0, kFrom, grade) * glm::dvec3{1.0};
+    const glm::dvec3 below = transmitted(water, 0, kTo, grade) * glm::dvec3{1.0};
     return glm::vec3(glm::log(above / below) / (kTo - kFrom));
 }
 

@@ -59,9 +59,19 @@ struct Table {
     std::vector<glm::vec3> texels;  // x fastest, then y, then layer
 };
 
+// A share of the colour that water takes on the way is given back, as cameras of divers do: 0 none,
+// the picture as in nature, to 1 all. Luminance stays, and so does the light that water adds, so
+// that far things are as dim and as veiled as they were. The way down is balanced sooner, wholly
+// from 0.8 on, as a white balance for this depth would; of the way to the eye that share.
+struct Grade {
+    double toEye = 0, down = 0;
+};
+[[nodiscard]] Grade gradeOf(double colourReturned);
+
 // Attenuation of a thing's light on the way down and to the eye: 3x3 matrices for linear Rec. 709,
-// whose columns are the three layers. x: sqrt(range / 80 m); y: sqrt((depth + 10 m) / 40 m).
-[[nodiscard]] Table bakeDirect(const WaterSpectra& water);
+// whose columns are three layers; and, in a fourth, what white light would be without the grade, as
+// a share of each primary. x: sqrt(range / 80 m); y: sqrt((depth + 10 m) / 40 m).
+[[nodiscard]] Table bakeDirect(const WaterSpectra& water, Grade grade = {});
 
 // Light scattered into the view by 60 m of water, without the lobes of direction; for mirrors. x:
 // sqrt((depth + 10 m) / 40 m); y: (rise w_y + 1) / 2.
@@ -102,15 +112,35 @@ class Inscatter {
     std::vector<double> exposures_;
 };
 
+// bakeDirect() for evenly spaced shares of colour returned, and mixed between them, so that it can
+// be set while a show runs.
+class GradedDirect {
+  public:
+    // Computes the tables of all shares.
+    explicit GradedDirect(const WaterSpectra& water);
+    // Restores an object from what texels() returned.
+    explicit GradedDirect(std::span<const glm::vec3> texels);
+    // The table for this share, 0 to 1: as baked at multiples of 0.2.
+    [[nodiscard]] Table at(double colourReturned) const;
+    // Writes the same into a table that at() has made; allocates nothing.
+    void mixAt(double colourReturned, Table& table) const;
+    // The texels of all shares, one table after the other.
+    [[nodiscard]] std::vector<glm::vec3> texels() const;
+
+  private:
+    std::vector<Table> slices_;
+};
+
 // All tables of a type of water.
 struct WaterTables {
     Inscatter inscatter;
-    Table direct, openWater;
+    GradedDirect direct;
+    Table openWater;
 };
 // Takes them from the cache of derived data, or computes them once on this machine.
 [[nodiscard]] WaterTables waterTables(config::WaterType type);
 
 // Kd of daylight's three primaries near the depth that the filter leaves, 1/m.
-[[nodiscard]] glm::vec3 primariesDownwelling(const WaterSpectra& water);
+[[nodiscard]] glm::vec3 primariesDownwelling(const WaterSpectra& water, Grade grade = {});
 
 }  // namespace aquarama::scene

@@ -250,7 +250,8 @@ class Pages(unittest.TestCase):
             reached.add(self.driver.execute_script(
                 "return document.activeElement.id || document.activeElement.innerText.split('\\u00a0')[0]"))
         self.assertLessEqual({"Wall", "Nodes", "Events", "Schedule", "Calibration", "Doctor", "Log", "Mind", "People",
-                              "Black", "Freeze", "scene", "quality", "pattern", "Take the helm"}, reached)
+                              "Black", "Freeze", "scene", "quality", "pattern", "colour",
+                              "Take the helm"}, reached)
         self.driver.execute_script(
             "[...document.querySelectorAll('button')].find(b => b.innerText === 'Black').focus()")
         ActionChains(self.driver).key_down(Keys.ENTER).pause(1.3).key_up(Keys.ENTER).perform()
@@ -259,6 +260,15 @@ class Pages(unittest.TestCase):
             "[...document.querySelectorAll('button')].find(b => b.innerText === 'Light again').focus()")
         ActionChains(self.driver).send_keys(Keys.ENTER).perform()
         wait_until(lambda: self.desk.status()["black"] == "off", 5, "light by keyboard")
+        slider = self.driver.find_element(By.ID, "colour")
+        before = self.desk.status()["colour"]
+        slider.send_keys(Keys.HOME)
+        wait_until(lambda: self.desk.status()["colour"] == "0.00", 5, "the water's own colour by keyboard")
+        slider.send_keys(Keys.ARROW_RIGHT)
+        wait_until(lambda: self.desk.status()["colour"] == "0.05", 5, "a step of the slider")
+        self.driver.execute_script("arguments[0].value = arguments[1];"
+                                   "arguments[0].dispatchEvent(new Event('change'))", slider, before)
+        wait_until(lambda: self.desk.status()["colour"] == before, 5, "the colour as it was")
         self.driver.execute_script(
             "[...document.querySelectorAll('button')].find(b => b.innerText === 'Freeze').focus()")
         ActionChains(self.driver).send_keys(" ").perform()

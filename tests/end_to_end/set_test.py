@@ -35,7 +35,7 @@ class Set(unittest.TestCase):
         show = start("run", self.rig, "--headless", "--live", "--pattern", "grid", log=self.log)
         self.processes = [show]
         wait_until(lambda: "showing" in self.log.read_text(), 60, "the first frame")
-        for what, value in (("black", "on"), ("freeze", "on"), ("pattern", "grey")):
+        for what, value in (("black", "on"), ("freeze", "on"), ("pattern", "grey"), ("colour", "0.4")):
             done = self.set(what, value)
             self.assertEqual((done.returncode, done.stdout), (0, f"{what} {value}\n"), done.stderr)
         before = self.shown()
@@ -45,21 +45,22 @@ class Set(unittest.TestCase):
         master = next(pid for command, pid in children_of(show).items() if " master " in command)
         os.kill(master, signal.SIGKILL)
         wait_until(lambda: self.shown().get("black") == "on", 20, "the master to come back, black")
-        self.assertEqual((self.shown()["freeze"], self.shown()["pattern"]), ("on", "grey"))
-        self.assertIn("as it was set before: pattern grey, black on, freeze on", self.log.read_text())
+        shown = self.shown()
+        self.assertEqual((shown["freeze"], shown["pattern"], shown["colour"]), ("on", "grey", "0.40"))
+        self.assertIn("as it was set before: pattern grey, black on, freeze on, colour 0.40", self.log.read_text())
         for what in ("black", "freeze"):
             self.assertEqual(self.set(what, "off").returncode, 0)
 
         done = self.set("scene", "empty_sea")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(self.shown()["scene"], "empty_sea")
+        self.assertEqual((self.shown()["scene"], self.shown()["colour"]), ("empty_sea", "0.80"), "the scene's own")
         wait_until(lambda: "through black in" in self.log.read_text(), 20, "light again")
 
         for what, value, why in (("scene", "lagoon", "bait_ball, empty_sea, reef"),
                                  ("scene", "../desk", "without folder"),
                                  ("scene", "reef.txtpb", "without folder"),
                                  ("quality", "best", "not \"best\""), ("black", "maybe", "on or off"),
-                                 ("pattern", "dots", "grid")):
+                                 ("pattern", "dots", "grid"), ("colour", "1.2", "from 0"), ("colour", "red", "to 1")):
             refused = self.set(what, value)
             self.assertEqual(refused.returncode, 1, what)
             self.assertIn(why, refused.stderr)

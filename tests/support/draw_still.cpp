@@ -108,6 +108,7 @@ int main(int argc, char** argv) try {
     app.add_option("--seed", still.options.place.seed, "of the place");
     app.add_option("--quality", options.tier, "tier")
         ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));
+    app.add_option("--colour", still.colourReturned, "share that is given back, 0 .. 1");
     app.add_option("--water", options.water, "Jerlov's type")
         ->check(CLI::IsMember({"I", "IA", "IB", "II", "III", "1C", "3C"}));
     app.add_option("--portrait", options.portraits, "species before the camera");

@@ -135,6 +135,7 @@ void addLevels(Stills& stills) {
 
 Still reefIn(config::WaterType type) {
     Still still;
+    still.colourReturned = 0.0F;  // as in nature
     still.camera.sizePixels = {320, 180};
     still.camera.heightDegrees = 60.0F;
     still.options.quality = config::QualityTier::Medium;

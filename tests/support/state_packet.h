@@ -18,6 +18,8 @@ inline v1::Show messageOf(const wire::Show& show) {
     message.set_quality(static_cast<std::uint32_t>(show.quality));
     message.set_pattern(static_cast<v1::Pattern>(show.pattern));
     message.set_black(show.black);
+    message.set_colour_returned(
+        static_cast<std::uint32_t>(std::lround(wire::kAllColour * show.colourReturned)));
     message.set_brightness(static_cast<std::uint32_t>(std::lround(255 * show.brightness)));
     message.set_frozen(show.frozen);
     message.set_pilot(show.pilot);

@@ -157,6 +157,7 @@ Picture Photographer::pictureOf(const Still& still) {
     frame.fish.after = cast.fish;
     frame.daylight = still.daylight;
     frame.timeOfDay = still.timeOfDay;
+    frame.colourReturned = still.colourReturned;
     scene_->update(frame);
     return encoded(scene_->draw(viewOf(still.camera)), still.camera.sizePixels);
 }

@@ -59,6 +59,7 @@ struct Still {
     scene::SceneOptions options;  // quality, place, seed; not pixelRadians
     float daylight = 1.0F;
     float timeOfDay = 0.5F;
+    float colourReturned = static_cast<float>(config::SceneWater{}.colourReturned);
 };
 // Takes stills, and grows a sea only where the one before was of other options or with other fish:
 // that takes seconds. Construct, use and destroy with the same context current.

@@ -33,6 +33,7 @@ water {
   surface_c: 27
   celsius_per_metre: -0.25
   jerlov: "1C"
+  colour_returned: 0.25
 }
 gathering: MILL
 plankton: 40
@@ -60,6 +61,7 @@ TEST(Scene, isReadInItsUnits) {
     EXPECT_DOUBLE_EQ(scene.water.surfaceCelsius, 27);
     EXPECT_DOUBLE_EQ(scene.water.celsiusPerMetre, -0.25);
     EXPECT_EQ(scene.water.jerlov, WaterType::C1);
+    EXPECT_DOUBLE_EQ(scene.water.colourReturned, 0.25);
     EXPECT_EQ(scene.gathering, Gathering::Mill);
     EXPECT_EQ(scene.plankton, 40U);
     EXPECT_DOUBLE_EQ(scene.day.lengthSeconds, 600);
@@ -184,6 +186,7 @@ stops { at { x_m: 0 y_m: -5 z_m: 1 } } })",
     EXPECT_EQ(read.water.surfaceCelsius, water.surfaceCelsius);
     EXPECT_EQ(read.water.celsiusPerMetre, water.celsiusPerMetre);
     EXPECT_EQ(read.water.jerlov, water.jerlov);
+    EXPECT_EQ(read.water.colourReturned, water.colourReturned);
     EXPECT_EQ(read.day.lengthSeconds, Day{}.lengthSeconds);
     EXPECT_EQ(read.day.startsAt, Day{}.startsAt);
     EXPECT_EQ(read.day.night, Day{}.night);

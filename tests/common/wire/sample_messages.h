@@ -45,6 +45,7 @@ inline Show sampleShow() {
             .black = true,
             .brightness = 0.2F,
             .frozen = true,
+            .colourReturned = 0.6F,
             .pilot = "middle",
             .calibration = 0x0123456789ABCDEFU};
 }

@@ -63,6 +63,31 @@ TEST(ShowControl, blackFreezeAndPatternsHoldAtOnce) {
     EXPECT_TRUE(wire::areSame(control.kept(), change));
 }
 
+v1::WantedShow colour(double share) {
+    v1::WantedShow change;
+    change.set_colour_returned(share);
+    return change;
+}
+
+TEST(ShowControl, aColourHoldsAtOnceUntilASceneIsSet) {
+    Reef reef;
+    ShowControl& control = reef.control;
+    EXPECT_FALSE(control.wanted().has_colour_returned()) << "the scene's own";
+    EXPECT_EQ(control.set(1, colour(0.4)).outcome, Outcome::Done);
+    EXPECT_EQ(control.wanted().colour_returned(), 0.4);
+    EXPECT_EQ(control.version(), 2U);
+    EXPECT_EQ(control.set(2, scene("lagoon")).outcome, Outcome::Waiting);
+    EXPECT_EQ(control.set(3, colour(0.6)).outcome, Outcome::Done);
+    EXPECT_EQ(control.wanted().colour_returned(), 0.6) << "of the scene that is still shown";
+    prepareAll(control);
+    control.switched();
+    EXPECT_FALSE(control.wanted().has_colour_returned());
+    EXPECT_TRUE(wire::areSame(control.kept(), scene("lagoon")));
+    EXPECT_EQ(control.set(4, colour(1)).outcome, Outcome::Done);
+    EXPECT_EQ(control.set(5, scene("lagoon")).outcome, Outcome::Done);
+    EXPECT_FALSE(control.wanted().has_colour_returned()) << "the same scene again is as it came";
+}
+
 TEST(ShowControl, aSceneIsMadeThenBuiltThenShownAfterBlack) {
     Reef reef;
     ShowControl& control = reef.control;

@@ -3,6 +3,7 @@
 // the picture do where two channels overlap.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "common/base/picture.h"
 #include "render_node/gl/context.h"
 #include "render_node/shaders/shader_interface.h"
+#include "tests/support/colour_difference.h"
 #include "tests/support/golden_stills.h"
 
 namespace aquarama::test {
@@ -100,6 +102,79 @@ TEST_F(WaterPicture, clearWaterIsABlueThatADisplayCanShow) {
     }
     EXPECT_GT(blue, 1.2 * green);
     EXPECT_EQ(neon, 0);
+}
+
+// CIELAB without lightness, of the middle of a goldie's flank: so wide in the picture at any range.
+glm::dvec2 goldieAt(float metres, const std::function<Picture(const Still&)>& pictureOf) {
+    constexpr float kLength = 0.09F;
+    Still still = openSea(6.0F);
+    still.colourReturned = Still{}.colourReturned;
+    still.camera.sizePixels = {160, 90};
+    still.camera.heightDegrees = glm::degrees(2 * std::atan(0.5F * kLength / metres));
+    still.fish = {portraitOf("sea_goldie", still.camera, metres, 0.0F, kLength)};
+    const Picture picture = pictureOf(still);
+    glm::dvec3 sum{0.0};
+    for (int y = 40; y < 50; ++y)
+        for (int x = 65; x < 95; ++x)
+            for (int c = 0; c < 3; ++c)
+                sum[c] += linearFromSrgb(picture.rgb[3 * static_cast<std::size_t>(y * 160 + x) +
+                                                     static_cast<std::size_t>(c)] /
+                                         255.0);
+    const auto lab = labOf(sum / 300.0);
+    return {lab[1], lab[2]};
+}
+
+// As the paper's reader sees a fish that nears the glass: it does not change its colour.
+TEST_F(WaterPicture, aGoldieIsOrangeSixMetresAway) {
+    const glm::dvec2 near = goldieAt(1.0F, pictureOf);
+    const glm::dvec2 far = goldieAt(6.0F, pictureOf);
+    const double cosine = glm::dot(near, far) / (glm::length(near) * glm::length(far));
+    EXPECT_LT(glm::degrees(std::acos(std::min(cosine, 1.0))), 15.0)
+        << near.x << " " << near.y << ", " << far.x << " " << far.y;
+    EXPECT_GE(glm::length(far), 0.5 * glm::length(near));
+}
+
+// Of a picture's lower half, in HSV of its codes.
+struct Hues {
+    double outside = 0;  // the water's hues of 165 to 230 degrees, or nearly grey: shares of pixels
+    double warm = 0;     // red to yellow
+};
+
+Hues huesOf(const Picture& picture) {
+    Hues hues;
+    const auto pixels = static_cast<std::size_t>(picture.sizePixels.x * picture.sizePixels.y);
+    for (std::size_t i = pixels / 2; i < pixels; ++i) {
+        const glm::dvec3 c{picture.rgb[3 * i], picture.rgb[3 * i + 1], picture.rgb[3 * i + 2]};
+        const double most = std::max({c.r, c.g, c.b, 1.0});
+        const double spread = most - std::min({c.r, c.g, c.b});
+        const double hue =
+            glm::degrees(std::atan2(std::sqrt(3.0) * (c.g - c.b), 2 * c.r - c.g - c.b));
+        const double turned = hue < 0 ? hue + 360 : hue;
+        const double saturation = spread / most;
+        hues.outside += turned < 165 || turned > 230 || saturation < 0.2 ? 1 : 0;
+        hues.warm += (turned < 70 || turned > 320) && saturation >= 0.12 ? 1 : 0;
+    }
+    hues.outside /= static_cast<double>(pixels - pixels / 2);
+    hues.warm /= static_cast<double>(pixels - pixels / 2);
+    return hues;
+}
+
+// About the eye of the reef, each eighth of a turn.
+TEST_F(WaterPicture, aReefIsOchreRoseAndVioletAndNotAllTurquoise) {
+    std::vector<double> outside, warm;
+    for (int i = 0; i < 8; ++i) {
+        Still still = reefIn(config::WaterType::IA);
+        still.camera.azimuthDegrees = 45.0F * static_cast<float>(i);
+        still.colourReturned = Still{}.colourReturned;
+        const Hues hues = huesOf(pictureOf(still));
+        outside.push_back(hues.outside);
+        warm.push_back(hues.warm);
+        EXPECT_GT(hues.outside, 0.20) << still.camera.azimuthDegrees;
+    }
+    std::ranges::sort(outside);
+    std::ranges::sort(warm);
+    EXPECT_GT(outside[4], 0.40);
+    EXPECT_GT(warm[4], 0.12);
 }
 
 constexpr float kBetween = 24.0F;  // degrees, of two channels

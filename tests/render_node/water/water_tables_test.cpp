@@ -133,6 +133,40 @@ TEST_P(EachWater, pigmentsLookAsTheirSpectraDo) {
     EXPECT_LT(white, 1.0);
 }
 
+// Closed form: each band keeps what the grade leaves of its exponent, and white its luminance.
+TEST_P(EachWater, aGradeGivesColourBackAndLeavesTheLuminanceOfWhite) {
+    const double clear = std::min(0.13 / beamAttenuation(water, 10), 1.0);
+    for (const double returned : {0.0, 0.4, 0.8, 1.0}) {
+        const Grade grade = gradeOf(returned);
+        const Table table = bakeDirect(water, grade);
+        for (const double depth : {-3.0, 0.0, 6.0})
+            for (const double inClearWater : {0.0, 4.0, 12.0}) {
+                const double range = inClearWater * clear;
+                const auto kept = [&](std::size_t band) {
+                    return std::exp(-(1 - grade.down) * water.downwelling[band] * depth -
+                                    (1 - grade.toEye) * beamAttenuation(water, band) * range);
+                };
+                const glm::dvec3 plain = test::seenThrough(water, kTargets[0], range, depth);
+                glm::dvec3 graded = test::integrated(water, kept);
+                graded *= glm::dot(plain, test::kLuminance) / glm::dot(graded, test::kLuminance);
+                const glm::dvec3 seen = seenByTable(table, glm::dvec3{1.0}, range, depth);
+                EXPECT_LT(glm::distance(seen, graded), 0.02 * glm::length(graded))
+                    << returned << ", " << depth << " m deep, " << range << " m away";
+            }
+    }
+}
+
+// All that is drawn for no colour returned is as it was before there was a grade.
+TEST_P(EachWater, noColourReturnedIsTheWaterOfNature) {
+    const GradedDirect graded{water};
+    const Table table = graded.at(0.0);
+    const Table plain = bakeDirect(water);
+    EXPECT_TRUE(table.texels == plain.texels);
+    const std::size_t layer = plain.texels.size() / 4;
+    for (std::size_t i = 3 * layer; i < plain.texels.size(); ++i)
+        ASSERT_EQ(plain.texels[i], glm::vec3{1.0F}) << "nothing is to be undone";
+}
+
 // To look up so much nearer the surface is the spectral gain of the filter.
 TEST_P(EachWater, theFilterIsAGainOnEachWavelength) {
     for (const double depth : {1.0, 6.0, 12.0, 30.0}) {
