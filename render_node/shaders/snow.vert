@@ -4,10 +4,10 @@
 #include "water.glsl"
 #include "sea_now.glsl"
 #include "hash.h"
+#include "speck_lens.glsl"
 layout(location = 0) out vec3 light;
 // Side of the box.
 const float kBoxMetres = 9.0;
-const float kLensMetres = 0.0055, kFocusMetres = 6.0;  // a little out of focus when near
 float unit(uint n) { return unitOf(hashOf(uint(gl_VertexID) * 4u + n)); }
 void main() {
     vec3 home = vec3(unit(0u), unit(1u), unit(2u));
@@ -22,10 +22,10 @@ void main() {
     float diameter = mix(0.0005, 0.0026, e * e * e * e * e);
     float perRadian = pixelsARadian();
     float sharp = diameter / range * perRadian;
-    float blur = kLensMetres * abs(1.0 / range - 1.0 / kFocusMetres) * perRadian;
+    float blur = lensBlurRadians(range) * perRadian;
     // In pixels; never so small that it twinkles as it drifts across them.
     float size = sqrt(sharp * sharp + blur * blur + 2.2);
-    float fade = smoothstep(0.7, 1.6, range) * smoothstep(0.5, 0.36, range / kBoxMetres);
+    float fade = nearFade(range) * smoothstep(0.5, 0.36, range / kBoxMetres);
     float phase = 1.4 * lobe(dot(away / range, sunAndFilterDepth.xyz), 0.75) + 0.12;
     vec3 lit = unscatteredShare(-place.y) * caustic(place, 1.0) * pastFish(place).sun * sunlight.rgb +
                0.35 * skylight.rgb;
