@@ -9,7 +9,7 @@ layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 0) out vec4 radiance;
 const float kRubbleTile = 1.3;
-const vec3 kSand = vec3(0.44, 0.39, 0.31);
+const vec3 kSand = vec3(0.52, 0.41, 0.27);
 void main() {
     vec4 fine = texture(detail, place.xz / kSandTileMetres);
     // A second sample, larger and rotated, hides the repetition of the tile.
