@@ -32,6 +32,13 @@ void describePictures(CLI::App& command, supervisor::RunOptions& options) {
         "it is there");
     command.add_flag("--deep", options.deep, "pictures of 16 bits instead of 8 dithered ones")
         ->needs(snapshot);
+    command
+        .add_option("--scale",
+                    options.scale,
+                    "panorama.png so many times as wide and high, for print; takes long")
+        ->needs(snapshot)
+        ->excludes(command.get_option("--pattern"))
+        ->check(cli::wholeNumber(1, cli::kMostScale));
     CLI::Option* clip = command.add_option("--clip", options.clipPath, "FILE.mp4 or FILE.webp")
                             ->check(CLI::Validator(clipNameProblem, ""));
     command

@@ -263,6 +263,19 @@ std::vector<Light> readChannels(const config::Rig& rig, const std::string& folde
     return channels;
 }
 
+namespace {
+
+void writeHall(const config::Rig& rig,
+               const Light& panorama,
+               std::span<const Light> channels,
+               const std::string& folder,
+               int bits) {
+    writePng(folder + "/hall.png",
+             pictureOf(composeHall(rig, panorama, kHallPixels, channels), bits, 0));
+}
+
+}  // namespace
+
 void writePanoramaAndHall(const config::Rig& rig,
                           const Light& panorama,
                           std::span<const Light> channels,
@@ -273,15 +286,18 @@ void writePanoramaAndHall(const config::Rig& rig,
     auto written = std::async(std::launch::async, [&] {
         writePng(folder + "/panorama.png", pictureOf(panorama, bits, 0));
     });
-    writePng(folder + "/hall.png",
-             pictureOf(composeHall(rig, panorama, kHallPixels, channels), bits, 0));
+    writeHall(rig, panorama, channels, folder, bits);
     written.get();
 }
 
-void composeSnapshot(const config::Rig& rig, const std::string& folder, int bits) {
+void composeSnapshot(const config::Rig& rig,
+                     const std::string& folder,
+                     int bits,
+                     bool keepPanorama) {
     const PanoramaMap map(rig);
     const std::vector<Light> channels = readChannels(rig, folder);
-    writePanoramaAndHall(rig, map.compose(channels), channels, folder, bits);
+    const auto write = keepPanorama ? writeHall : writePanoramaAndHall;
+    write(rig, map.compose(channels), channels, folder, bits);
     if (!hasStereo(rig)) return;
     for (const std::string eye : {".left_eye", ".right_eye"})
         writePng(fmt::format("{}/panorama{}.png", folder, eye),

@@ -84,8 +84,11 @@ void writePanoramaAndHall(const config::Rig& rig,
                           int bits);
 
 // Composes folder/panorama.png and folder/hall.png, and in stereo panorama.left_eye.png and
-// .right_eye.png, of the channels' pictures there. Throws as readChannels() and
-// writePanoramaAndHall() do.
-void composeSnapshot(const config::Rig& rig, const std::string& folder, int bits);
+// .right_eye.png, of the channels' pictures there; with keepPanorama not panorama.png, which a node
+// has drawn. Throws as readChannels() and writePanoramaAndHall() do.
+void composeSnapshot(const config::Rig& rig,
+                     const std::string& folder,
+                     int bits,
+                     bool keepPanorama = false);
 
 }  // namespace aquarama::compose

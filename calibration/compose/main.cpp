@@ -165,6 +165,7 @@ struct Composition {
     std::string rig;
     std::string folder;
     bool deep = false;
+    bool keepPanorama = false;
 };
 
 struct Clip {
@@ -173,17 +174,21 @@ struct Clip {
 };
 
 void addCompose(cli::CommandLine& line) {
-    const auto [command, options] = line.add<Composition>(
-        "compose",
-        "make DIR/panorama.png and DIR/hall.png from DIR/channel-NAME.png",
-        [](const Composition& chosen) {
-            compose::composeSnapshot(
-                readCheckedRig(chosen.rig), chosen.folder, chosen.deep ? 16 : 8);
-        });
+    const auto [command, options] =
+        line.add<Composition>("compose",
+                              "make DIR/panorama.png and DIR/hall.png from DIR/channel-NAME.png",
+                              [](const Composition& chosen) {
+                                  compose::composeSnapshot(readCheckedRig(chosen.rig),
+                                                           chosen.folder,
+                                                           chosen.deep ? 16 : 8,
+                                                           chosen.keepPanorama);
+                              });
     command.add_option("RIG", options.rig, "rig file that the pictures were taken with")
         ->required();
     command.add_option("DIR", options.folder, "folder of the pictures")->required();
     command.add_flag("--deep", options.deep, "write 16 bits instead of 8");
+    command.add_flag(
+        "--keep-panorama", options.keepPanorama, "leave the panorama.png that is there");
 }
 
 void addEncode(cli::CommandLine& line) {

@@ -42,17 +42,13 @@ std::uint16_t codeOf(double linear, double most, double noise) {
     return static_cast<std::uint16_t>(std::clamp(std::floor(code + 0.5), 0.0, most));
 }
 
-// Limits of what is read, in pixels each way and in all.
-constexpr png_uint_32 kLargest = 16384;
-// A small file could otherwise make the program allocate all memory of the machine.
-constexpr png_uint_32 kMostPixels = 1U << 26;
 // The largest file of such a picture with 16 bits, headers included.
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 29;
 // The compression level. A snapshot takes one second at this level, and five at the best one.
 constexpr int kCompression = 3;
 
-// The state of a read or write. Owned by decodePng() or encodePng(), which longjmp() does not
-// leave.
+// The state of a read or write. Owned by decodePng(), encodePng() or PngBands, which longjmp() does
+// not leave.
 struct Job {
     png_structp png = nullptr;
     png_infop info = nullptr;
@@ -104,6 +100,7 @@ std::size_t rowBytes(const PngPicture& picture) {
 // Memory for the packed picture, and pointers to its rows, as libpng wants them.
 void makeRows(Job& job, const PngPicture& picture) {
     const auto height = static_cast<std::size_t>(picture.sizePixels.y);
+    job.rows.clear();
     job.bytes.resize(rowBytes(picture) * height);
     for (std::size_t y = 0; y < height; ++y)
         job.rows.push_back(job.bytes.data() + y * rowBytes(picture));
@@ -113,10 +110,11 @@ void makeRows(Job& job, const PngPicture& picture) {
 bool readHeader(Job& job, PngPicture& picture) {
     if (setjmp(png_jmpbuf(job.png)) != 0) return false;
     png_set_read_fn(job.png, &job, take);
-    png_set_user_limits(job.png, kLargest, kLargest);
+    png_set_user_limits(job.png, kMostPixelsEachWay, kMostPixelsEachWay);
     png_read_info(job.png, job.info);
+    // A small file could otherwise make the program allocate all memory of the machine.
     if (png_get_image_width(job.png, job.info) * png_get_image_height(job.png, job.info) >
-        kMostPixels)
+        png_uint_32{kMostPixels})
         png_error(job.png, "too many pixels");
     png_set_expand(job.png);
     png_set_strip_alpha(job.png);
@@ -129,7 +127,8 @@ bool readHeader(Job& job, PngPicture& picture) {
     return true;
 }
 
-// Read or write all rows. libpng may jump out of both. False after an error.
+// Read or write rows, and what is before and behind them. libpng may jump out of all of these.
+// False after an error.
 bool readRows(Job& job) {
     if (setjmp(png_jmpbuf(job.png)) != 0) return false;
     png_read_image(job.png, job.rows.data());
@@ -137,7 +136,7 @@ bool readRows(Job& job) {
     return true;
 }
 
-bool writeRows(Job& job, const PngPicture& picture, PngMeaning meaning) {
+bool writeHeader(Job& job, const PngPicture& picture, PngMeaning meaning) {
     if (setjmp(png_jmpbuf(job.png)) != 0) return false;
     png_set_write_fn(job.png, &job, give, keepNothing);
     png_set_compression_level(job.png, kCompression);
@@ -152,9 +151,30 @@ bool writeRows(Job& job, const PngPicture& picture, PngMeaning meaning) {
                  PNG_FILTER_TYPE_DEFAULT);
     if (meaning == PngMeaning::Srgb) png_set_sRGB(job.png, job.info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(job.png, job.info);
-    png_write_image(job.png, job.rows.data());
+    return true;
+}
+
+bool writeRows(Job& job) {
+    if (setjmp(png_jmpbuf(job.png)) != 0) return false;
+    png_write_rows(job.png, job.rows.data(), static_cast<png_uint_32>(job.rows.size()));
+    return true;
+}
+
+bool writeEnd(Job& job) {
+    if (setjmp(png_jmpbuf(job.png)) != 0) return false;
     png_write_end(job.png, nullptr);
     return true;
+}
+
+void openForWriting(Job& job) {
+    job.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, remember, ignore);
+    job.info = png_create_info_struct(job.png);
+}
+
+// Throws Error where a write has failed.
+void requireWritten(bool whole, const Job& job) {
+    if (!whole)
+        throw Error("a picture cannot be written as PNG (" + job.complaint + "); make it smaller");
 }
 
 // From packed bytes to codes and back; 16-bit PNG is big-endian.
@@ -219,7 +239,7 @@ Light lightOf(const Picture& picture) {
     return light;
 }
 
-Picture pictureOf(const Light& light, int bits, std::uint32_t ditherSeed) {
+Picture pictureOf(const Light& light, int bits, std::uint32_t ditherSeed, int firstRow) {
     assert(bits == 8 || bits == 16);
     const double most = (1 << bits) - 1;
     Picture picture;
@@ -231,8 +251,8 @@ Picture pictureOf(const Light& light, int bits, std::uint32_t ditherSeed) {
             for (int c = 0; c < 3; ++c) {
                 // Each colour has noise of its own.
                 const auto column = static_cast<std::uint32_t>(3 * x + c);
-                const double noise =
-                    bits == 8 ? ditherCodes(column, static_cast<std::uint32_t>(y), ditherSeed) : 0;
+                const auto row = static_cast<std::uint32_t>(firstRow + y);
+                const double noise = bits == 8 ? ditherCodes(column, row, ditherSeed) : 0;
                 const auto linear = static_cast<double>(light.at(x, y)[c]);
                 picture.rgb.push_back(codeOf(linear, most, noise));
             }
@@ -252,7 +272,7 @@ glm::vec3 bilinear(const Light& light, glm::dvec2 pixel) {
 }
 
 // libpng reports errors by longjmp, which runs no destructors: so the functions that it may jump
-// out of (readHeader, readRows, writeRows) own nothing, and what they fill belongs to their
+// out of (readHeader to writeEnd) own nothing, and what they fill belongs to their
 // callers.
 
 PngPicture decodePng(std::span<const std::byte> bytes, const std::string& source) {
@@ -279,15 +299,41 @@ std::vector<std::byte> encodePng(const PngPicture& picture, PngMeaning meaning) 
     assert(picture.codes.size() * static_cast<std::size_t>(picture.bits / 8) ==
            rowBytes(picture) * static_cast<std::size_t>(picture.sizePixels.y));
     Job job;
-    job.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, remember, ignore);
-    job.info = png_create_info_struct(job.png);
+    openForWriting(job);
     makeRows(job, picture);
     pack(picture, job.bytes);
-    const bool whole = writeRows(job, picture, meaning);
+    const bool whole = writeHeader(job, picture, meaning) && writeRows(job) && writeEnd(job);
     png_destroy_write_struct(&job.png, &job.info);
-    if (!whole)
-        throw Error("a picture cannot be written as PNG (" + job.complaint + "); make it smaller");
+    requireWritten(whole, job);
     return std::move(job.written);
+}
+
+struct PngBands::Job : aquarama::Job {
+    PngPicture picture;  // without codes
+};
+
+PngBands::PngBands(glm::ivec2 sizePixels, int bits) : job_{std::make_unique<Job>()} {
+    job_->picture = {.sizePixels = sizePixels, .components = 3, .bits = bits, .codes = {}};
+    openForWriting(*job_);
+    requireWritten(writeHeader(*job_, job_->picture, PngMeaning::Srgb), *job_);
+}
+
+PngBands::~PngBands() {
+    png_destroy_write_struct(&job_->png, &job_->info);
+}
+
+void PngBands::add(const Picture& band) {
+    assert(band.sizePixels.x == job_->picture.sizePixels.x);
+    assert(band.bits == job_->picture.bits);
+    const PngPicture rows{band.sizePixels, 3, band.bits, band.rgb};
+    makeRows(*job_, rows);
+    pack(rows, job_->bytes);
+    requireWritten(writeRows(*job_), *job_);
+}
+
+std::vector<std::byte> PngBands::finish() {
+    requireWritten(writeEnd(*job_), *job_);
+    return std::move(job_->written);
 }
 
 Picture readPng(const std::string& path) {

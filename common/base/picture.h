@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -55,8 +56,12 @@ struct Light {
 // Codes to light. Exact: each code has one value.
 [[nodiscard]] Light lightOf(const Picture& picture);
 // Light to codes of 8 or 16 `bits`. With 8 bits the codes are dithered, with 16 only rounded. Light
-// outside of 0 to 1 is clipped; black stays black.
-[[nodiscard]] Picture pictureOf(const Light& light, int bits, std::uint32_t ditherSeed);
+// outside of 0 to 1 is clipped; black stays black. firstRow: of a band of rows, its place in the
+// whole picture, which the dither follows.
+[[nodiscard]] Picture pictureOf(const Light& light,
+                                int bits,
+                                std::uint32_t ditherSeed,
+                                int firstRow = 0);
 
 // Bilinear interpolation between the centres of pixels, which are at +0.5; outside of them the
 // colour of the border continues. The picture must not be empty.
@@ -74,12 +79,35 @@ struct PngPicture {
 // The meaning of the codes: sRGB, which the file then declares, or a meaning of the caller's.
 enum class PngMeaning : std::uint8_t { Srgb, Unsaid };
 
+// Limits of the pictures that are read, in pixels each way and in all.
+inline constexpr int kMostPixelsEachWay = 16384;
+inline constexpr int kMostPixels = 1 << 26;
+
 // Decodes a PNG. Palettes become red green blue, transparency is dropped, 16 bits stay 16, fewer
-// become 8. Throws Error, which names the source, where the bytes are not a readable picture of at
-// most 16384 pixels each way and 64 million in all.
+// become 8. Throws Error, which names the source, where the bytes are not a readable picture within
+// these limits.
 [[nodiscard]] PngPicture decodePng(std::span<const std::byte> bytes, const std::string& source);
 // Encodes a PNG. Throws Error where memory is short.
 [[nodiscard]] std::vector<std::byte> encodePng(const PngPicture& picture, PngMeaning meaning);
+
+// Encodes a picture of sRGB codes band by band, from the top: only the compressed file and one band
+// are in memory. Throws Error where memory is short.
+class PngBands {
+  public:
+    // bits: 8 or 16.
+    PngBands(glm::ivec2 sizePixels, int bits);
+    ~PngBands();
+    PngBands(const PngBands&) = delete;
+    PngBands& operator=(const PngBands&) = delete;
+    // The next rows, of the picture's width and bits.
+    void add(const Picture& band);
+    // The file, after all rows.
+    [[nodiscard]] std::vector<std::byte> finish();
+
+  private:
+    struct Job;
+    std::unique_ptr<Job> job_;
+};
 
 // Reads a file as decodePng() does, with grey as red green blue.
 [[nodiscard]] Picture readPng(const std::string& path);

@@ -45,6 +45,7 @@ inline constexpr const char* kErrorPipeVariable = "AQUARAMA_CAUSES";
 // Accepts a text for other machines and pages: valid UTF-8 without control or invisible characters.
 [[nodiscard]] CLI::Validator plainWord();
 inline constexpr std::uint64_t kMostSeed = UINT32_MAX;
+inline constexpr int kMostScale = 8;                              // of a scaled panorama
 inline constexpr std::uint64_t kMostShownFrames = 1'000'000'000;  // half a year
 
 // SIGINT, SIGTERM and SIGHUP as a call on a separate thread, so that a waiting loop can be stopped.

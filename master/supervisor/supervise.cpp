@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <iostream>
 #include <optional>
@@ -11,10 +12,13 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+#include <glm/vec2.hpp>
 #include <signal.h>
 
 #include "common/base/counted.h"
 #include "common/base/log.h"
+#include "common/base/picture.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
 #include "common/config/keys.h"
@@ -30,7 +34,8 @@ using namespace std::chrono_literals;
 
 constexpr auto kTimeToEnd = 5s;         // for a process that was asked to end,
 constexpr auto kTimeToEndClip = 60s;    // and for the clip, which ends after the nodes
-constexpr auto kTimeForPictures = 30s;  // for the nodes' pictures, after the master has ended
+constexpr auto kTimeForPictures = 30s;  // for the nodes' pictures, after the master has ended,
+constexpr auto kTimeForPoster = 12h;    // and for a scaled panorama by software OpenGL
 constexpr int kInterrupted = 130;       // the exit status after Ctrl-C, as shells have it
 constexpr auto kShortestLife =
     5s;  // a process that ends sooner at its first start is not restarted
@@ -127,6 +132,9 @@ Process nodeProcess(const RunOptions& options,
     if (options.headless) arguments.emplace_back("--headless");
     append(arguments, "--snapshot", options.snapshotFolder);
     if (options.deep) arguments.emplace_back("--deep");
+    // One node draws it for the whole wall.
+    if (options.scale > 1 && channel.name == rig.channels.front().name)
+        append(arguments, "--panorama", std::to_string(options.scale));
     append(arguments, "--film", filmPipe);
     if (!filmPipe.empty()) append(arguments, "--film-every", std::to_string(options.filmEvery));
     append(arguments, "--trace", options.show.traceFolder);
@@ -158,6 +166,24 @@ void requireLocalChannels(const RunOptions& options, const config::Rig& rig) {
     if (remote != rig.channels.end())
         throw Error("--snapshot and --clip need every channel on this machine; " + remote->name +
                     " is shown by machine " + remote->machine);
+}
+
+// Throws Error where the scaled panorama would be larger than what programs read.
+void requirePosterSize(const RunOptions& options, const config::Rig& rig) {
+    const glm::ivec2 size = rig.panoramaPixels * options.scale;
+    const auto pixels = std::int64_t{size.x} * size.y;
+    if (options.scale == 1 ||
+        (std::max(size.x, size.y) <= kMostPixelsEachWay && pixels <= kMostPixels))
+        return;
+    throw Error(
+        fmt::format("--scale {}: the panorama would be {} x {} pixels; {} pixels each way and {} "
+                    "million in all "
+                    "are possible; take a smaller one",
+                    options.scale,
+                    size.x,
+                    size.y,
+                    kMostPixelsEachWay,
+                    kMostPixels / 1'000'000));
 }
 
 void sayWhatStarts(const RunOptions& options, const config::Rig& rig) {
@@ -308,7 +334,7 @@ Outcome watch(const RunOptions& options, const ErrorPipe& errors, std::vector<Pr
                 return Outcome::Failed;
             }
             if (verdict == Verdict::Over) {
-                lastMoment = Clock::now() + kTimeForPictures;
+                lastMoment = Clock::now() + (options.scale > 1 ? kTimeForPoster : kTimeForPictures);
                 endConsole(processes);
             }
         }
@@ -329,6 +355,7 @@ Outcome watch(const RunOptions& options, const ErrorPipe& errors, std::vector<Pr
 bool compose(const RunOptions& options, const ErrorPipe& errors) {
     std::vector<std::string> arguments{"compose", options.show.rigPath, options.snapshotFolder};
     if (options.deep) arguments.emplace_back("--deep");
+    if (options.scale > 1) arguments.emplace_back("--keep-panorama");
     Process composer{.name = "compose",
                      .command = {siblingProgram("compose"), arguments, typedCommand(options)},
                      .started = {}};
@@ -378,6 +405,7 @@ int runShow(const RunOptions& options, const config::Rig& rig) {
     assert(!rig.channels.empty());
     if (!options.headless) requireDisplay();
     requireLocalChannels(options, rig);
+    requirePosterSize(options, rig);
     requireFreePort(rig.controlAddress);
     requireFreePort(rig.stateAddress);
     cli::requireFile("--clip", options.clipPath);

@@ -35,6 +35,7 @@ struct RunOptions {
     bool live = false;  // follows the clock even where other options imply lockstep
     std::string snapshotFolder;
     bool deep = false;                // pictures of 16 bits
+    int scale = 1;                    // of panorama.png: times as fine as the rig's
     std::string clipPath;             // .mp4 or .webp; empty: no clip
     std::string clipOf = "panorama";  // or hall, or a channel's name
     int filmEvery = 1;                // frames of the show to one of the clip

@@ -92,7 +92,8 @@ struct Viewpoint {
     glm::vec3 eyeMetres{};
     bool culling = true;
     bool levelsOfDetail = true;
-    // Quality::placeDetail of the tier: distances are divided by it.
+    // Quality::placeDetail of the tier, times how much finer than the wall's pixels those of the
+    // picture are: distances are divided by it.
     float detail = 1.0F;
 
     // Whether a part of the ball may be in view.

@@ -78,15 +78,42 @@ shaders::FrameUniforms frameUniforms(const SceneFrame& frame,
     return uniforms;
 }
 
-// Fills in the members that depend on the view: matrices, the position of this eye, the size of the
-// picture.
-void setView(shaders::FrameUniforms& uniforms, const View& view) {
-    uniforms.clipFromWorld = view.clipFromCamera * view.cameraFromWorld;
+// What is drawn of a view.
+PixelArea drawnOf(const View& view) {
+    return view.part.value_or(PixelArea{{0, 0}, view.sizePixels});
+}
+
+// From the clip space of the whole picture to that of a part.
+glm::dmat4 partFromWhole(const PixelArea& part, glm::ivec2 wholePixels) {
+    const glm::dvec2 share = glm::dvec2(part.size) / glm::dvec2(wholePixels);
+    const glm::dvec2 middle =
+        (2.0 * glm::dvec2(part.corner) + glm::dvec2(part.size)) / glm::dvec2(wholePixels) - 1.0;
+    glm::dmat4 matrix(1.0);
+    for (int axis = 0; axis < 2; ++axis) {
+        matrix[axis][axis] = 1.0 / share[axis];
+        matrix[3][axis] = -middle[axis] / share[axis];
+    }
+    return matrix;
+}
+
+// Pixels in a radian, in the middle of the whole picture.
+float pixelsARadian(const glm::mat4& clipFromWorld, int rows) {
+    const glm::vec3 row(clipFromWorld[0].y, clipFromWorld[1].y, clipFromWorld[2].y);
+    return 0.5F * static_cast<float>(rows) * glm::length(row);
+}
+
+// Fills in the members that depend on the view: matrices, the position of this eye, sizes, and the
+// angle of a pixel.
+void setView(shaders::FrameUniforms& uniforms, const View& view, float wallPixelRadians) {
+    const glm::mat4 whole = view.clipFromCamera * view.cameraFromWorld;
+    const PixelArea drawn = drawnOf(view);
+    uniforms.clipFromWorld = glm::mat4(partFromWhole(drawn, view.sizePixels) * glm::dmat4(whole));
     uniforms.worldFromClip = glm::inverse(uniforms.clipFromWorld);
     const glm::vec3 eye(glm::inverse(view.cameraFromWorld)[3]);
     uniforms.eyeAndTime = glm::vec4(eye, uniforms.eyeAndTime.w);
-    const glm::vec2 size(view.sizePixels);
-    uniforms.viewport = glm::vec4(size, 1.0F / size);
+    uniforms.sharedEyeAndPixel.w = wallPixelRadians / view.finer;
+    uniforms.viewport =
+        glm::vec4(drawn.size, view.sizePixels.y, pixelsARadian(whole, view.sizePixels.y));
 }
 
 // The sea floor with rocks and plants. The open sea has none: its floor is too deep to be seen.
@@ -251,25 +278,27 @@ void SceneRenderer::update(const SceneFrame& frame) {
 unsigned SceneRenderer::draw(const View& view) {
     assert(view.sizePixels.x > 0);
     assert(view.sizePixels.y > 0);
+    assert(view.finer > 0);
     Parts& parts = *parts_;
-    setView(parts.uniforms, view);
+    setView(parts.uniforms, view, parts.options.pixelRadians);
     parts.setUniforms();
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     const glm::vec3 eye(parts.uniforms.eyeAndTime);
     parts.light.bind();
     parts.light.drawShafts(eye, parts.uniforms.worldFromClip);
-    parts.school.look(parts.uniforms.clipFromWorld,
-                      {glm::vec3(parts.uniforms.sharedEyeAndPixel), parts.options.pixelRadians});
+    parts.school.look(
+        parts.uniforms.clipFromWorld,
+        {glm::vec3(parts.uniforms.sharedEyeAndPixel), parts.uniforms.sharedEyeAndPixel.w});
     // All compute passes run before anything is drawn: a driver may have to wait when it switches
     // between the two.
     if (parts.bottom)
         parts.bottom->reef.cull({parts.options.culling, parts.options.levelsOfDetail});
-    parts.picture.begin(view.sizePixels);
+    parts.picture.begin(drawnOf(view).size);
     const Viewpoint viewpoint{surface::frustumOf(parts.uniforms.clipFromWorld),
                               glm::vec3(parts.uniforms.sharedEyeAndPixel),
                               parts.options.culling,
                               parts.options.levelsOfDetail,
-                              parts.quality.placeDetail};
+                              parts.quality.placeDetail * view.finer};
     parts.school.drawBodies();
     parts.drawSolids(viewpoint);
     parts.drawWater();

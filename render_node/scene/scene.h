@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include <glm/mat4x4.hpp>
@@ -18,12 +19,24 @@
 
 namespace aquarama::scene {
 
+// A rectangle of a picture, in pixels.
+struct PixelArea {
+    glm::ivec2 corner{}, size{};
+};
+
 // One camera: at the sweet spot, or one of two eyes beside it. Matrices are for column vectors;
 // depth is reversed, zero to one.
 struct View {
     glm::mat4 clipFromCamera{1.0F};
     glm::mat4 cameraFromWorld{1.0F};
     glm::ivec2 sizePixels{};
+    // The part of the picture that is drawn, from the picture's lower left corner, for pictures
+    // that are too large for one texture; empty: all of it. It has the pixels that the whole
+    // picture has there, but for what softening and bloom read outside of it.
+    std::optional<PixelArea> part = {};
+    // How many times as fine as the wall's pixels those of this picture are. Levels of detail
+    // follow.
+    float finer = 1.0F;
 };
 
 // Everything that a frame shows, the same on every node. A picture is a pure function of this, the
@@ -77,7 +90,7 @@ class SceneRenderer {
     // the shadows that they throw. Call it once for each frame, before draw().
     void update(const SceneFrame& frame);
 
-    // Draws the updated frame into a texture of view.sizePixels, RGBA16F, linear Rec. 709, already
+    // Draws the updated frame into a texture of the view's part, RGBA16F, linear Rec. 709, already
     // exposed and toned to display light (0 black, 1 the projector's full white), and returns its
     // GL name; valid until the next draw.
     unsigned draw(const View& view);

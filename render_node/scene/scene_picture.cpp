@@ -14,8 +14,9 @@ namespace aquarama::scene {
 namespace {
 
 // Mip levels of the picture that bloom reads. The last is the one that the widest ring of
-// bloom.glsl needs on a wall of 4 000 pixels in a radian.
-constexpr int kBloomLevels = 6;
+// bloom.glsl needs where a radian has 16 000 pixels.
+constexpr int kBloomLevels = 8;
+static_assert(1 << (kBloomLevels - 1) == ScenePicture::kPartPixels);
 
 // The number of samples, limited to what the driver has; 1 to GL_MAX_SAMPLES.
 int supported(int samples) {

@@ -16,6 +16,10 @@ namespace aquarama::scene {
 // same context current.
 class ScenePicture {
   public:
+    // Where the corner of a part of a picture is a multiple of so many pixels, its mip levels,
+    // which bloom reads, are those of the whole.
+    static constexpr int kPartPixels = 128;
+
     explicit ScenePicture(const Quality& quality);
     // Binds and clears the buffers; a new size allocates new ones.
     void begin(glm::ivec2 sizePixels);

@@ -12,7 +12,9 @@ const float kBloomShare = 0.012;
 // Mean of eight taps on a ring of this radius (radians) and of its centre, from the mip level whose
 // texels are about as wide.
 vec3 ring(sampler2D scene, Neighbourhood here, vec2 uv, float radius) {
-    float pixels = 0.5 * viewport.y * length(here.up.xy) / here.ahead.z;  // in a radian
+    // Pixels in a radian there, whatever part of the picture is drawn.
+    vec2 up = (here.up.xy - here.ahead.xy / here.ahead.z * here.up.z) / here.ahead.z;
+    float pixels = 0.5 * length(viewport.xy * up);
     float lod = log2(max(0.7 * radius * pixels, 1.0));
     vec3 sum = textureLod(scene, uv, lod).rgb;
     for (int i = 0; i < 8; ++i) {

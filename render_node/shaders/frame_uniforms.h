@@ -20,7 +20,8 @@ layout(std140, binding = kFrameBlock) uniform FrameUniforms {
                              // the wall's finest pixel, radians
     vec4 sunAndFilterDepth;  // unit vector towards the refracted sun; w: depth of the diver's
                              // filter, metres
-    vec4 viewport;           // width, height in pixels, 1/width, 1/height
+    vec4 viewport;           // width and height of what is drawn, pixels; rows of the whole picture,
+                             // of which it may be a part; pixels in a radian in its middle
     vec4 sunlight;           // what there is of the sun's light at noon: red, green, blue; w: 0
     vec4 skylight;           // the same of the sky's
     vec4 lamp;               // the submarine's floodlight in world metres; w: its power at 1 m, the

@@ -32,5 +32,5 @@ void main() {
     float exposed = max(light.g, max(light.r, light.b)) * kdAndExposure.w;
     light *= fade * min(1.0, kBrightest / max(exposed, 1.0e-6));
     gl_Position = clipFromWorld * vec4(speck.place, 1.0);
-    gl_PointSize = min(2.0 * size, 0.02 * viewport.y);
+    gl_PointSize = min(2.0 * size, 0.02 * viewport.z);
 }

@@ -32,5 +32,5 @@ void main() {
     light = direct(vec3(0.95, 0.97, 1.0) * (phase * lit / kPi), range, max(-place.y, 0.1)) *
             (0.5 * fade * sharp * sharp / (size * size));
     gl_Position = place.y < -0.1 ? clipFromWorld * vec4(place, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
-    gl_PointSize = min(2.0 * size, 0.012 * viewport.y);
+    gl_PointSize = min(2.0 * size, 0.012 * viewport.z);
 }

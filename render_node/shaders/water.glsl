@@ -25,10 +25,7 @@ float depthAxis(float depth) {
 }
 
 // Pixels of this view in a radian, in the middle of the picture.
-float pixelsARadian() {
-    vec3 row = vec3(clipFromWorld[0].y, clipFromWorld[1].y, clipFromWorld[2].y);
-    return 0.5 * viewport.y * length(row);
-}
+float pixelsARadian() { return viewport.w; }
 
 // Henyey and Greenstein 1941.
 float lobe(float cosine, float g) {

@@ -25,12 +25,7 @@ namespace aquarama::show {
 
 namespace {
 
-// The picture of the frustum is wider than what the projector lights by this angle, 1 degree,
-// because softening and bloom read pixels beside a pixel.
-constexpr double kMarginRadians = 0.0175;
 static_assert(double{shaders::kPostReach} <= kMarginRadians);
-// Distance of the near plane.
-constexpr float kNearMetres = 0.05F;
 
 // Size of a dot of the overlay's font, in pixels, readable from the sweet spot.
 float dotPixels(glm::ivec2 pictureSize) {
@@ -92,6 +87,10 @@ std::size_t channelIndex(const config::Rig& rig, const std::string& name) {
     return static_cast<std::size_t>(found - rig.channels.begin());
 }
 
+glm::mat4 cameraFromWorld(const wall::ChannelFrustum& frustum, const wire::Eye& submarine) {
+    return glm::mat4(frustum.cameraFromWall * wallFromWorld(submarine));
+}
+
 ChannelPicture::Viewing::Viewing(const wall::ChannelFrustum& from,
                                  const wall::WarpMap& warp,
                                  const wall::PatternGround& ground,
@@ -145,10 +144,12 @@ void ChannelPicture::drawScene(const wire::StateFrame& frame,
     frame_ = frame.frame;
     brightness_ = frame.show.brightness;
     scan_ = frame.show.scan;
+    worldEye_.reset();
     if (scan_ && frame.show.black) scan_->lit = 0;  // black takes effect at once
     if (scan_) return;
     const bool isWorld = scene_ && frame.show.pattern == wire::Pattern::World;
     sizes_.scene = isWorld ? sizes_.world : sizes_.pattern;
+    if (isWorld) worldEye_ = frame.eye;
     if (brightness_ == 0 && eyes_.front().sceneTexture != 0) return;
     if (isWorld) drawWorld(frame);
     for (Viewing& eye : eyes_) {
@@ -265,6 +266,11 @@ std::optional<std::uint32_t> ChannelPicture::fishNearest(const wire::StateFrame&
     return nearest;
 }
 
+std::optional<DrawnWorld> ChannelPicture::drawnWorld() {
+    if (!worldEye_) return std::nullopt;
+    return DrawnWorld{*scene_, *worldEye_, brightness_};
+}
+
 void ChannelPicture::project(unsigned framebuffer,
                              Encoding encoding,
                              const Overlays& overlays,
@@ -309,7 +315,7 @@ void ChannelPicture::projectScan(unsigned framebuffer, Shown shown) {
 
 scene::View ChannelPicture::viewOf(const Viewing& viewing, const wire::Eye& submarine) const {
     return {.clipFromCamera = wall::clipFromCamera(viewing.frustum, kNearMetres),
-            .cameraFromWorld = glm::mat4(viewing.frustum.cameraFromWall * wallFromWorld(submarine)),
+            .cameraFromWorld = cameraFromWorld(viewing.frustum, submarine),
             .sizePixels = sizes_.scene};
 }
 

@@ -30,6 +30,23 @@ enum class Shown : std::uint8_t { Display, LeftEye, RightEye };
 // Index of the channel of this name in rig.channels. Throws Error where the rig has none.
 [[nodiscard]] std::size_t channelIndex(const config::Rig& rig, const std::string& name);
 
+// The picture of a frustum is wider than what the projector lights by this angle, 1 degree, because
+// softening and bloom read pixels beside a pixel.
+inline constexpr double kMarginRadians = 0.0175;
+// Distance of the near plane.
+inline constexpr float kNearMetres = 0.05F;
+
+// The world as a frame showed it, for more pictures of it. The renderer is updated for that frame.
+struct DrawnWorld {
+    scene::SceneRenderer& renderer;
+    wire::Eye eye;
+    float brightness = 1.0F;
+};
+
+// The camera of a frustum in the world, for the submarine's place and heading.
+[[nodiscard]] glm::mat4 cameraFromWorld(const wall::ChannelFrustum& frustum,
+                                        const wire::Eye& submarine);
+
 // Of a channel's pictures, in pixels: of the world, of a pattern, and of the one that was drawn
 // last.
 struct PictureSizes {
@@ -66,6 +83,8 @@ class ChannelPicture {
                  Encoding encoding,
                  const Overlays& overlays,
                  Shown shown = Shown::Display);
+    // The world of the frame that drawScene() drew last; empty where it showed something else.
+    [[nodiscard]] std::optional<DrawnWorld> drawnWorld();
     // Size of the projector's picture.
     [[nodiscard]] glm::ivec2 sizePixels() const { return map_.sizePixels; }
     [[nodiscard]] const config::Stereo& stereo() const { return stereo_; }
@@ -129,9 +148,11 @@ class ChannelPicture {
     std::optional<ScanPass> scanPass_;
     std::size_t channel_;
     std::vector<scene::FoodParticle> food_;
-    // Number of the frame that was drawn last, whose parity seeds the dither; and its brightness.
+    // Of the frame that was drawn last: its number, whose parity seeds the dither, its brightness,
+    // and the eye where it showed the world.
     Frame frame_;
     float brightness_ = 1.0F;
+    std::optional<wire::Eye> worldEye_;
 };
 
 }  // namespace aquarama::show

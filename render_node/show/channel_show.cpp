@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/log.h"
+#include "render_node/show/poster.h"
 #include "render_node/show/snapshot.h"
 #include "render_node/show/window_fit.h"
 
@@ -84,6 +85,22 @@ void ChannelShow::writePicture() {
                   options_.channel,
                   stage_->picture(),
                   options_.deep ? PictureBits::Deep16 : PictureBits::Dithered8);
+    if (options_.panoramaScale > 1) writePanorama();
+}
+
+void ChannelShow::writePanorama() {
+    const std::string path = options_.snapshotFolder + "/panorama.png";
+    const std::optional<DrawnWorld> world = stage_->picture().drawnWorld();
+    if (!world)
+        throw Error(path + ": the last frame shows a pattern; a scaled panorama needs the world");
+    service_.beginLongWork("drawing the panorama");
+    const Poster poster(*stage_->wall(),
+                        *world,
+                        {.panoramaPixels = stage_->admission().rig.panoramaPixels,
+                         .scale = options_.panoramaScale,
+                         .quality = stage_->quality()});
+    writePoster(path, poster, options_.deep ? PictureBits::Deep16 : PictureBits::Dithered8);
+    service_.endLongWork();
 }
 
 // When the same show goes on after an interruption, nothing is built again.

@@ -44,8 +44,10 @@ class ChannelShow {
     void run(session::Admission admission);
 
   private:
-    // Draws the last state and writes the picture of it.
+    // Draws the last state and writes the picture of it, and the poster where one is wanted.
     void writePicture();
+    // Throws Error where the last frame did not show the world.
+    void writePanorama();
     // Prepares for a show. Where the look is the same as before, nothing is built again.
     void build(session::Admission admission);
     // Begins to build the look that the master announces, and reports it when it is built.

@@ -70,6 +70,11 @@ void describe(CLI::App& app,
                    "folder for channel-NAME.png, the last frame that was shown");
     app.add_flag("--deep", options.deep, "16 bits in the snapshot instead of 8 dithered ones")
         ->needs("--snapshot");
+    app.add_option("--panorama",
+                   options.panoramaScale,
+                   "panorama.png of the whole wall in the snapshot, so many times as fine")
+        ->needs("--snapshot")
+        ->check(aquarama::cli::wholeNumber(1, aquarama::cli::kMostScale));
     CLI::Option* film = app.add_option(
         "--film", options.filmPipe, "socket of aquarama-compose clip, for every frame");
     app.add_option("--film-every", options.filmEvery, "with --film: for every so many frames")

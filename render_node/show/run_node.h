@@ -22,6 +22,9 @@ struct NodeOptions {
     std::string snapshotFolder;
     // 16 bits for each sample of the snapshot, in place of 8 dithered ones.
     bool deep = false;
+    // Above 1: panorama.png of the whole wall is written as well, so many times as fine as the
+    // rig's.
+    int panoramaScale = 1;
     // A socket that takes frames for a clip.
     std::string filmPipe;
     // Every how many frames the clip takes one; at least 1.

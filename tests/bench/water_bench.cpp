@@ -25,7 +25,7 @@ shaders::FrameUniforms farAway() {
     uniforms.clipFromWorld[2][3] = -1.0F;
     uniforms.clipFromWorld[3][2] = 0.05F;
     uniforms.worldFromClip = glm::inverse(uniforms.clipFromWorld);
-    uniforms.viewport = glm::vec4(glm::vec2(kDeskWindow), 1.0F / glm::vec2(kDeskWindow));
+    uniforms.viewport = glm::vec4(kDeskWindow, kDeskWindow.y, kDeskWindow.y);
     uniforms.kdAndExposure.w = 8.0F;
     return uniforms;
 }

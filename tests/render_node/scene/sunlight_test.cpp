@@ -236,7 +236,7 @@ TEST_F(Sunlight, snowComesAndGoesWithoutPopping) {
             clipTowards({0, 0, -1}, {0, 1, 0}) * glm::translate(glm::mat4{1.0F}, -eye);
         uniforms_.eyeAndTime = glm::vec4(eye, 3.0F);
         uniforms_.sharedEyeAndPixel = glm::vec4(eye, 0.016F);
-        uniforms_.viewport = {128.0F, 128.0F, 1.0F / 128.0F, 1.0F / 128.0F};
+        uniforms_.viewport = {128.0F, 128.0F, 128.0F, 64.0F / std::tan(glm::radians(60.0F))};
         setUniforms();
         light.bind();
         canvas.begin();
