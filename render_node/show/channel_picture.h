@@ -37,6 +37,7 @@ inline constexpr double kMarginRadians = 0.0175;
 inline constexpr float kNearMetres = 0.05F;
 
 // The world as a frame showed it, for more pictures of it. The renderer is updated for that frame.
+// What it draws replaces the picture of drawScene(): project that before.
 struct DrawnWorld {
     scene::SceneRenderer& renderer;
     wire::Eye eye;

@@ -150,6 +150,21 @@ class Usage(Case):
         self.misused("aquarama node: --deep requires --snapshot", "node", "left", "--master", "tcp://127.0.0.1:1",
                      "--deep")
 
+    def test_the_scale_of_a_snapshot(self):
+        run = ["run", "--headless", "--frames", 1]
+        self.misused("aquarama run: --scale requires --snapshot", *run, "--scale", 2)
+        self.misused("aquarama replay: --scale requires --snapshot", "replay", "FILE", "--scale", 2)
+        self.misused("aquarama run: --(scale|pattern) excludes --(scale|pattern)", *run, "--snapshot", "show",
+                     "--scale", 2, "--pattern", "grid")
+        for wrong in ("0", "99", "x", "2.5", "-1"):
+            with self.subTest(wrong):
+                self.misused(rf'aquarama run: --scale: "{wrong}" is not a whole number from 1 to 8', *run,
+                             "--snapshot", "show", "--scale", wrong)
+        self.refuses(r"aquarama run: --scale 8: the panorama would be 32000 x 8000 pixels; 16384 pixels each way and "
+                     r"67 million in all are possible; take a smaller one", "run", "config/theatre.txtpb",
+                     "--headless", "--snapshot", Path(self.folder.name) / "show", "--scale", 8)
+        self.assertFalse((Path(self.folder.name) / "show").exists())
+
     def test_a_malformed_address(self):
         self.misused(r'aquarama node: --master: "somewhere" is not an address; write it as tcp://HOST:PORT',
                      "node", "left", "--master", "somewhere", "--headless")

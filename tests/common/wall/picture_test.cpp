@@ -95,6 +95,23 @@ TEST_F(Png, masksKeepTheirDepthAndTheNumberOfTheirComponents) {
         }
 }
 
+TEST_F(Png, bandsMakeTheFileOfTheWholePicture) {
+    const Light light = ramp();
+    const int half = light.sizePixels.y / 2;
+    for (const int bits : {8, 16}) {
+        PngBands bands(light.sizePixels, bits);
+        for (const auto& [first, rows] :
+             {std::pair{0, half}, std::pair{half, light.sizePixels.y - half}}) {
+            Light band = darkness({light.sizePixels.x, rows});
+            for (int y = 0; y < rows; ++y)
+                for (int x = 0; x < light.sizePixels.x; ++x) band.at(x, y) = light.at(x, first + y);
+            bands.add(pictureOf(band, bits, 3, first));
+        }
+        const Picture whole = pictureOf(light, bits, 3);
+        EXPECT_EQ(decodePng(bands.finish(), "bands").codes, whole.rgb);
+    }
+}
+
 TEST_F(Png, greyIsReadAsThreeEqualColours) {
     const std::vector<std::byte> grey = encodePng(
         {.sizePixels = {2, 1}, .components = 1, .bits = 8, .codes = {7, 200}}, PngMeaning::Unsaid);
