@@ -306,7 +306,7 @@ unsigned SceneRenderer::draw(const View& view) {
     parts.food.update(parts.specks, viewpoint);
     parts.food.draw();
     parts.drawSnow();
-    return parts.picture.finish();
+    return parts.picture.finish(view.finer > 1);
 }
 
 }  // namespace aquarama::scene

@@ -119,7 +119,15 @@ void ScenePicture::pass(unsigned framebuffer, unsigned program) const {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-unsigned ScenePicture::finish() {
+unsigned ScenePicture::softening(bool isFiner) {
+    if (!isFiner) return soften_->name();
+    if (!softenFiner_)
+        softenFiner_.emplace(gl::makeProgram({"quad.vert", "soften.frag"},
+                                             {{"soften_taps.glsl", "soften_more_taps.glsl"}}));
+    return softenFiner_->name();
+}
+
+unsigned ScenePicture::finish(bool isFiner) {
     // begin() comes first.
     assert(size_.x > 0);
     assert(size_.y > 0);
@@ -131,7 +139,7 @@ unsigned ScenePicture::finish() {
         const gl::Stage stage{"soften"};
         glBindTextureUnit(shaders::kSceneUnit, seen);
         glBindTextureUnit(shaders::kDepthUnit, light.depth.name());
-        pass(softened_.name(), soften_->name());
+        pass(softened_.name(), softening(isFiner));
         seen = softenedColour_.name();
     }
     if (quality_.bloom) {

@@ -25,8 +25,9 @@ class ScenePicture {
     void begin(glm::ivec2 sizePixels);
     // Resolves the samples, softens, adds bloom and tones. Returns the GL name of the texture that
     // holds the display light (RGBA16F), valid until the next picture. Expects the frame's uniform
-    // block of the view to be bound.
-    unsigned finish();
+    // block of the view to be bound. isFiner: its pixels are finer than the wall's, and softening
+    // takes more of them.
+    unsigned finish(bool isFiner);
 
   private:
     // Light and depth of one layer. A multisampled layer is only drawn into; shaders read a layer
@@ -40,13 +41,15 @@ class ScenePicture {
     // Makes the buffers of the layers that this quality needs.
     void allocate(glm::ivec2 sizePixels);
     void resolve() const;
+    // The program that softens; that with more taps is made when it is first needed.
+    [[nodiscard]] unsigned softening(bool isFiner);
     // Draws one triangle that covers the picture.
     void pass(unsigned framebuffer, unsigned program) const;
 
     Quality quality_;
     glm::ivec2 size_{0};
     gl::ProgramHandle tone_;
-    std::optional<gl::ProgramHandle> soften_;
+    std::optional<gl::ProgramHandle> soften_, softenFiner_;
     gl::VertexArray empty_;
     // resolved_ is empty where drawn_ has one sample.
     Layer drawn_, resolved_;

@@ -4,12 +4,12 @@
 // scene, one sample. Out: linear light. Angles in radians, ranges in metres.
 #include "shader_interface.h"
 #include "look_around.glsl"
+#include "soften_taps.glsl"
 layout(binding = kSceneUnit) uniform sampler2D scene;
 layout(binding = kDepthUnit) uniform sampler2D depth;
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 softened;
 
-const int kTaps = 16;
 const float kGoldenAngle = 2.39996323;
 
 // Share of the light that is spread over a range, and the spread's sigma, radians.
