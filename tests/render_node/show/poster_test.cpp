@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -15,6 +16,7 @@
 #include "common/place/place.h"
 #include "common/wall/wall.h"
 #include "render_node/gl/context.h"
+#include "render_node/shaders/shader_interface.h"
 #include "tests/render_node/show/fake_session.h"
 
 namespace aquarama::show {
@@ -190,6 +192,33 @@ TEST(PosterPlanTest, theSharesSumToOneEverywhere) {
             for (const PanoramaShare& share : shares) sum += share.at({x + 0.25, y + 0.75});
             ASSERT_NEAR(sum, 1, 1e-3) << x << ", " << y;
         }
+}
+
+// Softening and bloom read no place outside of a tile's part, but where the whole picture ends.
+TEST(PosterPlanTest, everyTileHasTheMarginOfThePasses) {
+    const config::Rig rig = wall::shippedRig("desk");
+    const wall::Wall wall(rig);
+    auto shares = panoramaShares(wall, rig.panoramaPixels);
+    const PosterChannel channel(wall,
+                                kMiddle,
+                                std::move(shares[kMiddle]),
+                                {.panoramaPixels = rig.panoramaPixels, .scale = 2});
+    const wall::ChannelFrustum& frustum = channel.frustum();
+    const double reach =
+        double{shaders::kPostReach} * channel.picturePixels().x / (frustum.right - frustum.left);
+    const scene::PixelArea lit = channel.area();
+    for (int x = 0; x + 40 <= lit.size.x; x += 40) {
+        const auto tile = channel.tile({lit.corner + glm::ivec2(x, lit.size.y / 2), {40, 40}});
+        ASSERT_TRUE(tile.has_value()) << x;
+        const int end = tile->part.corner.x + tile->part.size.x;
+        for (const glm::vec4& place : tile->map.placeAndWeight) {
+            if (place.z <= 0) continue;
+            const double pixel = double{place.x} * tile->part.size.x;
+            ASSERT_TRUE(tile->part.corner.x == 0 || pixel >= reach) << x;
+            ASSERT_TRUE(end == channel.picturePixels().x || pixel <= tile->part.size.x - reach)
+                << x;
+        }
+    }
 }
 
 }  // namespace
