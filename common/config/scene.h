@@ -101,7 +101,7 @@ struct SceneWater {
     double clarityMetres = 12;                            // no fish sees farther
     double surfaceCelsius = 28, celsiusPerMetre = -0.15;  // with depth
     WaterType jerlov = WaterType::IA;                     // what light does in it
-    double colourReturned = 0.8;  // share of the colour that water takes, 0 as in nature
+    double colourReturned = 0.9;  // share of the colour that water takes, 0 as in nature
 };
 
 // The day of a scene (common/place/day.h): brightness 1 by day, `night` at night. Length 0: always

@@ -20,6 +20,8 @@ namespace aquarama::scene {
 
 namespace {
 
+static_assert(shaders::kMeanFloorMetres == place::kMeanFloorDepthMetres);
+
 // The sand is a square of 14 x 14 patches about the origin.
 constexpr float kPatchMetres = 10.0F;
 constexpr int kPatchesASide = 14;

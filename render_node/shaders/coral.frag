@@ -40,6 +40,10 @@ void main() {
         float lod = log2(max(range * (512.0 / kPolypTile) / pixelsARadian(), 1.0));
         vec4 fine = textureLod(relief, uv, lod);
         colour *= mix(1.0, 2.0 * fine.z * (0.35 + 1.1 * fine.w), 0.7 * normal.w + 0.3);
+        // Polyps stand on the crests, paler than the skeleton between them; a wave of closing passes over them.
+        float closing = 0.5 + 0.5 * sin(dot(rest, vec3(2.1, 1.3, 1.7)) - 0.7 * eyeAndTime.w);
+        float polyp = near * normal.w * smoothstep(0.50, 0.85, fine.w) * (0.45 + 0.55 * closing);
+        colour = mix(colour, min(colour * 1.45 + vec3(0.06, 0.055, 0.03), vec3(0.85)), polyp);
         sky *= mix(1.0, 0.4 + fine.w, normal.w);
         vec3 slope = vec3(fine.x - 0.5, 0.0, fine.y - 0.5);
         n = normalize(n - 1.2 * normal.w * (slope - n * dot(slope, n)));

@@ -18,14 +18,31 @@ vec3 litSkin(Skin skin, vec3 place, vec3 n) {
     return lit(skin.albedo, place, wrapped, 0.10 * skin.soft) * open;
 }
 
-// The light that a mirror in the skin reflects: of the open water and the surface; over a sea floor,
-// towards the horizontal and below it, more and more of the sunlit sand and rock.
-const float kBottomAlbedo = 0.30;
-vec3 around(vec3 direction, vec3 place) {
+// What a mirror in the skin reflects of the sea floor: sand, darker rock where the ground stands
+// higher, as far as the water between lets it through.
+const vec3 kSandAround = vec3(0.42, 0.34, 0.24), kRockAround = vec3(0.20, 0.15, 0.10);
+vec3 withBottom(vec3 sea, vec3 direction, vec3 place) {
     float share = unscatteredShare(max(-place.y, 0.1));
     vec3 light = 0.8 * share * sunlight.rgb + (1.0 - share) * skylight.rgb;
-    float bottomShare = 0.85 * bottom.x * smoothstep(0.30, -0.40, direction.y);
-    return mix(max(mirrored(direction, place), 0.0), light * (kBottomAlbedo / kPi), bottomShare);
+    float fall = max(-direction.y, 0.04), metres = 2.0, raised = 0.3;
+    if (kFine) {
+        float below = textureLod(topHeights, place.xz / kPlaceMetres + 0.5, placeLod(1.2)).x;
+        metres = min(max(place.y - below, 0.05) / fall, 30.0);
+        vec2 hit = place.xz + direction.xz * metres;
+        float height = textureLod(topHeights, hit / kPlaceMetres + 0.5, placeLod(0.3)).x;
+        raised = smoothstep(0.15, 0.7, height + kMeanFloorMetres);
+    }
+    vec3 ground = mix(kSandAround, kRockAround, raised) * light / kPi;
+    float clear = exp(-0.14 * metres) * smoothstep(0.10, -0.20, direction.y);
+    return mix(sea, ground, bottom.x * clear);
+}
+
+// The light that a mirror in the skin reflects: of the open water and the surface, of the sea floor, and
+// of the fish beside it, which stand darker before the sea.
+vec3 around(vec3 direction, vec3 place) {
+    vec3 sea = max(mirrored(direction, place), 0.0);
+    if (kFine) sea *= mix(0.7, 1.0, pastFish(place + 0.5 * direction).sky);
+    return withBottom(sea, direction, place);
 }
 
 // Stacks of guanine platelets hang upright whatever the curve of the skin (Denton 1970), so that a
@@ -40,7 +57,7 @@ vec3 plateletNormal(vec3 skinNormal, vec3 dorsal, vec3 toEye) {
 
 // Thin films colour the mirror faintly; a stronger tint would look like soap.
 vec3 filmTint(float facing) {
-    return 0.91 + 0.07 * cos(6.2831853 * (vec3(0.0, 0.33, 0.67) + 1.35 * facing));
+    return 0.97 + 0.06 * cos(6.2831853 * (vec3(0.0, 0.33, 0.67) + 1.35 * facing));
 }
 
 // Structural colour: the albedo's hue turns with the angle of view.
@@ -65,7 +82,7 @@ vec3 underSilver(vec3 matte, vec3 mirror, float silver) {
 
 // The light of a mirror of platelets. shown: the light from the direction that it reflects.
 vec3 silvered(vec3 shown, vec3 plate, vec3 albedo, vec3 place, float facing) {
-    return (shown + lampFlash(plate, place)) * filmTint(facing) * mix(vec3(1.0), albedo, 0.35);
+    return (shown + lampFlash(plate, place)) * filmTint(facing) * mix(vec3(1.0), albedo, 0.12);
 }
 
 // Mucus over the skin: a weak mirror, most at grazing angles and on what faces upwards, less where

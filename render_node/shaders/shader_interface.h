@@ -215,6 +215,7 @@ AQUARAMA_CONSTANT float kTileMetres = 12.0F;  // caustics and waves; waves have 
 AQUARAMA_CONSTANT float kRippleTileMetres = 2.9F;  // the shorter waves
 AQUARAMA_CONSTANT float kSandTileMetres = 2.6F;
 AQUARAMA_CONSTANT float kRockTileMetres = 1.1F;
+AQUARAMA_CONSTANT float kMeanFloorMetres = 8.6F;    // depth of a reef's floor, as common/place has it
 AQUARAMA_CONSTANT float kFloorShadeMetres = 72.0F;  // the floor's occlusion, round the origin
 AQUARAMA_CONSTANT float kPlaceMetres = 80.0F;       // maps of the place's shadows, round the origin
 AQUARAMA_CONSTANT float kMapDepthMetres = 64.0F;    // depth 0 of those maps; 1 is the surface

@@ -21,10 +21,9 @@ Skin groundOf(SkinPoint at) {
     Skin skin = skinOf(colour, 0.70 - 0.35 * back, 0.6);
     skin.silver = 0.98 * falling(0.22, 0.66, at.v) * smoothstep(0.015, 0.05, at.s) *
                   (1.0 - 0.75 * golden);
-    // At close range the platelets also reflect the light of the reef and the sand, which the mirrored
-    // open water does not contain.
+    // At close range the skin over the platelets is seen as well.
     float near = seenAt(0.034, at.pixel);
-    skin.silver *= 1.0 - near * (0.54 + 0.3 * falling(-1.0, -0.6, at.v));
+    skin.silver *= 1.0 - near * (0.30 + 0.3 * falling(-1.0, -0.6, at.v));
     skin.iridescence = 0.10 + 0.30 * back;
     // The dark crown of the head.
     float crown = smoothstep(0.52, 0.85, at.v) * falling(0.18, 0.26, at.s);

@@ -1,6 +1,7 @@
 // Forward scattering on the way to the eye: of the light of a thing at a range, a share arrives spread
-// over some tenths of a degree. Each tap is weighted by the share and spread of its own thing, so that
-// the distance softens behind a near fish, whose outline stays sharp. In: picture and depth of the
+// over some tenths of a degree. A tap is weighted by the share and spread of the water that both its
+// light and the pixel's have crossed, that before the nearer of the two: so the distance softens behind
+// a near fish, whose outline stays sharp, and blue water does not cover the fish. In: picture and depth of the
 // scene, one sample. Out: linear light. Angles in radians, ranges in metres.
 #include "shader_interface.h"
 #include "look_around.glsl"
@@ -12,8 +13,9 @@ layout(location = 0) out vec4 softened;
 
 const float kGoldenAngle = 2.39996323;
 
-// Share of the light that is spread over a range, and the spread's sigma, radians.
-float shareSpread(float range) { return 1.0 - exp(-0.028 * range); }
+// Share of the light that is spread over a range, and the spread's sigma, radians. Scattering near the
+// thing moves its light by little, so that the first metres count less.
+float shareSpread(float range) { return 1.0 - exp(-0.028 * range * range / (range + 8.0)); }
 float sigmaAt(float range) { return min(kScatterSigma * sqrt(range), kScatterMostSigma); }
 
 void main() {
@@ -29,8 +31,9 @@ void main() {
         vec3 tap = beside(here, away * vec2(cos(turn), sin(turn)));
         vec2 place = uvOf(tap);
         float tapRange = rangeOf(tap, textureLod(depth, place, 0.0).r);
-        float x = away / sigmaAt(tapRange);
-        float weight = shareSpread(tapRange) * exp(-0.5 * x * x);
+        float nearer = min(tapRange, range);
+        float x = away / sigmaAt(nearer);
+        float weight = shareSpread(nearer) * exp(-0.5 * x * x);
         sum += weight * textureLod(scene, place, 0.0).rgb;
         weights += weight;
     }

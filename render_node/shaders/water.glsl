@@ -8,7 +8,8 @@
 #include "frame_uniforms.h"
 #include "sunlight.glsl"
 
-layout(binding = kDirectTableUnit) uniform sampler2DArray directTable;  // over range, depth: columns of a 3x3 matrix; what undoes the grade
+// Over range, depth: three columns of a matrix, and what undoes the grade.
+layout(binding = kDirectTableUnit) uniform sampler2DArray directTable;
 layout(binding = kInscatterTableUnit) uniform sampler3D inscatterTable;    // of the eye's depth: range, rise, azimuth
 layout(binding = kOpenWaterTableUnit) uniform sampler2D openWaterTable;   // 60 m of water: over depth, rise
 

@@ -49,11 +49,15 @@ float fresnel(float inward) {
     return 0.5 * (s * s + p * p);
 }
 
+// The mirrored light of the water below. It is already coloured: it is computed for a depth where the
+// filter has no effect, and not graded.
+vec3 mirroredWater(vec3 down, float range) {
+    return ungraded(openWater(down, sunAndFilterDepth.w), range, sunAndFilterDepth.w);
+}
+
 // The mirrored light from below: of the sea floor, as far as the water lets it through, and of the
-// water. The water's light is already coloured, so it is computed for a depth where the filter has no
-// effect.
+// water.
 vec3 mirroredSea(vec3 down, vec2 xz, float range) {
-    vec3 water = openWater(down, sunAndFilterDepth.w);
     float depth = 8.0;
     vec2 hit = xz;
     for (int i = 0; i < 2; ++i) {
@@ -65,8 +69,7 @@ vec3 mirroredSea(vec3 down, vec2 xz, float range) {
     vec3 sand = litAt(2.0, Occlusion(sunPast(bottom), 1.0), vec3(0.30, 0.27, 0.22), bottom,
                       vec3(0.0, 1.0, 0.0), 0.0);
     return direct(sand, range + further, depth) +
-           direct(ungraded(water, range, sunAndFilterDepth.w) * (0.8 - 0.8 * exp(-0.11 * further)), range,
-                  sunAndFilterDepth.w);
+           direct(mirroredWater(down, range) * (0.8 - 0.8 * exp(-0.11 * further)), range, sunAndFilterDepth.w);
 }
 
 vec3 surfaceSeen(vec3 w, vec2 xz, float range, float footprint) {
@@ -87,8 +90,8 @@ vec3 surfaceSeen(vec3 w, vec2 xz, float range, float footprint) {
     vec3 down = reflect(w, -normal);
     down = normalize(vec3(down.x, -max(abs(down.y), 0.03), down.z));
     if (!kFine)
-        return direct(above + (1.0 - enters) * 0.8 * ungraded(openWater(down, sunAndFilterDepth.w), range, sunAndFilterDepth.w),
-                      range, sunAndFilterDepth.w);
+        return direct(above + (1.0 - enters) * 0.8 * mirroredWater(down, range), range,
+                      sunAndFilterDepth.w);
     // The diver's filter undoes an absorption that this light has not had, so most of it is left out.
     return direct(above, range, 0.75 * sunAndFilterDepth.w) + (1.0 - enters) * mirroredSea(down, xz, range);
 }

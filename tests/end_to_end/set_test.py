@@ -53,7 +53,7 @@ class Set(unittest.TestCase):
 
         done = self.set("scene", "empty_sea")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual((self.shown()["scene"], self.shown()["colour"]), ("empty_sea", "0.80"), "the scene's own")
+        self.assertEqual((self.shown()["scene"], self.shown()["colour"]), ("empty_sea", "0.90"), "the scene's own")
         wait_until(lambda: "through black in" in self.log.read_text(), 20, "light again")
 
         for what, value, why in (("scene", "lagoon", "bait_ball, empty_sea, reef"),
