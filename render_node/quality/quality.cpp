@@ -58,12 +58,13 @@ Quality qualityOf(config::QualityTier tier) {
     assert(static_cast<std::size_t>(tier) < config::kTierNames.size());
     // In the order of config::QualityTier.
     static constexpr std::array<Quality, config::kTierNames.size()> kTiers{
-        Quality{.pictureShare = 0.85F, .fishFineness = 0.75F, .light = {}, .placeDetail = 0.32F},
+        Quality{.pictureShare = 0.85F, .fishFineness = 0.75F, .light = {}, .placeDetail = 0.6F, .placeReach = 0.32F},
         Quality{.samples = 1,
                 .softening = true,
                 .bloom = true,
                 .light = kMediumLight,
                 .placeDetail = 0.9F,
+                .placeReach = 0.9F,
                 .rockScales = 2,
                 .plantsGiveWay = true,
                 .growthAtPixels = true},
@@ -74,6 +75,7 @@ Quality qualityOf(config::QualityTier tier) {
                 .fishFineness = 1.25F,
                 .light = kHighLight,
                 .placeDetail = 1.4F,
+                .placeReach = 1.4F,
                 .rockScales = 3,
                 .plantsGiveWay = true,
                 .growthAtPixels = true},
@@ -84,6 +86,7 @@ Quality qualityOf(config::QualityTier tier) {
                 .fishFineness = 1.6F,
                 .light = kUltraLight,
                 .placeDetail = 2.5F,
+                .placeReach = 2.5F,
                 .rockScales = 3,
                 .plantsGiveWay = true,
                 .growthAtPixels = true},

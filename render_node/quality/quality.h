@@ -59,9 +59,11 @@ struct Quality {
     // Fineness of the meshes of fish: see detailLimits() in surface/visibility.h.
     float fishFineness = 1.0F;
     LightQuality light;
-    // How finely the place is drawn: at 1 a facet of a coral fills about 7 of the wall's finest
-    // pixels.
+    // How finely the place is drawn: at 1 its meshes deviate from smooth shapes by about 0.7 of the
+    // wall's finest pixels.
     float placeDetail = 1.0F;
+    // How small a thing of the place is still drawn: at 1, a coral of 2.2 pixels.
+    float placeReach = 1.0F;
     // Scales of the relief on rock, 1 to 3; at 1 rock is lit at its vertices.
     int rockScales = 1;
     // Plants bend when fish pass.
@@ -92,7 +94,7 @@ struct Viewpoint {
     glm::vec3 eyeMetres{};
     bool culling = true;
     bool levelsOfDetail = true;
-    // Quality::placeDetail of the tier, times how much finer than the wall's pixels those of the
+    // Quality::placeReach of the tier, times how much finer than the wall's pixels those of the
     // picture are: distances are divided by it.
     float detail = 1.0F;
 

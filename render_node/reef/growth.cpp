@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "render_node/reef/fade.h"
 #include "render_node/reef/strands.h"
 
 namespace aquarama::scene {
@@ -35,6 +36,7 @@ Levels grow(Form form, int shape) {
     // Every level starts with the same dice, so that the levels resemble one another.
     for (std::size_t level = 0; level < kLevels; ++level)
         kGrow.at(at)(levels.at(level), level, Dice{seed});
+    setCoarse(levels);
     return levels;
 }
 
@@ -49,10 +51,12 @@ Surface leaf(float lightness, float sway) {
     return {.albedo = glm::vec3{0.5F * lightness}, .translucency = 0.8F, .sway = sway};
 }
 
-// The size of a blade, on a plant of unit height. rows: of the mesh, at least 2.
+// The size of a blade, on a plant of unit height. rows: of the mesh, at least 2. isRibbed: folded
+// at its midrib and ruffled.
 struct Blade {
     float length, width;
     int rows;
+    bool isRibbed;
 };
 
 // A blade of kelp: long and narrow, hanging out and up from the stipe, thinnest at its ends. It
@@ -73,8 +77,12 @@ void addBlade(Mesh& mesh, glm::vec3 foot, glm::vec3 out, const Blade& blade, Dic
                           leaf(light * (0.85F + 0.35F * v), foot.y + 0.06F * v),
                           0.45F + 0.55F * foot.y});
     }
-    addLeaf(
-        mesh, joints, {.side = side, .ruffle = 0.55F, .waves = 22.0F, .phase = 6.0F * dice.unit()});
+    addLeaf(mesh,
+            joints,
+            {.side = side,
+             .ruffle = blade.isRibbed ? 0.55F : 0.0F,
+             .waves = 22.0F,
+             .phase = 6.0F * dice.unit()});
 }
 
 // The axis of the stipe at a share of its height; it leans in x, with the drift.
@@ -90,8 +98,8 @@ glm::vec3 stipeAt(float share) {
 // on a disc in a spiral by the golden angle.
 void growTurf(Mesh& mesh, std::size_t level, Dice dice) {
     // By level; the leaves become broader as their number falls.
-    constexpr std::array kLeaves{34, 20, 11, 6};
-    constexpr std::array kRows{4, 3, 2, 2};
+    constexpr std::array kLeaves{34, 28, 20, 11, 6};
+    constexpr std::array kRows{7, 5, 4, 3, 2};
     const int leaves = kLeaves.at(level);
     const float broader = std::sqrt(34.0F / static_cast<float>(leaves));
     for (int i = 0; i < leaves; ++i) {
@@ -120,10 +128,10 @@ void growTurf(Mesh& mesh, std::size_t level, Dice dice) {
 // levels have no floats.
 void growKelp(Mesh& mesh, std::size_t level, Dice dice) {
     // By level: blades, rows of a blade, joints of the stipe, sides of the stipe.
-    constexpr std::array kBlades{92, 64, 40, 24};
-    constexpr std::array kRows{9, 6, 4, 3};
-    constexpr std::array kStem{16, 10, 6, 4};
-    constexpr std::array kSides{5, 3, 3, 0};
+    constexpr std::array kBlades{92, 92, 64, 40, 24};
+    constexpr std::array kRows{13, 9, 7, 5, 4};
+    constexpr std::array kStem{25, 13, 13, 7, 5};
+    constexpr std::array kSides{6, 4, 4, 0, 0};
     std::vector<Joint> stem;
     for (int i = 0; i < kStem.at(level); ++i) {
         const float v = static_cast<float>(i) / static_cast<float>(kStem.at(level) - 1);
@@ -142,6 +150,8 @@ void growKelp(Mesh& mesh, std::size_t level, Dice dice) {
         const glm::vec3 out = glm::normalize(
             glm::vec3{std::cos(turn) + 0.7F, dice.between(-0.1F, 0.8F), std::sin(turn)});
         const glm::vec3 foot = stipeAt(share);
+        // Blades have even keys, floats odd ones.
+        mesh.nextKey = 2U * static_cast<std::uint32_t>(i) + 1U;
         if (level < 2)
             addBall(mesh,
                     {.centre = foot + out * 0.007F,
@@ -150,12 +160,14 @@ void growKelp(Mesh& mesh, std::size_t level, Dice dice) {
                      .around = 5,
                      .lumps = 0.0F},
                     leaf(0.9F, share));
+        mesh.nextKey = 2U * static_cast<std::uint32_t>(i) + 2U;
         addBlade(mesh,
                  foot + out * 0.009F,
                  out,
                  {.length = dice.between(0.070F, 0.125F) * (1.1F - 0.35F * share),
                   .width = 0.0052F * broader,
-                  .rows = kRows.at(level)},
+                  .rows = kRows.at(level),
+                  .isRibbed = level < 3},
                  dice);
     }
 }
@@ -163,8 +175,8 @@ void growKelp(Mesh& mesh, std::size_t level, Dice dice) {
 // A tuft of narrow leaves from one root, some of them grazed.
 void growSeagrass(Mesh& mesh, std::size_t level, Dice dice) {
     // By level; the leaves become broader as their number falls.
-    constexpr std::array kLeaves{16, 12, 8, 5};
-    constexpr std::array kRows{7, 5, 3, 3};
+    constexpr std::array kLeaves{16, 14, 12, 8, 5};
+    constexpr std::array kRows{13, 9, 7, 4, 3};
     const int leaves = kLeaves.at(level);
     const float broader = std::sqrt(16.0F / static_cast<float>(leaves));
     for (int i = 0; i < leaves; ++i) {

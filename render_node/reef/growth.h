@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The forms of corals, sponges and plants on a reef. Each form has a few shapes, and each shape
-// four levels of detail.
+// five levels of detail.
 #pragma once
 
 #include <array>
@@ -47,7 +47,7 @@ inline constexpr int kShapesOfForm = 3;
 // shape: 0 to kShapesOfForm - 1.
 [[nodiscard]] Levels grow(Form form, int shape);
 
-// One function for each form. Each appends the form at a level of detail, 0 the finest of four, to
+// One function for each form. Each appends the form at a level of detail, 0 the finest of five, to
 // an empty mesh; the dice choose the shape. Coarser levels have fewer and broader parts, so that
 // the form remains as dense.
 

@@ -2,6 +2,7 @@
 #include "render_node/reef/mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -13,6 +14,7 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
+#include "render_node/reef/fade.h"
 #include "render_node/reef/strands.h"
 #include "render_node/water/water_tables.h"
 
@@ -73,6 +75,7 @@ void joinRows(Mesh& mesh, std::uint32_t first, int rows, int columns) {
                                     static_cast<std::uint32_t>(column);
             addQuad(mesh, a, a + width, a + width + 1, a + 1);
         }
+    mesh.patches.push_back({mesh.nextKey++, first, rows, columns});
 }
 
 void turnOver(Mesh& mesh, std::size_t firstIndex) {
@@ -177,9 +180,13 @@ void shade(Mesh& mesh, std::span<const place::Rock> others) {
 
 namespace {
 
-// The sphere is a cube whose faces are grids of this many cells along an edge.
+// The sphere is a cube whose faces are grids: cells along an edge at the finest level, and where
+// spots for what grows are.
 constexpr int kFaces = 6;
-constexpr int kFinest = 32;
+constexpr int kFinest = 48;
+constexpr int kBedCells = 32;
+// By level, the finest vertices from one to the next.
+constexpr std::array<int, kLevels> kSteps{1, 2, 4, 8, 16};
 
 // The parameters in which the shapes differ.
 struct Habit {
@@ -281,14 +288,14 @@ glm::vec3 directionOn(int face, float u, float v) {
     }
 }
 
-// The finest surface: grids on the faces of a cube, projected onto the rock.
-Mesh skinOf(const Habit& habit) {
+// The surface: grids of so many cells a side on the faces of a cube, projected onto the rock.
+Mesh skinOf(const Habit& habit, int cells) {
     Mesh mesh;
     for (int face = 0; face < kFaces; ++face) {
         const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-        for (int row = 0; row <= kFinest; ++row)
-            for (int column = 0; column <= kFinest; ++column) {
-                const auto side = static_cast<float>(kFinest);
+        for (int row = 0; row <= cells; ++row)
+            for (int column = 0; column <= cells; ++column) {
+                const auto side = static_cast<float>(cells);
                 const glm::vec3 direction =
                     directionOn(face,
                                 2.0F * static_cast<float>(column) / side - 1.0F,
@@ -298,33 +305,48 @@ Mesh skinOf(const Habit& habit) {
                 const glm::vec3 rounded = glm::round(direction * 65536.0F) / 65536.0F;
                 addVertex(mesh, pointTowards(habit, rounded), rounded, {}, 1.0F);
             }
-        joinRows(mesh, first, kFinest + 1, kFinest + 1);
+        joinRows(mesh, first, cells + 1, cells + 1);
     }
     turnOver(mesh, 0);
     setSmoothNormals(mesh, 0, 0);
     return mesh;
 }
 
-// How far each vertex lies behind the surface, smoothed by this many steps, along its normal:
-// positive in hollows. Few steps find cracks, many find caves.
-std::vector<float> hollowsOf(const Mesh& mesh, int steps) {
+// Replaces the value at each vertex by the mean of those at its neighbours, so many times.
+template <class Value>
+void smooth(std::vector<Value>& values, const Mesh& mesh, int steps) {
+    assert(values.size() == mesh.vertices.size());
     const std::vector<std::uint32_t> same = seamsOf(mesh);
-    std::vector<glm::vec3> places;
-    for (const SolidVertex& vertex : mesh.vertices) places.push_back(vertex.position);
-    std::vector<glm::vec4> sums(places.size());
+    std::vector<Value> sums(values.size());
+    std::vector<float> counts(values.size());
     for (int step = 0; step < steps; ++step) {
-        std::ranges::fill(sums, glm::vec4{0.0F});
+        std::ranges::fill(sums, Value{0.0F});
+        std::ranges::fill(counts, 0.0F);
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
             // Each edge counts in both directions; vertices of a seam share one sum.
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t from = mesh.indices[i + k];
                 const std::uint32_t to = mesh.indices[i + (k + 1) % 3];
-                sums[same[to]] += glm::vec4{places[from], 1.0F};
-                sums[same[from]] += glm::vec4{places[to], 1.0F};
+                sums[same[to]] += values[from];
+                sums[same[from]] += values[to];
+                ++counts[same[to]];
+                ++counts[same[from]];
             }
-        for (std::size_t i = 0; i < places.size(); ++i)
-            places[i] = glm::vec3(sums[same[i]]) / sums[same[i]].w;
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = sums[same[i]] / counts[same[i]];
     }
+}
+
+std::vector<glm::vec3> placesOf(const Mesh& mesh) {
+    std::vector<glm::vec3> places;
+    for (const SolidVertex& vertex : mesh.vertices) places.push_back(vertex.position);
+    return places;
+}
+
+// How far each vertex lies behind the surface, smoothed by this many steps, along its normal:
+// positive in hollows. Few steps find cracks, many find caves.
+std::vector<float> hollowsOf(const Mesh& mesh, int steps) {
+    std::vector<glm::vec3> places = placesOf(mesh);
+    smooth(places, mesh, steps);
     std::vector<float> hollows;
     for (std::size_t i = 0; i < places.size(); ++i)
         hollows.push_back(glm::dot(places[i] - mesh.vertices[i].position,
@@ -345,8 +367,8 @@ glm::vec3 mottleAt(const Habit& habit, glm::vec3 place, glm::vec3 normal, float 
 
 // Sets albedo and ambient occlusion of all vertices.
 void paint(Mesh& mesh, const Habit& habit) {
-    const std::vector<float> cracks = hollowsOf(mesh, 2);
-    const std::vector<float> caves = hollowsOf(mesh, 24);
+    const std::vector<float> cracks = hollowsOf(mesh, 5);
+    const std::vector<float> caves = hollowsOf(mesh, 54);
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
         SolidVertex& vertex = mesh.vertices[i];
         const glm::vec3 normal = glm::normalize(glm::vec3(vertex.normal));
@@ -360,19 +382,37 @@ void paint(Mesh& mesh, const Habit& habit) {
     }
 }
 
-// The mesh with every step-th vertex in both directions of each face; vertices keep the normals and
-// albedos of the finest mesh.
-Mesh thinned(const Mesh& finest, int step) {
+// The finest mesh without what is too fine for a level that has every step-th of its vertices:
+// places and shades are means over about a cell of that level.
+Mesh smoothedFor(Mesh mesh, int step) {
+    const int steps = step * step / 6;
+    if (steps == 0) return mesh;
+    std::vector<glm::vec3> places = placesOf(mesh);
+    std::vector<glm::vec4> shades;
+    for (const SolidVertex& vertex : mesh.vertices) shades.emplace_back(vertex.albedo);
+    smooth(places, mesh, steps);
+    smooth(shades, mesh, steps);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        mesh.vertices[i].position = places[i];
+        mesh.vertices[i].albedo = glm::u8vec4(shades[i] + 0.5F);
+    }
+    setSmoothNormals(mesh, 0, 0);
+    return mesh;
+}
+
+// The mesh with every step-th vertex in both directions of each face; the faces have so many cells
+// along an edge.
+Mesh thinned(const Mesh& finest, int finestCells, int step) {
     assert(step > 0);
-    assert(kFinest % step == 0);
+    assert(finestCells % step == 0);
     Mesh mesh;
-    const int cells = kFinest / step;
+    const int cells = finestCells / step;
     for (int face = 0; face < kFaces; ++face) {
         const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
         for (int row = 0; row <= cells; ++row)
             for (int column = 0; column <= cells; ++column)
                 mesh.vertices.push_back(finest.vertices[static_cast<std::size_t>(
-                    (face * (kFinest + 1) + row * step) * (kFinest + 1) + column * step)]);
+                    (face * (finestCells + 1) + row * step) * (finestCells + 1) + column * step)]);
         joinRows(mesh, first, cells + 1, cells + 1);
     }
     turnOver(mesh, 0);
@@ -385,9 +425,20 @@ Levels growRock(int shape) {
     assert(shape >= 0);
     assert(shape < kRockShapes);
     const Habit habit = habitOf(shape);
-    Mesh finest = skinOf(habit);
+    Mesh finest = skinOf(habit, kFinest);
     paint(finest, habit);
-    return {thinned(finest, 1), thinned(finest, 2), thinned(finest, 4), thinned(finest, 8)};
+    Levels levels;
+    for (std::size_t level = 0; level < kLevels; ++level)
+        levels.at(level) =
+            thinned(smoothedFor(finest, kSteps.at(level)), kFinest, kSteps.at(level));
+    setCoarse(levels);
+    return levels;
+}
+
+Mesh rockBed(int shape) {
+    assert(shape >= 0);
+    assert(shape < kRockShapes);
+    return thinned(skinOf(habitOf(shape), kBedCells), kBedCells, 2);
 }
 
 }  // namespace aquarama::scene

@@ -28,14 +28,38 @@ struct SolidVertex {
 };
 static_assert(sizeof(SolidVertex) == 24);
 
+// Where a vertex is on the next coarser level, into which its own level fades (fade.h), 20 bytes.
+// Members as of SolidVertex.
+struct CoarseVertex {
+    glm::vec3 position{};
+    glm::i8vec4 normal{};
+    glm::u8vec4 albedo{};
+};
+static_assert(sizeof(CoarseVertex) == 20);
+
+// A grid of vertices, which joinRows() has joined. A part of a thing has the same key at all
+// levels.
+struct Patch {
+    std::uint32_t key = 0;
+    // Index of its first vertex; the others follow row by row.
+    std::uint32_t first = 0;
+    int rows = 0;
+    int columns = 0;
+};
+
 // Triangles, counter-clockwise as seen from outside; three indices each.
 struct Mesh {
     std::vector<SolidVertex> vertices;
     std::vector<std::uint32_t> indices;
+    std::vector<Patch> patches;
+    // Key of the patch that joinRows() adds next; it counts up.
+    std::uint32_t nextKey = 0;
+    // One for each vertex of a thing that has levels; else empty.
+    std::vector<CoarseVertex> coarse;
 };
 
 // Levels of detail of one thing, the finest first.
-inline constexpr std::size_t kLevels = 4;
+inline constexpr std::size_t kLevels = 5;
 using Levels = std::array<Mesh, kLevels>;
 
 // The material at a vertex; shares are 0 to 1.
@@ -60,8 +84,8 @@ std::uint32_t addVertex(Mesh& mesh,
                         float ambientOcclusion);
 // Appends the triangles a b c and a c d.
 void addQuad(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
-// Joins rows of equal length by quads. The vertices must have been added row by row, from `first`
-// on.
+// Joins rows of equal length by quads, as a patch. The vertices must have been added row by row,
+// from `first` on.
 void joinRows(Mesh& mesh, std::uint32_t first, int rows, int columns);
 // Reverses the orientation of the triangles from `firstIndex` on.
 void turnOver(Mesh& mesh, std::size_t firstIndex);
@@ -92,9 +116,13 @@ void shade(Mesh& mesh, std::span<const place::Rock> others);
 inline constexpr int kRockShapes = 12;
 
 // Makes one shape at all levels, the same on every machine. It lies within the unit ball. y is up:
-// a rock may be turned about y, so that its ledges stay level. Coarser levels are every second
-// vertex of the finer one. The albedo of a vertex holds lightness, amount of turf and amount of
-// pink crust. shape: 0 to kRockShapes - 1.
+// a rock may be turned about y, so that its ledges stay level. Coarser levels are smoothed, so that
+// they have no corners that the stone has not. The albedo of a vertex holds lightness, amount of
+// turf and amount of pink crust. shape: 0 to kRockShapes - 1.
 [[nodiscard]] Levels growRock(int shape);
+
+// The spots of a shape on which something may grow: places and normals, spread evenly over its
+// surface.
+[[nodiscard]] Mesh rockBed(int shape);
 
 }  // namespace aquarama::scene

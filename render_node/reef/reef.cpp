@@ -39,16 +39,6 @@ std::uint32_t commandOf(std::size_t prototype, std::size_t level) {
                                       kRockShapes);
 }
 
-// Least size in pixels for each level. A facet fills about 7 pixels; one of rock, which is large
-// and smooth, about 12. Plants are large, but their leaves are small.
-std::array<float, kLevels> leastPixelsOf(std::size_t prototype) {
-    if (prototype < kRockShapes) return {250.0F, 90.0F, 30.0F, 4.0F};
-    if (prototype >= prototypeOf(Form::Seagrass, 0)) return {150.0F, 60.0F, 24.0F, 3.0F};
-    if (prototype >= prototypeOf(Form::Kelp, 0)) return {900.0F, 420.0F, 190.0F, 6.0F};
-    if (prototype >= prototypeOf(Form::Turf, 0)) return {60.0F, 26.0F, 11.0F, 3.0F};
-    return {95.0F, 36.0F, 13.0F, 2.2F};
-}
-
 // The ball about a prototype, centred on its axis; the other members are left to the caller.
 Prototype boundsOf(const Mesh& mesh) {
     float low = 1.0e9F;
@@ -112,6 +102,15 @@ void drawFrom(std::size_t command, GLsizei count) {
 
 }  // namespace
 
+// Plants are large, but their leaves are small.
+std::array<float, kLevels> leastPixelsOf(std::size_t prototype) {
+    if (prototype < kRockShapes) return {420.0F, 150.0F, 50.0F, 15.0F, 4.0F};
+    if (prototype >= prototypeOf(Form::Seagrass, 0)) return {200.0F, 90.0F, 40.0F, 18.0F, 3.0F};
+    if (prototype >= prototypeOf(Form::Kelp, 0)) return {1200.0F, 500.0F, 220.0F, 90.0F, 6.0F};
+    if (prototype >= prototypeOf(Form::Turf, 0)) return {90.0F, 45.0F, 22.0F, 11.0F, 3.0F};
+    return {160.0F, 70.0F, 30.0F, 12.0F, 2.2F};
+}
+
 Library growLibrary() {
     Library library;
     WorkerPool(std::thread::hardware_concurrency()).run(kPrototypes, [&](std::size_t i) {
@@ -129,10 +128,8 @@ namespace {
 // so that the culling never runs out of room.
 ReefTables makeReefTables(const place::PlaceKey& place) {
     const Library library = growLibrary();
-    std::array<Levels, kRockShapes> rocks;
-    std::copy_n(library.begin(), rocks.size(), rocks.begin());
     ReefTables tables;
-    tables.instances = byCells(scatter(place, rocks));
+    tables.instances = byCells(scatter(place));
     tables.commands.resize(kPrototypes * kLevels);
     // The first slot of each command in the list of chosen instances.
     std::uint32_t slots = 0;
@@ -155,6 +152,7 @@ ReefTables makeReefTables(const place::PlaceKey& place) {
             slots += own;
             tables.vertices.insert(
                 tables.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+            tables.coarse.insert(tables.coarse.end(), mesh.coarse.begin(), mesh.coarse.end());
             tables.indices.insert(tables.indices.end(), mesh.indices.begin(), mesh.indices.end());
         }
     }
@@ -188,15 +186,21 @@ Reef::Reef(const ReefTables& tables, const Quality& quality)
     fillBuffers(tables);
 }
 
-// Uploads the tables. The vertex attribute kChosenAttribute advances once for each instance.
+// Uploads the tables. The vertex attribute kChosenAttribute advances once for each instance; from
+// kCoarseAttribute on are the members of CoarseVertex.
 void Reef::fillBuffers(const ReefTables& tables) {
     assert(tables.prototypes.size() == kPrototypes);
     assert(tables.commands.size() == kPrototypes * kLevels);
     instanceCount_ = static_cast<unsigned>(tables.instances.size());
     groupCount_ = static_cast<unsigned>(tables.groups.size());
     setSolids(array_, vertices_, indices_, tables.vertices, tables.indices);
+    coarse_ = gl::makeBuffer(tables.coarse, "reef vertices of the coarser level");
+    attachCoarse(array_, coarse_);
     instances_ = gl::makeBuffer(tables.instances, "reef instances");
-    prototypes_ = gl::makeBuffer(tables.prototypes, "reef prototypes");
+    std::vector<Prototype> prototypes = tables.prototypes;
+    for (Prototype& one : prototypes)
+        one.leastPixels.back() *= quality_.placeDetail / quality_.placeReach;
+    prototypes_ = gl::makeBuffer(prototypes, "reef prototypes");
     groups_ = gl::makeBuffer(tables.groups, "reef groups");
     // The size of a dispatch (3 numbers), then the groups that it visits.
     const std::vector<std::uint32_t> seen(3 + groupCount_);
@@ -287,24 +291,22 @@ void Reef::draw() const {
     bind();
     glBindTextureUnit(shaders::kDetailTileUnit, detail_.name());
     // Number of levels that are lit at each pixel, where the tier does so.
-    constexpr unsigned kFine = 3;
+    constexpr unsigned kFine = 4;
     if (quality_.growthAtPixels) {
         glUseProgram(growth_.name());
-        glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
+        glUniform1f(shaders::kReachLocation, quality_.placeReach);
         glUniform1i(shaders::kStirredLocation, quality_.plantsGiveWay ? 1 : 0);
         drawFrom(commandOf(kRockShapes, 0), commandCount(kGrowths, kFine));
     }
-    // The other levels are lit at their vertices. They are too far away for a visible reaction to
-    // fish.
+    // The other levels are lit at their vertices.
     const unsigned firstFar = quality_.growthAtPixels ? kFine : 0;
     glUseProgram(farGrowth_.name());
-    glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
-    glUniform1i(shaders::kStirredLocation, 0);
+    glUniform1f(shaders::kReachLocation, quality_.placeReach);
     drawFrom(commandOf(kRockShapes, firstFar), commandCount(kGrowths, kLevels - firstFar));
     // Rock comes last: the corals and plants on it are cheaper and hide much of it.
     glEnable(GL_CULL_FACE);
     glUseProgram(stone_.name());
-    glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
+    glUniform1f(shaders::kReachLocation, quality_.placeReach);
     if (quality_.rockScales > 1) glUniform1i(shaders::kRockScalesLocation, quality_.rockScales);
     drawFrom(0, commandCount(kRockShapes, kLevels));
     glDisable(GL_CULL_FACE);
@@ -319,12 +321,12 @@ Reef::DepthPrograms Reef::depthPrograms() const {
 void Reef::drawDepths(const DepthPrograms& programs) const {
     bind();
     glUseProgram(programs.growth.name());
-    glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
+    glUniform1f(shaders::kReachLocation, quality_.placeReach);
     glUniform1i(shaders::kStirredLocation, 0);
     drawFrom(commandOf(kRockShapes, 0), commandCount(kGrowths, kLevels));
     glEnable(GL_CULL_FACE);
     glUseProgram(programs.stone.name());
-    glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
+    glUniform1f(shaders::kReachLocation, quality_.placeReach);
     drawFrom(0, commandCount(kRockShapes, kLevels));
     glDisable(GL_CULL_FACE);
 }

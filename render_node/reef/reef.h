@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All rock, coral and plants: a library of prototypes at four levels of detail, and instances,
+// All rock, coral and plants: a library of prototypes at five levels of detail, and instances,
 // which a compute pass culls and sorts by level. The processor's cost of a frame does not depend on
 // the number of instances.
 #pragma once
@@ -23,6 +23,10 @@ namespace aquarama::scene {
 using Library = std::array<Levels, kPrototypes>;
 [[nodiscard]] Library growLibrary();
 
+// Least size in pixels of each level of a prototype: the pixels that its scale fills at the shared
+// eye, times Quality::placeDetail. From kFade times that size down the level fades into the next.
+[[nodiscard]] std::array<float, kLevels> leastPixelsOf(std::size_t prototype);
+
 // A draw, as glMultiDrawElementsIndirect reads it.
 struct DrawCommand {
     std::uint32_t count = 0;
@@ -45,12 +49,14 @@ struct Prototype {
     // Least size of the scale for each level, pixels; what is smaller than the last is not drawn.
     std::array<float, kLevels> leastPixels{};
 };
-static_assert(sizeof(Prototype) == 32);
+static_assert(sizeof(Prototype) == 36);
 
 // The tables of a reef for the GPU, before they are uploaded.
 struct ReefTables {
     // Vertices of all prototypes at all levels.
     std::vector<SolidVertex> vertices;
+    // One for each vertex.
+    std::vector<CoarseVertex> coarse;
     std::vector<std::uint32_t> indices;
     std::vector<Instance> instances;
     std::vector<Prototype> prototypes;
@@ -60,7 +66,9 @@ struct ReefTables {
     std::vector<glm::vec4> groups;
 
     // All arrays, for the cache of derived data.
-    auto arrays() { return std::tie(vertices, indices, instances, prototypes, commands, groups); }
+    auto arrays() {
+        return std::tie(vertices, coarse, indices, instances, prototypes, commands, groups);
+    }
 };
 
 // Takes the tables from the cache of derived data, or makes them once on this machine.
@@ -102,8 +110,8 @@ class Reef {
     Quality quality_;
     unsigned groupCount_ = 0;
     unsigned instanceCount_ = 0;
-    gl::Buffer vertices_, indices_, instances_, prototypes_, groups_, seenGroups_, chosen_, none_,
-        commands_, wake_;
+    gl::Buffer vertices_, coarse_, indices_, instances_, prototypes_, groups_, seenGroups_, chosen_,
+        none_, commands_, wake_;
     gl::VertexArray array_;
     gl::ProgramHandle group_, cull_, stone_, growth_, farGrowth_, stir_;
     gl::Texture detail_;

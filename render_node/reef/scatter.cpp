@@ -72,7 +72,7 @@ struct Planted {
 struct Bed {
     const place::PlaceKey* place;
     const place::Rock* rock;
-    // The mesh of the rock's prototype at level 1.
+    // As rockBed() has it.
     const Mesh* stone;
     glm::quat turn;
     // Rocks near enough to touch or shade it.
@@ -456,13 +456,14 @@ std::vector<place::Rock> near(std::span<const place::Rock> rocks, const place::R
 
 }  // namespace
 
-std::vector<Instance> scatter(const place::PlaceKey& place,
-                              const std::array<Levels, kRockShapes>& shapes) {
+std::vector<Instance> scatter(const place::PlaceKey& place) {
+    std::vector<Mesh> beds;
+    for (int shape = 0; shape < kRockShapes; ++shape) beds.push_back(rockBed(shape));
     const std::vector<place::Rock> rocks = place::rocksOf(place);
     const std::vector<place::Site> sites = place::sitesOf(place);
     std::vector<Instance> all;
     for (const place::Rock& rock : rocks) {
-        const Bed bed{&place, &rock, &shapes.at(shapeOf(rock))[1], turnOf(rock), near(rocks, rock)};
+        const Bed bed{&place, &rock, &beds.at(shapeOf(rock)), turnOf(rock), near(rocks, rock)};
         addRock(all, bed);
         coverRock(all, bed, sites);
         litterFoot(all, bed);

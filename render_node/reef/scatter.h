@@ -2,7 +2,6 @@
 // The instances of a reef: which rocks, corals and plants stand where.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -43,9 +42,8 @@ struct Instance {
 };
 static_assert(sizeof(Instance) == 64);
 
-// All instances, sorted by prototype. rocks: the meshes of the shapes, on which corals are placed.
-[[nodiscard]] std::vector<Instance> scatter(const place::PlaceKey& place,
-                                            const std::array<Levels, kRockShapes>& rocks);
+// All instances, sorted by prototype.
+[[nodiscard]] std::vector<Instance> scatter(const place::PlaceKey& place);
 
 // A tint for a form in a patch of the reef: linear Rec. 709 albedo. Each patch has a few hues in
 // harmony; accents are rare.

@@ -226,13 +226,24 @@ Tile rockTile() {
 
 namespace {
 
-// A float attribute of SolidVertex; bytes are normalised.
-void setAttribute(unsigned array, unsigned location, GLint size, GLenum type, std::size_t offset) {
+// Where a vertex array reads a struct: the name of the array, and its buffer.
+struct Source {
+    unsigned array;
+    unsigned binding;
+};
+
+// A float attribute of the struct; bytes are normalised.
+void setAttribute(
+    const Source& source, unsigned location, GLint size, GLenum type, std::size_t offset) {
     const bool normalised = type != GL_FLOAT;
-    glEnableVertexArrayAttrib(array, location);
-    glVertexArrayAttribFormat(
-        array, location, size, type, normalised ? GL_TRUE : GL_FALSE, static_cast<GLuint>(offset));
-    glVertexArrayAttribBinding(array, location, 0);
+    glEnableVertexArrayAttrib(source.array, location);
+    glVertexArrayAttribFormat(source.array,
+                              location,
+                              size,
+                              type,
+                              normalised ? GL_TRUE : GL_FALSE,
+                              static_cast<GLuint>(offset));
+    glVertexArrayAttribBinding(source.array, location, source.binding);
 }
 
 }  // namespace
@@ -246,10 +257,20 @@ void setSolids(const gl::VertexArray& array,
     indices = gl::makeBuffer(meshIndices, "solid indices");
     glVertexArrayVertexBuffer(array.name(), 0, vertices.name(), 0, sizeof(SolidVertex));
     glVertexArrayElementBuffer(array.name(), indices.name());
-    setAttribute(array.name(), 0, 3, GL_FLOAT, offsetof(SolidVertex, position));
-    setAttribute(array.name(), 1, 4, GL_BYTE, offsetof(SolidVertex, normal));
-    setAttribute(array.name(), 2, 4, GL_UNSIGNED_BYTE, offsetof(SolidVertex, albedo));
-    setAttribute(array.name(), 3, 4, GL_UNSIGNED_BYTE, offsetof(SolidVertex, response));
+    const Source source{array.name(), 0};
+    setAttribute(source, 0, 3, GL_FLOAT, offsetof(SolidVertex, position));
+    setAttribute(source, 1, 4, GL_BYTE, offsetof(SolidVertex, normal));
+    setAttribute(source, 2, 4, GL_UNSIGNED_BYTE, offsetof(SolidVertex, albedo));
+    setAttribute(source, 3, 4, GL_UNSIGNED_BYTE, offsetof(SolidVertex, response));
+}
+
+void attachCoarse(const gl::VertexArray& array, const gl::Buffer& coarse) {
+    constexpr unsigned kFirst = shaders::kCoarseAttribute;
+    glVertexArrayVertexBuffer(array.name(), kFirst, coarse.name(), 0, sizeof(CoarseVertex));
+    const Source source{array.name(), kFirst};
+    setAttribute(source, kFirst, 3, GL_FLOAT, offsetof(CoarseVertex, position));
+    setAttribute(source, kFirst + 1, 4, GL_BYTE, offsetof(CoarseVertex, normal));
+    setAttribute(source, kFirst + 2, 4, GL_UNSIGNED_BYTE, offsetof(CoarseVertex, albedo));
 }
 
 gl::Texture makeTexture(const Tile& tile) {

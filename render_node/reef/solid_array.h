@@ -57,6 +57,8 @@ void setSolids(const gl::VertexArray& array,
                gl::Buffer& indices,
                const std::vector<SolidVertex>& meshVertices,
                const std::vector<std::uint32_t>& meshIndices);
+// Attaches a buffer of CoarseVertex: attributes kCoarseAttribute and the two after it.
+void attachCoarse(const gl::VertexArray& array, const gl::Buffer& coarse);
 [[nodiscard]] gl::Texture makeTexture(const Tile& tile);
 
 // GL's draw calls take an offset in a buffer as a pointer.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/reef/strands.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -56,6 +58,10 @@ float ridges(std::uint32_t seed, glm::vec3 place, int octaves) {
     return sum;
 }
 
+float resolvedShare(float verticesACell) {
+    return glm::smoothstep(0.8F, 1.6F, verticesACell);
+}
+
 glm::mat3 frameAbout(glm::vec3 up, float turnRadians) {
     const glm::vec3 away = std::abs(up.y) < 0.99F ? glm::vec3{0, 1, 0} : glm::vec3{1, 0, 0};
     const glm::vec3 x = glm::normalize(glm::cross(away, up));
@@ -82,11 +88,21 @@ Surface shaded(Surface surface, float shade) {
     return surface;
 }
 
+// Vertices of a circle for each cell of a noise that has so many of them on its radius.
+float verticesACell(int around, float cells) {
+    return static_cast<float>(around) / (kTwoPi * cells);
+}
+
 }  // namespace
 
-float waverAt(std::uint32_t seed, glm::vec3 place) {
-    return solidNoise(seed, place) + 0.5F * solidNoise(seed, place * 2.7F) +
-           0.3F * solidNoise(seed, place * 7.1F);
+float waverAt(const Turning& turning, glm::vec3 out) {
+    float sum = 0.0F;
+    for (const auto& [height, finer] : {std::pair{1.0F, 1.0F}, {0.5F, 2.7F}, {0.3F, 7.1F}}) {
+        const float cells = turning.lobes * finer;
+        sum += height * resolvedShare(verticesACell(turning.around, cells)) *
+               solidNoise(turning.seed, out * cells);
+    }
+    return sum;
 }
 
 void addStrand(Mesh& mesh, std::span<const Joint> joints, int sides, glm::vec3 facing) {
@@ -156,7 +172,7 @@ void addTurned(Mesh& mesh,
                                static_cast<float>(turning.around);
             const glm::vec3 out{std::cos(turn), 0.0F, std::sin(turn)};
             const glm::vec3 at = out * turning.lobes;
-            const float waver = waverAt(turning.seed, at);
+            const float waver = waverAt(turning, out);
             const float lift = solidNoise(turning.seed ^ 1U, at * 1.4F);
             const float radius = ring.radius * (1.0F + turning.wide * waver * ring.waver);
             const float height = ring.height + turning.high * lift * ring.waver;
@@ -175,6 +191,8 @@ void addBall(Mesh& mesh, const Ball& ball, const Surface& surface) {
     assert(ball.around >= 3);
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const std::size_t firstIndex = mesh.indices.size();
+    const float lumps =
+        ball.lumps * resolvedShare(verticesACell(ball.around, std::max(ball.cells, 1.0F)));
     // From the lower rim up to the top, as addTurned() from foot to crown.
     for (int ring = ball.rings; ring >= 0; --ring)
         for (int i = 0; i <= ball.around; ++i) {
@@ -185,7 +203,7 @@ void addBall(Mesh& mesh, const Ball& ball, const Surface& surface) {
             const glm::vec3 out{std::sin(polar) * std::cos(turn),
                                 std::cos(polar),
                                 std::sin(polar) * std::sin(turn)};
-            const float lump = ball.lumps * solidNoise(ball.seed, out * ball.cells);
+            const float lump = lumps * solidNoise(ball.seed, out * ball.cells);
             addVertex(mesh,
                       ball.centre + out * ball.radii * (1.0F + lump),
                       out,

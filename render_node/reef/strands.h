@@ -21,6 +21,10 @@ namespace aquarama::scene {
 // The same with sharp crests at +1.
 [[nodiscard]] float ridges(std::uint32_t seed, glm::vec3 place, int octaves);
 
+// How much of a noise a mesh can show that has so many vertices for each of its cells, 0 to 1. With
+// fewer the noise would only make corners.
+[[nodiscard]] float resolvedShare(float verticesACell);
+
 // A stream of random numbers: the n-th is a hash of seed and n, the same on every machine. Copies
 // continue independently.
 class Dice {
@@ -91,9 +95,9 @@ struct Turning {
     // Noise cells over a radius of the unit circle: more make more lobes.
     float lobes = 2.0F;
 };
-// The irregularity of the radius at a point of the circle, about -1.8 to 1.8, in units of
-// Turning::wide.
-[[nodiscard]] float waverAt(std::uint32_t seed, glm::vec3 place);
+// The irregularity of the radius in a direction from the axis, about -1.8 to 1.8, in units of
+// Turning::wide. out: unit vector, in the frame of the axis.
+[[nodiscard]] float waverAt(const Turning& turning, glm::vec3 out);
 void addTurned(Mesh& mesh,
                std::span<const Ring> rings,
                const Turning& turning,

@@ -298,7 +298,7 @@ unsigned SceneRenderer::draw(const View& view) {
                               glm::vec3(parts.uniforms.sharedEyeAndPixel),
                               parts.options.culling,
                               parts.options.levelsOfDetail,
-                              parts.quality.placeDetail * view.finer};
+                              parts.quality.placeReach * view.finer};
     parts.school.drawBodies();
     parts.drawSolids(viewpoint);
     parts.drawWater();

@@ -1,5 +1,8 @@
 // Near corals and plants, lit at each pixel. In: a SolidVertex and the chosen instance (grown.glsl).
 // Out: world place, place without sway (rest), normal, albedo, occlusion, material.
+#include "shader_interface.h"
+const bool kStirs = true;
+layout(location = kStirredLocation) uniform bool stirred;
 #include "grown.glsl"
 layout(location = 0) centroid out vec3 place;
 layout(location = 1) centroid out vec3 rest;

@@ -1,5 +1,7 @@
 // Distant corals and plants, lit at their vertices, as a pixel holds several of them. In: as
 // coral.vert. Out: the light that reaches the eye, linear Rec. 709, for lit.frag.
+// They are too far away for a visible reaction to fish.
+const bool kStirs = false, stirred = false;
 #include "grown.glsl"
 layout(location = 0) centroid out vec3 light;
 void main() {

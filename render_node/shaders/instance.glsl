@@ -17,6 +17,12 @@ layout(std430, binding = kInstancesStorage) readonly buffer Instances { Instance
 vec3 turned(vec4 turn, vec3 v) {
     return v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v);
 }
+// What place_cull.comp has chosen: the number of an instance, and how far its level has faded into the
+// coarser one, 0 to 1.
+const uint kInstanceMask = (1u << kInstanceBits) - 1u;
+uint packedChoice(uint id, float faded) { return id | uint(faded * 255.0 + 0.5) << kInstanceBits; }
+Instance instanceOf(uint choice) { return instances[choice & kInstanceMask]; }
+float fadedOf(uint choice) { return float(choice >> kInstanceBits) / 255.0; }
 // How many of the wall's finest pixels a thing's scale fills at the shared eye.
 float pixelsOf(vec4 placeAndScale) {
     float range = max(distance(placeAndScale.xyz, sharedEyeAndPixel.xyz), 0.3);

@@ -2,7 +2,7 @@
 // of its prototype at that level. A ball against the four sides of the frustum; the level follows from
 // the angle at the shared eye in units of the wall's finest pixel, so that neighbours agree. In: seen
 // groups, instances, prototypes. Out: instance counts of the commands, and the list of chosen
-// instances. The order within a command is not fixed; opaque draws do not depend on it.
+// instances, with how far each has faded into the next level. The order within a command is not fixed; opaque draws do not depend on it.
 #include "shader_interface.h"
 #include "instance.glsl"
 #include "place_groups.glsl"
@@ -10,7 +10,7 @@ layout(local_size_x = kGroupSize) in;
 struct Prototype {
     float reach, middle;
     uint firstCommand, commandStride;
-    float leastPixels[4];
+    float leastPixels[5];
 };
 struct Command {
     uint count, instanceCount, firstIndex;
@@ -25,6 +25,8 @@ layout(std430, binding = kSeenGroupsStorage) readonly buffer SeenGroups {
 };
 layout(location = kInstanceCountLocation) uniform uint instanceCount;
 layout(location = kCullDetailLocation) uniform float detail;
+// A level begins to fade at so many times the least size at which it is drawn.
+const float kFade = 1.5;
 
 void main() {
     uint id = seenGroups[gl_WorkGroupID.x] * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
@@ -38,9 +40,10 @@ void main() {
     if (!sees(centre, reach)) return;
     float pixels = detail * pixelsOf(one.placeAndScale);
     uint level = 0u;
-    while (level < 4u && pixels < prototype.leastPixels[level]) ++level;
-    if (level == 4u) return;
+    while (level < 5u && pixels < prototype.leastPixels[level]) ++level;
+    if (level == 5u) return;
+    float least = prototype.leastPixels[level];
     uint command = prototype.firstCommand + level * prototype.commandStride;
     uint slot = commands[command].baseInstance + atomicAdd(commands[command].instanceCount, 1u);
-    chosenOnes[slot] = id;
+    chosenOnes[slot] = packedChoice(id, 1.0 - smoothstep(least, kFade * least, pixels));
 }

@@ -2,12 +2,6 @@
 // In: a SolidVertex and the chosen instance. Out: world place, normal, mottle, occlusion, tint; clip
 // space.
 #include "shader_interface.h"
-#include "instance.glsl"
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec4 normalAndRoughness;
-layout(location = 2) in vec4 mottleAndSky;  // lightness, turf, pink crust; occlusion
-layout(location = 4) in uint chosen;
-layout(location = kDetailLocation) uniform float detail;
 layout(location = 0) centroid out vec3 place;
 layout(location = 1) centroid out vec3 normal;
 layout(location = 2) centroid out vec3 mottle;
@@ -18,7 +12,7 @@ void main() {
     RockCorner it = rockCorner();
     place = it.place;
     normal = it.normal;
-    mottle = mottleAndSky.rgb;
+    mottle = it.mottle;
     open = it.open;
     tint = it.tint;
     gl_Position = clipFromWorld * vec4(place, 1.0);

@@ -2,13 +2,7 @@
 // pixels. In: as rock.vert. Out: sunlight and skylight for white stone as they reach the eye, and the
 // light of the water in between.
 #include "shader_interface.h"
-#include "instance.glsl"
 #include "shading.glsl"
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec4 normalAndRoughness;
-layout(location = 2) in vec4 mottleAndSky;  // lightness, turf, pink crust; occlusion
-layout(location = 4) in uint chosen;
-layout(location = kDetailLocation) uniform float detail;
 layout(location = 0) out vec3 place;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec3 mottle;
@@ -20,7 +14,7 @@ void main() {
     RockCorner it = rockCorner();
     place = it.place;
     normal = it.normal;
-    mottle = mottleAndSky.rgb;
+    mottle = it.mottle;
     vec3 n = normalize(normal), way = place - eyeAndTime.xyz;
     float range = length(way), depth = max(-place.y, 0.1);
     // All light without the sun's, at the mean of the waves.

@@ -93,7 +93,7 @@ AQUARAMA_CONSTANT int kSpeciesCountLocation = 18;
 AQUARAMA_CONSTANT int kRoomVerticesLocation = 19;
 
 // Locations of uniforms: what grows, and rock.
-AQUARAMA_CONSTANT int kDetailLocation = 0;
+AQUARAMA_CONSTANT int kReachLocation = 0;
 AQUARAMA_CONSTANT int kStirredLocation = 1;
 AQUARAMA_CONSTANT int kRockScalesLocation = 1;
 AQUARAMA_CONSTANT int kWakeFishCountLocation = 1;
@@ -141,8 +141,12 @@ AQUARAMA_CONSTANT int kLocalFromWallLocation = 8;
 AQUARAMA_CONSTANT int kPictureSizeLocation = 0;
 AQUARAMA_CONSTANT int kDotPixelsLocation = 1;
 
-// Vertex attribute and vertex buffer of what grows: the instance that was chosen.
+// Vertex attributes and vertex buffers of what grows. The instance that was chosen.
 AQUARAMA_CONSTANT int kChosenAttribute = 4;
+// Of a vertex on the coarser level: place, normal, albedo.
+AQUARAMA_CONSTANT int kCoarseAttribute = 5;
+// Bits of the number of an instance that was chosen; the rest is how far it has faded.
+AQUARAMA_CONSTANT int kInstanceBits = 24;
 
 // The kernels that look at one fish or one thing a thread.
 AQUARAMA_CONSTANT uint kGroupSize = 64U;

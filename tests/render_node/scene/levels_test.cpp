@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a visitor could see of the levels of detail of the place: corners of their meshes, and jumps
+// from one to the next.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <epoxy/gl.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "render_node/gl/context.h"
+#include "render_node/quality/quality.h"
+#include "render_node/reef/reef.h"
+#include "render_node/scene/scene.h"
+#include "tests/support/still.h"
+
+namespace aquarama::scene {
+namespace {
+
+const Library& library() {
+    static const Library all = growLibrary();
+    return all;
+}
+
+// How far the smooth curve through three vertices in a row of a mesh lies from its edges, for a
+// scale of 1: a quarter of the middle one's distance from the middle of the others.
+float cornerAt(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+    return glm::distance(b, 0.5F * (a + c)) / 4.0F;
+}
+
+void addCorners(std::vector<float>& corners, const Mesh& mesh, const Patch& patch) {
+    const auto at = [&](int row, int column) {
+        return mesh.vertices[patch.first + static_cast<std::size_t>(row * patch.columns + column)]
+            .position;
+    };
+    for (int row = 0; row < patch.rows; ++row)
+        for (int column = 0; column < patch.columns; ++column) {
+            if (row > 0 && row + 1 < patch.rows)
+                corners.push_back(
+                    cornerAt(at(row - 1, column), at(row, column), at(row + 1, column)));
+            if (column > 0 && column + 1 < patch.columns)
+                corners.push_back(
+                    cornerAt(at(row, column - 1), at(row, column), at(row, column + 1)));
+        }
+}
+
+// 90 % of the corners of a level are smaller than this.
+float cornerOf(std::size_t prototype, std::size_t level) {
+    const Mesh& mesh = library().at(prototype).at(level);
+    std::vector<float> corners;
+    for (const Patch& patch : mesh.patches) addCorners(corners, mesh, patch);
+    if (corners.empty()) return 0.0F;
+    std::ranges::sort(corners);
+    return corners[corners.size() * 9 / 10];
+}
+
+TEST(Corners, print) {
+    for (std::size_t i = 0; i < kPrototypes; i += (i < kRockShapes ? 4 : 3)) {
+        const auto least = leastPixelsOf(i);
+        std::printf("%3zu:", i);
+        for (std::size_t level = 1; level < kLevels; ++level)
+            std::printf(" %6.2f", double(cornerOf(i, level) * least.at(level - 1)));
+        std::printf("\n");
+    }
+}
+
+// The picture of one view while the shared eye, from which levels follow, goes elsewhere.
+class Retreat {
+  public:
+    explicit Retreat(config::QualityTier tier) {
+        SceneOptions options;
+        options.quality = tier;
+        options.pixelRadians = test::pixelRadiansOf(camera_);
+        scene_ =
+            std::make_unique<SceneRenderer>(options, std::span<const surface::SchoolSpecies>{});
+    }
+    // Display light, in codes.
+    std::vector<glm::vec3> seenFrom(float metresBack) {
+        SceneFrame frame;
+        frame.timeSeconds = 12.0;
+        frame.eyePositionMetres = camera_.eyeMetres + glm::vec3{0.0F, 0.0F, metresBack};
+        scene_->update(frame);
+        const unsigned texture = scene_->draw(test::viewOf(camera_));
+        const glm::ivec2 size = camera_.sizePixels;
+        std::vector<glm::vec3> pixels(static_cast<std::size_t>(size.x * size.y));
+        glGetTextureImage(texture,
+                          0,
+                          GL_RGB,
+                          GL_FLOAT,
+                          static_cast<GLsizei>(pixels.size() * sizeof(glm::vec3)),
+                          pixels.data());
+        return pixels;
+    }
+    [[nodiscard]] glm::ivec2 size() const { return camera_.sizePixels; }
+
+  private:
+    test::Camera camera_{.azimuthDegrees = -50.0F, .sizePixels = {480, 270}};
+    std::unique_ptr<SceneRenderer> scene_;
+};
+
+constexpr int kBlock = 16;
+
+// The greatest mean change of a block of pixels, codes.
+float greatestChange(const std::vector<glm::vec3>& a,
+                     const std::vector<glm::vec3>& b,
+                     glm::ivec2 size) {
+    std::vector<float> blocks(
+        static_cast<std::size_t>((size.x / kBlock + 1) * (size.y / kBlock + 1)));
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const auto i = static_cast<std::size_t>(y * size.x + x);
+            const glm::vec3 d = glm::abs(a[i] - b[i]);
+            blocks[static_cast<std::size_t>(y / kBlock * (size.x / kBlock) + x / kBlock)] +=
+                (d.r + d.g + d.b) * 255.0F / 3.0F / (kBlock * kBlock);
+        }
+    return *std::ranges::max_element(blocks);
+}
+
+TEST(Fading, noLevelOfThePlaceJumps) {
+    const auto context = gl::makeOffscreenContext("mesa", {16, 16});
+    Retreat retreat{config::QualityTier::Low};
+    std::vector<glm::vec3> before = retreat.seenFrom(0.0F);
+    for (int step = 1; step <= 60; ++step) {
+        const std::vector<glm::vec3> now = retreat.seenFrom(0.02F * static_cast<float>(step));
+        std::printf(" %.2f", double(greatestChange(before, now, retreat.size())));
+        before = now;
+    }
+    std::printf("\n");
+}
+
+}  // namespace
+}  // namespace aquarama::scene
