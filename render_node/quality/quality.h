@@ -5,11 +5,13 @@
 #include <array>
 #include <cstddef>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "common/config/rig.h"
 #include "render_node/gl/program.h"
+#include "render_node/shaders/shader_interface.h"
 #include "render_node/surface/visibility.h"
 
 namespace aquarama::scene {
@@ -108,6 +110,14 @@ struct Viewpoint {
     [[nodiscard]] std::size_t levelOf(glm::vec3 place, std::array<float, Limits> limits) const {
         if (!levelsOfDetail) return 0;
         return levelAt(glm::distance(place, eyeMetres) / detail, limits);
+    }
+    // How far that level has faded into the next, 0 to 1: 1 at its limit.
+    template <std::size_t Limits>
+    [[nodiscard]] float fadedOf(glm::vec3 place, std::array<float, Limits> limits) const {
+        const std::size_t level = levelOf(place, limits);
+        if (!levelsOfDetail || level == Limits) return 0.0F;
+        const float range = glm::distance(place, eyeMetres) / detail;
+        return glm::smoothstep(limits[level] / shaders::kFade, limits[level], range);
     }
 };
 

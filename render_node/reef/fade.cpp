@@ -15,20 +15,6 @@ namespace aquarama::scene {
 
 namespace {
 
-// A place along one direction of a patch: a cell, and the share of the way across it.
-struct Step {
-    int cell = 0;
-    float share = 0.0F;
-};
-
-// The i-th of `from` cell borders, as a place among `to` cells. Exact where the cells nest.
-Step stepOf(int i, int from, int to) {
-    assert(from > 0);
-    assert(i <= from);
-    const int cell = std::min(i * to / from, to - 1);
-    return {cell, static_cast<float>(i * to - cell * from) / static_cast<float>(from)};
-}
-
 const SolidVertex& cornerOf(const Mesh& mesh, const Patch& patch, int row, int column) {
     return mesh.vertices[patch.first + static_cast<std::uint32_t>(row * patch.columns + column)];
 }
@@ -39,7 +25,15 @@ bool isClosed(const Mesh& mesh, const Patch& patch) {
                                     cornerOf(mesh, patch, 0, patch.columns - 1).position;
 }
 
-// The point of a patch on the triangles that joinRows() made.
+}  // namespace
+
+Step stepOf(int i, int from, int to) {
+    assert(from > 0);
+    assert(i <= from);
+    const int cell = std::min(i * to / from, to - 1);
+    return {cell, static_cast<float>(i * to - cell * from) / static_cast<float>(from)};
+}
+
 CoarseVertex pointOn(const Mesh& mesh, const Patch& patch, Step down, Step across) {
     const bool isFirst = down.share >= across.share;
     const std::array corners{
@@ -62,6 +56,8 @@ CoarseVertex pointOn(const Mesh& mesh, const Patch& patch, Step down, Step acros
             glm::i8vec4(glm::vec4(normal * (127.0F / length), corners[0]->normal.w)),
             glm::u8vec4(albedo)};
 }
+
+namespace {
 
 // Fades one level into the next.
 class Fading {

@@ -13,4 +13,14 @@ namespace aquarama::scene {
 // nothing else.
 void setCoarse(Levels& levels);
 
+// A place along one direction of a patch: a cell, and the share of the way across it.
+struct Step {
+    int cell = 0;
+    float share = 0.0F;
+};
+// The i-th of `from` cell borders, as a place among `to` cells. Exact where the cells nest.
+[[nodiscard]] Step stepOf(int i, int from, int to);
+// The point of a patch of the mesh on the triangles that joinRows() made.
+[[nodiscard]] CoarseVertex pointOn(const Mesh& mesh, const Patch& patch, Step down, Step across);
+
 }  // namespace aquarama::scene

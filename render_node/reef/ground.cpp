@@ -11,6 +11,7 @@
 #include "common/base/derived_cache.h"
 #include "common/place/place.h"
 #include "render_node/gl/program.h"
+#include "render_node/reef/fade.h"
 #include "render_node/reef/mesh.h"
 #include "render_node/reef/place_tables.h"
 #include "render_node/reef/solid_array.h"
@@ -26,7 +27,7 @@ static_assert(shaders::kMeanFloorMetres == place::kMeanFloorDepthMetres);
 constexpr float kPatchMetres = 10.0F;
 constexpr int kPatchesASide = 14;
 // Cells along a side of a patch at each level, and the distances at which the coarser levels begin.
-constexpr std::array<int, 3> kCells{24, 10, 4};
+constexpr std::array<int, 3> kCells{24, 12, 6};
 constexpr std::array<float, 2> kLevelMetres{13.0F, 26.0F};
 // How far the rim of a patch hangs down.
 constexpr float kRimMetres = 0.35F;
@@ -134,6 +135,34 @@ Mesh layPatch(std::uint32_t seed, glm::vec2 corner, float sideMetres, int cells)
 
 namespace {
 
+// A patch at all levels, each with its vertices' places on the next one. Rims go with the edge that
+// they hang from.
+std::array<Mesh, kCells.size()> layLevels(std::uint32_t seed, glm::vec2 corner) {
+    std::array<Mesh, kCells.size()> levels;
+    for (std::size_t level = 0; level < kCells.size(); ++level)
+        levels.at(level) = layPatch(seed, corner, kPatchMetres, kCells.at(level));
+    for (std::size_t level = 0; level < kCells.size(); ++level) {
+        const std::size_t next = std::min(level + 1, kCells.size() - 1);
+        const int cells = kCells.at(level);
+        const auto stepAt = [&](int i) {
+            Step step = stepOf(std::clamp(i - 1, 0, cells), cells, kCells.at(next));
+            ++step.cell;
+            return step;
+        };
+        const int width = cells + 3;
+        Mesh& mesh = levels.at(level);
+        for (int i = 0; i < width * width; ++i) {
+            const Mesh& coarser = levels.at(next);
+            mesh.coarse.push_back(
+                pointOn(coarser, coarser.patches.front(), stepAt(i / width), stepAt(i % width)));
+            const bool isRim = i % width == 0 || i % width == width - 1 || i / width == 0 ||
+                               i / width == width - 1;
+            if (isRim) mesh.coarse.back().position.y -= kRimMetres;
+        }
+    }
+    return levels;
+}
+
 GroundTables makeGroundTables(const place::PlaceKey& place) {
     GroundTables tables;
     constexpr float kHalf = kPatchMetres * kPatchesASide / 2.0F;
@@ -150,9 +179,11 @@ GroundTables makeGroundTables(const place::PlaceKey& place) {
         const glm::vec2 middle = corner + kPatchMetres / 2.0F;
         GroundTables::Patch& patch = tables.patches.emplace_back();
         patch.centre = {middle.x, place::floorHeight(place, middle), middle.y};
+        const std::array<Mesh, kCells.size()> levels = layLevels(place.seed, corner);
         for (std::size_t level = 0; level < kCells.size(); ++level) {
-            const Mesh mesh = layPatch(place.seed, corner, kPatchMetres, kCells.at(level));
+            const Mesh& mesh = levels.at(level);
             patch.firstVertices.at(level) = static_cast<int>(tables.vertices.size());
+            tables.coarse.insert(tables.coarse.end(), mesh.coarse.begin(), mesh.coarse.end());
             tables.vertices.insert(
                 tables.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
         }
@@ -176,6 +207,8 @@ Ground::Ground(const GroundTables& tables, const gl::Replacements& replacements)
       rubble_{makeTexture(rockTile())},
       shade_{makeShade(tables.shade)} {
     setSolids(array_, vertices_, indices_, tables.vertices, tables.indices);
+    coarse_ = gl::makeBuffer(tables.coarse, "sand of the coarser level");
+    attachCoarse(array_, coarse_);
 }
 
 void Ground::draw(const Viewpoint& viewpoint) const {
@@ -202,6 +235,7 @@ void Ground::drawPatches(const Viewpoint& viewpoint) const {
     for (const GroundTables::Patch& patch : patches_) {
         if (!viewpoint.sees(patch.centre, kPatchRadius)) continue;
         const std::size_t level = viewpoint.levelOf(patch.centre, kLevelMetres);
+        glUniform1f(shaders::kFadedLocation, viewpoint.fadedOf(patch.centre, kLevelMetres));
         glDrawElementsBaseVertex(GL_TRIANGLES,
                                  levels_[level].count,
                                  GL_UNSIGNED_INT,

@@ -34,8 +34,9 @@ struct GroundTables {
         std::uint32_t firstIndex = 0;
         std::int32_t count = 0;
     };
-    // Vertices of all patches at all levels.
+    // Vertices of all patches at all levels, and where each is on the next level.
     std::vector<SolidVertex> vertices;
+    std::vector<CoarseVertex> coarse;
     std::vector<std::uint32_t> indices;
     std::vector<Patch> patches;
     std::vector<Level> levels;
@@ -44,7 +45,7 @@ struct GroundTables {
     std::vector<glm::u8vec4> shade;
 
     // All arrays, for the cache of derived data.
-    auto arrays() { return std::tie(vertices, indices, patches, levels, shade); }
+    auto arrays() { return std::tie(vertices, coarse, indices, patches, levels, shade); }
 };
 
 // Takes the tables from the cache of derived data, or makes them once on this machine.
@@ -66,7 +67,7 @@ class Ground {
 
     std::vector<GroundTables::Patch> patches_;
     std::vector<GroundTables::Level> levels_;
-    gl::Buffer vertices_, indices_;
+    gl::Buffer vertices_, coarse_, indices_;
     gl::VertexArray array_;
     gl::ProgramHandle program_;
     gl::Texture detail_, rubble_, shade_;

@@ -191,29 +191,25 @@ void growFingers(Mesh& mesh, std::size_t level, Dice dice) {
 
 // A table coral: a plate on a foot, covered with small fingers; its rim is pale, where it grows.
 void growTable(Mesh& mesh, std::size_t level, Dice dice) {
-    constexpr std::array kAround{128, 64, 32, 16, 10};
+    constexpr std::array kAround{128, 64, 32, 16, 8};
     constexpr std::array kCarpet{560, 300, 0, 0, 0};
     const std::uint32_t seed = dice.seed();
     const float foot = dice.between(0.22F, 0.40F);
     const float bowl = dice.between(0.05F, 0.14F);
+    // The rim is the middle one, so that coarse levels, with every second ring, keep it.
     const std::array rings{Ring{0.20F, -0.12F, 0.3F, 0.4F, 0.3F},
                            Ring{0.13F, 0.5F * foot, 0.3F, 0.45F, 0.3F},
                            Ring{0.34F, foot - 0.07F, 0.3F, 0.5F, 0.5F},
-                           Ring{0.75F, foot - 0.02F + 0.5F * bowl, 0.4F, 0.55F},
-                           Ring{0.98F, foot + 0.01F + bowl, 0.6F, 0.9F},
+                           Ring{0.85F, foot - 0.01F + 0.7F * bowl, 0.45F, 0.65F},
                            Ring{1.0F, foot + 0.03F + bowl, 1.0F, 1.55F},
                            Ring{0.90F, foot + 0.03F + 0.8F * bowl, 1.0F, 1.0F},
                            Ring{0.55F, foot + 0.03F + 0.3F * bowl, 0.9F, 0.8F, 0.6F},
+                           Ring{0.28F, foot + 0.03F + 0.1F * bowl, 0.9F, 0.78F, 0.3F},
                            Ring{0.0F, foot + 0.03F, 0.9F, 0.75F, 0.0F}};
     const Turning turning{
         .around = kAround.at(level), .seed = seed, .wide = 0.26F, .high = 0.07F, .lobes = 1.8F};
-    // The coarsest levels keep five and four rings of the outline.
-    const std::array few{rings[0], rings[2], rings[4], rings[5], rings[8]};
-    const std::array fewest{rings[1], rings[3], rings[5], rings[8]};
-    if (level < 3)
-        addTurned(mesh, rings, turning, tissue(1.0F));
-    else
-        addTurned(mesh, level == 3 ? std::span<const Ring>{few} : fewest, turning, tissue(1.0F));
+    const std::array few = everySecond(rings);
+    addTurned(mesh, level < 3 ? std::span<const Ring>{rings} : few, turning, tissue(1.0F));
     // The fingers stand on the plate: they follow its irregular rim and height, as addTurned()
     // makes them.
     const int carpet = kCarpet.at(level);
@@ -242,8 +238,8 @@ void growTable(Mesh& mesh, std::size_t level, Dice dice) {
 
 // A brain coral: one lumpy dome, whose meanders are painted by coral.frag (relief 1).
 void growBrain(Mesh& mesh, std::size_t level, Dice dice) {
-    constexpr std::array kRings{16, 10, 7, 5, 3};
-    constexpr std::array kAround{48, 30, 20, 13, 8};
+    constexpr std::array kRings{16, 11, 7, 5, 3};
+    constexpr std::array kAround{48, 34, 20, 13, 8};
     addBall(mesh,
             {.centre = {0, 0.02F, 0},
              .radii = {0.85F, dice.between(0.5F, 0.75F), dice.between(0.7F, 0.9F)},
@@ -260,7 +256,7 @@ void growBrain(Mesh& mesh, std::size_t level, Dice dice) {
 void growLobes(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kBalls{13, 13, 11, 8, 4};
     constexpr std::array kRings{11, 7, 5, 3, 2};
-    constexpr std::array kAround{30, 20, 13, 9, 6};
+    constexpr std::array kAround{30, 20, 13, 9, 7};
     for (int i = 0; i < kBalls.at(level); ++i) {
         const float out =
             0.62F * std::sqrt(static_cast<float>(i) / static_cast<float>(kBalls.at(level)));
@@ -285,8 +281,8 @@ void growLobes(Mesh& mesh, std::size_t level, Dice dice) {
 // grid of rows outwards and columns across.
 void growLeaves(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kPlates{13, 13, 11, 8, 6};
-    constexpr std::array kAcross{18, 12, 8, 6, 4};
-    constexpr std::array kOut{8, 6, 4, 3, 2};
+    constexpr std::array kAcross{16, 16, 8, 8, 4};
+    constexpr std::array kOut{8, 4, 4, 2, 2};
     const int across = kAcross.at(level);
     // The noise of the rim has 4.6 cells.
     const float wavy = 0.22F * resolvedShare(static_cast<float>(across) / 4.6F);
@@ -333,8 +329,8 @@ void growLeaves(Mesh& mesh, std::size_t level, Dice dice) {
 // Low mounds that cover the rock; two in five have meanders.
 void growCrust(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kMounds{7, 7, 6, 5, 3};
-    constexpr std::array kRings{9, 6, 4, 3, 2};
-    constexpr std::array kAround{30, 20, 13, 9, 6};
+    constexpr std::array kRings{12, 8, 6, 4, 3};
+    constexpr std::array kAround{36, 26, 18, 12, 8};
     const float meanders = dice.unit() < 0.4F ? 1.0F : 0.0F;
     for (int i = 0; i < kMounds.at(level); ++i) {
         const float out =

@@ -104,11 +104,11 @@ void drawFrom(std::size_t command, GLsizei count) {
 
 // Plants are large, but their leaves are small.
 std::array<float, kLevels> leastPixelsOf(std::size_t prototype) {
-    if (prototype < kRockShapes) return {420.0F, 150.0F, 50.0F, 15.0F, 4.0F};
+    if (prototype < kRockShapes) return {420.0F, 150.0F, 60.0F, 20.0F, 4.0F};
     if (prototype >= prototypeOf(Form::Seagrass, 0)) return {200.0F, 90.0F, 40.0F, 18.0F, 3.0F};
     if (prototype >= prototypeOf(Form::Kelp, 0)) return {1200.0F, 500.0F, 220.0F, 90.0F, 6.0F};
     if (prototype >= prototypeOf(Form::Turf, 0)) return {90.0F, 45.0F, 22.0F, 11.0F, 3.0F};
-    return {160.0F, 70.0F, 30.0F, 12.0F, 2.2F};
+    return {170.0F, 85.0F, 38.0F, 16.0F, 2.2F};
 }
 
 Library growLibrary() {

@@ -193,8 +193,9 @@ void growTubes(Mesh& mesh, std::size_t level, Dice dice) {
                                Ring{1.25F * wide, 0.85F * tall, 0.9F, 0.95F},
                                Ring{1.22F * wide, tall, 1.0F, 1.3F},
                                Ring{0.9F * wide, tall, 0.6F, 0.9F},
+                               Ring{0.8F * wide, 0.85F * tall, 0.34F, 0.6F},
                                Ring{0.7F * wide, 0.7F * tall, 0.08F, 0.3F}};
-        const std::array few{rings[0], rings[2], rings[3], rings[5]};
+        const std::array few = everySecond(rings);
         addTurned(mesh,
                   level < 4 ? std::span<const Ring>{rings} : few,
                   {.centre = side * dice.between(0.05F, 0.22F),
@@ -220,7 +221,7 @@ void growBarrel(Mesh& mesh, std::size_t level, Dice dice) {
                            Ring{0.40F, 0.95F, 1.0F, 1.25F},
                            Ring{0.34F, 0.90F, 0.5F, 0.8F},
                            Ring{0.26F, 0.5F, 0.08F, 0.3F}};
-    const std::array few{rings[0], rings[2], rings[4], rings[6]};
+    const std::array few = everySecond(rings);
     addTurned(mesh,
               level < 4 ? std::span<const Ring>{rings} : few,
               {.around = kAround.at(level),
@@ -242,8 +243,9 @@ void growLeather(Mesh& mesh, std::size_t level, Dice dice) {
                            Ring{0.90F, 0.48F, 0.9F, 1.2F},
                            Ring{0.76F, 0.52F, 1.0F, 1.1F},
                            Ring{0.4F, 0.46F, 0.9F, 1.0F, 0.5F},
+                           Ring{0.2F, 0.445F, 0.9F, 1.0F, 0.25F},
                            Ring{0.0F, 0.44F, 0.9F, 1.0F, 0.0F}};
-    const std::array few{rings[1], rings[3], rings[4], rings[7]};
+    const std::array few = everySecond(rings);
     addTurned(mesh,
               level < 4 ? std::span<const Ring>{rings} : few,
               {.around = kAround.at(level),
@@ -315,7 +317,7 @@ void growAnemone(Mesh& mesh, std::size_t level, Dice dice) {
 // A feather star: arms that curl upwards, drawn as leaves with dark and light bands.
 void growFeathers(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kArms{24, 24, 20, 14, 9};
-    constexpr std::array kJoints{15, 15, 8, 5, 4};
+    constexpr std::array kJoints{29, 15, 8, 5, 4};
     for (int arm = 0; arm < kArms.at(level); ++arm) {
         const float turn = kGoldenAngle * static_cast<float>(arm);
         const glm::vec3 out{std::cos(turn), 0, std::sin(turn)};

@@ -2,6 +2,8 @@
 // Noise and random numbers for what is only drawn, and the building blocks of corals and plants.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -74,14 +76,24 @@ void addLeaf(Mesh& mesh, std::span<const Joint> joints, const Leaf& leaf);
 // A body of revolution about an axis, from foot to crown, made irregular by noise.
 // One ring of its outline: radius and height along the axis, ambient occlusion.
 struct Ring {
-    float radius;
-    float height;
+    float radius = 0.0F;
+    float height = 0.0F;
     float ambientOcclusion = 1.0F;
     // Factor of the albedo.
     float shade = 1.0F;
     // Share of the irregularity that the ring takes.
     float waver = 1.0F;
 };
+// The first ring of an outline, the third and so on, for coarse levels. The number of rings is odd,
+// so that the last one remains.
+template <std::size_t Rings>
+[[nodiscard]] constexpr std::array<Ring, Rings / 2 + 1> everySecond(
+    const std::array<Ring, Rings>& rings) {
+    static_assert(Rings % 2 == 1);
+    std::array<Ring, Rings / 2 + 1> kept{};
+    for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = rings[2 * i];
+    return kept;
+}
 // The axis, the number of segments around it, and the irregularity.
 struct Turning {
     glm::vec3 centre{};

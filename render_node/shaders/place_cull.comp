@@ -25,8 +25,6 @@ layout(std430, binding = kSeenGroupsStorage) readonly buffer SeenGroups {
 };
 layout(location = kInstanceCountLocation) uniform uint instanceCount;
 layout(location = kCullDetailLocation) uniform float detail;
-// A level begins to fade at so many times the least size at which it is drawn.
-const float kFade = 1.5;
 
 void main() {
     uint id = seenGroups[gl_WorkGroupID.x] * gl_WorkGroupSize.x + gl_LocalInvocationID.x;

@@ -95,6 +95,7 @@ AQUARAMA_CONSTANT int kRoomVerticesLocation = 19;
 // Locations of uniforms: what grows, and rock.
 AQUARAMA_CONSTANT int kReachLocation = 0;
 AQUARAMA_CONSTANT int kStirredLocation = 1;
+AQUARAMA_CONSTANT int kFadedLocation = 0;  // of a patch of sand
 AQUARAMA_CONSTANT int kRockScalesLocation = 1;
 AQUARAMA_CONSTANT int kWakeFishCountLocation = 1;
 
@@ -145,6 +146,8 @@ AQUARAMA_CONSTANT int kDotPixelsLocation = 1;
 AQUARAMA_CONSTANT int kChosenAttribute = 4;
 // Of a vertex on the coarser level: place, normal, albedo.
 AQUARAMA_CONSTANT int kCoarseAttribute = 5;
+// From so many times the least size of a level on it fades into the next.
+AQUARAMA_CONSTANT float kFade = 1.5F;
 // Bits of the number of an instance that was chosen; the rest is how far it has faded.
 AQUARAMA_CONSTANT int kInstanceBits = 24;
 

@@ -97,7 +97,7 @@ TEST(Library, levelsAreAboutAsLarge) {
 
 TEST(Library, stoneLooksOutward) {
     for (std::size_t shape = 0; shape < kRockShapes; ++shape) {
-        const Mesh& mesh = library().at(shape)[0];
+        const Mesh& mesh = library().at(shape)[1];
         std::size_t inward = 0;
         for (const SolidVertex& vertex : mesh.vertices)
             inward += glm::dot(glm::vec3(vertex.normal), vertex.position) < 0.0F ? 1 : 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -50,24 +51,56 @@ void addCorners(std::vector<float>& corners, const Mesh& mesh, const Patch& patc
         }
 }
 
-// 90 % of the corners of a level are smaller than this.
+// The median corner of a level, for a scale of 1.
 float cornerOf(std::size_t prototype, std::size_t level) {
     const Mesh& mesh = library().at(prototype).at(level);
     std::vector<float> corners;
     for (const Patch& patch : mesh.patches) addCorners(corners, mesh, patch);
     if (corners.empty()) return 0.0F;
     std::ranges::sort(corners);
-    return corners[corners.size() * 9 / 10];
+    return corners[corners.size() / 2];
 }
 
-TEST(Corners, print) {
-    for (std::size_t i = 0; i < kPrototypes; i += (i < kRockShapes ? 4 : 3)) {
-        const auto least = leastPixelsOf(i);
-        std::printf("%3zu:", i);
-        for (std::size_t level = 1; level < kLevels; ++level)
-            std::printf(" %6.2f", double(cornerOf(i, level) * least.at(level - 1)));
-        std::printf("\n");
+// Rock and the forms that are smooth in nature.
+std::vector<std::size_t> smoothPrototypes() {
+    std::vector<std::size_t> all(kRockShapes);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    for (const Form form : {Form::Brain,
+                            Form::Lobes,
+                            Form::Leaves,
+                            Form::Crust,
+                            Form::Turf,
+                            Form::Kelp,
+                            Form::Seagrass})
+        for (int shape = 0; shape < kShapesOfForm; ++shape) all.push_back(prototypeOf(form, shape));
+    return all;
+}
+
+// Where a level is largest, just before a finer one is drawn. The finest has no such end.
+TEST(Levels, haveCornersOfAboutAPixelAtMost) {
+    for (const auto tier : {config::QualityTier::Low, config::QualityTier::Medium}) {
+        const Quality quality = qualityOf(tier);
+        for (const std::size_t prototype : smoothPrototypes())
+            for (std::size_t level = 1; level < kLevels; ++level) {
+                const float pixels = leastPixelsOf(prototype).at(level - 1) / quality.placeDetail;
+                EXPECT_LT(cornerOf(prototype, level) * pixels * quality.pictureShare, 1.1F)
+                    << "prototype " << prototype << " level " << level;
+            }
     }
+}
+
+// Every vertex of the next level is there bit by bit.
+TEST(Levels, fadeIntoTheShapeOfTheNextOne) {
+    for (std::size_t shape = 0; shape < kRockShapes; ++shape)
+        for (std::size_t level = 0; level + 1 < kLevels; ++level) {
+            const Levels& levels = library().at(shape);
+            std::vector<glm::vec3> faded;
+            for (const CoarseVertex& vertex : levels.at(level).coarse)
+                faded.push_back(vertex.position);
+            for (const SolidVertex& vertex : levels.at(level + 1).vertices)
+                ASSERT_NE(std::ranges::find(faded, vertex.position), faded.end())
+                    << "shape " << shape << " level " << level;
+        }
 }
 
 // The picture of one view while the shared eye, from which levels follow, goes elsewhere.
@@ -125,13 +158,14 @@ float greatestChange(const std::vector<glm::vec3>& a,
 TEST(Fading, noLevelOfThePlaceJumps) {
     const auto context = gl::makeOffscreenContext("mesa", {16, 16});
     Retreat retreat{config::QualityTier::Low};
+    // Codes. Without fading some corals change by 20 at once.
+    constexpr float kMost = 4.0F;
     std::vector<glm::vec3> before = retreat.seenFrom(0.0F);
     for (int step = 1; step <= 60; ++step) {
         const std::vector<glm::vec3> now = retreat.seenFrom(0.02F * static_cast<float>(step));
-        std::printf(" %.2f", double(greatestChange(before, now, retreat.size())));
+        EXPECT_LT(greatestChange(before, now, retreat.size()), kMost) << step;
         before = now;
     }
-    std::printf("\n");
 }
 
 }  // namespace
