@@ -2,7 +2,8 @@
 // of its prototype at that level. A ball against the four sides of the frustum; the level follows from
 // the angle at the shared eye in units of the wall's finest pixel, so that neighbours agree. In: seen
 // groups, instances, prototypes. Out: instance counts of the commands, and the list of chosen
-// instances, with how far each has faded into the next level. The order within a command is not fixed; opaque draws do not depend on it.
+// instances, with how far each has faded into the next level. The order within a command is not fixed;
+// opaque draws do not depend on it.
 #include "shader_interface.h"
 #include "instance.glsl"
 #include "place_groups.glsl"
