@@ -58,7 +58,11 @@ Quality qualityOf(config::QualityTier tier) {
     assert(static_cast<std::size_t>(tier) < config::kTierNames.size());
     // In the order of config::QualityTier.
     static constexpr std::array<Quality, config::kTierNames.size()> kTiers{
-        Quality{.pictureShare = 0.85F, .fishFineness = 0.75F, .light = {}, .placeDetail = 0.5F, .placeReach = 0.32F},
+        Quality{.pictureShare = 0.85F,
+                .fishFineness = 0.75F,
+                .light = {},
+                .placeDetail = 0.5F,
+                .placeReach = 0.32F},
         Quality{.samples = 1,
                 .softening = true,
                 .bloom = true,

@@ -158,8 +158,8 @@ float greatestChange(const std::vector<glm::vec3>& a,
 TEST(Fading, noLevelOfThePlaceJumps) {
     const auto context = gl::makeOffscreenContext("mesa", {16, 16});
     Retreat retreat{config::QualityTier::Low};
-    // Codes. Without fading some corals change by 20 at once.
-    constexpr float kMost = 4.0F;
+    // Codes. Without fading some corals change by 5 at once.
+    constexpr float kMost = 3.4F;
     std::vector<glm::vec3> before = retreat.seenFrom(0.0F);
     for (int step = 1; step <= 60; ++step) {
         const std::vector<glm::vec3> now = retreat.seenFrom(0.02F * static_cast<float>(step));
