@@ -61,7 +61,7 @@ Quality qualityOf(config::QualityTier tier) {
         Quality{.pictureShare = 0.85F,
                 .fishFineness = 0.75F,
                 .light = {},
-                .placeDetail = 0.5F,
+                .placeDetail = 0.45F,
                 .placeReach = 0.32F},
         Quality{.samples = 1,
                 .softening = true,

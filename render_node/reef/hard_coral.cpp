@@ -75,7 +75,11 @@ void branch(Mesh& mesh, const Branching& habit, const Shoot& shoot, int left) {
         to.radius *= 0.85F;
         return addStrand(mesh, std::array{from, to, tip}, habit.sides, facing);
     }
-    addStrand(mesh, std::array{from, middle, to}, habit.sides, facing);
+    // Ribbons omit the joint in the middle.
+    if (habit.sides > 0)
+        addStrand(mesh, std::array{from, middle, to}, habit.sides);
+    else
+        addStrand(mesh, std::array{from, to}, 0, facing);
     Dice dice{shoot.key};
     const int children = 2 + (dice.unit() < 0.45F ? 1 : 0);
     const float turn = dice.between(0.0F, kTwoPi);

@@ -385,7 +385,7 @@ void paint(Mesh& mesh, const Habit& habit) {
 // The finest mesh without what is too fine for a level that has every step-th of its vertices:
 // places and shades are means over about a cell of that level.
 Mesh smoothedFor(Mesh mesh, int step) {
-    const int steps = step * step / 3;
+    const int steps = step * step / 4;
     if (steps == 0) return mesh;
     std::vector<glm::vec3> places = placesOf(mesh);
     std::vector<glm::vec4> shades;
