@@ -259,8 +259,8 @@ void growBrain(Mesh& mesh, std::size_t level, Dice dice) {
 // Massive heads that have grown together, as of Porites.
 void growLobes(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kBalls{13, 13, 11, 8, 4};
-    constexpr std::array kRings{11, 7, 5, 3, 2};
-    constexpr std::array kAround{30, 20, 13, 9, 7};
+    constexpr std::array kRings{11, 7, 5, 4, 2};
+    constexpr std::array kAround{30, 20, 15, 12, 8};
     for (int i = 0; i < kBalls.at(level); ++i) {
         const float out =
             0.62F * std::sqrt(static_cast<float>(i) / static_cast<float>(kBalls.at(level)));
