@@ -29,6 +29,7 @@ using Cell = std::pair<int, int>;  // ring and column of a tube face's first cor
 // roots only a little, so that fins grow out of the body.
 constexpr float kMarginSharpness = 2.5F;
 constexpr float kRootSharpness = 1.0F;
+constexpr float kLipSharpness = 1.5F;
 
 Vertex tubeVertex(int ring, int column) {
     return static_cast<Vertex>(ring * kTubeColumns + column % kTubeColumns);
@@ -54,18 +55,20 @@ class Builder {
                                  tubeVertex(r + 1, c)};
     }
 
-    // Fills ring 0 with a grid of 3 x 3 quads: its 12 border vertices are those of the ring, its 4
-    // inner ones are new.
-    void closeNose() {
-        const Vertex n = add({.kind = CageSiteKind::Nose, .ring = 0, .column = 0});
-        const Vertex n1 = add({.kind = CageSiteKind::Nose, .ring = 0, .column = 1});
-        const Vertex n2 = add({.kind = CageSiteKind::Nose, .ring = 1, .column = 0});
-        const Vertex n3 = add({.kind = CageSiteKind::Nose, .ring = 1, .column = 1});
+    // Fills ring 0, the loop of the lips, with a grid of 3 x 3 quads: its 12 border vertices are
+    // those of the ring, its 4 inner ones are new. Creases the lips.
+    void closeMouth() {
+        const Vertex n = add({.kind = CageSiteKind::Mouth, .ring = 0, .column = 0});
+        const Vertex n1 = add({.kind = CageSiteKind::Mouth, .ring = 0, .column = 1});
+        const Vertex n2 = add({.kind = CageSiteKind::Mouth, .ring = 1, .column = 0});
+        const Vertex n3 = add({.kind = CageSiteKind::Mouth, .ring = 1, .column = 1});
         const std::array<Face, 4> grid{
             {{11, 0, 1, 2}, {10, n, n1, 3}, {9, n2, n3, 4}, {8, 7, 6, 5}}};
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j)
                 faces_.push_back({grid[i][j], grid[i + 1][j], grid[i + 1][j + 1], grid[i][j + 1]});
+        for (int c = 0; c < kTubeColumns; ++c)
+            crease(tubeVertex(0, c), tubeVertex(0, c + 1), kLipSharpness);
     }
 
     // Closes the last ring with 5 quads from the left to the right columns, and creases all margins
@@ -179,13 +182,17 @@ std::vector<Cell> strip(int firstRing, int lastRing, int column) {
 // The shape of the cage. Lengths in body lengths.
 constexpr float kGrow = 1.045F;  // a Catmull-Clark limit surface is smaller than its cage by this
 constexpr float kRidgeHalfWidth = 0.006F;  // of the strips along back and belly that fins grow from
-constexpr float kNoseStation = 0.004F;     // of ring 0
 // A lone dorsal fin takes both strips, with hardly a gap between them; this is the share of the
 // first.
 constexpr float kFirstStripShare = 0.54F;
 constexpr float kStripGap = 0.001F;
 constexpr float kStripOverlap = 0.02F;  // of the rays, above the gap, which therefore does not show
 constexpr float kRootHalfLength = 0.012F;  // of the pectoral fins
+
+// How many columns a column is from the middle of the back, on its side.
+int stepOf(int column) {
+    return column >= 1 && column <= 6 ? column - 1 : (kTubeColumns - column) % kTubeColumns;
+}
 
 // Where a column is on its ring: how far down from back (0) over flank (1) to belly (2), at what
 // angle above the horizontal (radians), on which side, and which ray of the tail fin it becomes.
@@ -200,8 +207,7 @@ ColumnPlace placeOf(int column) {
     constexpr std::array<float, 6> kDown{0, 0.35F, 0.8F, 1.2F, 1.65F, 2};
     constexpr std::array<float, 6> kAngle{0, 58, 20, -20, -58, 0};
     const bool isRight = column >= 1 && column <= 6;
-    const int fromBack = isRight ? column - 1 : (kTubeColumns - column) % kTubeColumns;
-    const auto k = static_cast<std::size_t>(fromBack);
+    const auto k = static_cast<std::size_t>(stepOf(column));
     return {kDown[k],
             kAngle[k] * kRadiansPerDegree<float>,
             isRight ? 1.0F : -1.0F,
@@ -228,10 +234,11 @@ float between(float from, float to, int step, int steps) {
     return glm::mix(from, to, static_cast<float>(step) / static_cast<float>(steps));
 }
 
-// Rings are closer together towards the nose, where the head curves most.
-float headStation(std::size_t ring, std::size_t lastRing, float lastStation) {
-    const float share = static_cast<float>(ring) / static_cast<float>(lastRing);
-    return glm::mix(kNoseStation, lastStation, std::pow(share, 1.35F));
+// The rings of the head, from the one around the lips: closer together towards the nose, where the
+// head curves most.
+float headStation(std::size_t ring, std::size_t lastRing, float first, float last) {
+    const float share = static_cast<float>(ring - 1) / static_cast<float>(lastRing - 1);
+    return glm::mix(first, last, std::pow(share, 1.35F));
 }
 
 // The two rings between which the pectoral fins grow from the flank, and the columns of their
@@ -268,7 +275,7 @@ glm::vec3 place(const Spine& spine, glm::vec3 rest) {
 
 CageTopology makeCageTopology() {
     Builder cage;
-    cage.closeNose();
+    cage.closeMouth();
     cage.closeTail();
     cage.raise(CagePart::FirstDorsal, strip(6, 13, 0), 2);
     cage.raise(CagePart::SecondDorsal, strip(14, 20, 0), 1);
@@ -284,11 +291,8 @@ CageTopology makeCageTopology() {
 }
 
 CageShape::CageShape(const config::Species& species)
-    : dorsal_(species.profile.stations, species.profile.dorsal),
-      ventral_(species.profile.stations, species.profile.ventral),
-      halfWidth_(species.profile.stations, species.profile.halfWidth),
-      fullnessUp_(species.profile.stations, species.profile.fullnessUp),
-      fullnessDown_(species.profile.stations, species.profile.fullnessDown),
+    : sections_(species.profile),
+      mouth_(species.mouth, sections_),
       firstDorsal_(species.fins.firstDorsal),
       secondDorsal_(species.fins.secondDorsal.value_or(species.fins.firstDorsal)),
       anal_(species.fins.anal),
@@ -323,10 +327,11 @@ void CageShape::slantRings(const config::Species& species) {
     fill(belly_, 8, 15, pelvic_.baseRear().x, anal_.baseFront().x);
     fill(belly_, 15, 20, anal_.baseFront().x, anal_.baseRear().x);
     back_[kBodyEndRing] = belly_[kBodyEndRing] = flank_[kBodyEndRing] = end;
-    for (std::size_t r = 0; r < 6; ++r) {
-        back_.at(r) = headStation(r, 6, back_[6]);
-        belly_.at(r) = headStation(r, 6, belly_[6]);
-        flank_.at(r) = headStation(r, 5, root - kRootHalfLength);
+    const auto [back, flank, belly] = mouth_.ringStations();
+    for (std::size_t r = 1; r < 6; ++r) {
+        back_.at(r) = headStation(r, 6, back, back_[6]);
+        belly_.at(r) = headStation(r, 6, belly, belly_[6]);
+        flank_.at(r) = headStation(r, 5, flank, root - kRootHalfLength);
     }
     flank_[6] = root + kRootHalfLength;
     const float middle = (back_[6] + belly_[6]) / 2;
@@ -342,10 +347,13 @@ CageVertex CageShape::place(const CageSite& site) const {
     assert(site.column < kTubeColumns);
     assert(site.kind != CageSiteKind::Flap || (site.level >= 1 && site.level <= site.levels));
     switch (site.kind) {
-        case CageSiteKind::Nose:
-            return {.rest = onNose(site.ring, site.column)};
+        case CageSiteKind::Mouth:
+            return {.rest = mouth_.inside(site.ring, site.column == 0 ? -1.0F : 1.0F), .mouth = 1};
         case CageSiteKind::Tube:
             if (site.ring > kBodyEndRing) return onCaudal(site.ring, site.column);
+            if (site.ring == 0)
+                return {.rest = mouth_.onLip(stepOf(site.column), placeOf(site.column).side),
+                        .mouth = kLips};
             return {.rest = onBody(site.ring, site.column)};
         case CageSiteKind::Flap:
             break;
@@ -354,27 +362,16 @@ CageVertex CageShape::place(const CageSite& site) const {
     return isPaired ? onPairedFin(site) : onMedianFin(site);
 }
 
-CageShape::Section CageShape::sectionAt(float s) const {
-    return {
-        dorsal_.at(s), ventral_.at(s), halfWidth_.at(s), fullnessUp_.at(s), fullnessDown_.at(s)};
-}
-
-// The inner grid of the nose: all at s = 0, at 0.4 of the first section's height and width.
-glm::vec3 CageShape::onNose(int row, int column) const {
-    const Section section = sectionAt(kNoseStation);
-    return {0,
-            row == 0 ? 0.4F * section.dorsal : -0.4F * section.ventral,
-            (column == 0 ? -0.4F : 0.4F) * section.halfWidth};
-}
-
-// On the superellipse of the section, grown by kGrow; the columns of the ridges and of the pectoral
-// root have places of their own.
+// On the superellipse of the section, grown by kGrow; the ring around the lips and the columns of
+// the ridges and of the pectoral root have places of their own.
 glm::vec3 CageShape::onBody(int ring, int column) const {
     const auto r = static_cast<std::size_t>(ring);
     const ColumnPlace at = placeOf(column);
+    const int step = stepOf(column);
+    if (ring == 1) return mouth_.aroundLips(step, at.side);
     const float s = at.down < 1 ? glm::mix(back_.at(r), flank_.at(r), at.down)
                                 : glm::mix(flank_.at(r), belly_.at(r), at.down - 1);
-    const Section section = sectionAt(s);
+    const Section section = sections_.at(s);
     const float height = at.down < 1 ? section.dorsal : section.ventral;
     const float fullness = at.down < 1 ? section.fullnessUp : section.fullnessDown;
     // No fin grows from the belly there; the belly makes up for what the pectoral root takes from
@@ -385,6 +382,12 @@ glm::vec3 CageShape::onBody(int ring, int column) const {
         return {s,
                 at.down < 1 ? section.dorsal : -section.ventral,
                 at.side * std::min(kRidgeHalfWidth, 0.45F * section.halfWidth)};
+    if (ring == 2 && (step == 2 || step == 3)) {
+        // Half of the way from the columns beside the corner of the mouth to those of the flank.
+        const float flank = superellipse(std::sin(at.angle), fullness);
+        const float share = glm::mix(mouth_.shareBeside(step), flank, 0.5F);
+        return {s, kGrow * section.heightAt(share), at.side * kGrow * section.widthAt(share)};
+    }
     if (!isPectoralRoot(ring, column))
         return {s,
                 height * superellipse(std::sin(at.angle), fullness) * kGrow,
@@ -397,7 +400,7 @@ glm::vec3 CageShape::onBody(int ring, int column) const {
 glm::vec3 CageShape::onPectoralRoot(int ring, int column) const {
     const glm::vec2 base = pectoral_.at(pectoralRay(column), 0);
     const float s = base.x + (ring == 5 ? -kRootHalfLength : kRootHalfLength);
-    const Section section = sectionAt(s);
+    const Section section = sections_.at(s);
     const bool isAbove = base.y > 0;
     const float relative = std::abs(base.y) / (isAbove ? section.dorsal : section.ventral);
     const float fullness = isAbove ? section.fullnessUp : section.fullnessDown;
@@ -428,7 +431,7 @@ CageVertex CageShape::onMedianFin(const CageSite& site) const {
     const float q = static_cast<float>(site.level) / static_cast<float>(site.levels);
     const bool isCut = isOneDorsal_ && site.part == CagePart::FirstDorsal && site.ring == 13;
     const float p = fin.rayAtStation(s) + (isCut ? kStripOverlap : 0);
-    const Section section = sectionAt(s);
+    const Section section = sections_.at(s);
     const glm::vec2 ridge{fin.at(p, 0).x, isAnal ? -section.ventral : section.dorsal};
     return {
         .rest = {glm::mix(ridge, fin.at(p, 1), q), placeOf(site.column).side * finHalfThickness(q)},
@@ -446,7 +449,7 @@ CageVertex CageShape::onPairedFin(const CageSite& site) const {
     const glm::vec2 outwards = awayFrom(hinge, fin);
     const glm::vec2 drawn = fin.paddleAt(p, q) - fin.baseFront();
     const float reach = glm::dot(drawn, outwards);
-    const float root = (isPelvic ? 0.35F : 0.97F) * sectionAt(fin.at(0.5F, 0).x).halfWidth;
+    const float root = (isPelvic ? 0.35F : 0.97F) * sections_.at(fin.at(0.5F, 0).x).halfWidth;
     // Its root is twisted by a quarter turn. On a fin that points back, the front of the root
     // becomes the outer side; on a fin that points down, the inner side.
     const bool pointsDown = hinge.x * outwards.y < hinge.y * outwards.x;

@@ -2,11 +2,11 @@
 // How the 426 vertices of every fish's control cage are connected: one closed all-quad surface, the
 // same for all species, so that tables made for one species' mesh serve every other.
 //
-// A tube of 26 rings of 12 columns runs from head to tail: rings 0-20 are the body, 21 its end,
-// 21-25 the tail fin, which is the tube drawn flat. Columns 0 | 1 straddle the back, 2-5 go down
-// the right side, 6 | 7 straddle the belly, 8-11 come up the left. A 3 x 3 grid of quads closes the
-// nose, 5 quads close the tail. The other fins are strips of tube faces, raised by one or two
-// levels.
+// A tube of 26 rings of 12 columns runs from head to tail: ring 0 is the loop of the lips, rings
+// 1-20 are the body, 21 its end, 21-25 the tail fin, which is the tube drawn flat. Columns 0 | 1
+// straddle the back, 2-5 go down the right side, 6 | 7 straddle the belly, 8-11 come up the left. A
+// 3 x 3 grid of quads within the lips is the inside of the mouth (mouth.h), 5 quads close the tail.
+// The other fins are strips of tube faces, raised by one or two levels.
 #pragma once
 
 #include <array>
@@ -15,7 +15,8 @@
 
 #include "common/body/fins.h"
 #include "common/body/fish_body.h"
-#include "common/body/spine.h"
+#include "common/body/mouth.h"
+#include "common/body/sections.h"
 #include "common/config/species.h"
 
 namespace aquarama::body {
@@ -26,16 +27,16 @@ inline constexpr int kTubeColumns = 12;
 // The last ring of the body; rings behind it belong to the tail fin.
 inline constexpr int kBodyEndRing = 21;
 
-// Which part of the construction made a vertex: the tube, the grid that closes the nose, or a
-// raised fin (flap).
-enum class CageSiteKind : std::uint8_t { Tube, Nose, Flap };
+// Which part of the construction made a vertex: the tube, the grid inside the mouth, or a raised
+// fin (flap).
+enum class CageSiteKind : std::uint8_t { Tube, Mouth, Flap };
 
 // The address of a vertex in the cage. The fields tell what the vertex is for, not where it is in
 // space: CageShape::place() does that.
 struct CageSite {
     CageSiteKind kind = CageSiteKind::Tube;
     CagePart part = CagePart::Body;
-    // Ring and column of the tube vertex that it is, or that it was raised from. For the nose: row
+    // Ring and column of the tube vertex that it is, or that it was raised from. For the mouth: row
     // and column of the grid.
     int ring = 0;
     int column = 0;
@@ -65,12 +66,6 @@ class CageShape {
     [[nodiscard]] CageVertex place(const CageSite& site) const;
 
   private:
-    // The cross-section of the body at a station: heights above and below the axis and half width
-    // in body lengths; the exponents of the superellipses of upper and lower half.
-    struct Section {
-        float dorsal, ventral, halfWidth;
-        float fullnessUp, fullnessDown;
-    };
     // The station s of each ring of the body.
     using RingStations = std::array<float, kBodyEndRing + 1>;
 
@@ -78,15 +73,14 @@ class CageShape {
     void slantRings(const config::Species& species);
     // One function for each region of the cage. Left and right mirror each other; z is positive to
     // the right.
-    [[nodiscard]] Section sectionAt(float s) const;
     [[nodiscard]] glm::vec3 onBody(int ring, int column) const;
     [[nodiscard]] glm::vec3 onPectoralRoot(int ring, int column) const;
     [[nodiscard]] CageVertex onCaudal(int ring, int column) const;
-    [[nodiscard]] glm::vec3 onNose(int row, int column) const;
     [[nodiscard]] CageVertex onMedianFin(const CageSite& site) const;
     [[nodiscard]] CageVertex onPairedFin(const CageSite& site) const;
 
-    MonotoneCurve dorsal_, ventral_, halfWidth_, fullnessUp_, fullnessDown_;
+    Sections sections_;
+    MouthShape mouth_;
     FinPatch firstDorsal_, secondDorsal_, anal_, caudal_, pelvic_, pectoral_;
     // Whether the species has one dorsal fin along the whole back, which takes the strips of both.
     bool isOneDorsal_;

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "common/body/face.h"
 #include "common/body/spine.h"
 
 namespace aquarama::body {
@@ -121,6 +122,9 @@ FinStyle styleOf(const config::Species& species, const PectoralFin& fin) {
     style.hoverHertz = tenths(motion.hovering.beatHertz);
     style.opposed = motion.hovering.isOpposed ? kWholeTurn / 2 : 0;
     style.cupping = motion.cuppingRadians;
+    style.gape = species.mouth.gapeRadians;
+    style.protrusion = species.mouth.protrusion;
+    style.flare = species.gill.flare;
     return style;
 }
 
@@ -235,6 +239,7 @@ FinTable makeFinTable(const config::Species& species, const ControlCage& cage) {
     assert(cage.vertices.size() == kControlPoints);
     const PectoralFin pectoral = pectoralFinOf(species);
     const Hinge pelvic = hingeOf(fins.pelvic, 0.35F * flankAt(species, fins.pelvic));
+    const Sections sections(species.profile);
     FinTable table{.style = styleOf(species, pectoral), .points = {}};
     for (const CageVertex& vertex : cage.vertices) {
         FinPoint point{
@@ -245,6 +250,8 @@ FinTable makeFinTable(const config::Species& species, const ControlCage& cage) {
             point.arm = glm::vec3(glm::vec2(vertex.rest), std::abs(vertex.rest.z)) - root;
         } else if (vertex.part != CagePart::Body) {
             point.sway = swayOf(finOf(fins, vertex.part), vertex.fin);
+        } else {
+            setFacePoint(species, sections, vertex, point);
         }
         table.points.push_back(point);
     }
@@ -257,7 +264,7 @@ glm::vec3 finOffset(const FinTable& fins, std::size_t i, const FinDrive& drive, 
     const FinStyle& style = fins.style;
     switch (static_cast<CagePart>(point.part)) {
         case CagePart::Body:
-            return {};
+            return faceOffset(style, point, drive.face);
         case CagePart::Pectoral:
             return rowed(style, point, drive) * glm::vec3(1, 1, point.side);
         case CagePart::Pelvic: {

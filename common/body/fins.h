@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/body/face.h"
 #include "common/body/fin_motion.h"
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
@@ -72,6 +73,7 @@ struct FinDrive {
     float tilt = 0;           // height of its right side: sine of its roll to the left
     float spread = 0;         // 0 to 1: how far its pectoral fins brake
     FinPose left{}, right{};  // of its pectoral fins, as captured
+    FacePose face{};
     // Id of the fish, which gives each its own phase.
     std::uint32_t id = 0;
     // Phase of its tail beat and of the beat that a motion warp leaves, in cycles; weight is the

@@ -21,6 +21,16 @@ glm::vec3 colourOf(const config::Species& species,
     return paint == species.palette.end() ? otherwise : paint->linear;
 }
 
+FishFace faceOf(const config::Species& species) {
+    const config::Mouth& mouth = species.mouth;
+    return {.eye = {species.eye.s, species.eye.y, species.eye.radius},
+            .front = mouth.front,
+            .corner = mouth.corner,
+            .lip = mouth.lip,
+            .teeth = static_cast<float>(mouth.teeth),
+            .gill = {species.gill.s, species.gill.bow}};
+}
+
 // The nodal points of the skeleton at rest, in the order of NodalPoints; body frame.
 NodalPoints restNodesOf(const config::Skeleton& skeleton) {
     NodalPoints nodes{};
@@ -57,7 +67,8 @@ FishSkin skinOf(const config::Species& species) {
     return {.species = species.name,
             .back = colourOf(species, "back", {0.05F, 0.08F, 0.10F}),
             .flank = colourOf(species, "flank", {0.40F, 0.42F, 0.40F}),
-            .belly = colourOf(species, "belly", {0.70F, 0.70F, 0.68F})};
+            .belly = colourOf(species, "belly", {0.70F, 0.70F, 0.68F}),
+            .face = faceOf(species)};
 }
 
 FishBody makeBody(const config::Species& species) {
@@ -71,7 +82,7 @@ FishBody makeBody(const config::Species& species) {
     body.profileDorsal = species.profile.dorsal;
     body.profileVentral = species.profile.ventral;
     body.profileHalfWidth = species.profile.halfWidth;
-    body.eye = {species.eye.s, species.eye.y, species.eye.radius};
+    body.face = faceOf(species);
     body.eyeBulge = species.eye.bulge;
     for (const config::Thread& thread : species.threads)
         body.threads.push_back(

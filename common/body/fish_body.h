@@ -14,9 +14,9 @@
 
 namespace aquarama::body {
 
-// How the fins of one species move, as shaders read it (fish_fins.glsl, std430). Angles in radians,
-// speeds in body lengths a second. Axes and arms are those of the right side: tailwards, up, away
-// from the body. The left side is the mirror image.
+// How the fins and the face of one species move, as shaders read it (fish_fins.glsl, std430).
+// Angles in radians, speeds in body lengths a second. Axes and arms are those of the right side:
+// tailwards, up, away from the body. The left side is the mirror image.
 struct FinStyle {
     glm::vec3 hinge{};   // of the pectoral fin: about it the fin opens
     float spread = 0;    // of a pectoral fin that brakes, from the rest angle
@@ -32,9 +32,12 @@ struct FinStyle {
     float opposed = 0;  // phase of the anal fin against the dorsal
     // How far the middle rays of the tail fin bend against its lobes, for each unit of drift.
     float cupping = 0;
-    float padding = 0;  // to whole vectors
+    float gape = 0;  // so far the lower jaw turns, wide open
+    // So far the upper jaw slides, wide open, and a gill cover lifts; body lengths.
+    float protrusion = 0, flare = 0;
+    std::array<float, 2> padding{};  // to whole vectors
 };
-static_assert(sizeof(FinStyle) == 80);
+static_assert(sizeof(FinStyle) == 96);
 
 // Where a pectoral fin stands relative to its rest, radians: twisted about its ray, at the tip,
 // then opened about its hinge, then carried about the axis of its stroke.
@@ -42,17 +45,23 @@ struct FinPose {
     float open = 0, stroke = 0, twist = 0;
 };
 
-// A control point as the fin shader reads it.
+// A control point as the shader of fins and faces reads it.
 struct FinPoint {
-    glm::vec3 arm{};         // on a paired fin: from the middle of its root, at rest
-    float side = 0;          // right 1, left -1
-    float p = 0, q = 0;      // along the fin's base, and from base to edge
-    float sway = 0;          // on a median fin: ray length * flex * q^1.5, body lengths
-    std::uint32_t part = 0;  // CagePart; points of the body and of a fin's root do not move
+    // On a paired fin: from the middle of its root, at rest. On the head: from the joint of the
+    // jaw; of the upper lip, the direction in which it slides.
+    glm::vec3 arm{};
+    float side = 0;  // right 1, left -1
+    // Along the fin's base, and from base to edge. On the head: how far the upper and the lower jaw
+    // carry it along, 0 to 1.
+    float p = 0, q = 0;
+    // On a median fin: ray length * flex * q^1.5, body lengths. On the head: how far the gill cover
+    // carries it along, 0 to 1.
+    float sway = 0;
+    std::uint32_t part = 0;  // CagePart; of the body only points of the head move
 };
 static_assert(sizeof(FinPoint) == 32);
 
-// The constants of the fins of one species.
+// The constants of the fins and the face of one species.
 struct FinTable {
     FinStyle style;
     // One for each vertex of the cage, in its order.
@@ -97,7 +106,10 @@ struct CageVertex {
     CagePart part = CagePart::Body;
     // On a fin: p along its base and q from base (0) to edge (1). On the body zero.
     glm::vec2 fin{};
+    // From the skin (0) over the lips (kLips) to the inside of the mouth (1).
+    float mouth = 0;
 };
+inline constexpr float kLips = 0.5F;
 
 // An edge that subdivision keeps sharp. The ends are in ascending order; the sharpness is
 // OpenSubdiv's, in levels of refinement.
@@ -122,6 +134,15 @@ struct BodyThread {
     bool isOfFirstDorsal = false;
 };
 
+// How the face of one species is painted. Lengths in body lengths.
+struct FishFace {
+    glm::vec3 eye{};              // (s, y, radius)
+    glm::vec2 front{}, corner{};  // of the gape, (s, y)
+    float lip = 0;                // width of each lip
+    float teeth = 0;              // config::Teeth
+    glm::vec2 gill{};             // of the cover's hind edge: station, bow
+};
+
 // The data of a species' file that drawing and posing need. Made once by makeBody(), then read
 // only.
 struct FishBody {
@@ -133,8 +154,8 @@ struct FishBody {
     std::vector<float> profileDorsal;     // height above the axis (positive)
     std::vector<float> profileVentral;    // depth below the axis (positive)
     std::vector<float> profileHalfWidth;
-    glm::vec3 eye{};        // (s, y, radius)
-    float eyeBulge = 0.0F;  // height over the skin, in radii
+    FishFace face;
+    float eyeBulge = 0.0F;  // height of an eye over the skin, in its radii
     std::vector<BodyThread> threads;
     ControlCage cage;
     FinTable fins;
@@ -164,6 +185,7 @@ struct FishSkin {
     std::string species;
     // Linear Rec. 709.
     glm::vec3 back{}, flank{}, belly{};
+    FishFace face;
 };
 
 // A colour that the file does not name has a neutral default.

@@ -19,6 +19,8 @@ namespace pb = google::protobuf;
 constexpr double kDegree = kRadiansPerDegree<double>;
 constexpr double kMillisecond = 1e-3;
 constexpr float kHead = 0.05F;  // no fin stands before it
+// Of a mouth: the least length from front to corner, and the last station of a corner.
+constexpr float kLeastGape = 0.01F, kMostGape = 0.15F;
 
 static_assert(v1::Habits::PREDATOR - v1::Habits::PREY == static_cast<int>(Role::Predator));
 
@@ -499,9 +501,46 @@ std::string motionOf(v1::Species in) {
     *in.mutable_fin_motion()->mutable_rowing() = rowing;
     in.clear_threads();
     in.clear_eye();
+    in.clear_gill();
+    // The lips are part of the cage, whose control points some repertoires hold.
+    if (!in.recorded_control_points()) in.clear_mouth();
     std::string kept;
     pb::TextFormat::PrintToString(in, &kept);
     return kept;
+}
+
+glm::vec2 pointOf(const v1::Point& in) {
+    return {real(in.s()), real(in.y())};
+}
+
+// Of a species whose file has none: a small one at the tip of the snout.
+Mouth smallMouth(const BodyProfile& profile) {
+    constexpr float kLong = 0.03F;
+    const float y = (profile.dorsal.front() - profile.ventral.front()) / 2;
+    return {.front = {0, y},
+            .corner = {kLong, y - kLong / 3},
+            .joint = {2 * kLong, y - kLong / 2},
+            .gapeRadians = radians(20)};
+}
+
+Mouth mouthOf(const TextReader& file, const v1::Species& in, const BodyProfile& profile) {
+    if (!in.has_mouth()) return smallMouth(profile);
+    const v1::Mouth& drawn = in.mouth();
+    const Mouth mouth{.front = pointOf(drawn.front()),
+                      .corner = pointOf(drawn.corner()),
+                      .joint = pointOf(drawn.joint()),
+                      .lip = real(drawn.lip()),
+                      .gapeRadians = radians(drawn.gape_deg()),
+                      .protrusion = real(drawn.protrusion()),
+                      .teeth = static_cast<Teeth>(std::max(drawn.teeth() - v1::Mouth::HIDDEN, 0))};
+    if (mouth.corner.x < mouth.front.x + kLeastGape || mouth.corner.x > kMostGape)
+        file.refuse(drawn,
+                    "corner",
+                    "the corner of the mouth must lie behind its front by 0.01 or more, and before "
+                    "s: 0.15: move it");
+    if (mouth.joint.x < mouth.corner.x)
+        file.refuse(drawn, "joint", "the joint of the jaw lies before the corner: move it back");
+    return mouth;
 }
 
 // Fins that row need a beat and a stroke, and a gait is the fins' or the tail's.
@@ -552,6 +591,11 @@ Species parseSpecies(const std::string& text, const std::string& source) {
                    .y = real(in.eye().y()),
                    .radius = real(in.eye().radius()),
                    .bulge = real(in.eye().bulge())};
+    species.mouth = mouthOf(file, in, species.profile);
+    if (in.has_gill())
+        species.gill = {.s = real(in.gill().s()),
+                        .bow = real(in.gill().bow()),
+                        .flare = real(in.gill().flare())};
     for (const v1::Thread& thread : in.threads())
         species.threads.push_back({.at = polylineOf(thread.at()),
                                    .rootWidth = real(thread.root_width()),

@@ -71,6 +71,26 @@ struct FishEye {
     float bulge = 0.35F;  // height over the skin, in radii
 };
 
+// What shows of the teeth, in the schema's order.
+enum class Teeth : std::uint8_t { Hidden, Pointed, Beak };
+
+// The lips meet along the line from front to corner, (s, y) as seen from the side; the lower jaw
+// turns about its joint.
+struct Mouth {
+    glm::vec2 front{}, corner{}, joint{};
+    float lip = 0.0025F;  // width of each lip
+    // Wide open: so far the lower jaw turns, and the upper one slides forward.
+    float gapeRadians = 0.0F;
+    float protrusion = 0.0F;
+    Teeth teeth = Teeth::Hidden;
+};
+
+// The gill cover: the station of its hind edge at mid-height, how much further forward that is at
+// back and belly, and how far it lifts off the flank.
+struct Gill {
+    float s = 0.24F, bow = 0.035F, flare = 0.008F;
+};
+
 // Thinner than the cage can draw, in the middle plane of the body.
 struct Thread {
     std::vector<glm::vec2> at;                // (s, y) from its root to its tip
@@ -328,6 +348,8 @@ struct Species {
     Fins fins;
     FinMotion finMotion;
     FishEye eye;
+    Mouth mouth;
+    Gill gill;
     std::vector<Thread> threads;
     Skeleton skeleton;
     Tissue tissue;

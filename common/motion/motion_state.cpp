@@ -71,8 +71,7 @@ std::uint64_t foldedRecords(std::size_t count, RecordAt&& recordAt) {
         const std::uint64_t turn = mix(wide(r.orientationLow) | wide(r.orientationHigh) << 32U);
         const std::uint64_t played =
             wide(r.segment) | wide(r.fromSegment) << 16U | wide(r.speedAndSpread) << 32U;
-        const std::uint64_t warp = wide(r.warpFrame) | wide(r.warpLength) << 8U |
-                                   wide(r.mouth) << 16U | wide(r.gaze) << 24U | wide(r.skin) << 32U;
+        const std::uint64_t warp = wide(r.warpFrame) | wide(r.warpLength) << 8U;
         hash = hash * 0x9E3779B97F4A7C15U +
                (place + 5 * turn + 7 * mix(played + 1) + 9 * mix(warp + 2));
     }
@@ -87,25 +86,28 @@ void MotionStates::resize(std::size_t fish) {
     }
     speed.resize(fish);
     for (auto* column : {&phase, &fromPhase, &segment, &fromSegment}) column->resize(fish);
-    for (auto* column : {&orientationLargest, &warpFrame, &warpLength, &spread})
+    for (auto* column : {&orientationLargest, &warpFrame, &warpLength, &spread, &mouth, &gaze})
         column->resize(fish);
 }
 
 std::size_t MotionStates::bytes() const {
     return bytesIn(x, y, z, orientationA, orientationB, orientationC, orientationLargest, phase) +
-           bytesIn(segment, fromPhase, fromSegment, warpFrame, warpLength, speed, spread);
+           bytesIn(segment, fromPhase, fromSegment, warpFrame, warpLength, speed, spread) +
+           bytesIn(mouth, gaze);
 }
 
 void MotorCommands::resize(std::size_t fish) {
     action.resize(fish);
     phaseRate.resize(fish);
     brake.resize(fish);
+    mouth.resize(fish);
+    gaze.resize(fish);
     pitch.resize(fish);
     yawRate.resize(fish);
 }
 
 std::size_t MotorCommands::bytes() const {
-    return bytesIn(action, phaseRate, brake, pitch, yawRate);
+    return bytesIn(action, phaseRate, brake, mouth, gaze, pitch, yawRate);
 }
 
 FishRecord recordOf(const MotionStates& states, std::size_t fish) {
@@ -125,7 +127,9 @@ FishRecord recordOf(const MotionStates& states, std::size_t fish) {
             .fromSegment = states.fromSegment[fish],
             .speedAndSpread = packedSpeedAndSpread(states.speed[fish], states.spread[fish]),
             .warpFrame = states.warpFrame[fish],
-            .warpLength = states.warpLength[fish]};
+            .warpLength = states.warpLength[fish],
+            .mouth = states.mouth[fish],
+            .gaze = states.gaze[fish]};
 }
 
 PackedOrientation orientationOf(const FishRecord& record) {
@@ -153,13 +157,15 @@ void setFromRecord(MotionStates& states, std::size_t fish, const FishRecord& rec
     states.warpLength[fish] = record.warpLength;
     states.speed[fish] = speedOf(record);
     states.spread[fish] = spreadOf(record);
+    states.mouth[fish] = record.mouth;
+    states.gaze[fish] = record.gaze;
 }
 
 bool isPlayable(const FishRecord& record) {
     return record.segment < kSegments && record.fromSegment < kSegments &&
            record.warpFrame <= record.warpLength && speedOf(record) <= kFastestUnits &&
            speedOf(record) >= -kFastestUnits && record.orientationHigh >> 30U == 0 &&
-           record.mouth == 0 && record.gaze == 0 && record.skin == 0;
+           record.skin == 0;
 }
 
 BodyFrame bodyFrameOf(const FishRecord& record) {

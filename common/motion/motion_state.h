@@ -124,6 +124,8 @@ inline constexpr std::int32_t kFastestUnits = 4194303;  // of speed: 16 body len
 inline constexpr float kYawUnit = 1.0F / 1048576.0F;    // of MotorCommands::yawRate, radians a tick
 // Of MotionStates::spread in a tick: fins are spread within a fifth of a second.
 inline constexpr int kSpreadStep = 21;
+// Of MotionStates::mouth in a tick: a mouth snaps open within a seventh of a second.
+inline constexpr int kMouthStep = 32;
 
 // Structure of arrays, one element for each fish; all columns have the same length. The world owns
 // it; during a tick, each thread writes a range of fish of its own. Position of the body frame's
@@ -151,6 +153,10 @@ struct MotionStates {
     // How far the pectoral fins are spread, in 1/255: it follows MotorCommands::brake by
     // kSpreadStep a tick.
     std::vector<std::uint8_t> spread;
+    // How far the mouth is open, in 1/255: it follows MotorCommands::mouth by kMouthStep a tick.
+    std::vector<std::uint8_t> mouth;
+    // Where the eyes look (gaze.h): they follow MotorCommands::gaze by a step a tick.
+    std::vector<std::uint8_t> gaze;
 
     // Gives each of so many fish an element of every column.
     void resize(std::size_t fish);
@@ -169,6 +175,8 @@ struct MotorCommands {
     std::vector<std::int16_t> phaseRate;
     // How far the pectoral fins are spread, in 1/255.
     std::vector<std::uint8_t> brake;
+    // How far the mouth is to be open, in 1/255, and where the eyes are to look (gaze.h).
+    std::vector<std::uint8_t> mouth, gaze;
     // Sine of the desired pitch, in units of 2^-15; up is positive.
     std::vector<std::int16_t> pitch;
     // Turn about the world's up in addition to the played one, in units of 2^-20 rad a tick; left
@@ -198,9 +206,9 @@ struct FishRecord {
     // Low 24 bits: the speed in two's complement; high 8: the spread.
     std::uint32_t speedAndSpread = 0;
     std::uint8_t warpFrame = 0, warpLength = 0;
-    // Zero: not used yet.
+    // MotionStates::mouth and gaze.
     std::uint8_t mouth = 0, gaze = 0;
-    std::uint32_t skin = 0;
+    std::uint32_t skin = 0;  // zero: not used yet
     friend bool operator==(const FishRecord&, const FishRecord&) = default;
 };
 static_assert(sizeof(FishRecord) == 40);
@@ -221,8 +229,8 @@ static_assert(sizeof(FishRecord) == 40);
 void setFromRecord(MotionStates& states, std::size_t fish, const FishRecord& record);
 
 // Whether motor and reconstruction can play a record: segments that exist, a warp within its
-// length, a speed within kFastestUnits, unused bits zero. Decoders refuse any other, so no index
-// into a table needs a check.
+// length, a speed within kFastestUnits, unused bits zero. Any mouth and gaze can be shown. Decoders
+// refuse any other, so no index into a table needs a check.
 [[nodiscard]] bool isPlayable(const FishRecord& record);
 
 // The body frame as floats: the position of its origin o in metres, and the rotation that takes
@@ -246,8 +254,8 @@ void setSpeedBodyLengths(MotionStates& states, std::size_t fish, float speed);
 [[nodiscard]] bool isAway(const MotionStates& states, std::size_t fish);
 void setAway(MotionStates& states, std::size_t fish);
 
-// Folds every bit of the state into one number: equal worlds have equal hashes. Cost: five
-// multiply chains for each fish.
+// Folds every bit of the state that moves a fish into one number: equal worlds have equal hashes.
+// Mouth and gaze are only seen. Cost: five multiply chains for each fish.
 [[nodiscard]] std::uint64_t hashOf(const MotionStates& states);
 // The same hash from records of the same fish.
 [[nodiscard]] std::uint64_t hashOf(std::span<const FishRecord> records);

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "common/motion/gaze.h"
 #include "common/motion/headings.h"
 #include "common/motion/motor_tables.h"
 
@@ -122,10 +123,10 @@ float speedAfter(const SpeedLoss& loss,
     return approached(swum, 0.0F, (brake * loss.brake) * std::abs(swum));
 }
 
-// MotionStates::spread after a tick.
-std::uint8_t spreadAfter(std::uint8_t spread, std::uint8_t brake) {
-    const int step = std::clamp(int{brake} - int{spread}, -kSpreadStep, kSpreadStep);
-    return static_cast<std::uint8_t>(spread + step);
+// A column after a tick: nearer to what is commanded by `most` or less.
+std::uint8_t followed(std::uint8_t present, std::uint8_t commanded, int most) {
+    const int step = std::clamp(int{commanded} - int{present}, -most, most);
+    return static_cast<std::uint8_t>(present + step);
 }
 
 // A travel as whole position units.
@@ -163,7 +164,9 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
                                    s.segment[i],
                                    static_cast<float>(step.commands->brake[i]) * kBrakeUnit);
     s.speed[i] = static_cast<std::int32_t>(speed);
-    s.spread[i] = spreadAfter(s.spread[i], step.commands->brake[i]);
+    s.spread[i] = followed(s.spread[i], step.commands->brake[i], kSpreadStep);
+    s.mouth[i] = followed(s.mouth[i], step.commands->mouth[i], kMouthStep);
+    s.gaze[i] = gazeAfter(s.gaze[i], step.commands->gaze[i]);
     // Eq. 10 in body axes. seenFrom is the frame from which the path is seen, in the world.
     const Quaternion seenFrom =
         renormalised(orientationOf(s, i) * conjugate(travel.start.rotation));

@@ -324,13 +324,37 @@ HWY_INLINE IntLanes segmentsAt(const std::vector<std::uint16_t>& column, std::si
     return hn::PromoteTo(kInts, hn::LoadU(shorts, column.data() + fish));
 }
 
-// spreadAfter() of a vector of fish.
-HWY_INLINE void follow(std::vector<std::uint8_t>& spread, IntLanes brake, std::size_t fish) {
+// No further from zero than `most`.
+HWY_INLINE IntLanes within(IntLanes step, int most) {
+    return hn::Min(hn::Max(step, hn::Set(kInts, -most)), hn::Set(kInts, most));
+}
+
+// followed() of a vector of fish.
+HWY_INLINE void follow(std::vector<std::uint8_t>& column,
+                       IntLanes commanded,
+                       int most,
+                       std::size_t fish) {
     const hn::Rebind<std::uint8_t, Ints> bytes;
-    const IntLanes present = bytesAt(spread, fish);
-    const IntLanes most = hn::Set(kInts, kSpreadStep);
-    const IntLanes step = hn::Min(hn::Max(hn::Sub(brake, present), hn::Neg(most)), most);
-    hn::StoreU(hn::DemoteTo(bytes, hn::Add(present, step)), bytes, spread.data() + fish);
+    const IntLanes present = bytesAt(column, fish);
+    const IntLanes step = within(hn::Sub(commanded, present), most);
+    hn::StoreU(hn::DemoteTo(bytes, hn::Add(present, step)), bytes, column.data() + fish);
+}
+
+// gazeAfter() of a vector of fish.
+HWY_INLINE void followGaze(std::vector<std::uint8_t>& column,
+                           IntLanes commanded,
+                           std::size_t fish) {
+    const hn::Rebind<std::uint8_t, Ints> bytes;
+    const auto nibble = [](IntLanes bits)
+                            HWY_ATTR { return hn::ShiftRight<28>(hn::ShiftLeft<28>(bits)); };
+    const IntLanes present = bytesAt(column, fish);
+    const IntLanes up = hn::ShiftRight<4>(present);
+    const IntLanes aside = hn::Add(present, within(nibble(hn::Sub(commanded, present)), 1));
+    const IntLanes climb = hn::Sub(nibble(hn::ShiftRight<4>(commanded)), nibble(up));
+    const IntLanes low = hn::Set(kInts, 15);
+    const IntLanes gaze =
+        hn::Or(hn::And(aside, low), hn::ShiftLeft<4>(hn::And(hn::Add(up, within(climb, 1)), low)));
+    hn::StoreU(hn::DemoteTo(bytes, gaze), bytes, column.data() + fish);
 }
 
 // Adds a step to one coordinate. Integer lanes wrap around, as moved() does.

@@ -312,7 +312,9 @@ HWY_INLINE void changeSpeed(const MotorStep& step,
                    pathAtEnd,
                    segmentsAt(s.segment, fish),
                    hn::Mul(hn::ConvertTo(kFloats, brake), hn::Set(kFloats, kBrakeUnit)));
-    follow(s.spread, brake, fish);
+    follow(s.spread, brake, kSpreadStep, fish);
+    follow(s.mouth, bytesAt(step.commands->mouth, fish), kMouthStep, fish);
+    followGaze(s.gaze, bytesAt(step.commands->gaze, fish), fish);
     hn::StoreU(hn::ConvertTo(kInts, speed), kInts, s.speed.data() + fish);
     const Lanes share = shareOfPath(speed, pathAtEnd);
     const Lanes faster =

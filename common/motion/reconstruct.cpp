@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/motion/reconstruct.h"
 
+#include "common/motion/gaze.h"
 #include "common/motion/repertoire.h"
 
 namespace aquarama::motion {
@@ -94,6 +95,10 @@ PresentedFish present(const FishRecord& before,
     const auto spread = glm::mix(
         static_cast<float>(spreadOf(before)), static_cast<float>(spreadOf(after)), fraction);
     fish.spread = spread / 255.0F;
+    fish.gaze = glm::mix(directionOf(before.gaze), directionOf(after.gaze), fraction);
+    fish.mouth =
+        glm::mix(static_cast<float>(before.mouth), static_cast<float>(after.mouth), fraction) /
+        255.0F;
     pose(before, after, fraction, fish);
     return fish;
 }

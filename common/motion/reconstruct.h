@@ -13,7 +13,7 @@
 
 namespace aquarama::motion {
 
-// One fish as a frame shows it: between two ticks in the live show, at a tick in lockstep. 64
+// One fish as a frame shows it: between two ticks in the live show, at a tick in lockstep. 80
 // bytes, uploaded to the GPU as they are (std430).
 struct PresentedFish {
     glm::vec3 positionMetres{};
@@ -28,8 +28,11 @@ struct PresentedFish {
     std::uint32_t id = 0;
     float speed = 0.0F;   // body lengths a second
     float spread = 0.0F;  // of the pectoral fins, 0 to 1
+    // Where it looks: body frame, a vector no longer than 1; and how far its mouth is open, 0 to 1.
+    glm::vec3 gaze{1, 0, 0};
+    float mouth = 0.0F;
 };
-static_assert(sizeof(PresentedFish) == 64);
+static_assert(sizeof(PresentedFish) == 80);
 
 // Interpolates between two ticks: fraction 0 shows `before`, 1 shows `after`, the next tick. A fish
 // that left its segment in between goes from the pose that it left to the first pose of the warp;

@@ -24,15 +24,15 @@ std::uint32_t tubePoint(int ring, int column) {
     return static_cast<std::uint32_t>(ring * body::kTubeColumns + column);
 }
 
-// The ring whose flank is nearest to a station; never the first or the last of the body, so it has
-// two neighbours.
+// The ring whose flank is nearest to a station; neither the last of the body nor the lips nor the
+// ring around them, so it has two neighbours that no jaw moves.
 int ringNear(const body::ControlCage& cage, float station) {
     constexpr int kFlank = 3;
-    int nearest = 1;
+    int nearest = 2;
     const auto distance = [&](int ring) {
         return std::abs(cage.vertices[tubePoint(ring, kFlank)].rest.x - station);
     };
-    for (int ring = 2; ring < body::kBodyEndRing; ++ring)
+    for (int ring = nearest + 1; ring < body::kBodyEndRing; ++ring)
         if (distance(ring) < distance(nearest)) nearest = ring;
     return nearest;
 }
@@ -112,7 +112,7 @@ float skinAt(std::span<const RestTriangle> skin, glm::vec2 at) {
 class Ball {
   public:
     Ball(const body::FishBody& body, std::span<const RestTriangle> head)
-        : eye_(body.eye), bulge_(body.eyeBulge), head_(head) {
+        : eye_(body.face.eye), bulge_(body.eyeBulge), head_(head) {
         constexpr float kStep = 0.5F;
         middle_ = skin({0, 0});
         slope_ = {(skin({kStep, 0}) - skin({-kStep, 0})) / (2 * kStep),
@@ -164,7 +164,7 @@ Attachments::Vertex eyeVertex(const Ball& ball,
 
 // A disc of rings and spokes around a middle vertex.
 void addEye(const body::FishBody& body, const Ball& ball, float side, Attachments& attachments) {
-    const RestBinding binding(body.cage, body.eye.x);
+    const RestBinding binding(body.cage, body.face.eye.x);
     const std::size_t middle = attachments.vertices.size();
     attachments.vertices.push_back(eyeVertex(ball, binding, {0, 0}, side));
     for (const float rho : kEyeRings)
@@ -367,6 +367,27 @@ void placeFinVertices(const body::ControlCage& cage, const FaceGrid& grid, Limit
     }
 }
 
+// The mouth coordinate of the vertices on and in the lips, in the place of q.
+void placeMouthVertices(const body::ControlCage& cage, const FaceGrid& grid, LimitTable& table) {
+    const int n = grid.cuts();
+    for (std::size_t f = 0; f < cage.faces.size(); ++f) {
+        const auto mouthAt = [&](std::size_t corner) {
+            return cage.vertices[cage.faces[f].at(corner)].mouth;
+        };
+        if (mouthAt(0) + mouthAt(1) + mouthAt(2) + mouthAt(3) == 0) continue;
+        for (int j = 0; j <= n; ++j)
+            for (int i = 0; i <= n; ++i) {
+                const float u = static_cast<float>(i) / static_cast<float>(n);
+                const float v = static_cast<float>(j) / static_cast<float>(n);
+                table.vertices[grid.at(f, i, j)].fin = {
+                    0,
+                    glm::mix(glm::mix(mouthAt(0), mouthAt(1), u),
+                             glm::mix(mouthAt(3), mouthAt(2), u),
+                             v)};
+            }
+    }
+}
+
 // The flat part of a triangle is that of its last vertex (GL's provoking vertex). It therefore must
 // belong to this face alone: a vertex inside of it, or on level 0 the corner that is furthest out
 // on the fin.
@@ -457,6 +478,7 @@ void paintPlaces(const body::FishBody& body, const FaceGrid& grid, LimitTable& t
     for (std::size_t i = 0; i < table.vertices.size(); ++i)
         table.vertices[i].rest = restOf(body, table, i);
     placeFinVertices(body.cage, grid, table);
+    placeMouthVertices(body.cage, grid, table);
 
     std::vector<std::uint32_t> fins;
     for (std::size_t f = 0; f < body.cage.faces.size(); ++f) {

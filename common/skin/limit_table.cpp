@@ -128,7 +128,8 @@ std::vector<RestTriangle> headAtRest(const Far::TopologyRefiner& refiner,
                                      const body::FishBody& body) {
     constexpr int kCuts = 4;
     const FaceGrid grid{body.cage, kCuts};
-    const float nearest = body.eye.x - 3 * body.eye.z, farthest = body.eye.x + 3 * body.eye.z;
+    const float nearest = body.face.eye.x - 3 * body.face.eye.z,
+                farthest = body.face.eye.x + 3 * body.face.eye.z;
     std::vector<FaceGrid::Location> locations;
     for (std::size_t f = 0; f < body.cage.faces.size(); ++f) {
         const bool isHead = std::ranges::all_of(body.cage.faces[f], [&](std::uint16_t corner) {

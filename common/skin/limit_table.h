@@ -61,8 +61,9 @@ static_assert(sizeof(StencilEntry) == 16);
 // The constant data of a vertex: its place on the fish at rest. These are the skin shader's
 // coordinates.
 struct SkinPlace {
-    glm::vec4 rest{};        // s, y, z in body lengths; w: height v, -1 belly .. +1 back
-    glm::vec2 fin{};         // p along a fin's base, q from base to edge; zero on the body
+    glm::vec4 rest{};  // s, y, z in body lengths; w: height v, -1 belly .. +1 back
+    // p along a fin's base, q from base to edge. On the body q is CageVertex::mouth.
+    glm::vec2 fin{};
     std::uint32_t part = 0;  // CagePart; holds for the triangles whose last vertex this is
 };
 static_assert(sizeof(SkinPlace) == 28);

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include "master/behaviour/face.h"
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/perceive.h"
 #include "master/behaviour/routines.h"
@@ -31,7 +34,10 @@ void think(const Environment& environment,
     const Senses senses = perceive(environment, parameters, fish, mind);
     const fish::Feelings feelings = feel(parameters, mind, senses);
     remember(mind, decide(parameters, mind, senses, feelings));
-    fish::Course course = act({environment, parameters, fish, senses, feelings}, mind, events);
+    const Situation situation{environment, parameters, fish, senses, feelings};
+    const std::size_t reported = events.size();
+    fish::Course course = act(situation, mind, events);
+    course.face = faceOf(situation, mind, std::span(events).subspan(reported));
     course.openToChange = environment.adaptation.recommendations &&
                           acceptsRecommendation(parameters, mind, senses, feelings);
     courses[fish] = course;

@@ -350,6 +350,8 @@ void startCommands(const Gaits& gaits,
         commands.pitch[fish] = 0;
         commands.yawRate[fish] = 0;
         commands.brake[fish] = 0;
+        commands.mouth[fish] = 0;
+        commands.gaze[fish] = 0;
         memory.chosenAt[fish] = 0;
         memory.heldUntil[fish] = 0;
         memory.recoversAt[fish] = 0;
@@ -370,6 +372,10 @@ void SecondaryController::run(std::size_t first, std::size_t last) const {
     assert(last <= states->size());
     for (std::size_t fish = first; fish < last; ++fish) {
         const bool hasThought = std::exchange((*thought)[fish], 0) != 0;
+        if (hasThought) {
+            commands->mouth[fish] = (*courses)[fish].face.mouth;
+            commands->gaze[fish] = (*courses)[fish].face.gaze;
+        }
         if ((hasThought && (thinksAt(tick, fish) || mayStart(fish))) || endsTurn(fish))
             decide(fish);
     }

@@ -28,6 +28,11 @@ inline constexpr std::uint64_t kTicksOfAlarm = 4;
     return (tick.value + fish) % (isAlarmed ? kTicksOfAlarm : kTicksBetweenThoughts) == 0;
 }
 
+// What the face of a fish is to show, by its mind: MotorCommands::mouth and gaze.
+struct Face {
+    std::uint8_t mouth = 0, gaze = 0;
+};
+
 // The course that a mind asks of its motor: direction, speed and urgency (the motor controller
 // parameters of the paper, section 5.1). Written at every thought, kept until the next.
 struct Course {
@@ -42,6 +47,8 @@ struct Course {
     // Whether the controller may try another swim pattern for a while. think() sets it after the
     // routine, alike for all routines.
     bool openToChange = false;
+    // think() sets it after the routine, too.
+    Face face = {};
 };
 
 // One for each fish of the world, by index.

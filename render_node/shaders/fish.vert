@@ -3,6 +3,7 @@
 // take; clip space.
 #include "shader_interface.h"
 #include "frame_uniforms.h"
+#include "fish_face.glsl"
 #include "fish_school.glsl"
 
 layout(std430, binding = kSurfaceStorage) readonly buffer Surface { uvec4 surface[]; };
@@ -23,6 +24,7 @@ layout(location = 6) flat out vec3 dorsal;  // the fish's own up, in the world
 layout(location = 7) out float opacity;     // 1, or less where a level of detail fades
 layout(location = 8) flat out float nearness;  // of the skin's details, which come with the mesh
 layout(location = 9) flat out float size;      // of the fish, metres
+layout(location = 10) flat out vec4 face;      // gaze in the body frame; how far the gill cover is lifted
 
 void main() {
     uvec4 vertex = surface[fish[slot].firstVertex + uint(gl_VertexID)];
@@ -33,6 +35,7 @@ void main() {
     part = vertexPart;
     id = fish[slot].id;
     size = fish[slot].lengthMetres;
+    face = vec4(fish[slot].gaze, facePose(fish[slot], eyeAndTime.w).gill);
     dorsal = rotate(fish[slot].rotation, vec3(0.0, 1.0, 0.0));
     // Few triangles have no paired fins.
     bool grows = fish[slot].detail == kControlMesh && (vertexPart == kPelvic || vertexPart == kPectoral);

@@ -8,19 +8,25 @@
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 rest;
+layout(location = 3) in vec2 fin;
 layout(location = 4) flat in uint part;
 layout(location = 5) flat in uint id;
 layout(location = 6) flat in vec3 dorsal;
 layout(location = 8) flat in float nearness;  // 0: as fish_far.frag has it
 layout(location = 9) flat in float size;  // of the fish, metres
+layout(location = 10) flat in vec4 face;  // gaze in the body frame; how far the gill cover is lifted
 layout(location = 0) out vec4 colour;
 
 void main() {
     float pixel = max(length(dFdx(rest.xyz)), length(dFdy(rest.xyz)));
-    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id, size);
+    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id, size,
+                             part == kEye ? 0.0 : fin.y, 0.0, face.w);
+    at.lips = (kLips - at.mouth) * pixel / max(length(vec2(dFdx(at.mouth), dFdy(at.mouth))), 1.0e-5);
     Skin far = groundOf(at);
     Skin skin = far;
     addDetails(skin, at);
+    paintInside(far, at);
+    paintMouth(skin, at);
     skin.albedo = mix(far.albedo, skin.albedo, nearness);
     skin.silver = mix(far.silver, skin.silver, nearness);
 
@@ -35,7 +41,8 @@ void main() {
     skin.tilt *= outline;
     skin.flicker *= outline;
     skin.albedo = wetAlbedo(skin.albedo, id);
-    float eye = paintEye(skin, at, kIris, part == kEye ? 0.3 : 0.85, look);
+    float eye = paintEye(skin, at, kIris, part == kEye ? 0.3 : 0.85, look,
+                         eyeTurn(face.xyz, sign(rest.z)));
 
     vec3 n = normalize(skinNormal + skin.tilt.x * tailwards + skin.tilt.y * upwards);
     float facing = clamp(dot(n, toEye), 0.0, 1.0);

@@ -2,7 +2,7 @@
 #ifndef FISH_DATA_GLSL
 #define FISH_DATA_GLSL
 
-// DrawnFish of render_node/surface/school_surface.h, 80 bytes; its first 48 and the actions are
+// DrawnFish of render_node/surface/school_surface.h, 96 bytes; its first 48 and the actions are
 // those of PresentedFish (common/motion/reconstruct.h).
 struct Fish {
     vec3 positionMetres;
@@ -20,6 +20,8 @@ struct Fish {
     uint firstVertex;  // in the surface buffer, less the first vertex of its mesh
     float speed;  // body lengths a second
     float spread;  // of the pectoral fins, 0 to 1
+    vec3 gaze;     // where it looks: body frame, no longer than 1
+    float mouth;   // how far it is open by its record, 0 to 1
 };
 
 // Rotates a vector by a unit quaternion.

@@ -6,6 +6,7 @@
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 rest;
+layout(location = 3) in vec2 fin;
 layout(location = 5) flat in uint id;
 layout(location = 6) flat in vec3 dorsal;
 layout(location = 7) in float opacity;
@@ -14,8 +15,9 @@ layout(location = 0) out vec4 colour;
 
 void main() {
     float pixel = max(length(dFdx(rest.xyz)), length(dFdy(rest.xyz)));
-    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id, size);
+    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id, size, fin.y, 1.0, 0.0);
     Skin skin = groundOf(at);
+    paintInside(skin, at);
     // The eye is the only detail of the head that still shows.
     float d = distance(rest.xy, eyeOfSpecies.xy) / eyeOfSpecies.z, soft = 0.7 * pixel / eyeOfSpecies.z;
     float eye = falling(1.0 - soft, 1.0 + soft, d);

@@ -30,7 +30,7 @@ float rayAt(Fin made, float pixel) {
 
 void main() {
     float pixel = max(length(dFdx(rest.xyz)), length(dFdy(rest.xyz)));
-    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id, size);
+    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id, size, 0.0, 1.0, 0.0);
     bool isPaired = part == kPectoral || part == kPelvic;
     vec3 fromEye = normalize(place - eyeAndTime.xyz);
     // A membrane is flat: its normal is its triangle's, and the small terms keep it from vanishing.

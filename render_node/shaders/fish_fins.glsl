@@ -4,6 +4,7 @@
 #ifndef FISH_FINS_GLSL
 #define FISH_FINS_GLSL
 #include "fin_motion.h"
+#include "fish_face.glsl"
 #include "shader_interface.h"
 
 // FinStyle and FinPoint of common/body/fish_body.h. Tailwards, up, away from the body; the left side
@@ -17,6 +18,7 @@ struct FinStyle {
     float pelvicFold;
     float swimRipple, swimWaves, hoverRipple, hoverWaves;
     float hoverHertz, opposed, cupping;
+    float gape, protrusion, flare;  // of the face
 };
 struct FinPoint {
     vec3 arm;
@@ -31,6 +33,7 @@ struct FinDrive {
     float seconds, speed;
     float tilt, spread;
     vec3 left, right;
+    FacePose face;
     float own;     // the fish's phase offset, cycles
     float phase, fromPhase, weight;
 };
@@ -67,12 +70,21 @@ float rippledFin(FinStyle style, FinPoint point, FinDrive drive) {
                             smoothstep(kStands, kSwims, abs(drive.speed)));
 }
 
+// faceOffset() of common/body/face.h: the lower jaw turns, the upper one slides, the gill covers lift.
+vec3 faceOffset(FinStyle style, FinPoint point, FacePose pose) {
+    float angle = style.gape * pose.mouth * point.q;
+    float c = cos(angle), s = sin(angle);
+    vec2 jaw = point.q > 0.0 ? mat2(c, s, -s, c) * point.arm.xy - point.arm.xy : vec2(0.0);
+    return vec3(jaw, 0.0) + point.p * style.protrusion * pose.mouth * point.arm +
+           vec3(0.0, 0.0, point.sway * style.flare * pose.gill * point.side);
+}
+
 // The displacement of a control point from where the body alone would place it: tailwards, up, to the
 // right.
 vec3 finOffset(FinStyle style, FinPoint point, FinDrive drive, float drift) {
     vec3 mirror = vec3(1.0, 1.0, point.side);
     switch (point.part) {
-        case kBody: return vec3(0.0);
+        case kBody: return faceOffset(style, point, drive.face);
         case kPectoral: return rowedFin(style, point, drive) * mirror;
         case kPelvic: {
             float angle = style.pelvicFold * (1.0 - drive.spread) * smoothstep(kStands, kFolded, abs(drive.speed));

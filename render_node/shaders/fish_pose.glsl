@@ -10,7 +10,7 @@
 
 const uint kPoses = kActions * kPhases * kControlPoints;
 const uint kFinPoses = kActions * kPhases * 2u;               // left and right, of pectoral fins
-const uint kFinNumbers = 5u * 2u + kControlPoints * 2u * 2u;  // of a FinStyle, and of FinPoints
+const uint kFinNumbers = 6u * 2u + kControlPoints * 2u * 2u;  // of a FinStyle, and of FinPoints
 const uint kSpeciesWords = kPoses + kFinPoses + kFinNumbers;
 // Species by species. First by action and phase the points: 3 x 16 bits, body lengths, then a heading,
 // half turns; then by action and phase the poses of the fins: 3 x 16 bits; the fins follow in the same
@@ -23,14 +23,15 @@ vec4 finNumbers(uint species, uint vector) {
 }
 
 FinPoint finPointOf(uint species, uint i) {
-    vec4 arm = finNumbers(species, 5u + 2u * i), place = finNumbers(species, 6u + 2u * i);
+    vec4 arm = finNumbers(species, 6u + 2u * i), place = finNumbers(species, 7u + 2u * i);
     return FinPoint(arm.xyz, arm.w, place.x, place.y, place.z, floatBitsToUint(place.w));
 }
 
 FinStyle finStyleOf(uint species) {
     vec4 a = finNumbers(species, 0u), b = finNumbers(species, 1u), c = finNumbers(species, 2u);
-    vec4 d = finNumbers(species, 3u), e = finNumbers(species, 4u);
-    return FinStyle(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.x, d.y, d.z, d.w, e.x, e.y, e.z);
+    vec4 d = finNumbers(species, 3u), e = finNumbers(species, 4u), f = finNumbers(species, 5u);
+    return FinStyle(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.x, d.y, d.z, d.w, e.x, e.y, e.z, e.w, f.x,
+                    f.y);
 }
 
 // Radians; side 0 is left.
@@ -79,8 +80,8 @@ Posed posedAt(uint species, uint action, float phase, uint point) {
 
 FinDrive finDriveOf(Fish self) {
     return FinDrive(mod(eyeAndTime.w, kFinSeconds), self.speed, rotate(self.rotation, vec3(0.0, 0.0, 1.0)).y,
-                    self.spread, finOf(self, 0u), finOf(self, 1u), fract(0.37 * float(self.id)), self.phase,
-                    self.fromPhase, self.warpWeight);
+                    self.spread, finOf(self, 0u), finOf(self, 1u), facePose(self, eyeAndTime.w),
+                    fract(0.37 * float(self.id)), self.phase, self.fromPhase, self.warpWeight);
 }
 
 vec3 controlPointOf(Fish self, uint i) {
@@ -92,7 +93,7 @@ vec3 controlPointOf(Fish self, uint i) {
         pose.drift = mix(from.drift, pose.drift, self.warpWeight);
     }
     FinPoint point = finPointOf(self.species, i);
-    if (point.part == kBody) return pose.place;
+    if (point.part == kBody && point.p + point.q + point.sway == 0.0) return pose.place;
     vec3 offset = finOffset(finStyleOf(self.species), point, finDriveOf(self), pose.drift);
     return pose.place + turnedBy(pose.heading, offset);
 }

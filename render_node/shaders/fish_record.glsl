@@ -29,6 +29,23 @@ float spreadOf(uint i) {
     return mix(float(spread.x), float(spread.y), fraction) / kMostSpread;
 }
 
+// How far the mouth is open, 0 to 1.
+float mouthOf(uint i) {
+    uvec2 mouth = uvec2(before[kWords * i + 4u].x, after[kWords * i + 4u].x) >> 16 & 255u;
+    return mix(float(mouth.x), float(mouth.y), fraction) / 255.0;
+}
+
+// directionOf() of common/motion/gaze.h.
+vec3 gazeDirection(uint bits) {
+    vec2 angles = vec2(ivec2(bits << 28, bits << 24) >> 28) * vec2(0.39269908, 0.19634954);
+    return vec3(cos(angles.y) * cos(angles.x), sin(angles.y), cos(angles.y) * sin(angles.x));
+}
+
+// Where the fish looks: body frame, no longer than 1.
+vec3 gazeOf(uint i) {
+    return mix(gazeDirection(before[kWords * i + 4u].x >> 24), gazeDirection(after[kWords * i + 4u].x >> 24), fraction);
+}
+
 // Whether the fish is away at one of the ticks, and so not drawn.
 bool isAway(uint i) {
     return int(before[kWords * i].y) < kAwayBelow || int(after[kWords * i].y) < kAwayBelow;

@@ -51,6 +51,8 @@ void main() {
     self.blend = detailAt(self.positionMetres, self.lengthMetres).blend;
     self.speed = speedOf(i);
     self.spread = spreadOf(i);
+    self.gaze = gazeOf(i);
+    self.mouth = mouthOf(i);
     self.firstVertex = 0u;
     if (level >= kControlMesh &&
         !findSurface(species, level - kControlMesh, slot, self.firstVertex)) {

@@ -9,6 +9,11 @@
 const vec3 kInk = vec3(0.006, 0.007, 0.009);
 
 uniform vec3 eyeOfSpecies;  // s, y and radius, body lengths
+// Of the species' file, body lengths: the gape's front and corner (s, y); width of a lip, and teeth
+// (config::Teeth); station and bow of the gill cover's hind edge.
+uniform vec4 gapeOfSpecies;
+uniform vec2 lipsOfSpecies;
+uniform vec2 gillOfSpecies;
 uniform vec3 groundColours[3];  // back, flank, belly of the species' file
 
 struct SkinPoint {
@@ -17,7 +22,11 @@ struct SkinPoint {
     float pixelV;  // and in v
     uint id;       // of the fish
     float size;    // of the fish, from nose to tail tip, metres
+    float mouth;   // from the skin (0) over the lips (kLips) to the inside of the mouth (1)
+    float lips;    // how far outside of the lips, body lengths
+    float gill;    // how far the gill cover is lifted, 0 to 1
 };
+const float kLips = 0.5;
 
 struct Skin {
     vec3 albedo;

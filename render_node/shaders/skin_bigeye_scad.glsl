@@ -57,12 +57,11 @@ void addDetails(inout Skin skin, SkinPoint at) {
     skin.albedo *= 1.0 + 0.35 * (streak - 0.5) * seen_ * on;
     paintLateralLine(skin, at, 0.051 - 0.050 * smoothstep(0.34, 0.60, at.s), 0.25, 0.30);
     paintScutes(skin, at);
-    paintGill(skin, at, 0.245, 0.024);
+    paintGill(skin, at);
     float spot = line(length((vec2(at.s, at.y) - vec2(0.240, 0.038)) / vec2(0.011, 0.014)), 1.0,
                       at.pixel / 0.012);
     skin.albedo = mix(skin.albedo, kInk, 0.93 * spot);
     skin.silver *= 1.0 - spot;
-    paintMouth(skin, at, 0.001, vec2(0.050, -0.030), 0.0024);
     paintNostril(skin, at, vec2(0.052, 0.031), 0.0022);
     // The adipose lid veils the eye's surroundings; it is clear, not silver.
     float lid = falling(0.044, 0.064, length((vec2(at.s, at.y) - eyeOfSpecies.xy) * vec2(0.8, 1.0)));

@@ -41,8 +41,7 @@ void addDetails(inout Skin skin, SkinPoint at) {
     skin.albedo *= 1.0 + 0.6 * scutes * seenAt(0.0115, at.pixel) * (along - 0.4);
     skin.tilt.y += 0.4 * scutes * sign(at.y) * smoothstep(0.0, 0.004, abs(at.y));
     paintLateralLine(skin, at, 0.072 * (1.0 - smoothstep(0.30, 0.50, at.s)), 0.27, 0.22);
-    paintGill(skin, at, 0.262, 0.030);
-    paintMouth(skin, at, -0.002, vec2(0.086, -0.026), 0.0026);
+    paintGill(skin, at);
     paintNostril(skin, at, vec2(0.060, 0.045), 0.0020);
     float lid = falling(0.030, 0.046, length((vec2(at.s, at.y) - eyeOfSpecies.xy) * vec2(0.75, 1.0)));
     skin.albedo = mix(skin.albedo, vec3(0.36, 0.43, 0.44), 0.35 * lid);

@@ -36,18 +36,11 @@ void addDetails(inout Skin skin, SkinPoint at) {
         float k = float(i);
         float from = at.s - 0.193 - 0.0125 * k - 0.16 * abs(at.y + 0.004);
         float on = falling(0.020, 0.031, abs(at.y + 0.002 - 0.001 * k));
-        skin.albedo *= 1.0 - 0.88 * on * line(from, 0.0016, at.pixel);
+        skin.albedo *= 1.0 - 0.88 * on * line(from, 0.0016 + 0.0014 * at.gill, at.pixel);
         skin.albedo *= 1.0 + 0.20 * on * line(from - 0.0042, 0.0022, at.pixel);
         skin.tilt.x -= 0.5 * on * (line(from - 0.0030, 0.0022, at.pixel) - line(from + 0.003, 0.003, at.pixel));
     }
     paintLateralLine(skin, at, 0.034 - 0.030 * smoothstep(0.22, 0.75, at.s), 0.22, 0.14);
-    // The mouth is an arc under the snout, seen from below and from the front.
-    float mouth = line(at.s - 0.046 - 9.0 * at.z * at.z, 0.0026, at.pixel) * falling(-0.60, -0.40, at.v) *
-                  falling(0.030, 0.036, abs(at.z));
-    float corner = line(at.y + 0.026 + 0.25 * abs(at.s - 0.066), 0.0020, at.pixel) *
-                   smoothstep(0.045, 0.052, at.s) * falling(0.082, 0.088, at.s);
-    skin.albedo *= 1.0 - 0.85 * max(mouth, corner);
-    skin.tilt.y += 0.35 * corner;
     paintNostril(skin, at, vec2(0.030, -0.016), 0.0030);
     // Ampullae of Lorenzini: freckles of pores about the snout.
     float pores = smoothstep(0.78, 0.88, grain(at, 0.0024)) * falling(0.05, 0.08, at.s);

@@ -56,8 +56,7 @@ void addDetails(inout Skin skin, SkinPoint at) {
     float groove = line(length(spine), 1.0, at.pixel / 0.0045);
     skin.albedo = mix(skin.albedo, vec3(0.30, 0.17, 0.008), 0.8 * groove);
     skin.tilt.y += 0.5 * line(length(spine), 0.8, at.pixel / 0.0045) * sign(at.y);
-    paintGill(skin, at, 0.228, 0.045);
-    paintMouth(skin, at, -0.006, vec2(0.026, -0.021), 0.0024);
+    paintGill(skin, at);
     paintNostril(skin, at, vec2(0.070, 0.060), 0.0024);
     shadeUnderFin(skin, at, vec2(0.31, -0.03), vec2(0.06, 0.045));
 }

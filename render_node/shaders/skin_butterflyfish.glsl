@@ -42,8 +42,7 @@ void addDetails(inout Skin skin, SkinPoint at) {
     skin.iridescence = 0.05;
     layScales(skin, at, 0.05, 0.022, 0.14, smoothstep(0.19, 0.27, at.s));
     paintLateralLine(skin, at, 0.170 * bell(at.s, 0.44, 0.20), 0.28, 0.12);
-    paintGill(skin, at, 0.255, 0.045);
-    paintMouth(skin, at, -0.001, vec2(0.020, -0.009), 0.0020);
+    paintGill(skin, at);
     paintNostril(skin, at, vec2(0.112, 0.056), 0.0022);
     shadeUnderFin(skin, at, vec2(0.33, -0.020), vec2(0.05, 0.040));
 }

@@ -37,8 +37,7 @@ void addDetails(inout Skin skin, SkinPoint at) {
     float dark = falling(0.02, 0.10, colour.g);
     skin.iridescence = 0.10 * (1.0 - dark);
     layScales(skin, at, 0.05, 0.017, 0.14, smoothstep(0.20, 0.28, at.s) * (1.0 - 0.6 * dark));
-    paintGill(skin, at, 0.225, 0.020);
-    paintMouth(skin, at, -0.002, vec2(0.028, -0.010), 0.0020);
+    paintGill(skin, at);
     paintNostril(skin, at, vec2(0.058, 0.032), 0.0018);
     shadeUnderFin(skin, at, vec2(0.29, -0.010), vec2(0.05, 0.030));
 }

@@ -57,8 +57,7 @@ void addDetails(inout Skin skin, SkinPoint at) {
     skin.iridescence = 0.05;
     layScales(skin, at, 0.07, 0.0165, 0.15, smoothstep(0.15, 0.24, at.s) * (1.0 - 0.5 * white));
     paintLateralLine(skin, at, 0.085 + 0.03 * bell(at.s, 0.45, 0.15) - 0.02 * smoothstep(0.5, 0.66, at.s), 0.25, 0.16);
-    paintGill(skin, at, 0.235, 0.040);
-    paintMouth(skin, at, 0.004, vec2(0.042, -0.022), 0.0026);
+    paintGill(skin, at);
     paintNostril(skin, at, vec2(0.040, 0.040), 0.0026);
     shadeUnderFin(skin, at, vec2(0.34, -0.014), vec2(0.05, 0.045));
 }

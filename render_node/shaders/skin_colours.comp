@@ -24,11 +24,13 @@ void main() {
     vec4 rest = places[i].rest;
     vec4 fin = places[i].fin;
     uint part = uint(fin.z);
-    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, kPixel, kPixelV, 0u, 0.0);
+    SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, kPixel, kPixelV, 0u, 0.0, part == kBody ? fin.y : 0.0,
+                             0.02 * (kLips - fin.y), 0.0);
     Skin skin = groundOf(at);
     if (part == kBody || part == kEye) {
         addDetails(skin, at);
-        paintEye(skin, at, kIris, 0.5, vec3(0.0, 0.0, 1.0));
+        paintMouth(skin, at);
+        paintEye(skin, at, kIris, 0.5, vec3(0.0, 0.0, 1.0), vec2(0.0));
         colours[i] = vec4(shownBy(skin), 1.0);
         return;
     }

@@ -51,9 +51,8 @@ void addDetails(inout Skin skin, SkinPoint at) {
     skin.albedo *= 0.90 + 0.20 * grain(at, 0.005);
     layScales(skin, at, 0.08, 0.013, 0.14, smoothstep(0.16, 0.26, at.s));
     paintLateralLine(skin, at, 0.085 * bell(at.s, 0.42, 0.25), 0.32, 0.14);
-    paintGill(skin, at, 0.315, 0.045);
+    paintGill(skin, at);
     // A large mouth: the jaw ends below the eye.
-    paintMouth(skin, at, -0.006, vec2(0.118, -0.038), 0.0034);
     paintNostril(skin, at, vec2(0.066, 0.056), 0.0026);
     shadeUnderFin(skin, at, vec2(0.38, -0.030), vec2(0.07, 0.055));
 }

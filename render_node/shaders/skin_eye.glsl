@@ -5,10 +5,17 @@
 #define SKIN_EYE_GLSL
 #include "skin.glsl"
 
+// How far the pupil of one eye moves tailwards and upwards, in radii of the eye. gaze: of the fish, in
+// its body frame; side: of the eye, 1 right. An eye that cannot see the target looks ahead.
+vec2 eyeTurn(vec3 gaze, float side) {
+    return vec2(-0.16 * gaze.x - 0.10 * max(-side * gaze.z, 0.0), 0.22 * gaze.y);
+}
+
 // dome: how much the painted eye bulges: less where the mesh has a ball for it.
 // look: unit vector to the eye of the beholder, towards the tail, upwards and out of the skin.
+// turn: of the fish's eye, so far its pupil moves tailwards and upwards, in its radii.
 // Returns how much of the pixel the fish's eye covers.
-float paintEye(inout Skin skin, SkinPoint at, Iris iris, float dome, vec3 look) {
+float paintEye(inout Skin skin, SkinPoint at, Iris iris, float dome, vec3 look, vec2 turn) {
     vec2 from = (vec2(at.s, at.y) - eyeOfSpecies.xy) / eyeOfSpecies.z;
     float d = length(from);
     // Around the eye the skin sinks and darkens.
@@ -19,6 +26,7 @@ float paintEye(inout Skin skin, SkinPoint at, Iris iris, float dome, vec3 look) 
 
     // The iris lies behind the cornea: it moves under it with the beholder.
     vec2 deep = from - 0.26 * look.xy / max(look.z, 0.45) * falling(0.2, 1.0, d);
+    deep -= turn * falling(0.5, 1.0, d);
     float r = length(deep);
     float pupil = falling(iris.pupil - 0.03 - soft, iris.pupil + 0.03 + soft,
                           length(deep * vec2(iris.upright, 1.0)));

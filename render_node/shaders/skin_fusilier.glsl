@@ -37,8 +37,7 @@ void addDetails(inout Skin skin, SkinPoint at) {
     float rows = sin(6.2831853 * girthOf(at, 0.06) / 0.0115);
     skin.albedo *= 1.0 + 0.10 * rows * seenAt(0.0115, at.pixel) * on;
     paintLateralLine(skin, at, 0.058 - 0.040 * smoothstep(0.35, 0.70, at.s), 0.22, 0.22);
-    paintGill(skin, at, 0.222, 0.026);
-    paintMouth(skin, at, 0.001, vec2(0.036, -0.016), 0.0022);
+    paintGill(skin, at);
     paintNostril(skin, at, vec2(0.048, 0.030), 0.0020);
     // Black at the root of the pectoral fin.
     float spot = line(length((vec2(at.s, at.y) - vec2(0.236, 0.008)) / vec2(0.010, 0.010)), 1.0, at.pixel / 0.010);

@@ -40,8 +40,7 @@ void addDetails(inout Skin skin, SkinPoint at) {
     skin.albedo *= 1.0 - 0.25 * seen_ * smoothstep(0.72, 0.98, scale.rim) * vec3(1.0, 0.55, 0.6);
     float lateral = 0.105 + 0.030 * bell(at.s, 0.36, 0.14) - 0.03 * smoothstep(0.42, 0.60, at.s);
     paintLateralLine(skin, at, lateral, 0.23, 0.15);
-    paintGill(skin, at, 0.228, 0.036);
-    paintMouth(skin, at, 0.006, vec2(0.036, -0.014), 0.0026);
+    paintGill(skin, at);
     paintNostril(skin, at, vec2(0.046, 0.044), 0.0025);
     shadeUnderFin(skin, at, vec2(0.30, -0.010), vec2(0.05, 0.042));
 }

@@ -36,8 +36,7 @@ Skin groundOf(SkinPoint at) {
 void addDetails(inout Skin skin, SkinPoint at) {
     skin.albedo = patternOf(at, 0.004 * (grain(at, 0.009) - 0.5)) * (0.86 + 0.28 * grain(at, 0.005));
     layScales(skin, at, 0.08, 0.011, 0.12, smoothstep(0.22, 0.30, at.s));
-    paintGill(skin, at, 0.275, 0.040);
-    paintMouth(skin, at, 0.000, vec2(0.085, -0.030), 0.0032);
+    paintGill(skin, at);
     paintNostril(skin, at, vec2(0.052, 0.052), 0.0026);
     shadeUnderFin(skin, at, vec2(0.34, -0.020), vec2(0.06, 0.070));
 }

@@ -54,8 +54,7 @@ void addDetails(inout Skin skin, SkinPoint at) {
     float ribs = sin(6.2831853 * (at.s + 0.35 * at.v * at.v * 0.2) / 0.021);
     skin.albedo *= 1.0 + 0.025 * ribs * seenAt(0.021, at.pixel) * smoothstep(0.30, 0.36, at.s);
     paintLateralLine(skin, at, 0.165 * bell(at.s, 0.42, 0.20) * falling(0.55, 0.75, at.s), 0.28, 0.14);
-    paintGill(skin, at, 0.262, 0.050);
-    paintMouth(skin, at, -0.003, vec2(0.024, -0.012), 0.0020);
+    paintGill(skin, at);
     paintNostril(skin, at, vec2(0.118, 0.062), 0.0026);
     shadeUnderFin(skin, at, vec2(0.34, -0.055), vec2(0.05, 0.035));
 }

@@ -84,7 +84,7 @@ void addDetails(inout Skin skin, SkinPoint at) {
     made.tilt = 0.34 * on * scale.slope * (1.0 - 0.6 * rim);
     made.albedo *= 1.0 - 0.10 * (1.0 - body) * (grain(at, 0.004) - 0.5);
     paintBeak(made, at);
-    paintGill(made, at, 0.238, 0.045);
+    paintGill(made, at);
     paintNostril(made, at, vec2(0.078, 0.064), 0.0024);
     shadeUnderFin(made, at, vec2(0.33, 0.01), vec2(0.07, 0.05));
     skin = made;

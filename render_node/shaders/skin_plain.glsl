@@ -13,7 +13,7 @@ Skin groundOf(SkinPoint at) {
 
 void addDetails(inout Skin skin, SkinPoint at) {
     layScales(skin, at, 0.05, 0.016, 0.14, smoothstep(0.22, 0.28, at.s));
-    paintGill(skin, at, 0.24, 0.035);
+    paintGill(skin, at);
 }
 
 Fin finOf(FinPoint fin, Skin root) { return Fin(root.albedo, 0.80, 18.0, 0.0, 0.35); }

@@ -49,8 +49,7 @@ void addDetails(inout Skin skin, SkinPoint at) {
     float groove = line(length(spine), 1.0, at.pixel / 0.0045);
     skin.albedo = mix(skin.albedo, vec3(0.75, 0.72, 0.50), 0.8 * groove);
     skin.tilt.y += 0.5 * groove * sign(at.y);
-    paintGill(skin, at, 0.222, 0.034);
-    paintMouth(skin, at, -0.010, vec2(0.018, -0.018), 0.0022);
+    paintGill(skin, at);
     paintNostril(skin, at, vec2(0.098, 0.090), 0.0024);
     shadeUnderFin(skin, at, vec2(0.31, -0.05), vec2(0.06, 0.045));
 }

@@ -50,8 +50,7 @@ void addDetails(inout Skin skin, SkinPoint at) {
     skin.albedo = mix(skin.albedo, kViolet, 0.35 * seen_ * rim * male);
     paintLateralLine(skin, at, 0.070 + 0.022 * bell(at.s, 0.34, 0.14) - 0.055 * smoothstep(0.45, 0.66, at.s), 0.22,
                      0.14);
-    paintGill(skin, at, 0.215, 0.030);
-    paintMouth(skin, at, -0.002, vec2(0.040, -0.020), 0.0026);
+    paintGill(skin, at);
     paintNostril(skin, at, vec2(0.042, 0.036), 0.0024);
     shadeUnderFin(skin, at, vec2(0.28, -0.016), vec2(0.05, 0.036));
 }

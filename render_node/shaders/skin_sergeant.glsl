@@ -44,8 +44,7 @@ void addDetails(inout Skin skin, SkinPoint at) {
     skin.albedo = patternOf(at, 0.004 * (grain(at, 0.010) - 0.5));
     layScales(skin, at, 0.07, 0.026, 0.18, smoothstep(0.13, 0.22, at.s) * (1.0 - 0.5 * bar));
     paintLateralLine(skin, at, 0.120 * bell(at.s, 0.40, 0.25), 0.25, 0.14);
-    paintGill(skin, at, 0.232, 0.045);
-    paintMouth(skin, at, 0.002, vec2(0.030, -0.014), 0.0024);
+    paintGill(skin, at);
     paintNostril(skin, at, vec2(0.052, 0.046), 0.0022);
     // The black spot over the root of the pectoral fin.
     float spot = falling(0.7, 1.1, length((vec2(at.s, at.y) - vec2(0.274, 0.024)) / vec2(0.010, 0.008)));

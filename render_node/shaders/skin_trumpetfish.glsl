@@ -41,8 +41,7 @@ void addDetails(inout Skin skin, SkinPoint at) {
     vec2 from = vec2(at.s, at.y) - eyeOfSpecies.xy;
     float rays = 0.5 + 0.5 * sin(9.0 * atan(from.y, from.x));
     skin.albedo *= 1.0 - 0.30 * rays * falling(0.018, 0.030, length(from)) * seenAt(0.01, at.pixel);
-    paintGill(skin, at, 0.315, 0.012);
-    paintMouth(skin, at, -0.001, vec2(0.020, -0.013), 0.0018);
+    paintGill(skin, at);
     paintNostril(skin, at, vec2(0.222, 0.012), 0.0016);
 }
 

@@ -132,8 +132,7 @@ int writeColours(const PaintOptions& paint) {
         places.back().part = table.vertices[table.indices[i - i % 3 + 2]].part;
     }
     const auto context = gl::makeOffscreenContext("auto", {16, 16});
-    const std::vector<glm::vec4> colours =
-        surface::skinColours(body::skinOf(species), body.eye, places);
+    const std::vector<glm::vec4> colours = surface::skinColours(body::skinOf(species), places);
     writeWhole(paint.out, std::as_bytes(std::span(colours)));
     return 0;
 }

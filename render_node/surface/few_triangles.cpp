@@ -63,28 +63,26 @@ float profileError(std::span<const glm::vec3> points, const std::array<int, 4>& 
     return error;
 }
 
-// The four rings with the least error, always with the first and the last of the body. Tries all
-// pairs between them, about 200.
+// The four rings with the least error, always with the one around the lips and the last of the
+// body. Tries all pairs between them, about 200.
 std::array<int, 4> bestRings(std::span<const glm::vec3> points) {
-    std::array<int, 4> best{0, 7, 14, body::kBodyEndRing};
-    for (int front = 1; front < body::kBodyEndRing - 1; ++front)
+    std::array<int, 4> best{1, 7, 14, body::kBodyEndRing};
+    for (int front = 2; front < body::kBodyEndRing - 1; ++front)
         for (int rear = front + 1; rear < body::kBodyEndRing; ++rear) {
-            const std::array rings{0, front, rear, body::kBodyEndRing};
+            const std::array rings{1, front, rear, body::kBodyEndRing};
             if (profileError(points, rings) < profileError(points, best)) best = rings;
         }
     return best;
 }
 
-// A cone from the nose to the first ring, then two triangles for each side of each segment.
-std::vector<Triangle> bodyTriangles(const std::array<int, 4>& rings,
-                                    const std::vector<body::CageSite>& sites) {
+// A cone from the middle of the upper lip to the first ring, then two triangles for each side of
+// each segment.
+std::vector<Triangle> bodyTriangles(const std::array<int, 4>& rings) {
     std::vector<Triangle> triangles;
-    const auto nose = std::ranges::find(sites, body::CageSiteKind::Nose, &body::CageSite::kind);
     for (std::size_t j = 0; j < kColumns.size(); ++j) {
         const int here = kColumns.at(j), next = kColumns.at((j + 1) % kColumns.size());
-        triangles.push_back({static_cast<Corner>(nose - sites.begin()),
-                             tubeCorner(rings[0], here),
-                             tubeCorner(rings[0], next)});
+        triangles.push_back(
+            {tubeCorner(0, 0), tubeCorner(rings[0], here), tubeCorner(rings[0], next)});
         for (std::size_t k = 0; k + 1 < rings.size(); ++k) {
             const Corner a = tubeCorner(rings.at(k), here), b = tubeCorner(rings.at(k), next);
             const Corner c = tubeCorner(rings.at(k + 1), next),
@@ -222,7 +220,7 @@ class Maker {
     // Triangles first, as the places of the cage refer to them.
     FewTriangles make() {
         const std::vector<body::CageSite> sites = body::makeCageTopology().sites;
-        const std::vector<Triangle> body = bodyTriangles(bestRings(points_), sites);
+        const std::vector<Triangle> body = bodyTriangles(bestRings(points_));
         for (const Triangle& triangle : body) add(outward(triangle), body::CagePart::Body);
         few_.bodyIndices = few_.indices.size();
         std::map<body::CagePart, Sheet> sheets;

@@ -33,14 +33,18 @@ std::string skinShaderOf(const body::FishSkin& skin) {
 
 gl::ProgramHandle skinProgram(const std::vector<std::string>& shaderFiles,
                               const body::FishSkin& skin,
-                              glm::vec3 eye,
                               gl::Replacements replacements) {
     replacements.push_back({kPlain, skinShaderOf(skin)});
     gl::ProgramHandle program = gl::makeProgram(shaderFiles, replacements);
     const std::array<glm::vec3, 3> colours{skin.back, skin.flank, skin.belly};
     // A uniform that this skin shader does not read has location -1, which OpenGL ignores.
     const auto at = [&](const char* name) { return glGetUniformLocation(program.name(), name); };
-    glProgramUniform3fv(program.name(), at("eyeOfSpecies"), 1, &eye.x);
+    const body::FishFace& face = skin.face;
+    const glm::vec4 gape{face.front, face.corner};
+    glProgramUniform3fv(program.name(), at("eyeOfSpecies"), 1, &face.eye.x);
+    glProgramUniform4fv(program.name(), at("gapeOfSpecies"), 1, &gape.x);
+    glProgramUniform2f(program.name(), at("lipsOfSpecies"), face.lip, face.teeth);
+    glProgramUniform2fv(program.name(), at("gillOfSpecies"), 1, &face.gill.x);
     glProgramUniform3fv(program.name(), at("groundColours"), 3, &colours[0].x);
     return program;
 }
@@ -50,15 +54,13 @@ std::shared_ptr<const SkinPrograms> makeSkinPrograms(gl::Replacements replacemen
         SkinPrograms{gl::makeProgram({"fish.comp"}), std::move(replacements)});
 }
 
-SkinShader::SkinShader(const body::FishSkin& skin,
-                       glm::vec3 eye,
-                       const gl::Replacements& replacements)
-    : nearBody{skinProgram({"fish.vert", "fish_body.frag"}, skin, eye, replacements)},
-      farBody{skinProgram({"fish.vert", "fish_far.frag"}, skin, eye, replacements)},
-      fins{skinProgram({"fish.vert", "fish_fin.frag"}, skin, eye, replacements)},
-      fewBody{skinProgram({"fish_few.vert", "fish_far.frag"}, skin, eye, replacements)},
-      fewFins{skinProgram({"fish_few.vert", "fish_fin.frag"}, skin, eye, replacements)},
-      point{skinProgram({"fish_point.vert", "fish_far.frag"}, skin, eye, replacements)} {}
+SkinShader::SkinShader(const body::FishSkin& skin, const gl::Replacements& replacements)
+    : nearBody{skinProgram({"fish.vert", "fish_body.frag"}, skin, replacements)},
+      farBody{skinProgram({"fish.vert", "fish_far.frag"}, skin, replacements)},
+      fins{skinProgram({"fish.vert", "fish_fin.frag"}, skin, replacements)},
+      fewBody{skinProgram({"fish_few.vert", "fish_far.frag"}, skin, replacements)},
+      fewFins{skinProgram({"fish_few.vert", "fish_fin.frag"}, skin, replacements)},
+      point{skinProgram({"fish_point.vert", "fish_far.frag"}, skin, replacements)} {}
 
 namespace {
 
@@ -114,8 +116,7 @@ namespace {
 std::vector<SkinShader> skinShadersOf(std::span<const SchoolSpecies> cast,
                                       const gl::Replacements& replacements) {
     std::vector<SkinShader> skinShaders;
-    for (const SchoolSpecies& member : cast)
-        skinShaders.emplace_back(member.skin, member.body.eye, replacements);
+    for (const SchoolSpecies& member : cast) skinShaders.emplace_back(member.skin, replacements);
     return skinShaders;
 }
 

@@ -36,18 +36,16 @@ struct SkinPrograms {
 [[nodiscard]] std::shared_ptr<const SkinPrograms> makeSkinPrograms(
     gl::Replacements replacements = {});
 
-// A program of these shaders with the species' skin shader and its constants. eye: place s, y and
-// radius, body lengths. Needs a current context.
+// A program of these shaders with the species' skin shader and its constants. Needs a current
+// context.
 [[nodiscard]] gl::ProgramHandle skinProgram(const std::vector<std::string>& shaderFiles,
                                             const body::FishSkin& skin,
-                                            glm::vec3 eye,
                                             gl::Replacements replacements);
 
 // The programs of one species: fish_body.frag near, fish_far.frag far, and fish_fin.frag, each with
 // the species' skin shader, shaders/skin_SPECIES.glsl, or skin_plain.glsl where there is none.
 struct SkinShader {
-    // eye: place s, y and radius, body lengths.
-    SkinShader(const body::FishSkin& skin, glm::vec3 eye, const gl::Replacements& replacements);
+    SkinShader(const body::FishSkin& skin, const gl::Replacements& replacements);
 
     gl::ProgramHandle nearBody, farBody, fins;
     // The same fragment shaders with the vertex shaders of the coarser levels.
@@ -91,9 +89,12 @@ struct DrawnFish {
     std::uint32_t firstVertex = 0;
     // Body lengths a second.
     float speed = 0;
-    std::uint32_t padding = 0;
+    float spread = 0;
+    // Body frame, unit; and how far its mouth is open by its record, 0 to 1.
+    glm::vec3 gaze{};
+    float mouth = 0;
 };
-static_assert(sizeof(DrawnFish) == 80);
+static_assert(sizeof(DrawnFish) == 96);
 
 // How many fish the last look() found, in all and at each level.
 struct SurfaceCounts {

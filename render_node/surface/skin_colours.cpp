@@ -17,9 +17,8 @@ struct PlaceOnSkin {
 }  // namespace
 
 std::vector<glm::vec4> skinColours(const body::FishSkin& skin,
-                                   glm::vec3 eye,
                                    std::span<const skin::SkinPlace> places) {
-    const gl::ProgramHandle program = skinProgram({"skin_colours.comp"}, skin, eye, {});
+    const gl::ProgramHandle program = skinProgram({"skin_colours.comp"}, skin, {});
     std::vector<PlaceOnSkin> asked;
     for (const skin::SkinPlace& place : places)
         asked.push_back({place.rest, {place.fin, static_cast<float>(place.part), 0}});

@@ -16,7 +16,6 @@ namespace aquarama::surface {
 // For each place linear albedo and opacity, without light and water. eye: place s, y and radius,
 // body lengths. Needs a current context; throws Error where the driver cannot compile the shader.
 [[nodiscard]] std::vector<glm::vec4> skinColours(const body::FishSkin& skin,
-                                                 glm::vec3 eye,
                                                  std::span<const skin::SkinPlace> places);
 
 }  // namespace aquarama::surface

@@ -22,7 +22,7 @@ struct Options {
     std::vector<float> eye{0.0F, -6.0F, 0.0F};
     std::vector<std::string> portraits;
     float metresAway = 0.7F, turnDegrees = 0.0F, lengthMetres = 0.24F, phase = 0.1F, speed = 0.8F,
-          spread = 0.0F;
+          spread = 0.0F, mouth = 0.0F, gazeDegrees = 0.0F;
     int ball = 0;
     float ballMetres = 6.0F;
     std::string tier = "ultra", water = "IA", out = "still.png";
@@ -79,6 +79,8 @@ test::Still stillOf(const Options& options, test::Still still) {
         still.fish.back().phase = options.phase;
         still.fish.back().speedBodyLengths = options.speed;
         still.fish.back().spread = options.spread;
+        still.fish.back().mouth = options.mouth;
+        still.fish.back().gazeDegrees = options.gazeDegrees;
         camera.azimuthDegrees += 60.0F * options.lengthMetres / options.metresAway;
     }
     test::Camera ahead = still.camera;
@@ -118,6 +120,8 @@ int main(int argc, char** argv) try {
     app.add_option("--phase", options.phase, "of the portraits' beat, 0 .. 1");
     app.add_option("--speed", options.speed, "of the portraits, body lengths a second");
     app.add_option("--brake", options.spread, "of the portraits, 0 .. 1");
+    app.add_option("--mouth", options.mouth, "of the portraits, 0 shut .. 1 wide open");
+    app.add_option("--gaze", options.gazeDegrees, "of the portraits, degrees to the right");
     app.add_option("--ball", options.ball, "so many scad in a ball");
     app.add_option("--ball-away", options.ballMetres, "metres");
     app.add_flag_callback(

@@ -47,7 +47,7 @@ Portrait::Portrait(const config::Species& species,
                .fin = paintOf(species, "fin"),
                .tail = paintOf(species, "tail"),
                .iris = paintOf(species, "iris")},
-      eye_(body.eye),
+      eye_(body.face.eye),
       table_(skin::makeLimitTable(body, kLevel)) {
     std::vector<glm::vec3> controlPoints(body::kControlPoints);
     body::poseCage(body, nodes, controlPoints);

@@ -48,6 +48,9 @@ Cast castOf(const std::vector<StillFish>& fish) {
             shown.phase = one.phase;
             shown.speed = one.speedBodyLengths;
             shown.spread = one.spread;
+            const float gaze = glm::radians(one.gazeDegrees);
+            shown.gaze = {std::cos(gaze), 0, std::sin(gaze)};
+            shown.mouth = one.mouth;
             shown.id = static_cast<std::uint32_t>(cast.fish.size());
             cast.fish.push_back(recordOf(shown));
             traits.push_back(traitsOf(shown));

@@ -38,6 +38,8 @@ struct StillFish {
     float phase = 0.0F;
     float speedBodyLengths = 0.0F;  // a second; its fins go by it
     float spread = 0.0F;            // of fins that brake, 0 to 1
+    float mouth = 0.0F;             // 0 shut to 1 wide open
+    float gazeDegrees = 0.0F;       // to the right
 };
 // So far before the camera and turned so that it shows its left side (0), its face (90), its right
 // side (180).

@@ -10,6 +10,8 @@
 #include <glm/vector_relational.hpp>
 #include <gtest/gtest.h>
 
+#include "common/body/face.h"
+#include "common/body/fins.h"
 #include "common/body/fish_body.h"
 #include "tests/common/body/bend.h"
 #include "tests/support/all_species.h"
@@ -81,9 +83,12 @@ class CrossingOf : public testing::TestWithParam<std::string> {
   protected:
     // Where faces that share no vertex cross; the two halves of a lone dorsal fin may, in its
     // plane.
-    static void expectNone(const FishBody& body, const NodalPoints& nodes) {
+    static void expectNone(const FishBody& body, const NodalPoints& nodes, FacePose face = {}) {
         std::vector<glm::vec3> points(kControlPoints);
         poseCage(body, nodes, points);
+        for (std::size_t i = 0; i < points.size(); ++i)
+            if (body.cage.vertices[i].part == CagePart::Body)
+                points[i] += turned(faceOffset(body.fins.style, body.fins.points[i], face), 0);
         const std::vector<Face> faces = facesOf(body, points);
         for (std::size_t i = 0; i < faces.size(); ++i)
             for (std::size_t j = i + 1; j < faces.size(); ++j) {
@@ -105,6 +110,12 @@ INSTANTIATE_TEST_SUITE_P(Cast,
 TEST_P(CrossingOf, facesIsNowhereAtRest) {
     const FishBody body = makeBody(test::castMember(GetParam()));
     expectNone(body, body.restNodes);
+}
+
+TEST_P(CrossingOf, facesIsNowhereInAnOpenMouth) {
+    const FishBody body = makeBody(test::castMember(GetParam()));
+    for (const float mouth : {0.25F, 0.5F, 1.0F})
+        expectNone(body, body.restNodes, {.mouth = mouth, .gill = mouth});
 }
 
 TEST_P(CrossingOf, facesIsNowhereInASharpBend) {

@@ -163,13 +163,14 @@ TEST_P(CageOf, knowsWhichVerticesAreFins) {
 }
 
 // Each ring lies behind the one before it along every column, so that the skin does not fold over.
+// The lips are no such ring: a snout may reach over them.
 TEST_P(CageOf, bodyRunsFromHeadToTailInEveryColumn) {
     const auto station = [&](int ring, int column) {
         return body_.cage.vertices.at(static_cast<std::size_t>(ring * kTubeColumns + column))
             .rest.x;
     };
     for (int column = 0; column < kTubeColumns; ++column)
-        for (int ring = 1; ring <= kBodyEndRing; ++ring)
+        for (int ring = 2; ring <= kBodyEndRing; ++ring)
             EXPECT_GT(station(ring, column), station(ring - 1, column)) << ring << ' ' << column;
 }
 

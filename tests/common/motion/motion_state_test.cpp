@@ -8,6 +8,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
+#include "common/motion/gaze.h"
+
 namespace aquarama::motion {
 namespace {
 
@@ -41,6 +43,8 @@ MotionStates randomStates(std::size_t fish, unsigned seed) {
         states.warpLength[i] = static_cast<std::uint8_t>(random());
         states.warpFrame[i] = static_cast<std::uint8_t>(random() % (states.warpLength[i] + 1U));
         states.spread[i] = static_cast<std::uint8_t>(random());
+        states.mouth[i] = static_cast<std::uint8_t>(random());
+        states.gaze[i] = static_cast<std::uint8_t>(random());
     }
     return states;
 }
@@ -131,6 +135,51 @@ TEST(MotionState, theHashSeesEveryBitOfEveryFish) {
     EXPECT_NE(hashOf(swapped), hash);
 }
 
+// Worlds that move alike have one hash, however their faces look: so a recording of before there
+// were faces still proves its replay.
+TEST(MotionState, theHashIsNotOfMouthAndGaze) {
+    MotionStates states = randomStates(3, 6);
+    const std::uint64_t hash = hashOf(states);
+    states.mouth[1] ^= 0x5AU;
+    states.gaze[2] ^= 0xA5U;
+    EXPECT_EQ(hashOf(states), hash);
+}
+
+TEST(Gaze, everyByteIsADirectionAndItsOwnAgain) {
+    for (unsigned gaze = 0; gaze < 256; ++gaze) {
+        if (gaze >> 4U == 8U) continue;  // straight down there is no other
+        const glm::vec3 direction = directionOf(static_cast<std::uint8_t>(gaze));
+        EXPECT_NEAR(glm::length(direction), 1, 1e-6F);
+        EXPECT_EQ(gazeTowards(3.0F * direction), gaze);
+    }
+    EXPECT_EQ(directionOf(0), glm::vec3(1, 0, 0));
+    EXPECT_GT(directionOf(gazeTowards({0, 0.2F, 1})).z, 0.9F) << "right is positive z";
+}
+
+TEST(Gaze, isWithinHalfAStepOfWhatIsLookedAt) {
+    std::mt19937 random(7);
+    std::normal_distribution<float> normal;
+    for (int i = 0; i < 10000; ++i) {
+        const glm::vec3 to =
+            glm::normalize(glm::vec3(normal(random), 0.5F * normal(random), normal(random)));
+        EXPECT_GT(glm::dot(directionOf(gazeTowards(to)), to), std::cos(0.23F));
+    }
+}
+
+TEST(Gaze, turnsByTheShorterWayWithinEightTicks) {
+    for (unsigned from = 0; from < 256; ++from)
+        for (unsigned to = 0; to < 256; ++to) {
+            std::uint8_t gaze = static_cast<std::uint8_t>(from);
+            for (int tick = 0; tick < 16 && gaze != to; ++tick) {
+                const glm::vec3 before = directionOf(gaze);
+                gaze = gazeAfter(gaze, to);
+                ASSERT_GT(glm::dot(before, directionOf(gaze)), std::cos(0.45F));
+            }
+            ASSERT_EQ(gaze, to) << from;
+        }
+    EXPECT_EQ(gazeAfter(7, 8), 8) << "round behind it";
+}
+
 TEST(MotionState, anImpossibleRecordIsNotPlayable) {
     const FishRecord good = recordOf(randomStates(1, 5), 0);
     const auto with = [&](auto&& damage) {
@@ -141,9 +190,8 @@ TEST(MotionState, anImpossibleRecordIsNotPlayable) {
     EXPECT_TRUE(with([](auto&) {}));
     EXPECT_FALSE(with([](auto& r) { r.segment = kSegments; }));
     EXPECT_FALSE(with([](auto& r) { r.fromSegment = kSegments; }));
-    EXPECT_FALSE(with([](auto& r) { r.mouth = 1; })) << "not used yet";
-    EXPECT_FALSE(with([](auto& r) { r.gaze = 1; }));
-    EXPECT_FALSE(with([](auto& r) { r.skin = 1; }));
+    EXPECT_TRUE(with([](auto& r) { r.mouth = 255, r.gaze = 255; })) << "all of them are possible";
+    EXPECT_FALSE(with([](auto& r) { r.skin = 1; })) << "not used yet";
     EXPECT_FALSE(with([](auto& r) { r.warpLength = 3, r.warpFrame = 4; }));
     EXPECT_FALSE(with([](auto& r) { r.orientationHigh |= 1U << 31U; }));
     EXPECT_FALSE(

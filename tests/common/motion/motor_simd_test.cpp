@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // One world on every machine: the vectorised step against the plain one, bit for bit.
 #include <set>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
@@ -56,6 +58,32 @@ TEST(MotorStep, everyInstructionSetComputesTheBitsOfThePlainStep) {
     hwy::SetSupportedTargetsForTest(0);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     EXPECT_GT(compared, 0);
+}
+
+// The hash does not see mouth and gaze.
+TEST(MotorStep, everyInstructionSetMovesFacesAsThePlainStepDoes) {
+    const auto faces = [](auto&& step) {
+        School school = randomSchool();
+        std::mt19937 random(15);
+        for (int tick = 0; tick < 60; ++tick) {
+            for (std::size_t i = tick % 7; i < kFish; i += 7) {
+                school.commands.mouth[i] = static_cast<std::uint8_t>(random());
+                school.commands.gaze[i] = static_cast<std::uint8_t>(random());
+            }
+            step(school.step());
+        }
+        return std::pair{school.states.mouth, school.states.gaze};
+    };
+    const auto plain = faces([](const MotorStep& step) { step.runReference(); });
+    EXPECT_NE(plain.first, std::vector<std::uint8_t>(kFish));
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        EXPECT_EQ(faces([](const MotorStep& step) { step.run(); }), plain)
+            << hwy::TargetName(target);
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 // What nodes are admitted by (Hello): the same on every machine.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The patterns beside swimming and turning (paper, section 3.2): retreat, brake, glide, ascend and
 // descend.
+#include "common/motion/gaze.h"
 #include "common/motion/motor_tables.h"
 #include "tests/common/motion/captured_species.h"
 #include "tests/common/motion/school.h"
@@ -114,6 +115,24 @@ TEST_P(Patterns, finsFollowTheCommandedBrakeWithinAFifthOfASecond) {
         school.tick(7);
         EXPECT_EQ(school.states.spread[0], brake);
     }
+}
+
+// Mouth and eyes likewise, and they move nothing else.
+TEST_P(Patterns, mouthAndEyesFollowTheirCommands) {
+    const auto tables = tablesOf(GetParam(), kResponse);
+    School school(2, *tables);
+    for (const std::size_t fish : {0U, 1U}) school.play(fish, Action::ForwardMedium);
+    school.commands.mouth[0] = 255;
+    school.commands.gaze[0] = gazeTowards({-1, 0, 0});
+    school.tick(3);
+    EXPECT_EQ(school.states.mouth[0], 3 * kMouthStep);
+    EXPECT_EQ(school.states.gaze[0] & 15U, 13U) << "three steps to the left";
+    school.tick(5);
+    EXPECT_EQ(school.states.mouth[0], 255);
+    EXPECT_EQ(school.states.gaze[0], gazeTowards({-1, 0, 0}));
+    EXPECT_EQ(school.states.mouth[1], 0);
+    EXPECT_EQ(school.states.speed[0], school.states.speed[1]);
+    EXPECT_EQ(school.states.phase[0], school.states.phase[1]);
 }
 
 // At half the speed s of the segment, dv/dt = swimDrag s^2 / 2.

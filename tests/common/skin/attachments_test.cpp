@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Cast,
                          [](const auto& name) { return name.param; });
 
 TEST_P(AttachmentsOf, eyesSitInTheSkinInEveryPose) {
-    const float radius = body_.eye.z;
+    const float radius = body_.face.eye.z;
     for (const body::NodalPoints& nodes : poses()) {
         const auto points = posed(nodes);
         int balls = 0;
@@ -131,7 +131,7 @@ TEST_P(AttachmentsOf, eyesStayRoundAndLookOutwards) {
                 EXPECT_GT(over(points, middle + 0.001F * points[i].normal), over(points, middle));
                 continue;
             }
-            const float across = glm::distance(points[i].position, middle) / body_.eye.z;
+            const float across = glm::distance(points[i].position, middle) / body_.face.eye.z;
             EXPECT_GT(across, 0.85F * glm::length(at));
             EXPECT_LT(across, 1.6F * glm::length(at) + 0.3F);
         }

@@ -73,7 +73,7 @@ TEST(Silhouette, aSharkHasTheFinsAndTheEyeOfItsKind) {
     const Drawn shark("blacktip_reef_shark");
     const float back = shark.along(1, body::CagePart::Body).most;
     expectWithin(shark.along(1, body::CagePart::FirstDorsal).most - back, {0.075F, 0.114F});
-    expectWithin(2 * shark.body.eye.z, {0.02F, 0.03F});
+    expectWithin(2 * shark.body.face.eye.z, {0.02F, 0.03F});
     EXPECT_GT(shark.along(1, body::CagePart::Caudal).most,
               -shark.along(1, body::CagePart::Caudal).least)
         << "the upper lobe of its tail is the longer";

@@ -74,6 +74,7 @@ class Observed {
     std::vector<float> poseMetres;        // from the station
     std::vector<float> afterwardsMetres;  // 20 s after a pose
     std::vector<float> tilts;             // sines
+    std::vector<float> mouths;            // of those that pose, in 1/255
     std::uint64_t inspected = 0;          // ticks with a client
     std::size_t most = 0;                 // clients at the station at a time
     std::uint64_t sum = 0, ticks = 0;
@@ -93,6 +94,7 @@ class Observed {
             if (isPosing && posed_[fish] % 60 == 0 && posed_[fish] > 180) {
                 poseMetres.push_back(metres);
                 tilts.push_back(std::abs(world_.view().heading(fish).y));
+                mouths.push_back(world_.states().mouth[fish]);
             }
         } else if (posed_[fish] > 0) {
             posedSeconds.push_back(static_cast<double>(posed_[fish]) / 60);
@@ -141,6 +143,7 @@ TEST(Cleaning, clientsComePoseTiltedAndLeave) {
     EXPECT_GE(seen.visits, 6) << "of four clients in 12 minutes";
     EXPECT_LT(median(seen.poseMetres), 0.6F);
     EXPECT_GT(median(seen.tilts), 0.15F);
+    EXPECT_GE(median(seen.mouths), 110) << "a client holds its mouth open";
     for (const double lasts : seen.posedSeconds) EXPECT_LT(lasts, 21);
     EXPECT_GT(median(seen.afterwardsMetres), 1.5F);
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Food is eaten, hunger falls, and a school that feeds stays one.
 #include <algorithm>
+#include <cstdint>
+#include <iostream>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -85,6 +88,62 @@ TEST(Eat, AMealIsInOneStomachAndHungerFalls) {
     float after = 0;
     for (std::uint32_t fish = 0; fish < 20; ++fish) after += hungerOf(world, fish);
     EXPECT_LT(after, 0.6F * before);
+}
+
+// The ticks of a world, with what the faces of its fish do in them.
+class Faces {
+  public:
+    explicit Faces(World& world)
+        : world_(world), fish_(world.traits().size()), eaten_(fish_), ate_(fish_, kNever) {}
+
+    void advance() {
+        const std::vector<std::uint8_t> mouth = world_.states().mouth, gaze = world_.states().gaze;
+        world_.advance();
+        ++ticks_;
+        for (std::size_t fish = 0; fish < fish_; ++fish) {
+            changes += world_.states().mouth[fish] != mouth[fish] ? 1U : 0U;
+            changes += world_.states().gaze[fish] != gaze[fish] ? 1U : 0U;
+            observe(fish);
+        }
+    }
+    [[nodiscard]] double changesPerFishAndSecond() const {
+        return static_cast<double>(changes) * 60 / static_cast<double>(fish_ * ticks_);
+    }
+
+    std::uint64_t changes = 0;  // bytes of records
+    std::vector<int> atMeals;   // mouths, some ticks after each
+    std::vector<int> idle;      // of fish that have eaten nothing for a second
+
+  private:
+    static constexpr std::uint64_t kNever = 1U << 30U;
+
+    void observe(std::size_t fish) {
+        const std::uint16_t eaten = world_.minds()[fish].eaten;
+        ate_[fish] = eaten > eaten_[fish] ? 0 : ate_[fish] + 1;
+        eaten_[fish] = eaten;
+        const int mouth = world_.states().mouth[fish];
+        if (ate_[fish] == 5) atMeals.push_back(mouth);
+        if (ate_[fish] > 60 && ate_[fish] % 60 == 0) idle.push_back(mouth);
+    }
+
+    World& world_;
+    std::size_t fish_;
+    std::vector<std::uint16_t> eaten_;
+    std::vector<std::uint64_t> ate_;
+    std::uint64_t ticks_ = 0;
+};
+
+TEST(Eat, aFishSnapsAtEachMorselAndShutsItsMouthAgain) {
+    World world(openWater(1, {hungry(scads(20), 0.6)}));
+    world.apply(DropFood{kMiddle + glm::vec3{0.5F, 0, 0}, 60});
+    Faces faces(world);
+    for (int i = 0; i < 1800; ++i) faces.advance();
+    ASSERT_GT(faces.atMeals.size(), 20U);
+    for (const int mouth : faces.atMeals) EXPECT_GT(mouth, 100);
+    const auto open = std::ranges::count_if(faces.idle, [](int mouth) { return mouth > 0; });
+    EXPECT_LT(open * 20, std::ssize(faces.idle)) << "a snap that found nothing";
+    std::cout << faces.changesPerFishAndSecond() << " bytes of mouth and gaze change a second\n";
+    EXPECT_LT(faces.changesPerFishAndSecond(), 12) << "of 2400 that a record has in that time";
 }
 
 // The nose of fish 0, a scad, as it is seen: eq. 12 by the plain functions of the reconstruction.

@@ -69,12 +69,19 @@ body::FinDrive driveOf(const motion::Repertoire& repertoire,
                        float seconds) {
     const auto [left, right] = motion::finPoses(repertoire, fish);
     const glm::quat rotation(fish.rotation.w, fish.rotation.x, fish.rotation.y, fish.rotation.z);
-    return {.seconds = seconds - body::kFinSeconds * std::floor(seconds / body::kFinSeconds),
+    const float wrapped = seconds - body::kFinSeconds * std::floor(seconds / body::kFinSeconds);
+    return {.seconds = wrapped,
             .speed = fish.speed,
             .tilt = (rotation * glm::vec3(0, 0, 1)).y,
             .spread = fish.spread,
             .left = left,
             .right = right,
+            .face = body::facePose({.seconds = wrapped,
+                                    .lengthMetres = fish.lengthMetres,
+                                    .speed = fish.speed,
+                                    .spread = fish.spread,
+                                    .mouth = fish.mouth,
+                                    .id = fish.id}),
             .id = fish.id,
             .phase = fish.phase,
             .fromPhase = fish.fromPhase,

@@ -76,7 +76,7 @@ TEST_F(SchoolSurfaceTest, everyLevelLiesWhereTheCpuPutsIt) {
 }
 
 // Fins that row, flutter and ripple: of each species the GPU's are those of the reference.
-TEST_F(SchoolSurfaceTest, everySpeciesMovesItsFinsAsTheCpuDoes) {
+TEST_F(SchoolSurfaceTest, everySpeciesMovesItsFinsAndItsFaceAsTheCpuDoes) {
     std::vector<SchoolSpecies> cast;
     std::vector<motion::PresentedFish> fish;
     for (const std::string& name : test::allSpeciesNames()) {
@@ -85,6 +85,7 @@ TEST_F(SchoolSurfaceTest, everySpeciesMovesItsFinsAsTheCpuDoes) {
         one.id = static_cast<std::uint32_t>(fish.size());
         one.speed = 0.25F * static_cast<float>(fish.size());
         one.spread = 0.2F * static_cast<float>(fish.size() % 6);
+        one.mouth = 0.25F * static_cast<float>(fish.size() % 5);
         one.phase = 0.625F;
         one.action = static_cast<std::uint32_t>(fish.size());
         fish.push_back(one);

@@ -15,6 +15,7 @@
 
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
+#include "common/motion/gaze.h"
 #include "common/motion/reconstruct.h"
 #include "common/motion/repertoire.h"
 #include "render_node/surface/school_surface.h"
@@ -102,6 +103,8 @@ inline motion::FishRecord recordOf(const motion::PresentedFish& fish) {
     record.speedAndSpread = motion::packedSpeedAndSpread(
         static_cast<std::int32_t>(std::lround(fish.speed * motion::kSpeedUnitsPerBodyLength)),
         static_cast<std::uint8_t>(std::lround(fish.spread * 255.0F)));
+    record.mouth = static_cast<std::uint8_t>(std::lround(fish.mouth * 255.0F));
+    record.gaze = motion::gazeTowards(fish.gaze);
     if (fish.warpWeight >= 1.0F) return record;
     record.warpLength = 254;
     const long weight = std::lround(fish.warpWeight * 255.0F);

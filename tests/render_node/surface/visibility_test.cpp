@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/motion/gaze.h"
 #include "tests/render_node/surface/surface_fixture.h"
 
 namespace aquarama::surface {
@@ -58,11 +59,15 @@ struct TwoTicks {
         from.fromPhase = static_cast<std::uint16_t>(any(random));
         from.warpLength = static_cast<std::uint8_t>(any(random) % 9);
         from.warpFrame = static_cast<std::uint8_t>(any(random) % (from.warpLength + 1));
+        from.mouth = static_cast<std::uint8_t>(any(random));
+        from.gaze = static_cast<std::uint8_t>(any(random));
         const motion::FishRecord place = to;
         to = from;
         to.x = place.x, to.y = place.y, to.z = place.z;
         to.orientationLow = place.orientationLow, to.orientationHigh = place.orientationHigh;
         to.phase = static_cast<std::uint16_t>(from.phase + any(random) % 4000 - 2000);
+        to.mouth = static_cast<std::uint8_t>(any(random));
+        to.gaze = motion::gazeAfter(from.gaze, static_cast<unsigned>(any(random)));
         to.warpFrame =
             std::min<std::uint8_t>(static_cast<std::uint8_t>(from.warpFrame + 1), to.warpLength);
         if (any(random) % 3 != 0) return;
@@ -162,6 +167,8 @@ TEST_F(VisibilityTest, aFishIsWhereTheReferencePresentsIt) {
                       1e-4F * bodyLength);
             // Half a unit of a quaternion moves the nose by as many body lengths.
             ASSERT_LT(glm::distance(fish.rotation, expected.rotation), 1e-4F);
+            ASSERT_LT(glm::distance(fish.gaze, expected.gaze), 1e-5F);
+            ASSERT_NEAR(fish.mouth, expected.mouth, 1e-6F);
             ASSERT_FLOAT_EQ(fish.lengthMetres, bodyLength);
             ASSERT_EQ(fish.action, expected.action);
             ASSERT_EQ(fish.fromAction, expected.fromAction);
