@@ -25,7 +25,8 @@ void paintGill(inout Skin skin, SkinPoint at) {
 float pointedTeeth(SkinPoint at, float depth) {
     float along = 8.5 * atan(at.z, gapeOfSpecies.z + 0.25 * abs(gapeOfSpecies.z - gapeOfSpecies.x) - at.s);
     float across = abs(2.0 * fract(along) - 1.0);
-    return falling(-0.03, 0.03, depth - 0.30 * across) * smoothstep(0.015, 0.04, depth);
+    float blade = falling(-0.03, 0.03, depth - 0.30 * across) * smoothstep(0.015, 0.04, depth);
+    return mix(0.30 * falling(0.0, 0.30, depth), blade, seenAt(0.010, at.pixel));
 }
 
 // The flesh behind the lips, darker the deeper, with the teeth that the species shows.

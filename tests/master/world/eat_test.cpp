@@ -94,7 +94,10 @@ TEST(Eat, AMealIsInOneStomachAndHungerFalls) {
 class Faces {
   public:
     explicit Faces(World& world)
-        : world_(world), fish_(world.traits().size()), eaten_(fish_), ate_(fish_, kNever) {}
+        : world_(world), fish_(world.traits().size()), ate_(fish_, kNever) {
+        for (std::size_t fish = 0; fish < fish_; ++fish)
+            eaten_.push_back(world.minds()[fish].eaten);
+    }
 
     void advance() {
         const std::vector<std::uint8_t> mouth = world_.states().mouth, gaze = world_.states().gaze;
