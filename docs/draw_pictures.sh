@@ -21,6 +21,8 @@ declare -A way=(
     [portraits_reef.png]=portraits_reef
     [tiers.png]=tiers
     [water_types.png]=water_types
+    [colour.png]=colour
+    [faces.png]=faces
     [species.png]=species
     [species_sizes.png]=species
     [submarine.webp]="routine submarine 680 17 medium"
@@ -117,6 +119,49 @@ tiers() {
             --out "$drawn/$tier.png"
     done
     $bin/aquarama_draw_sheet "$drawn/tiers.png" 2 "$drawn"/{low,medium,high,ultra}.png
+}
+# Three views of the reef as in nature, and below them with the colour that the wall gives back.
+colour() {
+    local share view
+    for share in 0 0.9; do
+        for view in "-40 -8" "12 -10" "55 -6"; do
+            $bin/aquarama_draw_still --quality ultra --azimuth "${view% *}" --elevation "${view#* }" --fov 50 \
+                --width 560 --height 315 --colour $share --out "$drawn/colour_$share-${view% *}.png"
+        done
+    done
+    $bin/aquarama_draw_sheet "$drawn/colour.png" 3 "$drawn"/colour_0-{-40,12,55}.png "$drawn"/colour_0.9-{-40,12,55}.png
+}
+# Every species 0.6 m away: from the front, three quarters and the side; the large ones at their heads.
+faces() {
+    local name length turn
+    local -a pictures=()
+    while read -r name length; do
+        for turn in 75 40 0; do
+            $bin/aquarama_draw_still --portrait "$name" --length "$length" --away 0.6 --turn $turn --azimuth 10 \
+                --fov "$(awk "BEGIN { fov = 100 * $length; print (fov > 42 ? 42 : fov < 12 ? 12 : fov) }")" \
+                --width 320 --height 200 --quality ultra --out "$drawn/$name-$turn.png"
+            pictures+=("$drawn/$name-$turn.png")
+        done
+    done <<'END'
+blacktip_reef_shark 0.6
+trumpetfish 0.5
+bigeye_trevally 0.45
+parrotfish 0.32
+coral_grouper 0.32
+lionfish 0.28
+fusilier 0.26
+bigeye_scad 0.24
+blue_tang 0.22
+powder_blue_tang 0.18
+moorish_idol 0.18
+butterflyfish 0.17
+sergeant 0.14
+cleaner_wrasse 0.09
+clownfish 0.09
+sea_goldie 0.09
+green_chromis 0.08
+END
+    $bin/aquarama_draw_sheet "$drawn/faces.png" 6 "${pictures[@]}"
 }
 # One reef in each of Jerlov's types of water, the clearest first.
 water_types() {

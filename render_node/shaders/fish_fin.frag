@@ -78,5 +78,8 @@ void main() {
     }
     // The body is open behind the root of a paired fin: that part is always opaque.
     float clear = isPaired ? smoothstep(0.30, 0.60, fin.y) : smoothstep(0.0, 2.0 * reach, fin.y);
-    colour = vec4(seen(radiance, place), opacity * mix(1.0, made.opacity, clear));
+    // The rim ends softly within two pixels, also where a tier has one sample a pixel.
+    float rim = clamp((1.0 - fin.y) / max(2.0 * fwidth(fin.y), 1.0e-4), 0.0, 1.0);
+    rim = mix(rim, 1.0, clamp(6.0 * fwidth(fin.y) - 0.5, 0.0, 1.0));
+    colour = vec4(seen(radiance, place), opacity * rim * mix(1.0, made.opacity, clear));
 }
