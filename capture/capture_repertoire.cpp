@@ -371,12 +371,15 @@ namespace {
 // Part of every key: raise it when a change of the simulation or of the compilation changes the
 // repertoires.
 constexpr const char* kCaptureVersion = "aquarama capture 18\n";
+// Part of the keys of species whose repertoires hold control points: raise it when the cage changes.
+constexpr const char* kCageVersion = "cage 2\n";
 constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 7 MB at most
 
 // SPECIES-DIGEST.aqrep. The digest covers only the parts of the species file that influence motion:
 // a change of colours or habits does not capture again.
 fs::path cachedPath(const config::Species& species, const fs::path& folder) {
-    const std::string key = toHex(digestOf(kCaptureVersion + species.motion));
+    const std::string cage = species.recordsControlPoints ? kCageVersion : "";
+    const std::string key = toHex(digestOf(kCaptureVersion + cage + species.motion));
     return folder / (species.name + "-" + key + ".aqrep");
 }
 

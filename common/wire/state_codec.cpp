@@ -18,7 +18,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 // Of FishRecord and FoodRecord; a receiver refuses any other.
-constexpr std::uint32_t kLayoutVersion = 6;
+constexpr std::uint32_t kLayoutVersion = 5;
 constexpr std::size_t kStride = sizeof(motion::FishRecord);
 constexpr int kPlaceNumbers = 3;
 

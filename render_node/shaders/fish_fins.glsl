@@ -33,7 +33,6 @@ struct FinDrive {
     float seconds, speed;
     float tilt, spread;
     vec3 left, right;
-    FacePose face;
     float own;     // the fish's phase offset, cycles
     float phase, fromPhase, weight;
 };
@@ -84,7 +83,7 @@ vec3 faceOffset(FinStyle style, FinPoint point, FacePose pose) {
 vec3 finOffset(FinStyle style, FinPoint point, FinDrive drive, float drift) {
     vec3 mirror = vec3(1.0, 1.0, point.side);
     switch (point.part) {
-        case kBody: return faceOffset(style, point, drive.face);
+        case kBody: return vec3(0.0);  // see faceOffset()
         case kPectoral: return rowedFin(style, point, drive) * mirror;
         case kPelvic: {
             float angle = style.pelvicFold * (1.0 - drive.spread) * smoothstep(kStands, kFolded, abs(drive.speed));

@@ -80,8 +80,8 @@ Posed posedAt(uint species, uint action, float phase, uint point) {
 
 FinDrive finDriveOf(Fish self) {
     return FinDrive(mod(eyeAndTime.w, kFinSeconds), self.speed, rotate(self.rotation, vec3(0.0, 0.0, 1.0)).y,
-                    self.spread, finOf(self, 0u), finOf(self, 1u), facePose(self, eyeAndTime.w),
-                    fract(0.37 * float(self.id)), self.phase, self.fromPhase, self.warpWeight);
+                    self.spread, finOf(self, 0u), finOf(self, 1u), fract(0.37 * float(self.id)), self.phase,
+                    self.fromPhase, self.warpWeight);
 }
 
 vec3 controlPointOf(Fish self, uint i) {
@@ -93,7 +93,11 @@ vec3 controlPointOf(Fish self, uint i) {
         pose.drift = mix(from.drift, pose.drift, self.warpWeight);
     }
     FinPoint point = finPointOf(self.species, i);
-    if (point.part == kBody && point.p + point.q + point.sway == 0.0) return pose.place;
+    if (point.part == kBody) {
+        if (point.p + point.q + point.sway == 0.0) return pose.place;  // most are behind the head
+        vec3 offset = faceOffset(finStyleOf(self.species), point, facePose(self, eyeAndTime.w));
+        return pose.place + turnedBy(pose.heading, offset);
+    }
     vec3 offset = finOffset(finStyleOf(self.species), point, finDriveOf(self), pose.drift);
     return pose.place + turnedBy(pose.heading, offset);
 }

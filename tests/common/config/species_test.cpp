@@ -58,7 +58,7 @@ TEST(Species, finsThatCannotRowAreRefused) {
     EXPECT_THAT(refusalOf(edited("slow { beat_hz: 2 gain: 0.793 }",
                                  "\nslow { beat_hz: 2 gain: 0.793\nrows: 1 }")),
                 testing::AllOf(testing::HasSubstr("a gait that rows has gain: 0"),
-                               testing::HasSubstr("fish.txtpb:112:1: ")));
+                               testing::HasSubstr("fish.txtpb:117:1: ")));
     EXPECT_THAT(refusalOf(edited("beat_hz: 2.5 stroke_deg: 55", "beat_hz: 0 stroke_deg: 55")),
                 testing::HasSubstr("row at 0.1 Hz at least"));
     EXPECT_THAT(refusalOf(edited("feather_deg: 80", "feather_deg: 80 twist_deg: 120")),

@@ -16,10 +16,11 @@ struct Shown : FishInMind {
     using FishInMind::FishInMind;
 
     fish::Face face(const std::vector<fish::DeferredEvent>& own = {}) {
+        Environment environment;
+        environment.view = &view;
         return faceOf({environment, parameters, 0, senses, feelings}, mind, own);
     }
     fish::FishView view;
-    Environment environment{.view = &view};
 };
 
 Sighting at(glm::vec3 offset) {
