@@ -9,8 +9,8 @@ bin=build/show/bin
 
 # What draws each picture: a function below, with its arguments.
 declare -A way=(
-    [panorama.png]="wall desk panorama.png"
-    [stereo.png]="wall desk_stereo stereo.png"
+    [panorama.png]="wall desk panorama.png high"
+    [stereo.png]="wall desk_stereo stereo.png medium"
     [screen_flat_3.webp]="screen flat_3"
     [screen_wall_2x2.webp]="screen wall_2x2"
     [screen_dome_5.webp]="screen dome_5"
@@ -23,6 +23,8 @@ declare -A way=(
     [water_types.png]=water_types
     [colour.png]=colour
     [faces.png]=faces
+    [shark.png]=shark
+    [days.png]=days
     [species.png]=species
     [species_sizes.png]=species
     [submarine.webp]="routine submarine 680 17 medium"
@@ -66,7 +68,7 @@ declare -A way=(
 # Each leaves its pictures in $drawn.
 # The unrolled wall of a rig after a second. For a clip that nobody keeps only its own frames are drawn: here the last.
 wall() {
-    $bin/aquarama run "config/$1.txtpb" --quality medium --headless --frames 61 --film-every 60 --clip "$drawn/$1.mp4" \
+    $bin/aquarama run "config/$1.txtpb" --quality "$3" --headless --frames 61 --film-every 60 --clip "$drawn/$1.mp4" \
         --snapshot "$drawn/$1"
     mv "$drawn/$1/panorama.png" "$drawn/$2"
 }
@@ -162,6 +164,27 @@ sea_goldie 0.09
 green_chromis 0.08
 END
     $bin/aquarama_draw_sheet "$drawn/faces.png" 6 "${pictures[@]}"
+}
+# A shark's face as it passes the glass.
+shark() {
+    $bin/aquarama_draw_still --portrait blacktip_reef_shark --length 1.3 --away 1.0 --turn 60 --azimuth 10 --fov 34 \
+        --width 720 --height 450 --quality ultra --mouth 0.35 --out "$drawn/shark.png"
+}
+# The reef at dawn, sunset, dusk and by night: time of day and the sky's light.
+days() {
+    local time light
+    local -a pictures=()
+    while read -r time light; do
+        $bin/aquarama_draw_still --azimuth -30 --elevation 4 --fov 62 --width 480 --height 300 --quality ultra \
+            --time-of-day "$time" --daylight "$light" --out "$drawn/at_$time.png"
+        pictures+=("$drawn/at_$time.png")
+    done <<'END'
+0.25 0.6
+0.74 0.8
+0.80 0.4
+0.00 0.25
+END
+    $bin/aquarama_draw_sheet "$drawn/days.png" 2 "${pictures[@]}"
 }
 # One reef in each of Jerlov's types of water, the clearest first.
 water_types() {

@@ -205,6 +205,7 @@ TEST(Messages, aStateThatLiesIsRefused) {
         refused([](StateFrame& s) { s.show.quality = static_cast<config::QualityTier>(4); }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.pattern = static_cast<Pattern>(5); }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.brightness = 1.01F; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.show.colourReturned = 1.01F; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.scene = "a\nb"; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.pilot = std::string(65, 'x'); }));
     EXPECT_TRUE(refused([&](StateFrame& s) { s.timeOfDay = nan; }));
@@ -439,6 +440,7 @@ TEST(Messages, boundsOfTheCodeAreThoseOfTheSchema) {
     EXPECT_EQ(ruleOf(v1::Look(), "cast").most(), kMostSpecies);
     EXPECT_EQ(ruleOf(v1::FramePicture(), "jpeg").most_bytes(), kMostJpegBytes);
     EXPECT_EQ(ruleOf(v1::Show(), "brightness").most(), kFullLight);
+    EXPECT_EQ(ruleOf(v1::Show(), "colour_returned").most(), kAllColour);
 }
 
 TEST(Messages, namesAreBoundedAndPrintable) {

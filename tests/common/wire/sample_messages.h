@@ -45,9 +45,9 @@ inline Show sampleShow() {
             .black = true,
             .brightness = 0.2F,
             .frozen = true,
-            .colourReturned = 0.6F,
             .pilot = "middle",
-            .calibration = 0x0123456789ABCDEFU};
+            .calibration = 0x0123456789ABCDEFU,
+            .colourReturned = 0.6F};
 }
 
 inline config::ScanPattern sampleScanPattern() {
