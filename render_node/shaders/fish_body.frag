@@ -25,10 +25,10 @@ void main() {
     Skin far = groundOf(at);
     Skin skin = far;
     addDetails(skin, at);
-    paintInside(far, at);
-    paintMouth(skin, at);
+    paintLips(skin, at);
     skin.albedo = mix(far.albedo, skin.albedo, nearness);
     skin.silver = mix(far.silver, skin.silver, nearness);
+    paintInside(skin, at);
 
     vec3 toEye = normalize(eyeAndTime.xyz - place);
     vec3 skinNormal = normalize(normal);

@@ -23,7 +23,7 @@ void paintGill(inout Skin skin, SkinPoint at) {
 
 // 1 on teeth that stand behind the lips; depth: from the lips (0) to the bottom of the mouth (1).
 float pointedTeeth(SkinPoint at, float depth) {
-    float along = 8.5 * atan(at.z, gapeOfSpecies.z + 0.25 * abs(gapeOfSpecies.z - gapeOfSpecies.x) - at.s);
+    float along = 115.0 * (abs(at.z) + 0.7 * at.s);
     float across = abs(2.0 * fract(along) - 1.0);
     float blade = falling(-0.03, 0.03, depth - 0.30 * across) * smoothstep(0.015, 0.04, depth);
     return mix(0.30 * falling(0.0, 0.30, depth), blade, seenAt(0.010, at.pixel));
@@ -52,12 +52,6 @@ void paintLips(inout Skin skin, SkinPoint at) {
     skin.albedo *= (1.0 - 0.75 * rim) * (1.0 + 0.22 * swelling);
     skin.silver *= (1.0 - 0.9 * rim) * (1.0 - 0.35 * swelling);
     skin.gloss = mix(skin.gloss, 0.7, 0.5 * swelling);
-}
-
-void paintMouth(inout Skin skin, SkinPoint at) {
-    if (at.mouth <= 0.0) return;
-    paintLips(skin, at);
-    paintInside(skin, at);
 }
 
 void paintNostril(inout Skin skin, SkinPoint at, vec2 place, float size) {

@@ -29,7 +29,8 @@ void main() {
     Skin skin = groundOf(at);
     if (part == kBody || part == kEye) {
         addDetails(skin, at);
-        paintMouth(skin, at);
+        paintLips(skin, at);
+        paintInside(skin, at);
         paintEye(skin, at, kIris, 0.5, vec3(0.0, 0.0, 1.0), vec2(0.0));
         colours[i] = vec4(shownBy(skin), 1.0);
         return;
