@@ -371,7 +371,8 @@ namespace {
 // Part of every key: raise it when a change of the simulation or of the compilation changes the
 // repertoires.
 constexpr const char* kCaptureVersion = "aquarama capture 18\n";
-// Part of the keys of species whose repertoires hold control points: raise it when the cage changes.
+// Part of the keys of species whose repertoires hold control points: raise it when the cage
+// changes.
 constexpr const char* kCageVersion = "cage 2\n";
 constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 7 MB at most
 
