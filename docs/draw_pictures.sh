@@ -21,8 +21,8 @@ declare -A way=(
     [portraits_reef.png]=portraits_reef
     [tiers.png]=tiers
     [water_types.png]=water_types
-    [colour.png]=colour
-    [faces.png]=faces
+    [colour.webp]=colour
+    [faces.webp]=faces
     [shark.png]=shark
     [days.png]=days
     [species.png]=species
@@ -122,6 +122,11 @@ tiers() {
     done
     $bin/aquarama_draw_sheet "$drawn/tiers.png" 2 "$drawn"/{low,medium,high,ultra}.png
 }
+# NAME.webp of NAME.png, a large sheet.
+smaller() {
+    /usr/bin/python3 -c 'import sys; from PIL import Image
+Image.open(sys.argv[1]).convert("RGB").save(sys.argv[2], quality=88, method=6)' "$drawn/$1.png" "$drawn/$1.webp"
+}
 # Three views of the reef as in nature, and below them with the colour that the wall gives back.
 colour() {
     local share view
@@ -132,6 +137,7 @@ colour() {
         done
     done
     $bin/aquarama_draw_sheet "$drawn/colour.png" 3 "$drawn"/colour_0-{-40,12,55}.png "$drawn"/colour_0.9-{-40,12,55}.png
+    smaller colour
 }
 # Every species 0.6 m away: from the front, three quarters and the side; the large ones at their heads.
 faces() {
@@ -164,6 +170,7 @@ sea_goldie 0.09
 green_chromis 0.08
 END
     $bin/aquarama_draw_sheet "$drawn/faces.png" 6 "${pictures[@]}"
+    smaller faces
 }
 # A shark's face as it passes the glass.
 shark() {

@@ -2,8 +2,8 @@
 """docs/hues.py PICTURE...: how much of the lower half of a panorama is not the water's turquoise, and how much is warm.
 
 Each picture of a clip (.webp) counts as one. HSV of the codes: outside is a hue beyond 165 to 230 degrees or a
-saturation below 0.2; warm is a hue below 70 or above 320 with a saturation of at least 0.12. Per cent of the pixels that
-are lit.
+saturation below 0.2; warm is a hue below 70 or above 320 with a saturation of at least 0.12. Per cent of the pixels
+that are lit.
 """
 import statistics
 import sys

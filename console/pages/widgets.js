@@ -81,14 +81,19 @@ export const patternChooser = link =>
 // --- a share that is set while one looks
 
 export const percentOf = share => `${Math.round(100 * share)} %`;
-// Told when the hand lets go; `shown` is followed while nobody moves it.
+// Told when the hand lets go. `shown` is followed while nobody moves it, and three seconds at most after that: so long
+// the wall may take to show what was set.
 export function slider(link, what, shown, act) {
-  const value = wish[what] ?? shown;
-  const move = event => { wish[what] = Number(event.target.value); link.dispatchEvent(new Event('change')); };
-  const set = event => { delete wish[what]; act(Number(event.target.value)); };
+  const wished = wish[what];
+  const value = wished && wished.instead === shown && Date.now() < wished.until ? wished.value : shown;
+  const move = (event, seconds) => {
+    wish[what] = {value: Number(event.target.value), instead: shown, until: Date.now() + 1000 * seconds};
+    link.dispatchEvent(new Event('change'));
+  };
+  const set = event => { move(event, 3); act(Number(event.target.value)); };
   return html`<label for=${what}>${t(`wall.${what}`)}</label>
     <input id=${what} type="range" min="0" max="1" step="0.05" .value=${String(value)}
-      ?disabled=${!link.may('OPERATOR')} @input=${move} @change=${set}>
+      ?disabled=${!link.may('OPERATOR')} @input=${event => move(event, 60)} @change=${set}>
     <output for=${what}>${percentOf(value)}</output>`;
 }
 

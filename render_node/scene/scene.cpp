@@ -59,7 +59,7 @@ glm::vec4 currentOf(const config::SceneCurrent& current, double timeSeconds) {
 
 // The uniforms that all views of a frame share; the rest is left to setView().
 shaders::FrameUniforms frameUniforms(const SceneFrame& frame,
-                                     const SeaLight& light,
+                                     const WaterTextures& water,
                                      const config::SceneCurrent& current,
                                      float pixelRadians) {
     shaders::FrameUniforms uniforms{};
@@ -68,7 +68,7 @@ shaders::FrameUniforms frameUniforms(const SceneFrame& frame,
     uniforms.sharedEyeAndPixel = glm::vec4(frame.eyePositionMetres, pixelRadians);
     uniforms.sunAndFilterDepth = glm::vec4(
         sunInWater(), static_cast<float>(filterDepthMetres(-double{frame.eyePositionMetres.y})));
-    uniforms.kdAndExposure = light.kdAndExposure(frame.eyePositionMetres);
+    uniforms.kdAndExposure = water.kdAndExposure(frame.eyePositionMetres);
     uniforms.grading.x = frame.colourReturned;
     const DayLight dayLight = dayLightAt(frame.timeOfDay, frame.daylight);
     uniforms.sunlight = glm::vec4(dayLight.sun, 0.0F);
@@ -259,9 +259,9 @@ SceneRenderer::~SceneRenderer() = default;
 void SceneRenderer::update(const SceneFrame& frame) {
     assert(std::isfinite(frame.timeSeconds));
     Parts& parts = *parts_;
-    parts.light.grade(double{frame.colourReturned});
-    parts.uniforms =
-        frameUniforms(frame, parts.light, parts.options.current, parts.options.pixelRadians);
+    parts.light.water().grade(double{frame.colourReturned});
+    parts.uniforms = frameUniforms(
+        frame, parts.light.water(), parts.options.current, parts.options.pixelRadians);
     parts.uniforms.bottom.x = parts.bottom ? 1.0F : 0.0F;
     parts.specks.assign(frame.food.begin(), frame.food.end());
     parts.setUniforms();

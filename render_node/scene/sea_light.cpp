@@ -109,16 +109,7 @@ gl::Texture makeClouds(std::uint32_t seed) {
 SeaLight::SeaLight(const SeaLightOptions& options, WaterTables tables)
     : quality_{options.quality},
       sea_{options.calm ? calmSea() : seaOf(options.seed, place::kMeanFloorDepthMetres)},
-      water_{seaWater(options.water)},
-      inscatter_{std::move(tables.inscatter)},
-      gradedDirect_{std::move(tables.direct)},
-      tableDepthMetres_{-place::kEyePosition.y},
-      atEye_{inscatter_.atDepth(double{tableDepthMetres_})},
-      graded_{gradedDirect_.at(colourReturned_)},
-      primariesKd_{primariesDownwelling(water_)},
-      direct_{makeTexture(graded_)},
-      inscatterTable_{makeVolume(atEye_)},
-      openWater_{makeTexture(tables.openWater)},
+      water_{options.water, std::move(tables)},
       cloudTile_{makeClouds(options.seed)},
       waveTile_{
           makeTexture(GL_RGBA16F, glm::ivec2{quality_.waveTexels}, kTileLevels, Edge::Repeat)},
@@ -140,12 +131,7 @@ SeaLight::SeaLight(const SeaLightOptions& options, WaterTables tables)
 }
 
 void SeaLight::update(double timeSeconds, glm::vec3 sharedEyeMetres) {
-    // The table is mixed and uploaded only when the eye has moved up or down.
-    if (tableDepthMetres_ != -sharedEyeMetres.y) {
-        tableDepthMetres_ = -sharedEyeMetres.y;
-        inscatter_.mixAtDepth(double{tableDepthMetres_}, atEye_);
-        refill(inscatterTable_, atEye_);
-    }
+    water_.dive(-sharedEyeMetres.y);
     SeaNow now = seaAt(sea_, timeSeconds);
     now.causticAxis = {layerDepth(0, quality_.causticLayers),
                        1.0F / std::log2(kLayerRatio),
@@ -161,18 +147,6 @@ void SeaLight::update(double timeSeconds, glm::vec3 sharedEyeMetres) {
     glDisable(GL_DEPTH_TEST);
     drawWaves();
     drawCaustics();
-}
-
-void SeaLight::grade(double colourReturned) {
-    if (colourReturned_ == colourReturned) return;
-    colourReturned_ = colourReturned;
-    gradedDirect_.mixAt(colourReturned, graded_);
-    refill(direct_, graded_);
-    primariesKd_ = primariesDownwelling(water_, gradeOf(colourReturned));
-}
-
-glm::vec4 SeaLight::kdAndExposure(glm::vec3 sharedEyeMetres) const {
-    return {primariesKd_, inscatter_.exposureAt(-double{sharedEyeMetres.y})};
 }
 
 // Evaluates the sums of sines on both tiles, and their mip levels for coarser views.
@@ -222,9 +196,7 @@ void SeaLight::drawCaustics() {
 
 void SeaLight::bind() const {
     glBindBufferBase(GL_UNIFORM_BUFFER, shaders::kSeaBlock, seaBlock_.name());
-    glBindTextureUnit(shaders::kDirectTableUnit, direct_.name());
-    glBindTextureUnit(shaders::kInscatterTableUnit, inscatterTable_.name());
-    glBindTextureUnit(shaders::kOpenWaterTableUnit, openWater_.name());
+    water_.bind();
     glBindTextureUnit(shaders::kCausticLayersUnit, causticLayers_.name());
     glBindTextureUnit(shaders::kShaftMapUnit, shafts_.texture().name());
     glBindTextureUnit(shaders::kWaveTileUnit, waveTile_.name());

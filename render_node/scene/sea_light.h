@@ -13,6 +13,7 @@
 #include "render_node/quality/quality.h"
 #include "render_node/scene/sea_shade.h"
 #include "render_node/scene/shaft_map.h"
+#include "render_node/scene/water_textures.h"
 #include "render_node/water/water_tables.h"
 #include "render_node/water/waves.h"
 
@@ -36,16 +37,11 @@ class SeaLight {
     // tables: those of options.water.
     SeaLight(const SeaLightOptions& options, WaterTables tables);
 
-    // Sets the share of colour that is given back (Grade), 0 to 1; 0 until it is set. Mixes and
-    // uploads the table only where it has changed.
-    void grade(double colourReturned);
+    // The water's own light: its grade is to be set before the frame's uniforms are read.
+    [[nodiscard]] WaterTextures& water() { return water_; }
 
-    // For the frame's uniforms: Kd of the three primaries (xyz, 1/m), and the exposure at this eye
-    // (w).
-    [[nodiscard]] glm::vec4 kdAndExposure(glm::vec3 sharedEyeMetres) const;
-
-    // Draws waves and caustics, which all views share, and mixes the water tables for the eye's
-    // depth. Expects the frame's uniform block to be bound. Switches the depth test off.
+    // Draws waves and caustics, which all views share, and sets the eye's depth of the water.
+    // Expects the frame's uniform block to be bound. Switches the depth test off.
     void update(double timeSeconds, glm::vec3 sharedEyeMetres);
     // Draws the map of shafts, but only the directions that this view reads. Expects the sea's
     // light to be updated.
@@ -67,17 +63,8 @@ class SeaLight {
 
     LightQuality quality_;
     Sea sea_;
-    WaterSpectra water_;
-    Inscatter inscatter_;
-    GradedDirect gradedDirect_;
-    // Depth of the eye that atEye_ and inscatterTable_ were mixed for, metres.
-    float tableDepthMetres_;
-    Table atEye_;
-    double colourReturned_ = 0;
-    Table graded_;  // gradedDirect_ for that share
-    glm::vec3 primariesKd_;
-    gl::Texture direct_, inscatterTable_, openWater_, cloudTile_;
-    gl::Texture waveTile_, rippleTile_, causticLayers_;
+    WaterTextures water_;
+    gl::Texture cloudTile_, waveTile_, rippleTile_, causticLayers_;
     gl::Framebuffer waveTarget_, rippleTarget_, causticTarget_;
     gl::ProgramHandle waveProgram_, causticProgram_;
     ShaftMap shafts_;

@@ -23,7 +23,7 @@ Skin groundOf(SkinPoint at) {
                   (1.0 - 0.75 * golden);
     // At close range the skin over the platelets is seen as well.
     float near = seenAt(0.034, at.pixel);
-    skin.silver *= 1.0 - near * (0.30 + 0.3 * falling(-1.0, -0.6, at.v));
+    skin.silver *= 1.0 - near * (0.48 + 0.3 * falling(-1.0, -0.6, at.v));
     skin.iridescence = 0.10 + 0.30 * back;
     // The dark crown of the head.
     float crown = smoothstep(0.52, 0.85, at.v) * falling(0.18, 0.26, at.s);

@@ -430,8 +430,9 @@ class Shows(Case):
 
     def test_a_display_that_is_not_there(self):
         environment = {"DISPLAY": ":77", "WAYLAND_DISPLAY": ""}
-        self.refuses(r"aquarama-node \w+: no window can be opened .*", "run", self.edited(), stdout=STARTED,
-                     environment=environment)
+        # A node that lives for five seconds is started again: this sea is made at once.
+        self.refuses(r"aquarama-node \w+: no window can be opened .*", "run", self.edited(), "--scene", "empty_sea",
+                     stdout=STARTED, environment=environment)
 
     def test_a_device_that_is_not_there(self):
         rig = self.edited((r'device: *"\w+"', 'device: "device:77"'))

@@ -29,11 +29,17 @@ net::Blob blobOf(const std::string& text) {
     return std::make_shared<const net::ByteVector>(bytes.begin(), bytes.end());
 }
 
+// Its colour is not what a scene has where it says nothing.
+const std::string kScene = R"(name: "sea" place: OPEN_SEA eye { x_m: 0 y_m: -9 z_m: 0 }
+water { centre { x_m: 0 y_m: -9 z_m: -7 } half_extent { x_m: 7 y_m: 4 z_m: 5 }
+colour_returned: 0.25 } gathering: NONE plankton: 0
+cast { species: "scad.txtpb" fish: 3 })";
+
 // Of one species, with three fish.
 wire::AssetBundle assetsOf(const std::string& species) {
     return {.seed = 77,
             .sceneFile = "reef",
-            .scene = "a scene",
+            .scene = kScene,
             .cast = {{species, "name: \"" + species + "\"", {std::byte{1}, std::byte{2}}, 3}}};
 }
 
@@ -105,6 +111,15 @@ TEST_F(DeskLooks, aNodeIsWelcomedToWhatIsShown) {
     EXPECT_EQ(look.rig_files(0).name(), "wall.pfm");
     EXPECT_EQ(looks->sceneName(), "reef");
     EXPECT_TRUE(hasBlob("a wall"));
+}
+
+TEST_F(DeskLooks, colourIsTheScenesOwnUntilItIsSet) {
+    begin();
+    EXPECT_EQ(looks->colourReturned(), 0.25);
+    v1::WantedShow change;
+    change.set_colour_returned(0.5);
+    static_cast<void>(control.set(1, change));
+    EXPECT_EQ(looks->colourReturned(), 0.5);
 }
 
 TEST_F(DeskLooks, whatASpeciesIsMadeOfCanBeFetchedByItsDigest) {
