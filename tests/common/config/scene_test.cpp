@@ -333,7 +333,7 @@ TEST(Cast, ofASpeciesThatIsNotThereIsRefusedAtItsPlaceInTheScene) {
         (void)readCastSpecies(scene, path);
         FAIL() << "accepted";
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), StartsWith(path + ":18:8: "));
+        EXPECT_THAT(error.what(), StartsWith(path + ":19:8: "));
         EXPECT_THAT(error.what(), HasSubstr("config/scenes/scad.txtpb"));
     }
 }
