@@ -38,12 +38,7 @@ wire::StateFrame frameWithAFish(const motion::BodyFrame& body = {.position = kFi
 
 session::Admission admissionToTheWorld() {
     session::Admission admission = admissionTo(wire::Pattern::World);
-    admission.school = {{.id = 17, .lengthMillimetres = 240}};
-    admission.cast = {
-        {.file = "bigeye_scad.txtpb",
-         .text = fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"),
-         .repertoire = motion::encodeRepertoire(test::swaying(test::scadBody(), 0.05F)),
-         .fish = 1}};
+    addScad(admission, 240);
     return admission;
 }
 

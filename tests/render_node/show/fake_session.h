@@ -129,6 +129,25 @@ inline session::Admission admissionTo(wire::Pattern pattern) {
     return admission;
 }
 
+// One scad of this length is the whole school.
+inline void addScad(session::Admission& admission, std::uint16_t lengthMillimetres) {
+    admission.school = {{.id = 17, .lengthMillimetres = lengthMillimetres}};
+    admission.cast = {
+        {.file = "bigeye_scad.txtpb",
+         .text = fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"),
+         .repertoire = motion::encodeRepertoire(test::swaying(test::scadBody(), 0.05F)),
+         .fish = 1}};
+}
+
+// The pictures of all channels in half their width and height.
+inline void halvePictures(config::Rig& rig) {
+    for (config::Channel& channel : rig.channels) {
+        channel.sizePixels /= 2;
+        channel.projector.focalPixels /= 2;
+        channel.projector.principalPixels /= 2;
+    }
+}
+
 inline wire::StateFrame frameNumber(std::uint64_t number,
                                     wire::Pattern pattern = wire::Pattern::World) {
     wire::StateFrame frame;

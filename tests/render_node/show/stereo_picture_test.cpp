@@ -29,19 +29,10 @@ session::Admission admissionInStereo(config::StereoMode mode,
                                      double separationMetres,
                                      config::PlaceKind place) {
     session::Admission admission = admissionTo(wire::Pattern::World);
-    for (config::Channel& channel : admission.rig.channels) {
-        channel.sizePixels /= 2;
-        channel.projector.focalPixels /= 2;
-        channel.projector.principalPixels /= 2;
-    }
+    halvePictures(admission.rig);
     admission.rig.stereo = {.mode = mode, .eyeSeparationMetres = separationMetres};
     admission.scene.place = place;
-    admission.school = {{.id = 17, .lengthMillimetres = 300}};
-    admission.cast = {
-        {.file = "bigeye_scad.txtpb",
-         .text = fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"),
-         .repertoire = motion::encodeRepertoire(test::swaying(test::scadBody(), 0.05F)),
-         .fish = 1}};
+    addScad(admission, 300);
     return admission;
 }
 
