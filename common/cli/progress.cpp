@@ -57,12 +57,14 @@ void Progress::count(std::uint64_t done) {
 std::string Progress::counted(std::uint64_t done, Clock::time_point now) const {
     const double rate =
         static_cast<double>(done) / std::chrono::duration<double>(now - begun_).count();
-    if (ofAll_ == 0) return fmt::format("{} {}, {:.1f} a second", what_, done, rate);
-    return fmt::format("{} {} of {}, {:.1f} a second, {:.0f} s left",
+    const std::string pace = rate < 1 && done > 0 ? fmt::format("{:.0f} s each", 1 / rate)
+                                                  : fmt::format("{:.1f} a second", rate);
+    if (ofAll_ == 0) return fmt::format("{} {}, {}", what_, done, pace);
+    return fmt::format("{} {} of {}, {}, {:.0f} s left",
                        what_,
                        done,
                        ofAll_,
-                       rate,
+                       pace,
                        static_cast<double>(ofAll_ - std::min(done, ofAll_)) / rate);
 }
 
