@@ -5,6 +5,7 @@ import resource
 import shutil
 import signal
 import stat
+import struct
 import subprocess
 import threading
 import unittest
@@ -271,6 +272,17 @@ class Shows(Case):
         self.assertEqual(stat.S_IMODE((folder / "master.csv").stat().st_mode), 0o600)
         self.assertEqual((folder / "left.png").read_bytes()[1:4], b"PNG")
         self.assertEqual(stat.S_IMODE((folder / "frames/panorama.png").stat().st_mode), 0o600)
+
+    def test_a_poster_has_so_many_times_the_pixels(self):
+        folder = self.fresh("poster")
+        smaller = ("width_px: 1350 height_px: 600", "width_px: 450 height_px: 200")
+        rig = rig_on_free_ports(self.folder, replace=[smaller])
+        run = aquarama("run", rig, "--headless", "--frames", 2, "--quality", "low", "--snapshot", folder, "--scale", 3,
+                       "--scene", ROOT / "config/scenes/empty_sea.txtpb")
+        self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
+        header = (folder / "panorama.png").read_bytes()[:24]
+        self.assertEqual(struct.unpack(">II", header[16:]), (1350, 600))
+        self.assertEqual([*folder.glob("*.part")], [])
 
     def test_a_disk_that_fills_ends_what_is_written_and_not_the_show(self):
         for option, name in [("--record", "show.aqrec"), ("--trace", "")]:
