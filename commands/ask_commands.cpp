@@ -225,6 +225,8 @@ void set(const SetOptions& options) {
         order.mutable_show()->set_colour_returned(shareIn(options));
     else if (options.what == "black")
         order.mutable_show()->set_black(switchedOn(options));
+    else if (options.what == "guests")
+        order.mutable_show()->set_guests(switchedOn(options));
     else
         order.mutable_show()->set_freeze(switchedOn(options));
     options.asked.connect().carryOut(std::move(order), [](const std::string& what) {
@@ -248,11 +250,12 @@ void addSet(CommandLine& line) {
     describeMaster(command, options.asked);
     command.get_option("RIG")->required();
     command
-        .add_option(
-            "WHAT", options.what, "scene, quality, pattern, colour, black, freeze or restart")
+        .add_option("WHAT",
+                    options.what,
+                    "scene, quality, pattern, colour, black, freeze, guests or restart")
         ->required()
-        ->check(
-            CLI::IsMember({"scene", "quality", "pattern", "colour", "black", "freeze", "restart"}));
+        ->check(CLI::IsMember(
+            {"scene", "quality", "pattern", "colour", "black", "freeze", "guests", "restart"}));
     command
         .add_option(
             "VALUE",

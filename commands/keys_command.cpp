@@ -81,7 +81,7 @@ std::vector<std::pair<std::string, KeyRole>> holdersOf(const config::Rig& rig) {
     for (const config::Channel& channel : rig.channels)
         holders.emplace_back(channel.name, KeyRole::Node);
     for (const KeyRole role :
-         {KeyRole::Watcher, KeyRole::Visitor, KeyRole::Operator, KeyRole::Crew})
+         {KeyRole::Watcher, KeyRole::Visitor, KeyRole::Operator, KeyRole::Crew, KeyRole::Guests})
         holders.emplace_back(config::nameOf(role), role);
     return holders;
 }

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-static_assert(v1::KeyFile::CREW - v1::KeyFile::MASTER == static_cast<int>(KeyRole::Crew));
+static_assert(v1::KeyFile::GUESTS - v1::KeyFile::MASTER == static_cast<int>(KeyRole::Guests));
 
 constexpr std::uint32_t kVersion = 1;
 constexpr std::string_view kEnding = ".key";

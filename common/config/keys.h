@@ -12,10 +12,10 @@
 namespace aquarama::config {
 
 // What the holder of a key may say to the master (conductor::maySay()); in the schema's order.
-enum class KeyRole : std::uint8_t { Master, Node, Watcher, Visitor, Operator, Crew };
+enum class KeyRole : std::uint8_t { Master, Node, Watcher, Visitor, Operator, Crew, Guests };
 // As command lines, logs and key files name them.
-inline constexpr std::array<std::string_view, 6> kRoleNames{
-    "master", "node", "watcher", "visitor", "operator", "crew"};
+inline constexpr std::array<std::string_view, 7> kRoleNames{
+    "master", "node", "watcher", "visitor", "operator", "crew", "guests"};
 [[nodiscard]] constexpr std::string_view nameOf(KeyRole role) {
     return kRoleNames.at(static_cast<std::size_t>(role));
 }

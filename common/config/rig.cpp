@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -394,6 +396,40 @@ std::string nameOf(StereoMode mode) {
     return v1::Stereo::Mode_Name(static_cast<int>(mode) + v1::Stereo::MONO);
 }
 
+// Host and port of "http://192.168.20.1:7490"; port 0 where it is no such address.
+std::pair<std::string, std::uint16_t> webAddressIn(const std::string& address) {
+    constexpr std::string_view kScheme = "http://";
+    const std::size_t colon = address.rfind(':');
+    if (!address.starts_with(kScheme) || colon <= kScheme.size()) return {};
+    std::uint16_t number = 0;
+    const char* const end = address.data() + address.size();
+    const auto [rest, error] = std::from_chars(address.data() + colon + 1, end, number);
+    if (error != std::errc{} || rest != end) return {};
+    return {address.substr(kScheme.size(), colon - kScheme.size()), number};
+}
+
+// After the channels.
+void takeGuests(const TextReader& file, const v1::Rig& in, Rig& rig) {
+    if (!in.has_guests()) return;
+    static_assert(v1::Guests::UPPER_RIGHT - v1::Guests::LOWER_LEFT ==
+                  static_cast<int>(Guests::Corner::UpperRight));
+    const v1::Guests& from = in.guests();
+    Guests guests{.host = {},
+                  .port = 0,
+                  .channel = from.has_channel() ? from.channel() : rig.channels.front().name,
+                  .corner = static_cast<Guests::Corner>(from.corner() - v1::Guests::LOWER_LEFT),
+                  .height = from.height()};
+    std::tie(guests.host, guests.port) = webAddressIn(from.address());
+    if (guests.port == 0)
+        file.refuse(from,
+                    "address",
+                    "address needs the form http://HOST:PORT, with an address of this machine "
+                    "that phones reach, as http://192.168.20.1:7490");
+    if (std::ranges::find(rig.channels, guests.channel, &Channel::name) == rig.channels.end())
+        file.refuse(from, "channel", "there is no channel \"" + guests.channel + "\"");
+    rig.guests = guests;
+}
+
 Rig parseRig(const std::string& text, const std::string& source) {
     v1::Rig in;
     TextReader file(text, source, in);
@@ -426,6 +462,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
     if (in.has_sweet_spot()) rig.sweetSpotPlace = file.placeOf(in.sweet_spot());
     for (const v1::Channel& channel : in.channels())
         rig.channels.push_back(channelOf(file, channel, rig.stereo));
+    takeGuests(file, in, rig);
     takeScreen(file, source, in, rig);
     takeCalibration(file, in, rig);
     takeAdjustments(file, source, in, rig);

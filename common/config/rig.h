@@ -149,6 +149,16 @@ struct Timing {
 using FileContent = std::shared_ptr<const std::vector<std::byte>>;
 
 // A whole rig: its wall, its channels, its network, and the files that it names.
+// Visitors who take part by phone, and where their sign is drawn.
+struct Guests {
+    enum class Corner : std::uint8_t { LowerLeft, LowerRight, UpperLeft, UpperRight };
+    std::string host;  // address of this machine that phones reach
+    std::uint16_t port = 0;
+    std::string channel;  // draws the sign
+    Corner corner = Corner::LowerLeft;
+    double height = 0.16;  // share of the channel's picture
+};
+
 struct Rig {
     std::string text;  // of the file, as it was read: the nodes are sent it
     std::string name;
@@ -172,6 +182,7 @@ struct Rig {
     std::optional<QualityTier> quality;  // nothing: measured at start
     std::string calibration = {};        // name in `files`; empty: none
     std::string adjustments = {};        // name in `files`; empty: none. See adjustments.h
+    std::optional<Guests> guests = {};
     // Measured screens, wall files and adjustments, whole, by the name that the rig has for them.
     std::map<std::string, FileContent> files;
 };

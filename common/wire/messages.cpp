@@ -251,10 +251,17 @@ std::optional<config::ScanPattern> readScanPattern(const v1::ScanPattern& m) {
                                .tagged = m.tagged()};
 }
 
+std::optional<Sign> readSign(const v1::Sign& m) {
+    const std::uint32_t bytes = (m.columns() * m.rows() + 7) / 8;
+    if (!config::keepsRules(m) || m.dots().size() != bytes) return std::nullopt;
+    return Sign{.columns = m.columns(), .rows = m.rows(), .dots = m.dots()};
+}
+
 std::optional<Show> readShow(const v1::Show& m) {
+    const auto sign = m.has_sign() ? readSign(m.sign()) : Sign{};
     const auto scan = m.has_scan() ? readScanPattern(m.scan()) : std::nullopt;
     const bool isScan = m.pattern() == v1::PATTERN_SCAN;
-    if (!config::keepsRules(m) || m.has_scan() != isScan || scan.has_value() != isScan)
+    if (!config::keepsRules(m) || !sign || m.has_scan() != isScan || scan.has_value() != isScan)
         return std::nullopt;
     return Show{.version = m.version(),
                 .look = m.look(),
@@ -267,7 +274,8 @@ std::optional<Show> readShow(const v1::Show& m) {
                 .pilot = m.pilot(),
                 .calibration = m.calibration(),
                 .scan = scan,
-                .colourReturned = static_cast<float>(m.colour_returned()) / kAllColour};
+                .colourReturned = static_cast<float>(m.colour_returned()) / kAllColour,
+                .sign = *sign};
 }
 
 bool areFinite(const google::protobuf::RepeatedField<float>& numbers) {

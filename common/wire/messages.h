@@ -23,7 +23,7 @@
 namespace aquarama::wire {
 
 // Peers of another major version are refused.
-inline constexpr std::uint32_t kProtocolMajor = 8;
+inline constexpr std::uint32_t kProtocolMajor = 9;
 
 // Bounds that the code keeps to. All bounds of arriving messages are rules of aquarama.proto; a
 // test compares these with them.
@@ -58,6 +58,7 @@ void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers);
 [[nodiscard]] std::optional<Eye> readEye(const google::protobuf::RepeatedField<float>& numbers);
 
 // Empty where a field is missing or out of bounds.
+[[nodiscard]] std::optional<Sign> readSign(const v1::Sign& message);
 [[nodiscard]] std::optional<Show> readShow(const v1::Show& message);
 
 // Reading: empty where a field is missing, or no channel could show it.

@@ -102,6 +102,14 @@ struct Eye {
     glm::quat worldFromWall{1, 0, 0, 0};
 };
 
+// Dots that are drawn in a corner of the wall, as a code to be scanned: rows from the top, of
+// columns from the left. Dot i is bit 7 - i % 8 of byte i / 8; lit where it is set.
+struct Sign {
+    std::uint32_t columns = 0, rows = 0;  // 0: there is none
+    std::string dots;
+    friend bool operator==(const Sign&, const Sign&) = default;
+};
+
 // What the whole wall shows, in every frame, as a node has received it. Only the master changes it,
 // between two frames.
 struct Show {
@@ -118,6 +126,7 @@ struct Show {
     std::optional<config::ScanPattern> scan = {};  // where the pattern is Scan
     // Share of the colour that water takes which is given back, 0 to 1 in 255 steps.
     float colourReturned = 0.0F;
+    Sign sign = {};
     friend bool operator==(const Show&, const Show&) = default;
 };
 

@@ -268,6 +268,9 @@ void Conductor::takeInput(const net::FromPeer& from,
                           std::optional<std::size_t> node,
                           const v1::Input& input,
                           net::Moment now) {
+    const auto user = userIn(from.user);
+    const bool isGuests = user && user->role == config::KeyRole::Guests;
+    if (isGuests && !orders_.control().wanted().guests()) return countRefused(false);
     switch (input.kind()) {
         case v1::INPUT_QUIT:
             isOver_ = isOver_ || windowsEndShow_;
@@ -406,6 +409,7 @@ v1::Envelope Conductor::status(net::Moment now) const {
     reply.set_pace(static_cast<v1::Pace>(options_.pace));
     reply.set_frame(presentation_.next().value);
     *reply.mutable_show() = shown(now);
+    reply.set_guests(orders_.control().wanted().guests());
     reply.set_change(legible(orders_.control().waitingFor(), wire::kMostReasonBytes));
     gauges_.writeStatus(reply, report_, roster_, presentation_.barrier());
     return message;
@@ -498,6 +502,8 @@ v1::Show Conductor::shown(net::Moment now) const {
     show.set_pilot(pilotName(now));
     show.set_calibration(looks_.calibration());
     if (scan) wire::writeScanPattern(*scan, *show.mutable_scan());
+    const v1::Sign* const sign = orders_.sign().sign();
+    if (sign != nullptr && control.wanted().guests()) *show.mutable_sign() = *sign;
     return show;
 }
 

@@ -36,6 +36,8 @@ v1::OrderReply Orders::obey(const std::string& user,
         answer = refused("the show was started again meanwhile: look, and say it once more");
     else if (order.has_scan())
         answer = hold(user, order.scan(), unpublished, now);
+    else if (order.has_sign())
+        answer = hold(order.sign(), now);
     else if (order.has_show())
         answer = change(user, order);
     else if (const Answer* known = book_.find(order.request()))
@@ -98,6 +100,17 @@ Answer Orders::hold(const std::string& user,
     if (begins) logInfo("{} holds the wall for a scan", user);
     const std::string missing = notShowingScan();
     return missing.empty() ? Answer{} : Answer{Outcome::Waiting, "not shown yet by " + missing};
+}
+
+// Said again every second or so.
+Answer Orders::hold(const v1::HeldSign& sign, net::Moment now) {
+    if (limits_.isLockstep)
+        return refused("a show in lockstep is the same every time; run it with --live");
+    if (!control_.wanted().guests()) return refused("guests are set off; set guests on");
+    if (sign.has_sign() && !wire::readSign(sign.sign()))
+        return refused("the sign has not as many dots as columns and rows say");
+    sign_.hold(sign, now);
+    return {};
 }
 
 // A wall that is set black stays black, whoever scans it.
@@ -174,6 +187,7 @@ void Orders::hear(std::size_t node, const v1::OrderReply& reply) {
 }
 
 void Orders::giveUpTheSilent(net::Moment now) {
+    sign_.expire(now);
     if (scan_.expires(now)) logWarning("a scan has fallen silent: the wall shows what it did");
     std::erase_if(passedOn_, [&](const PassedOn& order) {
         if (now - order.said < kNodesPatience) return false;

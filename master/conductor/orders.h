@@ -45,6 +45,7 @@ class Orders {
     [[nodiscard]] ShowControl& control() { return control_; }
     [[nodiscard]] const ShowControl& control() const { return control_; }
     [[nodiscard]] const ScanHold& scan() const { return scan_; }
+    [[nodiscard]] const SignHold& sign() const { return sign_; }
 
   private:
     // An order that a node was told, and has not answered.
@@ -60,6 +61,7 @@ class Orders {
                               net::Moment now);
     [[nodiscard]] Answer restart(const std::string& user, const v1::Order& order);
     [[nodiscard]] Answer power(const std::string& user, const v1::Order& order, net::Moment now);
+    [[nodiscard]] Answer hold(const v1::HeldSign& sign, net::Moment now);
     // Why an order is refused; empty where it is not.
     [[nodiscard]] std::string objectionTo(const v1::WantedShow& show) const;
     [[nodiscard]] std::string objectionToScene(const std::string& scene) const;
@@ -77,6 +79,7 @@ class Orders {
     ask::OrderBook book_;
     ShowControl control_;
     ScanHold scan_;
+    SignHold sign_;
     std::vector<PassedOn> passedOn_;
 };
 

@@ -63,6 +63,10 @@ bool maySay(const User& user, const v1::Envelope& message) {
             return isQuestion(message);
         case config::KeyRole::Visitor:
             return isVisitorsInput(message);
+        case config::KeyRole::Guests:
+            return isVisitorsInput(message) ||
+                   message.message_case() == v1::Envelope::kStatusRequest ||
+                   (message.message_case() == v1::Envelope::kOrder && message.order().has_sign());
         case config::KeyRole::Operator:
         case config::KeyRole::Crew:
             return isQuestion(message) || message.message_case() == v1::Envelope::kInput ||

@@ -26,6 +26,7 @@ v1::WantedShow completed(const v1::WantedShow& show) {
     all.set_pattern(v1::WantedShow::WORLD);
     all.set_black(false);
     all.set_freeze(false);
+    all.set_guests(true);
     all.MergeFrom(show);
     return all;
 }
@@ -41,6 +42,15 @@ bool isWorld(const v1::WantedShow& show) {
 }
 
 }  // namespace
+
+void SignHold::hold(const v1::HeldSign& sign, net::Moment now) {
+    held_ = sign;
+    heard_ = now;
+}
+
+void SignHold::expire(net::Moment now) {
+    if (held_.has_sign() && now - heard_ > kPatience) held_.clear_sign();
+}
 
 bool ScanHold::hold(std::uint64_t holder,
                     const config::ScanPattern& pattern,
@@ -91,9 +101,11 @@ Answer ShowControl::set(std::uint64_t request, const v1::WantedShow& change) {
     for (v1::WantedShow* show : {&wanted_, &next_}) {
         show->set_black(goal.black());
         show->set_freeze(goal.freeze());
+        show->set_guests(goal.guests());
     }
     if (change.has_black()) kept_.set_black(change.black());
     if (change.has_freeze()) kept_.set_freeze(change.freeze());
+    if (change.has_guests()) kept_.set_guests(change.guests());
     if (isAnotherLook) return begin(request, goal, change);
     wanted_.set_pattern(goal.pattern());
     next_.set_pattern(goal.pattern());

@@ -10,6 +10,7 @@
 #include "common/base/units.h"
 #include "common/config/scan.h"
 #include "common/net/clock.h"
+#include "common/wire/messages.h"
 #include "common/wire/wanted_show.h"
 
 namespace aquarama::conductor {
@@ -47,6 +48,24 @@ class ScanHold {
     Frame first_;
     net::Moment heard_{};
     std::uint64_t changes_ = 0;
+};
+
+// The sign of whoever lets visitors take part, in a corner of the wall. Its latest holder counts.
+class SignHold {
+  public:
+    static constexpr net::Duration kPatience = std::chrono::seconds(5);
+
+    void hold(const v1::HeldSign& sign, net::Moment now);
+    // Takes it down where its holder was silent for too long.
+    void expire(net::Moment now);
+    // Nothing where there is none.
+    [[nodiscard]] const v1::Sign* sign() const {
+        return held_.has_sign() ? &held_.sign() : nullptr;
+    }
+
+  private:
+    v1::HeldSign held_;
+    net::Moment heard_{};
 };
 
 // A state machine without clock, sockets or worlds, so that every change can be played through in a

@@ -41,13 +41,14 @@ std::string showText(const v1::StatusReply& status) {
     const auto onOff = [](bool on) { return on ? "on" : "off"; };
     std::string text = fmt::format(
         "show          scene {}   quality {}   pattern {}   colour {:.2f}   black {}   freeze {}   "
-        "version {}   calibration {:016x}\n",
+        "guests {}   version {}   calibration {:016x}\n",
         show.scene,
         config::nameOf(show.quality),
         wire::nameOf(show.pattern),
         show.colourReturned,
         onOff(show.black),
         onOff(show.frozen),
+        onOff(status.guests()),
         show.version,
         show.calibration);
     if (!status.change().empty()) text += fmt::format("to come       {}\n", status.change());

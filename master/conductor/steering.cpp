@@ -70,20 +70,22 @@ void InputArbitration::forgetTheSilent(net::Moment now) {
     std::erase_if(inputs_, [&](const auto& one) { return now - one.second.heard >= kSilence; });
 }
 
-bool InputArbitration::accepts(const net::PeerId& pilot,
-                               const Steering& steering,
-                               net::Moment now) {
+bool InputArbitration::mayTake(const HeldInput& input, bool begins) const {
+    const auto holder = inputs_.find(holder_);
+    const bool isFree = holder == inputs_.end() || !holder->second.holds;
+    return isFree || (begins && (!input.yields || holder->second.yields));
+}
+
+bool InputArbitration::accepts(const net::PeerId& pilot, const Hand& hand, net::Moment now) {
     forgetTheSilent(now);
-    const bool holdsNow = steering != Steering{};
+    const bool holdsNow = hand.steering != Steering{};
     const auto known = inputs_.find(pilot);
     if (known == inputs_.end() && (!holdsNow || inputs_.size() >= kMostPilots)) return false;
     HeldInput& input = inputs_[pilot];
     const bool held = input.holds;
     if (held && holdsNow && now - input.heard < kBetween) return false;
-    input = {holdsNow, now};
-    const auto holder = inputs_.find(holder_);
-    const bool isFree = holder == inputs_.end() || !holder->second.holds;
-    if (holdsNow && (!held || isFree)) holder_ = pilot;
+    input = {holdsNow, hand.yields, now};
+    if (holdsNow && mayTake(input, !held)) holder_ = pilot;
     return holder_ == pilot && (holdsNow || held);
 }
 

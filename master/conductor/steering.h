@@ -13,22 +13,32 @@
 
 namespace aquarama::conductor {
 
+// What a pilot does.
+struct Hand {
+    Steering steering;
+    bool yields = false;  // to whoever does not
+};
+
 // Arbitration between pilots: the latest who begins to steer has control until he stops, sends
-// nothing for half a second, or another begins. Of the conductor's thread.
+// nothing for half a second, or another begins. Whoever yields has none while another steers. Of
+// the conductor's thread.
 class InputArbitration {
   public:
     // The input of a pilot. True: it is applied to the submarine.
-    [[nodiscard]] bool accepts(const net::PeerId& pilot, const Steering& steering, net::Moment now);
+    [[nodiscard]] bool accepts(const net::PeerId& pilot, const Hand& hand, net::Moment now);
     // Who has control; empty: nobody.
     [[nodiscard]] std::optional<net::PeerId> pilot(net::Moment now) const;
 
   private:
     struct HeldInput {
         bool holds = false;
+        bool yields = false;
         net::Moment heard{};
     };
     [[nodiscard]] static bool holds(const HeldInput& input, net::Moment now);
     void forgetTheSilent(net::Moment now);
+    // Whether somebody who begins may take control now.
+    [[nodiscard]] bool mayTake(const HeldInput& input, bool begins) const;
 
     std::map<net::PeerId, HeldInput> inputs_;
     net::PeerId holder_;

@@ -78,7 +78,8 @@ bool VisitorInputs::feed(net::Moment& lastFed,
 
 bool VisitorInputs::steer(const net::PeerId& peer, const v1::Input& input, net::Moment now) {
     const Steering steering = wire::steeringOf(input);
-    if (world_ == nullptr || !arbitration_.accepts(peer, steering, now)) return true;
+    if (world_ == nullptr || !arbitration_.accepts(peer, {steering, input.yields()}, now))
+        return true;
     return world_->betweenTicks([steering](Simulation& simulation) { simulation.apply(steering); });
 }
 

@@ -141,6 +141,11 @@ AQUARAMA_CONSTANT int kLocalFromWallLocation = 8;
 // Locations of uniforms: text.
 AQUARAMA_CONSTANT int kPictureSizeLocation = 0;
 AQUARAMA_CONSTANT int kDotPixelsLocation = 1;
+// Of a sign.
+AQUARAMA_CONSTANT int kSignPlaceLocation = 0;
+AQUARAMA_CONSTANT int kSignSizeLocation = 1;
+AQUARAMA_CONSTANT int kSignDotsLocation = 2;
+AQUARAMA_CONSTANT int kMostSignBytes = 512;  // of its dots
 
 // Vertex attributes and vertex buffers of what grows. The instance that was chosen.
 AQUARAMA_CONSTANT int kChosenAttribute = 4;

@@ -128,6 +128,10 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
     // The scene has one texture: all eyes but the last need a copy.
     for (Viewing& eye : eyes_)
         if (&eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, sizes_.world);
+    if (rig.guests && rig.guests->channel == rig.channels[channel].name) {
+        guests_ = rig.guests;
+        signPass_.emplace();
+    }
     if (admission.world)
         scene_.emplace(
             scene::SceneOptions{.place = place::placeOf(admission.scene, admission.seed),
@@ -152,9 +156,12 @@ void ChannelPicture::drawScene(const wire::StateFrame& frame,
     if (isWorld) worldEye_ = frame.eye;
     if (brightness_ == 0 && eyes_.front().sceneTexture != 0) return;
     if (isWorld) drawWorld(frame);
+    if (isWorld && guests_ && frame.show.sign.columns > 0) placeSign(frame.show.sign);
     for (Viewing& eye : eyes_) {
         if (!isWorld) drawPattern(eye, frame.show.pattern);
         glNamedFramebufferTexture(eye.onScene.name(), GL_COLOR_ATTACHMENT0, eye.sceneTexture, 0);
+        if (isWorld && signPlace_ && frame.show.sign.columns > 0)
+            signPass_->draw(eye.onScene.name(), sizes_.scene, frame.show.sign, *signPlace_);
         if (overlays.warpGrid) eye.pattern.addGrid(eye.onScene.name(), sizes_.scene);
         if (overlays.fishIds) drawFishIds(eye, frame);
         if (mind) drawMind(eye, frame, *mind);
@@ -193,6 +200,22 @@ void ChannelPicture::drawWorld(const wire::StateFrame& frame) {
                            1);
         eye.sceneTexture = eye.kept->texture();
     }
+}
+
+// Found anew where its shape changes.
+void ChannelPicture::placeSign(const wire::Sign& sign) {
+    const glm::uvec2 size(sign.columns, sign.rows);
+    if (size == signSize_) return;
+    signSize_ = size;
+    signPlace_ = signPlace(map_,
+                           guests_->corner,
+                           guests_->height,
+                           static_cast<double>(size.x) / static_cast<double>(size.y),
+                           sizes_.world);
+    if (!signPlace_)
+        logWarning(
+            "the sign for visitors fits nowhere beside the neighbours' light: give a smaller "
+            "height, or another channel, in the rig's guests");
 }
 
 void ChannelPicture::drawPattern(Viewing& eye, wire::Pattern pattern) const {

@@ -20,6 +20,7 @@
 #include "render_node/show/controls.h"
 #include "render_node/show/overlay.h"
 #include "render_node/show/projection.h"
+#include "render_node/show/sign.h"
 
 namespace aquarama::show {
 
@@ -118,6 +119,7 @@ class ChannelPicture {
     void drawWorld(const wire::StateFrame& frame);
     void drawPattern(Viewing& eye, wire::Pattern pattern) const;
     void projectScan(unsigned framebuffer, Shown shown);
+    void placeSign(const wire::Sign& sign);
     void drawFishIds(const Viewing& eye, const wire::StateFrame& frame);
     void drawMind(const Viewing& eye, const wire::StateFrame& frame, const WatchedMind& mind);
     // The camera of an eye in the world, for the submarine's place and heading.
@@ -143,6 +145,12 @@ class ChannelPicture {
     // Set where the world can be shown, not test patterns alone.
     std::optional<scene::SceneRenderer> scene_;
     TextOverlay text_;
+    // Of the channel that draws the sign for visitors: its pass, and where a sign of so many
+    // columns and rows stands.
+    std::optional<config::Guests> guests_;
+    std::optional<SignPass> signPass_;
+    glm::uvec2 signSize_{};
+    std::optional<glm::vec4> signPlace_;
     // The pattern of a scan that the frame shows, and its pass, which is made when one is first
     // shown.
     std::optional<config::ScanPattern> scan_;

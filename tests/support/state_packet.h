@@ -24,6 +24,11 @@ inline v1::Show messageOf(const wire::Show& show) {
     message.set_frozen(show.frozen);
     message.set_pilot(show.pilot);
     message.set_calibration(show.calibration);
+    if (show.sign.columns > 0) {
+        message.mutable_sign()->set_columns(show.sign.columns);
+        message.mutable_sign()->set_rows(show.sign.rows);
+        message.mutable_sign()->set_dots(show.sign.dots);
+    }
     if (show.scan) wire::writeScanPattern(*show.scan, *message.mutable_scan());
     return message;
 }

@@ -124,6 +124,7 @@ TEST(Messages, aFishCostsItsRecordAndLittleMore) {
     StateFrame state = sampleState(1000);
     state.before.clear();
     state.fraction = 1.0F;
+    state.show.sign = {};
     EXPECT_LT(test::packetOf(9, state).size(), 1000 * sizeof(motion::FishRecord) + 203);
 }
 
@@ -207,6 +208,9 @@ TEST(Messages, aStateThatLiesIsRefused) {
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.pattern = static_cast<Pattern>(5); }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.brightness = 1.01F; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.colourReturned = 1.01F; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.show.sign.rows = 3; })) << "15 dots are 2 bytes";
+    EXPECT_TRUE(refused([](StateFrame& s) { s.show.sign.rows = 65; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.show.sign.dots.clear(); }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.scene = "a\nb"; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.pilot = std::string(65, 'x'); }));
     EXPECT_TRUE(refused([&](StateFrame& s) { s.timeOfDay = nan; }));

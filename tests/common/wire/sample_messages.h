@@ -47,7 +47,8 @@ inline Show sampleShow() {
             .frozen = true,
             .pilot = "middle",
             .calibration = 0x0123456789ABCDEFU,
-            .colourReturned = 0.6F};
+            .colourReturned = 0.6F,
+            .sign = {.columns = 5, .rows = 2, .dots = "\xA5\x40"}};
 }
 
 inline config::ScanPattern sampleScanPattern() {

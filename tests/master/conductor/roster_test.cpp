@@ -24,7 +24,8 @@ std::string whoMay(const v1::Envelope& message) {
                                KeyRole::Watcher,
                                KeyRole::Visitor,
                                KeyRole::Operator,
-                               KeyRole::Crew})
+                               KeyRole::Crew,
+                               KeyRole::Guests})
         if (maySay({role, role == KeyRole::Node ? "left" : ""}, message))
             names += std::string(config::nameOf(role)) + " ";
     return names;
@@ -36,13 +37,15 @@ TEST(Users, maySayWhatTheirRoleIsFor) {
     EXPECT_EQ(whoMay(test::hello("right")), "") << "that is another's channel";
     EXPECT_EQ(whoMay(test::ready(1)), "node ");
     EXPECT_EQ(whoMay(test::prepared(QualityTier::Low)), "node ");
-    EXPECT_EQ(whoMay(test::statusRequest()), "watcher operator crew ");
-    EXPECT_EQ(whoMay(test::input(v1::INPUT_STEER)), "node visitor operator crew ");
-    EXPECT_EQ(whoMay(test::input(v1::INPUT_DROP_FOOD)), "node visitor operator crew ");
+    EXPECT_EQ(whoMay(test::statusRequest()), "watcher operator crew guests ");
+    EXPECT_EQ(whoMay(test::input(v1::INPUT_STEER)), "node visitor operator crew guests ");
+    EXPECT_EQ(whoMay(test::input(v1::INPUT_DROP_FOOD)), "node visitor operator crew guests ");
     EXPECT_EQ(whoMay(test::input(v1::INPUT_QUIT)), "operator crew ");
     v1::Envelope order;
     order.mutable_order()->mutable_show()->set_black(true);
     EXPECT_EQ(whoMay(order), "operator crew ");
+    order.mutable_order()->mutable_sign();
+    EXPECT_EQ(whoMay(order), "operator crew guests ");
     EXPECT_EQ(whoMay(test::present(1, 0)), "") << "nobody but the master says it";
 }
 

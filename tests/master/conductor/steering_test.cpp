@@ -16,9 +16,12 @@ constexpr Steering kNothing{};
 
 class InputArbitrationTest : public testing::Test {
   protected:
-    bool says(const net::PeerId& who, const Steering& what, int laterMs = 40) {
+    bool says(const net::PeerId& who, const Hand& hand, int laterMs = 40) {
         now_ += milliseconds(laterMs);
-        return arbitration_.accepts(who, what, now_);
+        return arbitration_.accepts(who, hand, now_);
+    }
+    bool says(const net::PeerId& who, const Steering& what, int laterMs = 40) {
+        return says(who, Hand{.steering = what}, laterMs);
     }
     InputArbitration arbitration_;
     net::Moment now_{milliseconds(1000)};
@@ -44,6 +47,19 @@ TEST_F(InputArbitrationTest, theLatestThatTakesHoldWins) {
     EXPECT_FALSE(says("b", kBack));
     EXPECT_TRUE(says("a", kNothing));
     EXPECT_TRUE(says("b", kBack)) << "still held, and nobody has control";
+}
+
+TEST_F(InputArbitrationTest, aPhoneYieldsToEveryOtherHand) {
+    const Hand phone{.steering = kAhead, .yields = true};
+    EXPECT_TRUE(says("phone", phone));
+    EXPECT_TRUE(says("a", kBack)) << "takes over from the phone";
+    EXPECT_FALSE(says("phone", phone));
+    EXPECT_FALSE(says("phone", {kNothing, true}));
+    EXPECT_FALSE(says("phone", phone)) << "nor where it takes hold anew";
+    EXPECT_TRUE(says("a", kNothing));
+    EXPECT_TRUE(says("phone", phone)) << "nobody else steers";
+    EXPECT_FALSE(says("other phone", kNothing));
+    EXPECT_TRUE(says("other phone", phone)) << "the latest of two phones";
 }
 
 TEST_F(InputArbitrationTest, aHandThatFallsSilentLosesTheHelm) {
