@@ -52,6 +52,8 @@ std::string wordsFor(const wire::RecordedInput& input) {
         return fmt::format("the hall's clock, {:.4f} of the day, a day in {:.0f} s",
                            clock->timeOfDay,
                            clock->lengthSeconds);
+    if (const auto* hands = std::get_if<WallHands>(&input.input))
+        return fmt::format("{} hands before the wall", hands->size());
     const auto& moved = std::get<wire::RecordedSubmarine>(input.input);
     return fmt::format("submarine at {:.2f} {:.2f} {:.2f} m",
                        moved.position.x,

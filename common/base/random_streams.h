@@ -62,6 +62,7 @@ enum class Stream : std::uint32_t {
     Owners,
     HoursOfRest,
     RestingPlaces,
+    Curiosity,
     // Cleaners and ambushes.
     Cleaning = 381,
     Urge,

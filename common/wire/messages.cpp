@@ -78,12 +78,14 @@ bool isValid(const v1::Ready& m) {
 bool isValid(const v1::Input& m) {
     const bool isFood = m.kind() == v1::INPUT_DROP_FOOD;
     const bool isSteering = m.kind() == v1::INPUT_STEER;
+    const bool isHands = m.kind() == v1::INPUT_HANDS;
     const auto isNear = [](float number) { return std::abs(number) <= kMostInputMetres; };
     const auto isShare = [](std::int32_t axis) {
         return axis >= -kFullSteering && axis <= kFullSteering;
     };
     return m.position_size() == (isFood ? 3 : 0) &&
            m.steering_size() == (isSteering ? int{kAxes.size()} : 0) &&
+           (isHands || m.hands_size() == 0) &&
            std::ranges::all_of(m.position(), isNear) &&  // NaN is not near
            std::ranges::all_of(m.steering(), isShare);
 }
@@ -287,6 +289,26 @@ v1::Input steeringInput(const Steering& steering) {
     input.set_kind(v1::INPUT_STEER);
     for (const auto axis : kAxes) input.add_steering(steering.*axis);
     return input;
+}
+
+v1::Input handsInput(const WallHands& hands) {
+    v1::Input input;
+    input.set_kind(v1::INPUT_HANDS);
+    for (const WallHand& hand : hands) {
+        v1::TrackedHand& tracked = *input.add_hands();
+        tracked.set_id(hand.id);
+        tracked.set_x(hand.point.x);
+        tracked.set_y(hand.point.y);
+        tracked.set_z(hand.point.z);
+    }
+    return input;
+}
+
+WallHands handsOf(const v1::Input& input) {
+    WallHands hands;
+    for (const v1::TrackedHand& hand : input.hands())
+        hands.push_back({hand.id(), {hand.x(), hand.y(), hand.z()}});
+    return hands;
 }
 
 Steering steeringOf(const v1::Input& input) {

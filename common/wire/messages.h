@@ -15,6 +15,7 @@
 
 #include "common/base/digest.h"
 #include "common/base/units.h"
+#include "common/base/wall_hands.h"
 #include "common/config/rig.h"
 #include "common/motion/motion_state.h"
 #include "common/wire/aquarama.pb.h"
@@ -67,6 +68,10 @@ void writeScanPattern(const config::ScanPattern& pattern, v1::ScanPattern& messa
 
 // Whether no number is infinite or not a number.
 [[nodiscard]] bool areFinite(const google::protobuf::RepeatedField<float>& numbers);
+
+// Hands before the wall, and those of a decoded input of kind INPUT_HANDS.
+[[nodiscard]] v1::Input handsInput(const WallHands& hands);
+[[nodiscard]] WallHands handsOf(const v1::Input& input);
 
 // The five axes of a steering input of a pilot.
 [[nodiscard]] v1::Input steeringInput(const Steering& steering);

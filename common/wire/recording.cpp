@@ -89,6 +89,14 @@ void write(const RecordedClock& clock, v1::RecordedInput& message) {
     message.mutable_clock()->set_length_s(clock.lengthSeconds);
 }
 
+void write(const WallHands& hands, v1::RecordedInput& message) {
+    v1::RecordedHands& recorded = *message.mutable_hands();
+    for (const WallHand& hand : hands) {
+        recorded.add_ids(hand.id);
+        for (const int axis : {0, 1, 2}) recorded.add_points(hand.point[axis]);
+    }
+}
+
 void write(const RecordedHash& hash, v1::RecordedHash& message) {
     message.set_tick(hash.tick.value);
     message.set_hash(hash.hash);
@@ -238,6 +246,19 @@ class Reader {
         return {clock.time_of_day(), clock.length_s()};
     }
 
+    WallHands handsIn(const v1::RecordedHands& recorded) const {
+        const auto count = static_cast<std::size_t>(recorded.ids_size());
+        if (count > kMostWallHands || recorded.points_size() != 3 * recorded.ids_size())
+            fail("has hands that cannot be");
+        WallHands hands;
+        for (int i = 0; i < recorded.ids_size(); ++i)
+            hands.push_back({recorded.ids(i),
+                             vectorIn({recorded.points(3 * i),
+                                       recorded.points(3 * i + 1),
+                                       recorded.points(3 * i + 2)})});
+        return hands;
+    }
+
     RecordedInput inputIn(const v1::RecordedInput& message) {
         RecordedInput input{tickIn(message.has_tick(), message.tick()), {}};
         if (message.has_food()) {
@@ -254,6 +275,8 @@ class Reader {
             input.input = steeringIn({s.ahead(), s.aside(), s.up(), s.turn(), s.tilt()});
         } else if (message.has_clock()) {
             input.input = clockIn(message.clock());
+        } else if (message.has_hands()) {
+            input.input = handsIn(message.hands());
         } else {
             fail("has an input that this program does not know");
         }

@@ -15,6 +15,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/base/units.h"
+#include "common/base/wall_hands.h"
 #include "common/wire/messages.h"
 #include "common/wire/state_codec.h"
 
@@ -61,7 +62,7 @@ struct RecordedClock {
 // An input that reached the world after `tick` and before the next.
 struct RecordedInput {
     Tick tick;
-    std::variant<RecordedFood, RecordedSubmarine, Steering, RecordedClock> input;
+    std::variant<RecordedFood, RecordedSubmarine, Steering, RecordedClock, WallHands> input;
 };
 
 // A hash of the world at the tick, before any input that reaches it then.

@@ -7,6 +7,7 @@
 
 #include "common/motion/gaze.h"
 #include "common/place/place.h"
+#include "master/behaviour/curiosity.h"
 
 namespace aquarama::behaviour {
 
@@ -99,6 +100,10 @@ const Sighting* targetOf(const Situation& situation, const fish::Mind& mind) {
 glm::vec3 attended(const Situation& situation, const fish::Mind& mind) {
     const Sighting* const target = targetOf(situation, mind);
     if (target != nullptr && target->seen()) return target->offset;
+    const glm::vec3 position = situation.senses.position;
+    const auto& hands = situation.environment.surroundings->hands;
+    if (target == nullptr && !hands.hands.empty())
+        return nearestHand(hands, position) - position;
     if (target == nullptr && situation.senses.submarineMetres < kWatchesMetres)
         return situation.environment.surroundings->submarine.position - situation.senses.position;
     return {};

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "master/behaviour/curiosity.h"
 #include "master/behaviour/face.h"
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/perceive.h"
@@ -36,7 +37,7 @@ void think(const Environment& environment,
     remember(mind, decide(parameters, mind, senses, feelings));
     const Situation situation{environment, parameters, fish, senses, feelings};
     const std::size_t reported = events.size();
-    fish::Course course = act(situation, mind, events);
+    fish::Course course = bentByHands(situation, mind, act(situation, mind, events));
     course.face = faceOf(situation, mind, std::span(events).subspan(reported));
     course.openToChange = environment.adaptation.recommendations &&
                           acceptsRecommendation(parameters, mind, senses, feelings);

@@ -281,6 +281,8 @@ void Conductor::takeInput(const net::FromPeer& from,
                      : visitors_.feed(from.user, input, gauges_.eye(), now));
         case v1::INPUT_STEER:
             return countRefused(visitors_.steer(from.peer, input, now));
+        case v1::INPUT_HANDS:
+            return countRefused(visitors_.touch(from.peer, input, now));
         default:
             countRefused(false);
     }

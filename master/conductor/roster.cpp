@@ -47,7 +47,8 @@ std::optional<User> userIn(const std::string& text) {
 bool isVisitorsInput(const v1::Envelope& message) {
     return message.message_case() == v1::Envelope::kInput &&
            (message.input().kind() == v1::INPUT_STEER ||
-            message.input().kind() == v1::INPUT_DROP_FOOD);
+            message.input().kind() == v1::INPUT_DROP_FOOD ||
+            message.input().kind() == v1::INPUT_HANDS);
 }
 
 bool isQuestion(const v1::Envelope& message) {

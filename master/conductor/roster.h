@@ -32,7 +32,7 @@ struct User {
 [[nodiscard]] bool maySay(const User& user, const v1::Envelope& message);
 // Whether it is a question for the status or for a mind.
 [[nodiscard]] bool isQuestion(const v1::Envelope& message);
-// Whether it is food or steering.
+// Whether it is food, steering, or hands before the wall.
 [[nodiscard]] bool isVisitorsInput(const v1::Envelope& message);
 
 // A channel of the show, and the node that draws it.

@@ -83,6 +83,12 @@ bool VisitorInputs::steer(const net::PeerId& peer, const v1::Input& input, net::
     return world_->betweenTicks([steering](Simulation& simulation) { simulation.apply(steering); });
 }
 
+bool VisitorInputs::touch(const net::PeerId& peer, const v1::Input& input, net::Moment now) {
+    if (world_ == nullptr || !trackers_.hear(peer, wire::handsOf(input), now)) return true;
+    return world_->betweenTicks(
+        [hands = trackers_.all(now)](Simulation& simulation) { simulation.apply(hands); });
+}
+
 // A mind is looked into between two ticks.
 bool VisitorInputs::ask(const net::PeerId& peer, std::uint32_t fish) {
     if (world_ == nullptr) return true;  // the show is over

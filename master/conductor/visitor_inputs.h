@@ -14,6 +14,7 @@
 #include "master/conductor/sender.h"
 #include "master/conductor/simulation_thread.h"
 #include "master/conductor/steering.h"
+#include "master/conductor/trackers.h"
 
 namespace aquarama::conductor {
 
@@ -39,6 +40,8 @@ class VisitorInputs {
                             const wire::Eye& eye,
                             net::Moment now);
     [[nodiscard]] bool steer(const net::PeerId& peer, const v1::Input& input, net::Moment now);
+    // Hands before the wall, as one tracker sees them.
+    [[nodiscard]] bool touch(const net::PeerId& peer, const v1::Input& input, net::Moment now);
     // A question about a mind; answer() sends what comes back.
     [[nodiscard]] bool ask(const net::PeerId& peer, std::uint32_t fish);
     void answer();
@@ -55,6 +58,7 @@ class VisitorInputs {
     SimulationThread* world_ = nullptr;
     std::uint32_t fish_ = 0;
     InputArbitration arbitration_;
+    Trackers trackers_;
     std::map<std::string, net::Moment> lastFed_;  // by user that is no node
     // Written by the tick thread. A full queue drops the answer, and the client asks again.
     net::BoundedQueue<std::pair<net::PeerId, wire::Packet>> explanations_{256};

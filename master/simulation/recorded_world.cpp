@@ -114,6 +114,9 @@ Steering recordedOne(const Steering& steering) {
 wire::RecordedClock recordedOne(const world::SetClock& clock) {
     return {clock.timeOfDay, clock.lengthSeconds};
 }
+WallHands recordedOne(const WallHands& hands) {
+    return hands;
+}
 world::DropFood inputOfOne(const wire::RecordedFood& food) {
     return {food.position, food.pellets};
 }
@@ -122,6 +125,9 @@ world::MoveSubmarine inputOfOne(const wire::RecordedSubmarine& moved) {
 }
 Steering inputOfOne(const Steering& steering) {
     return steering;
+}
+WallHands inputOfOne(const WallHands& hands) {
+    return hands;
 }
 world::SetClock inputOfOne(const wire::RecordedClock& clock) {
     return {clock.timeOfDay, clock.lengthSeconds};

@@ -117,6 +117,7 @@ std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroun
     hash = folded(hash, surroundings.turf.fill);
     for (const Structure& structure : surroundings.structures)
         hash = foldedOne(foldedOne(hash, structure.tiredOf), structure.fright);
+    hash = foldedHands(hash, surroundings.hands);
     // A clock that nobody can set is a function of scene and tick.
     if (!surroundings.climate.day.followsHall) return hash;
     const place::DayClock& clock = surroundings.clock;

@@ -17,6 +17,7 @@
 #include "common/place/sites.h"
 #include "master/surroundings/climate.h"
 #include "master/surroundings/food.h"
+#include "master/surroundings/hands.h"
 #include "master/surroundings/obstacles.h"
 #include "master/surroundings/structures.h"
 #include "master/surroundings/turf.h"
@@ -46,6 +47,7 @@ struct Surroundings {
     Climate climate;
     Food food;
     Submarine submarine;
+    HeldHands hands = makeHands();
     // No fish sees farther than this.
     float clarityMetres = 12;
     // The clock of the day, the time of day at this tick and the light of the sky then, 0 to 1.

@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/base/units.h"
+#include "common/base/wall_hands.h"
 #include "master/fish/fish_view.h"
 #include "master/surroundings/food.h"
 
@@ -38,7 +39,7 @@ struct SetClock {
 };
 
 // World::apply() takes it, between two ticks.
-using WorldInput = std::variant<DropFood, MoveSubmarine, Steering, SetClock>;
+using WorldInput = std::variant<DropFood, MoveSubmarine, Steering, SetClock, WallHands>;
 
 // Food on its way into a mouth: a fish that snaps draws it in with the water (Tu 1996, section
 // 5.6.3). That takes a few ticks, in which the particle can be seen to move.

@@ -285,6 +285,8 @@ void World::apply(const WorldInput& input) {
     const auto* clock = std::get_if<SetClock>(&input);
     if (clock != nullptr && surroundings_.climate.day.followsHall)
         surroundings::setClock(surroundings_, {tick_, clock->timeOfDay, clock->lengthSeconds});
+    if (const auto* hands = std::get_if<WallHands>(&input))
+        surroundings::holdHands(surroundings_.hands, *hands, tick_);
     if (const auto* steered = std::get_if<Steering>(&input))
         surroundings::steer(pilot_, voyage_, *steered, tick_);
 }
@@ -298,6 +300,7 @@ void World::moveSubmarine() {
 void World::showSubmarine() {
     surroundings_.submarine.position = pilot_.vessel.position;
     surroundings_.submarine.velocityMetresPerSecond = pilot_.vessel.velocity;
+    surroundings::placeHands(surroundings_.hands, pilot_.vessel, tick_);
 }
 
 void World::advance() {

@@ -225,6 +225,11 @@ class LinkSession final : public Session {
             message.mutable_input()->add_position(positionMetres[axis]);
         link_.post(message);
     }
+    void touch(const WallHands& hands) override {
+        v1::Envelope message;
+        *message.mutable_input() = wire::handsInput(hands);
+        link_.post(message);
+    }
     void steer(const Steering& steering) override {
         v1::Envelope message;
         *message.mutable_input() = wire::steeringInput(steering);

@@ -12,6 +12,7 @@
 
 #include "common/base/digest.h"
 #include "common/base/units.h"
+#include "common/base/wall_hands.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 #include "common/motion/motion_state.h"
@@ -89,6 +90,7 @@ class Session {
     virtual void quit() = 0;
     virtual void freeze(bool frozen) = 0;
     virtual void dropFood(glm::vec3 positionMetres) = 0;  // world frame
+    virtual void touch(const WallHands& hands) = 0;       // all that this window sees
     // Steers the submarine; valid until the next call, half a second at most.
     virtual void steer(const Steering& steering) = 0;
     // Reported to the master every few seconds, with the state of the network. May be called by any

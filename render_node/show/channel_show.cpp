@@ -182,6 +182,7 @@ session::Release ChannelShow::play() {
         buildNext();
         if (!bringOn(state->show.look)) return session::Release::Rejoin;
         feed(state->eye);
+        touch(net::monotonicNow());
         bringTo(state->show.quality);
         const bool seen = isSeen(state->frame);
         if (seen) {
@@ -293,6 +294,15 @@ void ChannelShow::feed(const wire::Eye& eye) {
         const auto place = pixel ? pointing_->pinchAt(*pixel, eye) : std::nullopt;
         if (place) session_.dropFood(*place);
     }
+}
+
+// A pointer before the wall is a hand.
+void ChannelShow::touch(net::Moment now) {
+    const WindowPlace place = controls_.heldPointer(now);
+    const auto pixel = place ? pixelAt(place) : std::nullopt;
+    const auto point = pixel ? pointing_->handAt(*pixel) : std::nullopt;
+    if (const auto hands = handPace_.due(point ? WallHands{{1, *point}} : WallHands{}, now))
+        session_.touch(*hands);
 }
 
 std::optional<glm::vec2> ChannelShow::pixelAt(const WindowPlace& place) const {

@@ -74,6 +74,7 @@ class ChannelShow {
     void refuseLoss() const;
     // Sends the food that a visitor has dropped, as places of the world.
     void feed(const wire::Eye& eye);
+    void touch(net::Moment now);
     // Converts a place of the window to a pixel of the picture; empty where it is outside the
     // picture. Without a place it is the middle of the picture.
     [[nodiscard]] std::optional<glm::vec2> pixelAt(const WindowPlace& place) const;
@@ -100,6 +101,7 @@ class ChannelShow {
     bool isStale_ = false;  // the look that is being built
     std::future<void> retiring_;
     std::optional<Pointing> pointing_;
+    StatePace<WallHands> handPace_;
     // The console, where the rig has one, and the last frames that it was shown, the newest last.
     std::optional<ConsoleLink> console_;
     std::deque<wire::StateFrame> lookedAt_;

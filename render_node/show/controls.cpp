@@ -19,6 +19,9 @@ namespace {
 // Largest number of pinches that wait for a frame; more are dropped.
 constexpr std::size_t kMostPinches = 8;
 
+// How long a pointer that does not move counts as a hand.
+constexpr std::chrono::seconds kHeldPointer{20};
+
 // How long a window shows why a key did nothing.
 constexpr std::chrono::seconds kHint{4};
 
@@ -73,8 +76,9 @@ void Controls::click(glm::vec2 place) {
     drop({place});
 }
 
-void Controls::point(WindowPlace place) {
+void Controls::point(WindowPlace place, net::Moment now) {
     const std::lock_guard lock(mutex_);
+    if (place != pointer_) pointerMoved_ = now;
     pointer_ = place;
 }
 
@@ -101,6 +105,11 @@ void Controls::show(const wire::Show& shown) {
 WindowPlace Controls::pointer() const {
     const std::lock_guard lock(mutex_);
     return pointer_;
+}
+
+WindowPlace Controls::heldPointer(net::Moment now) const {
+    const std::lock_guard lock(mutex_);
+    return now - pointerMoved_ < kHeldPointer ? pointer_ : std::nullopt;
 }
 
 std::optional<Pinch> Controls::nextPinch() {
@@ -169,10 +178,11 @@ Steering steeringOf(const gl::Hands& hands) {
         .tilt = axisOf(between(hands, gl::HeldKey::Home, gl::HeldKey::End) + drag.y + right.y)};
 }
 
-std::optional<Steering> SteeringPace::due(const Steering& wanted, net::Moment now) {
+template <class State>
+std::optional<State> StatePace<State>::due(const State& wanted, net::Moment now) {
     assert(!saidAt_ || now >= *saidAt_);
     const bool changed = wanted != said_;
-    const bool held = wanted != Steering{};
+    const bool held = wanted != State{};
     if (!changed && !held) return std::nullopt;
     if (saidAt_ && now - *saidAt_ < (changed ? kBetweenChanges : kBetweenRepeats))
         return std::nullopt;
@@ -180,6 +190,9 @@ std::optional<Steering> SteeringPace::due(const Steering& wanted, net::Moment no
     saidAt_ = now;
     return wanted;
 }
+
+template class StatePace<Steering>;
+template class StatePace<WallHands>;
 
 namespace {
 
@@ -195,6 +208,13 @@ std::optional<glm::vec3> Pointing::directionOf(glm::vec2 pixel, const wire::Eye&
     const auto point = wall_->channel(channel_).pointOf(glm::dvec2(own), 0);
     if (!point) return std::nullopt;
     return eye.worldFromWall * glm::vec3(glm::normalize(*point - sweetSpot_));
+}
+
+std::optional<glm::vec3> Pointing::handAt(glm::vec2 pixel) const {
+    const glm::vec2 own = pixelOfEye(mode_, sizePixels_, pixel);
+    const auto point = wall_->channel(channel_).pointOf(glm::dvec2(own), 0);
+    if (!point) return std::nullopt;
+    return glm::vec3(*point - sweetSpot_);
 }
 
 std::optional<glm::vec3> Pointing::pinchAt(glm::vec2 pixel, const wire::Eye& eye) const {

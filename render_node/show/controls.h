@@ -16,6 +16,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/base/units.h"
+#include "common/base/wall_hands.h"
 #include "common/config/rig.h"
 #include "common/net/clock.h"
 #include "common/wall/wall.h"
@@ -33,19 +34,21 @@ namespace aquarama::show {
 // are added.
 [[nodiscard]] Steering steeringOf(const gl::Hands& hands);
 
-// Decides when a steering is sent: at once when it changes, but at most thirty times a second, and
-// repeatedly while something is held. The repetition replaces lost messages before the submarine
-// takes the silence for released hands. Used by one thread.
-class SteeringPace {
+// Decides when a state is sent: at once when it changes, but at most thirty times a second, and
+// repeatedly while it is not at rest, State{}. The repetition replaces lost messages before the
+// master takes the silence for rest. Used by one thread.
+template <class State>
+class StatePace {
   public:
-    // The steering to send now; empty where nothing is due. now: of a monotonic clock, never
-    // earlier than at the call before.
-    [[nodiscard]] std::optional<Steering> due(const Steering& wanted, net::Moment now);
+    // The state to send now; empty where nothing is due. now: of a monotonic clock, never earlier
+    // than at the call before.
+    [[nodiscard]] std::optional<State> due(const State& wanted, net::Moment now);
 
   private:
-    Steering said_;
+    State said_{};
     std::optional<net::Moment> saidAt_;
 };
+using SteeringPace = StatePace<Steering>;
 
 // Keys and mouse of a window act on the whole show, through the master, and on what this window
 // shows over the world.
@@ -106,7 +109,7 @@ class Controls {
     void press(char key);
     void click(glm::vec2 place);
     // Where the pointer is now.
-    void point(WindowPlace place);
+    void point(WindowPlace place, net::Moment now);
     // Sends the steering that the hands ask for, when it is due.
     void hold(const gl::Hands& hands, net::Moment now);
 
@@ -117,6 +120,9 @@ class Controls {
     // May be called by any thread.
     [[nodiscard]] Overlays overlays() const;
     [[nodiscard]] WindowPlace pointer() const;
+    // Where the pointer is held before the wall: not where it has rested for a while, as one does
+    // that nobody holds.
+    [[nodiscard]] WindowPlace heldPointer(net::Moment now) const;
     // The next pinch of food that waits, oldest first; each is returned once. The drawing thread
     // takes them, as it knows which part of the world the window shows.
     [[nodiscard]] std::optional<Pinch> nextPinch();
@@ -135,6 +141,7 @@ class Controls {
     Overlays overlays_;
     net::Moment hintUntil_{};
     WindowPlace pointer_;
+    net::Moment pointerMoved_{};
     std::deque<Pinch> pinches_;
 };
 
@@ -161,6 +168,9 @@ class Pointing {
     // The place where food enters the world when it is dropped at this pixel: some metres before
     // the viewer, always under water. World frame, metres.
     [[nodiscard]] std::optional<glm::vec3> pinchAt(glm::vec2 pixel, const wire::Eye& eye) const;
+    // The point of the screen that this pixel lights, from the sweet spot in the axes of the wall
+    // frame, metres.
+    [[nodiscard]] std::optional<glm::vec3> handAt(glm::vec2 pixel) const;
     // The middle of the channel's picture, pixels.
     [[nodiscard]] glm::vec2 middle() const { return glm::vec2(sizePixels_) * 0.5F; }
 

@@ -84,7 +84,7 @@ bool runNode(const NodeOptions& options) {
         context->pumpEvents(kPatience);
         while (const std::optional<char> key = context->nextKey()) controls.press(*key);
         while (const auto place = context->nextClick()) controls.click(*place);
-        controls.point(context->pointer());
+        controls.point(context->pointer(), net::monotonicNow());
         controls.hold(context->hands(), net::monotonicNow());
     }
     drawing.get();

@@ -208,7 +208,7 @@ TEST(Messages, aStateThatLiesIsRefused) {
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.pattern = static_cast<Pattern>(5); }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.brightness = 1.01F; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.colourReturned = 1.01F; }));
-    EXPECT_TRUE(refused([](StateFrame& s) { s.show.sign.rows = 3; })) << "15 dots are 2 bytes";
+    EXPECT_TRUE(refused([](StateFrame& s) { s.show.sign.rows = 4; })) << "20 dots are 3 bytes";
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.sign.rows = 65; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.sign.dots.clear(); }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.show.scene = "a\nb"; }));

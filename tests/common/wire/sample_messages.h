@@ -214,6 +214,7 @@ inline v1::Envelope sampleStatus() {
     reply.set_speed_m_s(0.375F);
     *reply.mutable_show() = test::messageOf(sampleShow());
     reply.set_change("prepared by all nodes but left");
+    reply.set_guests(false);
     const auto add = [&](const char* name, v1::NodeCondition is, std::uint64_t late, int dropped) {
         v1::NodeStatus& node = *reply.add_nodes();
         node.set_name(name);
@@ -244,9 +245,10 @@ inline v1::Envelope sampleExplanation() {
     return message;
 }
 
-// Orders for a node and its machine, and the report that allows one.
+// Orders for a node and its machine, and the report that allows one; a sign, and the hand of a
+// phone.
 inline std::vector<v1::Envelope> samplePower() {
-    std::vector<v1::Envelope> messages(3);
+    std::vector<v1::Envelope> messages(5);
     v1::Order& power = *messages[0].mutable_order();
     power.set_request(78);
     power.set_run(0x0123456789ABCDEFU);
@@ -255,6 +257,14 @@ inline std::vector<v1::Envelope> samplePower() {
     messages[1].mutable_order()->set_request(79);
     messages[1].mutable_order()->mutable_restart()->set_channel("left");
     messages[2].mutable_node_report()->set_takes_power_word(true);
+    messages[3].mutable_order()->set_request(80);
+    v1::Sign& sign = *messages[3].mutable_order()->mutable_sign()->mutable_sign();
+    sign.set_columns(5);
+    sign.set_rows(2);
+    sign.set_dots("\xA5\x40");
+    messages[4].mutable_input()->set_kind(v1::INPUT_STEER);
+    for (const int axis : {127, 0, -127, 5, 0}) messages[4].mutable_input()->add_steering(axis);
+    messages[4].mutable_input()->set_yields(true);
     return messages;
 }
 

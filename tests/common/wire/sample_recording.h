@@ -25,6 +25,7 @@ inline std::vector<Packet> sampleEntries() {
             entryOf(RecordedInput{{17}, Steering{127, -127, 0, 5, -1}}),
             entryOf(RecordedInput{{17}, RecordedSubmarine{{0, -6, 0}, {0.5F, 0, -0.25F}}}),
             entryOf(RecordedInput{{18}, RecordedClock{0.75, 43'200}}),
+            entryOf(RecordedInput{{18}, WallHands{{7, {0.5F, 0, -3}}, {8, {-2.5F, 1, -2}}}}),
             entryOf(RecordedHash{{600}, 1}),
             endOf({{(std::uint64_t{1} << 31U) + 7}, 2})};
 }

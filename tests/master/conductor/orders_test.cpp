@@ -59,6 +59,23 @@ v1::Order scan(std::uint64_t holder, std::optional<std::uint16_t> number) {
     return order;
 }
 
+// A sign of two dots; without them it is taken down.
+v1::Order sign(const std::string& dots) {
+    v1::Order order;
+    v1::HeldSign& held = *order.mutable_sign();
+    if (dots.empty()) return order;
+    held.mutable_sign()->set_columns(2);
+    held.mutable_sign()->set_rows(1);
+    held.mutable_sign()->set_dots(dots);
+    return order;
+}
+
+v1::Order guests(bool on) {
+    v1::Order order;
+    order.mutable_show()->set_guests(on);
+    return order;
+}
+
 // The orders of a desk whose three nodes take part.
 class DeskOrders : public testing::Test {
   protected:
@@ -91,6 +108,30 @@ class DeskOrders : public testing::Test {
     net::Moment now = test::kStart;
     Frame unpublished{40};
 };
+
+TEST_F(DeskOrders, aSignIsShownUntilItsHolderTakesItDownOrFallsSilent) {
+    EXPECT_EQ(orders.sign().sign(), nullptr);
+    EXPECT_EQ(give(1, sign("\x80")).outcome(), Reply::DONE);
+    ASSERT_NE(orders.sign().sign(), nullptr);
+    EXPECT_EQ(orders.sign().sign()->dots(), "\x80");
+    EXPECT_EQ(give(1, sign("\x40")).outcome(), Reply::DONE) << "said again, with others";
+    EXPECT_EQ(orders.sign().sign()->dots(), "\x40");
+    EXPECT_EQ(give(2, sign("")).outcome(), Reply::DONE);
+    EXPECT_EQ(orders.sign().sign(), nullptr);
+    give(3, sign("\x80"));
+    pass(seconds(4));
+    EXPECT_NE(orders.sign().sign(), nullptr);
+    pass(seconds(2));
+    EXPECT_EQ(orders.sign().sign(), nullptr);
+}
+
+TEST_F(DeskOrders, aSignIsRefusedWhereItLiesAndWhileGuestsAreOff) {
+    EXPECT_THAT(give(1, sign("\x80\x80")).reason(), HasSubstr("columns and rows"));
+    EXPECT_EQ(give(2, guests(false)).outcome(), Reply::DONE);
+    EXPECT_THAT(give(3, sign("\x80")).reason(), HasSubstr("set guests on"));
+    EXPECT_EQ(give(4, guests(true)).outcome(), Reply::DONE);
+    EXPECT_EQ(give(5, sign("\x80")).outcome(), Reply::DONE);
+}
 
 TEST_F(DeskOrders, blackIsDoneAtOnceAndOnceForEachRequest) {
     EXPECT_EQ(give(1, black(true)).outcome(), Reply::DONE);

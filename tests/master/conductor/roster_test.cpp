@@ -40,6 +40,7 @@ TEST(Users, maySayWhatTheirRoleIsFor) {
     EXPECT_EQ(whoMay(test::statusRequest()), "watcher operator crew guests ");
     EXPECT_EQ(whoMay(test::input(v1::INPUT_STEER)), "node visitor operator crew guests ");
     EXPECT_EQ(whoMay(test::input(v1::INPUT_DROP_FOOD)), "node visitor operator crew guests ");
+    EXPECT_EQ(whoMay(test::input(v1::INPUT_HANDS)), "node visitor operator crew guests ");
     EXPECT_EQ(whoMay(test::input(v1::INPUT_QUIT)), "operator crew ");
     v1::Envelope order;
     order.mutable_order()->mutable_show()->set_black(true);

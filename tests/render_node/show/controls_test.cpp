@@ -87,11 +87,23 @@ TEST_F(ControlsTest, pinchesThatNoFrameTakesAreFew) {
 }
 
 TEST_F(ControlsTest, knowsWhereTheMousePoints) {
+    const net::Moment now{};
     EXPECT_EQ(controls_.pointer(), std::nullopt);
-    controls_.point(glm::vec2(5, 6));
+    controls_.point(glm::vec2(5, 6), now);
     EXPECT_EQ(controls_.pointer(), glm::vec2(5, 6));
-    controls_.point(std::nullopt);
+    controls_.point(std::nullopt, now);
     EXPECT_EQ(controls_.pointer(), std::nullopt);
+}
+
+TEST_F(ControlsTest, aMouseThatLiesStillForLongIsNoHand) {
+    using std::chrono::seconds;
+    const net::Moment begin{seconds(100)};
+    controls_.point(glm::vec2(5, 6), begin);
+    controls_.point(glm::vec2(5, 6), begin + seconds(15));
+    EXPECT_EQ(controls_.heldPointer(begin + seconds(19)), glm::vec2(5, 6));
+    EXPECT_EQ(controls_.heldPointer(begin + seconds(21)), std::nullopt);
+    controls_.point(glm::vec2(5, 7), begin + seconds(22));
+    EXPECT_EQ(controls_.heldPointer(begin + seconds(23)), glm::vec2(5, 7));
 }
 
 TEST_F(ControlsTest, keysThatSteerSwitchNothing) {

@@ -58,6 +58,9 @@ class FakeSession : public session::Session {
     void sawBlank(std::uint64_t /*count*/, net::Moment /*at*/) override {}
     void quit() override { events_.emplace_back("quit"); }
     bool isToRestart() const override { return false; }
+    void touch(const WallHands& hands) override {
+        events_.emplace_back("hands " + std::to_string(hands.size()));
+    }
     void freeze(bool frozen) override { events_.emplace_back(frozen ? "freeze" : "thaw"); }
     void describe(const session::NodeFacts& facts) override { facts_ = facts; }
     void dropFood(glm::vec3 positionMetres) override { drops_.push_back(positionMetres); }
