@@ -207,7 +207,9 @@ double shareIn(const SetOptions& options) {
     const char* const end = options.value.data() + options.value.size();
     const auto [rest, error] = std::from_chars(options.value.data(), end, share);
     if (error == std::errc{} && rest == end && share >= 0 && share <= 1) return share;
-    throw Error("colour is a share from 0, as in nature, to 1, not \"" + options.value + "\"");
+    const std::string least = options.what == "colour" ? "0, as in nature," : "0, black,";
+    throw Error(options.what + " is a share from " + least + " to 1, not \"" + options.value +
+                "\"");
 }
 
 // Returns when it is done.
@@ -223,6 +225,8 @@ void set(const SetOptions& options) {
         order.mutable_show()->set_pattern(patternIn(options));
     else if (options.what == "colour")
         order.mutable_show()->set_colour_returned(shareIn(options));
+    else if (options.what == "brightness")
+        order.mutable_show()->set_brightness(shareIn(options));
     else if (options.what == "black")
         order.mutable_show()->set_black(switchedOn(options));
     else if (options.what == "guests")
@@ -252,16 +256,23 @@ void addSet(CommandLine& line) {
     command
         .add_option("WHAT",
                     options.what,
-                    "scene, quality, pattern, colour, black, freeze, guests or restart")
+                    "scene, quality, pattern, colour, brightness, black, freeze, guests or restart")
         ->required()
-        ->check(CLI::IsMember(
-            {"scene", "quality", "pattern", "colour", "black", "freeze", "guests", "restart"}));
+        ->check(CLI::IsMember({"scene",
+                               "quality",
+                               "pattern",
+                               "colour",
+                               "brightness",
+                               "black",
+                               "freeze",
+                               "guests",
+                               "restart"}));
     command
         .add_option(
             "VALUE",
             options.value,
             "a scene's name; low, medium, high, ultra or auto; world, grid or grey; a share "
-            "of colour, 0 to 1; on or off; a channel, whose node is started again")
+            "of colour or light, 0 to 1; on or off; a channel, whose node is started again")
         ->required()
         ->check(cli::plainWord());
     command.footer("What is set is kept: a master that is started again shows it.");

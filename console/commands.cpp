@@ -58,6 +58,14 @@ std::string textOf(const v1::Order& order) {
     return wire::textOf(order.show());
 }
 
+// Whether it is a step of a fader, which gives ten a second while it moves.
+bool isOfFader(const v1::Order& order) {
+    v1::WantedShow others = order.show();
+    others.clear_brightness();
+    others.clear_colour_returned();
+    return order.has_show() && others.ByteSizeLong() == 0;
+}
+
 // The channels that show a pattern, a bit each; nothing where there is none of that name.
 std::optional<std::uint64_t> litIn(const std::string& channel, const config::Rig& rig) {
     if (channel.empty()) return ~std::uint64_t{0};
@@ -174,7 +182,8 @@ Answer Commands::tellWall(const Holder& holder, Visitor* visitor, const v1::Orde
     if (!state_.wall.heard()) return refused("the master does not answer");
     if (order.run() != state_.wall.run())
         return refused("the show was started again meanwhile: look, and say it once more");
-    waiting_[order.request()] = {visitor, holder.name, textOf(order)};
+    const bool isQuiet = visitor == nullptr && isOfFader(order);
+    waiting_[order.request()] = {visitor, holder.name, textOf(order), isQuiet};
     master_->give(order);
     return {Outcome::Waiting, ""};
 }
@@ -193,8 +202,9 @@ void Commands::said(std::uint64_t request, const Answer& answer) {
     if (Visitor* visitor = waiting->second.visitor)
         visitors_.sendTo(*visitor, fmt::format("done {}", request), message);
     if (!isEnded) return;
-    visitors_.note(waiting->second.who,
-                   waiting->second.what + (isDone ? "" : ", refused: " + answer.reason));
+    if (!isDone || !waiting->second.isQuiet)
+        visitors_.note(waiting->second.who,
+                       waiting->second.what + (isDone ? "" : ", refused: " + answer.reason));
     waiting_.erase(waiting);
 }
 

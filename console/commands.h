@@ -49,6 +49,7 @@ class Commands {
     struct Waiting {
         Visitor* visitor = nullptr;  // null: nobody
         std::string who, what;
+        bool isQuiet = false;  // noted only where it is refused
     };
     // A pattern of a scan, said to the master each second.
     struct ShownScan {

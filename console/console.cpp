@@ -65,6 +65,7 @@ void Console::begin(web::WebServer& server, Doors doors) {
                      }});
     visitors_.watch(hub_.get());
     commands_.reach(link_.get());
+    listenToDesk();
     visitors_.note("console", "started, build " + state_.build);
     if (!state_.access.hasPeople()) showCode(ConsoleRole::Crew);
 }
@@ -105,6 +106,7 @@ void Console::tick() {
     ++ticks_;
     visitors_.tick();
     state_.figures.add(state_.wall);
+    if (desk_) desk_->tick(shownBy(state_.wall.status(), state_.wall.heard()));
     if (ticks_ % kTicksASecond == 0) everySecond();
     if (ticks_ % kTicksOfAWall == 0) visitors_.sendWall(state_.refused + server_->cutOff());
 }
@@ -130,6 +132,30 @@ void Console::watchClock(UnixSeconds now) {
     if (state_.doubtOfClock.empty() && !doubt.empty())
         logWarning("{}; hours and certificates rest; {}", doubt, kSetTheClock);
     state_.doubtOfClock = std::move(doubt);
+}
+
+// Again each second: a network card may come late.
+void Console::listenToDesk() {
+    if (desk_ || !state_.rig.osc) return;
+    const auto give = [this](const std::string& who, const v1::Order& order) {
+        return giveOrder({.id = {}, .hash = {}, .name = who, .role = ConsoleRole::Operator}, order);
+    };
+    try {
+        desk_ = std::make_unique<OscDesk>(*state_.rig.osc, give);
+        deskProblem_.clear();
+        logInfo("cues by OSC at {}", config::textOf(state_.rig.osc->listen));
+    } catch (const Error& problem) {
+        if (deskProblem_.empty()) logWarning("cues: {}", problem.what());
+        deskProblem_ = problem.what();
+    }
+}
+
+v1::OrderReply Console::giveOrder(const Holder& holder, const v1::Order& order) {
+    browser::Command command;
+    command.set_id(order.request() != 0 ? order.request() : ask::freshRequest());
+    command.set_run(order.run() != 0 ? order.run() : state_.wall.run());
+    *command.mutable_order() = order;
+    return commands_.carryOut(holder, nullptr, command);
 }
 
 // The server takes what was renewed, or what somebody has put there.
@@ -159,6 +185,7 @@ std::vector<Fault> Console::faultsNow(UnixSeconds now) const {
     if (!state_.doubtOfClock.empty())
         faults.push_back(
             {"clock", state_.doubtOfClock + "; hours and certificates rest; " + kSetTheClock, 0});
+    if (!deskProblem_.empty()) faults.push_back({"cues", "cues: " + deskProblem_, 5});
     if (options_.certificate != nullptr)
         for (Fault& fault : options_.certificate->faults(now)) faults.push_back(std::move(fault));
     return faults;
@@ -169,6 +196,7 @@ void Console::everySecond() {
     const UnixSeconds now = unixNow();
     watchClock(now);
     tendCertificate(now);
+    listenToDesk();
     commands_.keepHours();
     commands_.keepScan();
     const bool isQuiet = state_.doubtOfClock.empty() && state_.opening.isClosed(now);

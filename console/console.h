@@ -17,6 +17,7 @@
 #include "console/certificate.h"
 #include "console/commands.h"
 #include "console/console.pb.h"
+#include "console/cues/osc_desk.h"
 #include "console/errands.h"
 #include "console/gate.h"
 #include "console/overview.h"
@@ -75,6 +76,10 @@ class Console final : public web::Service {
     [[nodiscard]] std::string metrics(UnixSeconds now) const;
     web::HttpReply bundle();  // all logs, for whoever helps from afar
     web::HttpReply obey(const web::HttpRequest& request, const Holder& holder);
+    web::HttpReply takeOrder(const web::HttpRequest& request, const Holder& holder);
+    // Of a program, for the run that it names, else the one that is heard; an order gets a number
+    // where it has none.
+    v1::OrderReply giveOrder(const Holder& holder, const v1::Order& order);
     web::HttpReply refused(int status, const std::string& why);
     // In the log: a code for the first browser.
     void showCode(ConsoleRole role);
@@ -86,6 +91,8 @@ class Console final : public web::Service {
     // What is due.
     void everySecond();
     void watchClock(UnixSeconds now);
+    // Listens to the rig's desk, where that is not done yet.
+    void listenToDesk();
     void tendCertificate(UnixSeconds now);
     // Of the wall, and of this machine's clock and certificate.
     [[nodiscard]] std::vector<Fault> faultsNow(UnixSeconds now) const;
@@ -102,6 +109,8 @@ class Console final : public web::Service {
     // When the clocks were last looked at: the system's, and one that nobody sets.
     UnixSeconds lastSecond_ = 0;
     std::chrono::steady_clock::time_point lastLook_;
+    std::unique_ptr<OscDesk> desk_;  // null: the rig has none, or it cannot be heard
+    std::string deskProblem_;        // why not
     std::unique_ptr<PictureHub> hub_;
     std::unique_ptr<ShowLink> link_;  // last: their threads use all of the above
 };

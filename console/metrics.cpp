@@ -65,6 +65,10 @@ void addOwn(const Figures& console, const OwnFigures& own) {
     console.gauge("clock_wrong", "1 where this machine's clock is in doubt", own.isClockWrong);
     if (own.certificateDays)
         console.gauge("certificate_days", "Days until the certificate ends", *own.certificateDays);
+    if (!own.cues) return;
+    console.counter("cues_total", "Orders that cues gave", own.cues->given);
+    console.counter("refused_cues_total", "Cues that were refused", own.cues->refused);
+    console.counter("dropped_cues_total", "Packets of strangers", own.cues->strangers);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "console/console.pb.h"
+#include "console/cues/osc_desk.h"
 
 namespace aquarama::console {
 
@@ -15,6 +16,7 @@ struct OwnFigures {
     std::uint64_t cutOff = 0;                    // connections, since the start
     bool isClockWrong = false;                   // this machine's
     std::optional<double> certificateDays = {};  // until it ends; empty: there is none
+    std::optional<CueCounts> cues = {};          // empty: no desk is heard
 };
 
 // All figures in Prometheus' text format, 0.0.4. What is unknown has no sample.

@@ -29,6 +29,8 @@ std::string causeOf(const v1::NodeStatus& node) {
 // Of FigureRings.
 constexpr std::uint32_t kTenthsOfMinute = 600;
 constexpr std::uint16_t kNothingHeard = 65535;
+// Of a text that browsers or programs send.
+constexpr std::size_t kMostBytes = 65536;
 
 // The last of them, little-endian.
 std::string bytesOf(const std::deque<std::uint16_t>& values, std::size_t most) {
@@ -258,9 +260,15 @@ std::string jsonOf(const browser::ToBrowser& message) {
     return text;
 }
 
+std::optional<v1::Order> readOrder(const std::string& text) {
+    v1::Order order;
+    const bool isRead =
+        text.size() <= kMostBytes && google::protobuf::util::JsonStringToMessage(text, &order).ok();
+    return isRead ? std::optional(order) : std::nullopt;
+}
+
 // protobuf refuses unknown fields, wrong types and depth; sizes are ours to bound.
 std::optional<browser::FromBrowser> readBrowser(const std::string& text) {
-    constexpr std::size_t kMostBytes = 65536;
     constexpr int kMostListed = 64;
     if (text.size() > kMostBytes) return std::nullopt;
     browser::FromBrowser message;

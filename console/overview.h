@@ -75,5 +75,7 @@ class ProjectorBook {
 [[nodiscard]] std::string jsonOf(const browser::ToBrowser& message);
 // Empty where the text is malformed, has unknown fields, or exceeds a bound.
 [[nodiscard]] std::optional<browser::FromBrowser> readBrowser(const std::string& text);
+// The same of an order, which names neither a number nor a run unless it wants to.
+[[nodiscard]] std::optional<v1::Order> readOrder(const std::string& text);
 
 }  // namespace aquarama::console

@@ -9,6 +9,7 @@
 
 #include "common/base/log.h"
 #include "console/console.h"
+#include "console/cues/shown.h"
 #include "console/metrics.h"
 
 namespace aquarama::console {
@@ -54,6 +55,14 @@ PairingRequest pairingIn(const std::string& body) {
 // Text that is none becomes question marks: a reply is never malformed.
 std::string jsonOfObject(const nlohmann::json& object) {
     return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+// {"scene": "reef", "black": 0, ...}
+nlohmann::json jsonOf(const std::vector<ShownValue>& shown) {
+    nlohmann::json object;
+    for (const auto& [name, value] : shown)
+        std::visit([&](const auto& plain) { object[name] = plain; }, value);
+    return object;
 }
 
 // A WebSocket of one visitor.
@@ -102,6 +111,7 @@ std::string Console::metrics(UnixSeconds now) const {
     OwnFigures own{.cutOff = server_->cutOff(), .isClockWrong = !state_.doubtOfClock.empty()};
     if (options_.certificate != nullptr)
         own.certificateDays = (options_.certificate->validity().until - now) / kSecondsOfDay;
+    if (desk_) own.cues = desk_->counts();
     return metricsOf(state_.wall, state_.opening.projectors(), own);
 }
 
@@ -109,6 +119,9 @@ std::string Console::metrics(UnixSeconds now) const {
 HttpReply Console::look(const HttpRequest& request) {
     if (request.target == "/metrics")
         return {.type = "text/plain; version=0.0.4", .body = metrics(unixNow())};
+    if (request.target == "/api/state")
+        return {.type = "application/json",
+                .body = jsonOfObject(jsonOf(shownBy(state_.wall.status(), state_.wall.heard())))};
     if (request.target == "/bundle.zip") return bundle();
     if (request.target == "/bundle.tar")  // the link of 0.2.0
         return {.status = 308, .headers = {{"Location", "/bundle.zip"}}};
@@ -138,9 +151,12 @@ HttpReply Console::act(const HttpRequest& request) {
         return refused(415, "only application/json");
     if (request.target == "/pair") return pair(request);
     if (request.target == "/leave") return leave(request);
-    if (request.target != "/command") return refused(404, "there is nothing to act on here");
+    const bool isOrder = request.target == "/api/order";
+    if (request.target != "/command" && !isOrder)
+        return refused(404, "there is nothing to act on here");
     const auto holder = holderOf(request, doorsFor(request, doors_), state_.access);
-    return holder ? obey(request, *holder) : refused(401, "not paired");
+    if (!holder) return refused(401, "not paired");
+    return isOrder ? takeOrder(request, *holder) : obey(request, *holder);
 }
 
 // The one thing that somebody without a session may do.
@@ -180,6 +196,18 @@ HttpReply Console::obey(const HttpRequest& request, const Holder& holder) {
     *reply.mutable_done() = commands_.carryOut(holder, nullptr, message->command());
     const bool isRefused = reply.done().outcome() == v1::OrderReply::REFUSED;
     return {.status = isRefused ? 403 : 200, .type = "application/json", .body = jsonOf(reply)};
+}
+
+// The same in a line, for who has no number of the run: a button of Companion, a script.
+HttpReply Console::takeOrder(const HttpRequest& request, const Holder& holder) {
+    const auto order = readOrder(request.body);
+    if (!order) return refused(400, "this is no order; one is {\"show\": {\"black\": true}}");
+    const v1::OrderReply reply = giveOrder(holder, *order);
+    const std::string why = reply.reason().empty() ? "" : ": " + reply.reason();
+    if (reply.outcome() == v1::OrderReply::DONE) return {.body = "done\n"};
+    if (reply.outcome() != v1::OrderReply::WAITING)
+        return {.status = 403, .body = "refused" + why + "\n"};
+    return {.status = 202, .body = fmt::format("waiting{}; request {}\n", why, reply.request())};
 }
 
 // The first message is a whole snapshot: a page shows nothing before it.

@@ -11,10 +11,8 @@
 #include <string_view>
 #include <utility>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-
 #include "common/base/files.h"
+#include "common/config/host.h"
 #include "common/config/hours.pb.h"
 #include "common/config/rig.h"
 #include "common/config/text_reader.h"
@@ -125,29 +123,6 @@ int portIn(const std::string& text) {
     if (!text.starts_with(':')) return 0;
     const auto port = numbersIn<1>(text.substr(1), ':');
     return port && (*port)[0] <= kMostPort ? (*port)[0] : 0;
-}
-
-// Whether one machine can have it: no network, no group, none of one cable alone.
-bool isOfAMachine(const in_addr& address) {
-    const unsigned first = ntohl(address.s_addr) >> 24U;
-    constexpr unsigned kFirstGroup = 224;
-    return first > 0 && first < kFirstGroup;
-}
-bool isOfAMachine(const in6_addr& address) {
-    return !IN6_IS_ADDR_UNSPECIFIED(&address) && !IN6_IS_ADDR_MULTICAST(&address) &&
-           !IN6_IS_ADDR_LINKLOCAL(&address);
-}
-
-// An address in its shortest form, so that equal ones are equal texts; empty where it is none.
-std::string shortestHost(const std::string& host) {
-    std::array<char, INET6_ADDRSTRLEN> text{};
-    in_addr four{};
-    in6_addr six{};
-    if (inet_pton(AF_INET, host.c_str(), &four) == 1 && isOfAMachine(four))
-        return inet_ntop(AF_INET, &four, text.data(), text.size());
-    if (inet_pton(AF_INET6, host.c_str(), &six) == 1 && isOfAMachine(six))
-        return inet_ntop(AF_INET6, &six, text.data(), text.size());
-    return {};
 }
 
 // The code of an input in capitals; empty where it is none. Class 1 has digits, class 2 letters

@@ -92,6 +92,50 @@ void checkNetwork(const TextReader& file, const v1::Network& in) {
         file.refuse(in, "watch", "watch needs the host of control and a port of its own");
 }
 
+// Throws Error at the field, or its entry `index`, where it is no address of UDP.
+UdpAddress udpOf(const TextReader& file,
+                 const v1::OscCues& in,
+                 const std::string& field,
+                 const std::string& text,
+                 int index = 0) {
+    if (const auto address = udpAddressIn(text)) return *address;
+    file.refuse(in,
+                field,
+                field + " \"" + text +
+                    "\" is no address of one machine: write udp://192.168.7.1:PORT; names are not "
+                    "looked up",
+                index);
+}
+
+std::optional<OscCues> oscOf(const TextReader& file, const v1::Rig& rig) {
+    if (!rig.cues().has_osc()) return std::nullopt;
+    const v1::OscCues& in = rig.cues().osc();
+    OscCues osc{udpOf(file, in, "listen", in.listen()), {}, {}};
+    for (int i = 0; i < in.from_size(); ++i) {
+        osc.from.push_back(shortestHost(in.from(i)));
+        if (osc.from.back().empty())
+            file.refuse(in,
+                        "from",
+                        "from \"" + in.from(i) +
+                            "\" is no number of one machine: write 192.168.7.40, without a port",
+                        i);
+    }
+    const auto isVersion6 = [](const UdpAddress& address) {
+        return address.host.find(':') != std::string::npos;
+    };
+    for (int i = 0; i < in.send_to_size(); ++i) {
+        osc.sendTo.push_back(udpOf(file, in, "send_to", in.send_to(i), i));
+        if (isVersion6(osc.sendTo.back()) != isVersion6(osc.listen))
+            file.refuse(
+                in,
+                "send_to",
+                "send_to \"" + in.send_to(i) +
+                    "\" is of another version than listen: write both as IPv4 or both as IPv6",
+                i);
+    }
+    return osc;
+}
+
 // Of a panorama or a channel.
 glm::ivec2 sizeOf(const auto& in) {
     return {in.width_px(), in.height_px()};
@@ -446,6 +490,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
             .consolePort = static_cast<std::uint16_t>(in.network().console_port()),
             .watchAddress = in.network().watch(),
             .windowsEndShow = in.windows_end_show(),
+            .osc = oscOf(file, in),
             .channels = {},
             .timing = timingOf(file, in.timing()),
             .scene = in.scene(),

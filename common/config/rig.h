@@ -19,6 +19,7 @@
 
 #include "common/base/brown_lens.h"
 #include "common/base/digest.h"
+#include "common/config/host.h"
 #include "common/config/text_file.h"
 
 namespace aquarama::config {
@@ -144,6 +145,13 @@ struct Timing {
     double membershipSeconds = 0;       // silence after which a node is no longer counted
 };
 
+// How a theatre's desk drives a running show by Open Sound Control.
+struct OscCues {
+    UdpAddress listen;
+    std::vector<std::string> from;   // hosts whose cues count, as shortestHost() has them
+    std::vector<UdpAddress> sendTo;  // are told what the wall shows
+};
+
 // A whole installation. Where its file leaves something out it has what rig.proto says.
 // Of a file that a rig names; never null. Copies of a rig share it: it may be large.
 using FileContent = std::shared_ptr<const std::vector<std::byte>>;
@@ -172,6 +180,7 @@ struct Rig {
     std::uint16_t consolePort = 0;  // of the operator's console; 0: none
     std::string watchAddress;       // where nodes bring it pictures: ROUTER; empty: nowhere
     bool windowsEndShow = false;    // by q and Esc
+    std::optional<OscCues> osc = {};
     std::vector<Channel> channels;
     Timing timing;
     std::string scene;  // path of the file of what is shown, relative to the rig's folder

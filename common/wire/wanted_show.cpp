@@ -67,6 +67,7 @@ std::string textOf(const v1::WantedShow& show) {
     if (show.has_colour_returned())
         add(text, "colour", fmt::format("{:.2f}", show.colour_returned()));
     if (show.has_guests()) add(text, "guests", onOff(show.guests()));
+    if (show.has_brightness()) add(text, "brightness", fmt::format("{:.2f}", show.brightness()));
     return text;
 }
 

@@ -476,7 +476,8 @@ const v1::Show& Conductor::showOf(Frame frame, net::Moment now) {
     const bool fades = control.phase() == Phase::Fading;
     if (fades && !dimmedSince_) dimmedSince_ = now;
     if (fades && brightness_ == 0 && !black_) black_ = frame;
-    if (brightness_ == 1 && dimmedSince_)
+    const auto light = static_cast<float>(control.wanted().brightness());
+    if (!fades && brightness_ == light && dimmedSince_)
         logInfo("through black in {:.1f} s",
                 std::chrono::duration<double>(now - *std::exchange(dimmedSince_, {})).count());
     return shown_ = shown(now);

@@ -64,8 +64,10 @@ Answer Orders::change(const std::string& user, const v1::Order& order) {
 
 std::string Orders::objectionTo(const v1::WantedShow& show) const {
     if (limits_.isLockstep) return "a show in lockstep is the same every time; run it with --live";
-    const bool isOfLook = show.has_scene() || show.has_quality() || show.has_pattern();
-    if (scan_.pattern() && isOfLook) return "a scan holds the wall; wait for its end, or end it";
+    const bool changesPatterns =
+        show.has_scene() || show.has_quality() || show.has_pattern() || show.has_brightness();
+    if (scan_.pattern() && changesPatterns)
+        return "a scan holds the wall; wait for its end, or end it";
     if (show.has_scene())
         if (std::string objection = objectionToScene(show.scene()); !objection.empty())
             return objection;
@@ -117,6 +119,8 @@ Answer Orders::hold(const v1::HeldSign& sign, net::Moment now) {
 std::string Orders::objectionToScan() const {
     if (limits_.isLockstep) return "a show in lockstep is the same every time; run it with --live";
     if (control_.wanted().black()) return "the wall is set black; set black off for a scan";
+    if (control_.wanted().brightness() < 1)
+        return "the wall is dimmed; set brightness 1 for a scan";
     if (control_.phase() != ShowControl::Phase::Steady)
         return "another change is under way; wait for its end";
     return {};

@@ -16,6 +16,7 @@ v1::WantedShow ofLook(const v1::WantedShow& show) {
     v1::WantedShow values = show;
     values.clear_black();
     values.clear_freeze();
+    values.clear_brightness();
     return values;
 }
 
@@ -27,6 +28,7 @@ v1::WantedShow completed(const v1::WantedShow& show) {
     all.set_black(false);
     all.set_freeze(false);
     all.set_guests(true);
+    all.set_brightness(1);
     all.MergeFrom(show);
     return all;
 }
@@ -83,7 +85,7 @@ ShowControl::ShowControl(v1::WantedShow wanted, v1::WantedShow kept, ask::OrderB
       wanted_{completed(wanted)},
       kept_{std::move(kept)},
       hasWorld_{isWorld(wanted_)},
-      brightness_{wanted_.black() ? 0.0F : 1.0F} {}
+      brightness_{wanted_.black() ? 0.0F : static_cast<float>(wanted_.brightness())} {}
 
 Answer ShowControl::set(std::uint64_t request, const v1::WantedShow& change) {
     if (const Answer* known = book_.find(request)) return *known;
@@ -102,10 +104,12 @@ Answer ShowControl::set(std::uint64_t request, const v1::WantedShow& change) {
         show->set_black(goal.black());
         show->set_freeze(goal.freeze());
         show->set_guests(goal.guests());
+        show->set_brightness(goal.brightness());
     }
     if (change.has_black()) kept_.set_black(change.black());
     if (change.has_freeze()) kept_.set_freeze(change.freeze());
     if (change.has_guests()) kept_.set_guests(change.guests());
+    if (change.has_brightness()) kept_.set_brightness(change.brightness());
     if (isAnotherLook) return begin(request, goal, change);
     wanted_.set_pattern(goal.pattern());
     next_.set_pattern(goal.pattern());
@@ -188,8 +192,9 @@ float ShowControl::brightness(net::Moment now) {
         brightnessAt_ == net::Moment{} ? net::Duration{} : now - brightnessAt_;
     brightnessAt_ = now;
     const bool isDark = wanted_.black() || phase_ == Phase::Fading || phase_ == Phase::Switching;
+    const float goal = isDark ? 0.0F : static_cast<float>(wanted_.brightness());
     const float step = passed / kFade;
-    brightness_ = std::clamp(isDark ? brightness_ - step : brightness_ + step, 0.0F, 1.0F);
+    brightness_ = std::clamp(goal, brightness_ - step, brightness_ + step);
     return brightness_;
 }
 

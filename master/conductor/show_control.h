@@ -69,9 +69,10 @@ class SignHold {
 };
 
 // A state machine without clock, sockets or worlds, so that every change can be played through in a
-// test. Black, freeze and a pattern hold from the next frame on. Another scene or quality is
-// another look: its world is made and every node builds it while the present one is shown; a scene
-// also goes through black. The colour that is set holds until a scene is set: each has its own.
+// test. Black, freeze, brightness and a pattern hold from the next frame on. Another scene or
+// quality is another look: its world is made and every node builds it while the present one is
+// shown; a scene also goes through black. The colour that is set holds until a scene is set: each
+// has its own.
 class ShowControl {
   public:
     // `wanted`: values that are left out are auto, the world, and off. `kept`: what was set in
@@ -119,8 +120,9 @@ class ShowControl {
     // Of the look under way; a number is never used twice, also where a change has failed.
     [[nodiscard]] std::uint32_t nextLook() const { return nextLook_; }
     [[nodiscard]] std::uint64_t version() const { return version_; }
-    // Share of the light at a moment that is never earlier than at the call before: half a second
-    // from black to full light. The first frame of a look that follows black is black.
+    // Share of the light at a moment that is never earlier than at the call before. It comes to
+    // what is wanted as fast as from black to full light in half a second. The first frame of a
+    // look that follows black is black.
     [[nodiscard]] float brightness(net::Moment now);
 
   private:

@@ -134,6 +134,23 @@ TEST_F(DeskCommands, whatIsNoCommandIsRefused) {
     EXPECT_EQ(parts.state.refused, 2U);
 }
 
+TEST_F(DeskCommands, stepsOfAFaderAreNoEventsUnlessTheyAreRefused) {
+    const Holder desk{.id = {}, .hash = {}, .name = "OSC", .role = ConsoleRole::Operator};
+    const auto dim = [](Command& of) { of.mutable_order()->mutable_show()->set_brightness(0.5); };
+    for (const std::uint64_t id : {1, 2})
+        static_cast<void>(commands.carryOut(desk, nullptr, command(id, dim)));
+    static_cast<void>(commands.carryOut(desk, nullptr, black(3)));
+    commands.said(1, {});
+    commands.said(2, {Outcome::Refused, "a scan holds the wall"});
+    commands.said(3, {});
+    EXPECT_THAT(
+        parts.events(),
+        ElementsAre("OSC: black on", "OSC: brightness 0.50, refused: a scan holds the wall"));
+    give(operating, command(4, dim));
+    commands.said(4, {});
+    EXPECT_EQ(parts.events().front(), "olga: brightness 0.50") << "people see what they did";
+}
+
 TEST_F(DeskCommands, anOrderIsGivenToTheMasterOnce) {
     EXPECT_EQ(give(operating, black(7)).outcome(), Reply::WAITING);
     EXPECT_EQ(give(operating, black(7)).outcome(), Reply::WAITING) << "said again";

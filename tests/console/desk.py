@@ -23,13 +23,15 @@ class Desk:
     """`aquarama run` of a desk; test patterns need no world, and are drawn at once."""
 
     # Three nodes share two cores with a browser: a slow wall leaves them room.
+    # `more`: text of the rig.
     # `machines`: channel -> name of the machine that shows it, whose nodes a test starts (start_node).
-    def __init__(self, *arguments, refresh_hz=6, calibrated=False, machines=None):
+    def __init__(self, *arguments, refresh_hz=6, calibrated=False, more="", machines=None):
         self.folder = temporary_folder()
         elsewhere = [(f'name: "{channel}"', f'name: "{channel}" machine: "{machine}"')
                      for channel, machine in (machines or {}).items()]
         self.rig = rig_on_free_ports(self.folder.name,
                                      replace=((r"refresh_hz: 60", f"refresh_hz: {refresh_hz}"), *elsewhere))
+        self.rig.write_text(self.rig.read_text() + more)
         self.nodes = []
         if calibrated:
             self.calibrate()

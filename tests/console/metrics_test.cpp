@@ -38,8 +38,10 @@ TEST(Metrics, figuresOfTheWallOfItsNodesAndOfTheConsoleAreWhatTheyWereTold) {
         node.set_late(3);
         node.mutable_report()->set_gpu_celsius(61.5F);
     }
-    const std::string text =
-        metricsOf(wall, {}, {.cutOff = 9, .isClockWrong = true, .certificateDays = 12.5});
+    const std::string text = metricsOf(
+        wall,
+        {},
+        {.cutOff = 9, .isClockWrong = true, .certificateDays = 12.5, .cues = CueCounts{4, 2, 1}});
     for (const auto* const sample : {"master_answers 1\n",
                                      "frame 1000000000000\n",
                                      "frame_median_ms 16.5\n",
@@ -50,6 +52,9 @@ TEST(Metrics, figuresOfTheWallOfItsNodesAndOfTheConsoleAreWhatTheyWereTold) {
                                      "cut_off_connections_total 9\n",
                                      "clock_wrong 1\n",
                                      "certificate_days 12.5\n",
+                                     "cues_total 4\n",
+                                     "refused_cues_total 2\n",
+                                     "dropped_cues_total 1\n",
                                      "node_late_total{node=\"left\"} 3\n",
                                      "node_dropped_total{node=\"left\"} 0\n",
                                      "node_hash_mismatches_total{node=\"left\"} 0\n",

@@ -127,6 +127,20 @@ TEST(Overview, whatABrowserMayNotSayIsRefused) {
     EXPECT_FALSE(readBrowser(many + "]}}"));
 }
 
+TEST(Overview, anOrderOfAProgramIsReadWholeOrRefused) {
+    const auto order = readOrder(R"({"show":{"black":true,"brightness":0.5}})");
+    ASSERT_TRUE(order);
+    EXPECT_EQ(order->show().brightness(), 0.5);
+    EXPECT_EQ(order->request(), 0U);
+    for (const std::string& text : {std::string("{"),
+                                    std::string("[]"),
+                                    std::string(R"({"show":{"dark":true}})"),
+                                    std::string(R"({"show":{"black":[]}})"),
+                                    std::string(R"({"command":{}})"),
+                                    std::string(70'000, ' ')})
+        EXPECT_FALSE(readOrder(text)) << text.substr(0, 60);
+}
+
 // A value of a series, in ms; below 0 where nothing was heard.
 double valueAt(const browser::Series& series, std::size_t i) {
     const auto byte = [&](std::size_t at) {

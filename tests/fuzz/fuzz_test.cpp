@@ -13,6 +13,8 @@
 #include "common/motion/repertoire.h"
 #include "tests/common/formats/sample_walls.h"
 #include "tests/common/formats/vendor_samples.h"
+#include "tests/common/osc/sample_packets.h"
+#include "tests/common/tuio/sample_streams.h"
 #include "tests/common/wire/sample_messages.h"
 #include "tests/common/wire/sample_recording.h"
 #include "tests/fuzz/mutate.h"
@@ -120,6 +122,32 @@ TEST(Fuzz, whatBrowsersSayIsRefusedOrReadWithinBounds) {
          R"({"seen":{"channel":2}})"})
         seeds.push_back(inputOf(std::as_bytes(std::span{text})));
     feed(fuzzBrowser, seeds, 20000);
+}
+
+TEST(Fuzz, damagedPacketsOfOscAreRefusedOrReadWithinBounds) {
+    using namespace test;
+    const std::string black = oscMessage("/aquarama/black", "i", oscWord(1));
+    const std::string all =
+        oscMessage("/a",
+                   "ifsTFhdt",
+                   oscWord(1) + oscWord(2) + oscText("reef") + oscWord(3) + oscWord(4) +
+                       oscWord(5) + oscWord(6) + oscWord(7) + oscWord(8));
+    std::vector<FuzzInput> seeds;
+    for (const std::string& packet : {black, all, oscBundle({black, oscBundle({all}), black})})
+        seeds.push_back(inputOf(std::as_bytes(std::span{packet})));
+    feed(fuzzOsc, seeds, 20000);
+}
+
+TEST(Fuzz, whatTrackersOfHandsSayIsReadWithinBounds) {
+    using namespace test;
+    const std::vector<SampleTouch> touches{{7, 0.25F, 0.5F, 1, -2}, {8, 1, 0}};
+    std::vector<FuzzInput> seeds;
+    for (const std::string& packet : {tuioFrame(3, touches, "tracker"),
+                                      tuioFrame(4, touches, "", true),
+                                      tuio2Frame(5, touches),
+                                      tuio2Frame(6, touches, "tracker", true)})
+        seeds.push_back(inputOf(std::as_bytes(std::span{packet})));
+    feed(fuzzTuio, seeds, 20000);
 }
 
 TEST(Fuzz, whatProjectorsSayIsRefusedOrReadWithinBounds) {

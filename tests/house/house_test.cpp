@@ -210,6 +210,7 @@ TEST(House, generatedMessagesStayWithWhoSpeaks) {
                                             "render_node/session/",
                                             "render_node/show/preview.cpp",
                                             "console/commands.h",
+                                            "console/cues/shown.h",
                                             "console/overview.",
                                             "console/picture_hub.",
                                             "console/visitors.h"};
@@ -250,6 +251,10 @@ TEST(House, xmlAndArchivesStayInFormats) {
 
 TEST(House, boostStaysInTheConsolesServer) {
     EXPECT_EQ(strangers(std::regex("^boost/"), {"console/web/"}), std::vector<std::string>{});
+}
+
+TEST(House, libloStaysInOsc) {
+    EXPECT_EQ(strangers(std::regex("^lo/"), {"common/osc/"}), std::vector<std::string>{});
 }
 
 TEST(House, jpegStaysInThePreview) {
@@ -296,6 +301,8 @@ TEST(House, commonIsLayered) {
         {"common/wire/",
          {"common/base/", "common/motion/", "common/body/", "common/wall/", "common/config/"}},
         {"common/net/", {"common/base/"}},
+        {"common/osc/", {"common/base/"}},
+        {"common/tuio/", {"common/osc/"}},
         {"common/ask/", {"common/base/", "common/config/", "common/net/", "common/wire/"}},
         {"common/cli/", {"common/base/"}},
     };

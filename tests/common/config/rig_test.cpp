@@ -132,6 +132,60 @@ TEST(Rig, everyModeOfStereoIsReadAndNamed) {
     }
 }
 
+TEST(Rig, hasADeskOnlyWhereItNamesOne) {
+    EXPECT_FALSE(parseRig(kRig, "small.txtpb").osc);
+    EXPECT_FALSE(parseRig(kRig + "cues {}", "small.txtpb").osc);
+    const Rig rig = parseRig(kRig + R"(cues { osc {
+        listen: "udp://[fd00:0::1]:7500" from: "fd00:0::2" from: "192.168.7.40"
+        send_to: "udp://[fd00::3]:53001" } })",
+                             "small.txtpb");
+    ASSERT_TRUE(rig.osc);
+    EXPECT_EQ(rig.osc->listen, (UdpAddress{"fd00::1", 7500}));
+    EXPECT_EQ(rig.osc->from, (std::vector<std::string>{"fd00::2", "192.168.7.40"}));
+    EXPECT_EQ(rig.osc->sendTo, (std::vector<UdpAddress>{{"fd00::3", 53001}}));
+    EXPECT_EQ(textOf(rig.osc->listen), "udp://[fd00::1]:7500");
+}
+
+TEST(Rig, aDeskThatCannotBeHeardIsRefusedAtItsPlace) {
+    const auto why = [](const std::string& osc) -> std::string {
+        try {
+            static_cast<void>(parseRig(kRig + "cues { osc { " + osc + " } }", "bad.txtpb"));
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    const std::string from = " from: \"127.0.0.1\"";
+    EXPECT_EQ(why("listen: \"udp://127.0.0.1:7500\"" + from), "accepted");
+    for (const std::string listen : {"7500",
+                                     "127.0.0.1:7500",
+                                     "tcp://127.0.0.1:7500",
+                                     "udp://0.0.0.0:7500",
+                                     "udp://[::]:7500",
+                                     "udp://*:7500",
+                                     "udp://localhost:7500",
+                                     "udp://224.0.0.1:7500",
+                                     "udp://127.0.0.1",
+                                     "udp://127.0.0.1:0",
+                                     "udp://127.0.0.1:65536",
+                                     "udp://127.0.0.1:75x",
+                                     "udp://::1:7500",
+                                     "udp://[127.0.0.1]:7500"})
+        EXPECT_EQ(
+            why("listen: \"" + listen + "\"" + from),
+            "bad.txtpb:27:14: listen \"" + listen +
+                "\" is no address of one machine: write udp://192.168.7.1:PORT; names are not "
+                "looked up");
+    EXPECT_THAT(why("listen: \"udp://127.0.0.1:7500\""), testing::HasSubstr("from"));
+    EXPECT_THAT(why("listen: \"udp://127.0.0.1:7500\"" + from + " from: \"127.0.0.1:1\""),
+                testing::HasSubstr("bad.txtpb:27:63: from \"127.0.0.1:1\" is no number"));
+    EXPECT_THAT(why("listen: \"udp://127.0.0.1:7500\"" + from + " send_to: \"desk:1\""),
+                testing::HasSubstr("send_to \"desk:1\" is no address"));
+    EXPECT_THAT(why("listen: \"udp://127.0.0.1:7500\"" + from + " send_to: \"udp://[::1]:1\""),
+                testing::HasSubstr("is of another version than listen"));
+    EXPECT_THAT(why(from), testing::HasSubstr("listen"));
+}
+
 TEST(Rig, theRigsThatComeWithAquaramaAreValid) {
     for (const std::string name : {"theatre", "touring", "desk", "desk_stereo"}) {
         const Rig rig = readRig(AQUARAMA_SOURCE_DIR "/config/" + name + ".txtpb");

@@ -31,6 +31,12 @@ v1::Order black(bool on) {
     return order;
 }
 
+v1::Order brightness(double share) {
+    v1::Order order;
+    order.mutable_show()->set_brightness(share);
+    return order;
+}
+
 v1::Order scene(const std::string& name) {
     v1::Order order;
     order.mutable_show()->set_scene(name);
@@ -276,6 +282,14 @@ TEST_F(DeskOrders, aScanHasTheWallForItself) {
     give(6, black(false));
     give(7, scene("lagoon"));
     EXPECT_THAT(give(8, scan(7, 4)).reason(), HasSubstr("another change is under way"));
+}
+
+TEST_F(DeskOrders, aScanHasFullLight) {
+    EXPECT_EQ(give(1, brightness(0.5)).outcome(), Reply::DONE);
+    EXPECT_THAT(give(2, scan(7, 3)).reason(), HasSubstr("set brightness 1 for a scan"));
+    give(3, brightness(1));
+    EXPECT_EQ(give(4, scan(7, 3)).outcome(), Reply::WAITING);
+    EXPECT_THAT(give(5, brightness(0.5)).reason(), HasSubstr("a scan holds the wall"));
 }
 
 }  // namespace

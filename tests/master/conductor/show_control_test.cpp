@@ -28,6 +28,12 @@ v1::WantedShow black(bool on) {
     return change;
 }
 
+v1::WantedShow brightness(double share) {
+    v1::WantedShow change;
+    change.set_brightness(share);
+    return change;
+}
+
 // A control with its book.
 struct Controlled {
     explicit Controlled(const v1::WantedShow& wanted) : control(wanted, {}, book) {}
@@ -126,6 +132,33 @@ TEST(ShowControl, fadesInHalfASecond) {
     EXPECT_EQ(control.brightness(kStart + milliseconds(1000)), 0) << "the first of the new scene";
     EXPECT_NEAR(control.brightness(kStart + milliseconds(1100)), 0.2, 1e-5);
     EXPECT_EQ(control.brightness(kStart + milliseconds(1500)), 1);
+}
+
+TEST(ShowControl, lightComesToWhatIsWantedAsFastAsToBlack) {
+    Reef reef;
+    ShowControl& control = reef.control;
+    EXPECT_EQ(control.brightness(kStart), 1);
+    EXPECT_EQ(control.set(1, brightness(0.5)).outcome, Outcome::Done);
+    EXPECT_NEAR(control.brightness(kStart + milliseconds(100)), 0.8, 1e-5);
+    EXPECT_EQ(control.brightness(kStart + milliseconds(400)), 0.5F);
+    static_cast<void>(control.set(2, black(true)));
+    EXPECT_EQ(control.brightness(kStart + milliseconds(700)), 0);
+    static_cast<void>(control.set(3, black(false)));
+    EXPECT_EQ(control.brightness(kStart + milliseconds(1100)), 0.5F) << "no more than was wanted";
+    static_cast<void>(control.set(4, scene("lagoon")));
+    static_cast<void>(control.set(5, brightness(0.25)));
+    prepareAll(control);
+    control.switched();
+    EXPECT_EQ(control.wanted().brightness(), 0.25) << "another scene does not change it";
+    v1::WantedShow kept = scene("lagoon");
+    kept.set_black(false);
+    kept.set_brightness(0.25);
+    EXPECT_TRUE(wire::areSame(control.kept(), kept));
+}
+
+TEST(ShowControl, aShowThatWasDimmedBeginsSo) {
+    Controlled wall(brightness(0.25));
+    EXPECT_EQ(wall.control.brightness(kStart), 0.25F);
 }
 
 TEST(ShowControl, blackStaysBlackThroughAChangeOfScene) {

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the wall shows, in the few values that desks are told.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/osc/osc.h"
+#include "common/wire/messages.h"
+
+namespace aquarama::console {
+
+// One of them, as "black" and 1.
+struct ShownValue {
+    std::string name;
+    osc::OscArgument value;
+    friend bool operator==(const ShownValue&, const ShownValue&) = default;
+};
+
+// All of them, always the same names in the same order. `isHeard`: the master answers; else its
+// status is of the last time that it did.
+[[nodiscard]] std::vector<ShownValue> shownBy(const v1::StatusReply& status, bool isHeard);
+
+}  // namespace aquarama::console

@@ -1,0 +1,168 @@
+"""A theatre's desk drives a real show: by OSC over UDP, and by a program's token over HTTP."""
+
+import json
+import re
+import socket
+import struct
+import time
+import unittest
+
+from desk import Desk, wait_until
+
+
+def padded(text):
+    data = text.encode()
+    return data + b"\0" * (4 - len(data) % 4)
+
+
+def message(address, *arguments):
+    """An OSC message by hand: int, float and str."""
+    tags, content = ",", b""
+    for one in arguments:
+        tags += {int: "i", float: "f", str: "s"}[type(one)]
+        content += padded(one) if isinstance(one, str) else struct.pack(">i" if isinstance(one, int) else ">f", one)
+    return padded(address) + padded(tags) + content
+
+
+def read(packet):
+    """Address and arguments of a message."""
+    def text(at):
+        end = packet.index(b"\0", at)
+        return packet[at:end].decode(), at + ((end - at) // 4 + 1) * 4
+    address, at = text(0)
+    tags, at = text(at)
+    values = []
+    for tag in tags[1:]:
+        if tag == "s":
+            value, at = text(at)
+        else:
+            (value,), at = struct.unpack_from(">" + tag, packet, at), at + 4
+        values.append(value)
+    return address, values
+
+
+class End:
+    """A socket of UDP at a host of the loopback; what it has heard, by address."""
+
+    def __init__(self, host="127.0.0.1"):
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind((host, 0))
+        self.socket.setblocking(False)
+        self.port = self.socket.getsockname()[1]
+        self.known, self.refusals = {}, []
+
+    def hear(self):
+        while True:
+            try:
+                address, values = read(self.socket.recv(65536))
+            except BlockingIOError:
+                return self.known
+            if address == "/aquarama/refused":
+                self.refusals.append(values)
+            else:
+                self.known[address.removeprefix("/aquarama/state/")] = values[0]
+
+
+class Cues(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.taken = End()
+        cls.desk_end, cls.stranger, cls.receiver = End(), End("127.0.0.2"), End()
+        cls.place = ("127.0.0.1", cls.taken.port)
+        cls.desk = Desk("--pattern", "grid", more=f'''
+            cues {{ osc {{ listen: "udp://127.0.0.1:{cls.taken.port}" from: "127.0.0.1"
+                           send_to: "udp://127.0.0.1:{cls.receiver.port}" }} }}''')
+        cls.addClassCleanup(cls.desk.close)
+        wait_until(lambda: "cannot listen at udp" in cls.desk.said(), 10, "the port is another program's")
+        cls.taken.socket.close()
+        wait_until(lambda: "cues by OSC at" in cls.desk.said(), 10, "it is free, and the console listens")
+        cls.operator, cls.watcher = (cls.desk.token(role) for role in ("operator", "watcher"))
+        wait_until(lambda: cls.receiver.hear().get("nodes_in_step") == 3, 30, "all nodes in step")
+
+    def send(self, *what, by=None):
+        (by or self.desk_end).socket.sendto(what[0] if isinstance(what[0], bytes) else message(*what), self.place)
+
+    def told(self, name, value, seconds=5):
+        wait_until(lambda: self.receiver.hear().get(name) == value, seconds, f"{name} {value}: {self.receiver.known}")
+
+    def refusal(self, seconds=10):
+        wait_until(lambda: self.desk_end.hear() is not None and self.desk_end.refusals, seconds, "a refusal")
+        return self.desk_end.refusals.pop(0)
+
+    def figure(self, name):
+        text = self.desk.request("GET", "/metrics", Authorization=f"Bearer {self.watcher}")[2]
+        return float(re.search(rf"^aquarama_console_{name} (\S+)", text, re.M)[1])
+
+    def order(self, token=None, **order):
+        """Status and text of the answer."""
+        status, _, text = self.desk.request("POST", "/api/order", order, Authorization=f"Bearer {token or self.operator}")
+        return status, text.strip()
+
+    def state(self):
+        return json.loads(self.desk.request("GET", "/api/state", Authorization=f"Bearer {self.watcher}")[2])
+
+    def test_a_cue_is_shown_and_told(self):
+        self.told("running", 1)
+        before = time.monotonic()
+        self.send("/aquarama/black", 1)
+        self.told("black", 1)
+        print(f"black: told {1000 * (time.monotonic() - before):.0f} ms after the cue")
+        self.assertEqual(self.desk.status()["black"], "on")
+        self.told("brightness", 0)
+        self.send("/aquarama/black", 0)
+        self.send("/aquarama/brightness", 0.2)
+        self.told("black", 0)
+        wait_until(lambda: abs(self.receiver.hear()["brightness"] - 0.2) < 1e-6, 5, "a fifth of the light")
+        self.assertEqual(self.state(), {**{name: value for name, value in self.receiver.known.items()},
+                                        "frame": self.state()["frame"], "brightness": self.state()["brightness"],
+                                        "colour": self.state()["colour"]})
+        self.send("/aquarama/brightness", 1)
+        self.told("brightness", 1)
+        self.send("/aquarama/pattern", "grey")
+        self.told("pattern", "grey")
+
+    def test_what_is_no_cue_of_the_desk_changes_nothing(self):
+        before, dropped = self.state(), self.figure("dropped_cues_total")
+        self.send("/aquarama/black", 1, by=self.stranger)
+        for packet, address, why in ((b"nonsense", "", "it begins with no address"),
+                                     (b"/" + b"a" * 20_000, "", "larger than 8192 bytes"),
+                                     (message("/aquarama/black", "on"), "/aquarama/black", "1 or 0"),
+                                     (message("/aquarama/brightness", 1.5), "/aquarama/brightness", "from 0 to 1"),
+                                     (message("/aquarama/shutdown"), "/aquarama/shutdown", "no such address")):
+            self.send(packet)
+            refused = self.refusal()
+            self.assertEqual(refused[0], address)
+            self.assertIn(why, refused[1])
+        self.send("/aquarama/scene", "no_such_scene")
+        refused = self.refusal()
+        self.assertEqual(refused[0], "/aquarama/scene")
+        self.assertIn("no_such_scene", refused[1])
+        wait_until(lambda: self.figure("dropped_cues_total") == dropped + 1, 5, "the stranger's is counted")
+        self.stranger.hear()
+        self.assertEqual(self.stranger.refusals, [])
+        after = self.state()
+        self.assertGreater(after.pop("frame"), before.pop("frame"))
+        self.assertEqual(after, before)
+        self.assertIn("a cue of 127.0.0.1 is refused", self.desk.said())
+
+    def test_a_program_gives_orders_by_its_token(self):
+        self.assertEqual(self.order(token="0" * 64, show={"black": True})[0], 401)
+        self.assertEqual(self.order(token=self.watcher, show={"black": True}),
+                         (403, "refused: only operator may do this"))
+        self.assertEqual(self.order(dark=True), (400, 'this is no order; one is {"show": {"black": true}}'))
+        self.assertEqual(self.order(show={"brightness": 2})[0], 403)
+        self.assertEqual(self.order(scan={"holder": 1})[0], 403)
+        self.assertEqual(self.order(run="7", show={"black": True})[0], 403, "another show's")
+        status, text = self.order(request="4711", show={"freeze": True})
+        self.assertEqual((status, text), (202, "waiting; request 4711"))
+        wait_until(lambda: self.order(request="4711", show={"freeze": True}) == (200, "done"), 5, "its end")
+        self.told("freeze", 1)
+        self.assertEqual(self.state()["freeze"], 1)
+        self.assertEqual(self.order(show={"freeze": False})[0], 202)
+        self.told("freeze", 0)
+        self.assertEqual(self.desk.request("GET", "/api/state")[0], 401)
+        self.assertEqual(self.desk.request("GET", "/api/order", Authorization=f"Bearer {self.operator}")[0], 404)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
