@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "common/base/files.h"
-#include "common/base/output_file.h"
 #include "common/cli/commands.h"
 #include "common/cli/outputs.h"
 #include "drawings/catalogue.h"

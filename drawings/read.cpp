@@ -71,7 +71,7 @@ Flattening flatten(const SeenSheet& seen) {
 // Throws Refusal where the fish cannot be read at that place.
 void requireReadable(const Flattening& flat, const Photo& photo, const Sheet& sheet) {
     constexpr double kMostBend = 5;          // millimetres
-    constexpr double kLeastResolution = 1.1;  // pixels to a millimetre
+    constexpr double kLeastResolution = 0.7;  // pixels to a millimetre
     if (flat.worstMillimetres > kMostBend) throw Refusal(RefusalReason::NotFlat);
     for (const Polyline& line : sheet.likeness.outline)
         for (const glm::vec2 texel : line) {

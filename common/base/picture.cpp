@@ -300,7 +300,7 @@ PngPicture decodePng(std::span<const std::byte> bytes, const std::string& source
 
 std::vector<std::byte> encodePng(const PngPicture& picture, PngMeaning meaning) {
     assert(picture.bits == 8 || picture.bits == 16);
-    assert(picture.components == 1 || picture.components == 3);
+    assert(picture.components == 1 || picture.components == 3 || picture.components == 4);
     assert(picture.codes.size() * static_cast<std::size_t>(picture.bits / 8) ==
            rowBytes(picture) * static_cast<std::size_t>(picture.sizePixels.y));
     Job job;

@@ -11,7 +11,6 @@
 #include "common/base/files.h"
 #include "common/base/hash.h"
 #include "common/base/log.h"
-#include "common/base/output_file.h"
 
 namespace aquarama::test {
 

@@ -51,12 +51,13 @@ glm::dmat3 about(glm::dvec3 axis, double radians) {
 // The light on a place of the sheet, 0 to 1.
 double lightOn(const Circumstances& how, const Camera& camera, glm::dvec2 at) {
     constexpr double kHalf = 150;
-    const double side = glm::dot(at, direction(how.lampTowardsDegrees)) / kHalf;
+    const double side = glm::dot(at, how.lampTowards) / kHalf;
     double light = 1 - how.unevenness * (0.5 - 0.5 * side + 0.15 * side * side);
     const double inShadow =
-        (glm::dot(at, direction(how.shadowTowardsDegrees)) - how.shadowAt) / how.shadowEdge;
+        (glm::dot(at, how.shadowTowards) - how.shadowAt) / how.shadowEdge;
     light *= 1 - how.shadow * glm::smoothstep(-0.5, 0.5, inShadow);
     if (how.creaseHeight > 0) light *= std::clamp(1 + 0.6 * camera.slopeAt(at), 0.6, 1.3);
+    light = std::max(light, 0.1);  // far from the sheet
     return light;
 }
 
@@ -77,27 +78,36 @@ glm::dvec3 tableAt(glm::dvec2 at, std::uint32_t seed) {
     return (0.08 + 0.12 * grain) * glm::dvec3{1.0, 0.75 - 0.1 * (seed % 3), 0.5};
 }
 
-// Three by three taps or more, sigma in pixels.
-void blur(Light& light, double sigma) {
+// The taps of a bell curve, sigma in pixels; they sum to 1.
+std::vector<float> bellOf(double sigma) {
     const int reach = static_cast<int>(std::ceil(2.5 * sigma));
-    std::vector<float> weights;
+    std::vector<float> taps;
     float sum = 0;
     for (int k = -reach; k <= reach; ++k) {
-        weights.push_back(static_cast<float>(std::exp(-0.5 * k * k / (sigma * sigma))));
-        sum += weights.back();
+        taps.push_back(static_cast<float>(std::exp(-0.5 * k * k / (sigma * sigma))));
+        sum += taps.back();
     }
-    for (const glm::ivec2 way : {glm::ivec2{1, 0}, glm::ivec2{0, 1}}) {
-        Light out = darkness(light.sizePixels);
-        for (int y = 0; y < light.sizePixels.y; ++y)
-            for (int x = 0; x < light.sizePixels.x; ++x)
-                for (int k = -reach; k <= reach; ++k) {
-                    const glm::ivec2 from =
-                        glm::clamp(glm::ivec2{x, y} + k * way, glm::ivec2(0), light.sizePixels - 1);
-                    out.at(x, y) += weights[static_cast<std::size_t>(k + reach)] / sum *
-                                    light.at(from.x, from.y);
-                }
-        light = std::move(out);
-    }
+    for (float& tap : taps) tap /= sum;
+    return taps;
+}
+
+// Along rows, or along columns; the border goes on.
+void blur(Light& light, const std::vector<float>& taps, glm::ivec2 way) {
+    const int reach = static_cast<int>(taps.size() / 2);
+    const glm::ivec2 size = light.sizePixels;
+    Light out = darkness(size);
+    for (int y = 0; y < size.y; ++y)
+        for (int k = -reach; k <= reach; ++k) {
+            const float tap = taps[static_cast<std::size_t>(k + reach)];
+            const glm::vec3* from = &light.at(0, std::clamp(y + k * way.y, 0, size.y - 1));
+            glm::vec3* to = &out.at(0, y);
+            const int by = k * way.x;
+            const int first = std::clamp(-by, 0, size.x), last = std::clamp(size.x - by, 0, size.x);
+            for (int x = 0; x < first; ++x) to[x] += tap * from[0];
+            for (int x = first; x < last; ++x) to[x] += tap * from[x + by];
+            for (int x = last; x < size.x; ++x) to[x] += tap * from[size.x - 1];
+        }
+    light = std::move(out);
 }
 
 // Shot noise and the sensor's own, then sRGB codes.
@@ -124,7 +134,7 @@ drawings::Photo developed(const Light& light, double noise, std::uint32_t seed) 
 
 }  // namespace
 
-Circumstances circumstancesOf(std::uint32_t seed) {
+Circumstances circumstancesOf(std::uint32_t seed, double mostMegapixels) {
     std::mt19937 random(seed * 7919 + 13);
     const auto within = [&](double least, double most) {
         return least + (most - least) * static_cast<double>(random()) / 4294967296.0;
@@ -132,7 +142,7 @@ Circumstances circumstancesOf(std::uint32_t seed) {
     const auto happens = [&](double share) { return within(0, 1) < share; };
     Circumstances how;
     how.seed = seed;
-    const double megapixels = std::exp(within(std::log(0.5), std::log(12.0)));
+    const double megapixels = std::exp(within(std::log(0.5), std::log(mostMegapixels)));
     const int height = static_cast<int>(std::sqrt(megapixels * 1e6 / (4.0 / 3)));
     how.sizePixels = {height * 4 / 3, height};
     how.tiltDegrees = happens(0.15) ? 45 : within(0, 45);
@@ -143,15 +153,15 @@ Circumstances circumstancesOf(std::uint32_t seed) {
     how.adaptation = within(0, 1);
     how.exposure = within(0.45, 0.95);
     how.unevenness = within(0, 0.45);
-    how.lampTowardsDegrees = within(0, 360);
+    how.lampTowards = direction(within(0, 360));
     if (happens(0.4)) how.shadow = within(0.15, 0.5);
     how.shadowEdge = within(15, 80);
     how.shadowAt = within(-90, 90);
-    how.shadowTowardsDegrees = within(0, 360);
+    how.shadowTowards = direction(within(0, 360));
     if (happens(0.3)) how.creaseHeight = within(0.3, 1.5);
     how.creaseWidth = within(10, 25);
     how.creaseAt = within(-80, 80);
-    how.creaseTowardsDegrees = happens(0.5) ? within(-10, 10) : within(80, 100);
+    how.creaseTowards = direction(happens(0.5) ? within(-10, 10) : within(80, 100));
     if (happens(0.35))
         how.thumb = happens(0.5)
                         ? glm::dvec2{std::copysign(125, within(-1, 1)), within(-95, 95)}
@@ -202,13 +212,13 @@ glm::dvec2 Camera::projected(glm::dvec3 place) const {
 
 double Camera::heightAt(glm::dvec2 sheet) const {
     const double from =
-        (glm::dot(sheet, direction(how_.creaseTowardsDegrees)) - how_.creaseAt) / how_.creaseWidth;
+        (glm::dot(sheet, how_.creaseTowards) - how_.creaseAt) / how_.creaseWidth;
     return how_.creaseHeight * std::exp(-std::abs(from));
 }
 
 double Camera::slopeAt(glm::dvec2 sheet) const {
     const double from =
-        glm::dot(sheet, direction(how_.creaseTowardsDegrees)) - how_.creaseAt;
+        glm::dot(sheet, how_.creaseTowards) - how_.creaseAt;
     return std::copysign(heightAt(sheet) / how_.creaseWidth, from);
 }
 
@@ -222,7 +232,8 @@ glm::dvec2 Camera::sheetAt(glm::dvec2 pixel) const {
         return glm::dvec2{place} / place.z;
     };
     const glm::dvec2 on = flat(pixel);
-    if (how_.creaseHeight == 0) return on;
+    constexpr double kFar = 300;  // from where a crease is of no matter
+    if (how_.creaseHeight == 0 || !(glm::length(on) < kFar)) return on;
     glm::dvec2 at = on;
     for (int i = 0; i < 3; ++i) at += on - flat(photoAt(at));
     return at;
@@ -237,13 +248,15 @@ drawings::Photo photographed(const PaintedSheet& sheet,
     Light light = darkness(how.sizePixels);
     for (int y = 0; y < how.sizePixels.y; ++y)
         for (int x = 0; x < how.sizePixels.x; ++x) {
-            const glm::dvec2 at = camera.sheetAt(glm::dvec2{x, y} + 0.5);
+            const glm::dvec2 at =
+                glm::clamp(camera.sheetAt(glm::dvec2{x, y} + 0.5), -2000.0, 2000.0);
             glm::dvec3 reflected = sheet.isPaper(at) ? glm::dvec3(sheet.at(at))
                                                      : tableAt(at, how.seed);
             if (isThumb(how, at)) reflected = {0.55, 0.28, 0.2};
             light.at(x, y) = exposed * reflected * lightOn(how, camera, at);
         }
-    blur(light, how.blurPixels);
+    for (const glm::ivec2 way : {glm::ivec2{1, 0}, glm::ivec2{0, 1}})
+        blur(light, bellOf(how.blurPixels), way);
     return developed(light, how.noise, how.seed);
 }
 

@@ -27,10 +27,12 @@ struct Circumstances {
     double adaptation = 0.5;  // of the camera's white to the lamp's, 0 to 1
     double exposure = 0.8;    // what the brightest paper's green becomes
     double unevenness = 0.2;  // how much darker the far side is
-    double lampTowardsDegrees = 0;
+    glm::dvec2 lampTowards{1, 0};  // unit vectors, as all of these
     // A soft shadow on one side of a line.
-    double shadow = 0, shadowEdge = 30, shadowAt = 0, shadowTowardsDegrees = 0;
-    double creaseHeight = 0, creaseWidth = 15, creaseAt = 0, creaseTowardsDegrees = 0;
+    double shadow = 0, shadowEdge = 30, shadowAt = 0;
+    glm::dvec2 shadowTowards{1, 0};
+    double creaseHeight = 0, creaseWidth = 15, creaseAt = 0;
+    glm::dvec2 creaseTowards{1, 0};
     std::optional<glm::dvec2> thumb;  // its tip
     double blurPixels = 0.5;
     double noise = 0.01;
@@ -38,8 +40,8 @@ struct Circumstances {
     std::uint32_t seed = 0;
 };
 
-// Skew to 45 degrees, lamps of 2700 to 6500 K, 0.5 to 12 megapixels; all of it drawn by the seed.
-[[nodiscard]] Circumstances circumstancesOf(std::uint32_t seed);
+// Skew to 45 degrees, lamps of 2700 to 6500 K, from 0.5 megapixels; all of it drawn by the seed.
+[[nodiscard]] Circumstances circumstancesOf(std::uint32_t seed, double mostMegapixels);
 
 // Where the camera sees the places of a sheet.
 class Camera {
