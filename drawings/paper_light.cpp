@@ -21,7 +21,9 @@ constexpr double kCell = 8;   // millimetres, of a piece of paper
 constexpr double kStep = 1;   // from one sample of it to the next
 constexpr double kGrid = 6;   // from one node of the field to the next
 constexpr double kKeep = 4;   // from the outline, tags and text to bare paper
-constexpr float kDark = 0.004F;
+// Light of which colours cannot be told: of all, and of one of the three.
+constexpr double kDark = 0.03;
+constexpr float kDarkColour = 0.004F;
 
 // A piece of paper: its middle, and the logarithm of its white.
 struct PaperPiece {
@@ -86,7 +88,7 @@ void addPiece(const PhotoLight& photo,
                 light.push_back(photo.at(flat.photoAt(at)));
     if (static_cast<double>(light.size()) < 0.5 * kCell * kCell / (kStep * kStep)) return;
     const glm::vec3 white = whiteOf(light);
-    if (std::min({white.r, white.g, white.b}) > kDark)
+    if (luminance(white) > kDark && std::min({white.r, white.g, white.b}) > kDarkColour)
         pieces.push_back({corner + kCell / 2, glm::log(glm::dvec3(white))});
 }
 

@@ -24,14 +24,60 @@ struct SeenSheet {
     std::map<Corner, FoundTag> tags;
 };
 
-std::vector<FoundTag> tagsOf(const Photo& photo) {
-    std::vector<std::uint8_t> grey(photo.rgb.size() / 3);
-    for (std::size_t i = 0; i < grey.size(); ++i)  // nearly luminance
-        grey[i] = static_cast<std::uint8_t>(
+// Codes row by row.
+struct GreyPicture {
+    glm::ivec2 sizePixels{};
+    std::vector<std::uint8_t> codes;
+};
+
+GreyPicture greyOf(const Photo& photo) {
+    GreyPicture grey{photo.sizePixels, std::vector<std::uint8_t>(photo.rgb.size() / 3)};
+    for (std::size_t i = 0; i < grey.codes.size(); ++i)  // nearly luminance
+        grey.codes[i] = static_cast<std::uint8_t>(
             (photo.rgb[3 * i] + 2 * photo.rgb[3 * i + 1] + photo.rgb[3 * i + 2]) / 4);
+    return grey;
+}
+
+// Twice as large each way: a row or column, then the mean of it and the next.
+GreyPicture doubled(const GreyPicture& grey) {
+    const glm::ivec2 last = grey.sizePixels - 1;
+    const auto code = [&](int x, int y) {
+        return static_cast<int>(grey.codes[static_cast<std::size_t>(y) *
+                                               static_cast<std::size_t>(grey.sizePixels.x) +
+                                           static_cast<std::size_t>(x)]);
+    };
+    GreyPicture large{2 * grey.sizePixels, {}};
+    large.codes.reserve(4 * grey.codes.size());
+    for (int y = 0; y < large.sizePixels.y; ++y)
+        for (int x = 0; x < large.sizePixels.x; ++x) {
+            const glm::ivec2 low{x / 2, y / 2}, high = glm::min(glm::ivec2{x + 1, y + 1} / 2, last);
+            large.codes.push_back(static_cast<std::uint8_t>(
+                (code(low.x, low.y) + code(high.x, low.y) + code(low.x, high.y) +
+                 code(high.x, high.y) + 2) /
+                4));
+        }
+    return large;
+}
+
+// Those of a picture that is twice as large, in pixels of the small one. The first pixel of the
+// large one is the first of the small one, not a half of it.
+std::vector<FoundTag> tagsOfDoubled(const GreyPicture& grey) {
+    const GreyPicture large = doubled(grey);
+    std::vector<FoundTag> tags = findTags(large.codes, large.sizePixels, 1);
+    for (FoundTag& tag : tags)
+        for (glm::dvec2& corner : tag.corners) corner = (corner - 0.5) / 2.0 + 0.5;
+    return tags;
+}
+
+// Small pictures are looked at closely where a tag is missing.
+std::vector<FoundTag> tagsOf(const Photo& photo) {
     constexpr int kPixelsToSearch = 1500;  // each way
-    const int longer = std::max(photo.sizePixels.x, photo.sizePixels.y);
-    return findTags(grey, photo.sizePixels, static_cast<float>(1 + longer / kPixelsToSearch));
+    const GreyPicture grey = greyOf(photo);
+    const int longer = std::max(grey.sizePixels.x, grey.sizePixels.y);
+    std::vector<FoundTag> tags =
+        findTags(grey.codes, grey.sizePixels, static_cast<float>(1 + longer / kPixelsToSearch));
+    if (tags.size() >= kCorners || longer >= kPixelsToSearch) return tags;
+    return tagsOfDoubled(grey);
 }
 
 // The one sheet that is seen. Throws Refusal.
@@ -70,7 +116,7 @@ Flattening flatten(const SeenSheet& seen) {
 
 // Throws Refusal where the fish cannot be read at that place.
 void requireReadable(const Flattening& flat, const Photo& photo, const Sheet& sheet) {
-    constexpr double kMostBend = 5;          // millimetres
+    constexpr double kMostBend = 3;          // millimetres
     constexpr double kLeastResolution = 0.7;  // pixels to a millimetre
     if (flat.worstMillimetres > kMostBend) throw Refusal(RefusalReason::NotFlat);
     for (const Polyline& line : sheet.likeness.outline)

@@ -89,7 +89,7 @@ bool PaintedSheet::isPaper(glm::dvec2 sheet) const {
 }
 
 PaintedSheet printed(const drawings::Sheet& sheet, glm::dvec2 paperMillimetres) {
-    constexpr int kDotsPerInch = 150;
+    constexpr int kDotsPerInch = 120;
     const TemporaryFolder folder("sheet");
     const std::string base = (folder.path() / "sheet").string();
     writeWhole(base + ".pdf", drawings::pdfOf(sheet, paperMillimetres, "A line of text."));

@@ -199,7 +199,8 @@ void Camera::aim(glm::dvec2 paperMillimetres) {
             least = glm::min(least, at);
             most = glm::max(most, at);
         }
-        const glm::dvec2 off = (least + most) / 2.0 - size / 2.0, share = (most - least) / size;
+        const glm::dvec2 off = (least + most) / 2.0 - size * glm::dvec2{0.5 + how_.aside, 0.5},
+                         share = (most - least) / size;
         move_ -= glm::dvec3{off * move_.z / focalPixels_, 0};
         move_.z *= std::clamp(std::max(share.x, share.y) / how_.filling, 0.8, 1.25);
     }

@@ -19,10 +19,11 @@ namespace aquarama::test {
 
 // How a photograph is taken. Places on the sheet are in millimetres.
 struct Circumstances {
-    glm::ivec2 sizePixels{1600, 1200};
+    glm::ivec2 sizePixels{1200, 900};
     double tiltDegrees = 0, tiltTowardsDegrees = 0;  // of the camera from the sheet's normal
     double rollDegrees = 0;
     double filling = 0.9;  // of the picture by the sheet
+    double aside = 0;      // of the picture's width that it lies too far to the right
     double kelvin = 5000;
     double adaptation = 0.5;  // of the camera's white to the lamp's, 0 to 1
     double exposure = 0.8;    // what the brightest paper's green becomes
@@ -33,7 +34,7 @@ struct Circumstances {
     glm::dvec2 shadowTowards{1, 0};
     double creaseHeight = 0, creaseWidth = 15, creaseAt = 0;
     glm::dvec2 creaseTowards{1, 0};
-    std::optional<glm::dvec2> thumb;  // its tip
+    std::optional<glm::dvec2> thumb{};  // its tip
     double blurPixels = 0.5;
     double noise = 0.01;
     int jpegQuality = 88;
