@@ -13,7 +13,7 @@ namespace aquarama::drawings {
 namespace {
 
 // Moves points about the origin, at a mean distance of one.
-glm::dmat3 normalisation(const std::vector<Sighting>& sightings, glm::dvec2 Sighting::* side) {
+glm::dmat3 normalisation(const std::vector<Sighting>& sightings, glm::dvec2 Sighting::*side) {
     const auto count = static_cast<double>(sightings.size());
     glm::dvec2 centre{};
     for (const Sighting& one : sightings) centre += one.*side / count;
@@ -61,13 +61,13 @@ glm::dvec2 Flattening::pixelsPerMillimetre(glm::dvec2 sheet) const {
 Flattening flatten(const std::vector<Sighting>& sightings) {
     const glm::dmat3 sheet = normalisation(sightings, &Sighting::onSheet);
     const glm::dmat3 photo = normalisation(sightings, &Sighting::inPhoto);
-    Flattening flat{
-        .photoFromSheet = glm::inverse(photo) * directTransform(sightings, sheet, photo) * sheet};
+    Flattening flat{.photoFromSheet =
+                        glm::inverse(photo) * directTransform(sightings, sheet, photo) * sheet};
     const glm::dmat3 sheetFromPhoto = glm::inverse(flat.photoFromSheet);
     for (const Sighting& one : sightings)
-        flat.worstMillimetres = std::max(
-            flat.worstMillimetres,
-            glm::distance(applied(sheetFromPhoto, one.inPhoto), one.onSheet));
+        flat.worstMillimetres =
+            std::max(flat.worstMillimetres,
+                     glm::distance(applied(sheetFromPhoto, one.inPhoto), one.onSheet));
     return flat;
 }
 

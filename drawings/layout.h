@@ -21,8 +21,8 @@ inline constexpr int kSheetVersion = 1;
 enum class Corner : std::uint8_t { UpperLeft, UpperRight, LowerRight, LowerLeft };
 inline constexpr std::size_t kCorners = 4;
 
-// What a tag says: its id in the family 36h11 is corner + 4 (species + 36 (version - 1)). The family
-// has 587, enough for 36 species in four versions.
+// What a tag says: its id in the family 36h11 is corner + 4 (species + 36 (version - 1)). The
+// family has 587, enough for 36 species in four versions.
 struct TagCode {
     int species = 0;  // its place in config/sheets.txt
     int version = kSheetVersion;

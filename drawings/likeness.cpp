@@ -141,10 +141,9 @@ float coverage(const Likeness& likeness, glm::ivec2 texel) {
     int covered = 0;
     for (int y = 0; y < kPixelsPerTexel; ++y)
         for (int x = 0; x < kPixelsPerTexel; ++x)
-            covered += likeness.shape.at(kPixelsPerTexel * texel.x + x,
-                                         kPixelsPerTexel * texel.y + y)
-                           ? 1
-                           : 0;
+            covered +=
+                likeness.shape.at(kPixelsPerTexel * texel.x + x, kPixelsPerTexel * texel.y + y) ? 1
+                                                                                                : 0;
     return static_cast<float>(covered) / (kPixelsPerTexel * kPixelsPerTexel);
 }
 

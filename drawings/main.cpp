@@ -47,7 +47,8 @@ void addSheets(cli::CommandLine& line) {
     command.add_option("--paper", options.paper, "landscape: a4 or letter")
         ->check(CLI::IsMember({"a4", "letter"}))
         ->capture_default_str();
-    command.add_option("--language", options.language, "of the line that says what to do: en or de")
+    command
+        .add_option("--language", options.language, "of the line that says what to do: en or de")
         ->capture_default_str();
 }
 
@@ -58,12 +59,12 @@ struct ReadOptions {
 };
 
 // The skin of one, beside which its species is said.
-void readOne(const std::string& path, const std::filesystem::path& folder,
+void readOne(const std::string& path,
+             const std::filesystem::path& folder,
              drawings::Catalogue& catalogue) {
     const std::vector<std::byte> bytes = readWhole(path, drawings::kMostPhotoBytes + 1);
-    const drawings::Drawing drawing =
-        drawings::readDrawing(drawings::decodePhoto(bytes),
-                              [&](int number) { return catalogue.sheetOf(number); });
+    const drawings::Drawing drawing = drawings::readDrawing(
+        drawings::decodePhoto(bytes), [&](int number) { return catalogue.sheetOf(number); });
     const auto file =
         folder / (std::filesystem::path(path).stem().string() + "-" + drawing.species + ".png");
     writeWhole(file, encodePng(drawing.skin, PngMeaning::Srgb));

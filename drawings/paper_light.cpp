@@ -17,10 +17,10 @@ namespace aquarama::drawings {
 
 namespace {
 
-constexpr double kCell = 8;   // millimetres, of a piece of paper
-constexpr double kStep = 1;   // from one sample of it to the next
-constexpr double kGrid = 6;   // from one node of the field to the next
-constexpr double kKeep = 4;   // from the outline, tags and text to bare paper
+constexpr double kCell = 8;  // millimetres, of a piece of paper
+constexpr double kStep = 1;  // from one sample of it to the next
+constexpr double kGrid = 6;  // from one node of the field to the next
+constexpr double kKeep = 4;  // from the outline, tags and text to bare paper
 // Light of which colours cannot be told: of all, and of one of the three.
 constexpr double kDark = 0.03;
 constexpr float kDarkColour = 0.004F;
@@ -54,7 +54,8 @@ bool isBare(const Sheet& sheet, glm::dvec2 at) {
     const bool isText = at.y < kLineOfText.y + 2 * kKeep && !isByTag;
     if (isByTag || isText) return false;
     const glm::vec2 pixel{static_cast<double>(kPixelsPerTexel) * sheet.place.texelAt(at)};
-    const auto reach = static_cast<float>(kKeep * kPixelsPerTexel / sheet.place.millimetresPerTexel);
+    const auto reach =
+        static_cast<float>(kKeep * kPixelsPerTexel / sheet.place.millimetresPerTexel);
     constexpr int kWays = 12;
     for (int i = 0; i < kWays; ++i) {
         const float angle = static_cast<float>(i) * 6.2832F / kWays;
@@ -67,9 +68,8 @@ bool isBare(const Sheet& sheet, glm::dvec2 at) {
 // The mean of the brighter half of some light.
 glm::vec3 whiteOf(std::vector<glm::vec3>& light) {
     const auto half = light.begin() + static_cast<std::ptrdiff_t>(light.size() / 2);
-    std::ranges::nth_element(light, half, std::greater{}, [](glm::vec3 rgb) {
-        return luminance(glm::dvec3(rgb));
-    });
+    std::ranges::nth_element(
+        light, half, std::greater{}, [](glm::vec3 rgb) { return luminance(glm::dvec3(rgb)); });
     glm::vec3 sum{};
     for (auto one = light.begin(); one != half; ++one) sum += *one;
     return sum / static_cast<float>(light.size() / 2);
@@ -118,8 +118,7 @@ bool isPaper(const PaperPiece& piece, const Polynomial& around) {
     constexpr double kMostHue = 0.12, kMostShadow = 0.9;
     const glm::dvec3 off = piece.white - valueOf(around, piece.at);
     const double mean = (off.r + off.g + off.b) / 3;
-    return std::abs(mean) < kMostShadow &&
-           glm::length(off - glm::dvec3(mean)) < kMostHue;
+    return std::abs(mean) < kMostShadow && glm::length(off - glm::dvec3(mean)) < kMostHue;
 }
 
 // Keeps the paper of all pieces, and fits it.
@@ -159,8 +158,7 @@ PaperLight::PaperLight(const PhotoLight& photo, const Flattening& flat, const Sh
     for (int y = 0; y < size_.y; ++y)
         for (int x = 0; x < size_.x; ++x) {
             const glm::dvec2 at = kGrid * glm::dvec2{x, y} - kFieldMillimetres / 2.0;
-            white_.emplace_back(
-                glm::exp(valueOf(around, at) + remainderAt(pieces, around, at)));
+            white_.emplace_back(glm::exp(valueOf(around, at) + remainderAt(pieces, around, at)));
         }
 }
 

@@ -47,13 +47,10 @@ Photo photoOf(std::int64_t width, std::int64_t height) {
 Photo decodeJpeg(Bytes bytes) {
     const std::unique_ptr<void, int (*)(tjhandle)> decoder(tjInitDecompress(), tjDestroy);
     int width = 0, height = 0, subsampling = 0, colours = 0;
-    if (!decoder || tjDecompressHeader3(decoder.get(),
-                                        dataOf(bytes),
-                                        bytes.size(),
-                                        &width,
-                                        &height,
-                                        &subsampling,
-                                        &colours) != 0)
+    if (!decoder ||
+        tjDecompressHeader3(
+            decoder.get(), dataOf(bytes), bytes.size(), &width, &height, &subsampling, &colours) !=
+            0)
         refuse();
     Photo photo = photoOf(width, height);
     if (tjDecompress2(decoder.get(),
@@ -75,11 +72,9 @@ Photo decodeWebp(Bytes bytes) {
         features.has_animation != 0)
         refuse();
     Photo photo = photoOf(features.width, features.height);
-    if (WebPDecodeRGBInto(dataOf(bytes),
-                          bytes.size(),
-                          photo.rgb.data(),
-                          photo.rgb.size(),
-                          3 * features.width) == nullptr)
+    if (WebPDecodeRGBInto(
+            dataOf(bytes), bytes.size(), photo.rgb.data(), photo.rgb.size(), 3 * features.width) ==
+        nullptr)
         refuse();
     return photo;
 }
@@ -127,9 +122,9 @@ PhotoLight::PhotoLight(const Photo& photo) : photo_{photo} {
 }
 
 glm::vec3 PhotoLight::pixel(int x, int y) const {
-    const std::size_t at = 3 * (static_cast<std::size_t>(y) *
-                                    static_cast<std::size_t>(photo_.sizePixels.x) +
-                                static_cast<std::size_t>(x));
+    const std::size_t at =
+        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(photo_.sizePixels.x) +
+             static_cast<std::size_t>(x));
     return {light_[photo_.rgb[at]], light_[photo_.rgb[at + 1]], light_[photo_.rgb[at + 2]]};
 }
 

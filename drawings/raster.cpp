@@ -73,8 +73,7 @@ void Raster::add(const std::array<glm::vec2, 3>& corners) {
     const float area = cross(b - a, c - a);
     if (area == 0) return;
     const glm::ivec2 least = glm::max(glm::ivec2(glm::floor(glm::min(a, glm::min(b, c)))), 0);
-    const glm::ivec2 most =
-        glm::min(glm::ivec2(glm::ceil(glm::max(a, glm::max(b, c)))), size_ - 1);
+    const glm::ivec2 most = glm::min(glm::ivec2(glm::ceil(glm::max(a, glm::max(b, c)))), size_ - 1);
     for (int y = least.y; y <= most.y; ++y)
         for (int x = least.x; x <= most.x; ++x) {
             const glm::vec2 p = glm::vec2{x, y} + 0.5F;

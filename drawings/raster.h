@@ -18,6 +18,7 @@ class Raster {
         : size_{sizePixels},
           inside_(static_cast<std::size_t>(sizePixels.x) * static_cast<std::size_t>(sizePixels.y)) {
     }
+    // Width and height.
     [[nodiscard]] glm::ivec2 sizePixels() const { return size_; }
     // False outside of the raster.
     [[nodiscard]] bool at(int x, int y) const {

@@ -42,19 +42,19 @@ GreyPicture greyOf(const Photo& photo) {
 GreyPicture doubled(const GreyPicture& grey) {
     const glm::ivec2 last = grey.sizePixels - 1;
     const auto code = [&](int x, int y) {
-        return static_cast<int>(grey.codes[static_cast<std::size_t>(y) *
-                                               static_cast<std::size_t>(grey.sizePixels.x) +
-                                           static_cast<std::size_t>(x)]);
+        return static_cast<int>(
+            grey.codes[static_cast<std::size_t>(y) * static_cast<std::size_t>(grey.sizePixels.x) +
+                       static_cast<std::size_t>(x)]);
     };
     GreyPicture large{2 * grey.sizePixels, {}};
     large.codes.reserve(4 * grey.codes.size());
     for (int y = 0; y < large.sizePixels.y; ++y)
         for (int x = 0; x < large.sizePixels.x; ++x) {
             const glm::ivec2 low{x / 2, y / 2}, high = glm::min(glm::ivec2{x + 1, y + 1} / 2, last);
-            large.codes.push_back(static_cast<std::uint8_t>(
-                (code(low.x, low.y) + code(high.x, low.y) + code(low.x, high.y) +
-                 code(high.x, high.y) + 2) /
-                4));
+            large.codes.push_back(
+                static_cast<std::uint8_t>((code(low.x, low.y) + code(high.x, low.y) +
+                                           code(low.x, high.y) + code(high.x, high.y) + 2) /
+                                          4));
         }
     return large;
 }
@@ -116,7 +116,7 @@ Flattening flatten(const SeenSheet& seen) {
 
 // Throws Refusal where the fish cannot be read at that place.
 void requireReadable(const Flattening& flat, const Photo& photo, const Sheet& sheet) {
-    constexpr double kMostBend = 3;          // millimetres
+    constexpr double kMostBend = 3;           // millimetres
     constexpr double kLeastResolution = 0.7;  // pixels to a millimetre
     if (flat.worstMillimetres > kMostBend) throw Refusal(RefusalReason::NotFlat);
     for (const Polyline& line : sheet.likeness.outline)

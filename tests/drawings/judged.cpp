@@ -15,6 +15,7 @@
 
 #include "common/base/files.h"
 #include "tests/drawings/painted_sheet.h"
+#include "tests/drawings/sample_photos.h"
 #include "tests/drawings/snapshot.h"
 #include "tests/support/colour_difference.h"
 
@@ -61,7 +62,8 @@ double colourDifference(const PaintedSheet& paper, const Sheet& sheet, const Dra
             if (drawing.skin.codes[at + 3] < 255) continue;
             glm::dvec3 read{};
             for (int c = 0; c < 3; ++c)
-                read[c] = linearFromSrgb(drawing.skin.codes[at + static_cast<std::size_t>(c)] / 255.0);
+                read[c] =
+                    linearFromSrgb(drawing.skin.codes[at + static_cast<std::size_t>(c)] / 255.0);
             sum += ciede2000(labOf(drawnOn(paper, sheet, {x, y})), labOf(read));
             ++count;
         }
@@ -104,9 +106,8 @@ Judged judge(drawings::Catalogue& catalogue,
     Judged judged{.species = sheet.species, .refused = {}};
     const double start = processorSeconds();
     try {
-        const Drawing drawing =
-            readDrawing(drawings::decodePhoto(file),
-                        [&](int number) { return catalogue.sheetOf(number); });
+        const Drawing drawing = readDrawing(drawings::decodePhoto(file),
+                                            [&](int number) { return catalogue.sheetOf(number); });
         judged.seconds = processorSeconds() - start;
         keep(name + ".png", encodePng(drawing.skin, PngMeaning::Srgb));
         judged.colourDifference = colourDifference(paper, sheet, drawing);
@@ -116,7 +117,8 @@ Judged judge(drawings::Catalogue& catalogue,
         judged.seconds = processorSeconds() - start;
     }
     std::cout << fmt::format(
-        "{}: {:4.1f} MP, skew {:2.0f}, {:4.0f} K{}{}{}: {}, colours {:.1f}, outline {:.2f} %, {:.2f} s\n",
+        "{}: {:4.1f} MP, skew {:2.0f}, {:4.0f} K{}{}{}: {}, colours {:.1f}, outline {:.2f} %, "
+        "{:.2f} s\n",
         name,
         how.sizePixels.x * how.sizePixels.y / 1e6,
         how.tiltDegrees,

@@ -33,7 +33,7 @@ TagPattern allBlack() {
 // A tag of 25h9, seven modules wide, and a column and a row of paper.
 TagPattern otherFamily(std::uint32_t id) {
     const std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> family(tag25h9_create(),
-                                                                                 tag25h9_destroy);
+                                                                                  tag25h9_destroy);
     TagPattern pattern = allBlack();
     for (std::uint32_t bit = 0; bit < family->nbits; ++bit)
         if ((family->codes[id % family->ncodes] >> (family->nbits - 1 - bit) & 1U) != 0)
@@ -69,8 +69,8 @@ TagPattern faulty(TagFault fault, int species, Corner corner, std::uint32_t seed
         case TagFault::SeveralSpecies:
             return tagOf(index, 1);
         case TagFault::Exchanged:
-            return drawings::tagPattern(drawings::idOf(
-                {.species = species, .corner = static_cast<Corner>(index ^ 1)}));
+            return drawings::tagPattern(
+                drawings::idOf({.species = species, .corner = static_cast<Corner>(index ^ 1)}));
         case TagFault::OtherVersion:
             return tagOf(species, 2);
         case TagFault::UnknownSpecies:
@@ -87,7 +87,8 @@ void print(PaintedSheet& paper, Corner corner, const TagPattern& pattern) {
     const double module = drawings::kTagMillimetres / drawings::kTagModules;
     for (int y = 0; y < paper.paper.sizePixels.y; ++y)
         for (int x = 0; x < paper.paper.sizePixels.x; ++x) {
-            const glm::dvec2 off = glm::dvec2{x, y} + 0.5 - glm::dvec2(paper.paper.sizePixels) / 2.0;
+            const glm::dvec2 off =
+                glm::dvec2{x, y} + 0.5 - glm::dvec2(paper.paper.sizePixels) / 2.0;
             const glm::dvec2 place =
                 (glm::dvec2{off.x, -off.y} / paper.pixelsPerMillimetre - at.front()) / module;
             const glm::dvec2 from{place.x, -place.y};

@@ -70,17 +70,16 @@ bool isColoured(const drawings::Sheet& sheet, glm::dvec2 at, std::uint32_t seed)
 float smoothNoise(glm::dvec2 at, std::uint32_t seed) {
     const glm::ivec2 cell(glm::floor(at));
     const glm::vec2 t = glm::smoothstep(glm::vec2(0), glm::vec2(1), glm::vec2(at - glm::floor(at)));
-    return glm::mix(glm::mix(hashed(cell.x, cell.y, seed), hashed(cell.x + 1, cell.y, seed), t.x),
-                    glm::mix(hashed(cell.x, cell.y + 1, seed),
-                             hashed(cell.x + 1, cell.y + 1, seed),
-                             t.x),
-                    t.y);
+    return glm::mix(
+        glm::mix(hashed(cell.x, cell.y, seed), hashed(cell.x + 1, cell.y, seed), t.x),
+        glm::mix(hashed(cell.x, cell.y + 1, seed), hashed(cell.x + 1, cell.y + 1, seed), t.x),
+        t.y);
 }
 
 glm::vec3 PaintedSheet::at(glm::dvec2 sheet) const {
-    return bilinear(paper,
-                    glm::dvec2(paper.sizePixels) / 2.0 +
-                        pixelsPerMillimetre * glm::dvec2{sheet.x, -sheet.y});
+    return bilinear(
+        paper,
+        glm::dvec2(paper.sizePixels) / 2.0 + pixelsPerMillimetre * glm::dvec2{sheet.x, -sheet.y});
 }
 
 bool PaintedSheet::isPaper(glm::dvec2 sheet) const {

@@ -14,16 +14,15 @@ TEST(Photographs, areReadAsDrawn) {
     drawings::Catalogue catalogue;
     const bool isSoak = std::getenv("AQUARAMA_SOAK") != nullptr;
     const int count = isSoak ? 200 : 20;
-    const test::Judgement all =
-        test::judgeAll(catalogue,
-                       {"clownfish",
-                        "blue_tang",
-                        "butterflyfish",
-                        "parrotfish",
-                        "moorish_idol",
-                        "blacktip_reef_shark"},
-                       count,
-                       isSoak ? 12 : 3);
+    const test::Judgement all = test::judgeAll(catalogue,
+                                               {"clownfish",
+                                                "blue_tang",
+                                                "butterflyfish",
+                                                "parrotfish",
+                                                "moorish_idol",
+                                                "blacktip_reef_shark"},
+                                               count,
+                                               isSoak ? 12 : 3);
     EXPECT_GE(all.found, count * 97 / 100);
     EXPECT_LT(all.colourDifference, 8);
     EXPECT_LT(all.worstOutlineShare, 0.01);

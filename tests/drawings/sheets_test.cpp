@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sheets, the pictures of visitors, and the geometry between them.
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
-#include "common/base/picture.h"
 #include "drawings/catalogue.h"
 #include "drawings/flatten.h"
 #include "drawings/photo.h"
 #include "drawings/refusal.h"
 #include "drawings/tags.h"
+#include "tests/drawings/sample_photos.h"
 #include "tests/drawings/snapshot.h"
 #include "tests/support/all_species.h"
 
@@ -101,15 +100,6 @@ TEST(Flattenings, findTheMapOfThreeTags) {
     EXPECT_LT(flat.pixelsPerMillimetre({0, 0}).x, flat.pixelsPerMillimetre({0, 0}).y);
 }
 
-Photo gradient() {
-    Photo photo{{64, 48}, {}};
-    for (int y = 0; y < 48; ++y)
-        for (int x = 0; x < 64; ++x)
-            for (const int code : {4 * x, 5 * y, 128})
-                photo.rgb.push_back(static_cast<std::uint8_t>(code));
-    return photo;
-}
-
 RefusalReason reasonOf(std::span<const std::byte> bytes) {
     try {
         static_cast<void>(decodePhoto(bytes));
@@ -120,23 +110,21 @@ RefusalReason reasonOf(std::span<const std::byte> bytes) {
     return RefusalReason::NoSheet;
 }
 
-TEST(Photos, jpegAndPngAreRead) {
-    const Photo photo = gradient();
+TEST(Photos, threeFormatsAreRead) {
+    const Photo photo = test::gradient();
     const Photo jpeg = decodePhoto(test::jpegOf(photo, 95));
     EXPECT_EQ(jpeg.sizePixels, photo.sizePixels);
     EXPECT_NEAR(jpeg.rgb[3 * 1000], photo.rgb[3 * 1000], 12);
-    const PngPicture png{.sizePixels = photo.sizePixels,
-                         .codes = {photo.rgb.begin(), photo.rgb.end()}};
-    EXPECT_EQ(decodePhoto(encodePng(png, PngMeaning::Srgb)).rgb, photo.rgb);
+    EXPECT_EQ(decodePhoto(test::pngOf(photo)).rgb, photo.rgb);
+    EXPECT_EQ(decodePhoto(test::webpOf(photo)).rgb, photo.rgb);
 }
 
 TEST(Photos, damagedAndLargeOnesAreRefused) {
-    std::vector<std::byte> jpeg = test::jpegOf(gradient(), 80);
+    const std::vector<std::byte> jpeg = test::jpegOf(test::gradient(), 80);
     EXPECT_EQ(reasonOf({}), RefusalReason::NotAPicture);
     EXPECT_EQ(reasonOf(std::span(jpeg).first(jpeg.size() / 2)), RefusalReason::NotAPicture);
     EXPECT_EQ(reasonOf(std::vector<std::byte>(kMostPhotoBytes + 1)), RefusalReason::TooLarge);
-    const PngPicture png{.sizePixels = {4, 4}, .codes = std::vector<std::uint16_t>(48)};
-    std::vector<std::byte> large = encodePng(png, PngMeaning::Srgb);
+    std::vector<std::byte> large = test::pngOf(test::gradient());
     large[18] = large[22] = std::byte{0x30};  // 12288 pixels each way
     EXPECT_EQ(reasonOf(large), RefusalReason::TooLarge);
 }

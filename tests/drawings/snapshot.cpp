@@ -4,16 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <random>
-#include <span>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <turbojpeg.h>
 
-#include "common/base/log.h"
 #include "common/base/units.h"
 
 namespace aquarama::test {
@@ -29,9 +25,8 @@ glm::dvec2 direction(double degrees) {
 // Of a black body, its green 1: the locus of Kim et al. 2002, in linear Rec. 709.
 glm::dvec3 lampOf(double kelvin) {
     const double t = 1000 / kelvin;
-    const double x = kelvin < 4000
-                         ? 0.179910 + t * (0.8776956 + t * (-0.2343589 - 0.2661239 * t))
-                         : 0.240390 + t * (0.2226347 + t * (2.1070379 - 3.0258469 * t));
+    const double x = kelvin < 4000 ? 0.179910 + t * (0.8776956 + t * (-0.2343589 - 0.2661239 * t))
+                                   : 0.240390 + t * (0.2226347 + t * (2.1070379 - 3.0258469 * t));
     const double y = kelvin < 4000
                          ? -0.16748867 + x * (2.09137015 + x * (-1.37418593 - 0.9549476 * x))
                          : -0.37001483 + x * (3.75112997 + x * (-5.87338670 + 3.0817580 * x));
@@ -53,8 +48,7 @@ double lightOn(const Circumstances& how, const Camera& camera, glm::dvec2 at) {
     constexpr double kHalf = 150;
     const double side = glm::dot(at, how.lampTowards) / kHalf;
     double light = 1 - how.unevenness * (0.5 - 0.5 * side + 0.15 * side * side);
-    const double inShadow =
-        (glm::dot(at, how.shadowTowards) - how.shadowAt) / how.shadowEdge;
+    const double inShadow = (glm::dot(at, how.shadowTowards) - how.shadowAt) / how.shadowEdge;
     light *= 1 - how.shadow * glm::smoothstep(-0.5, 0.5, inShadow);
     if (how.creaseHeight > 0) light *= std::clamp(1 + 0.6 * camera.slopeAt(at), 0.6, 1.3);
     light = std::max(light, 0.1);  // far from the sheet
@@ -66,15 +60,15 @@ bool isThumb(const Circumstances& how, glm::dvec2 at) {
     if (!how.thumb) return false;
     const glm::dvec2 tip = *how.thumb;
     const bool fromSide = std::abs(tip.x) / 148 > std::abs(tip.y) / 105;
-    const glm::dvec2 away = fromSide ? glm::dvec2{std::copysign(1, tip.x), 0}
-                                     : glm::dvec2{0, std::copysign(1, tip.y)};
+    const glm::dvec2 away =
+        fromSide ? glm::dvec2{std::copysign(1, tip.x), 0} : glm::dvec2{0, std::copysign(1, tip.y)};
     const double along = std::max(0.0, glm::dot(at - tip, away));
     return glm::distance(at, tip + along * away) < 10;
 }
 
 glm::dvec3 tableAt(glm::dvec2 at, std::uint32_t seed) {
-    const double grain =
-        static_cast<double>(smoothNoise(at / glm::dvec2{60, 2}, seed) + smoothNoise(at / 8.0, seed));
+    const double grain = static_cast<double>(smoothNoise(at / glm::dvec2{60, 2}, seed) +
+                                             smoothNoise(at / 8.0, seed));
     return (0.08 + 0.12 * grain) * glm::dvec3{1.0, 0.75 - 0.1 * (seed % 3), 0.5};
 }
 
@@ -118,8 +112,9 @@ drawings::Photo developed(const Light& light, double noise, std::uint32_t seed) 
     std::ranges::generate(bell, [&] { return normal(random); });
     std::array<std::uint8_t, 4096> codes{};
     for (std::size_t i = 0; i < codes.size(); ++i)
-        codes.at(i) = static_cast<std::uint8_t>(std::lround(
-            255 * srgbFromLinear((static_cast<double>(i) + 0.5) / static_cast<double>(codes.size()))));
+        codes.at(i) = static_cast<std::uint8_t>(
+            std::lround(255 * srgbFromLinear((static_cast<double>(i) + 0.5) /
+                                             static_cast<double>(codes.size()))));
     drawings::Photo photo{light.sizePixels, {}};
     photo.rgb.reserve(3 * light.rgb.size());
     for (const glm::vec3& rgb : light.rgb)
@@ -163,9 +158,8 @@ Circumstances circumstancesOf(std::uint32_t seed, double mostMegapixels) {
     how.creaseAt = within(-80, 80);
     how.creaseTowards = direction(happens(0.5) ? within(-10, 10) : within(80, 100));
     if (happens(0.35))
-        how.thumb = happens(0.5)
-                        ? glm::dvec2{std::copysign(125, within(-1, 1)), within(-95, 95)}
-                        : glm::dvec2{within(-125, 125), std::copysign(85, within(-1, 1))};
+        how.thumb = happens(0.5) ? glm::dvec2{std::copysign(125, within(-1, 1)), within(-95, 95)}
+                                 : glm::dvec2{within(-125, 125), std::copysign(85, within(-1, 1))};
     how.blurPixels = within(0.35, 0.8) * std::max(1.0, how.sizePixels.x / 1800.0);
     how.noise = within(0.003, 0.03);
     how.jpegQuality = static_cast<int>(within(70, 96));
@@ -212,14 +206,12 @@ glm::dvec2 Camera::projected(glm::dvec3 place) const {
 }
 
 double Camera::heightAt(glm::dvec2 sheet) const {
-    const double from =
-        (glm::dot(sheet, how_.creaseTowards) - how_.creaseAt) / how_.creaseWidth;
+    const double from = (glm::dot(sheet, how_.creaseTowards) - how_.creaseAt) / how_.creaseWidth;
     return how_.creaseHeight * std::exp(-std::abs(from));
 }
 
 double Camera::slopeAt(glm::dvec2 sheet) const {
-    const double from =
-        glm::dot(sheet, how_.creaseTowards) - how_.creaseAt;
+    const double from = glm::dot(sheet, how_.creaseTowards) - how_.creaseAt;
     return std::copysign(heightAt(sheet) / how_.creaseWidth, from);
 }
 
@@ -251,35 +243,14 @@ drawings::Photo photographed(const PaintedSheet& sheet,
         for (int x = 0; x < how.sizePixels.x; ++x) {
             const glm::dvec2 at =
                 glm::clamp(camera.sheetAt(glm::dvec2{x, y} + 0.5), -2000.0, 2000.0);
-            glm::dvec3 reflected = sheet.isPaper(at) ? glm::dvec3(sheet.at(at))
-                                                     : tableAt(at, how.seed);
+            glm::dvec3 reflected =
+                sheet.isPaper(at) ? glm::dvec3(sheet.at(at)) : tableAt(at, how.seed);
             if (isThumb(how, at)) reflected = {0.55, 0.28, 0.2};
             light.at(x, y) = exposed * reflected * lightOn(how, camera, at);
         }
     for (const glm::ivec2 way : {glm::ivec2{1, 0}, glm::ivec2{0, 1}})
         blur(light, bellOf(how.blurPixels), way);
     return developed(light, how.noise, how.seed);
-}
-
-std::vector<std::byte> jpegOf(const drawings::Photo& photo, int quality) {
-    const std::unique_ptr<void, int (*)(tjhandle)> encoder(tjInitCompress(), tjDestroy);
-    unsigned char* bytes = nullptr;
-    unsigned long count = 0;
-    const int failed = tjCompress2(encoder.get(),
-                                   photo.rgb.data(),
-                                   photo.sizePixels.x,
-                                   0,
-                                   photo.sizePixels.y,
-                                   TJPF_RGB,
-                                   &bytes,
-                                   &count,
-                                   TJSAMP_420,
-                                   quality,
-                                   0);
-    const std::unique_ptr<unsigned char, void (*)(unsigned char*)> owner(bytes, tjFree);
-    if (failed != 0) throw Error("a simulated photograph cannot be encoded; free some memory");
-    const auto file = std::as_bytes(std::span(bytes, count));
-    return {file.begin(), file.end()};
 }
 
 }  // namespace aquarama::test

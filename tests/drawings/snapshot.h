@@ -3,10 +3,8 @@
 // blur, noise and JPEG.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -25,9 +23,9 @@ struct Circumstances {
     double filling = 0.9;  // of the picture by the sheet
     double aside = 0;      // of the picture's width that it lies too far to the right
     double kelvin = 5000;
-    double adaptation = 0.5;  // of the camera's white to the lamp's, 0 to 1
-    double exposure = 0.8;    // what the brightest paper's green becomes
-    double unevenness = 0.2;  // how much darker the far side is
+    double adaptation = 0.5;       // of the camera's white to the lamp's, 0 to 1
+    double exposure = 0.8;         // what the brightest paper's green becomes
+    double unevenness = 0.2;       // how much darker the far side is
     glm::dvec2 lampTowards{1, 0};  // unit vectors, as all of these
     // A soft shadow on one side of a line.
     double shadow = 0, shadowEdge = 30, shadowAt = 0;
@@ -71,7 +69,5 @@ class Camera {
 [[nodiscard]] drawings::Photo photographed(const PaintedSheet& sheet,
                                            const Circumstances& how,
                                            const Camera& camera);
-// As its file.
-[[nodiscard]] std::vector<std::byte> jpegOf(const drawings::Photo& photo, int quality);
 
 }  // namespace aquarama::test
