@@ -197,6 +197,15 @@ void addDrift(CommandLine& line) {
                   {"drift"});
 }
 
+void addSheets(CommandLine& line) {
+    addHandedOver(
+        line,
+        "sheets",
+        "print sheets that visitors colour: aquarama sheets --species clownfish --out DIR",
+        "drawings",
+        {"sheets"});
+}
+
 void addConsole(CommandLine& line) {
     addHandedOver(line,
                   "console",

@@ -136,6 +136,11 @@ bool readRows(Job& job) {
     return true;
 }
 
+int colourTypeOf(const PngPicture& picture) {
+    if (picture.components == 4) return PNG_COLOR_TYPE_RGB_ALPHA;
+    return picture.components == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY;
+}
+
 bool writeHeader(Job& job, const PngPicture& picture, PngMeaning meaning) {
     if (setjmp(png_jmpbuf(job.png)) != 0) return false;
     png_set_write_fn(job.png, &job, give, keepNothing);
@@ -145,7 +150,7 @@ bool writeHeader(Job& job, const PngPicture& picture, PngMeaning meaning) {
                  static_cast<png_uint_32>(picture.sizePixels.x),
                  static_cast<png_uint_32>(picture.sizePixels.y),
                  picture.bits,
-                 picture.components == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY,
+                 colourTypeOf(picture),
                  PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
@@ -295,7 +300,7 @@ PngPicture decodePng(std::span<const std::byte> bytes, const std::string& source
 
 std::vector<std::byte> encodePng(const PngPicture& picture, PngMeaning meaning) {
     assert(picture.bits == 8 || picture.bits == 16);
-    assert(picture.components == 1 || picture.components == 3);
+    assert(picture.components == 1 || picture.components == 3 || picture.components == 4);
     assert(picture.codes.size() * static_cast<std::size_t>(picture.bits / 8) ==
            rowBytes(picture) * static_cast<std::size_t>(picture.sizePixels.y));
     Job job;

@@ -72,7 +72,7 @@ struct Light {
 // A picture as PNG has it.
 struct PngPicture {
     glm::ivec2 sizePixels{};
-    int components = 3;  // 1: grey; 3: red green blue
+    int components = 3;  // 1: grey; 3: red green blue; 4: and straight alpha, only written
     int bits = 8;        // or 16
     std::vector<std::uint16_t> codes;
 };

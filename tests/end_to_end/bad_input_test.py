@@ -170,7 +170,7 @@ class Usage(Case):
                      "node", "left", "--master", "somewhere", "--headless")
 
     def test_a_command_that_another_program_carries_out_has_the_name_that_was_typed(self):
-        for command in ("check", "view", "calibrate", "drift", "node", "console", "inspect"):
+        for command in ("check", "view", "calibrate", "drift", "node", "console", "inspect", "sheets"):
             with self.subTest(command):
                 self.assertRegex(aquarama(command, "--help").stdout, rf"(?m)^Usage: aquarama {command} ")
                 wrong = aquarama(command, "--warp-nine")

@@ -17,6 +17,7 @@
 #include "tests/common/tuio/sample_streams.h"
 #include "tests/common/wire/sample_messages.h"
 #include "tests/common/wire/sample_recording.h"
+#include "tests/drawings/sample_photos.h"
 #include "tests/fuzz/mutate.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/synthetic_repertoire.h"
@@ -200,6 +201,15 @@ TEST(Fuzz, damagedMpcdiFilesAreRefusedOrCanBeWrittenAgain) {
         seeds.push_back(inputOf(archive.read("mpcdi.xml")));
     }
     feed(fuzzMpcdi, seeds, 4000);
+}
+
+TEST(Fuzz, damagedPicturesOfVisitorsAreRefusedOrReadWithinBounds) {
+    const drawings::Photo photo = test::gradient();
+    feed(fuzzPhoto,
+         {inputOf(test::jpegOf(photo, 80)),
+          inputOf(test::pngOf(photo)),
+          inputOf(test::webpOf(photo))},
+         20000);
 }
 
 TEST(Fuzz, damagedPacketsAreRefusedOrReadWhole) {

@@ -25,5 +25,6 @@ int fuzzPjlink(const std::uint8_t* bytes, std::size_t size);
 int fuzzOsc(const std::uint8_t* bytes, std::size_t size);
 int fuzzTuio(const std::uint8_t* bytes, std::size_t size);
 int fuzzMpcdi(const std::uint8_t* bytes, std::size_t size);
+int fuzzPhoto(const std::uint8_t* bytes, std::size_t size);
 
 }  // namespace aquarama

@@ -43,8 +43,14 @@ std::vector<SourceFile> sourceFilesOf(const std::vector<std::string>& tops) {
 
 // The product's, read once.
 const std::vector<SourceFile>& sourceFiles() {
-    static const std::vector<SourceFile> all = sourceFilesOf(
-        {"common", "capture", "master", "commands", "render_node", "calibration", "console"});
+    static const std::vector<SourceFile> all = sourceFilesOf({"common",
+                                                              "capture",
+                                                              "master",
+                                                              "commands",
+                                                              "render_node",
+                                                              "calibration",
+                                                              "console",
+                                                              "drawings"});
     return all;
 }
 
@@ -257,8 +263,15 @@ TEST(House, libloStaysInOsc) {
     EXPECT_EQ(strangers(std::regex("^lo/"), {"common/osc/"}), std::vector<std::string>{});
 }
 
-TEST(House, jpegStaysInThePreview) {
-    EXPECT_EQ(strangers(std::regex("^(turbojpeg|jpeglib)\\.h"), {"render_node/show/preview.cpp"}),
+TEST(House, jpegStaysInThePreviewAndPhotos) {
+    EXPECT_EQ(strangers(std::regex("^(turbojpeg|jpeglib)\\.h"),
+                        {"render_node/show/preview.cpp", "drawings/photo.cpp"}),
+              std::vector<std::string>{});
+}
+
+TEST(House, cairoAndAprilTagStayInDrawings) {
+    EXPECT_EQ(strangers(std::regex("^cairo"), {"drawings/page.cpp"}), std::vector<std::string>{});
+    EXPECT_EQ(strangers(std::regex("^apriltag/"), {"drawings/tags.cpp"}),
               std::vector<std::string>{});
 }
 
@@ -279,6 +292,7 @@ TEST(House, aPartIncludesNoOtherPart) {
         {"render_node/", {"render_node/"}},
         {"calibration/", {"calibration/"}},
         {"console/", {"console/"}},
+        {"drawings/", {"drawings/"}},
     };
     for (const auto& [folder, includers] : mayBeIncludedBy)
         EXPECT_EQ(strangers(std::regex("^" + folder), includers), std::vector<std::string>{})
@@ -314,7 +328,8 @@ TEST(House, commonIsLayered) {
                                                                "commands/",
                                                                "render_node/",
                                                                "calibration/",
-                                                               "console/"}))
+                                                               "console/",
+                                                               "drawings/"}))
             continue;
         const std::string folder = inclusion.file.substr(0, inclusion.file.find('/', 7) + 1);
         ASSERT_TRUE(mayInclude.contains(folder)) << folder << " is not in docs/architecture.md";

@@ -270,15 +270,15 @@ class Release(unittest.TestCase):
     def test_packages_are_built_from_what_the_lists_name(self):
         control = (DEBIAN / "control").read_text()
         built_from = set(re.search(r"Build-Depends:\n(.*?)\n\n", control, re.S).group(1).replace(",", " ").split())
-        for name in ("run", "calibrate", "console"):
+        for name in ("run", "calibrate", "console", "drawings"):
             lines = (ROOT / f"packaging/packages/{name}.txt").read_text().splitlines()
             listed = {package for line in lines if not line.startswith("#") for package in line.split()}
             self.assertEqual({package for package in listed if package.endswith("-dev")} - built_from, set(), name)
 
     def test_each_package_has_what_its_name_says(self):
         packages = set(re.findall(r"^Package: (\S+)", (DEBIAN / "control").read_text(), re.M))
-        self.assertEqual(packages, {"aquarama", *(f"aquarama-{name}" for name in
-                                                  ("master", "node", "calibrate", "console", "kiosk", "doc"))})
+        names = ("master", "node", "calibrate", "console", "drawings", "kiosk", "doc")
+        self.assertEqual(packages, {"aquarama", *(f"aquarama-{name}" for name in names)})
         for path in DEBIAN.glob("aquarama*"):
             self.assertIn(path.name.split(".")[0].rstrip("@"), packages)
 
