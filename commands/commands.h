@@ -41,6 +41,7 @@ void addCalibrations(CommandLine& line);
 void addDrift(CommandLine& line);  // hands over to aquarama-calibrate
 void addAdjust(CommandLine& line);
 void addConsole(CommandLine& line);  // hands over to aquarama-console
+void addGuests(CommandLine& line);   // hands over to aquarama-guests
 void addInspect(CommandLine& line);
 void addConvert(CommandLine& line);
 void addCapture(CommandLine& line);
