@@ -46,8 +46,8 @@ void describe(CLI::App& app, Options& options) {
 // Empty where the rig needs none.
 std::string keyOf(const Options& options, const config::Rig& rig) {
     if (!options.key.empty() || !config::needsKeys(rig)) return options.key;
-    const std::filesystem::path folder =
-        options.keys.empty() ? config::keyFolderOf(options.rig) : options.keys;
+    const auto folder = options.keys.empty() ? config::keyFolderOf(options.rig)
+                                             : std::filesystem::path(options.keys);
     return config::keyFileIn(folder, config::nameOf(config::KeyRole::Guests)).string();
 }
 

@@ -238,7 +238,7 @@ TEST_F(GuestServiceTest, turnsWaitWhileTheWallIsClosed) {
         pass(100);
         EXPECT_TRUE(wall.hands.empty() && wall.food.empty());
     }
-    service->heard(WallState{.isOpen = true});
+    service->heard(WallState{.isOpen = true, .eye = {}});
     EXPECT_EQ(one.you(), "steering");
     EXPECT_NEAR(one.state()["left_s"].get<double>(), 50, 0.3);
 }
