@@ -72,6 +72,17 @@ function(aquarama_schema name)
   set_target_properties(aquarama_${name}_schema PROPERTIES CXX_CLANG_TIDY "")
 endfunction()
 
+# aquarama_pages(console RESULT): in RESULT the source of aquarama::console::embeddedPages(), the files of ./pages.
+function(aquarama_pages namespace result)
+  file(GLOB_RECURSE PAGES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/pages/*)
+  set(EMBEDDED ${CMAKE_CURRENT_BINARY_DIR}/embedded_pages.cpp)
+  add_custom_command(OUTPUT ${EMBEDDED}
+    COMMAND ${CMAKE_COMMAND} -DFOLDER=${CMAKE_CURRENT_SOURCE_DIR}/pages -DNAMESPACE=${namespace} -DOUTPUT=${EMBEDDED}
+      -P ${PROJECT_SOURCE_DIR}/cmake/EmbedPages.cmake
+    DEPENDS ${PAGES} ${PROJECT_SOURCE_DIR}/cmake/EmbedPages.cmake)
+  set(${result} ${EMBEDDED} PARENT_SCOPE)
+endfunction()
+
 # aquarama_program(aquarama-node SOURCES main.cpp LINK targets...): an executable in build/PRESET/bin.
 function(aquarama_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
@@ -100,7 +111,7 @@ function(aquarama_write_version program)
       "GLM glm::glm . glm_VERSION" "Highway hwy::hwy common hwy_VERSION"
       "libepoxy PkgConfig::EPOXY render_node EPOXY_VERSION"
       "libpng PNG::PNG common PNG_VERSION_STRING" "libjpeg-turbo PkgConfig::TURBOJPEG render_node TURBOJPEG_VERSION"
-      "liblo PkgConfig::LIBLO common/osc LIBLO_VERSION"
+      "liblo PkgConfig::LIBLO common/osc LIBLO_VERSION" "libqrencode PkgConfig::QRENCODE guests QRENCODE_VERSION"
       "libzip PkgConfig::LIBZIP common/formats LIBZIP_VERSION"
       "libwebp PkgConfig::WEBP calibration/compose WEBP_libwebp_VERSION"
       "nlohmann-json nlohmann_json::nlohmann_json capture/report nlohmann_json_VERSION"

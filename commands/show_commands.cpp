@@ -214,4 +214,12 @@ void addConsole(CommandLine& line) {
                   {});
 }
 
+void addGuests(CommandLine& line) {
+    addHandedOver(line,
+                  "guests",
+                  "lets visitors with phones steer and feed: aquarama guests RIG",
+                  "guests",
+                  {});
+}
+
 }  // namespace aquarama

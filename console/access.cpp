@@ -7,13 +7,13 @@
 #include <span>
 
 #include <nlohmann/json.hpp>
-#include <openssl/rand.h>
 
 #include "common/base/dates.h"
 #include "common/base/digest.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/base/output_file.h"
+#include "common/base/random_bytes.h"
 
 namespace aquarama::console {
 
@@ -45,15 +45,6 @@ constexpr std::size_t kMostNameBytes = 40;
 constexpr const char* kCodeFile = "pairing.json";
 constexpr const char* kSessionFile = "sessions.json";
 constexpr const char* kTokenFile = "tokens.json";
-
-// Throws Error where OpenSSL has no random numbers.
-template <std::size_t count>
-std::array<unsigned char, count> randomBytes() {
-    std::array<unsigned char, count> bytes{};
-    if (RAND_bytes(bytes.data(), static_cast<int>(count)) != 1)
-        throw Error("the system has no random numbers; try again");
-    return bytes;
-}
 
 // What a page or a terminal may show: no control characters, not long.
 std::string shownName(std::string name) {

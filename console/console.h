@@ -25,7 +25,7 @@
 #include "console/show_link.h"
 #include "console/state.h"
 #include "console/visitors.h"
-#include "console/web/server.h"
+#include "common/web/server.h"
 
 namespace aquarama::console {
 

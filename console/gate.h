@@ -9,17 +9,12 @@
 #include <vector>
 
 #include "console/access.h"
-#include "console/web/server.h"
+#include "common/web/pages.h"
 
 namespace aquarama::console {
 
-// A file of the pages, compiled into the program.
-struct EmbeddedPage {
-    std::string_view path;    // "/index.html"
-    std::string_view digest;  // SHA-256
-    std::string_view text;
-};
-[[nodiscard]] std::span<const EmbeddedPage> embeddedPages();
+// The files of ./pages.
+[[nodiscard]] std::span<const web::EmbeddedPage> embeddedPages();
 
 // A proxy before the console, which ends TLS.
 struct TlsProxy {

@@ -25,7 +25,7 @@
 #include "console/console.h"
 #include "console/files_of_show.h"
 #include "console/gate.h"
-#include "console/web/server.h"
+#include "common/web/server.h"
 
 namespace {
 

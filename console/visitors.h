@@ -13,7 +13,7 @@
 #include "console/console.pb.h"
 #include "console/picture_hub.h"
 #include "console/state.h"
-#include "console/web/server.h"
+#include "common/web/server.h"
 
 namespace aquarama::console {
 

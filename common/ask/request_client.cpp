@@ -49,10 +49,20 @@ void RequestClient::carryOut(v1::Order order,
     }
 }
 
-void RequestClient::steer(const Steering& steering) {
-    v1::Envelope input;
-    *input.mutable_input() = wire::steeringInput(steering);
-    channels_->sendControl(wire::encode(0, std::move(input)));
+void RequestClient::steer(const Steering& steering, bool yields) {
+    v1::Envelope envelope;
+    v1::Input& input = *envelope.mutable_input();
+    input = wire::steeringInput(steering);
+    if (yields) input.set_yields(true);
+    channels_->sendControl(wire::encode(0, std::move(envelope)));
+}
+
+void RequestClient::feed(const glm::vec3& position) {
+    v1::Envelope envelope;
+    v1::Input& input = *envelope.mutable_input();
+    input.set_kind(v1::INPUT_DROP_FOOD);
+    for (int axis = 0; axis < 3; ++axis) input.add_position(position[axis]);
+    channels_->sendControl(wire::encode(0, std::move(envelope)));
 }
 
 v1::Envelope RequestClient::ask(const v1::Envelope& question, v1::Envelope::MessageCase reply) {

@@ -40,8 +40,11 @@ class RequestClient {
     // refused, saying why.
     void carryOut(v1::Order order, const std::function<void(const std::string&)>& onWait);
 
-    // Not answered, and lost where the connection does not stand yet.
-    void steer(const Steering& steering);
+    // Not answered, and lost where the connection does not stand yet. `yields`: to whoever steers
+    // and does not.
+    void steer(const Steering& steering, bool yields = false);
+    // Food at a point of the world, in metres. Likewise.
+    void feed(const glm::vec3& position);
 
   private:
     v1::Envelope ask(const v1::Envelope& question, v1::Envelope::MessageCase reply);

@@ -45,6 +45,7 @@ constexpr auto kPauseBeforeRestart = 1s;  // for a process that ends repeatedly
 constexpr const char* kMaster = "master";
 constexpr const char* kClip = "clip";
 constexpr const char* kConsole = "console";
+constexpr const char* kGuests = "guests";
 
 // A child and how it is started; `child` is 0 while it does not run.
 struct Process {
@@ -143,14 +144,20 @@ Process nodeProcess(const RunOptions& options,
             .started = {}};
 }
 
-// Command line of the console, for a live show whose rig has one, where it is installed.
-std::optional<Process> consoleProcess(const RunOptions& options, const config::Rig& rig) {
-    const std::filesystem::path program = ownProgram().parent_path() / "aquarama-console";
-    if (rig.consolePort == 0 || options.lockstep() || !std::filesystem::exists(program))
-        return std::nullopt;
+// Command line of a program that serves browsers beside a live show, where it is installed.
+std::optional<Process> besideProcess(const RunOptions& options,
+                                     const config::Rig& rig,
+                                     const char* name) {
+    const std::filesystem::path program =
+        ownProgram().parent_path() / (std::string("aquarama-") + name);
+    if (options.lockstep() || !std::filesystem::exists(program)) return std::nullopt;
     std::vector<std::string> arguments{options.show.rigPath};
     if (config::needsKeys(rig)) append(arguments, "--keys", options.show.keyFolder);
-    return Process{.name = kConsole, .command = {program, arguments}, .started = {}};
+    return Process{.name = name, .command = {program, arguments}, .started = {}};
+}
+
+bool isBeside(const Process& process) {
+    return process.name == kConsole || process.name == kGuests;
 }
 
 // The channels of the master's machine; nodes of other machines are started there.
@@ -269,16 +276,14 @@ std::string causeOf(const ErrorPipe& errors, const Process& process, const Endin
     return ofClip != said.end() ? *ofClip : said.front();
 }
 
-// Handles the end of the console: the show continues, and a console that has run for a while is
+// Handles the end of a program beside the show, which continues. One that has run for a while is
 // restarted.
-void renewConsole(const ErrorPipe& errors, Process& console, const Ending& ending) {
+void renewBeside(const ErrorPipe& errors, Process& process, const Ending& ending) {
     for (const std::string& line : errors.heard()) std::cerr << line << '\n';
-    if (ending.clean() || !console.proven) {
-        std::cerr << "aquarama: the console " << described(ending) << "; the show goes on\n";
-        return;
-    }
-    std::cerr << "aquarama: the console " << described(ending) << "; starting it again\n";
-    console.launch();
+    const bool startsAgain = !ending.clean() && process.proven;
+    std::cerr << "aquarama: the " << process.name << ' ' << described(ending)
+              << (startsAgain ? "; starting it again\n" : "; the show goes on\n");
+    if (startsAgain) process.launch();
 }
 
 // Decides what the end of one process means for the show.
@@ -291,8 +296,8 @@ Verdict judge(const RunOptions& options,
               const Ending& ending) {
     const bool early = Clock::now() - process.started < kShortestLife;
     process.proven = process.proven || !early;
-    if (process.name == kConsole) {
-        renewConsole(errors, process, ending);
+    if (isBeside(process)) {
+        renewBeside(errors, process, ending);
         return Verdict::GoesOn;
     }
     if (ending.clean()) return process.name == kMaster ? Verdict::Over : Verdict::GoesOn;
@@ -311,10 +316,10 @@ Verdict judge(const RunOptions& options,
     return Verdict::GoesOn;
 }
 
-// The node has nothing left to show.
-void endConsole(const std::vector<Process>& processes) {
-    const auto console = std::ranges::find(processes, kConsole, &Process::name);
-    if (console != processes.end() && console->running()) kill(console->child, SIGTERM);
+// They have nothing left to show.
+void endBeside(const std::vector<Process>& processes) {
+    for (const Process& process : processes)
+        if (isBeside(process) && process.running()) kill(process.child, SIGTERM);
 }
 
 // The result of supervising a show.
@@ -335,7 +340,7 @@ Outcome watch(const RunOptions& options, const ErrorPipe& errors, std::vector<Pr
             }
             if (verdict == Verdict::Over) {
                 lastMoment = Clock::now() + (options.scale > 1 ? kTimeForPoster : kTimeForPictures);
-                endConsole(processes);
+                endBeside(processes);
             }
         }
         if (!failed && Clock::now() > lastMoment && anyRunning(processes)) {
@@ -382,8 +387,8 @@ void sayWhatWasMade(const RunOptions& options, const config::Rig& rig) {
     std::cout << '\n';
 }
 
-// The clip, which waits for frames, the master, the nodes and the console, in the order of their
-// start.
+// The clip, which waits for frames, the master, the nodes, and what serves browsers, in the order of
+// their start.
 std::vector<Process> processesOf(const RunOptions& options,
                                  const config::Rig& rig,
                                  const std::optional<ClipPipes>& pipes) {
@@ -394,7 +399,10 @@ std::vector<Process> processesOf(const RunOptions& options,
         if (isLocal(channel))
             processes.push_back(
                 nodeProcess(options, rig, channel, pipes ? pipes->pipeOf(channel.name) : ""));
-    if (auto console = consoleProcess(options, rig)) processes.push_back(*std::move(console));
+    for (const auto& [name, isWanted] :
+         {std::pair(kConsole, rig.consolePort != 0), std::pair(kGuests, rig.guests.has_value())})
+        if (auto beside = isWanted ? besideProcess(options, rig, name) : std::nullopt)
+            processes.push_back(*std::move(beside));
     return processes;
 }
 

@@ -3,7 +3,7 @@
 #include <boost/asio/ssl/stream.hpp>
 #include <boost/beast/websocket/ssl.hpp>
 
-#include "console/web/conversation.h"
+#include "common/web/conversation.h"
 
 namespace aquarama::web {
 

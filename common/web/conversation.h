@@ -24,7 +24,7 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 
-#include "console/web/server.h"
+#include "common/web/server.h"
 
 namespace aquarama::web {
 

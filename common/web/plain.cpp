@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Connections without TLS.
-#include "console/web/conversation.h"
+#include "common/web/conversation.h"
 
 namespace aquarama::web {
 

@@ -74,11 +74,10 @@ struct ServerOptions {
     std::uint16_t port = 0;       // 0: a free one
     std::string certificateFile;  // PEM; empty: without TLS
     std::string keyFile;
+    std::size_t mostConnections = 512;  // above, the one that waits longest is cut off
 };
 
 // Bounds. What exceeds them is cut off and counted.
-inline constexpr std::size_t kMostConnections =
-    512;  // above, the one that waits longest is cut off
 inline constexpr std::size_t kMostHeaderBytes = 8192;
 inline constexpr std::size_t kMostBodyBytes = 65536;
 inline constexpr std::size_t kMostMessageBytes = 65536;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "console/web/server.h"
+#include "common/web/server.h"
 
 #include "common/base/log.h"
-#include "console/web/conversation.h"
+#include "common/web/conversation.h"
 
 namespace aquarama::web {
 
@@ -66,13 +66,13 @@ http::response<http::string_body> responseOf(const BeastRequest& in, HttpReply r
 
 // All but `io` and the atomic counter belongs to the thread that calls run().
 struct WebServer::Impl {
-    Impl(const ServerOptions& options, Service& service) : shared{io, service}, acceptor{io} {
+    Impl(const ServerOptions& options, Service& service) : shared{io, service}, acceptor{io}, mostConnections{options.mostConnections} {
         try {
             listenAt(options);
         } catch (const boost::system::system_error& problem) {
-            throw Error("the console cannot listen at " + options.address + ":" +
+            throw Error("browsers cannot be served at " + options.address + ":" +
                         std::to_string(options.port) + " (" + problem.code().message() +
-                        "); another console has it, or the address is none of this machine's");
+                        "); another program has it, or the address is none of this machine's");
         }
         if (!options.certificateFile.empty())
             readCertificate(options.certificateFile, options.keyFile);
@@ -119,7 +119,7 @@ struct WebServer::Impl {
     // At the limit, the connection that has waited longest without a whole request is cut off.
     // Where none waits, the new one is.
     void begin(Socket socket) {
-        if (shared.connections >= kMostConnections) {
+        if (shared.connections >= mostConnections) {
             ++shared.cutOff;
             if (shared.waiting.empty()) return;  // closes this one
             shared.waiting.front()();
@@ -150,6 +150,7 @@ struct WebServer::Impl {
     asio::io_context io{1};
     Shared shared;
     asio::basic_socket_acceptor<Tcp, Executor> acceptor;
+    std::size_t mostConnections;
     std::optional<asio::ssl::context> tls;
 };
 

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "guests/guests.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
+#include <nlohmann/json.hpp>
+
+#include "guests/sign.h"
+
+namespace aquarama::guests {
+
+namespace {
+
+using nlohmann::json;
+using web::HttpReply;
+using web::HttpRequest;
+
+constexpr std::size_t kMostBytes = 256;     // of what a phone says
+constexpr int kMostWrong = 5;               // guesses of one phone
+constexpr double kBetweenPellets = 20;      // of one phone, seconds
+constexpr double kHelmHolds = 0.35;         // seconds after a phone was last heard
+constexpr int kCountdown = 5;               // last seconds of a turn that the wall counts
+constexpr std::uint64_t kTicksATell = 5;    // 10 ticks a second
+constexpr std::uint64_t kTicksAKeep = 10;
+constexpr std::size_t kDigits = 3;
+
+// The loopback's names are ours as well. Browsers leave port 80 out.
+std::vector<std::string> hostsOf(const config::Guests& place) {
+    std::vector<std::string> hosts;
+    for (const std::string& name : {place.host, std::string("127.0.0.1"), std::string("localhost")}) {
+        hosts.push_back(name + ":" + std::to_string(place.port));
+        if (place.port == 80) hosts.push_back(name);
+    }
+    return hosts;
+}
+
+// Of an array of five whole numbers from -127 to 127; nothing where it is none.
+std::optional<Steering> steeringIn(const json& helm) {
+    constexpr std::array kAxes{
+        &Steering::ahead, &Steering::aside, &Steering::up, &Steering::turn, &Steering::tilt};
+    constexpr int kMost = std::numeric_limits<std::int8_t>::max();
+    if (!helm.is_array() || helm.size() != kAxes.size()) return std::nullopt;
+    Steering steering;
+    for (std::size_t i = 0; i < kAxes.size(); ++i) {
+        if (!helm[i].is_number_integer()) return std::nullopt;
+        const auto number = helm[i].get<std::int64_t>();
+        if (number < -kMost || number > kMost) return std::nullopt;
+        steering.*kAxes[i] = static_cast<std::int8_t>(number);
+    }
+    return steering;
+}
+
+// The text of a member; empty where it is none.
+std::string textIn(const json& message, const char* member) {
+    const auto found = message.find(member);
+    return found != message.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+void say(Phone& phone, const char* topic, const json& message) {
+    phone.outbox.put(topic, std::make_shared<const std::string>(message.dump()), false);
+}
+
+}  // namespace
+
+Phone::Phone(GuestService& service, web::Outbox& out) : outbox{out}, service_{service} {
+    service_.phones_.insert(this);
+}
+
+Phone::~Phone() {
+    service_.gone(*this);
+}
+
+void Phone::hear(const std::string& text) {
+    service_.hear(*this, text);
+}
+
+GuestService::GuestService(GuestsOptions options,
+                           VisitedWall& wall,
+                           std::function<double()> clock)
+    : options_{std::move(options)},
+      port_{wall},
+      clock_{std::move(clock)},
+      hosts_{hostsOf(options_.place)},
+      tokens_{options_.key},
+      queue_{options_.times},
+      lastTick_{clock_()} {
+    queue_.restore(sessions_.restore(options_.seatFile, lastTick_), queueNow_);
+}
+
+GuestService::~GuestService() {
+    keepSeats();
+}
+
+// A path with a code is the page as well, which then says the code: whoever only looks at an
+// address, as programs that preview it do, takes no seat.
+HttpReply GuestService::answer(const HttpRequest& request) {
+    if (std::ranges::find(hosts_, request.host) == hosts_.end())
+        return {.status = 421, .body = "visitors are not served by that name\n"};
+    if (request.method != "GET" && request.method != "HEAD")
+        return {.status = 405, .body = "only GET\n"};
+    HttpRequest page = request;
+    if (page.target.starts_with("/P/") || page.target.starts_with("/p/")) page.target = "/";
+    auto found = web::pageAt(embeddedPages(), page);
+    return found ? *std::move(found) : HttpReply{.status = 404, .body = "there is no such page\n"};
+}
+
+std::unique_ptr<web::Service::Connection> GuestService::open(const HttpRequest& request,
+                                                             web::Outbox& outbox,
+                                                             HttpReply& refusal) {
+    constexpr std::string_view kScheme = "http://";
+    const bool isOurHost = std::ranges::find(hosts_, request.host) != hosts_.end();
+    if (!isOurHost || request.origin != std::string(kScheme) + request.host)
+        refusal = {.status = 403, .body = "a page of another origin may not ask this\n"};
+    else if (request.target != "/g")
+        refusal = {.status = 404, .body = "there is nothing here\n"};
+    else if (phones_.size() >= kMostPhones)
+        refusal = {.status = 503, .body = "there are too many phones; try again in a while\n"};
+    else {
+        auto phone = std::make_unique<Phone>(*this, outbox);
+        tell(*phone);
+        return phone;
+    }
+    return nullptr;
+}
+
+void GuestService::hear(Phone& phone, const std::string& text) {
+    if (text.size() > kMostBytes || !phone.messages.take(clock_()))
+        return phone.outbox.close(kClosedTooMuch);
+    const json message = json::parse(text, nullptr, /*allow_exceptions=*/false);
+    if (!message.is_object()) return;
+    if (const std::string code = textIn(message, "enter"); !code.empty()) return enter(phone, code);
+    if (const std::string secret = textIn(message, "resume"); !secret.empty())
+        return resume(phone, secret);
+    if (phone.guest.empty()) return;
+    if (const auto helm = message.find("helm"); helm != message.end()) {
+        if (const auto steering = steeringIn(*helm)) steer(phone, *steering);
+        return;
+    }
+    if (message.contains("feed")) feed(phone);
+    if (message.contains("join") && isOpen()) queue_.join(phone.guest);
+    if (message.contains("leave")) queue_.leave(phone.guest, queueNow_);
+    advanceQueue();
+    tell(phone);
+}
+
+// Digits can be guessed, so guesses are few.
+bool GuestService::acceptsCode(Phone& phone, const std::string& code) {
+    const double now = clock_();
+    if (code.size() != kDigits) return tokens_.acceptsWord(code, now);
+    if (!guesses_.take(now)) return false;
+    if (tokens_.acceptsDigits(code, now)) return true;
+    if (++phone.wrong >= kMostWrong) phone.outbox.close(kClosedTooMuch);
+    return false;
+}
+
+// Who is let in takes a seat at once, where there is one.
+void GuestService::enter(Phone& phone, const std::string& code) {
+    if (!phone.guest.empty()) return;
+    if (!entries_.take(clock_())) return say(phone, "refused", {{"refused", "busy"}});
+    if (!acceptsCode(phone, code)) return say(phone, "refused", {{"refused", "code"}});
+    const auto secret = sessions_.admit(clock_());
+    if (!secret) return say(phone, "refused", {{"refused", "busy"}});
+    say(phone, "session", {{"session", *secret}});
+    const GuestId guest = sessions_.guestOf(*secret);
+    if (isOpen()) queue_.join(guest);
+    welcome(phone, guest);
+}
+
+void GuestService::resume(Phone& phone, const std::string& secret) {
+    if (!phone.guest.empty()) return;
+    const GuestId guest = sessions_.guestOf(secret);
+    if (guest.empty()) return say(phone, "refused", {{"refused", "session"}});
+    welcome(phone, guest);
+}
+
+// The latest page of a visitor counts.
+void GuestService::welcome(Phone& phone, const GuestId& guest) {
+    Visit& visit = *sessions_.find(guest);
+    if (visit.phone != nullptr) {
+        visit.phone->guest.clear();
+        visit.phone->outbox.close(kClosedElsewhere);
+    }
+    visit.phone = &phone;
+    phone.guest = guest;
+    queue_.back(guest);
+    advanceQueue();
+    tell(phone);
+}
+
+void GuestService::gone(Phone& phone) {
+    phones_.erase(&phone);
+    if (phone.guest.empty()) return;
+    Visit& visit = *sessions_.find(phone.guest);
+    visit.phone = nullptr;
+    visit.seen = clock_();
+    queue_.lost(phone.guest, queueNow_);
+    if (queue_.steering() == phone.guest) port_.steer(helm_ = {});
+}
+
+void GuestService::steer(const Phone& phone, const Steering& steering) {
+    if (!isOpen() || queue_.steering() != phone.guest) return;
+    helm_ = steering;
+    helmHeard_ = clock_();
+    port_.steer(helm_);
+}
+
+// Where the eye looks, some metres before it.
+void GuestService::feed(Phone& phone) {
+    const double now = clock_();
+    Visit& visit = *sessions_.find(phone.guest);
+    if (!isOpen() || now < visit.mayFeed || !pellets_.take(now)) return;
+    visit.mayFeed = now + kBetweenPellets;
+    const auto between = [&](float least, float most) {
+        return std::uniform_real_distribution<float>(least, most)(random_);
+    };
+    const glm::vec3 before{between(-0.8F, 0.8F), between(0.0F, 0.5F), -between(2.0F, 3.0F)};
+    port_.feed(wall_->eye.positionMetres + wall_->eye.worldFromWall * before);
+}
+
+void GuestService::heard(const std::optional<WallState>& wall) {
+    const bool wasOpen = isOpen();
+    wall_ = wall;
+    if (isOpen() == wasOpen) return;
+    helm_ = {};
+    tellAll();
+}
+
+void GuestService::advanceQueue() {
+    if (!isOpen()) return;
+    const auto before = queue_.steering();
+    if (queue_.pilot(queueNow_) == before) return;
+    port_.steer(helm_ = {});
+    tellAll();
+}
+
+// Of a phone that is silent nothing is held: its messages may be lost without the connection.
+void GuestService::holdHelm() {
+    if (helm_ == Steering{}) return;
+    if (clock_() - helmHeard_ > kHelmHolds) helm_ = {};
+    port_.steer(helm_);
+}
+
+// The three digits; while a turn ends, its last seconds.
+void GuestService::showSign() {
+    const double now = clock_();
+    std::string characters = tokens_.digitsAt(now);
+    bool isEnding = false;
+    for (const Seat& seat : queue_.seats()) {
+        const double left = queue_.leftOf(seat, queueNow_);
+        isEnding = isEnding || (queue_.steering() == seat.guest && left <= kCountdown);
+        if (isEnding) characters = std::to_string(std::lround(std::ceil(left)));
+        if (isEnding) break;
+    }
+    const std::string address = fmt::format(
+        "HTTP://{}:{}/P/{}", options_.place.host, options_.place.port, tokens_.wordAt(now));
+    if (std::exchange(signText_, address + ' ' + characters) == signText_) return;
+    port_.show(signOf(address, characters, isEnding));
+}
+
+void GuestService::keepSeats() {
+    sessions_.keep(options_.seatFile, queue_, queueNow_);
+}
+
+void GuestService::tick() {
+    const double now = clock_();
+    if (isOpen()) queueNow_ += now - lastTick_;
+    lastTick_ = now;
+    advanceQueue();
+    holdHelm();
+    if (isOpen()) showSign();
+    ++ticks_;
+    if (ticks_ % kTicksATell == 0) tellAll();
+    if (ticks_ % kTicksAKeep != 0) return;
+    for (const GuestId& guest : sessions_.forget(now)) queue_.leave(guest, queueNow_);
+    keepSeats();
+}
+
+void GuestService::tellAll() {
+    for (Phone* const phone : phones_) tell(*phone);
+}
+
+void GuestService::tell(Phone& phone) {
+    if (!isOpen()) return say(phone, "state", {{"you", "closed"}});
+    if (phone.guest.empty()) return say(phone, "state", {{"you", "stranger"}});
+    const auto& seats = queue_.seats();
+    json message{{"you", "guest"}, {"line", seats.size()}, {"most", VisitorQueue::kMostSeats}};
+    message["feed_s"] =
+        std::lround(std::ceil(std::max(sessions_.find(phone.guest)->mayFeed - clock_(), 0.0)));
+    int place = 0;
+    for (const Seat& seat : seats) {
+        if (queue_.steering() != seat.guest) ++place;
+        if (seat.guest != phone.guest) continue;
+        const bool isPilot = queue_.steering() == phone.guest;
+        message["you"] = isPilot ? "steering" : "waiting";
+        message["place"] = place;
+        message["wait_s"] = std::lround(std::ceil(*queue_.waitOf(phone.guest, queueNow_)));
+        message["left_s"] = queue_.leftOf(seat, queueNow_);
+    }
+    say(phone, "state", message);
+}
+
+}  // namespace aquarama::guests

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// aquarama-guests: lets visitors with phones steer the submarine of a running show, and feed its
+// fish.
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include <CLI/CLI.hpp>
+#include <arpa/inet.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+
+#include "common/ask/request_client.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/base/random_bytes.h"
+#include "common/cli/command_line.h"
+#include "common/config/keys.h"
+#include "common/config/rig.h"
+#include "common/machine/service_notifier.h"
+#include "common/web/server.h"
+#include "guests/guests.h"
+#include "guests/wall_link.h"
+
+namespace {
+
+using namespace aquarama;
+
+// What the command line says.
+struct Options {
+    std::string rig, keys, key;
+};
+
+void describe(CLI::App& app, Options& options) {
+    app.add_option("RIG", options.rig, "whose show visitors take part in")->required();
+    app.add_option("--keys", options.keys, "folder of the master's keys, where the rig needs them");
+    app.add_option("--key", options.key, "file of the guests' key; else that of the folder");
+    app.footer(
+        "The rig's guests say at which address phones reach it. The wall never waits for them; it "
+        "may be ended and\nstarted again at any time: visitors keep their places.");
+}
+
+// Empty where the rig needs none.
+std::string keyOf(const Options& options, const config::Rig& rig) {
+    if (!options.key.empty() || !config::needsKeys(rig)) return options.key;
+    const auto folder = options.keys.empty() ? config::keyFolderOf(options.rig)
+                                             : std::filesystem::path(options.keys);
+    return config::keyFileIn(folder, config::nameOf(config::KeyRole::Guests)).string();
+}
+
+// The address itself; every one of this machine where phones use a name.
+std::string listenedAt(const std::string& host) {
+    in_addr parsed{};
+    return inet_pton(AF_INET, host.c_str(), &parsed) == 1 ? host : "0.0.0.0";
+}
+
+double secondsNow() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+// In a folder that is gone with the power.
+std::filesystem::path seatFileOf(const std::string& rig) {
+    return userFolder("XDG_RUNTIME_DIR", ".cache") / "guests" / std::filesystem::path(rig).stem();
+}
+
+// Until a signal.
+void serve(const Options& options, const config::Rig& rig) {
+    cli::holdSignals();
+    constexpr int kNice = 5;  // the wall goes before
+    setpriority(PRIO_PROCESS, 0, kNice);
+    machine::ServiceNotifier service;
+    guests::WallLink link({.rig = options.rig, .address = {}, .key = keyOf(options, rig)});
+    guests::GuestService visitors({.place = *rig.guests,
+                                   .key = randomBytes<std::tuple_size_v<guests::DoorTokens::Key>>(),
+                                   .seatFile = seatFileOf(options.rig)},
+                                  link,
+                                  secondsNow);
+    constexpr std::size_t kBesidePhones = 100;  // connections that only fetch the page
+    web::WebServer server({.address = listenedAt(rig.guests->host),
+                           .port = rig.guests->port,
+                           .certificateFile = {},
+                           .keyFile = {},
+                           .mostConnections = guests::GuestService::kMostPhones + kBesidePhones},
+                          visitors);
+    logInfo("visitors at http://{}:{}", rig.guests->host, rig.guests->port);
+    link.begin([&](const std::optional<guests::WallState>& wall) {
+        server.post([&visitors, wall] { visitors.heard(wall); });
+    });
+    const cli::SignalWatch watch([&] { server.stop(); });
+    service.ready();
+    server.run();
+    service.stopping();
+    link.end();
+}
+
+void run(const Options& options) {
+    const config::Rig rig = config::readRig(options.rig);
+    if (!rig.guests)
+        throw Error(options.rig +
+                    ": lets no visitors take part; write guests { address: "
+                    "\"http://192.168.20.1:7490\" } into it, with an address of this machine");
+    serve(options, rig);
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(bugprone-exception-escape): outside runProgram() only a lack of memory throws
+int main(int count, char** arguments) {
+    Options options;
+    CLI::App app("Lets visitors with phones take part in a show.", "aquarama-guests");
+    describe(app, options);
+    return cli::runProgram(app, count, arguments, [&] {
+        spdlog::set_default_logger(spdlog::stdout_color_mt("guests"));
+        run(options);
+        return 0;
+    });
+}

@@ -1,0 +1,77 @@
+// The page of a visitor: what the server says of him is in body.dataset.you, and the style sheet shows what belongs to it.
+
+import {helm} from "./helm.js";
+import {Link} from "./link.js";
+
+const element = id => document.getElementById(id);
+const LANGUAGES = ["en", "de"];
+
+const language = navigator.languages.map(one => one.slice(0, 2)).find(one => LANGUAGES.includes(one)) ?? "en";
+const texts = await (await fetch(`/texts/${language}.json`)).json();
+document.documentElement.lang = language;
+for (const one of document.querySelectorAll("[data-text]")) one.textContent = texts[one.dataset.text];
+for (const one of document.querySelectorAll("[data-label]")) one.setAttribute("aria-label", texts[one.dataset.label]);
+
+const text = (key, values = {}) => texts[key].replace(/{(\w+)}/g, (_, name) => values[name]);
+let state = {you: "loading"}, endsAt = 0, isStale = false, refusal = "";
+
+function minutes(seconds) {
+  return seconds < 60 ? text("seconds", {n: Math.max(5, Math.ceil(seconds / 5) * 5)})
+    : text("minutes", {n: Math.ceil(seconds / 60)});
+}
+
+function set(id, content) {
+  if (element(id).textContent !== content) element(id).textContent = content;
+}
+
+function draw() {
+  const {you} = state;
+  document.body.dataset.you = you;
+  document.body.classList.toggle("stale", isStale);
+  set("status", isStale ? text("lost") : text(`you_${you}`));
+  set("more", isStale ? text("lost_more") : refusal ? text(`refused_${refusal}`)
+    : you === "guest" && state.line >= state.most ? text("full") : texts[`more_${you}`] ?? "");
+  if (you === "waiting") {
+    set("place", text("place", {n: state.place}));
+    set("wait", text("wait", {time: minutes(state.wait_s)}));
+  }
+  if (you === "steering") set("left", text("left", {n: Math.max(0, Math.ceil((endsAt - performance.now()) / 1000))}));
+  element("join").disabled = state.line >= state.most;
+  element("feed").disabled = !(state.feed_s === 0);
+  set("feed", state.feed_s > 0 ? text("fed", {n: state.feed_s}) : text("feed"));
+}
+
+const link = new Link({
+  heard(message) {
+    if (message.you !== state.you) {
+      rest();
+      refusal = "";
+      if (message.you === "steering") navigator.vibrate?.([200, 100, 200]);
+      if (state.you === "steering") navigator.vibrate?.(400);
+    }
+    state = message;
+    if (state.left_s !== undefined) endsAt = performance.now() + state.left_s * 1000;
+    draw();
+  },
+  refused(why) {
+    refusal = why;
+    draw();
+  },
+  stale(is) {
+    if (is && !isStale) rest();
+    isStale = is && state.you !== "loading" || is && performance.now() > 3000;
+    draw();
+  },
+});
+const rest = helm(message => link.say(message), () => state.you === "steering" && !isStale);
+
+document.querySelector("form").addEventListener("submit", event => {
+  event.preventDefault();
+  refusal = "";
+  link.enter(element("digits").value);
+  element("digits").value = "";
+});
+for (const [id, message] of [["join", {join: true}], ["leave-line", {leave: true}], ["hand-over", {leave: true}],
+  ["feed", {feed: true}]])
+  element(id).addEventListener("click", () => link.say(message));
+document.addEventListener("contextmenu", event => event.preventDefault()); // a long press

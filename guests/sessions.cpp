@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "guests/sessions.h"
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <span>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "common/base/digest.h"
+#include "common/base/files.h"
+#include "common/base/random_bytes.h"
+
+namespace aquarama::guests {
+
+namespace {
+
+constexpr std::size_t kNameLetters = 64;  // of a SHA-256 in hex
+
+bool isName(const std::string& text) {
+    return text.size() == kNameLetters &&
+           text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+}  // namespace
+
+std::optional<std::string> Sessions::admit(double now) {
+    if (visits_.size() >= kMost) {
+        const auto leaves = std::ranges::min_element(visits_, {}, [&](const auto& one) {
+            return one.second.phone != nullptr ? now : one.second.seen;
+        });
+        if (leaves->second.phone != nullptr) return std::nullopt;
+        visits_.erase(leaves);
+    }
+    std::string secret;
+    for (const unsigned char byte : randomBytes<16>()) secret += fmt::format("{:02x}", byte);
+    visits_[toHex(digestOf(secret))] = {.seen = now};
+    return secret;
+}
+
+GuestId Sessions::guestOf(const std::string& secret) const {
+    GuestId guest = toHex(digestOf(secret));
+    return visits_.contains(guest) ? guest : GuestId{};
+}
+
+Visit* Sessions::find(const GuestId& guest) {
+    const auto visit = visits_.find(guest);
+    return visit == visits_.end() ? nullptr : &visit->second;
+}
+
+std::vector<GuestId> Sessions::forget(double now) {
+    std::vector<GuestId> forgotten;
+    for (const auto& [guest, visit] : visits_)
+        if (visit.phone == nullptr && now - visit.seen > kForgotten) forgotten.push_back(guest);
+    for (const GuestId& guest : forgotten) visits_.erase(guest);
+    return forgotten;
+}
+
+void Sessions::keep(const std::filesystem::path& file,
+                    const VisitorQueue& queue,
+                    double now) const {
+    std::string text;
+    std::set<GuestId> seated;
+    for (const Seat& seat : queue.seats()) {
+        text += fmt::format("{} {:.1f}\n", seat.guest, queue.leftOf(seat, now));
+        seated.insert(seat.guest);
+    }
+    for (const auto& [guest, visit] : visits_)
+        if (!seated.contains(guest)) text += guest + '\n';
+    keepIfPossible(file,
+                   std::as_bytes(std::span(text)),
+                   "visitors lose their places where aquarama-guests is started again");
+}
+
+std::vector<Seat> Sessions::restore(const std::filesystem::path& file, double now) {
+    std::vector<Seat> seats;
+    std::ifstream lines(file);
+    for (std::string line; visits_.size() < kMost && std::getline(lines, line);) {
+        std::istringstream words(line);
+        Seat seat;
+        words >> seat.guest;
+        if (!isName(seat.guest)) continue;
+        const bool isNew = visits_.try_emplace(seat.guest, Visit{.seen = now}).second;
+        if (isNew && words >> seat.left && seat.left > 0) seats.push_back(seat);
+    }
+    return seats;
+}
+
+}  // namespace aquarama::guests

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "guests/guests.h"
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "common/base/files.h"
+
+namespace aquarama::guests {
+namespace {
+
+using nlohmann::json;
+
+struct RecordedWall final : VisitedWall {
+    void steer(const Steering& steering) override { hands.push_back(steering); }
+    void feed(const glm::vec3& position) override { food.push_back(position); }
+    void show(const wire::Sign& sign) override { signs.push_back(sign); }
+    std::vector<Steering> hands;
+    std::vector<glm::vec3> food;
+    std::vector<wire::Sign> signs;
+};
+
+struct RecordedOutbox final : web::Outbox {
+    void put(const std::string& topic, web::Payload payload, bool /*isBinary*/) override {
+        said[topic] = json::parse(*payload);
+    }
+    void close(std::uint16_t code) override { closed = code; }
+    std::map<std::string, json> said;
+    std::uint16_t closed = 0;
+};
+
+// A phone with its connection.
+struct Caller {
+    explicit Caller(GuestService& service, const std::string& first = "") {
+        connection = service.open({.target = "/g",
+                                   .host = "10.0.0.1:7490",
+                                   .origin = "http://10.0.0.1:7490"},
+                                  outbox,
+                                  refusal);
+        if (!first.empty()) say(first);
+    }
+    Caller(const Caller&) = delete;
+    Caller& operator=(const Caller&) = delete;
+    void say(const std::string& text) const { connection->hear(text); }
+    [[nodiscard]] json state() { return outbox.said["state"]; }
+    [[nodiscard]] std::string you() { return state()["you"]; }
+    [[nodiscard]] std::string resuming() {
+        return json{{"resume", outbox.said["session"]["session"]}}.dump();
+    }
+    RecordedOutbox outbox;
+    web::HttpReply refusal;
+    std::unique_ptr<web::Service::Connection> connection;
+};
+
+class GuestServiceTest : public testing::Test {
+  protected:
+    GuestServiceTest() { begin(); }
+
+    void begin() {
+        service.reset();
+        service.emplace(GuestsOptions{.place = {.host = "10.0.0.1", .port = 7490, .channel = {}},
+                                      .key = kKey,
+                                      .seatFile = folder.path() / "seats"},
+                        wall,
+                        [this] { return now; });
+        service->heard(WallState{.isOpen = true, .eye = {.positionMetres = {1, 2, 3}}});
+    }
+    // Ten ticks a second.
+    void pass(double seconds) {
+        for (int ticks = static_cast<int>(seconds * 10 + 0.5); ticks > 0; --ticks) {
+            now += 0.1;
+            service->tick();
+        }
+    }
+    [[nodiscard]] std::string entering() const {
+        return json{{"enter", DoorTokens(kKey).wordAt(now)}}.dump();
+    }
+
+    static constexpr DoorTokens::Key kKey{7};
+    TemporaryFolder folder{"guests"};
+    double now = 1000;
+    RecordedWall wall;
+    std::optional<GuestService> service;
+};
+
+TEST_F(GuestServiceTest, letsInWhoSeesTheWall) {
+    Caller scanned(*service, entering()), read(*service), guessed(*service);
+    EXPECT_EQ(scanned.you(), "steering") << "nobody else is there";
+    EXPECT_EQ(read.you(), "stranger");
+    read.say(json{{"enter", DoorTokens(kKey).digitsAt(now)}}.dump());
+    EXPECT_EQ(read.you(), "waiting");
+    EXPECT_EQ(read.state()["place"], 1);
+    EXPECT_EQ(read.state()["wait_s"], 61);
+    guessed.say(R"({"enter":"ABCDEFGHJK"})");
+    EXPECT_EQ(guessed.outbox.said["refused"]["refused"], "code");
+    EXPECT_EQ(guessed.you(), "stranger");
+}
+
+TEST_F(GuestServiceTest, guessesOfDigitsAreFew) {
+    const std::string right = DoorTokens(kKey).digitsAt(now);
+    const std::string wrong = right == "000" ? R"({"enter":"001"})" : R"({"enter":"000"})";
+    Caller one(*service);
+    for (int i = 0; i < 5; ++i) one.say(wrong);
+    EXPECT_EQ(one.outbox.closed, kClosedTooMuch);
+    Caller two(*service), three(*service);
+    for (int i = 0; i < 5; ++i) two.say(wrong);
+    three.say(json{{"enter", right}}.dump());
+    EXPECT_EQ(three.you(), "stranger") << "ten guesses of all phones were spent";
+    pass(2.1);
+    three.say(json{{"enter", right}}.dump());
+    EXPECT_NE(three.you(), "stranger");
+}
+
+TEST_F(GuestServiceTest, theOneWhosTurnItIsSteersAndNobodyElse) {
+    Caller pilot(*service, entering()), other(*service, entering());
+    wall.hands.clear();
+    other.say(R"({"helm":[127,0,0,0,0]})");
+    EXPECT_TRUE(wall.hands.empty());
+    pilot.say(R"({"helm":[127,-1,2,-127,3]})");
+    EXPECT_EQ(wall.hands.back(), (Steering{127, -1, 2, -127, 3}));
+    for (const char* const bad : {R"({"helm":[128,0,0,0,0]})",
+                                  R"({"helm":[1,0,0,0]})",
+                                  R"({"helm":[1.5,0,0,0,0]})",
+                                  R"({"helm":"ahead"})",
+                                  R"({"helm":[1e99,0,0,0,0]})",
+                                  "[]",
+                                  "{",
+                                  "\x80"})
+        pilot.say(bad);
+    EXPECT_EQ(wall.hands.size(), 1U);
+}
+
+TEST_F(GuestServiceTest, aHandIsHeldAndRestsWithoutItsPhone) {
+    Caller pilot(*service, entering());
+    pilot.say(R"({"helm":[127,0,0,0,0]})");
+    wall.hands.clear();
+    pass(0.3);
+    EXPECT_EQ(wall.hands, std::vector<Steering>(3, Steering{127, 0, 0, 0, 0}));
+    pass(0.2);
+    EXPECT_EQ(wall.hands.back(), Steering{}) << "half a second after it was last heard";
+    pilot.say(R"({"helm":[0,127,0,0,0]})");
+    pilot.connection.reset();
+    EXPECT_EQ(wall.hands.back(), Steering{}) << "at once where the connection ends";
+}
+
+TEST_F(GuestServiceTest, turnsEndWithASecondAtRestAndTheWallCountsDown) {
+    Caller first(*service, entering()), second(*service, entering());
+    const auto steady = [&] { first.say(R"({"helm":[127,0,0,0,0]})"); };
+    pass(54);
+    const std::size_t signs = wall.signs.size();
+    for (int i = 0; i < 62; ++i) steady(), pass(0.1);
+    EXPECT_EQ(wall.signs.size(), signs + 6) << "5, 4, 3, 2, 1, and the digits again";
+    EXPECT_EQ(first.you(), "guest");
+    EXPECT_EQ(second.you(), "waiting");
+    EXPECT_EQ(wall.hands.back(), Steering{});
+    pass(1);
+    EXPECT_EQ(second.you(), "steering");
+    first.say(R"({"join":true})");
+    EXPECT_EQ(first.you(), "waiting");
+    second.say(R"({"leave":true})");
+    pass(1.1);
+    EXPECT_EQ(first.you(), "steering");
+}
+
+TEST_F(GuestServiceTest, everyoneFeedsNowAndThen) {
+    Caller one(*service, entering()), two(*service, entering()), three(*service, entering());
+    one.say(R"({"feed":true})");
+    one.say(R"({"feed":true})");
+    ASSERT_EQ(wall.food.size(), 1U);
+    const float away = glm::distance(wall.food[0], glm::vec3(1, 2, 3));
+    EXPECT_GE(away, 2.0F);
+    EXPECT_LE(away, 8.0F);
+    EXPECT_LT(wall.food[0].z, 3) << "before the eye";
+    EXPECT_EQ(one.state()["feed_s"], 20);
+    two.say(R"({"feed":true})");
+    three.say(R"({"feed":true})");
+    EXPECT_EQ(wall.food.size(), 2U) << "two a second in all";
+    pass(20.1);
+    one.say(R"({"feed":true})");
+    EXPECT_EQ(wall.food.size(), 3U);
+}
+
+TEST_F(GuestServiceTest, aPhoneComesBackToItsSeatAlsoAfterARestart) {
+    std::optional<Caller> one, two;
+    one.emplace(*service, entering());
+    two.emplace(*service, entering());
+    const std::string resuming = one->resuming();
+    EXPECT_EQ(resuming.size(), std::string(R"({"resume":""})").size() + 32);
+    one.reset();
+    pass(3);
+    one.emplace(*service, resuming);
+    EXPECT_EQ(one->you(), "steering");
+    const std::string other = two->resuming();
+    std::stringstream kept;
+    pass(1);
+    kept << std::ifstream(folder.path() / "seats").rdbuf();
+    EXPECT_EQ(kept.str().find(resuming.substr(11, 32)), std::string::npos) << "no secret is kept";
+    one.reset();
+    two.reset();
+    begin();
+    two.emplace(*service, other);
+    EXPECT_EQ(two->you(), "steering") << "the first who is there";
+    one.emplace(*service, resuming);
+    EXPECT_EQ(one->you(), "waiting");
+    Caller forged(*service, R"({"resume":"00000000000000000000000000000000"})");
+    EXPECT_EQ(forged.outbox.said["refused"]["refused"], "session");
+}
+
+TEST_F(GuestServiceTest, theLatestPageOfAVisitorCounts) {
+    Caller one(*service, entering());
+    Caller again(*service, one.resuming());
+    EXPECT_EQ(one.outbox.closed, kClosedElsewhere);
+    EXPECT_EQ(again.you(), "steering");
+    one.connection.reset();
+    pass(1);
+    EXPECT_EQ(again.you(), "steering");
+}
+
+TEST_F(GuestServiceTest, turnsWaitWhileTheWallIsClosed) {
+    Caller one(*service, entering());
+    pass(10);
+    for (const auto& closed : {std::optional(WallState{}), std::optional<WallState>()}) {
+        service->heard(closed);
+        EXPECT_EQ(one.you(), "closed");
+        wall.hands.clear();
+        one.say(R"({"helm":[127,0,0,0,0]})");
+        one.say(R"({"feed":true})");
+        pass(100);
+        EXPECT_TRUE(wall.hands.empty() && wall.food.empty());
+    }
+    service->heard(WallState{.isOpen = true, .eye = {}});
+    EXPECT_EQ(one.you(), "steering");
+    EXPECT_NEAR(one.state()["left_s"].get<double>(), 50, 0.3);
+}
+
+TEST_F(GuestServiceTest, refusesOtherNamesOriginsAndFloods) {
+    EXPECT_EQ(service->answer({.method = "GET", .target = "/", .host = "evil.example"}).status, 421);
+    EXPECT_EQ(service->answer({.method = "POST", .target = "/", .host = "10.0.0.1:7490"}).status,
+              405);
+    for (const char* const page : {"/", "/P/7Q2K4M9XHT", "/p/7q2k4m9xht"}) {
+        const auto reply = service->answer({.method = "GET", .target = page, .host = "10.0.0.1:7490"});
+        EXPECT_EQ(reply.status, 200) << page;
+        EXPECT_TRUE(reply.type.starts_with("text/html")) << page;
+    }
+    RecordedOutbox outbox;
+    web::HttpReply refusal;
+    for (const char* const origin : {"http://evil.example", "", "null", "https://10.0.0.1:7490"}) {
+        EXPECT_EQ(service->open({.target = "/g", .host = "10.0.0.1:7490", .origin = origin},
+                                outbox,
+                                refusal),
+                  nullptr);
+        EXPECT_EQ(refusal.status, 403) << origin;
+    }
+    Caller loud(*service, std::string(300, ' '));
+    EXPECT_EQ(loud.outbox.closed, kClosedTooMuch);
+    Caller fast(*service);
+    for (int i = 0; i < 100; ++i) fast.say("{}");
+    EXPECT_EQ(fast.outbox.closed, kClosedTooMuch);
+}
+
+TEST_F(GuestServiceTest, bounds) {
+    std::vector<std::unique_ptr<Caller>> phones;
+    int busy = 0;
+    for (std::size_t i = 0; i < GuestService::kMostPhones; ++i) {
+        phones.push_back(std::make_unique<Caller>(*service, entering()));
+        busy += phones.back()->you() == "stranger" ? 1 : 0;
+    }
+    EXPECT_EQ(busy, 560) << "40 at once";
+    pass(1);
+    for (const auto& phone : phones)
+        if (phone->you() == "stranger") phone->say(entering()), --busy;
+    EXPECT_EQ(phones[0]->state()["line"], 12);
+    EXPECT_EQ(phones[20]->you(), "guest");
+    Caller late(*service);
+    EXPECT_EQ(late.connection, nullptr);
+    EXPECT_EQ(late.refusal.status, 503);
+}
+
+}  // namespace
+}  // namespace aquarama::guests
