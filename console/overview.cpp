@@ -190,6 +190,9 @@ std::vector<std::string> changesOf(const browser::Wall& before, const browser::W
     note(was.scene != is.scene, "scene " + is.scene);
     note(was.pattern != is.pattern, fmt::format("pattern {}", wire::nameOf(is.pattern)));
     note(was.colourReturned != is.colourReturned, fmt::format("colour {:.2f}", is.colourReturned));
+    const bool wereGuests = before.status().guests();
+    const bool areGuests = after.status().guests();
+    note(wereGuests != areGuests, areGuests ? "phones take part" : "no phone takes part");
     note(was.quality != is.quality, fmt::format("quality {}", config::nameOf(is.quality)));
     const auto& nodesBefore = before.status().nodes();
     const auto& nodes = after.status().nodes();

@@ -221,6 +221,7 @@ browser::ToBrowser Visitors::snapshotFor(const Visitor& visitor) const {
     snapshot.set_role(static_cast<browser::Role>(visitor.holder.role));
     snapshot.set_name(visitor.holder.name);
     snapshot.set_has_power(machine::takesPowerWord(machine::powerFolder()));
+    snapshot.set_has_guests(state_.rig.guests.has_value());
     for (const config::Channel& from : state_.rig.channels) {
         browser::Channel& channel = *snapshot.add_channels();
         channel.set_name(from.name);

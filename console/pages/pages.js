@@ -61,6 +61,12 @@ function pad(link) {
       '▶')}</div>
     <p class="note">${t('helm.keys')}</p>`;
 }
+// Visitors with phones: one tap, both ways.
+function guestsButton(link) {
+  const on = link.status.guests;
+  const name = t(on ? 'guests.off' : 'guests.on');
+  return button(name, () => link.show({guests: !on}, name), {disabled: !link.may('OPERATOR'), pressed: String(!on)});
+}
 function helmPanel(link) {
   const toggle = () => { helm.taken = !helm.taken; letGo(link); link.dispatchEvent(new Event('change')); };
   return html`<section class="panel" aria-labelledby="helm"><h2 id="helm">${t('helm.title')}</h2>
@@ -68,7 +74,7 @@ function helmPanel(link) {
        ${t('helm.place', {depth: (-(link.status.eye?.[1] ?? 0)).toFixed(1),
          speed: (link.status.speedMS ?? 0).toFixed(1)})}</p>
     <div class="row">${button(t(helm.taken ? 'helm.leave' : 'helm.take'), toggle, {disabled: !link.may('OPERATOR'),
-      pressed: String(helm.taken)})}</div>
+      pressed: String(helm.taken)})}${link.known.snapshot?.hasGuests ? guestsButton(link) : nothing}</div>
     ${helm.taken ? pad(link) : nothing}</section>`;
 }
 
