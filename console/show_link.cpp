@@ -35,8 +35,15 @@ void ShowLink::give(v1::Order order) {
     {
         const std::lock_guard lock(mutex_);
         if (wanted_.size() < kMostWanted) wanted_.push_back(std::move(order));
+        hasNew_ = true;
     }
     changed_.notify_all();
+}
+
+// At the next turn, together with all that waits.
+void ShowLink::giveAgain(v1::Order order) {
+    const std::lock_guard lock(mutex_);
+    if (wanted_.size() < kMostWanted) wanted_.push_back(std::move(order));
 }
 
 // The newest counts: it is a state.
@@ -57,7 +64,7 @@ void ShowLink::explain(std::uint32_t fish) {
     changed_.notify_all();
 }
 
-// Ten times a second, and at once for hands and questions.
+// Ten times a second, and at once for new orders, hands and questions.
 void ShowLink::run() {
     std::unique_lock lock(mutex_);
     while (!ended_) {
@@ -68,7 +75,8 @@ void ShowLink::run() {
             listener_.silent(client_.preparing());
         }
         lock.lock();
-        changed_.wait_for(lock, kBetweenLooks, [this] { return ended_ || steering_ || fish_; });
+        changed_.wait_for(
+            lock, kBetweenLooks, [this] { return ended_ || hasNew_ || steering_ || fish_; });
     }
 }
 
@@ -80,6 +88,7 @@ void ShowLink::work() {
     {
         const std::lock_guard lock(mutex_);
         wanted = std::exchange(wanted_, {});
+        hasNew_ = false;
         steering = std::exchange(steering_, {});
         fish = std::exchange(fish_, {});
     }
@@ -100,9 +109,9 @@ void ShowLink::work() {
 void ShowLink::press(v1::Order& order) {
     const v1::OrderReply reply = client_.give(order);
     const std::uint64_t id = order.request();
-    if (reply.request() != id) return give(std::move(order));  // an answer to another
+    if (reply.request() != id) return giveAgain(std::move(order));  // an answer to another
     listener_.said(id, {static_cast<ask::Outcome>(reply.outcome()), reply.reason()});
-    if (reply.outcome() == v1::OrderReply::WAITING) give(std::move(order));
+    if (reply.outcome() == v1::OrderReply::WAITING) giveAgain(std::move(order));
 }
 
 }  // namespace aquarama::console

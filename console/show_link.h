@@ -58,6 +58,7 @@ class ShowLink final : public MasterProxy {
     void run();
     void work();
     void press(v1::Order& order);
+    void giveAgain(v1::Order order);
 
     ask::RequestClient client_;
     ShowListener listener_;
@@ -66,6 +67,7 @@ class ShowLink final : public MasterProxy {
     bool ended_ = false;
     // Not sent yet.
     std::deque<v1::Order> wanted_;
+    bool hasNew_ = false;  // one of them was not given before
     std::optional<Steering> steering_;
     std::optional<std::uint32_t> fish_;
     std::thread thread_;

@@ -40,12 +40,14 @@ std::string showText(const v1::StatusReply& status) {
     const wire::Show show = wire::readShow(status.show()).value_or(wire::Show{});
     const auto onOff = [](bool on) { return on ? "on" : "off"; };
     std::string text = fmt::format(
-        "show          scene {}   quality {}   pattern {}   colour {:.2f}   black {}   freeze {}   "
-        "guests {}   version {}   calibration {:016x}\n",
+        "show          scene {}   quality {}   pattern {}   colour {:.2f}   brightness {:.2f}   "
+        "black {}   freeze {}   guests {}   version {}   calibration {:016x}
+",
         show.scene,
         config::nameOf(show.quality),
         wire::nameOf(show.pattern),
         show.colourReturned,
+        show.brightness,
         onOff(show.black),
         onOff(show.frozen),
         onOff(status.guests()),

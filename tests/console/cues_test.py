@@ -95,7 +95,8 @@ class Cues(unittest.TestCase):
 
     def order(self, token=None, **order):
         """Status and text of the answer."""
-        status, _, text = self.desk.request("POST", "/api/order", order, Authorization=f"Bearer {token or self.operator}")
+        key = f"Bearer {token or self.operator}"
+        status, _, text = self.desk.request("POST", "/api/order", order, Authorization=key)
         return status, text.strip()
 
     def state(self):

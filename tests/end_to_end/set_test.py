@@ -35,7 +35,8 @@ class Set(unittest.TestCase):
         show = start("run", self.rig, "--headless", "--live", "--pattern", "grid", log=self.log)
         self.processes = [show]
         wait_until(lambda: "showing" in self.log.read_text(), 60, "the first frame")
-        for what, value in (("black", "on"), ("freeze", "on"), ("pattern", "grey"), ("colour", "0.4")):
+        for what, value in (("black", "on"), ("freeze", "on"), ("pattern", "grey"), ("colour", "0.4"),
+                            ("brightness", "0.3")):
             done = self.set(what, value)
             self.assertEqual((done.returncode, done.stdout), (0, f"{what} {value}\n"), done.stderr)
         before = self.shown()
@@ -47,7 +48,8 @@ class Set(unittest.TestCase):
         wait_until(lambda: self.shown().get("black") == "on", 20, "the master to come back, black")
         shown = self.shown()
         self.assertEqual((shown["freeze"], shown["pattern"], shown["colour"]), ("on", "grey", "0.40"))
-        self.assertIn("as it was set before: pattern grey, black on, freeze on, colour 0.40", self.log.read_text())
+        self.assertIn("as it was set before: pattern grey, black on, freeze on, colour 0.40, brightness 0.30",
+                      self.log.read_text())
         for what in ("black", "freeze"):
             self.assertEqual(self.set(what, "off").returncode, 0)
 
@@ -55,12 +57,14 @@ class Set(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((self.shown()["scene"], self.shown()["colour"]), ("empty_sea", "0.90"), "the scene's own")
         wait_until(lambda: "through black in" in self.log.read_text(), 20, "light again")
+        self.assertEqual(self.shown()["brightness"], "0.30", "no more than was wanted")
 
         for what, value, why in (("scene", "lagoon", "bait_ball, empty_sea, reef"),
                                  ("scene", "../desk", "without folder"),
                                  ("scene", "reef.txtpb", "without folder"),
                                  ("quality", "best", "not \"best\""), ("black", "maybe", "on or off"),
-                                 ("pattern", "dots", "grid"), ("colour", "1.2", "from 0"), ("colour", "red", "to 1")):
+                                 ("pattern", "dots", "grid"), ("colour", "1.2", "from 0"), ("colour", "red", "to 1"),
+                                 ("brightness", "1.2", "from 0, black, to 1")):
             refused = self.set(what, value)
             self.assertEqual(refused.returncode, 1, what)
             self.assertIn(why, refused.stderr)
