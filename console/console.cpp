@@ -66,6 +66,7 @@ void Console::begin(web::WebServer& server, Doors doors) {
     visitors_.watch(hub_.get());
     commands_.reach(link_.get());
     listenToDesk();
+    listenToTracker();
     visitors_.note("console", "started, build " + state_.build);
     if (!state_.access.hasPeople()) showCode(ConsoleRole::Crew);
 }
@@ -107,8 +108,16 @@ void Console::tick() {
     visitors_.tick();
     state_.figures.add(state_.wall);
     if (desk_) desk_->tick(shownBy(state_.wall.status(), state_.wall.heard()));
+    touch();
     if (ticks_ % kTicksASecond == 0) everySecond();
     if (ticks_ % kTicksOfAWall == 0) visitors_.sendWall(state_.refused + server_->cutOff());
+}
+
+void Console::touch() {
+    using std::chrono::steady_clock;
+    if (!tracker_) return;
+    const std::chrono::duration<double> now = steady_clock::now().time_since_epoch();
+    if (const auto hands = tracker_->tick(now.count())) link_->touch(*hands);
 }
 
 // That somebody set it explains the times of events before and after. A code of the first start
@@ -140,13 +149,30 @@ void Console::listenToDesk() {
     const auto give = [this](const std::string& who, const v1::Order& order) {
         return giveOrder({.id = {}, .hash = {}, .name = who, .role = ConsoleRole::Operator}, order);
     };
-    try {
+    listenTo("cues by OSC", state_.rig.osc->listen, deskProblem_, [&] {
         desk_ = std::make_unique<OscDesk>(*state_.rig.osc, give);
-        deskProblem_.clear();
-        logInfo("cues by OSC at {}", config::textOf(state_.rig.osc->listen));
-    } catch (const Error& problem) {
-        if (deskProblem_.empty()) logWarning("cues: {}", problem.what());
-        deskProblem_ = problem.what();
+    });
+}
+
+void Console::listenToTracker() {
+    if (tracker_ || !state_.rig.touch) return;
+    listenTo("hands by TUIO", state_.rig.touch->listen, trackerProblem_, [&] {
+        tracker_ = std::make_unique<TouchListener>(*state_.rig.touch, state_.rig.sweetSpotMetres);
+    });
+}
+
+// A failure is said once.
+void Console::listenTo(const char* what,
+                       const config::UdpAddress& where,
+                       std::string& problem,
+                       const std::function<void()>& open) {
+    try {
+        open();
+        problem.clear();
+        logInfo("{} at {}", what, config::textOf(where));
+    } catch (const Error& failure) {
+        if (problem.empty()) logWarning("{}: {}", what, failure.what());
+        problem = failure.what();
     }
 }
 
@@ -186,6 +212,7 @@ std::vector<Fault> Console::faultsNow(UnixSeconds now) const {
         faults.push_back(
             {"clock", state_.doubtOfClock + "; hours and certificates rest; " + kSetTheClock, 0});
     if (!deskProblem_.empty()) faults.push_back({"cues", "cues: " + deskProblem_, 5});
+    if (!trackerProblem_.empty()) faults.push_back({"touch", "hands: " + trackerProblem_, 5});
     if (options_.certificate != nullptr)
         for (Fault& fault : options_.certificate->faults(now)) faults.push_back(std::move(fault));
     return faults;
@@ -197,6 +224,7 @@ void Console::everySecond() {
     watchClock(now);
     tendCertificate(now);
     listenToDesk();
+    listenToTracker();
     commands_.keepHours();
     commands_.keepScan();
     const bool isQuiet = state_.doubtOfClock.empty() && state_.opening.isClosed(now);

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,12 +13,14 @@
 #include "common/ask/request_client.h"
 #include "common/config/rig.h"
 #include "common/machine/service_notifier.h"
+#include "common/web/server.h"
 #include "console/access.h"
 #include "console/alerts.h"
 #include "console/certificate.h"
 #include "console/commands.h"
 #include "console/console.pb.h"
 #include "console/cues/osc_desk.h"
+#include "console/cues/touch_listener.h"
 #include "console/errands.h"
 #include "console/gate.h"
 #include "console/overview.h"
@@ -25,7 +28,6 @@
 #include "console/show_link.h"
 #include "console/state.h"
 #include "console/visitors.h"
-#include "common/web/server.h"
 
 namespace aquarama::console {
 
@@ -93,6 +95,12 @@ class Console final : public web::Service {
     void watchClock(UnixSeconds now);
     // Listens to the rig's desk, where that is not done yet.
     void listenToDesk();
+    void listenToTracker();
+    void listenTo(const char* what,
+                  const config::UdpAddress& where,
+                  std::string& problem,
+                  const std::function<void()>& open);
+    void touch();
     void tendCertificate(UnixSeconds now);
     // Of the wall, and of this machine's clock and certificate.
     [[nodiscard]] std::vector<Fault> faultsNow(UnixSeconds now) const;
@@ -109,8 +117,10 @@ class Console final : public web::Service {
     // When the clocks were last looked at: the system's, and one that nobody sets.
     UnixSeconds lastSecond_ = 0;
     std::chrono::steady_clock::time_point lastLook_;
-    std::unique_ptr<OscDesk> desk_;  // null: the rig has none, or it cannot be heard
-    std::string deskProblem_;        // why not
+    std::unique_ptr<OscDesk> desk_;           // null: the rig has none, or it cannot be heard
+    std::string deskProblem_;                 // why not
+    std::unique_ptr<TouchListener> tracker_;  // as desk_
+    std::string trackerProblem_;
     std::unique_ptr<PictureHub> hub_;
     std::unique_ptr<ShowLink> link_;  // last: their threads use all of the above
 };

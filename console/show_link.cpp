@@ -55,6 +55,14 @@ void ShowLink::steer(const Steering& steering) {
     changed_.notify_all();
 }
 
+void ShowLink::touch(const WallHands& hands) {
+    {
+        const std::lock_guard lock(mutex_);
+        hands_ = hands;
+    }
+    changed_.notify_all();
+}
+
 // One question at a time.
 void ShowLink::explain(std::uint32_t fish) {
     {
@@ -75,8 +83,9 @@ void ShowLink::run() {
             listener_.silent(client_.preparing());
         }
         lock.lock();
-        changed_.wait_for(
-            lock, kBetweenLooks, [this] { return ended_ || hasNew_ || steering_ || fish_; });
+        changed_.wait_for(lock, kBetweenLooks, [this] {
+            return ended_ || hasNew_ || steering_ || hands_ || fish_;
+        });
     }
 }
 
@@ -84,15 +93,18 @@ void ShowLink::run() {
 void ShowLink::work() {
     std::deque<v1::Order> wanted;
     std::optional<Steering> steering;
+    std::optional<WallHands> hands;
     std::optional<std::uint32_t> fish;
     {
         const std::lock_guard lock(mutex_);
         wanted = std::exchange(wanted_, {});
         hasNew_ = false;
         steering = std::exchange(steering_, {});
+        hands = std::exchange(hands_, {});
         fish = std::exchange(fish_, {});
     }
     if (steering) client_.steer(*steering);
+    if (hands) client_.touch(*hands);
     try {
         for (v1::Order& order : wanted) press(order);
     } catch (const Error& problem) {

@@ -37,6 +37,8 @@ class MasterProxy {
     virtual void give(v1::Order order) = 0;
     // How the submarine is steered; only the newest counts.
     virtual void steer(const Steering& steering) = 0;
+    // The hands before the wall; only the newest count.
+    virtual void touch(const WallHands& hands) = 0;
     // Asks what goes on in the mind of a fish; ShowListener::explained has the answer.
     virtual void explain(std::uint32_t fish) = 0;
 };
@@ -52,6 +54,7 @@ class ShowLink final : public MasterProxy {
 
     void give(v1::Order order) override;
     void steer(const Steering& steering) override;
+    void touch(const WallHands& hands) override;
     void explain(std::uint32_t fish) override;
 
   private:
@@ -69,6 +72,7 @@ class ShowLink final : public MasterProxy {
     std::deque<v1::Order> wanted_;
     bool hasNew_ = false;  // one of them was not given before
     std::optional<Steering> steering_;
+    std::optional<WallHands> hands_;
     std::optional<std::uint32_t> fish_;
     std::thread thread_;
 };

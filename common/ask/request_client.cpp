@@ -57,6 +57,12 @@ void RequestClient::steer(const Steering& steering, bool yields) {
     channels_->sendControl(wire::encode(0, std::move(envelope)));
 }
 
+void RequestClient::touch(const WallHands& hands) {
+    v1::Envelope envelope;
+    *envelope.mutable_input() = wire::handsInput(hands);
+    channels_->sendControl(wire::encode(0, std::move(envelope)));
+}
+
 void RequestClient::feed(const glm::vec3& position) {
     v1::Envelope envelope;
     v1::Input& input = *envelope.mutable_input();

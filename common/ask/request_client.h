@@ -43,6 +43,8 @@ class RequestClient {
     // Not answered, and lost where the connection does not stand yet. `yields`: to whoever steers
     // and does not.
     void steer(const Steering& steering, bool yields = false);
+    // All hands before the wall. Likewise.
+    void touch(const WallHands& hands);
     // Food at a point of the world, in metres. Likewise.
     void feed(const glm::vec3& position);
 

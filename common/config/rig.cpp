@@ -94,7 +94,7 @@ void checkNetwork(const TextReader& file, const v1::Network& in) {
 
 // Throws Error at the field, or its entry `index`, where it is no address of UDP.
 UdpAddress udpOf(const TextReader& file,
-                 const v1::OscCues& in,
+                 const google::protobuf::Message& in,
                  const std::string& field,
                  const std::string& text,
                  int index = 0) {
@@ -107,19 +107,27 @@ UdpAddress udpOf(const TextReader& file,
                 index);
 }
 
-std::optional<OscCues> oscOf(const TextReader& file, const v1::Rig& rig) {
-    if (!rig.cues().has_osc()) return std::nullopt;
-    const v1::OscCues& in = rig.cues().osc();
-    OscCues osc{udpOf(file, in, "listen", in.listen()), {}, {}};
-    for (int i = 0; i < in.from_size(); ++i) {
-        osc.from.push_back(shortestHost(in.from(i)));
-        if (osc.from.back().empty())
+// Throws Error at the entry of `from` that is no host.
+std::vector<std::string> hostsOf(const TextReader& file,
+                                 const google::protobuf::Message& in,
+                                 const google::protobuf::RepeatedPtrField<std::string>& from) {
+    std::vector<std::string> hosts;
+    for (int i = 0; i < from.size(); ++i) {
+        hosts.push_back(shortestHost(from[i]));
+        if (hosts.back().empty())
             file.refuse(in,
                         "from",
-                        "from \"" + in.from(i) +
+                        "from \"" + from[i] +
                             "\" is no number of one machine: write 192.168.7.40, without a port",
                         i);
     }
+    return hosts;
+}
+
+std::optional<OscCues> oscOf(const TextReader& file, const v1::Rig& rig) {
+    if (!rig.cues().has_osc()) return std::nullopt;
+    const v1::OscCues& in = rig.cues().osc();
+    OscCues osc{udpOf(file, in, "listen", in.listen()), hostsOf(file, in, in.from()), {}};
     const auto isVersion6 = [](const UdpAddress& address) {
         return address.host.find(':') != std::string::npos;
     };
@@ -452,6 +460,25 @@ std::pair<std::string, std::uint16_t> webAddressIn(const std::string& address) {
     return {address.substr(kScheme.size(), colon - kScheme.size()), number};
 }
 
+std::optional<TouchedSurface> touchOf(const TextReader& file, const v1::Rig& rig) {
+    if (!rig.has_touch()) return std::nullopt;
+    const v1::Touch& in = rig.touch();
+    TouchedSurface touch{udpOf(file, in, "listen", in.listen()),
+                         hostsOf(file, in, in.from()),
+                         positionOf(in.top_left()),
+                         positionOf(in.top_right()),
+                         positionOf(in.bottom_left())};
+    if (touch.from.empty()) touch.from.emplace_back("127.0.0.1");
+    const glm::dvec3 across = touch.topRight - touch.topLeft;
+    const glm::dvec3 down = touch.bottomLeft - touch.topLeft;
+    if (glm::length(glm::cross(across, down)) < 1e-6)
+        file.refuse(in,
+                    "bottom_left",
+                    "top_left, top_right and bottom_left lie on one line: give three corners of "
+                    "the surface");
+    return touch;
+}
+
 // After the channels.
 void takeGuests(const TextReader& file, const v1::Rig& in, Rig& rig) {
     if (!in.has_guests()) return;
@@ -508,6 +535,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
     for (const v1::Channel& channel : in.channels())
         rig.channels.push_back(channelOf(file, channel, rig.stereo));
     takeGuests(file, in, rig);
+    rig.touch = touchOf(file, in);
     takeScreen(file, source, in, rig);
     takeCalibration(file, in, rig);
     takeAdjustments(file, source, in, rig);

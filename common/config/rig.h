@@ -152,11 +152,9 @@ struct OscCues {
     std::vector<UdpAddress> sendTo;  // are told what the wall shows
 };
 
-// A whole installation. Where its file leaves something out it has what rig.proto says.
 // Of a file that a rig names; never null. Copies of a rig share it: it may be large.
 using FileContent = std::shared_ptr<const std::vector<std::byte>>;
 
-// A whole rig: its wall, its channels, its network, and the files that it names.
 // Visitors who take part by phone, and where their sign is drawn.
 struct Guests {
     enum class Corner : std::uint8_t { LowerLeft, LowerRight, UpperLeft, UpperRight };
@@ -167,6 +165,15 @@ struct Guests {
     double height = 0.16;  // share of the channel's picture
 };
 
+// Where hands before the wall are told, and the surface that their tracker watches: three of its
+// corners, wall frame, metres.
+struct TouchedSurface {
+    UdpAddress listen;
+    std::vector<std::string> from;  // hosts whose hands count, as shortestHost() has them
+    glm::dvec3 topLeft{}, topRight{}, bottomLeft{};
+};
+
+// A whole installation. Where its file leaves something out it has what rig.proto says.
 struct Rig {
     std::string text;  // of the file, as it was read: the nodes are sent it
     std::string name;
@@ -192,6 +199,7 @@ struct Rig {
     std::string calibration = {};        // name in `files`; empty: none
     std::string adjustments = {};        // name in `files`; empty: none. See adjustments.h
     std::optional<Guests> guests = {};
+    std::optional<TouchedSurface> touch = {};
     // Measured screens, wall files and adjustments, whole, by the name that the rig has for them.
     std::map<std::string, FileContent> files;
 };

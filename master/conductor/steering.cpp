@@ -76,7 +76,7 @@ bool InputArbitration::mayTake(const HeldInput& input, bool begins) const {
     return isFree || (begins && (!input.yields || holder->second.yields));
 }
 
-bool InputArbitration::accepts(const net::PeerId& pilot, const Hand& hand, net::Moment now) {
+bool InputArbitration::accepts(const net::PeerId& pilot, const PilotHand& hand, net::Moment now) {
     forgetTheSilent(now);
     const bool holdsNow = hand.steering != Steering{};
     const auto known = inputs_.find(pilot);

@@ -14,7 +14,7 @@
 namespace aquarama::conductor {
 
 // What a pilot does.
-struct Hand {
+struct PilotHand {
     Steering steering;
     bool yields = false;  // to whoever does not
 };
@@ -25,7 +25,7 @@ struct Hand {
 class InputArbitration {
   public:
     // The input of a pilot. True: it is applied to the submarine.
-    [[nodiscard]] bool accepts(const net::PeerId& pilot, const Hand& hand, net::Moment now);
+    [[nodiscard]] bool accepts(const net::PeerId& pilot, const PilotHand& hand, net::Moment now);
     // Who has control; empty: nobody.
     [[nodiscard]] std::optional<net::PeerId> pilot(net::Moment now) const;
 

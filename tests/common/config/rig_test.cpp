@@ -347,6 +347,61 @@ std::string rigWith(const std::string& line) {
     return text.insert(text.find("scene:"), line + "\n");
 }
 
+// What is said of the small rig with this in it.
+std::string saidOf(const std::string& text) {
+    try {
+        static_cast<void>(parseRig(kRig + text, "bad.txtpb"));
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(Rig, letsVisitorsTakePartWhereItSaysHowPhonesReachIt) {
+    EXPECT_FALSE(parseRig(kRig, "small.txtpb").guests);
+    const Rig rig = parseRig(
+        kRig + "guests { address: \"http://192.168.20.1:7490\" corner: UPPER_RIGHT height: 0.2 }",
+        "small.txtpb");
+    ASSERT_TRUE(rig.guests);
+    EXPECT_EQ(rig.guests->host, "192.168.20.1");
+    EXPECT_EQ(rig.guests->port, 7490);
+    EXPECT_EQ(rig.guests->channel, rig.channels.front().name);
+    EXPECT_EQ(rig.guests->corner, Guests::Corner::UpperRight);
+    EXPECT_EQ(rig.guests->height, 0.2);
+    for (const std::string address : {"192.168.20.1:7490",
+                                      "https://192.168.20.1:7490",
+                                      "http://192.168.20.1",
+                                      "http://:7490",
+                                      "http://192.168.20.1:0",
+                                      "http://192.168.20.1:70000",
+                                      "http://192.168.20.1:74x"})
+        EXPECT_THAT(saidOf("guests { address: \"" + address + "\" }"),
+                    testing::AllOf(testing::StartsWith("bad.txtpb:"),
+                                   testing::HasSubstr("http://HOST:PORT")))
+            << address;
+    EXPECT_THAT(saidOf("guests { address: \"http://10.0.0.1:80\" channel: \"attic\" }"),
+                testing::HasSubstr("no channel \"attic\""));
+}
+
+TEST(Rig, namesTheSurfaceThatATrackerWatches) {
+    EXPECT_FALSE(parseRig(kRig, "small.txtpb").touch);
+    const std::string corners =
+        " top_left { x_m: -2 y_m: 1 z_m: -3 } top_right { x_m: 2 y_m: 1 z_m: -3 }";
+    const std::string touch = "touch { listen: \"udp://127.0.0.1:3333\"" + corners;
+    const Rig rig =
+        parseRig(kRig + touch + " bottom_left { x_m: -2 y_m: -1 z_m: -3 } }", "small.txtpb");
+    ASSERT_TRUE(rig.touch);
+    EXPECT_EQ(rig.touch->listen, (UdpAddress{"127.0.0.1", 3333}));
+    EXPECT_EQ(rig.touch->from, std::vector<std::string>{"127.0.0.1"});
+    EXPECT_EQ(rig.touch->bottomLeft, glm::dvec3(-2, -1, -3));
+    EXPECT_THAT(saidOf(touch + " bottom_left { x_m: 0 y_m: 1 z_m: -3 } }"),
+                testing::HasSubstr("lie on one line"));
+    EXPECT_THAT(saidOf(touch + " }"), testing::HasSubstr("bottom_left"));
+    EXPECT_THAT(
+        saidOf("touch { listen: \"3333\"" + corners + " bottom_left { x_m: -2 y_m: -1 z_m: -3 } }"),
+        testing::HasSubstr("no address of one machine"));
+}
+
 TEST(Rig, aCalibrationIsTheWallFileOfAllItsChannels) {
     const Rig rig = parseRig(rigWith("calibration: \"walls/hall.mpcdi\""), "small.txtpb");
     ASSERT_EQ(rig.channels.size(), 2U);

@@ -14,36 +14,20 @@
 
 #include "common/base/log.h"
 #include "tests/common/osc/sample_packets.h"
+#include "tests/console/cues/free_port.h"
 
 namespace aquarama::console {
 namespace {
 
 using config::UdpAddress;
 using osc::OscMessage;
+using test::freePort;
+using test::Port;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using Reply = v1::OrderReply;
 using Outcome = Reply::Outcome;
-
-// A port of the loopback that is free, as these tests choose one after the other.
-struct Port {
-    UdpAddress address;
-    std::unique_ptr<UdpPort> socket;
-};
-Port freePort(const std::string& host = "127.0.0.1") {
-    static std::uint16_t next = 42'000;
-    Port port;
-    while (!port.socket) {
-        port.address = {host, ++next};
-        try {
-            port.socket = std::make_unique<UdpPort>(port.address);
-        } catch (const Error&) {  // another program's
-            if (next == 65'000) throw;
-        }
-    }
-    return port;
-}
 
 std::vector<OscMessage> heardAt(Port& port) {
     std::vector<OscMessage> all;

@@ -16,12 +16,12 @@ constexpr Steering kNothing{};
 
 class InputArbitrationTest : public testing::Test {
   protected:
-    bool says(const net::PeerId& who, const Hand& hand, int laterMs = 40) {
+    bool says(const net::PeerId& who, const PilotHand& hand, int laterMs = 40) {
         now_ += milliseconds(laterMs);
         return arbitration_.accepts(who, hand, now_);
     }
     bool says(const net::PeerId& who, const Steering& what, int laterMs = 40) {
-        return says(who, Hand{.steering = what}, laterMs);
+        return says(who, PilotHand{.steering = what}, laterMs);
     }
     InputArbitration arbitration_;
     net::Moment now_{milliseconds(1000)};
@@ -50,7 +50,7 @@ TEST_F(InputArbitrationTest, theLatestThatTakesHoldWins) {
 }
 
 TEST_F(InputArbitrationTest, aPhoneYieldsToEveryOtherHand) {
-    const Hand phone{.steering = kAhead, .yields = true};
+    const PilotHand phone{.steering = kAhead, .yields = true};
     EXPECT_TRUE(says("phone", phone));
     EXPECT_TRUE(says("a", kBack)) << "takes over from the phone";
     EXPECT_FALSE(says("phone", phone));
