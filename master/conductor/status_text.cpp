@@ -41,8 +41,7 @@ std::string showText(const v1::StatusReply& status) {
     const auto onOff = [](bool on) { return on ? "on" : "off"; };
     std::string text = fmt::format(
         "show          scene {}   quality {}   pattern {}   colour {:.2f}   brightness {:.2f}   "
-        "black {}   freeze {}   guests {}   version {}   calibration {:016x}
-",
+        "black {}   freeze {}   guests {}   version {}   calibration {:016x}\n",
         show.scene,
         config::nameOf(show.quality),
         wire::nameOf(show.pattern),
