@@ -53,7 +53,7 @@ std::string wordsFor(const wire::RecordedInput& input) {
                            clock->timeOfDay,
                            clock->lengthSeconds);
     if (const auto* hands = std::get_if<WallHands>(&input.input))
-        return fmt::format("{} hands before the wall", hands->size());
+        return fmt::format("hands before the wall: {}", hands->size());
     const auto& moved = std::get<wire::RecordedSubmarine>(input.input);
     return fmt::format("submarine at {:.2f} {:.2f} {:.2f} m",
                        moved.position.x,

@@ -2,12 +2,14 @@
 
 import json
 import re
+import signal
 import socket
 import struct
 import time
 import unittest
+from pathlib import Path
 
-from desk import Desk, wait_until
+from desk import Desk, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, wait_until
 
 
 def padded(text):
@@ -163,6 +165,54 @@ class Cues(unittest.TestCase):
         self.told("freeze", 0)
         self.assertEqual(self.desk.request("GET", "/api/state")[0], 401)
         self.assertEqual(self.desk.request("GET", "/api/order", Authorization=f"Bearer {self.operator}")[0], 404)
+
+
+def bundle(*messages):
+    """Messages of OSC in one packet, at once."""
+    return padded("#bundle") + struct.pack(">q", 1) + b"".join(struct.pack(">i", len(one)) + one for one in messages)
+
+
+class Hands(unittest.TestCase):
+    """A tracker tells of a hand by TUIO: it reaches the world, and its recording."""
+
+    def setUp(self):
+        self.folder = temporary_folder()
+        self.addCleanup(self.folder.cleanup)
+        self.tracker = End()
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+            free.bind(("127.0.0.1", 0))
+            self.port = free.getsockname()[1]
+        self.rig = rig_on_free_ports(self.folder.name)
+        self.rig.write_text(self.rig.read_text() + f'''
+            touch {{ listen: "udp://127.0.0.1:{self.port}" top_left {{ x_m: -1 y_m: 1 z_m: -2 }}
+                     top_right {{ x_m: 1 y_m: 1 z_m: -2 }} bottom_left {{ x_m: -1 y_m: -1 z_m: -2 }} }}''')
+
+    def see(self, frame, *hands):
+        """A frame of TUIO 1.1: session, x and y of each hand."""
+        alive = message("/tuio/2Dcur", "alive", *(hand[0] for hand in hands))
+        moves = [message("/tuio/2Dcur", "set", *hand, 0.0, 0.0, 0.0) for hand in hands]
+        packet = bundle(alive, *moves, message("/tuio/2Dcur", "fseq", frame))
+        self.tracker.socket.sendto(packet, ("127.0.0.1", self.port))
+
+    def test_a_hand_reaches_the_world_and_its_recording(self):
+        recording, log = Path(self.folder.name) / "show.aqrec", Path(self.folder.name) / "console.log"
+        master = start("master", self.rig, "--pattern", "grey", "--record", recording)
+        node = start("node", "middle", "--master", control_address(self.rig), "--headless")
+        console = start("console", self.rig, log=log)
+        self.addCleanup(lambda: end([console, node, master]))
+        wait_until(lambda: "hands by TUIO at" in log.read_text(), 20, "the console listens")
+        wait_until(lambda: re.search(r"submarine +at", aquarama("status", self.rig).stdout), 60, "a world")
+        for frame in range(1, 31):
+            self.see(frame, (7, 0.5, 0.5))
+            time.sleep(0.05)
+        self.see(31)
+        time.sleep(0.5)
+        master.send_signal(signal.SIGTERM)
+        self.assertEqual(master.wait(20), 0)
+        said = aquarama("inspect", recording).stdout
+        self.assertIn("hands before the wall: 1", said)
+        check = aquarama("replay", recording, "--check")
+        self.assertEqual(check.returncode, 0, check.stdout + check.stderr)
 
 
 if __name__ == "__main__":
