@@ -49,9 +49,11 @@ using TagCorners = std::array<glm::dvec2, 4>;
 struct SkinOnSheet {
     double millimetresPerTexel = 1;
     glm::dvec2 upperLeft{};
+    // Millimetres on the sheet, of a place in texels.
     [[nodiscard]] glm::dvec2 sheetAt(glm::dvec2 texel) const {
         return upperLeft + millimetresPerTexel * glm::dvec2{texel.x, -texel.y};
     }
+    // Texels, of a place in millimetres.
     [[nodiscard]] glm::dvec2 texelAt(glm::dvec2 sheet) const {
         return glm::dvec2{sheet.x - upperLeft.x, upperLeft.y - sheet.y} / millimetresPerTexel;
     }

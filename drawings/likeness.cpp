@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "common/body/spine.h"
@@ -54,21 +55,22 @@ constexpr std::size_t kLeastContour = 120;  // pixels around
 constexpr int kInner = 5;                   // pixels from the outline that a line keeps
 
 // Parts of a line in pixels as open lines in texels: where `isShown` holds, and long enough to mean
-// something.
+// something. Short gaps are closed.
 template <class IsShown>
 void addShown(const Polyline& line, const IsShown& isShown, std::vector<Polyline>& lines) {
     constexpr std::size_t kLeast = 8;
-    Polyline run;
-    const auto keep = [&] {
+    constexpr float kGap = 24;  // pixels
+    std::vector<Polyline> runs;
+    bool isOpen = false;
+    for (const glm::vec2 at : line) {
+        const bool goesOn =
+            isOpen || (!runs.empty() && glm::distance(runs.back().back(), at) < kGap);
+        isOpen = isShown(at);
+        if (isOpen && !goesOn) runs.emplace_back();
+        if (isOpen) runs.back().push_back(at);
+    }
+    for (Polyline& run : runs)
         if (run.size() >= kLeast) lines.push_back(inTexels(std::move(run)));
-        run.clear();
-    };
-    for (const glm::vec2 at : line)
-        if (isShown(at))
-            run.push_back(at);
-        else
-            keep();
-    keep();
 }
 
 template <class IsShown>
@@ -100,6 +102,29 @@ void addSeams(const Parts& parts, Likeness& likeness) {
             addShownContours(found->second, isInner, likeness.lines);
 }
 
+// A share of the way along a line, whose points count equally.
+glm::vec2 along(const std::vector<glm::vec2>& line, float share) {
+    const float at = share * static_cast<float>(line.size() - 1);
+    const auto low = std::min(static_cast<std::size_t>(at), line.size() - 2);
+    return glm::mix(line[low], line[low + 1], at - static_cast<float>(low));
+}
+
+// The middle halves of a few rays of the fins along back and belly and of the tail.
+void addRays(const config::Fins& fins, Likeness& likeness) {
+    const auto add = [&](const config::Fin& fin, int count) {
+        for (int i = 1; i <= count; ++i) {
+            const float share = static_cast<float>(i) / static_cast<float>(count + 1);
+            const glm::vec2 base = along(fin.base, share), edge = along(fin.edge, share);
+            likeness.lines.push_back({texelOf(likeness.view, glm::mix(base, edge, 0.25F)),
+                                      texelOf(likeness.view, glm::mix(base, edge, 0.75F))});
+        }
+    };
+    add(fins.caudal, 5);
+    add(fins.anal, 4);
+    add(fins.firstDorsal, fins.secondDorsal ? 4 : 8);
+    if (fins.secondDorsal) add(*fins.secondDorsal, 4);
+}
+
 // The gape, and the hind edge of the gill cover: a bow between three quarters of the back and of
 // the belly.
 void addFace(const body::FishBody& body, const Parts& parts, Likeness& likeness) {
@@ -126,13 +151,15 @@ void addFace(const body::FishBody& body, const Parts& parts, Likeness& likeness)
 
 }  // namespace
 
-Likeness likenessOf(const body::FishBody& body) {
+Likeness likenessOf(const config::Species& species) {
+    const body::FishBody body = body::makeBody(species);
     Likeness likeness{.view = body::sideViewOf(body), .outline = {}, .lines = {}};
     const Parts parts = partsOf(body, likeness.view);
     for (const auto& [part, raster] : parts) likeness.shape.add(raster);
     for (Polyline& line : contoursOf(likeness.shape, kLeastContour))
         likeness.outline.push_back(inTexels(std::move(line)));
     addSeams(parts, likeness);
+    addRays(species.fins, likeness);
     addFace(body, parts, likeness);
     return likeness;
 }

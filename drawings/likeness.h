@@ -6,8 +6,8 @@
 
 #include <glm/vec2.hpp>
 
-#include "common/body/fish_body.h"
 #include "common/body/side_view.h"
+#include "common/config/species.h"
 #include "drawings/raster.h"
 
 namespace aquarama::drawings {
@@ -27,7 +27,7 @@ struct Likeness {
 
 // Of the limit surface at its finest level. Takes a tenth of a second. Throws Error where
 // OpenSubdiv refuses the cage.
-[[nodiscard]] Likeness likenessOf(const body::FishBody& body);
+[[nodiscard]] Likeness likenessOf(const config::Species& species);
 
 // The share of a texel that the shape covers, 0 to 1.
 [[nodiscard]] float coverage(const Likeness& likeness, glm::ivec2 texel);

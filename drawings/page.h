@@ -28,7 +28,9 @@ class Page {
     Page(const Page&) = delete;
     Page& operator=(const Page&) = delete;
 
+    // Through all points.
     void line(const std::vector<glm::dvec2>& points, const Pen& pen);
+    // Only its line.
     void circle(glm::dvec2 centre, double radius, const Pen& pen);
     // A black square, by its upper left corner.
     void square(glm::dvec2 upperLeft, double side);

@@ -30,6 +30,7 @@ inline constexpr std::int64_t kMostPhotoPixels = 50'000'000;
 class PhotoLight {
   public:
     explicit PhotoLight(const Photo& photo);
+    // Red, green, blue at a place in pixels.
     [[nodiscard]] glm::vec3 at(glm::dvec2 pixel) const;
 
   private:

@@ -31,6 +31,7 @@ enum class RefusalReason : std::uint8_t {
 class Refusal : public Error {
   public:
     explicit Refusal(RefusalReason reason) : Error(lineOf(reason)), reason_{reason} {}
+    // One of those that have a line.
     [[nodiscard]] RefusalReason reason() const { return reason_; }
 
   private:

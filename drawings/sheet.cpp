@@ -46,7 +46,7 @@ void drawLikeness(Page& page, const Sheet& sheet) {
 }  // namespace
 
 Sheet makeSheet(const config::Species& species, int number) {
-    Sheet sheet{species.name, number, likenessOf(body::makeBody(species)), {}};
+    Sheet sheet{species.name, number, likenessOf(species), {}};
     sheet.place = placeOf(sheet.likeness);
     return sheet;
 }

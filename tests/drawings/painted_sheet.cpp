@@ -59,6 +59,10 @@ float waxAt(glm::dvec2 sheet, std::uint32_t region, std::uint32_t seed) {
 
 // Whether a hand that wanders up to 2.5 mm takes the place for the fish.
 bool isColoured(const drawings::Sheet& sheet, glm::dvec2 at, std::uint32_t seed) {
+    constexpr double kNear = 20;  // texels
+    const glm::dvec2 texel = sheet.place.texelAt(at);
+    if (texel != glm::clamp(texel, glm::dvec2(-kNear), glm::dvec2(body::kSideTexels) + kNear))
+        return false;
     const glm::dvec2 wander{smoothNoise(at / 12.0, seed + 8), smoothNoise(at / 12.0, seed + 9)};
     const glm::ivec2 pixel(static_cast<double>(drawings::kPixelsPerTexel) *
                            sheet.place.texelAt(at + 5.0 * (wander - 0.5)));
