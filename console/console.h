@@ -12,6 +12,7 @@
 #include "common/ask/request_client.h"
 #include "common/config/rig.h"
 #include "common/machine/service_notifier.h"
+#include "common/web/server.h"
 #include "console/access.h"
 #include "console/alerts.h"
 #include "console/certificate.h"
@@ -24,7 +25,6 @@
 #include "console/show_link.h"
 #include "console/state.h"
 #include "console/visitors.h"
-#include "common/web/server.h"
 
 namespace aquarama::console {
 

@@ -148,9 +148,9 @@ struct Timing {
 // Of a file that a rig names; never null. Copies of a rig share it: it may be large.
 using FileContent = std::shared_ptr<const std::vector<std::byte>>;
 
-// A whole rig: its wall, its channels, its network, and the files that it names.
 // Visitors who take part by phone, and where their sign is drawn.
 struct Guests {
+    // Of the channel's picture.
     enum class Corner : std::uint8_t { LowerLeft, LowerRight, UpperLeft, UpperRight };
     std::string host;  // address of this machine that phones reach
     std::uint16_t port = 0;
@@ -159,6 +159,7 @@ struct Guests {
     double height = 0.16;  // share of the channel's picture
 };
 
+// A whole rig: its wall, its channels, its network, and the files that it names.
 struct Rig {
     std::string text;  // of the file, as it was read: the nodes are sent it
     std::string name;

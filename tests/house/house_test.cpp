@@ -43,8 +43,14 @@ std::vector<SourceFile> sourceFilesOf(const std::vector<std::string>& tops) {
 
 // The product's, read once.
 const std::vector<SourceFile>& sourceFiles() {
-    static const std::vector<SourceFile> all = sourceFilesOf(
-        {"common", "capture", "master", "commands", "render_node", "calibration", "console"});
+    static const std::vector<SourceFile> all = sourceFilesOf({"common",
+                                                              "capture",
+                                                              "master",
+                                                              "commands",
+                                                              "render_node",
+                                                              "calibration",
+                                                              "console",
+                                                              "guests"});
     return all;
 }
 
@@ -225,7 +231,9 @@ TEST(House, generatedMessagesStayWithWhoSpeaks) {
                                           "calibration/scan/shown_patterns.cpp",
                                           "console/commands.cpp",
                                           "console/console.",
-                                          "console/show_link."};
+                                          "console/show_link.",
+                                          "guests/main.cpp",
+                                          "guests/wall_link."};
     EXPECT_EQ(strangers(std::regex("^common/ask/request_client\\.h$"), askers),
               std::vector<std::string>{});
     EXPECT_EQ(
@@ -257,6 +265,10 @@ TEST(House, jpegStaysInThePreview) {
               std::vector<std::string>{});
 }
 
+TEST(House, qrencodeStaysInTheSign) {
+    EXPECT_EQ(strangers(std::regex("^qrencode"), {"guests/sign.cpp"}), std::vector<std::string>{});
+}
+
 TEST(House, openGlStaysInTheRenderNode) {
     const std::regex library("^(epoxy|GL|EGL|GLFW)/");
     EXPECT_EQ(strangers(library, {"render_node/"}), std::vector<std::string>{});
@@ -274,6 +286,7 @@ TEST(House, aPartIncludesNoOtherPart) {
         {"render_node/", {"render_node/"}},
         {"calibration/", {"calibration/"}},
         {"console/", {"console/"}},
+        {"guests/", {"guests/"}},
     };
     for (const auto& [folder, includers] : mayBeIncludedBy)
         EXPECT_EQ(strangers(std::regex("^" + folder), includers), std::vector<std::string>{})
@@ -308,7 +321,8 @@ TEST(House, commonIsLayered) {
                                                                "commands/",
                                                                "render_node/",
                                                                "calibration/",
-                                                               "console/"}))
+                                                               "console/",
+                                                               "guests/"}))
             continue;
         const std::string folder = inclusion.file.substr(0, inclusion.file.find('/', 7) + 1);
         ASSERT_TRUE(mayInclude.contains(folder)) << folder << " is not in docs/architecture.md";
