@@ -33,7 +33,8 @@ class Turn(unittest.TestCase):
             answer = connection.getresponse()
             self.assertIn("<title>Aquarama</title>", answer.read().decode())
             self.assertIn("script-src 'self'", answer.headers["Content-Security-Policy"])
-        first, second = Phone(hall, enter=self.scanned), Phone(hall)
+        connection.close()
+        first, second = self.phone(enter=self.scanned), self.phone()
         first.state("steering")
         second.say({"enter": self.scanned.lower()})
         self.assertLessEqual(second.state("waiting")["wait_s"], 61)
@@ -63,14 +64,14 @@ class Turn(unittest.TestCase):
         print(f"a helm whose phone is silent rests after {time.monotonic() - silent:.2f} s at most")
 
         first.say({"feed": True})
-        self.assertEqual(first.state("guest")["feed_s"], 20)
+        first.hear_until(lambda message: message.get("feed_s") == 20, 5)
 
         # Killed: its visitors keep their places.
         session = second.session
         os.kill(hall.guests_process(), signal.SIGKILL)
         wait_until(lambda: hall.said().count("visitors at") == 2, 20, "its restart")
         wait_until(lambda: self.is_served(), 10, "the door")
-        again = Phone(hall, resume=session)
+        again = self.phone(resume=session)
         again.state("steering")
 
         aquarama("set", hall.rig, "guests", "off")
@@ -79,6 +80,11 @@ class Turn(unittest.TestCase):
         aquarama("set", hall.rig, "guests", "on")
         again.state("steering")
         wait_until(hall.token, 5, "the code on the wall")
+
+    def phone(self, **first):
+        phone = Phone(self.hall, **first)
+        self.addCleanup(phone.close)
+        return phone
 
     def is_served(self):
         try:

@@ -164,8 +164,7 @@ class Units(unittest.TestCase):
         self.assertEqual(sorted(units),
                          ["aquarama-console.service", "aquarama-guests.service", "aquarama-master.service",
                           "aquarama-node@left.service", "aquarama-power.path", "aquarama-power.service",
-                          "aquarama-x@left.service",
-                          "aquarama.target"])
+                          "aquarama-x@left.service", "aquarama.target"])
         self.assertEqual(self.verified(*units), "")
 
     def test_a_key_in_the_wrong_section_is_found(self):
