@@ -3,7 +3,8 @@
 # that serves it never differ.
 file(GLOB_RECURSE files RELATIVE ${FOLDER} ${FOLDER}/*)
 list(SORT files)
-set(source "#include \"common/web/pages.h\"\n\n#include <array>\n\nnamespace aquarama::${NAMESPACE} {\n\nnamespace {\n\n")
+set(source "#include \"common/web/pages.h\"\n\n#include <array>\n\n")
+string(APPEND source "namespace aquarama::${NAMESPACE} {\n\nnamespace {\n\n")
 string(APPEND source "constexpr std::array kPages{\n")
 foreach(file IN LISTS files)
   file(READ ${FOLDER}/${file} text)

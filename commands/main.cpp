@@ -21,7 +21,8 @@ struct Group {
 // In the order of the help.
 const std::array kGroups{
     Group{"A show on this machine", {addRun, addReplay}},
-    Group{"While a show runs", {addConsole, addGuests, addDoctor, addStatus, addSet, addPilot, addExplain}},
+    Group{"While a show runs",
+          {addConsole, addGuests, addDoctor, addStatus, addSet, addPilot, addExplain}},
     Group{"A show on several machines, one process each", {addMaster, addNode, addKeyCommands}},
     Group{"Files",
           {addNewRig,

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "console/access.h"
 #include "common/web/pages.h"
+#include "console/access.h"
 
 namespace aquarama::console {
 

@@ -20,12 +20,12 @@
 #include "common/config/keys.h"
 #include "common/config/rig.h"
 #include "common/machine/service_notifier.h"
+#include "common/web/server.h"
 #include "console/access.h"
 #include "console/certificate.h"
 #include "console/console.h"
 #include "console/files_of_show.h"
 #include "console/gate.h"
-#include "common/web/server.h"
 
 namespace {
 

@@ -8,12 +8,12 @@
 #include <set>
 #include <string>
 
+#include "common/web/server.h"
 #include "common/wire/messages.h"
 #include "console/access.h"
 #include "console/console.pb.h"
 #include "console/picture_hub.h"
 #include "console/state.h"
-#include "common/web/server.h"
 
 namespace aquarama::console {
 

@@ -58,6 +58,8 @@ declare -A way=(
     [console_schedule.png]=console
     [console_phone.png]=console
     [console_mind.png]=console
+    [guests_waiting.png]=guests
+    [guests_steering.png]=guests
     [televisions_plan.svg]=televisions
     [televisions_grid.webp]=televisions
     [televisions_reef.webp]=televisions
@@ -288,17 +290,22 @@ for when in ("before", "after"):
 PYTHON
 }
 
-# The libraries and programs, as CMake knows them.
 # The pages of the console, by chromium, as their test goes through them.
 console() {
     cmake --build --preset show-tests --target aquarama-console
     AQUARAMA_BIN=$PWD/$bin AQUARAMA_SHOTS=$drawn /usr/bin/python3 tests/console/pages_test.py
+}
+# The page of visitors, by chromium, as its test goes through it.
+guests() {
+    cmake --build --preset show-tests --target aquarama-console aquarama-guests
+    AQUARAMA_BIN=$PWD/$bin AQUARAMA_SHOTS=$drawn /usr/bin/python3 tests/guests/page_test.py
 }
 # The steps of the guide, as their test goes through them, on three monitors of an X server of its own.
 televisions() {
     AQUARAMA_BIN=$PWD/$bin AQUARAMA_SHOTS=$drawn /usr/bin/python3 tests/end_to_end/monitors_test.py ThreeTelevisions
     /usr/bin/python3 docs/draw_televisions.py "$drawn"
 }
+# The libraries and programs, as CMake knows them.
 modules() {
     cmake --preset show-tests --graphviz="$drawn/cmake.dot" >/dev/null
     docs/draw_modules.py "$drawn/cmake.dot" "$drawn/modules.svg"

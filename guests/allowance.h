@@ -6,6 +6,7 @@
 
 namespace aquarama::guests {
 
+// A bound for one kind of thing. Times are seconds of the caller's clock.
 class Allowance {
   public:
     // `most` at once, and `rate` a second.

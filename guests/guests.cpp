@@ -21,19 +21,20 @@ using nlohmann::json;
 using web::HttpReply;
 using web::HttpRequest;
 
-constexpr std::size_t kMostBytes = 256;     // of what a phone says
-constexpr int kMostWrong = 5;               // guesses of one phone
-constexpr double kBetweenPellets = 20;      // of one phone, seconds
-constexpr double kHelmHolds = 0.35;         // seconds after a phone was last heard
-constexpr int kCountdown = 5;               // last seconds of a turn that the wall counts
-constexpr std::uint64_t kTicksATell = 5;    // 10 ticks a second
+constexpr std::size_t kMostBytes = 256;   // of what a phone says
+constexpr int kMostWrong = 5;             // guesses of one phone
+constexpr double kBetweenPellets = 20;    // of one phone, seconds
+constexpr double kHelmHolds = 0.35;       // seconds after a phone was last heard
+constexpr int kCountdown = 5;             // last seconds of a turn that the wall counts
+constexpr std::uint64_t kTicksATell = 5;  // 10 ticks a second
 constexpr std::uint64_t kTicksAKeep = 10;
 constexpr std::size_t kDigits = 3;
 
 // The loopback's names are ours as well. Browsers leave port 80 out.
 std::vector<std::string> hostsOf(const config::Guests& place) {
     std::vector<std::string> hosts;
-    for (const std::string& name : {place.host, std::string("127.0.0.1"), std::string("localhost")}) {
+    for (const std::string& name :
+         {place.host, std::string("127.0.0.1"), std::string("localhost")}) {
         hosts.push_back(name + ":" + std::to_string(place.port));
         if (place.port == 80) hosts.push_back(name);
     }
@@ -80,9 +81,7 @@ void Phone::hear(const std::string& text) {
     service_.hear(*this, text);
 }
 
-GuestService::GuestService(GuestsOptions options,
-                           VisitedWall& wall,
-                           std::function<double()> clock)
+GuestService::GuestService(GuestsOptions options, VisitedWall& wall, std::function<double()> clock)
     : options_{std::move(options)},
       port_{wall},
       clock_{std::move(clock)},

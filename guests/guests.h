@@ -32,6 +32,7 @@ namespace aquarama::guests {
 inline constexpr std::uint16_t kClosedElsewhere = 4001;  // the visitor has another page open
 inline constexpr std::uint16_t kClosedTooMuch = 4002;    // it said too much, or guessed too often
 
+// What a service is made of.
 struct GuestsOptions {
     config::Guests place;
     DoorTokens::Key key;
@@ -49,9 +50,9 @@ class Phone final : public web::Service::Connection {
     void hear(const std::string& text) override;
 
     web::Outbox& outbox;
-    GuestId guest = {};               // empty: not let in yet
-    Allowance messages{80, 40};       // what it may say
-    int wrong = 0;                    // digits that it guessed
+    GuestId guest = {};          // empty: not let in yet
+    Allowance messages{80, 40};  // what it may say
+    int wrong = 0;               // digits that it guessed
 
   private:
     GuestService& service_;
@@ -108,9 +109,9 @@ class GuestService final : public web::Service {
     std::set<Phone*> phones_;
     Steering helm_;
     double helmHeard_ = 0;
-    std::string signText_;                // what the sign was made of
-    Allowance entries_{40, 20};           // joins of all phones
-    Allowance guesses_{10, 0.5};          // digits of all phones
+    std::string signText_;        // what the sign was made of
+    Allowance entries_{40, 20};   // joins of all phones
+    Allowance guesses_{10, 0.5};  // digits of all phones
     Allowance pellets_{2, 2};
     std::minstd_rand random_{std::random_device{}()};
 };

@@ -28,6 +28,7 @@ struct Seat {
     std::optional<double> awaySince;  // nothing: present
 };
 
+// All seats in their order, and who of them steers.
 class VisitorQueue {
   public:
     static constexpr std::size_t kMostSeats = 12;  // with the pilot's

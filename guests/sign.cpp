@@ -51,15 +51,15 @@ class Dots {
                     set(column + x, row + y, isLit);
     }
     void darken(std::size_t firstRow) {
-        std::fill(lit_.begin() + static_cast<std::ptrdiff_t>(firstRow * columns_), lit_.end(), false);
+        std::fill(
+            lit_.begin() + static_cast<std::ptrdiff_t>(firstRow * columns_), lit_.end(), false);
     }
     [[nodiscard]] wire::Sign sign() const {
         wire::Sign sign{.columns = static_cast<std::uint32_t>(columns_),
                         .rows = static_cast<std::uint32_t>(rows_),
                         .dots = std::string((lit_.size() + 7) / 8, '\0')};
         for (std::size_t i = 0; i < lit_.size(); ++i)
-            if (lit_[i])
-                sign.dots[i / 8] = static_cast<char>(sign.dots[i / 8] | 0x80 >> (i % 8));
+            if (lit_[i]) sign.dots[i / 8] = static_cast<char>(sign.dots[i / 8] | 0x80 >> (i % 8));
         return sign;
     }
 
@@ -77,7 +77,8 @@ wire::Sign signOf(const std::string& address, const std::string& characters, boo
     const std::size_t textRow = columns + kMargin;
     const std::size_t rows = textRow + kGlyphRows * kScale + kMargin;
     if (rows > kMostDots)
-        throw Error("the address " + address + " is too long for a sign; give phones a shorter one");
+        throw Error("the address " + address +
+                    " is too long for a sign; give phones a shorter one");
     Dots dots(columns, rows);
     for (std::size_t y = 0; y < modules; ++y)
         for (std::size_t x = 0; x < modules; ++x)

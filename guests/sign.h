@@ -9,8 +9,8 @@
 namespace aquarama::guests {
 
 // A QR code of the address, on lit ground with its quiet zone, and the characters below it. Without
-// an address of capitals, digits and $%*+-./: the code has more modules. Throws Error where it would
-// be larger than a sign may be. `isInverted`: the characters are lit, on dark ground.
+// an address of capitals, digits and $%*+-./: the code has more modules. Throws Error where it
+// would be larger than a sign may be. `isInverted`: the characters are lit, on dark ground.
 [[nodiscard]] wire::Sign signOf(const std::string& address,
                                 const std::string& characters,
                                 bool isInverted);

@@ -10,9 +10,11 @@
 
 namespace aquarama::guests {
 
+// The words and digits of one key.
 class DoorTokens {
   public:
     static constexpr double kEpochSeconds = 120;
+    // Of the HMAC.
     using Key = std::array<unsigned char, 32>;
 
     explicit DoorTokens(const Key& key) : key_{key} {}

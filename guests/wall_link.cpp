@@ -12,7 +12,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr auto kBetweenHands = milliseconds(34);  // between two turns of the thread, at least,
+constexpr auto kBetweenHands = milliseconds(34);   // between two turns of the thread, at least,
 constexpr auto kBetweenLooks = milliseconds(100);  // and at most
 constexpr net::Duration kBetweenSigns = milliseconds(1000);
 constexpr std::size_t kMostFood = 16;  // that waits for the thread

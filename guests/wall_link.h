@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way of visitors to the master of a show: what the wall says of itself, and what they do to it.
+// The way of visitors to the master of a show: what the wall says of itself, and what they do to
+// it.
 #pragma once
 
 #include <condition_variable>

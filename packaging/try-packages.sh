@@ -20,8 +20,8 @@ source packaging/bare_systems.sh
 
 version_before=0.2.0  # the same files under a lower version
 most_exposed=2.5  # by systemd-analyze security, of 10
-packages=(aquarama aquarama-master aquarama-node aquarama-calibrate aquarama-console aquarama-drawings aquarama-kiosk
-    aquarama-doc)
+packages=(aquarama aquarama-master aquarama-node aquarama-calibrate aquarama-console aquarama-drawings aquarama-guests
+    aquarama-kiosk aquarama-doc)
 
 say() { printf '%s: %s\n' "$release" "$1"; }
 
@@ -30,7 +30,7 @@ build() {
     local root=$work/$release-build debs=build/debs/$release start=$SECONDS
     make_system "$release" "$root"
     clone_into "$root"
-    local lists=(packaging/packages/{run,calibrate,console,drawings,debs}.txt)
+    local lists=(packaging/packages/{run,calibrate,console,drawings,guests,debs}.txt)
     logged "packages cannot be installed" "$root" "packaging/install-packages.sh ${lists[*]}"
     local installed=$SECONDS
     logged "build-debs failed" "$root" "packaging/build-debs /debs/now"
@@ -121,7 +121,8 @@ try_desk() {
     version=$(in_system "$root" 'aquarama --version' | head -n 2 | tr -s '\n ' ' ')
     say "the desk's panorama is drawn by the installed programs: $version"
     logged "a manual page cannot be read" "$root" \
-        'for page in aquarama aquarama-calibrate aquarama-compose aquarama-console aquarama-drawings aquarama-hall \
+        'for page in aquarama aquarama-calibrate aquarama-compose aquarama-console aquarama-drawings aquarama-guests \
+             aquarama-hall \
              aquarama-node aquarama-outputs; do
              test -s /usr/share/man/man1/$page.1.gz || exit 1
          done'

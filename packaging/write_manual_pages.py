@@ -15,11 +15,12 @@ SUMMARIES = {  # what --help does not say in a line
     "aquarama-compose": "check a rig, compose what its projectors show",
     "aquarama-console": "the operator's console of a show, for browsers",
     "aquarama-drawings": "print sheets to colour, read photographs of them",
+    "aquarama-guests": "let visitors with phones take part in a show",
     "aquarama-hall": "run a command of aquarama as the services of a hall do",
     "aquarama-outputs": "pin a machine's outputs, so that a projector that is off changes none",
     "aquarama-node": "show one channel of a wall, in step with all others",
 }
-ELSEWHERE = {"node": "aquarama-node", "console": "aquarama-console",
+ELSEWHERE = {"node": "aquarama-node", "console": "aquarama-console", "guests": "aquarama-guests",
              "calibrate": "aquarama-calibrate", "sheets": "aquarama-drawings"}  # commands with a page
 FORMER = {"aquarama-solve"}  # names of the release before, whose page is that of the new name
 COLUMN = 30  # where --help begins to say what an option does

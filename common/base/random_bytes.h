@@ -11,6 +11,7 @@ namespace aquarama {
 // Throws Error where the system has no random numbers.
 void fillRandom(std::span<unsigned char> bytes);
 
+// So many of them. Throws as fillRandom().
 template <std::size_t count>
 [[nodiscard]] std::array<unsigned char, count> randomBytes() {
     std::array<unsigned char, count> bytes{};

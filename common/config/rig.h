@@ -157,6 +157,7 @@ using FileContent = std::shared_ptr<const std::vector<std::byte>>;
 
 // Visitors who take part by phone, and where their sign is drawn.
 struct Guests {
+    // Of the channel's picture.
     enum class Corner : std::uint8_t { LowerLeft, LowerRight, UpperLeft, UpperRight };
     std::string host;  // address of this machine that phones reach
     std::uint16_t port = 0;

@@ -66,7 +66,8 @@ http::response<http::string_body> responseOf(const BeastRequest& in, HttpReply r
 
 // All but `io` and the atomic counter belongs to the thread that calls run().
 struct WebServer::Impl {
-    Impl(const ServerOptions& options, Service& service) : shared{io, service}, acceptor{io}, mostConnections{options.mostConnections} {
+    Impl(const ServerOptions& options, Service& service)
+        : shared{io, service}, acceptor{io}, mostConnections{options.mostConnections} {
         try {
             listenAt(options);
         } catch (const boost::system::system_error& problem) {

@@ -1,4 +1,4 @@
-// The page of a visitor: what the server says of him is in body.dataset.you, and the style sheet shows what belongs to it.
+// The page of a visitor: what the server says of him is in body.dataset.you; the style sheet shows what belongs to it.
 
 import {helm} from "./helm.js";
 import {Link} from "./link.js";

@@ -27,7 +27,8 @@ function stick(field, moved) {
 function lever(button, moved) {
   const set = held => { button.classList.toggle("held", held); moved(held); };
   button.addEventListener("pointerdown", event => { button.setPointerCapture(event.pointerId); set(true); });
-  for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) button.addEventListener(end, () => set(false));
+  for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
+    button.addEventListener(end, () => set(false));
   return () => set(false);
 }
 
@@ -35,8 +36,10 @@ function lever(button, moved) {
 export function helm(say, isPilot) {
   const hand = {way: [0, 0], look: [0, 0], rise: false, sink: false};
   const element = id => document.getElementById(id);
-  const rests = [stick(element("way"), place => { hand.way = place; }), stick(element("look"), place => { hand.look = place; }),
-    lever(element("rise"), held => { hand.rise = held; }), lever(element("sink"), held => { hand.sink = held; })];
+  const rests = [
+    stick(element("way"), place => { hand.way = place; }), stick(element("look"), place => { hand.look = place; }),
+    lever(element("rise"), held => { hand.rise = held; }), lever(element("sink"), held => { hand.sink = held; }),
+  ];
   let said = "0,0,0,0,0", saidAt = 0;
   setInterval(() => {
     if (!isPilot()) return;

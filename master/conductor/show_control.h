@@ -55,6 +55,7 @@ class SignHold {
   public:
     static constexpr net::Duration kPatience = std::chrono::seconds(5);
 
+    // Without a sign it goes at once.
     void hold(const v1::HeldSign& sign, net::Moment now);
     // Takes it down where its holder was silent for too long.
     void expire(net::Moment now);

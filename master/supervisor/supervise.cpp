@@ -387,8 +387,8 @@ void sayWhatWasMade(const RunOptions& options, const config::Rig& rig) {
     std::cout << '\n';
 }
 
-// The clip, which waits for frames, the master, the nodes, and what serves browsers, in the order of
-// their start.
+// The clip, which waits for frames, the master, the nodes, and what serves browsers, in the order
+// of their start.
 std::vector<Process> processesOf(const RunOptions& options,
                                  const config::Rig& rig,
                                  const std::optional<ClipPipes>& pipes) {

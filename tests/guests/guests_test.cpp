@@ -42,11 +42,10 @@ struct RecordedOutbox final : web::Outbox {
 // A phone with its connection.
 struct Caller {
     explicit Caller(GuestService& service, const std::string& first = "") {
-        connection = service.open({.target = "/g",
-                                   .host = "10.0.0.1:7490",
-                                   .origin = "http://10.0.0.1:7490"},
-                                  outbox,
-                                  refusal);
+        connection = service.open(
+            {.target = "/g", .host = "10.0.0.1:7490", .origin = "http://10.0.0.1:7490"},
+            outbox,
+            refusal);
         if (!first.empty()) say(first);
     }
     Caller(const Caller&) = delete;
@@ -244,20 +243,21 @@ TEST_F(GuestServiceTest, turnsWaitWhileTheWallIsClosed) {
 }
 
 TEST_F(GuestServiceTest, refusesOtherNamesOriginsAndFloods) {
-    EXPECT_EQ(service->answer({.method = "GET", .target = "/", .host = "evil.example"}).status, 421);
+    EXPECT_EQ(service->answer({.method = "GET", .target = "/", .host = "evil.example"}).status,
+              421);
     EXPECT_EQ(service->answer({.method = "POST", .target = "/", .host = "10.0.0.1:7490"}).status,
               405);
     for (const char* const page : {"/", "/P/7Q2K4M9XHT", "/p/7q2k4m9xht"}) {
-        const auto reply = service->answer({.method = "GET", .target = page, .host = "10.0.0.1:7490"});
+        const auto reply =
+            service->answer({.method = "GET", .target = page, .host = "10.0.0.1:7490"});
         EXPECT_EQ(reply.status, 200) << page;
         EXPECT_TRUE(reply.type.starts_with("text/html")) << page;
     }
     RecordedOutbox outbox;
     web::HttpReply refusal;
     for (const char* const origin : {"http://evil.example", "", "null", "https://10.0.0.1:7490"}) {
-        EXPECT_EQ(service->open({.target = "/g", .host = "10.0.0.1:7490", .origin = origin},
-                                outbox,
-                                refusal),
+        EXPECT_EQ(service->open(
+                      {.target = "/g", .host = "10.0.0.1:7490", .origin = origin}, outbox, refusal),
                   nullptr);
         EXPECT_EQ(refusal.status, 403) << origin;
     }

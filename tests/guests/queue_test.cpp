@@ -119,10 +119,16 @@ class History {
             case 1:
                 if (queue_.join(guest)) joined_[guest] = ++count_;
                 break;
-            case 2: queue_.lost(guest, now_); break;
+            case 2:
+                queue_.lost(guest, now_);
+                break;
             case 3:
-            case 4: queue_.back(guest); break;
-            default: queue_.leave(guest, now_); break;
+            case 4:
+                queue_.back(guest);
+                break;
+            default:
+                queue_.leave(guest, now_);
+                break;
         }
     }
 

@@ -35,9 +35,11 @@ std::string readBack(const wire::Sign& sign) {
             picture << (isLit(sign, x / kPixels, y / kPixels) ? 255 : 0) << '\n';
     picture.close();
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> reader(
-        popen(("zbarimg --nodbus --quiet --raw -Sdisable -Sqrcode.enable " + path).c_str(), "r"), &pclose);
+        popen(("zbarimg --nodbus --quiet --raw -Sdisable -Sqrcode.enable " + path).c_str(), "r"),
+        &pclose);
     std::string text;
-    for (int c = 0; (c = std::fgetc(reader.get())) != EOF && c != '\n';) text += static_cast<char>(c);
+    for (int c = 0; (c = std::fgetc(reader.get())) != EOF && c != '\n';)
+        text += static_cast<char>(c);
     return text;
 }
 

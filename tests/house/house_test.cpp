@@ -50,7 +50,8 @@ const std::vector<SourceFile>& sourceFiles() {
                                                               "render_node",
                                                               "calibration",
                                                               "console",
-                                                              "drawings"});
+                                                              "drawings",
+                                                              "guests"});
     return all;
 }
 
@@ -232,7 +233,9 @@ TEST(House, generatedMessagesStayWithWhoSpeaks) {
                                           "calibration/scan/shown_patterns.cpp",
                                           "console/commands.cpp",
                                           "console/console.",
-                                          "console/show_link."};
+                                          "console/show_link.",
+                                          "guests/main.cpp",
+                                          "guests/wall_link."};
     EXPECT_EQ(strangers(std::regex("^common/ask/request_client\\.h$"), askers),
               std::vector<std::string>{});
     EXPECT_EQ(
@@ -275,6 +278,10 @@ TEST(House, cairoAndAprilTagStayInDrawings) {
               std::vector<std::string>{});
 }
 
+TEST(House, qrencodeStaysInTheSign) {
+    EXPECT_EQ(strangers(std::regex("^qrencode"), {"guests/sign.cpp"}), std::vector<std::string>{});
+}
+
 TEST(House, openGlStaysInTheRenderNode) {
     const std::regex library("^(epoxy|GL|EGL|GLFW)/");
     EXPECT_EQ(strangers(library, {"render_node/"}), std::vector<std::string>{});
@@ -293,6 +300,7 @@ TEST(House, aPartIncludesNoOtherPart) {
         {"calibration/", {"calibration/"}},
         {"console/", {"console/"}},
         {"drawings/", {"drawings/"}},
+        {"guests/", {"guests/"}},
     };
     for (const auto& [folder, includers] : mayBeIncludedBy)
         EXPECT_EQ(strangers(std::regex("^" + folder), includers), std::vector<std::string>{})
@@ -330,7 +338,8 @@ TEST(House, commonIsLayered) {
                                                                "render_node/",
                                                                "calibration/",
                                                                "console/",
-                                                               "drawings/"}))
+                                                               "drawings/",
+                                                               "guests/"}))
             continue;
         const std::string folder = inclusion.file.substr(0, inclusion.file.find('/', 7) + 1);
         ASSERT_TRUE(mayInclude.contains(folder)) << folder << " is not in docs/architecture.md";

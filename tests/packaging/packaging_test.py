@@ -67,7 +67,8 @@ class Installed(unittest.TestCase):
 
     def test_programs_run_from_where_they_are_installed(self):
         self.assertEqual([program.name for program in self.programs],
-                         ["aquarama", "aquarama-calibrate", "aquarama-compose", "aquarama-console", "aquarama-node"])
+                         ["aquarama", "aquarama-calibrate", "aquarama-compose", "aquarama-console", "aquarama-guests",
+                          "aquarama-node"])
         for program in self.programs:
             said = called(program, "--version", cwd="/", env=self.alone)
             self.assertEqual((said.returncode, said.stdout.split("\n")[0].split()[-1]), (0, VERSION),
@@ -161,9 +162,9 @@ class Units(unittest.TestCase):
     def test_systemd_finds_nothing(self):
         units = [name.replace("@", "@left") for name in self.units]
         self.assertEqual(sorted(units),
-                         ["aquarama-console.service", "aquarama-master.service", "aquarama-node@left.service",
-                                         "aquarama-power.path", "aquarama-power.service", "aquarama-x@left.service",
-                          "aquarama.target"])
+                         ["aquarama-console.service", "aquarama-guests.service", "aquarama-master.service",
+                          "aquarama-node@left.service", "aquarama-power.path", "aquarama-power.service",
+                          "aquarama-x@left.service", "aquarama.target"])
         self.assertEqual(self.verified(*units), "")
 
     def test_a_key_in_the_wrong_section_is_found(self):
@@ -270,14 +271,14 @@ class Release(unittest.TestCase):
     def test_packages_are_built_from_what_the_lists_name(self):
         control = (DEBIAN / "control").read_text()
         built_from = set(re.search(r"Build-Depends:\n(.*?)\n\n", control, re.S).group(1).replace(",", " ").split())
-        for name in ("run", "calibrate", "console", "drawings"):
+        for name in ("run", "calibrate", "console", "drawings", "guests"):
             lines = (ROOT / f"packaging/packages/{name}.txt").read_text().splitlines()
             listed = {package for line in lines if not line.startswith("#") for package in line.split()}
             self.assertEqual({package for package in listed if package.endswith("-dev")} - built_from, set(), name)
 
     def test_each_package_has_what_its_name_says(self):
         packages = set(re.findall(r"^Package: (\S+)", (DEBIAN / "control").read_text(), re.M))
-        names = ("master", "node", "calibrate", "console", "drawings", "kiosk", "doc")
+        names = ("master", "node", "calibrate", "console", "drawings", "guests", "kiosk", "doc")
         self.assertEqual(packages, {"aquarama", *(f"aquarama-{name}" for name in names)})
         for path in DEBIAN.glob("aquarama*"):
             self.assertIn(path.name.split(".")[0].rstrip("@"), packages)

@@ -1,0 +1,146 @@
+"""The page of a visitor in Debian's chromium, 390 pixels wide, before a running wall.
+
+With AQUARAMA_SHOTS=FOLDER it writes pictures of the page there, as docs/draw_pictures.sh has them.
+"""
+
+import math
+import os
+import shutil
+import signal
+import sys
+import time
+import unittest
+from pathlib import Path
+
+from hall import Hall, Phone, aquarama, wait_until
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "console"))
+
+from pages_test import AXE, browser  # noqa: E402: ends where the browser is missing
+
+if not shutil.which("zbarimg"):
+    print("SKIPPED: zbar-tools is needed to read the code on the wall (packaging/packages/guests-test.txt)")
+    sys.exit(0)
+SHOTS = os.environ.get("AQUARAMA_SHOTS")
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.hall = Hall()
+        cls.addClassCleanup(cls.hall.close)
+        wait_until(cls.hall.token, 20, "the code on the wall")
+        cls.driver = browser(390, 844)
+        cls.addClassCleanup(cls.driver.quit)
+
+    def you(self):
+        return self.js("return document.body.dataset.you")
+
+    def js(self, script, *arguments):
+        return self.driver.execute_script(script, *arguments)
+
+    def text(self):
+        return self.js("return document.body.innerText")
+
+    def click(self, selector):
+        self.js("document.querySelector(arguments[0]).click()", selector)
+
+    def becomes(self, you, seconds=5):
+        wait_until(lambda: self.you() == you, seconds, f"the page says {you}, not {self.you()}")
+
+    def shot(self, name):
+        if SHOTS:
+            self.driver.save_screenshot(f"{SHOTS}/guests_{name}.png")
+
+    def looks_right(self, name):
+        """axe finds nothing, nothing is wider than the phone, and what is touched is large enough."""
+        self.shot(name)
+        if not self.js("return 'axe' in window"):
+            self.driver.execute_cdp_cmd("Runtime.evaluate", {"expression": AXE})
+        found = self.driver.execute_async_script("axe.run().then(result => arguments[0](result.violations))")
+        self.assertEqual([(one["id"], [node["html"] for node in one["nodes"]]) for one in found], [], name)
+        self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), 390)
+        small = self.js("""return [...document.querySelectorAll('button, input')].map(one => one.getBoundingClientRect())
+            .filter(box => box.width > 0 && (box.width < 44 || box.height < 44)).length""")
+        self.assertEqual(small, 0, "targets of 44 pixels")
+
+    def touch(self, kind, *points):
+        """Points: a selector, and shares of its radius to the right and up."""
+        touched = []
+        for number, (selector, right, up) in enumerate(points):
+            box = self.js("const b = document.querySelector(arguments[0]).getBoundingClientRect();"
+                          "return [b.x + b.width / 2, b.y + b.height / 2, b.width / 2]", selector)
+            touched.append({"id": number, "x": box[0] + right * box[2], "y": box[1] - up * box[2]})
+        self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touched})
+
+    def test_a_visit(self):
+        hall = self.hall
+        first = Phone(hall, enter=hall.token())
+        first.state("steering")
+        self.driver.get(f"http://{hall.guests}/P/{hall.token()}")
+        self.becomes("waiting")
+        self.assertIn("Number 1", self.text())
+        self.assertEqual(self.js("return location.pathname"), "/", "no code is left in the history")
+        self.looks_right("waiting")
+        self.driver.refresh()
+        self.becomes("waiting")
+
+        first.say({"leave": True})
+        self.becomes("steering")
+        before, _ = hall.submarine()
+        self.touch("touchStart", ("#way", 0, 0), ("#look", 0, 0))
+        self.touch("touchMove", ("#way", 0.1, 0.9), ("#look", 0.5, 0.3))
+        time.sleep(2)
+        self.looks_right("steering")
+        after, pilot = hall.submarine()
+        self.assertNotEqual(pilot, "nobody")
+        self.assertGreater(math.dist(before, after), 0.3)
+        self.touch("touchEnd")
+        wait_until(lambda: hall.submarine()[1] == "nobody", 2, "the helm at rest")
+        self.touch("touchStart", ("#rise", 0, 0))
+        wait_until(lambda: hall.submarine()[1] != "nobody", 2, "a hand at the lever")
+        self.touch("touchEnd")
+
+        self.click("#feed")
+        wait_until(lambda: "Feed again in" in self.text(), 2, "the pause after feeding")
+        self.click("#hand-over")
+        self.becomes("guest")
+        self.looks_right("guest")
+        self.click("#join")
+        self.becomes("steering")
+        said = [entry for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
+        self.assertEqual(said, [], "errors, or violations of the policy")
+
+        # Nothing is heard for two seconds; then again.
+        os.kill(hall.guests_process(), signal.SIGSTOP)
+        try:
+            wait_until(lambda: "Connection lost" in self.text(), 3, "the page says that it is lost")
+            self.shot("lost")
+        finally:
+            os.kill(hall.guests_process(), signal.SIGCONT)
+        wait_until(lambda: "Connection lost" not in self.text(), 5, "the page is back")
+
+        aquarama("set", hall.rig, "guests", "off")
+        self.becomes("closed")
+        self.looks_right("closed")
+        aquarama("set", hall.rig, "guests", "on")
+        self.becomes("steering")
+
+        # Without the secret of the visit, and in German, in the dark.
+        self.click("#hand-over")
+        self.js("localStorage.clear()")
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
+                                    {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
+        self.driver.execute_cdp_cmd("Emulation.setUserAgentOverride",
+                                    {"userAgent": "test", "acceptLanguage": "de-DE,de"})
+        self.driver.refresh()
+        self.becomes("stranger")
+        self.assertIn("Ziffern auf der Wand", self.text())
+        self.looks_right("stranger")
+        self.js("document.querySelector('#digits').value = 'abc'; document.querySelector('form').requestSubmit()")
+        self.js("document.querySelector('#digits').pattern = '.*'; document.querySelector('form').requestSubmit()")
+        wait_until(lambda: "gilt nicht mehr" in self.text(), 3, "digits that are wrong are refused")
+
+
+if __name__ == "__main__":
+    unittest.main()
