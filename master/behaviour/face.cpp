@@ -102,8 +102,7 @@ glm::vec3 attended(const Situation& situation, const fish::Mind& mind) {
     if (target != nullptr && target->seen()) return target->offset;
     const glm::vec3 position = situation.senses.position;
     const auto& hands = situation.environment.surroundings->hands;
-    if (target == nullptr && !hands.hands.empty())
-        return nearestHand(hands, position) - position;
+    if (target == nullptr && !hands.hands.empty()) return nearestHand(hands, position) - position;
     if (target == nullptr && situation.senses.submarineMetres < kWatchesMetres)
         return situation.environment.surroundings->submarine.position - situation.senses.position;
     return {};

@@ -128,10 +128,7 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
     // The scene has one texture: all eyes but the last need a copy.
     for (Viewing& eye : eyes_)
         if (&eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, sizes_.world);
-    if (rig.guests && rig.guests->channel == rig.channels[channel].name) {
-        guests_ = rig.guests;
-        signPass_.emplace();
-    }
+    if (rig.guests && rig.guests->channel == rig.channels[channel].name) sign_.emplace(*rig.guests);
     if (admission.world)
         scene_.emplace(
             scene::SceneOptions{.place = place::placeOf(admission.scene, admission.seed),
@@ -145,23 +142,22 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
 void ChannelPicture::drawScene(const wire::StateFrame& frame,
                                const Overlays& overlays,
                                const std::optional<WatchedMind>& mind) {
-    frame_ = frame.frame;
-    brightness_ = frame.show.brightness;
+    drawn_.frame = frame.frame;
+    drawn_.brightness = frame.show.brightness;
     scan_ = frame.show.scan;
-    worldEye_.reset();
+    drawn_.worldEye.reset();
     if (scan_ && frame.show.black) scan_->lit = 0;  // black takes effect at once
     if (scan_) return;
     const bool isWorld = scene_ && frame.show.pattern == wire::Pattern::World;
     sizes_.scene = isWorld ? sizes_.world : sizes_.pattern;
-    if (isWorld) worldEye_ = frame.eye;
-    if (brightness_ == 0 && eyes_.front().sceneTexture != 0) return;
+    if (isWorld) drawn_.worldEye = frame.eye;
+    if (drawn_.brightness == 0 && eyes_.front().sceneTexture != 0) return;
     if (isWorld) drawWorld(frame);
-    if (isWorld && guests_ && frame.show.sign.columns > 0) placeSign(frame.show.sign);
+    if (sign_) sign_->place(frame.show.sign, map_, sizes_.world);
     for (Viewing& eye : eyes_) {
         if (!isWorld) drawPattern(eye, frame.show.pattern);
         glNamedFramebufferTexture(eye.onScene.name(), GL_COLOR_ATTACHMENT0, eye.sceneTexture, 0);
-        if (isWorld && signPlace_ && frame.show.sign.columns > 0)
-            signPass_->draw(eye.onScene.name(), sizes_.scene, frame.show.sign, *signPlace_);
+        if (isWorld && sign_) sign_->draw(eye.onScene.name(), sizes_.scene, frame.show.sign);
         if (overlays.warpGrid) eye.pattern.addGrid(eye.onScene.name(), sizes_.scene);
         if (overlays.fishIds) drawFishIds(eye, frame);
         if (mind) drawMind(eye, frame, *mind);
@@ -200,22 +196,6 @@ void ChannelPicture::drawWorld(const wire::StateFrame& frame) {
                            1);
         eye.sceneTexture = eye.kept->texture();
     }
-}
-
-// Found anew where its shape changes.
-void ChannelPicture::placeSign(const wire::Sign& sign) {
-    const glm::uvec2 size(sign.columns, sign.rows);
-    if (size == signSize_) return;
-    signSize_ = size;
-    signPlace_ = signPlace(map_,
-                           guests_->corner,
-                           guests_->height,
-                           static_cast<double>(size.x) / static_cast<double>(size.y),
-                           sizes_.world);
-    if (!signPlace_)
-        logWarning(
-            "the sign for visitors fits nowhere beside the neighbours' light: give a smaller "
-            "height, or another channel, in the rig's guests");
 }
 
 void ChannelPicture::drawPattern(Viewing& eye, wire::Pattern pattern) const {
@@ -290,8 +270,8 @@ std::optional<std::uint32_t> ChannelPicture::fishNearest(const wire::StateFrame&
 }
 
 std::optional<DrawnWorld> ChannelPicture::drawnWorld() {
-    if (!worldEye_) return std::nullopt;
-    return DrawnWorld{*scene_, *worldEye_, brightness_};
+    if (!drawn_.worldEye) return std::nullopt;
+    return DrawnWorld{*scene_, *drawn_.worldEye, drawn_.brightness};
 }
 
 void ChannelPicture::project(unsigned framebuffer,
@@ -301,10 +281,10 @@ void ChannelPicture::project(unsigned framebuffer,
     const gl::Stage stage{"warp"};
     if (scan_) return projectScan(framebuffer, shown);
     Projection::Draw draw{.framebuffer = framebuffer,
-                          .frame = frame_,
+                          .frame = drawn_.frame,
                           .encoding = encoding,
                           .blendMask = overlays.blendMask,
-                          .brightness = brightness_,
+                          .brightness = drawn_.brightness,
                           .codes = codes_ ? &*codes_ : nullptr};
     const auto sceneAndMap = [](const Viewing& eye) {
         return PairProjection::Eye{eye.sceneTexture, eye.projection};
@@ -320,7 +300,7 @@ void ChannelPicture::project(unsigned framebuffer,
         draw.sceneTexture = eye.sceneTexture;
         eye.projection.draw(draw);
     }
-    if (brightness_ == 0) return;
+    if (drawn_.brightness == 0) return;
     const float dot = dotPixels(sizePixels());
     if (overlays.help) text_.draw(helpLabels(dot), framebuffer, sizePixels(), dot);
     if (!overlays.endRefused) return;

@@ -49,6 +49,14 @@ struct DrawnWorld {
 [[nodiscard]] glm::mat4 cameraFromWorld(const wall::ChannelFrustum& frustum,
                                         const wire::Eye& submarine);
 
+// The frame that a channel drew last: its number, whose parity seeds the dither, its brightness, and
+// the eye where it showed the world.
+struct DrawnFrame {
+    Frame frame;
+    float brightness = 1.0F;
+    std::optional<wire::Eye> worldEye = {};
+};
+
 // Of a channel's pictures, in pixels: of the world, of a pattern, and of the one that was drawn
 // last.
 struct PictureSizes {
@@ -119,7 +127,6 @@ class ChannelPicture {
     void drawWorld(const wire::StateFrame& frame);
     void drawPattern(Viewing& eye, wire::Pattern pattern) const;
     void projectScan(unsigned framebuffer, Shown shown);
-    void placeSign(const wire::Sign& sign);
     void drawFishIds(const Viewing& eye, const wire::StateFrame& frame);
     void drawMind(const Viewing& eye, const wire::StateFrame& frame, const WatchedMind& mind);
     // The camera of an eye in the world, for the submarine's place and heading.
@@ -145,23 +152,15 @@ class ChannelPicture {
     // Set where the world can be shown, not test patterns alone.
     std::optional<scene::SceneRenderer> scene_;
     TextOverlay text_;
-    // Of the channel that draws the sign for visitors: its pass, and where a sign of so many
-    // columns and rows stands.
-    std::optional<config::Guests> guests_;
-    std::optional<SignPass> signPass_;
-    glm::uvec2 signSize_{};
-    std::optional<glm::vec4> signPlace_;
+    // Set where this channel draws the sign for visitors.
+    std::optional<ChannelSign> sign_;
     // The pattern of a scan that the frame shows, and its pass, which is made when one is first
     // shown.
     std::optional<config::ScanPattern> scan_;
     std::optional<ScanPass> scanPass_;
     std::size_t channel_;
     std::vector<scene::FoodParticle> food_;
-    // Of the frame that was drawn last: its number, whose parity seeds the dither, its brightness,
-    // and the eye where it showed the world.
-    Frame frame_;
-    float brightness_ = 1.0F;
-    std::optional<wire::Eye> worldEye_;
+    DrawnFrame drawn_;
 };
 
 }  // namespace aquarama::show

@@ -48,6 +48,7 @@ class StatePace {
     State said_{};
     std::optional<net::Moment> saidAt_;
 };
+// Of a steering.
 using SteeringPace = StatePace<Steering>;
 
 // Keys and mouse of a window act on the whole show, through the master, and on what this window

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "common/base/log.h"
 #include "render_node/gl/program.h"
 #include "render_node/shaders/shader_interface.h"
 
@@ -100,6 +101,22 @@ void SignPass::draw(unsigned framebuffer,
     glUniform1uiv(shaders::kSignDotsLocation, static_cast<int>(words.size()), words.data());
     glBindVertexArray(noVertices_.name());
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void ChannelSign::place(const wire::Sign& sign, const ProjectionMap& map, glm::ivec2 pictureSize) {
+    const glm::uvec2 size(sign.columns, sign.rows);
+    if (size == size_ || sign.columns == 0) return;
+    size_ = size;
+    const double widthByHeight = static_cast<double>(size.x) / static_cast<double>(size.y);
+    place_ = signPlace(map, guests_.corner, guests_.height, widthByHeight, pictureSize);
+    if (!place_)
+        logWarning(
+            "the sign for visitors fits nowhere beside the neighbours' light: give a smaller "
+            "height, or another channel, in the rig's guests");
+}
+
+void ChannelSign::draw(unsigned framebuffer, glm::ivec2 sizePixels, const wire::Sign& sign) const {
+    if (place_ && sign.columns > 0) pass_.draw(framebuffer, sizePixels, sign, *place_);
 }
 
 }  // namespace aquarama::show

@@ -25,7 +25,8 @@ namespace aquarama::show {
                                                  double widthByHeight,
                                                  glm::ivec2 pictureSize);
 
-// Owns its GL objects; construct, use and destroy with the same context current.
+// The pass that draws dots. Owns its GL objects; construct, use and destroy with the same context
+// current.
 class SignPass {
   public:
     SignPass();
@@ -38,6 +39,22 @@ class SignPass {
   private:
     gl::ProgramHandle program_;
     gl::VertexArray noVertices_;
+};
+
+// The sign of a channel that draws it. As SignPass.
+class ChannelSign {
+  public:
+    explicit ChannelSign(const config::Guests& guests) : guests_{guests} {}
+    // Finds its place, where its shape is another than at the last call; warns where there is none.
+    void place(const wire::Sign& sign, const ProjectionMap& map, glm::ivec2 pictureSize);
+    // Into the picture of linear light of this size; a sign without dots, or place, is not drawn.
+    void draw(unsigned framebuffer, glm::ivec2 sizePixels, const wire::Sign& sign) const;
+
+  private:
+    config::Guests guests_;
+    SignPass pass_;
+    glm::uvec2 size_{};  // columns and rows that the place is for
+    std::optional<glm::vec4> place_;
 };
 
 }  // namespace aquarama::show
