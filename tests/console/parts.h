@@ -83,6 +83,7 @@ struct ToldMaster final : console::MasterProxy {
     std::vector<std::uint32_t> fish;  // whose minds are asked for
 
     void give(v1::Order order) override { orders.push_back(std::move(order)); }
+    void touch(const WallHands& /*hands*/) override {}
     void steer(const Steering& /*steering*/) override {}
     void explain(std::uint32_t asked) override { fish.push_back(asked); }
 };

@@ -54,7 +54,7 @@ TEST(SignPlace, isInItsCorner) {
         const auto place = signPlace(map, corner, 0.2, 1, scenePictureSize(map));
         return place ? 0.5F * glm::vec2(place->x + place->z, place->y + place->w) : glm::vec2(-1);
     };
-    for (const auto [corner, x, y] : {std::tuple{Corner::LowerLeft, -1, -1},
+    for (const auto& [corner, x, y] : {std::tuple{Corner::LowerLeft, -1, -1},
                                       {Corner::LowerRight, 1, -1},
                                       {Corner::UpperLeft, -1, 1},
                                       {Corner::UpperRight, 1, 1}}) {
