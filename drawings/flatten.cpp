@@ -13,12 +13,13 @@ namespace aquarama::drawings {
 namespace {
 
 // Moves points about the origin, at a mean distance of one.
-glm::dmat3 normalisation(const std::vector<Sighting>& sightings, glm::dvec2 Sighting::*side) {
-    const auto count = static_cast<double>(sightings.size());
+glm::dmat3 normalisation(const std::vector<Correspondence>& pairs,
+                         glm::dvec2 Correspondence::*side) {
+    const auto count = static_cast<double>(pairs.size());
     glm::dvec2 centre{};
-    for (const Sighting& one : sightings) centre += one.*side / count;
+    for (const Correspondence& one : pairs) centre += one.*side / count;
     double distance = 0;
-    for (const Sighting& one : sightings) distance += glm::distance(one.*side, centre) / count;
+    for (const Correspondence& one : pairs) distance += glm::distance(one.*side, centre) / count;
     const double scale = 1 / std::max(distance, 1e-9);
     return {scale, 0, 0, 0, scale, 0, -scale * centre.x, -scale * centre.y, 1};
 }
@@ -29,13 +30,13 @@ glm::dvec2 applied(const glm::dmat3& map, glm::dvec2 at) {
 }
 
 // The direct linear transform (Hartley and Zisserman 2004, section 4.1) of normalised points.
-glm::dmat3 directTransform(const std::vector<Sighting>& sightings,
+glm::dmat3 directTransform(const std::vector<Correspondence>& pairs,
                            const glm::dmat3& sheet,
                            const glm::dmat3& photo) {
-    const auto rows = static_cast<Eigen::Index>(2 * sightings.size());
+    const auto rows = static_cast<Eigen::Index>(2 * pairs.size());
     Eigen::MatrixXd equations(rows, 9);
     Eigen::Index row = 0;
-    for (const Sighting& one : sightings) {
+    for (const Correspondence& one : pairs) {
         const glm::dvec2 a = applied(sheet, one.onSheet), b = applied(photo, one.inPhoto);
         equations.row(row++) << a.x, a.y, 1, 0, 0, 0, -b.x * a.x, -b.x * a.y, -b.x;
         equations.row(row++) << 0, 0, 0, a.x, a.y, 1, -b.y * a.x, -b.y * a.y, -b.y;
@@ -58,13 +59,13 @@ glm::dvec2 Flattening::pixelsPerMillimetre(glm::dvec2 sheet) const {
     return {std::sqrt(std::max(0.0, (sum - gap) / 2)), std::sqrt((sum + gap) / 2)};
 }
 
-Flattening flatten(const std::vector<Sighting>& sightings) {
-    const glm::dmat3 sheet = normalisation(sightings, &Sighting::onSheet);
-    const glm::dmat3 photo = normalisation(sightings, &Sighting::inPhoto);
+Flattening flatten(const std::vector<Correspondence>& pairs) {
+    const glm::dmat3 sheet = normalisation(pairs, &Correspondence::onSheet);
+    const glm::dmat3 photo = normalisation(pairs, &Correspondence::inPhoto);
     Flattening flat{.photoFromSheet =
-                        glm::inverse(photo) * directTransform(sightings, sheet, photo) * sheet};
+                        glm::inverse(photo) * directTransform(pairs, sheet, photo) * sheet};
     const glm::dmat3 sheetFromPhoto = glm::inverse(flat.photoFromSheet);
-    for (const Sighting& one : sightings)
+    for (const Correspondence& one : pairs)
         flat.worstMillimetres =
             std::max(flat.worstMillimetres,
                      glm::distance(applied(sheetFromPhoto, one.inPhoto), one.onSheet));

@@ -10,14 +10,14 @@
 namespace aquarama::drawings {
 
 // A place on the sheet, in millimetres (layout.h), and where it was found, in pixels.
-struct Sighting {
+struct Correspondence {
     glm::dvec2 onSheet{}, inPhoto{};
 };
 
 // A homography.
 struct Flattening {
     glm::dmat3 photoFromSheet{1.0};
-    // The largest distance, on the sheet, from where a sighting is to where it should be.
+    // The largest distance, on the sheet, from where a pair is to where it should be.
     double worstMillimetres = 0;
 
     // In pixels, of a place in millimetres.
@@ -29,8 +29,8 @@ struct Flattening {
     [[nodiscard]] glm::dvec2 pixelsPerMillimetre(glm::dvec2 sheet) const;
 };
 
-// By the least squares of the normalised direct linear transform. At least four sightings, of which
+// By the least squares of the normalised direct linear transform. At least four pairs, of which
 // no three lie on one line.
-[[nodiscard]] Flattening flatten(const std::vector<Sighting>& sightings);
+[[nodiscard]] Flattening flatten(const std::vector<Correspondence>& pairs);
 
 }  // namespace aquarama::drawings

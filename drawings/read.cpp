@@ -107,11 +107,11 @@ const Sheet& knownSheet(const SeenSheet& seen, const SheetOf& sheetOf) {
 }
 
 Flattening flatten(const SeenSheet& seen) {
-    std::vector<Sighting> sightings;
+    std::vector<Correspondence> pairs;
     for (const auto& [corner, tag] : seen.tags)
         for (std::size_t k = 0; k < tag.corners.size(); ++k)
-            sightings.push_back({tagOn(corner).at(k), tag.corners.at(k)});
-    return flatten(sightings);
+            pairs.push_back({tagOn(corner).at(k), tag.corners.at(k)});
+    return flatten(pairs);
 }
 
 // Throws Refusal where the fish cannot be read at that place.

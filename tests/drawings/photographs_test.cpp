@@ -22,7 +22,7 @@ TEST(Photographs, areReadAsDrawn) {
                                                 "moorish_idol",
                                                 "blacktip_reef_shark"},
                                                count,
-                                               isSoak ? 12 : 2);
+                                               isSoak ? 12 : 1.5);
     EXPECT_GE(all.found, count * 97 / 100);
     EXPECT_LT(all.colourDifference, 8);
     EXPECT_LT(all.worstOutlineShare, 0.01);

@@ -90,10 +90,10 @@ TEST(SideViews, texelsAndPlacesAreInverse) {
 TEST(Flattenings, findTheMapOfThreeTags) {
     const test::Circumstances how{.tiltDegrees = 45, .tiltTowardsDegrees = 70, .rollDegrees = 200};
     const test::Camera camera(how, kA4);
-    std::vector<Sighting> sightings;
+    std::vector<Correspondence> pairs;
     for (const auto corner : {Corner::UpperLeft, Corner::LowerRight, Corner::LowerLeft})
-        for (const glm::dvec2 at : tagOn(corner)) sightings.push_back({at, camera.photoAt(at)});
-    const Flattening flat = flatten(sightings);
+        for (const glm::dvec2 at : tagOn(corner)) pairs.push_back({at, camera.photoAt(at)});
+    const Flattening flat = flatten(pairs);
     EXPECT_LT(flat.worstMillimetres, 1e-6);
     for (const glm::dvec2 at : {glm::dvec2{120, 90}, glm::dvec2{0, 0}, glm::dvec2{-130, 20}})
         EXPECT_LT(glm::distance(flat.photoAt(at), camera.photoAt(at)), 1e-6);

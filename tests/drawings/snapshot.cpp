@@ -67,9 +67,8 @@ bool isThumb(const Circumstances& how, glm::dvec2 at) {
 }
 
 glm::dvec3 tableAt(glm::dvec2 at, std::uint32_t seed) {
-    const double grain = static_cast<double>(smoothNoise(at / glm::dvec2{60, 2}, seed) +
-                                             smoothNoise(at / 8.0, seed));
-    return (0.08 + 0.12 * grain) * glm::dvec3{1.0, 0.75 - 0.1 * (seed % 3), 0.5};
+    const auto grain = static_cast<double>(smoothNoise(at / glm::dvec2{60, 2}, seed));
+    return (0.1 + 0.2 * grain) * glm::dvec3{1.0, 0.75 - 0.1 * (seed % 3), 0.5};
 }
 
 // The taps of a bell curve, sigma in pixels; they sum to 1.

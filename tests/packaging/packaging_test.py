@@ -67,7 +67,8 @@ class Installed(unittest.TestCase):
 
     def test_programs_run_from_where_they_are_installed(self):
         self.assertEqual([program.name for program in self.programs],
-                         ["aquarama", "aquarama-calibrate", "aquarama-compose", "aquarama-console", "aquarama-guests",
+                         ["aquarama", "aquarama-calibrate", "aquarama-compose", "aquarama-console", "aquarama-drawings",
+                          "aquarama-guests",
                           "aquarama-node"])
         for program in self.programs:
             said = called(program, "--version", cwd="/", env=self.alone)
