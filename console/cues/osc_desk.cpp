@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/base/characters.h"
 #include "common/base/log.h"
 
 namespace aquarama::console {
@@ -16,6 +17,8 @@ constexpr int kMostReplies = 16;
 // Orders whose end is waited for. More are given, and not followed.
 constexpr std::size_t kMostGiven = 32;
 constexpr int kTicksOfAWarning = 10;
+// Of an address or a reason in the log.
+constexpr std::size_t kMostLoggedBytes = 200;
 // Between two times that receivers are told all.
 constexpr int kTicksOfAll = 50;
 
@@ -99,8 +102,8 @@ void OscDesk::refuse(const config::UdpAddress& to,
     logWarning("a cue of {} is refused{}{}: {} ({} since the start)",
                to.host,
                address.empty() ? "" : ": ",
-               address,
-               why,
+               legible(address, kMostLoggedBytes),
+               legible(why, kMostLoggedBytes),
                counts_.refused);
 }
 
