@@ -15,9 +15,11 @@ for (const one of document.querySelectorAll("[data-label]")) one.setAttribute("a
 const text = (key, values = {}) => texts[key].replace(/{(\w+)}/g, (_, name) => values[name]);
 let state = {you: "loading"}, endsAt = 0, isStale = false, refusal = "";
 
-function minutes(seconds) {
-  return seconds < 60 ? text("seconds", {n: Math.max(5, Math.ceil(seconds / 5) * 5)})
-    : text("minutes", {n: Math.ceil(seconds / 60)});
+const clock = seconds => `${Math.floor(seconds / 60)}:${String(seconds % 60).padStart(2, "0")}`;
+
+// Browsers allow it to a page that was touched.
+function vibrate(pattern) {
+  if (navigator.userActivation?.hasBeenActive) navigator.vibrate?.(pattern);
 }
 
 function set(id, content) {
@@ -32,8 +34,8 @@ function draw() {
   set("more", isStale ? text("lost_more") : refusal ? text(`refused_${refusal}`)
     : you === "guest" && state.line >= state.most ? text("full") : texts[`more_${you}`] ?? "");
   if (you === "waiting") {
-    set("place", text("place", {n: state.place}));
-    set("wait", text("wait", {time: minutes(state.wait_s)}));
+    set("wait", clock(state.wait_s));
+    set("place", state.place > 1 ? text("place", {n: state.place - 1}) : text("next"));
   }
   if (you === "steering") set("left", text("left", {n: Math.max(0, Math.ceil((endsAt - performance.now()) / 1000))}));
   element("join").disabled = state.line >= state.most;
@@ -46,8 +48,8 @@ const link = new Link({
     if (message.you !== state.you) {
       rest();
       refusal = "";
-      if (message.you === "steering") navigator.vibrate?.([200, 100, 200]);
-      if (state.you === "steering") navigator.vibrate?.(400);
+      if (message.you === "steering") vibrate([200, 100, 200]);
+      if (state.you === "steering") vibrate(400);
     }
     state = message;
     if (state.left_s !== undefined) endsAt = performance.now() + state.left_s * 1000;

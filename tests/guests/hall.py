@@ -27,7 +27,8 @@ class Hall(Desk):
         self.nodes = []
         os.environ["XDG_RUNTIME_DIR"] = self.folder.name
         self.rig = rig_on_free_ports(self.folder.name, replace=(
-            (r"refresh_hz: 60", "refresh_hz: 15"), (r"arc_deg: 120", "arc_deg: 40"), (r"reef\.txtpb", "empty_sea.txtpb")))
+            (r"refresh_hz: 60", "refresh_hz: 15"), (r"arc_deg: 120", "arc_deg: 40"),
+            (r"reef\.txtpb", "empty_sea.txtpb")))
         head, *channels = re.split(r"(?m)^channels ", self.rig.read_text())
         self.guests = f"127.0.0.1:{free_ports(1)[0]}"
         self.rig.write_text(f'{head}channels {channels[1].replace("id: 1", "id: 0")}\n'
@@ -65,7 +66,8 @@ class Hall(Desk):
 
     def submarine(self):
         """Where it is, in metres, and who steers."""
-        said = re.search(r"submarine +at (\S+) (\S+) (\S+) m .* m/s   (.*) steers\n", aquarama("status", self.rig).stdout)
+        said = re.search(r"submarine +at (\S+) (\S+) (\S+) m .* m/s   (.*) steers\n",
+                         aquarama("status", self.rig).stdout)
         return tuple(map(float, said.groups()[:3])), said[4]
 
 

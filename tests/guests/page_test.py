@@ -76,10 +76,11 @@ class Page(unittest.TestCase):
     def test_a_visit(self):
         hall = self.hall
         first = Phone(hall, enter=hall.token())
+        self.addCleanup(first.close)
         first.state("steering")
         self.driver.get(f"http://{hall.guests}/P/{hall.token()}")
         self.becomes("waiting")
-        self.assertIn("Number 1", self.text())
+        self.assertIn("You are next", self.text())
         self.assertEqual(self.js("return location.pathname"), "/", "no code is left in the history")
         self.looks_right("waiting")
         self.driver.refresh()
