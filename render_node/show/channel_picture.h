@@ -49,8 +49,8 @@ struct DrawnWorld {
 [[nodiscard]] glm::mat4 cameraFromWorld(const wall::ChannelFrustum& frustum,
                                         const wire::Eye& submarine);
 
-// The frame that a channel drew last: its number, whose parity seeds the dither, its brightness, and
-// the eye where it showed the world.
+// The frame that a channel drew last: its number, whose parity seeds the dither, its brightness,
+// and the eye where it showed the world.
 struct DrawnFrame {
     Frame frame;
     float brightness = 1.0F;

@@ -55,9 +55,9 @@ TEST(SignPlace, isInItsCorner) {
         return place ? 0.5F * glm::vec2(place->x + place->z, place->y + place->w) : glm::vec2(-1);
     };
     for (const auto& [corner, x, y] : {std::tuple{Corner::LowerLeft, -1, -1},
-                                      {Corner::LowerRight, 1, -1},
-                                      {Corner::UpperLeft, -1, 1},
-                                      {Corner::UpperRight, 1, 1}}) {
+                                       {Corner::LowerRight, 1, -1},
+                                       {Corner::UpperLeft, -1, 1},
+                                       {Corner::UpperRight, 1, 1}}) {
         const glm::vec2 off = middleAt(corner) - 0.5F;
         EXPECT_GT(off.x * static_cast<float>(x), 0.08F);
         EXPECT_GT(off.y * static_cast<float>(y), 0.2F);
