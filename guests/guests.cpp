@@ -250,7 +250,7 @@ void GuestService::showSign() {
     const double now = clock_();
     std::string characters = tokens_.digitsAt(now);
     bool isEnding = false;
-    for (const Seat& seat : queue_.seats()) {
+    for (const GuestSeat& seat : queue_.seats()) {
         const double left = queue_.leftOf(seat, queueNow_);
         isEnding = isEnding || (queue_.steering() == seat.guest && left <= kCountdown);
         if (isEnding) characters = std::to_string(std::lround(std::ceil(left)));
@@ -292,7 +292,7 @@ void GuestService::tell(Phone& phone) {
     message["feed_s"] =
         std::lround(std::ceil(std::max(sessions_.find(phone.guest)->mayFeed - clock_(), 0.0)));
     int place = 0;
-    for (const Seat& seat : seats) {
+    for (const GuestSeat& seat : seats) {
         if (queue_.steering() != seat.guest) ++place;
         if (seat.guest != phone.guest) continue;
         const bool isPilot = queue_.steering() == phone.guest;

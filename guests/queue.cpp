@@ -8,14 +8,14 @@ namespace aquarama::guests {
 
 namespace {
 
-bool isPresent(const Seat& seat) {
+bool isPresent(const GuestSeat& seat) {
     return !seat.awaySince;
 }
 
 }  // namespace
 
-std::vector<Seat>::iterator VisitorQueue::seatOf(const GuestId& guest) {
-    return std::ranges::find(seats_, guest, &Seat::guest);
+std::vector<GuestSeat>::iterator VisitorQueue::seatOf(const GuestId& guest) {
+    return std::ranges::find(seats_, guest, &GuestSeat::guest);
 }
 
 bool VisitorQueue::join(const GuestId& guest) {
@@ -26,7 +26,7 @@ bool VisitorQueue::join(const GuestId& guest) {
 
 void VisitorQueue::leave(const GuestId& guest, double now) {
     if (pilot_ == guest) endTurn(now);
-    std::erase_if(seats_, [&](const Seat& seat) { return seat.guest == guest; });
+    std::erase_if(seats_, [&](const GuestSeat& seat) { return seat.guest == guest; });
 }
 
 void VisitorQueue::lost(const GuestId& guest, double now) {
@@ -39,7 +39,7 @@ void VisitorQueue::back(const GuestId& guest) {
     if (seat != seats_.end()) seat->awaySince.reset();
 }
 
-double VisitorQueue::leftOf(const Seat& seat, double now) const {
+double VisitorQueue::leftOf(const GuestSeat& seat, double now) const {
     return pilot_ == seat.guest ? std::max(seat.left - (now - began_), 0.0) : seat.left;
 }
 
@@ -50,11 +50,11 @@ void VisitorQueue::endTurn(double now) {
     free_ = now + times_.rest;
 }
 
-bool VisitorQueue::isGivenUp(const Seat& seat, double now) const {
+bool VisitorQueue::isGivenUp(const GuestSeat& seat, double now) const {
     return leftOf(seat, now) <= 0 || (seat.awaySince && now - *seat.awaySince >= times_.held);
 }
 
-bool VisitorQueue::mustYield(const Seat& pilot, double now) const {
+bool VisitorQueue::mustYield(const GuestSeat& pilot, double now) const {
     return isGivenUp(pilot, now) || (pilot.awaySince && now - *pilot.awaySince >= times_.grace &&
                                      std::ranges::any_of(seats_, isPresent));
 }
@@ -62,7 +62,7 @@ bool VisitorQueue::mustYield(const Seat& pilot, double now) const {
 // The first who is there: a phone that is locked holds nobody up.
 std::optional<GuestId> VisitorQueue::pilot(double now) {
     if (pilot_ && mustYield(*seatOf(*pilot_), now)) endTurn(now);
-    std::erase_if(seats_, [&](const Seat& seat) { return isGivenUp(seat, now); });
+    std::erase_if(seats_, [&](const GuestSeat& seat) { return isGivenUp(seat, now); });
     if (pilot_ || now < free_) return pilot_;
     const auto next = std::ranges::find_if(seats_, isPresent);
     if (next == seats_.end()) return pilot_;
@@ -75,19 +75,19 @@ std::optional<GuestId> VisitorQueue::pilot(double now) {
 std::optional<double> VisitorQueue::waitOf(const GuestId& guest, double now) const {
     if (pilot_ == guest) return 0;
     double wait = std::max(free_ - now, 0.0);
-    for (const Seat& seat : seats_)
+    for (const GuestSeat& seat : seats_)
         if (pilot_ == seat.guest) wait = leftOf(seat, now) + times_.rest;
-    for (const Seat& seat : seats_) {
+    for (const GuestSeat& seat : seats_) {
         if (seat.guest == guest) return wait;
         if (pilot_ != seat.guest) wait += seat.left + times_.rest;
     }
     return std::nullopt;
 }
 
-void VisitorQueue::restore(std::vector<Seat> seats, double now) {
+void VisitorQueue::restore(std::vector<GuestSeat> seats, double now) {
     seats_ = std::move(seats);
     if (seats_.size() > kMostSeats) seats_.resize(kMostSeats);
-    for (Seat& seat : seats_) seat.awaySince = now;
+    for (GuestSeat& seat : seats_) seat.awaySince = now;
 }
 
 }  // namespace aquarama::guests

@@ -22,7 +22,7 @@ struct QueueTimes {
 };
 
 // One place in the line. Who has had his turn has none.
-struct Seat {
+struct GuestSeat {
     GuestId guest;
     double left = 0;                  // of the turn, until it ends or the helm goes to another
     std::optional<double> awaySince;  // nothing: present
@@ -45,29 +45,29 @@ class VisitorQueue {
     std::optional<GuestId> pilot(double now);
 
     // In the order of the line, as of the last call of pilot().
-    [[nodiscard]] const std::vector<Seat>& seats() const { return seats_; }
+    [[nodiscard]] const std::vector<GuestSeat>& seats() const { return seats_; }
     // Whom pilot() named last.
     [[nodiscard]] const std::optional<GuestId>& steering() const { return pilot_; }
     // Seconds until the guest's turn at the latest, if nothing is rotated until then; 0 for the
     // pilot, nothing for who is not in line.
     [[nodiscard]] std::optional<double> waitOf(const GuestId& guest, double now) const;
     // Seconds left of the turn of a seat.
-    [[nodiscard]] double leftOf(const Seat& seat, double now) const;
+    [[nodiscard]] double leftOf(const GuestSeat& seat, double now) const;
 
     // Seats of an earlier run, all of them away since now.
-    void restore(std::vector<Seat> seats, double now);
+    void restore(std::vector<GuestSeat> seats, double now);
 
   private:
-    [[nodiscard]] std::vector<Seat>::iterator seatOf(const GuestId& guest);
+    [[nodiscard]] std::vector<GuestSeat>::iterator seatOf(const GuestId& guest);
     // His turn is over, or he was away for too long.
-    [[nodiscard]] bool isGivenUp(const Seat& seat, double now) const;
+    [[nodiscard]] bool isGivenUp(const GuestSeat& seat, double now) const;
     // Or he is away while somebody else is there.
-    [[nodiscard]] bool mustYield(const Seat& pilot, double now) const;
+    [[nodiscard]] bool mustYield(const GuestSeat& pilot, double now) const;
     // The pilot gives the helm back; his seat keeps what is left of his turn.
     void endTurn(double now);
 
     QueueTimes times_;
-    std::vector<Seat> seats_;
+    std::vector<GuestSeat> seats_;
     std::optional<GuestId> pilot_;
     double began_ = 0;  // of the pilot's turn
     double free_ = 0;   // when the next may begin

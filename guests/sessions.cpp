@@ -63,7 +63,7 @@ void Sessions::keep(const std::filesystem::path& file,
                     double now) const {
     std::string text;
     std::set<GuestId> seated;
-    for (const Seat& seat : queue.seats()) {
+    for (const GuestSeat& seat : queue.seats()) {
         text += fmt::format("{} {:.1f}\n", seat.guest, queue.leftOf(seat, now));
         seated.insert(seat.guest);
     }
@@ -74,12 +74,12 @@ void Sessions::keep(const std::filesystem::path& file,
                    "visitors lose their places where aquarama-guests is started again");
 }
 
-std::vector<Seat> Sessions::restore(const std::filesystem::path& file, double now) {
-    std::vector<Seat> seats;
+std::vector<GuestSeat> Sessions::restore(const std::filesystem::path& file, double now) {
+    std::vector<GuestSeat> seats;
     std::ifstream lines(file);
     for (std::string line; visits_.size() < kMost && std::getline(lines, line);) {
         std::istringstream words(line);
-        Seat seat;
+        GuestSeat seat;
         words >> seat.guest;
         if (!isName(seat.guest)) continue;
         const bool isNew = visits_.try_emplace(seat.guest, Visit{.seen = now}).second;

@@ -42,7 +42,7 @@ class Sessions {
     // Whole or not at all: a line for each, with what is left of the turn for who has a seat.
     void keep(const std::filesystem::path& file, const VisitorQueue& queue, double now) const;
     // What a file has; returns the seats, in their order. Damaged lines are passed over.
-    std::vector<Seat> restore(const std::filesystem::path& file, double now);
+    std::vector<GuestSeat> restore(const std::filesystem::path& file, double now);
 
   private:
     std::map<GuestId, Visit> visits_;

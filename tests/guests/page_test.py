@@ -60,7 +60,8 @@ class Page(unittest.TestCase):
         found = self.driver.execute_async_script("axe.run().then(result => arguments[0](result.violations))")
         self.assertEqual([(one["id"], [node["html"] for node in one["nodes"]]) for one in found], [], name)
         self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), 390)
-        small = self.js("""return [...document.querySelectorAll('button, input')].map(one => one.getBoundingClientRect())
+        small = self.js("""return [...document.querySelectorAll('button, input')]
+            .map(one => one.getBoundingClientRect())
             .filter(box => box.width > 0 && (box.width < 44 || box.height < 44)).length""")
         self.assertEqual(small, 0, "targets of 44 pixels")
 

@@ -15,7 +15,7 @@ namespace {
 
 std::vector<GuestId> namesIn(const VisitorQueue& queue) {
     std::vector<GuestId> names;
-    for (const Seat& seat : queue.seats()) names.push_back(seat.guest);
+    for (const GuestSeat& seat : queue.seats()) names.push_back(seat.guest);
     return names;
 }
 
@@ -134,18 +134,18 @@ class History {
 
     void check() {
         const auto before = queue_.steering();
-        const std::vector<Seat> seatsBefore = queue_.seats();
+        const std::vector<GuestSeat> seatsBefore = queue_.seats();
         const auto pilot = queue_.pilot(now_);
         const auto& seats = queue_.seats();
         ASSERT_LE(seats.size(), VisitorQueue::kMostSeats);
-        ASSERT_TRUE(std::ranges::is_sorted(seats, {}, [&](const Seat& seat) {
+        ASSERT_TRUE(std::ranges::is_sorted(seats, {}, [&](const GuestSeat& seat) {
             return joined_.at(seat.guest);
         })) << "order kept, nobody twice";
         ASSERT_FALSE(before && pilot && before != pilot) << "a rest lies between two pilots";
-        for (const Seat& seat : seatsBefore) checkSeat(seat, seat.guest == before);
+        for (const GuestSeat& seat : seatsBefore) checkSeat(seat, seat.guest == before);
         if (!pilot || pilot == before) return;
         began_ = now_;
-        for (const Seat& seat : seats) {
+        for (const GuestSeat& seat : seats) {
             if (seat.guest == pilot) {
                 ASSERT_FALSE(seat.awaySince) << "who steers is there";
                 break;
@@ -155,9 +155,9 @@ class History {
     }
 
     // A seat is given up only at the end of a turn, or after its owner was away for long.
-    void checkSeat(const Seat& seat, bool isPilot) {
+    void checkSeat(const GuestSeat& seat, bool isPilot) {
         const auto& seats = queue_.seats();
-        const bool isThere = std::ranges::find(seats, seat.guest, &Seat::guest) != seats.end();
+        const bool isThere = std::ranges::find(seats, seat.guest, &GuestSeat::guest) != seats.end();
         const bool isTooLongAway = seat.awaySince && now_ - *seat.awaySince >= times_.held;
         const bool isOver = isPilot && now_ - began_ >= seat.left;
         ASSERT_EQ(isThere, !isTooLongAway && !isOver) << seat.guest;
