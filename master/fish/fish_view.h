@@ -69,7 +69,7 @@ struct Household {
 inline constexpr std::uint32_t kNobody = 0xffffffffU;
 
 // Signs of a fish's mood that others can see, as bits of FishView::signs.
-enum Sign : std::uint8_t {
+enum MoodSign : std::uint8_t {
     // Eaten, or not yet come: nobody sees it.
     kAway = 1,
     // Would mate.
@@ -98,7 +98,7 @@ struct FishView {
     std::vector<VisibleFish> fish;
     // Species, as an index into the cast.
     std::vector<std::uint8_t> kind;
-    // Bits of Sign.
+    // Bits of MoodSign.
     std::vector<std::uint8_t> signs;
     // The fish that it courts or cleans, or the cleaner that it visits; or kNobody.
     std::vector<std::uint32_t> partner;
@@ -128,7 +128,7 @@ struct FishView {
     [[nodiscard]] glm::vec3 heading(std::size_t i) const { return fish[i].heading; }
     // Prefetches a fish that will be read soon.
     void fetch(std::size_t i) const { __builtin_prefetch(&fish[i]); }
-    [[nodiscard]] bool shows(std::size_t i, Sign sign) const { return (signs[i] & sign) != 0; }
+    [[nodiscard]] bool shows(std::size_t i, MoodSign sign) const { return (signs[i] & sign) != 0; }
 };
 
 // Distance from the origin of the body frame forward to the nose, where the mouth is, in body

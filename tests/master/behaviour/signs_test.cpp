@@ -11,7 +11,7 @@ namespace {
 struct Shown {
     std::uint8_t signs = 0;
     std::uint32_t partner = fish::kNobody;
-    [[nodiscard]] bool shows(fish::Sign sign) const { return (signs & sign) != 0; }
+    [[nodiscard]] bool shows(fish::MoodSign sign) const { return (signs & sign) != 0; }
 };
 
 Shown shown(config::Role role, const fish::Mind& mind, std::uint8_t before = 0, bool mates = true) {
