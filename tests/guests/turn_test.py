@@ -1,6 +1,7 @@
 """Visitors with phones before a running wall: from the code that it shows to the helm, and on to the next."""
 
 import asyncio
+import contextlib
 import http.client
 import math
 import os
@@ -8,10 +9,28 @@ import random
 import shutil
 import signal
 import statistics
+import threading
 import time
 import unittest
 
 from hall import Hall, Phone, Visitor, aquarama, wait_until
+
+
+@contextlib.contextmanager
+def held(phone, levers):
+    """Says them ten times a second, as a page does, from another thread."""
+    ended = threading.Event()
+
+    def say():
+        while not ended.wait(0.1):
+            phone.say({"helm": levers})
+    thread = threading.Thread(target=say)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
 
 
 class Turn(unittest.TestCase):
@@ -40,13 +59,9 @@ class Turn(unittest.TestCase):
         self.assertLessEqual(second.state("waiting")["wait_s"], 61)
 
         before, _ = hall.submarine()
-        deadline = time.monotonic() + 3
-        while time.monotonic() < deadline:
-            first.say({"helm": [127, 0, 0, 0, 0]})
-            time.sleep(0.1)
-        after, pilot = hall.submarine()
-        self.assertGreater(math.dist(before, after), 0.5)
-        self.assertNotEqual(pilot, "nobody")
+        with held(first, [127, 0, 0, 0, 0]):
+            wait_until(lambda: math.dist(before, hall.submarine()[0]) > 0.5, 10, "the submarine on its way")
+            self.assertNotEqual(hall.submarine()[1], "nobody")
 
         first.say({"leave": True})
         first.state("guest")
@@ -55,10 +70,8 @@ class Turn(unittest.TestCase):
         self.assertGreater(time.monotonic() - left, 0.8, "a second at rest between pilots")
 
         # A hand is lost: its phone says nothing any more, or is gone.
-        for _ in range(5):
-            second.say({"helm": [0, 0, 127, 0, 0]})
-            time.sleep(0.1)
-        self.assertNotEqual(hall.submarine()[1], "nobody")
+        with held(second, [0, 0, 127, 0, 0]):
+            wait_until(lambda: hall.submarine()[1] != "nobody", 5, "the hand of the second")
         silent = time.monotonic()
         wait_until(lambda: hall.submarine()[1] == "nobody", 2, "the helm at rest")
         print(f"a helm whose phone is silent rests after {time.monotonic() - silent:.2f} s at most")
