@@ -116,9 +116,9 @@ class Cues(unittest.TestCase):
         self.send("/aquarama/brightness", 0.2)
         self.told("black", 0)
         wait_until(lambda: abs(self.receiver.hear()["brightness"] - 0.2) < 1e-6, 5, "a fifth of the light")
-        self.assertEqual(self.state(), {**{name: value for name, value in self.receiver.known.items()},
-                                        "frame": self.state()["frame"], "brightness": self.state()["brightness"],
-                                        "colour": self.state()["colour"]})
+        state = self.state()
+        told = self.receiver.known | {name: state[name] for name in ("frame", "brightness", "colour")}
+        self.assertEqual(state, told)
         self.send("/aquarama/brightness", 1)
         self.told("brightness", 1)
         self.send("/aquarama/pattern", "grey")
