@@ -368,7 +368,7 @@ class Shows(Case):
         rig = self.edited((r"tcp://127\.0\.0\.1:", "tcp://192.0.2.1:"))
         self.refuses(r"aquarama keys list: .*is not there.*", "keys", "list", rig, "--keys", keys)
         made = aquarama("keys", "new", rig, "--keys", keys)
-        self.assertIn("8 keys made", made.stdout, made.stderr)
+        self.assertIn("9 keys made", made.stdout, made.stderr)
         self.assertEqual({path.stat().st_mode & 0o777 for path in keys.iterdir()}, {0o600})
         self.assertEqual(keys.stat().st_mode & 0o777, 0o700)
         before = {path.name: path.read_text() for path in keys.iterdir()}
