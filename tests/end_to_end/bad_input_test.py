@@ -374,7 +374,7 @@ class Shows(Case):
         before = {path.name: path.read_text() for path in keys.iterdir()}
         self.assertIn("0 keys made", aquarama("keys", "new", rig, "--keys", keys).stdout)
         self.assertEqual({path.name: path.read_text() for path in keys.iterdir()}, before)
-        self.refuses(r"aquarama keys revoke: no key is named \"up\".*crew, left, master.*",
+        self.refuses(r"aquarama keys revoke: no key is named \"up\".*crew, guests, left, master.*",
                      "keys", "revoke", rig, "up", "--keys", keys)
         self.refuses(r"aquarama keys revoke: the master's key cannot.*", "keys", "revoke", rig, "master", "--keys",
                      keys)
