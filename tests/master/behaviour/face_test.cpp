@@ -18,9 +18,11 @@ struct Shown : FishInMind {
     fish::Face face(const std::vector<fish::DeferredEvent>& own = {}) {
         Environment environment;
         environment.view = &view;
+        environment.surroundings = &around;
         return faceOf({environment, parameters, 0, senses, feelings}, mind, own);
     }
     fish::FishView view;
+    surroundings::Surroundings around{};
 };
 
 Sighting at(glm::vec3 offset) {
@@ -79,6 +81,16 @@ TEST(Face, looksAtWhatItsIntentionIsAbout) {
     EXPECT_EQ(fish.face().gaze, 0) << "ahead";
     fish.frighten(0.5F, 0.5F);
     EXPECT_EQ(fish.face().gaze, motion::gazeTowards({0, 0, 1})) << "at the predator";
+}
+
+TEST(Face, looksAtAHandBeforeTheWallWhereNothingElseIsOfInterest) {
+    Shown fish;
+    fish.around.hands.hands.emplace_back().place = {0, 0, 3};
+    const std::uint8_t gaze = fish.face().gaze;
+    EXPECT_NE(gaze, 0);
+    fish.mind.intention = fish::Intention::Mate;
+    fish.senses.mate = at({3, 0, 0});
+    EXPECT_NE(fish.face().gaze, gaze) << "at its mate";
 }
 
 }  // namespace
