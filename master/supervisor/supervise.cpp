@@ -56,6 +56,7 @@ struct Process {
     pid_t child = 0;
     Clock::time_point started;
     bool proven = false;  // has once run for kShortestLife
+    bool told = false;    // to end, as the show is over
 
     // Arguments for the first start only are replaced by those for later ones.
     void launch() {
@@ -297,7 +298,7 @@ Verdict judge(const RunOptions& options,
     const bool early = Clock::now() - process.started < kShortestLife;
     process.proven = process.proven || !early;
     if (isBeside(process)) {
-        renewBeside(errors, process, ending);
+        if (!process.told) renewBeside(errors, process, ending);
         return Verdict::GoesOn;
     }
     if (ending.clean()) return process.name == kMaster ? Verdict::Over : Verdict::GoesOn;
@@ -317,9 +318,12 @@ Verdict judge(const RunOptions& options,
 }
 
 // They have nothing left to show.
-void endBeside(const std::vector<Process>& processes) {
-    for (const Process& process : processes)
-        if (isBeside(process) && process.running()) kill(process.child, SIGTERM);
+void endBeside(std::vector<Process>& processes) {
+    for (Process& process : processes) {
+        if (!isBeside(process) || !process.running()) continue;
+        process.told = true;
+        kill(process.child, SIGTERM);
+    }
 }
 
 // The result of supervising a show.
