@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include <CLI/CLI.hpp>
-#include <arpa/inet.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
@@ -51,12 +50,6 @@ std::string keyOf(const Options& options, const config::Rig& rig) {
     return config::keyFileIn(folder, config::nameOf(config::KeyRole::Guests)).string();
 }
 
-// The address itself; every one of this machine where phones use a name.
-std::string listenedAt(const std::string& host) {
-    in_addr parsed{};
-    return inet_pton(AF_INET, host.c_str(), &parsed) == 1 ? host : "0.0.0.0";
-}
-
 double secondsNow() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
@@ -80,7 +73,7 @@ void serve(const Options& options, const config::Rig& rig) {
                                   link,
                                   secondsNow);
     constexpr std::size_t kBesidePhones = 100;  // connections that only fetch the page
-    web::WebServer server({.address = listenedAt(rig.guests->host),
+    web::WebServer server({.address = rig.guests->host,
                            .port = rig.guests->port,
                            .certificateFile = {},
                            .keyFile = {},

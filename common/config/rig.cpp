@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <set>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -448,16 +447,13 @@ std::string nameOf(StereoMode mode) {
     return v1::Stereo::Mode_Name(static_cast<int>(mode) + v1::Stereo::MONO);
 }
 
-// Host and port of "http://192.168.20.1:7490"; port 0 where it is no such address.
-std::pair<std::string, std::uint16_t> webAddressIn(const std::string& address) {
+// Of "http://192.168.20.1:7490": the same machines and ports as those of UDP; version 4 alone, as
+// the code on the wall has no room for more.
+std::optional<UdpAddress> webAddressIn(const std::string& address) {
     constexpr std::string_view kScheme = "http://";
-    const std::size_t colon = address.rfind(':');
-    if (!address.starts_with(kScheme) || colon <= kScheme.size()) return {};
-    std::uint16_t number = 0;
-    const char* const end = address.data() + address.size();
-    const auto [rest, error] = std::from_chars(address.data() + colon + 1, end, number);
-    if (error != std::errc{} || rest != end) return {};
-    return {address.substr(kScheme.size(), colon - kScheme.size()), number};
+    if (!address.starts_with(kScheme) || address.find('[') != std::string::npos)
+        return std::nullopt;
+    return udpAddressIn("udp://" + address.substr(kScheme.size()));
 }
 
 std::optional<TouchedSurface> touchOf(const TextReader& file, const v1::Rig& rig) {
@@ -490,12 +486,15 @@ void takeGuests(const TextReader& file, const v1::Rig& in, Rig& rig) {
                   .channel = from.has_channel() ? from.channel() : rig.channels.front().name,
                   .corner = static_cast<Guests::Corner>(from.corner() - v1::Guests::LOWER_LEFT),
                   .height = from.height()};
-    std::tie(guests.host, guests.port) = webAddressIn(from.address());
-    if (guests.port == 0)
+    const auto address = webAddressIn(from.address());
+    if (!address)
         file.refuse(from,
                     "address",
-                    "address needs the form http://HOST:PORT, with an address of this machine "
-                    "that phones reach, as http://192.168.20.1:7490");
+                    "address \"" + from.address() +
+                        "\" is no address of this machine that phones reach: write "
+                        "http://192.168.20.1:7490; names are not looked up");
+    guests.host = address->host;
+    guests.port = address->port;
     if (std::ranges::find(rig.channels, guests.channel, &Channel::name) == rig.channels.end())
         file.refuse(from, "channel", "there is no channel \"" + guests.channel + "\"");
     rig.guests = guests;
