@@ -231,6 +231,8 @@ void set(const SetOptions& options) {
         order.mutable_show()->set_black(switchedOn(options));
     else if (options.what == "guests")
         order.mutable_show()->set_guests(switchedOn(options));
+    else if (options.what == "drawings")
+        order.mutable_show()->set_drawings(switchedOn(options));
     else
         order.mutable_show()->set_freeze(switchedOn(options));
     options.asked.connect().carryOut(std::move(order), [](const std::string& what) {
@@ -256,7 +258,8 @@ void addSet(CommandLine& line) {
     command
         .add_option("WHAT",
                     options.what,
-                    "scene, quality, pattern, colour, brightness, black, freeze, guests or restart")
+                    "scene, quality, pattern, colour, brightness, black, freeze, guests, drawings "
+                    "or restart")
         ->required()
         ->check(CLI::IsMember({"scene",
                                "quality",
@@ -266,6 +269,7 @@ void addSet(CommandLine& line) {
                                "black",
                                "freeze",
                                "guests",
+                               "drawings",
                                "restart"}));
     command
         .add_option(

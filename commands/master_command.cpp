@@ -117,6 +117,7 @@ void chooseWanted(const config::Rig& rig,
     const bool isKept = !options.lockstep && options.show.replayPath.empty();
     if (isKept) {
         conductor.keptAt = wire::keptShowOf(options.show.rigPath);
+        conductor.drawingsAt = wire::drawingsOf(options.show.rigPath);
         conductor.kept = keptShow(rig, options);
     }
     const v1::WantedShow chosen = chosenBy(options);
@@ -227,6 +228,19 @@ class WorldPreparation {
     machine::ServiceNotifier* service_;
 };
 
+std::vector<std::string> drawnSpeciesOf(const config::Rig& rig) {
+    return rig.drawings ? rig.drawings->species : std::vector<std::string>{};
+}
+std::uint32_t mostDrawingsOf(const config::Rig& rig) {
+    return rig.drawings ? rig.drawings->most : 0;
+}
+
+world::WorldOptions worldOptionsOf(const simulation::Assets& assets, const config::Rig& rig) {
+    world::WorldOptions options = simulation::worldOptionsOf(assets);
+    options.drawingsMayBeEaten = rig.drawings && rig.drawings->mayBeEaten;
+    return options;
+}
+
 // Shows a new world, and records it where that is requested.
 void showNew(const config::Rig& rig,
              const MasterOptions& options,
@@ -237,15 +251,21 @@ void showNew(const config::Rig& rig,
         simulation::readAssets(sceneFile(rig, options.show.rigPath, conducting.wanted.scene()),
                                {.seed = options.show.seed,
                                 .fish = options.show.fish,
+                                .drawnSpecies = drawnSpeciesOf(rig),
+                                .mostDrawings = mostDrawingsOf(rig),
                                 .tell = [&](const std::string& what) { preparation->tell(what); }});
     preparation->tell("making the world");
-    simulation::LivingWorld world(simulation::worldOptionsOf(assets));
+    simulation::LivingWorld world(worldOptionsOf(assets, rig));
     preparation.reset();
     if (options.show.recordPath.empty()) {
         conducting.looks.makeWorld = [rig, show = options.show](const std::string& scene) {
-            simulation::Assets next = simulation::readAssets(
-                sceneFile(rig, show.rigPath, scene), {.seed = show.seed, .fish = {}, .tell = {}});
-            auto made = std::make_unique<simulation::LivingWorld>(simulation::worldOptionsOf(next));
+            simulation::Assets next = simulation::readAssets(sceneFile(rig, show.rigPath, scene),
+                                                             {.seed = show.seed,
+                                                              .fish = {},
+                                                              .drawnSpecies = drawnSpeciesOf(rig),
+                                                              .mostDrawings = mostDrawingsOf(rig),
+                                                              .tell = {}});
+            auto made = std::make_unique<simulation::LivingWorld>(worldOptionsOf(next, rig));
             const auto traits = made->world().traits();
             return conductor::NextWorld{
                 std::move(next.bytes), {traits.begin(), traits.end()}, std::move(made)};

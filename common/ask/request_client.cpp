@@ -29,20 +29,27 @@ v1::Explanation RequestClient::explain(std::uint32_t fish) {
     return ask(question, v1::Envelope::kExplanation).explanation();
 }
 
+v1::DrawingsReply RequestClient::drawings(std::uint32_t skinOf) {
+    v1::Envelope question;
+    question.mutable_drawings_request();
+    if (skinOf != 0) question.mutable_drawings_request()->set_skin_of(skinOf);
+    return ask(question, v1::Envelope::kDrawingsReply).drawings_reply();
+}
+
 v1::OrderReply RequestClient::give(const v1::Order& order) {
     v1::Envelope question;
     *question.mutable_order() = order;
     return ask(question, v1::Envelope::kOrderReply).order_reply();
 }
 
-void RequestClient::carryOut(v1::Order order,
-                             const std::function<void(const std::string&)>& onWait) {
+v1::OrderReply RequestClient::carryOut(v1::Order order,
+                                       const std::function<void(const std::string&)>& onWait) {
     constexpr auto kBetween = std::chrono::milliseconds(100);
     order.set_request(freshRequest());
     std::string waitingFor;
     while (true) {
         const v1::OrderReply reply = give(order);
-        if (reply.outcome() == v1::OrderReply::DONE) return;
+        if (reply.outcome() == v1::OrderReply::DONE) return reply;
         if (reply.outcome() != v1::OrderReply::WAITING) throw Error("refused: " + reply.reason());
         if (std::exchange(waitingFor, reply.reason()) != reply.reason()) onWait(reply.reason());
         std::this_thread::sleep_for(kBetween);

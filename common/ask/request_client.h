@@ -26,6 +26,8 @@ class RequestClient {
     // master prepares its show.
     v1::StatusReply status();
     v1::Explanation explain(std::uint32_t fish);
+    // Also with the skin of the drawing of this number; 0: of none.
+    v1::DrawingsReply drawings(std::uint32_t skinOf = 0);
 
     // The run of the master that answered last; 0 before the first answer.
     [[nodiscard]] std::uint64_t run() const { return run_; }
@@ -37,8 +39,8 @@ class RequestClient {
     v1::OrderReply give(const v1::Order& order);
     // Repeated until it is done, also through the minutes that a new scene may take; between
     // that, `onWait` hears what is waited for, whenever that changes. Throws Error where it is
-    // refused, saying why.
-    void carryOut(v1::Order order, const std::function<void(const std::string&)>& onWait);
+    // refused, saying why. Returns the answer that it is done.
+    v1::OrderReply carryOut(v1::Order order, const std::function<void(const std::string&)>& onWait);
 
     // Not answered, and lost where the connection does not stand yet. `yields`: to whoever steers
     // and does not.

@@ -500,6 +500,26 @@ void takeGuests(const TextReader& file, const v1::Rig& in, Rig& rig) {
     rig.guests = guests;
 }
 
+// After the console's port.
+std::optional<DrawingRules> drawingsOf(const TextReader& file, const v1::Rig& rig) {
+    if (!rig.has_drawings()) return std::nullopt;
+    const v1::Drawings& in = rig.drawings();
+    DrawingRules rules{.species = {in.species().begin(), in.species().end()},
+                       .most = in.most(),
+                       .areLetInAtOnce = in.let_in() == v1::Drawings::AT_ONCE,
+                       .mayBeEaten = in.may_be_eaten(),
+                       .folder = in.folder()};
+    if (rules.species.empty())
+        rules.species = {
+            "clownfish", "blue_tang", "butterflyfish", "parrotfish", "moorish_idol", "lionfish"};
+    if (!rules.folder.empty() && !rig.network().has_console_port())
+        file.refuse(in,
+                    "folder",
+                    "pictures in a folder are read by the console: give network a console_port, "
+                    "or leave folder out");
+    return rules;
+}
+
 Rig parseRig(const std::string& text, const std::string& source) {
     v1::Rig in;
     TextReader file(text, source, in);
@@ -535,6 +555,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
         rig.channels.push_back(channelOf(file, channel, rig.stereo));
     takeGuests(file, in, rig);
     rig.touch = touchOf(file, in);
+    rig.drawings = drawingsOf(file, in);
     takeScreen(file, source, in, rig);
     takeCalibration(file, in, rig);
     takeAdjustments(file, source, in, rig);

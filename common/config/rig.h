@@ -166,6 +166,15 @@ struct Guests {
     double height = 0.16;  // share of the channel's picture
 };
 
+// What visitors have painted swims on the wall.
+struct DrawingRules {
+    std::vector<std::string> species;  // names of those that have sheets
+    std::uint32_t most = 60;           // that swim at once
+    bool areLetInAtOnce = false;       // else the crew lets each in
+    bool mayBeEaten = false;
+    std::string folder;  // of pictures to be read, relative to the rig's; empty: none
+};
+
 // Where hands before the wall are told, and the surface that their tracker watches: three of its
 // corners, wall frame, metres.
 struct TouchedSurface {
@@ -201,6 +210,7 @@ struct Rig {
     std::string adjustments = {};        // name in `files`; empty: none. See adjustments.h
     std::optional<Guests> guests = {};
     std::optional<TouchedSurface> touch = {};
+    std::optional<DrawingRules> drawings = {};
     // Measured screens, wall files and adjustments, whole, by the name that the rig has for them.
     std::map<std::string, FileContent> files;
 };

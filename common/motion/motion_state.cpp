@@ -165,7 +165,7 @@ bool isPlayable(const FishRecord& record) {
     return record.segment < kSegments && record.fromSegment < kSegments &&
            record.warpFrame <= record.warpLength && speedOf(record) <= kFastestUnits &&
            speedOf(record) >= -kFastestUnits && record.orientationHigh >> 30U == 0 &&
-           record.skin == 0;
+           record.skin <= kMostSkin;
 }
 
 BodyFrame bodyFrameOf(const FishRecord& record) {

@@ -208,10 +208,12 @@ struct FishRecord {
     std::uint8_t warpFrame = 0, warpLength = 0;
     // MotionStates::mouth and gaze.
     std::uint8_t mouth = 0, gaze = 0;
-    std::uint32_t skin = 0;  // zero: not used yet
+    std::uint32_t skin =
+        0;  // number of a visitor's drawing that it wears; 0: its species' own skin
     friend bool operator==(const FishRecord&, const FishRecord&) = default;
 };
 static_assert(sizeof(FishRecord) == 40);
+inline constexpr std::uint32_t kMostSkin = 9'999'999;  // of FishRecord::skin
 
 // FishRecord::speedAndSpread of its two parts, and back.
 [[nodiscard]] inline std::uint32_t packedSpeedAndSpread(std::int32_t speed, std::uint8_t spread) {

@@ -277,7 +277,8 @@ std::optional<Show> readShow(const v1::Show& m) {
                 .calibration = m.calibration(),
                 .scan = scan,
                 .colourReturned = static_cast<float>(m.colour_returned()) / kAllColour,
-                .sign = *sign};
+                .sign = *sign,
+                .skins = m.has_skins() ? std::optional(digestIn(m.skins())) : std::nullopt};
 }
 
 bool areFinite(const google::protobuf::RepeatedField<float>& numbers) {

@@ -24,7 +24,7 @@
 namespace aquarama::wire {
 
 // Peers of another major version are refused.
-inline constexpr std::uint32_t kProtocolMajor = 9;
+inline constexpr std::uint32_t kProtocolMajor = 10;
 
 // Bounds that the code keeps to. All bounds of arriving messages are rules of aquarama.proto; a
 // test compares these with them.
@@ -36,6 +36,8 @@ inline constexpr std::size_t kBlobChunkBytes = std::size_t{256} << 10U;
 inline constexpr float kMostInputMetres = 10'000;  // of a position, on each axis
 inline constexpr int kMostExplanationLines = 48;
 inline constexpr std::size_t kMostExplanationLineBytes = 120;
+inline constexpr std::size_t kMostSkinBytes = std::size_t{2} << 20U;  // of a drawing's PNG
+inline constexpr int kMostDrawings = 256;                             // waiting and swimming
 inline constexpr std::size_t kMostJpegBytes = std::size_t{60} << 10U;
 inline constexpr float kFullLight = 255;  // of Show.brightness
 inline constexpr float kAllColour = 255;  // of Show.colour_returned

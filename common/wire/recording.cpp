@@ -55,6 +55,7 @@ void write(const SpeciesAssets& species, v1::RecordedSpecies& message) {
     message.set_text(species.text);
     message.set_repertoire(species.repertoire.data(), species.repertoire.size());
     message.set_fish(species.fish);
+    if (species.drawings > 0) message.set_drawings(species.drawings);
 }
 
 void write(const RecordedFood& food, v1::RecordedInput& message) {
@@ -95,6 +96,18 @@ void write(const WallHands& hands, v1::RecordedInput& message) {
         recorded.add_ids(hand.id);
         for (const int axis : {0, 1, 2}) recorded.add_points(hand.point[axis]);
     }
+}
+
+void write(const RecordedDrawing& drawing, v1::RecordedInput& message) {
+    v1::RecordedDrawing& recorded = *message.mutable_drawing();
+    recorded.set_fish(drawing.fish);
+    recorded.set_number(drawing.number);
+    recorded.set_picture(bytesOf(drawing.picture));
+    recorded.set_aside(drawing.aside);
+}
+
+void write(const RecordedDeparture& departure, v1::RecordedInput& message) {
+    message.mutable_departure()->set_fish(departure.fish);
 }
 
 void write(const RecordedHash& hash, v1::RecordedHash& message) {
@@ -179,7 +192,7 @@ class Reader {
         if (!nextEntry()) fail("ends before it has all its species");
         const v1::RecordedSpecies& species = entry_.species();
         if (!entry_.has_species() || !species.has_fish() || species.fish() > kMostFish - fish_ ||
-            species.text().size() > kMostSpeciesBytes ||
+            species.text().size() > kMostSpeciesBytes || species.drawings() > species.fish() ||
             species.repertoire().size() > kMostRepertoireBytes)
             fail("has a damaged species");
         fish_ += species.fish();
@@ -187,7 +200,8 @@ class Reader {
         recording_.assets.cast.push_back({source_ + ": its " + printed(species.file()),
                                           species.text(),
                                           {first, first + species.repertoire().size()},
-                                          species.fish()});
+                                          species.fish(),
+                                          species.drawings()});
     }
 
     // What happened after the species: inputs, hashes, and the end.
@@ -259,6 +273,14 @@ class Reader {
         return hands;
     }
 
+    RecordedDrawing drawingIn(const v1::RecordedDrawing& drawing) const {
+        const bool isDrawing = drawing.fish() < fish_ && drawing.number() > 0 &&
+                               drawing.picture().size() == sizeof(Digest::bytes) &&
+                               drawing.aside() >= -1 && drawing.aside() <= 1;
+        if (!isDrawing) fail("has a drawing that cannot be");
+        return {drawing.fish(), drawing.number(), digestIn(drawing.picture()), drawing.aside()};
+    }
+
     RecordedInput inputIn(const v1::RecordedInput& message) {
         RecordedInput input{tickIn(message.has_tick(), message.tick()), {}};
         if (message.has_food()) {
@@ -277,6 +299,11 @@ class Reader {
             input.input = clockIn(message.clock());
         } else if (message.has_hands()) {
             input.input = handsIn(message.hands());
+        } else if (message.has_drawing()) {
+            input.input = drawingIn(message.drawing());
+        } else if (message.has_departure()) {
+            if (message.departure().fish() >= fish_) fail("has a drawing that cannot be");
+            input.input = RecordedDeparture{message.departure().fish()};
         } else {
             fail("has an input that this program does not know");
         }

@@ -14,6 +14,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/base/digest.h"
 #include "common/base/units.h"
 #include "common/base/wall_hands.h"
 #include "common/wire/messages.h"
@@ -34,6 +35,7 @@ struct SpeciesAssets {
     std::string text;
     std::vector<std::byte> repertoire;
     std::uint32_t fish = 0;
+    std::uint32_t drawings = 0;  // so many of them, the last, wait for visitors' drawings
 };
 
 // All that a show is made of, as bytes: the same bundle is the same world on any machine.
@@ -59,10 +61,28 @@ struct RecordedSubmarine {
 struct RecordedClock {
     double timeOfDay = 0.5, lengthSeconds = 0;
 };
+// A fish that waited came in with a visitor's drawing as its skin.
+struct RecordedDrawing {
+    std::uint32_t fish = 0;
+    std::uint32_t number = 0;  // FishRecord::skin
+    Digest picture;            // of the PNG
+    int aside = 0;             // from where: -1 left, 0 middle, 1 right
+};
+// It swims away.
+struct RecordedDeparture {
+    std::uint32_t fish = 0;
+};
 // An input that reached the world after `tick` and before the next.
 struct RecordedInput {
     Tick tick;
-    std::variant<RecordedFood, RecordedSubmarine, Steering, RecordedClock, WallHands> input;
+    std::variant<RecordedFood,
+                 RecordedSubmarine,
+                 Steering,
+                 RecordedClock,
+                 WallHands,
+                 RecordedDrawing,
+                 RecordedDeparture>
+        input;
 };
 
 // A hash of the world at the tick, before any input that reaches it then.

@@ -127,6 +127,8 @@ struct Show {
     // Share of the colour that water takes which is given back, 0 to 1 in 255 steps.
     float colourReturned = 0.0F;
     Sign sign = {};
+    std::optional<Digest> skins =
+        {};  // of the blob of a v1::SkinList; nothing: no fish has its own
     friend bool operator==(const Show&, const Show&) = default;
 };
 

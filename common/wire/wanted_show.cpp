@@ -67,6 +67,7 @@ std::string textOf(const v1::WantedShow& show) {
     if (show.has_colour_returned())
         add(text, "colour", fmt::format("{:.2f}", show.colour_returned()));
     if (show.has_guests()) add(text, "guests", onOff(show.guests()));
+    if (show.has_drawings()) add(text, "drawings", onOff(show.drawings()));
     if (show.has_brightness()) add(text, "brightness", fmt::format("{:.2f}", show.brightness()));
     return text;
 }
@@ -74,6 +75,11 @@ std::string textOf(const v1::WantedShow& show) {
 fs::path keptShowOf(const std::string& rigPath) {
     return userFolder("XDG_STATE_HOME", ".local/state") / "shows" /
            (fs::path(rigPath).stem().string() + ".txtpb");
+}
+
+fs::path drawingsOf(const std::string& rigPath) {
+    return userFolder("XDG_STATE_HOME", ".local/state") / "shows" /
+           (fs::path(rigPath).stem().string() + ".drawings");
 }
 
 v1::WantedShow readKeptShow(const fs::path& path) {

@@ -26,6 +26,8 @@ void apply(v1::WantedShow& show, const v1::WantedShow& change);
 // Where the values that were set for a rig are kept: aquarama/shows/RIG.txtpb in the user's folder
 // for state ($XDG_STATE_HOME, or ~/.local/state).
 [[nodiscard]] std::filesystem::path keptShowOf(const std::string& rigPath);
+// Folder in which a master of this rig keeps visitors' drawings.
+[[nodiscard]] std::filesystem::path drawingsOf(const std::string& rigPath);
 // Nothing is set where there is no such file. Throws Error where it is malformed.
 [[nodiscard]] v1::WantedShow readKeptShow(const std::filesystem::path& path);
 // The same of its text; `source` names it in errors.

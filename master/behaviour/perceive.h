@@ -16,6 +16,7 @@
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
 #include "master/fish/secondary_controller.h"
+#include "master/fish/wearers.h"
 #include "master/surroundings/surroundings.h"
 
 namespace aquarama::behaviour {
@@ -35,6 +36,8 @@ struct Environment {
     std::uint32_t seed = 0;
     Tick tick;
     fish::Adaptation adaptation;
+    // Fish with visitors' drawings; null: none.
+    const fish::Wearers* wearers = nullptr;
 };
 
 // Stimuli (Tu 1996, section 5.2): what the nearness of food or of a mate adds to a drive.

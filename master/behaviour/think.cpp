@@ -9,6 +9,7 @@
 
 #include "master/behaviour/curiosity.h"
 #include "master/behaviour/face.h"
+#include "master/behaviour/guided.h"
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/perceive.h"
 #include "master/behaviour/routines.h"
@@ -37,7 +38,8 @@ void think(const Environment& environment,
     remember(mind, decide(parameters, mind, senses, feelings));
     const Situation situation{environment, parameters, fish, senses, feelings};
     const std::size_t reported = events.size();
-    fish::Course course = bentByHands(situation, mind, act(situation, mind, events));
+    fish::Course course =
+        guided(situation, mind, bentByHands(situation, mind, act(situation, mind, events)));
     course.face = faceOf(situation, mind, std::span(events).subspan(reported));
     course.openToChange = environment.adaptation.recommendations &&
                           acceptsRecommendation(parameters, mind, senses, feelings);

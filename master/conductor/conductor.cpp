@@ -19,6 +19,8 @@ using Phase = ShowControl::Phase;
 
 // Of one turn of the loop: a flood of packets never stops the frames.
 constexpr int kMostPackets = 256;
+// Drawings come and go once a second.
+constexpr std::uint64_t kTicksBetweenDrawings = 60;
 // A node whose name comes up again is taken for dead after so much silence.
 constexpr net::Duration kSilenceOfTheDead = std::chrono::milliseconds(250);
 
@@ -84,7 +86,8 @@ Conductor::Conductor(const config::Rig& rig,
                   channels_->sendControl(peer, packet);
               }},
       roster_{rig, options_.expected},
-      orders_{limitsOf(options_), roster_, sender_},
+      drawings_{rig.drawings, options_.drawingsAt},
+      orders_{limitsOf(options_), roster_, sender_, drawings_},
       looks_{sourcesOf(options_),
              welcomeTo(rig, options_, *channels_),
              rig.files,
@@ -219,6 +222,8 @@ void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net
             return sender_.say(from.peer, status(now));
         case v1::Envelope::kExplainRequest:
             return countRefused(visitors_.ask(from.peer, message.explain_request().fish()));
+        case v1::Envelope::kDrawingsRequest:
+            return tellDrawings(from.peer, message.drawings_request());
         case v1::Envelope::kOrder:
             return obey(from, message.order(), now);
         case v1::Envelope::kInput:
@@ -381,7 +386,9 @@ void Conductor::leave(std::size_t node) {
 }
 
 void Conductor::giveChunk(const net::PeerId& peer, const v1::BlobRequest& request) {
-    const net::Blob blob = looks_.blob(wire::digestIn(request.digest()));
+    const Digest digest = wire::digestIn(request.digest());
+    net::Blob blob = looks_.blob(digest);
+    if (!blob) blob = drawings_.blob(digest);
     countRefused(blob && request.offset() <= blob->size());
     if (!blob) return sender_.dismiss(peer, "the wall shows another look by now");
     if (request.offset() > blob->size()) return;
@@ -405,6 +412,12 @@ void Conductor::obey(const net::FromPeer& from, const v1::Order& order, net::Mom
     sender_.say(from.peer, std::move(message));
 }
 
+void Conductor::tellDrawings(const net::PeerId& peer, const v1::DrawingsRequest& request) const {
+    v1::Envelope message;
+    *message.mutable_drawings_reply() = drawings_.reply(request);
+    sender_.say(peer, std::move(message));
+}
+
 v1::Envelope Conductor::status(net::Moment now) const {
     v1::Envelope message;
     v1::StatusReply& reply = *message.mutable_status_reply();
@@ -412,6 +425,8 @@ v1::Envelope Conductor::status(net::Moment now) const {
     reply.set_frame(presentation_.next().value);
     *reply.mutable_show() = shown(now);
     reply.set_guests(orders_.control().wanted().guests());
+    reply.set_drawings(orders_.control().wanted().drawings());
+    if (const auto version = drawings_.version()) reply.set_drawings_version(*version);
     reply.set_change(legible(orders_.control().waitingFor(), wire::kMostReasonBytes));
     gauges_.writeStatus(reply, report_, roster_, presentation_.barrier());
     return message;
@@ -431,7 +446,7 @@ void Conductor::changeShow(net::Moment now) {
             presentation_.forgetTicks();
             startSimulation(static_cast<std::uint32_t>(world->school.size()));
         }
-        black_.reset();
+        dimming_.black.reset();
     }
     // Nobody draws, so nobody has to see black.
     if (control.phase() == Phase::Fading && !presentation_.barrier().hasMembers())
@@ -456,6 +471,7 @@ void Conductor::startSimulation(std::uint32_t fish) {
         simulation_->apply(readHallClock(options_.hoursAt, unixNow()).setting());
         clockSet_ = net::monotonicNow();
     }
+    drawings_.enter(simulation_->drawingSlots());
     std::optional<Tick> lastTick;
     if (isLockstep() && options_.frames) lastTick = Tick{*options_.frames - 1};
     simulationThread_ = std::make_unique<SimulationThread>(
@@ -465,26 +481,39 @@ void Conductor::startSimulation(std::uint32_t fish) {
 }
 
 std::optional<Snapshot> Conductor::takeTick() {
-    return simulationThread_->take();
+    std::optional<Snapshot> tick = simulationThread_->take();
+    if (tick && tick->tick.value % kTicksBetweenDrawings == 0) turnDrawings(*tick);
+    return tick;
+}
+
+void Conductor::turnDrawings(const Snapshot& newest) {
+    const auto inputs = drawings_.turn(newest.fish,
+                                       orders_.control().wanted().drawings(),
+                                       net::monotonicNow(),
+                                       static_cast<std::uint64_t>(unixNow()));
+    for (const world::WorldInput& input : inputs)
+        if (!simulationThread_->betweenTicks(
+                [input](Simulation& simulation) { simulation.apply(input); }))
+            logWarning("a drawing waits: the world is busy");
 }
 
 // On the way to the next scene it is noted when light went, for the log, and which frame is black.
 const v1::Show& Conductor::showOf(Frame frame, net::Moment now) {
     ShowControl& control = orders_.control();
     if (options_.log != nullptr) options_.log->masterFrame = frame.value;
-    if (!isLockstep()) brightness_ = control.brightness(now);
+    if (!isLockstep()) dimming_.brightness = control.brightness(now);
     const bool fades = control.phase() == Phase::Fading;
-    if (fades && !dimmedSince_) dimmedSince_ = now;
-    if (fades && brightness_ == 0 && !black_) black_ = frame;
+    if (fades && !dimming_.since) dimming_.since = now;
+    if (fades && dimming_.brightness == 0 && !dimming_.black) dimming_.black = frame;
     const auto light = static_cast<float>(control.wanted().brightness());
-    if (!fades && brightness_ == light && dimmedSince_)
+    if (!fades && dimming_.brightness == light && dimming_.since)
         logInfo("through black in {:.1f} s",
-                std::chrono::duration<double>(now - *std::exchange(dimmedSince_, {})).count());
+                std::chrono::duration<double>(now - *std::exchange(dimming_.since, {})).count());
     return shown_ = shown(now);
 }
 
 void Conductor::onReleased(Frame frame) {
-    if (black_ && *black_ <= frame) orders_.control().blackShown();
+    if (dimming_.black && *dimming_.black <= frame) orders_.control().blackShown();
 }
 
 v1::Show Conductor::shown(net::Moment now) const {
@@ -498,11 +527,13 @@ v1::Show Conductor::shown(net::Moment now) const {
     show.set_pattern(scan ? v1::PATTERN_SCAN
                           : static_cast<v1::Pattern>(control.wanted().pattern()));
     show.set_black(control.wanted().black());
-    show.set_brightness(static_cast<std::uint32_t>(std::lround(wire::kFullLight * brightness_)));
+    show.set_brightness(
+        static_cast<std::uint32_t>(std::lround(wire::kFullLight * dimming_.brightness)));
     show.set_frozen(control.wanted().freeze());
     show.set_colour_returned(static_cast<std::uint32_t>(
         std::lround(double{wire::kAllColour} * looks_.colourReturned())));
     show.set_pilot(pilotName(now));
+    if (const auto& skins = drawings_.skins()) show.set_skins(wire::bytesOf(*skins));
     show.set_calibration(looks_.calibration());
     if (scan) wire::writeScanPattern(*scan, *show.mutable_scan());
     const v1::Sign* const sign = orders_.sign().sign();

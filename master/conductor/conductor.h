@@ -17,6 +17,7 @@
 #include "common/config/rig.h"
 #include "common/machine/service_notifier.h"
 #include "common/net/channels.h"
+#include "master/conductor/drawings.h"
 #include "master/conductor/gauges.h"
 #include "master/conductor/hall_clock.h"
 #include "master/conductor/looks.h"
@@ -33,9 +34,10 @@ namespace aquarama::conductor {
 // How a show is conducted.
 struct ConductorOptions {
     wire::Pace pace = wire::Pace::Live;
-    v1::WantedShow wanted = {};    // at first
-    v1::WantedShow kept = {};      // what was set in earlier runs, part of `wanted`
-    std::filesystem::path keptAt;  // where that is kept; empty: nowhere
+    v1::WantedShow wanted = {};        // at first
+    v1::WantedShow kept = {};          // what was set in earlier runs, part of `wanted`
+    std::filesystem::path keptAt;      // where that is kept; empty: nowhere
+    std::filesystem::path drawingsAt;  // folder of visitors' drawings; empty: nowhere
     LookSources looks;
     std::string whyOneScene = "this master has one scene only";  // without LookSources::makeWorld
     std::optional<std::uint64_t> frames;                         // the show ends after so many
@@ -46,6 +48,13 @@ struct ConductorOptions {
     machine::ServiceNotifier* service = nullptr;  // hears of every turn of the loop; null: nobody
     // Lockstep: silence of a node that ends the show.
     net::Duration patience = std::chrono::seconds(60);
+};
+
+// The light of the wall, and its way through black to the next scene.
+struct Dimming {
+    float brightness = 1.0F;           // of the last frame
+    std::optional<net::Moment> since;  // on that way
+    std::optional<Frame> black;        // the first without light, on that way
 };
 
 // Conducts one show in the thread that calls run(); the world advances in a thread of its own.
@@ -93,6 +102,7 @@ class Conductor final : private FrameSource {
     void leave(std::size_t node);
     void giveChunk(const net::PeerId& peer, const v1::BlobRequest& request);
     void obey(const net::FromPeer& from, const v1::Order& order, net::Moment now);
+    void tellDrawings(const net::PeerId& peer, const v1::DrawingsRequest& request) const;
     [[nodiscard]] v1::Envelope status(net::Moment now) const;
     // A packet counts as refused unless it was accepted.
     void countRefused(bool isAccepted) { report_.refusedPackets += isAccepted ? 0U : 1U; }
@@ -100,6 +110,8 @@ class Conductor final : private FrameSource {
     // A step of the change that is under way.
     void changeShow(net::Moment now);
     void startSimulation(std::uint32_t fish);
+    // What becomes of visitors' drawings, once a second, by where the fish of a tick are.
+    void turnDrawings(const Snapshot& newest);
     // Corrects the clock of a scene that follows the hall, every few minutes.
     void followHall(net::Moment now);
     // What the wall shows now, with the brightness of the last frame.
@@ -115,6 +127,7 @@ class Conductor final : private FrameSource {
     std::unique_ptr<net::MasterChannels> channels_;
     Sender sender_;
     Roster roster_;
+    Drawings drawings_;
     Orders orders_;
     Looks looks_;
     ShowKeeper keeper_;
@@ -129,12 +142,10 @@ class Conductor final : private FrameSource {
     bool windowsEndShow_;
     std::atomic<bool> stopped_ = false;
     bool isOver_ = false;
-    net::Moment lastRoll_ = net::monotonicNow();          // when missing nodes were last named
-    v1::Show shown_;                                      // of the frame that was last published
-    float brightness_ = 1.0F;                             // of that frame
+    net::Moment lastRoll_ = net::monotonicNow();  // when missing nodes were last named
+    v1::Show shown_;                              // of the frame that was last published
+    Dimming dimming_;
     std::optional<net::Moment> clockSet_;                 // of a scene that follows the hall
-    std::optional<net::Moment> dimmedSince_;              // on the way to the next scene
-    std::optional<Frame> black_;                          // the first without light, on that way
     std::unique_ptr<SimulationThread> simulationThread_;  // last: it uses all of the above
 };
 

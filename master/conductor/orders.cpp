@@ -8,6 +8,7 @@
 
 #include "common/base/characters.h"
 #include "common/base/log.h"
+#include "master/conductor/hall_clock.h"
 
 namespace aquarama::conductor {
 namespace {
@@ -21,10 +22,11 @@ Answer refused(std::string why) {
 
 }  // namespace
 
-Orders::Orders(OrderLimits limits, Roster& roster, const Sender& sender)
+Orders::Orders(OrderLimits limits, Roster& roster, const Sender& sender, Drawings& drawings)
     : limits_{std::move(limits)},
       roster_{roster},
       sender_{sender},
+      drawings_{drawings},
       control_{limits_.wanted, limits_.kept, book_} {}
 
 v1::OrderReply Orders::obey(const std::string& user,
@@ -32,6 +34,7 @@ v1::OrderReply Orders::obey(const std::string& user,
                             Frame unpublished,
                             net::Moment now) {
     Answer answer;
+    std::uint32_t drawing = 0;
     if (order.run() != 0 && order.run() != sender_.session())
         answer = refused("the show was started again meanwhile: look, and say it once more");
     else if (order.has_scan())
@@ -40,6 +43,8 @@ v1::OrderReply Orders::obey(const std::string& user,
         answer = hold(order.sign(), now);
     else if (order.has_show())
         answer = change(user, order);
+    else if (order.has_drawing() || order.has_moderation())
+        answer = takeDrawing(user, order, drawing);
     else if (const Answer* known = book_.find(order.request()))
         answer = *known;
     else
@@ -48,6 +53,7 @@ v1::OrderReply Orders::obey(const std::string& user,
     reply.set_request(order.request());
     reply.set_outcome(static_cast<v1::OrderReply::Outcome>(answer.outcome));
     reply.set_reason(legible(answer.reason, wire::kMostReasonBytes));
+    if (drawing != 0) reply.set_drawing(drawing);
     if (order.has_scan() && answer.outcome == Outcome::Done)
         reply.set_frame(std::ranges::max(roster_.seats(), {}, &NodeSeat::released).released.value);
     return reply;
@@ -102,6 +108,22 @@ Answer Orders::hold(const std::string& user,
     if (begins) logInfo("{} holds the wall for a scan", user);
     const std::string missing = notShowingScan();
     return missing.empty() ? Answer{} : Answer{Outcome::Waiting, "not shown yet by " + missing};
+}
+
+// A verdict may be said again: it then changes nothing.
+Answer Orders::takeDrawing(const std::string& user, const v1::Order& order, std::uint32_t& number) {
+    if (limits_.isLockstep)
+        return refused("a show in lockstep is the same every time; run it with --live");
+    if (order.has_moderation()) {
+        logInfo("{} decides of drawing {}: {}",
+                user,
+                order.moderation().number(),
+                v1::Moderation::Verdict_Name(order.moderation().verdict()));
+        return drawings_.decide(order.moderation());
+    }
+    if (!control_.wanted().drawings()) return refused("drawings are set off; set drawings on");
+    return drawings_.offer(
+        order.request(), order.drawing(), static_cast<std::uint64_t>(unixNow()), number);
 }
 
 // Said again every second or so.

@@ -9,6 +9,7 @@
 #include "common/ask/order_book.h"
 #include "common/base/units.h"
 #include "common/wire/messages.h"
+#include "master/conductor/drawings.h"
 #include "master/conductor/roster.h"
 #include "master/conductor/sender.h"
 #include "master/conductor/show_control.h"
@@ -27,8 +28,8 @@ struct OrderLimits {
 // answer, or its silence, ends it.
 class Orders {
   public:
-    // `roster` and `sender` outlive this.
-    Orders(OrderLimits limits, Roster& roster, const Sender& sender);
+    // All but the limits outlive this.
+    Orders(OrderLimits limits, Roster& roster, const Sender& sender, Drawings& drawings);
 
     // Carries out an order of `user`, or begins it; said again, it is answered again.
     // `unpublished`: the first frame that is still to be published.
@@ -59,6 +60,9 @@ class Orders {
                               const v1::HeldScan& scan,
                               Frame unpublished,
                               net::Moment now);
+    [[nodiscard]] Answer takeDrawing(const std::string& user,
+                                     const v1::Order& order,
+                                     std::uint32_t& number);
     [[nodiscard]] Answer restart(const std::string& user, const v1::Order& order);
     [[nodiscard]] Answer power(const std::string& user, const v1::Order& order, net::Moment now);
     [[nodiscard]] Answer hold(const v1::HeldSign& sign, net::Moment now);
@@ -76,6 +80,7 @@ class Orders {
     OrderLimits limits_;
     Roster& roster_;
     const Sender& sender_;
+    Drawings& drawings_;
     ask::OrderBook book_;
     ShowControl control_;
     ScanHold scan_;

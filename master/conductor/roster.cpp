@@ -53,8 +53,19 @@ bool isVisitorsInput(const v1::Envelope& message) {
 
 bool isQuestion(const v1::Envelope& message) {
     return message.message_case() == v1::Envelope::kStatusRequest ||
-           message.message_case() == v1::Envelope::kExplainRequest;
+           message.message_case() == v1::Envelope::kExplainRequest ||
+           message.message_case() == v1::Envelope::kDrawingsRequest;
 }
+
+namespace {
+
+// What the guests' program asks in the name of visitors.
+bool isGuestsOrder(const v1::Envelope& message) {
+    return message.message_case() == v1::Envelope::kOrder &&
+           (message.order().has_sign() || message.order().has_drawing());
+}
+
+}  // namespace
 
 bool maySay(const User& user, const v1::Envelope& message) {
     switch (user.role) {
@@ -65,9 +76,7 @@ bool maySay(const User& user, const v1::Envelope& message) {
         case config::KeyRole::Visitor:
             return isVisitorsInput(message);
         case config::KeyRole::Guests:
-            return isVisitorsInput(message) ||
-                   message.message_case() == v1::Envelope::kStatusRequest ||
-                   (message.message_case() == v1::Envelope::kOrder && message.order().has_sign());
+            return isVisitorsInput(message) || isQuestion(message) || isGuestsOrder(message);
         case config::KeyRole::Operator:
         case config::KeyRole::Crew:
             return isQuestion(message) || message.message_case() == v1::Envelope::kInput ||

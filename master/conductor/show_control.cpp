@@ -28,6 +28,7 @@ v1::WantedShow completed(const v1::WantedShow& show) {
     all.set_black(false);
     all.set_freeze(false);
     all.set_guests(true);
+    all.set_drawings(true);
     all.set_brightness(1);
     all.MergeFrom(show);
     return all;
@@ -104,11 +105,13 @@ Answer ShowControl::set(std::uint64_t request, const v1::WantedShow& change) {
         show->set_black(goal.black());
         show->set_freeze(goal.freeze());
         show->set_guests(goal.guests());
+        show->set_drawings(goal.drawings());
         show->set_brightness(goal.brightness());
     }
     if (change.has_black()) kept_.set_black(change.black());
     if (change.has_freeze()) kept_.set_freeze(change.freeze());
     if (change.has_guests()) kept_.set_guests(change.guests());
+    if (change.has_drawings()) kept_.set_drawings(change.drawings());
     if (change.has_brightness()) kept_.set_brightness(change.brightness());
     if (isAnotherLook) return begin(request, goal, change);
     wanted_.set_pattern(goal.pattern());

@@ -49,6 +49,12 @@ struct Explanation {
     std::vector<NearestSeen> seen = {};
 };
 
+// The fish of a species that wait for visitors' drawings, or wear one: [first, last).
+struct DrawingSlots {
+    std::string species;  // name
+    std::uint32_t first = 0, last = 0;
+};
+
 // Called from the tick thread only.
 class Simulation {
   public:
@@ -63,6 +69,8 @@ class Simulation {
     [[nodiscard]] virtual Explanation explain(std::uint32_t fish) const = 0;
     // Whether its day follows the hall's clock, which world::SetClock brings to it.
     [[nodiscard]] virtual bool followsHall() const { return false; }
+    // Of each species that has any. They never change.
+    [[nodiscard]] virtual std::vector<DrawingSlots> drawingSlots() const { return {}; }
 };
 
 }  // namespace aquarama::conductor

@@ -83,6 +83,14 @@ std::vector<capture::RepertoireFile> capturedOnce(
     return files;
 }
 
+// How many fish of a species wait for visitors' drawings: twice an equal share of them, as not all
+// species are chosen alike.
+std::uint32_t slotsOf(const std::string& species, const AssetChoice& choice) {
+    if (std::ranges::find(choice.drawnSpecies, species) == choice.drawnSpecies.end()) return 0;
+    const auto kinds = static_cast<std::uint32_t>(choice.drawnSpecies.size());
+    return std::min(choice.mostDrawings, (2 * choice.mostDrawings + kinds - 1) / kinds);
+}
+
 // The scene, with the chosen number of fish of its first species.
 config::Scene chosenScene(const std::string& path, const AssetChoice& choice) {
     config::Scene scene = config::readScene(path);
@@ -115,6 +123,13 @@ conductor::Snapshot LivingWorld::snapshot() const {
     return snapshot;
 }
 
+std::vector<conductor::DrawingSlots> LivingWorld::drawingSlots() const {
+    std::vector<conductor::DrawingSlots> slots;
+    for (const fish::SlotRange& range : world_.wearers().ranges)
+        slots.push_back({species_.at(range.kind), range.first, range.last});
+    return slots;
+}
+
 conductor::Explanation LivingWorld::explain(std::uint32_t fish) const {
     const auto insight = insightInto(world_, fish);
     return insight ? explanationOf(*insight, {world_.view(), species_}) : conductor::Explanation{};
@@ -130,8 +145,10 @@ Assets readAssets(const std::string& scenePath, const AssetChoice& choice) {
     const config::Scene& scene = assets.scene;
     assets.bytes.scene = scene.text;
     for (config::CastSpecies& member : config::readCastSpecies(scene, scenePath)) {
-        const std::uint32_t fish = scene.cast[assets.species.size()].fish;
-        assets.bytes.cast.push_back({member.path, member.species.text, {}, fish});
+        config::CastMember& cast = assets.scene.cast[assets.species.size()];
+        const std::uint32_t drawings = slotsOf(member.species.name, choice);
+        cast.fish += drawings;
+        assets.bytes.cast.push_back({member.path, member.species.text, {}, cast.fish, drawings});
         assets.species.push_back(std::move(member.species));
     }
     place::checkRoom(
@@ -154,6 +171,7 @@ world::WorldOptions worldOptionsOf(const Assets& assets) {
         options.cast.push_back({.tables = motion::makeMotorTables(
                                     motion::decodeRepertoire(bytes.repertoire, bytes.file)),
                                 .fish = bytes.fish,
+                                .drawings = bytes.drawings,
                                 .size = species.size,
                                 .name = species.name,
                                 .habits = species.habits,

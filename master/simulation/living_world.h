@@ -29,6 +29,7 @@ class LivingWorld : public conductor::Simulation {
     [[nodiscard]] bool followsHall() const override {
         return world_.surroundings().climate.day.followsHall;
     }
+    [[nodiscard]] std::vector<conductor::DrawingSlots> drawingSlots() const override;
 
     // The world itself, for measurements.
     [[nodiscard]] const world::World& world() const { return world_; }
@@ -47,6 +48,9 @@ struct AssetChoice {
     std::uint32_t seed = 1;
     // Number of fish of the first species, instead of the scene's.
     std::optional<std::uint32_t> fish;
+    // Species of which fish wait for visitors' drawings, and how many drawings swim at most.
+    std::vector<std::string> drawnSpecies = {};
+    std::uint32_t mostDrawings = 0;
     // Called with the progress of long work, as "capturing 3 of 7 species, 20 %"; by several
     // threads, but never two at once. May be empty.
     std::function<void(const std::string&)> tell = {};

@@ -117,6 +117,12 @@ wire::RecordedClock recordedOne(const world::SetClock& clock) {
 WallHands recordedOne(const WallHands& hands) {
     return hands;
 }
+wire::RecordedDrawing recordedOne(const world::EnterDrawing& drawing) {
+    return {drawing.fish, drawing.number, drawing.picture, drawing.aside};
+}
+wire::RecordedDeparture recordedOne(const world::LeaveDrawing& drawing) {
+    return {drawing.fish};
+}
 world::DropFood inputOfOne(const wire::RecordedFood& food) {
     return {food.position, food.pellets};
 }
@@ -128,6 +134,12 @@ Steering inputOfOne(const Steering& steering) {
 }
 WallHands inputOfOne(const WallHands& hands) {
     return hands;
+}
+world::EnterDrawing inputOfOne(const wire::RecordedDrawing& drawing) {
+    return {drawing.fish, drawing.number, drawing.picture, drawing.aside};
+}
+world::LeaveDrawing inputOfOne(const wire::RecordedDeparture& departure) {
+    return {departure.fish};
 }
 world::SetClock inputOfOne(const wire::RecordedClock& clock) {
     return {clock.timeOfDay, clock.lengthSeconds};

@@ -74,6 +74,9 @@ class RecordedWorld final : public SimulationDecorator {
     void advance() override;
     void apply(const world::WorldInput& input) override { pending_.push_back(input); }
     [[nodiscard]] bool followsHall() const override { return world_.followsHall(); }
+    [[nodiscard]] std::vector<conductor::DrawingSlots> drawingSlots() const override {
+        return world_.drawingSlots();
+    }
 
   private:
     // The present tick and hash.

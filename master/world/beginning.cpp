@@ -253,8 +253,12 @@ std::vector<motion::FishTraits> traitsOf(const WorldOptions& options) {
         const config::SizeRange& size = species.size;
         for (std::uint32_t i = 0; i < species.fish; ++i, ++id) {
             const float own = bell(hashOf(options.seed, Stream::BeginningLength, id));
-            const float metres = std::clamp(
-                size.meanMetres + size.deviationMetres * own, size.leastMetres, size.mostMetres);
+            // Visitors see their drawings best on large fish.
+            const bool isDrawn = i >= species.fish - species.drawings;
+            const float metres = isDrawn ? size.mostMetres
+                                         : std::clamp(size.meanMetres + size.deviationMetres * own,
+                                                      size.leastMetres,
+                                                      size.mostMetres);
             traits.push_back({id, static_cast<std::uint16_t>(std::lround(metres * 1000))});
         }
     }

@@ -87,12 +87,13 @@ void World::perform(const fish::DeferredEvent& event) {
             return;
         case fish::DeferredEventKind::EatFish:
             if (motion::isAway(columns_.states, event.object)) return;
+            // A chase ends with one catch.
+            columns_.minds[event.fish].sinceChase = fish::kLongAgo;
+            if (!wearers_.mayBeEaten && wearers_.of(event.object) != nullptr) return;
             motion::setAway(columns_.states, event.object);
             columns_.view.signs[event.object] = fish::kAway;
             absences_.push_back(absenceFrom(seed_, event.object, tick_));
             feed(event.fish);
-            // A chase ends with one catch.
-            columns_.minds[event.fish].sinceChase = fish::kLongAgo;
             ++counts_.catches;
             return;
         case fish::DeferredEventKind::Spawn:
@@ -159,17 +160,23 @@ void World::receive() {
 // speed, towards the middle.
 void World::arrive(std::uint32_t fish) {
     const fish::SpeciesParameters& parameters = speciesParameters_[columns_.view.kind[fish]];
-    const glm::vec3 place = arrivalPlace(surroundings_, fish, tick_);
+    const glm::vec3 at = arrivalPlace(surroundings_, fish, tick_);
     const glm::vec3 inwards =
-        place::directionOf(surroundings_.obstacles.water.centre - place, glm::vec3{1, 0, 0});
-    placeFishAt(columns_.states, fish, place, inwards);
-    motion::setSpeedBodyLengths(columns_.states, fish, parameters.medium);
+        place::directionOf(surroundings_.obstacles.water.centre - at, glm::vec3{1, 0, 0});
+    place(fish, at, inwards, parameters.medium);
+    ++counts_.returns;
+}
+
+// Puts a fish that was away into the water, with a new mind.
+void World::place(std::uint32_t fish, glm::vec3 at, glm::vec3 course, float speed) {
+    const fish::SpeciesParameters& parameters = speciesParameters_[columns_.view.kind[fish]];
+    placeFishAt(columns_.states, fish, at, course);
+    motion::setSpeedBodyLengths(columns_.states, fish, speed);
     const auto drawn = hashOf(seed_, static_cast<std::uint32_t>(tick_.value));
     columns_.minds[fish] =
         behaviour::freshMind(parameters, drawn, fish, columns_.view.fish[fish].length);
-    columns_.courses[fish] = {place::levelled(inwards), parameters.medium, 0};
+    columns_.courses[fish] = {place::levelled(course), speed, 0};
     columns_.view.signs[fish] = 0;
-    ++counts_.returns;
 }
 
 }  // namespace aquarama::world

@@ -10,6 +10,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/base/digest.h"
 #include "common/base/units.h"
 #include "common/base/wall_hands.h"
 #include "master/fish/fish_view.h"
@@ -38,8 +39,23 @@ struct SetClock {
     double lengthSeconds = 0;  // of a day at this pace; 0: it stands still
 };
 
+// A fish that waits for a visitor's drawing comes in with it as its skin. Without effect on
+// another.
+struct EnterDrawing {
+    std::uint32_t fish = 0;
+    std::uint32_t number = 0;  // FishRecord::skin
+    Digest picture;            // of its PNG
+    int aside = 0;             // from where: -1 left, 0 middle, 1 right
+};
+
+// A fish with a drawing swims away, and waits for another. Without effect on any other.
+struct LeaveDrawing {
+    std::uint32_t fish = 0;
+};
+
 // World::apply() takes it, between two ticks.
-using WorldInput = std::variant<DropFood, MoveSubmarine, Steering, SetClock, WallHands>;
+using WorldInput = std::
+    variant<DropFood, MoveSubmarine, Steering, SetClock, WallHands, EnterDrawing, LeaveDrawing>;
 
 // Food on its way into a mouth: a fish that snaps draws it in with the water (Tu 1996, section
 // 5.6.3). That takes a few ticks, in which the particle can be seen to move.

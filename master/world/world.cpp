@@ -202,6 +202,7 @@ World::World(const WorldOptions& options)
     if (options.cast.size() > kMostSpecies)
         throw Error("a cast of " + std::to_string(options.cast.size()) +
                     " species: there is room for " + std::to_string(kMostSpecies));
+    wearers_.mayBeEaten = options.drawingsMayBeEaten;
     for (const WorldSpecies& species : options.cast) addKind(species, options.cast);
     meals_ = makeMeals(columns_.traits.size());
     absences_ = makeAbsences(speciesParameters_);
@@ -232,6 +233,10 @@ void World::addKind(const WorldSpecies& species, const std::vector<WorldSpecies>
         chunks_.push_back({kinds_.size(), at, std::min(last, at + kFishInChunk)});
     }
     kinds_.push_back({species.tables, fish::gaitsOf(*species.tables), first, last});
+    if (species.drawings > 0)
+        wearers_.add({static_cast<std::uint8_t>(kinds_.size() - 1),
+                      static_cast<std::uint32_t>(last - species.drawings),
+                      static_cast<std::uint32_t>(last)});
     speciesParameters_.push_back(makeSpeciesParameters(
         cast, kinds_.size() - 1, kinds_.back().gaits, surroundings_, first, last));
 }
@@ -254,6 +259,10 @@ void World::begin(const WorldOptions& options) {
             columns_.view.kind[fish] = parameters.kind;
         }
         look(kind, kind.first, kind.last, surroundings_.timeOfDay);
+    }
+    for (const fish::Wearer& wearer : wearers_.fish) {
+        motion::setAway(columns_.states, wearer.fish);
+        columns_.view.signs[wearer.fish] = fish::kAway;
     }
     grids_.expect(columns_.view, speciesParameters_);
     for (std::size_t fish = 0; fish < columns_.traits.size(); ++fish)
@@ -287,6 +296,8 @@ void World::apply(const WorldInput& input) {
         surroundings::setClock(surroundings_, {tick_, clock->timeOfDay, clock->lengthSeconds});
     if (const auto* hands = std::get_if<WallHands>(&input))
         surroundings::holdHands(surroundings_.hands, *hands, tick_);
+    if (const auto* drawing = std::get_if<EnterDrawing>(&input)) enter(*drawing);
+    if (const auto* drawing = std::get_if<LeaveDrawing>(&input)) leave(*drawing);
     if (const auto* steered = std::get_if<Steering>(&input))
         surroundings::steer(pilot_, voyage_, *steered, tick_);
 }
@@ -301,12 +312,16 @@ void World::showSubmarine() {
     surroundings_.submarine.position = pilot_.vessel.position;
     surroundings_.submarine.velocityMetresPerSecond = pilot_.vessel.velocity;
     surroundings::placeHands(surroundings_.hands, pilot_.vessel, tick_);
+    wearers_.eye = pilot_.vessel.position;
+    wearers_.right = surroundings::rightOf(pilot_.vessel.attitude);
+    wearers_.ahead = {wearers_.right.z, 0, -wearers_.right.x};
 }
 
 void World::advance() {
     school_.moveTo(tick_, columns_.states);
     receive();
     if (unseen_ == 0) moveSubmarine();
+    leadWearers();
     beginTick();
     swallow();
     findRushes();
@@ -379,7 +394,8 @@ behaviour::Environment World::environment() const {
             .schoolRadiusMetres = school_.radiusMetres(),
             .seed = seed_,
             .tick = tick_,
-            .adaptation = adaptation_};
+            .adaptation = adaptation_,
+            .wearers = wearers_.fish.empty() ? nullptr : &wearers_};
 }
 
 // Thoughts of this tick. Fish think in the order in which they stand in the grid, because
@@ -411,6 +427,8 @@ void World::thinkAll() {
 
 // Every few ticks, and at once where a predator near it has begun to rush.
 bool World::thinks(std::uint32_t fish) const {
+    const fish::Wearer* const wearer = wearers_.of(fish);
+    if (wearer != nullptr && wearer->visit == fish::Visit::Asleep) return false;
     const bool isAlarmed = columns_.view.shows(fish, fish::kAlarmed);
     if (fish::thinksAt(tick_, fish, isAlarmed)) return true;
     return std::ranges::any_of(columns_.rushes, [&](std::uint32_t predator) {
@@ -495,18 +513,20 @@ std::uint64_t World::hash() const {
     for (const Meals::Swallow& swallow : meals_.swallows)
         hash = foldedOne(foldedOne(foldedOne(hash, swallow.fish), swallow.particle),
                          swallow.ticksLeft);
+    hash = fish::foldedWearers(hash, wearers_);
     return surroundings::foldedPilot(surroundings::foldedSurroundings(hash, surroundings_), pilot_);
 }
 
 std::size_t World::bytes() const {
     return grids_.bytes() + columns_.bytes() + meals_.swallows.capacity() * sizeof(Meals::Swallow) +
-           absences_.capacity() * sizeof(Absence);
+           absences_.capacity() * sizeof(Absence) + bytesIn(wearers_.ranges, wearers_.fish);
 }
 
 void World::records(std::vector<motion::FishRecord>& records) const {
     records.resize(columns_.states.size());
     for (std::size_t fish = 0; fish < columns_.states.size(); ++fish)
         records[fish] = motion::recordOf(columns_.states, fish);
+    for (const fish::Wearer& wearer : wearers_.fish) records[wearer.fish].skin = wearer.number;
 }
 
 }  // namespace aquarama::world

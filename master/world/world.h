@@ -26,6 +26,7 @@
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
 #include "master/fish/secondary_controller.h"
+#include "master/fish/wearers.h"
 #include "master/surroundings/pilot.h"
 #include "master/surroundings/surroundings.h"
 #include "master/world/events.h"
@@ -73,6 +74,8 @@ struct WorldSpecies {
     // Never null; shared, as several worlds may use one repertoire.
     std::shared_ptr<const motion::MotorTables> tables;
     std::uint32_t fish = 0;
+    // So many of them, the last, wait out of sight for visitors' drawings.
+    std::uint32_t drawings = 0;
     // Lengths of its fish, in metres.
     config::SizeRange size = {};
     // The name by which Habits::hunts and shadows refer to it.
@@ -90,6 +93,8 @@ struct WorldOptions {
     unsigned threads = 1;
     // All of the scene is used except its cast.
     config::Scene scene;
+    // Whether fish with visitors' drawings may be eaten.
+    bool drawingsMayBeEaten = false;
     // The first species is the school; it may have no fish.
     std::vector<WorldSpecies> cast;
     fish::Adaptation adaptation;
@@ -158,6 +163,8 @@ class World {
     // The environment that fish saw in the last tick. Points into this world.
     [[nodiscard]] behaviour::Environment environment() const;
     [[nodiscard]] std::span<const motion::FishTraits> traits() const { return columns_.traits; }
+    // Fish that wear visitors' drawings, or wait for them.
+    [[nodiscard]] const fish::Wearers& wearers() const { return wearers_; }
     [[nodiscard]] const WorldCounts& counts() const { return counts_; }
     // Memory of all that grows with the number of fish.
     [[nodiscard]] std::size_t bytes() const;
@@ -200,6 +207,11 @@ class World {
     void remindLeaders(std::uint32_t charged);
     void receive();
     void arrive(std::uint32_t fish);
+    void enter(const EnterDrawing& drawing);
+    void leave(const LeaveDrawing& drawing);
+    void leadWearers();
+    void lead(fish::Wearer& wearer);
+    void place(std::uint32_t fish, glm::vec3 at, glm::vec3 course, float speed);
     void moveSubmarine();
     void showSubmarine();
 
@@ -216,6 +228,7 @@ class World {
     surroundings::Voyage voyage_;
     surroundings::Pilot pilot_;
     Meals meals_;
+    fish::Wearers wearers_;
     std::vector<Absence> absences_;
     WorldCounts counts_;
     behaviour::Grids grids_;

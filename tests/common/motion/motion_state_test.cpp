@@ -191,7 +191,8 @@ TEST(MotionState, anImpossibleRecordIsNotPlayable) {
     EXPECT_FALSE(with([](auto& r) { r.segment = kSegments; }));
     EXPECT_FALSE(with([](auto& r) { r.fromSegment = kSegments; }));
     EXPECT_TRUE(with([](auto& r) { r.mouth = 255, r.gaze = 255; })) << "all of them are possible";
-    EXPECT_FALSE(with([](auto& r) { r.skin = 1; })) << "not used yet";
+    EXPECT_TRUE(with([](auto& r) { r.skin = motion::kMostSkin; }));
+    EXPECT_FALSE(with([](auto& r) { r.skin = motion::kMostSkin + 1; }));
     EXPECT_FALSE(with([](auto& r) { r.warpLength = 3, r.warpFrame = 4; }));
     EXPECT_FALSE(with([](auto& r) { r.orientationHigh |= 1U << 31U; }));
     EXPECT_FALSE(

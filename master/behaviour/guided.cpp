@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/behaviour/guided.h"
+
+#include <algorithm>
+
+#include <glm/common.hpp>
+
+#include "common/place/place.h"
+#include "master/behaviour/company.h"
+#include "master/behaviour/intention_generator.h"
+#include "master/surroundings/obstacles.h"
+
+namespace aquarama::behaviour {
+
+namespace {
+
+// Of the entrance from the viewer: to a side and behind, so that no wall but a dome shows it.
+constexpr float kAsideMetres = 2.4F;
+constexpr float kBehindMetres = 1.2F;
+// Of the place where it shows itself: ahead, and to its maker's side.
+constexpr float kAheadMetres = 1.9F;
+constexpr float kToMakerMetres = 0.8F;
+// So near it is there.
+constexpr float kThereMetres = 0.5F;
+// Room about such places to sand, surface, rocks and the border of the water.
+constexpr float kRoomMetres = 0.4F;
+constexpr float kShore = 0.95F;  // share of the water's half extent
+constexpr int kStepsUp = 8;
+// Weight of the way against the push of neighbours.
+constexpr float kLed = 3.0F;
+
+// Whose maker stands in the middle comes from either side.
+float sideOf(const fish::Wearer& wearer) {
+    if (wearer.aside != 0) return static_cast<float>(wearer.aside);
+    return wearer.number % 2 == 0 ? -1.0F : 1.0F;
+}
+
+bool isFree(const surroundings::Obstacles& obstacles, glm::vec3 place) {
+    return std::ranges::none_of(obstacles.rocks, [&](const place::Rock& rock) {
+        return place::lengthOf(place - rock.centre) < rock.radiusMetres + kRoomMetres;
+    });
+}
+
+// The nearest place in the water; above rocks that are in the way.
+glm::vec3 inWater(const surroundings::Obstacles& obstacles, glm::vec3 place) {
+    const glm::vec3 reach = obstacles.water.halfExtent * kShore;
+    place = glm::clamp(place, obstacles.water.centre - reach, obstacles.water.centre + reach);
+    const float floor = place::floorHeight(obstacles.place, {place.x, place.z});
+    place.y = std::min(std::max(place.y, floor + kRoomMetres), -kRoomMetres);
+    for (int step = 0; step < kStepsUp && !isFree(obstacles, place); ++step)
+        place.y = std::min(place.y + kRoomMetres, -kRoomMetres);
+    return place;
+}
+
+bool isLed(fish::Intention intention) {
+    return intention != fish::Intention::Escape && intention != fish::Intention::AvoidFish &&
+           intention != fish::Intention::AvoidObstacle;
+}
+
+}  // namespace
+
+glm::vec3 entranceOf(const fish::Wearers& wearers,
+                     const fish::Wearer& wearer,
+                     const surroundings::Obstacles& obstacles) {
+    return inWater(obstacles,
+                   wearers.eye + wearers.right * (kAsideMetres * sideOf(wearer)) -
+                       wearers.ahead * kBehindMetres);
+}
+
+glm::vec3 greetingPlaceOf(const fish::Wearers& wearers,
+                          const fish::Wearer& wearer,
+                          const surroundings::Obstacles& obstacles) {
+    return inWater(obstacles,
+                   wearers.eye + wearers.ahead * kAheadMetres +
+                       wearers.right * (kToMakerMetres * static_cast<float>(wearer.aside)));
+}
+
+bool isAt(glm::vec3 position, glm::vec3 place) {
+    return place::lengthOf(place - position) < kThereMetres;
+}
+
+fish::Course guided(const Situation& situation,
+                    const fish::Mind& mind,
+                    const fish::Course& course) {
+    const fish::Wearers* const wearers = situation.environment.wearers;
+    const fish::Wearer* const wearer = wearers == nullptr ? nullptr : wearers->of(situation.fish);
+    if (wearer == nullptr || wearer->visit == fish::Visit::Stays || !isLed(mind.intention))
+        return course;
+    const fish::SpeciesParameters& parameters = situation.parameters;
+    const surroundings::Obstacles& obstacles = situation.environment.surroundings->obstacles;
+    const bool shows = wearer->visit == fish::Visit::Shows;
+    const glm::vec3 goal = wearer->visit == fish::Visit::Leaves
+                               ? entranceOf(*wearers, *wearer, obstacles)
+                               : greetingPlaceOf(*wearers, *wearer, obstacles);
+    const glm::vec3 position = situation.senses.position;
+    // There it turns its side to the viewer.
+    const glm::vec3 way = shows && isAt(position, goal)
+                              ? wearers->right * -sideOf(*wearer)
+                              : place::directionOf(goal - position, course.direction);
+    return heading(
+        situation, way * kLed + roomFrom(situation), shows ? parameters.slow : parameters.fast);
+}
+
+}  // namespace aquarama::behaviour

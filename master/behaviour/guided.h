@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ways of a fish with a visitor's drawing that enters or leaves: past the edge of the wall
+// before the viewer, and back behind it.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "master/behaviour/routines.h"
+#include "master/fish/wearers.h"
+
+namespace aquarama::behaviour {
+
+// Where such a fish begins to be seen, and where it shows itself: world frame, metres. Both lie in
+// the water.
+[[nodiscard]] glm::vec3 entranceOf(const fish::Wearers& wearers,
+                                   const fish::Wearer& wearer,
+                                   const surroundings::Obstacles& obstacles);
+[[nodiscard]] glm::vec3 greetingPlaceOf(const fish::Wearers& wearers,
+                                        const fish::Wearer& wearer,
+                                        const surroundings::Obstacles& obstacles);
+
+// Whether a fish has come to such a place.
+[[nodiscard]] bool isAt(glm::vec3 position, glm::vec3 place);
+
+// The course of a fish, led where it enters or leaves. What flees or avoids is not led.
+[[nodiscard]] fish::Course guided(const Situation& situation,
+                                  const fish::Mind& mind,
+                                  const fish::Course& course);
+
+}  // namespace aquarama::behaviour

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/conductor/drawing_files.h"
+
+#include <chrono>
+#include <set>
+#include <span>
+#include <utility>
+
+#include <google/protobuf/text_format.h>
+
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/config/text_file.h"
+#include "common/config/text_reader.h"
+#include "common/wire/messages.h"
+
+namespace aquarama::conductor {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t kVersion = 1;
+constexpr const char* kLoss = "drawings are lost with the next start";
+
+bool isDone(const std::future<std::string>& work) {
+    return work.valid() && work.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+fs::path listIn(const fs::path& folder) {
+    return folder / "list.txtpb";
+}
+fs::path pictureIn(const fs::path& folder, std::uint32_t number) {
+    return folder / (std::to_string(number) + ".png");
+}
+
+KeptEntry entryOf(const v1::KeptDrawing& in, const fs::path& folder) {
+    return {.number = in.number(),
+            .species = in.species(),
+            .isLetIn = in.verdict() == v1::KeptDrawing::LET_IN,
+            .isKept = in.kept(),
+            .aside = in.aside(),
+            .offeredAt = in.offered_at(),
+            .skin = std::make_shared<const std::vector<std::byte>>(
+                readWhole(pictureIn(folder, in.number()), wire::kMostSkinBytes))};
+}
+
+void write(const KeptEntry& entry, v1::KeptDrawing& out) {
+    out.set_number(entry.number);
+    out.set_species(entry.species);
+    out.set_verdict(entry.isLetIn ? v1::KeptDrawing::LET_IN : v1::KeptDrawing::WAITING);
+    if (entry.isKept) out.set_kept(true);
+    out.set_aside(entry.aside);
+    out.set_offered_at(entry.offeredAt);
+}
+
+// Pictures first: the list never names one that is not there.
+void writeAll(const fs::path& folder,
+              std::uint32_t lastNumber,
+              const std::vector<KeptEntry>& drawings) {
+    fs::create_directories(folder);
+    v1::KeptDrawings list;
+    list.set_version(kVersion);
+    list.set_last_number(lastNumber);
+    std::set<fs::path> named{listIn(folder)};
+    for (const KeptEntry& entry : drawings) {
+        const fs::path picture = pictureIn(folder, entry.number);
+        named.insert(picture);
+        if (!fs::exists(picture)) writePrivate(picture, *entry.skin);
+        write(entry, *list.add_drawings());
+    }
+    std::string text;
+    google::protobuf::TextFormat::PrintToString(list, &text);
+    text = "# The drawings of visitors that wait or swim.\n" + text;
+    writePrivate(listIn(folder), std::as_bytes(std::span{text}));
+    std::error_code none;
+    for (const auto& file : fs::directory_iterator(folder))
+        if (!named.contains(file.path()) && file.path().extension() == ".png")
+            fs::remove(file.path(), none);
+}
+
+}  // namespace
+
+DrawingFiles::DrawingFiles(fs::path folder) : folder_{std::move(folder)} {}
+
+DrawingFiles::~DrawingFiles() {
+    if (writing_.valid()) writing_.wait();
+    turn();
+    if (writing_.valid()) writing_.wait();
+}
+
+FoundDrawings DrawingFiles::read() const {
+    FoundDrawings found;
+    if (folder_.empty() || !fs::exists(listIn(folder_))) return found;
+    v1::KeptDrawings list;
+    try {
+        const std::string source = listIn(folder_).string();
+        config::TextReader file(config::readTextFile(source), source, list);
+        file.check();
+    } catch (const Error& problem) {
+        logWarning("{}; the drawings are left out", problem.what());
+        return found;
+    }
+    found.lastNumber = list.last_number();
+    for (const v1::KeptDrawing& drawing : list.drawings()) {
+        try {
+            found.drawings.push_back(entryOf(drawing, folder_));
+        } catch (const Error& problem) {
+            logWarning("{}; drawing {} is left out", problem.what(), drawing.number());
+        }
+    }
+    return found;
+}
+
+void DrawingFiles::keep(std::uint32_t lastNumber, std::vector<KeptEntry> drawings) {
+    waiting_ = Wanted{lastNumber, std::move(drawings)};
+    turn();
+}
+
+void DrawingFiles::turn() {
+    if (isDone(writing_))
+        if (const std::string problem = writing_.get(); !problem.empty())
+            warnOnceOf(folder_, problem, kLoss);
+    if (folder_.empty() || writing_.valid() || !waiting_) return;
+    const auto write = [folder = folder_,
+                        wanted = *std::exchange(waiting_, std::nullopt)]() -> std::string {
+        try {
+            writeAll(folder, wanted.lastNumber, wanted.drawings);
+            return {};
+        } catch (const std::exception& problem) {  // also of std::filesystem
+            return problem.what();
+        }
+    };
+    writing_ = std::async(std::launch::async, write);
+}
+
+}  // namespace aquarama::conductor

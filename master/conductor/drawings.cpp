@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/conductor/drawings.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string_view>
+
+#include "common/base/log.h"
+#include "common/body/side_view.h"
+
+namespace aquarama::conductor {
+namespace {
+
+// Nodes have so long to load a skin before its fish is seen; one at a time comes in.
+constexpr net::Duration kLoads = std::chrono::seconds(2);
+// A fish that was told to leave is not looked at before, as records are a few ticks old.
+constexpr net::Duration kUntilAway = std::chrono::seconds(1);
+// What is not kept goes after so long, also where nobody closes the day.
+constexpr std::uint64_t kDaySeconds = 20 * 3600;
+constexpr std::size_t kMostRetired = 32;
+constexpr std::size_t kMostRequests = 64;
+
+ask::Answer refused(std::string why) {
+    return {ask::Outcome::Refused, std::move(why)};
+}
+
+// Of a PNG: its signature, then the header's length, name, width, height and bits.
+bool isSkin(const std::string& png) {
+    constexpr std::string_view kBegins{"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16};
+    const auto number = [&](std::size_t at) {
+        int value = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            value = value << 8 | static_cast<unsigned char>(png[at + i]);
+        return value;
+    };
+    constexpr std::size_t kHeaderBytes = 29;
+    return png.size() >= kHeaderBytes && png.starts_with(kBegins) &&
+           number(16) == body::kSideTexels.x && number(20) == body::kSideTexels.y && png[24] == 8;
+}
+
+net::Blob blobOf(const std::string& bytes) {
+    const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
+    return std::make_shared<const std::vector<std::byte>>(first, first + bytes.size());
+}
+
+}  // namespace
+
+Drawings::Drawings(std::optional<config::DrawingRules> rules, std::filesystem::path folder)
+    : rules_{std::move(rules)}, files_{rules_ ? std::move(folder) : std::filesystem::path{}} {
+    FoundDrawings found = files_.read();
+    lastNumber_ = found.lastNumber;
+    for (KeptEntry& kept : found.drawings) {
+        const Digest picture = digestOf(*kept.skin);
+        entries_.push_back({.kept = std::move(kept), .picture = picture});
+    }
+}
+
+void Drawings::enter(std::vector<DrawingSlots> slots) {
+    slots_ = std::move(slots);
+    toLeave_.clear();
+    std::erase_if(entries_, [](const Entry& entry) { return entry.isForgotten; });
+    for (Entry& entry : entries_) {
+        entry.fish.reset();
+        entry.leaving.reset();
+        entry.listed.reset();
+    }
+    changed();
+}
+
+Drawings::Entry* Drawings::find(std::uint32_t number) {
+    const auto found = std::ranges::find_if(
+        entries_, [&](const Entry& entry) { return entry.kept.number == number; });
+    return found == entries_.end() ? nullptr : &*found;
+}
+
+std::string Drawings::objectionTo(const v1::OfferedDrawing& offered) const {
+    if (!rules_) return "the rig has no drawings; give it a block drawings { }";
+    if (!isSkin(offered.skin()))
+        return "the picture is no skin, a PNG of 1024 x 512 pixels; read the sheet again";
+    if (std::ranges::find(rules_->species, offered.species()) == rules_->species.end())
+        return "the rig has no drawings of " + offered.species();
+    if (entries_.size() >= std::size_t{wire::kMostDrawings})
+        return "no room for more drawings; take some down";
+    return {};
+}
+
+ask::Answer Drawings::offer(std::uint64_t request,
+                            const v1::OfferedDrawing& offered,
+                            std::uint64_t unixSeconds,
+                            std::uint32_t& number) {
+    const auto known =
+        std::ranges::find(requests_, request, &decltype(requests_)::value_type::first);
+    if (known != requests_.end()) {
+        number = known->second;
+        return {};
+    }
+    if (std::string objection = objectionTo(offered); !objection.empty())
+        return refused(std::move(objection));
+    lastNumber_ = lastNumber_ % motion::kMostSkin + 1;
+    number = lastNumber_;
+    const net::Blob skin = blobOf(offered.skin());
+    entries_.push_back({.kept = {.number = number,
+                                 .species = offered.species(),
+                                 .isLetIn = rules_->areLetInAtOnce,
+                                 .aside = offered.aside(),
+                                 .offeredAt = unixSeconds,
+                                 .skin = skin},
+                        .picture = digestOf(*skin)});
+    requests_.emplace_back(request, number);
+    if (requests_.size() > kMostRequests) requests_.pop_front();
+    logInfo("drawing {}: a {}", number, offered.species());
+    changed();
+    return {};
+}
+
+ask::Answer Drawings::decide(const v1::Moderation& moderation) {
+    if (!rules_) return refused("the rig has no drawings; give it a block drawings { }");
+    const auto decideOne = [&](Entry& entry) {
+        switch (moderation.verdict()) {
+            case v1::Moderation::LET_IN:
+                entry.kept.isLetIn = true;
+                return;
+            case v1::Moderation::KEEP:
+            case v1::Moderation::KEEP_NO_MORE:
+                entry.kept.isKept = moderation.verdict() == v1::Moderation::KEEP;
+                return;
+            case v1::Moderation::END_DAY:
+                if (!entry.kept.isKept) takeDown(entry);
+                return;
+            default:
+                takeDown(entry);
+        }
+    };
+    if (moderation.number() == 0) {
+        std::ranges::for_each(entries_, decideOne);
+    } else {
+        Entry* const entry = find(moderation.number());
+        if (entry == nullptr)
+            return refused("there is no drawing " + std::to_string(moderation.number()) +
+                           " any more");
+        decideOne(*entry);
+    }
+    changed();
+    return {};
+}
+
+// One that swims leaves first.
+void Drawings::takeDown(Entry& entry) {
+    entry.isForgotten = true;
+    if (entry.fish && !entry.leaving) toLeave_.push_back(*entry.fish);
+}
+
+std::vector<world::WorldInput> Drawings::turn(std::span<const motion::FishRecord> fish,
+                                              bool maySwim,
+                                              net::Moment now,
+                                              std::uint64_t unixSeconds) {
+    std::vector<world::WorldInput> inputs;
+    if (!rules_) return inputs;
+    files_.turn();
+    forgetOld(unixSeconds);
+    endLeft(fish, now);
+    if (!maySwim)
+        for (const Entry& entry : entries_)
+            if (entry.fish && !entry.leaving) toLeave_.push_back(*entry.fish);
+    if (maySwim) enterNext(fish, now, inputs);
+    for (Entry& entry : entries_) {
+        const bool isTold = entry.fish && !entry.leaving &&
+                            std::ranges::find(toLeave_, *entry.fish) != toLeave_.end();
+        if (!isTold) continue;
+        entry.leaving = now;
+        inputs.emplace_back(world::LeaveDrawing{*entry.fish});
+        changed();
+    }
+    toLeave_.clear();
+    return inputs;
+}
+
+void Drawings::forgetOld(std::uint64_t unixSeconds) {
+    for (Entry& entry : entries_) {
+        const bool isOld = unixSeconds > entry.kept.offeredAt + kDaySeconds;
+        if (isOld && !entry.kept.isKept && !entry.isForgotten) takeDown(entry);
+    }
+}
+
+void Drawings::endLeft(std::span<const motion::FishRecord> fish, net::Moment now) {
+    bool isChange = false;
+    for (Entry& entry : entries_) {
+        const bool hasLeft = entry.fish && entry.leaving && now - *entry.leaving > kUntilAway &&
+                             *entry.fish < fish.size() && motion::isAway(fish[*entry.fish]);
+        if (!hasLeft) continue;
+        entry.fish.reset();
+        entry.leaving.reset();
+        entry.listed.reset();
+        isChange = true;
+    }
+    const std::size_t gone = std::erase_if(
+        entries_, [](const Entry& entry) { return entry.isForgotten && !entry.fish; });
+    if (isChange || gone > 0) changed();
+}
+
+std::size_t Drawings::swimming() const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        entries_, [](const Entry& entry) { return entry.fish && !entry.leaving; }));
+}
+
+bool Drawings::hasRoomFor(const std::string& species) const {
+    return std::ranges::find(slots_, species, &DrawingSlots::species) != slots_.end();
+}
+
+std::optional<std::uint32_t> Drawings::freeFish(const std::string& species,
+                                                std::span<const motion::FishRecord> fish) const {
+    const auto slots = std::ranges::find(slots_, species, &DrawingSlots::species);
+    if (slots == slots_.end()) return std::nullopt;
+    for (std::uint32_t one = slots->first; one < std::min<std::size_t>(slots->last, fish.size());
+         ++one) {
+        const bool isWorn =
+            std::ranges::any_of(entries_, [&](const Entry& entry) { return entry.fish == one; });
+        if (!isWorn && motion::isAway(fish[one])) return one;
+    }
+    return std::nullopt;
+}
+
+// The first of those that wait: nodes are told of its skin; once they have had time to load it, it
+// is given a fish.
+void Drawings::enterNext(std::span<const motion::FishRecord> fish,
+                         net::Moment now,
+                         std::vector<world::WorldInput>& inputs) {
+    const auto next = std::ranges::find_if(entries_, [&](const Entry& entry) {
+        return entry.kept.isLetIn && !entry.isForgotten && !entry.fish &&
+               hasRoomFor(entry.kept.species);
+    });
+    if (next == entries_.end()) return;
+    if (!next->listed) {
+        next->listed = now;
+        return changed();
+    }
+    if (now - *next->listed < kLoads) return;
+    const auto free = freeFish(next->kept.species, fish);
+    if (swimming() >= rules_->most) return makeRoom({});
+    if (!free) return makeRoom(next->kept.species);
+    next->fish = free;
+    inputs.emplace_back(world::EnterDrawing{.fish = *free,
+                                            .number = next->kept.number,
+                                            .picture = next->picture,
+                                            .aside = next->kept.aside});
+    changed();
+}
+
+// One that leaves already makes room enough.
+void Drawings::makeRoom(const std::string& species) {
+    const auto isOfSpecies = [&](const Entry& entry) {
+        return entry.fish && (species.empty() || entry.kept.species == species);
+    };
+    const bool isUnderWay = std::ranges::any_of(
+        entries_, [&](const Entry& entry) { return isOfSpecies(entry) && entry.leaving; });
+    if (isUnderWay) return;
+    auto oldest = std::ranges::find_if(
+        entries_, [&](const Entry& entry) { return isOfSpecies(entry) && !entry.kept.isKept; });
+    if (oldest == entries_.end()) oldest = std::ranges::find_if(entries_, isOfSpecies);
+    if (oldest != entries_.end()) takeDown(*oldest);
+}
+
+std::optional<std::uint64_t> Drawings::version() const {
+    return rules_ ? std::optional(version_) : std::nullopt;
+}
+
+v1::DrawingStatus::Condition Drawings::conditionOf(const Entry& entry) const {
+    if (entry.leaving || entry.isForgotten) return v1::DrawingStatus::LEAVING;
+    if (!entry.kept.isLetIn) return v1::DrawingStatus::WAITING;
+    return entry.fish || hasRoomFor(entry.kept.species) ? v1::DrawingStatus::SWIMMING
+                                                        : v1::DrawingStatus::HOMELESS;
+}
+
+v1::DrawingsReply Drawings::reply(const v1::DrawingsRequest& request) const {
+    v1::DrawingsReply reply;
+    reply.set_version(version_);
+    reply.set_skin_of(request.skin_of());
+    for (const Entry& entry : entries_) {
+        v1::DrawingStatus& status = *reply.add_drawings();
+        status.set_number(entry.kept.number);
+        status.set_species(entry.kept.species);
+        status.set_condition(conditionOf(entry));
+        if (entry.fish) status.set_fish(*entry.fish);
+        status.set_kept(entry.kept.isKept);
+        status.set_offered_at(entry.kept.offeredAt);
+        if (entry.kept.number == request.skin_of())
+            reply.set_skin(entry.kept.skin->data(), entry.kept.skin->size());
+    }
+    if (rules_)
+        for (const std::string& species : rules_->species)
+            if (hasRoomFor(species)) reply.add_species(species);
+    return reply;
+}
+
+net::Blob Drawings::blob(const Digest& digest) const {
+    if (const auto known = blobs_.find(digest); known != blobs_.end()) return known->second;
+    const auto retired =
+        std::ranges::find(retired_, digest, &decltype(retired_)::value_type::first);
+    return retired == retired_.end() ? nullptr : retired->second;
+}
+
+void Drawings::changed() {
+    ++version_;
+    tellSkins();
+    std::vector<KeptEntry> kept;
+    for (const Entry& entry : entries_)
+        if (!entry.isForgotten) kept.push_back(entry.kept);
+    files_.keep(lastNumber_, std::move(kept));
+}
+
+// Lists the skins that are worn or will be soon.
+void Drawings::tellSkins() {
+    v1::SkinList list;
+    std::map<Digest, net::Blob> blobs;
+    for (const Entry& entry : entries_) {
+        if (!entry.fish && !entry.listed) continue;
+        v1::ListedSkin& skin = *list.add_skins();
+        skin.set_number(entry.kept.number);
+        skin.set_picture(wire::bytesOf(entry.picture));
+        skin.set_species(entry.kept.species);
+        blobs[entry.picture] = entry.kept.skin;
+    }
+    list_.reset();
+    if (list.skins_size() > 0) {
+        const net::Blob encoded = blobOf(list.SerializeAsString());
+        list_ = digestOf(*encoded);
+        blobs[*list_] = encoded;
+    }
+    for (auto& [digest, blob] : blobs_)
+        if (!blobs.contains(digest)) retired_.emplace_back(digest, std::move(blob));
+    while (retired_.size() > kMostRetired) retired_.pop_front();
+    blobs_ = std::move(blobs);
+}
+
+}  // namespace aquarama::conductor

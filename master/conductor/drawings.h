@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Visitors' drawings: which there are, what the crew has decided, which fish wears each, and the
+// files by which they survive a restart.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/ask/order_book.h"
+#include "common/base/digest.h"
+#include "common/config/rig.h"
+#include "common/motion/motion_state.h"
+#include "common/net/blob.h"
+#include "common/net/clock.h"
+#include "common/wire/messages.h"
+#include "master/conductor/drawing_files.h"
+#include "master/conductor/simulation.h"
+#include "master/world/events.h"
+
+namespace aquarama::conductor {
+
+// Of the conductor's thread. A drawing is offered, waits for the crew or is let in at once, and
+// swims as soon as the scene has a fish for it. Where there is no room the oldest makes room.
+class Drawings {
+  public:
+    // Without rules every drawing is refused. `folder`: where drawings are kept; empty: nowhere.
+    Drawings(std::optional<config::DrawingRules> rules, std::filesystem::path folder);
+
+    // The world that they enter, by which fish. Those that swam in another one enter anew.
+    void enter(std::vector<DrawingSlots> slots);
+
+    // What becomes of an offer of `request`; `number` is set where the drawing was taken.
+    [[nodiscard]] ask::Answer offer(std::uint64_t request,
+                                    const v1::OfferedDrawing& offered,
+                                    std::uint64_t unixSeconds,
+                                    std::uint32_t& number);
+    // What the crew decides.
+    [[nodiscard]] ask::Answer decide(const v1::Moderation& moderation);
+
+    // The inputs that are due, once a second. `fish`: the newest records; `maySwim`: what the crew
+    // wants of all.
+    [[nodiscard]] std::vector<world::WorldInput> turn(std::span<const motion::FishRecord> fish,
+                                                      bool maySwim,
+                                                      net::Moment now,
+                                                      std::uint64_t unixSeconds);
+
+    // Grows with every change that reply() shows; nothing without rules.
+    [[nodiscard]] std::optional<std::uint64_t> version() const;
+    [[nodiscard]] v1::DrawingsReply reply(const v1::DrawingsRequest& request) const;
+    // Of the blob that names all skins, as frames carry it; nothing where there are none.
+    [[nodiscard]] const std::optional<Digest>& skins() const { return list_; }
+    // Null where it is none of a drawing.
+    [[nodiscard]] net::Blob blob(const Digest& digest) const;
+
+  private:
+    // A drawing, and how far it has come.
+    struct Entry {
+        KeptEntry kept;
+        Digest picture;                          // of its skin
+        std::optional<net::Moment> listed = {};  // since when nodes are told of its skin
+        std::optional<std::uint32_t> fish = {};  // that wears it
+        std::optional<net::Moment> leaving = {};
+        bool isForgotten = false;  // it ends when its fish has left
+    };
+    [[nodiscard]] Entry* find(std::uint32_t number);
+    [[nodiscard]] std::string objectionTo(const v1::OfferedDrawing& offered) const;
+    [[nodiscard]] v1::DrawingStatus::Condition conditionOf(const Entry& entry) const;
+    [[nodiscard]] bool hasRoomFor(const std::string& species) const;
+    [[nodiscard]] std::optional<std::uint32_t> freeFish(
+        const std::string& species, std::span<const motion::FishRecord> fish) const;
+    [[nodiscard]] std::size_t swimming() const;
+    // Steps of a turn.
+    void endLeft(std::span<const motion::FishRecord> fish, net::Moment now);
+    void forgetOld(std::uint64_t unixSeconds);
+    void enterNext(std::span<const motion::FishRecord> fish,
+                   net::Moment now,
+                   std::vector<world::WorldInput>& inputs);
+    // The oldest that swims, of this species where it is named: begins to leave for good.
+    void makeRoom(const std::string& species);
+    void takeDown(Entry& entry);
+    void changed();  // tells whoever looks, and keeps it
+    void tellSkins();
+
+    std::optional<config::DrawingRules> rules_;
+    DrawingFiles files_;
+    std::vector<DrawingSlots> slots_;
+    std::deque<Entry> entries_;  // the oldest first
+    std::uint32_t lastNumber_ = 0;
+    std::uint64_t version_ = 1;
+    std::vector<std::uint32_t> toLeave_;  // fish that are told at the next turn
+    std::deque<std::pair<std::uint64_t, std::uint32_t>> requests_;  // answered lately, and numbers
+    std::optional<Digest> list_;
+    std::map<Digest, net::Blob> blobs_;
+    std::deque<std::pair<Digest, net::Blob>> retired_;  // still asked for by slow nodes
+};
+
+}  // namespace aquarama::conductor

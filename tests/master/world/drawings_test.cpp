@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fish with visitors' drawings: they wait out of sight, come past the viewer, live, are spared, and
+// go, and no other fish is changed by those that wait.
+#include <gtest/gtest.h>
+
+#include "common/place/place.h"
+#include "tests/master/world/captured_fish.h"
+#include "tests/master/world/few_fish.h"
+
+namespace aquarama::world {
+namespace {
+
+constexpr std::uint32_t kFish = 12;
+constexpr std::uint32_t kSlots = 4;
+constexpr std::uint32_t kNumber = 77;
+
+WorldOptions visited(std::uint32_t slots) {
+    WorldOptions options;
+    options.seed = 3;
+    options.scene.gathering = config::Gathering::None;
+    options.scene.plankton = 0;
+    options.scene.eye = {0, -6, 0};
+    options.scene.water.centre = {0, -6, -3};
+    options.scene.water.halfExtent = {6, 2, 6};
+    WorldSpecies tangs = capturedSpecies(test::castMember("blue_tang"), kFish + slots);
+    tangs.drawings = slots;
+    options.cast.push_back(tangs);
+    return options;
+}
+
+class DrawingsInAWorld : public ::testing::Test {
+  protected:
+    World world{visited(kSlots)};
+
+    void pass(int seconds) {
+        for (int tick = 0; tick < 60 * seconds; ++tick) world.advance();
+    }
+    // A fish that is let in from the left.
+    void letIn(std::uint32_t fish, int aside = -1) {
+        world.apply(EnterDrawing{.fish = fish, .number = kNumber, .picture = {}, .aside = aside});
+    }
+    [[nodiscard]] bool isAway(std::uint32_t fish) const {
+        return motion::isAway(world.states(), fish);
+    }
+    [[nodiscard]] fish::Visit visit(std::uint32_t fish) const {
+        return world.wearers().of(fish)->visit;
+    }
+    [[nodiscard]] glm::vec3 fromEye(std::uint32_t fish) const {
+        return world.view().position(fish) - world.wearers().eye;
+    }
+    [[nodiscard]] std::uint32_t skinOf(std::uint32_t fish) const {
+        std::vector<motion::FishRecord> records;
+        world.records(records);
+        return records[fish].skin;
+    }
+};
+
+TEST_F(DrawingsInAWorld, waitOutOfSight) {
+    pass(20);
+    for (std::uint32_t fish = 0; fish < kFish + kSlots; ++fish) {
+        EXPECT_EQ(isAway(fish), fish >= kFish) << fish;
+        EXPECT_EQ(skinOf(fish), 0U);
+    }
+}
+
+TEST_F(DrawingsInAWorld, comeFromTheirMakersSideAndShowThemselvesBeforeTheViewer) {
+    pass(1);
+    letIn(kFish, -1);
+    letIn(kFish + 1, 1);
+    EXPECT_LT(fromEye(kFish).x, 100);
+    world.advance();
+    EXPECT_LT(fromEye(kFish).x, -1.5F);
+    EXPECT_GT(fromEye(kFish + 1).x, 1.5F);
+    EXPECT_GT(fromEye(kFish).z, 0) << "behind the viewer";
+    EXPECT_EQ(skinOf(kFish), kNumber);
+    EXPECT_EQ(world.traits()[kFish].lengthMillimetres,
+              std::lround(1000 * visited(kSlots).cast[0].size.mostMetres));
+    for (int second = 0; second < 40 && visit(kFish) == fish::Visit::Enters; ++second) pass(1);
+    ASSERT_EQ(visit(kFish), fish::Visit::Shows);
+    EXPECT_LT(place::lengthOf(fromEye(kFish)), 2.6F);
+    EXPECT_LT(fromEye(kFish).z, -1.0F) << "ahead of the viewer";
+    pass(10);
+    EXPECT_EQ(visit(kFish), fish::Visit::Stays);
+}
+
+TEST_F(DrawingsInAWorld, swimAwayBehindTheViewerAndWaitForAnother) {
+    letIn(kFish);
+    pass(60);
+    ASSERT_EQ(visit(kFish), fish::Visit::Stays);
+    world.apply(LeaveDrawing{kFish});
+    int seconds = 0;
+    for (; seconds < 61 && !isAway(kFish); ++seconds) {
+        EXPECT_EQ(skinOf(kFish), kNumber) << "until it is out of sight";
+        pass(1);
+    }
+    EXPECT_LT(seconds, 60) << "by itself";
+    EXPECT_EQ(visit(kFish), fish::Visit::Asleep);
+    EXPECT_EQ(skinOf(kFish), 0U);
+    letIn(kFish, 1);
+    EXPECT_FALSE(isAway(kFish));
+}
+
+TEST_F(DrawingsInAWorld, areOfNoEffectOnOtherFish) {
+    letIn(3);
+    letIn(4000);
+    world.apply(LeaveDrawing{3});
+    world.apply(LeaveDrawing{kFish});
+    EXPECT_EQ(skinOf(3), 0U);
+    EXPECT_TRUE(isAway(kFish));
+}
+
+// The same inputs make the same world, and a drawing is part of its hash.
+TEST(DrawingsOfAWorld, arePartOfItsHash) {
+    World one(visited(kSlots));
+    World other(visited(kSlots));
+    World without(visited(kSlots));
+    const EnterDrawing drawing{.fish = kFish, .number = 1, .picture = {}, .aside = 0};
+    one.apply(drawing);
+    other.apply(drawing);
+    EXPECT_NE(one.hash(), without.hash());
+    for (int tick = 0; tick < 600; ++tick) {
+        one.advance();
+        other.advance();
+    }
+    EXPECT_EQ(one.hash(), other.hash());
+}
+
+// A shark catches scads, and none that wears a drawing unless it may.
+TEST(DrawingsOfAWorld, areSparedUnlessTheyMayBeEaten) {
+    const auto eaten = [](bool mayBe) {
+        WorldSpecies prey = scads(8);
+        prey.drawings = 8;
+        WorldOptions options = openWater(1, {prey, sharks(2)});
+        options.drawingsMayBeEaten = mayBe;
+        options.scene.water.centre = {0, -6, 0};
+        options.scene.water.halfExtent = {5, 3, 5};
+        options.scene.eye = {0, -6, 0};
+        World world(options);
+        for (std::uint32_t fish = 0; fish < 8; ++fish)
+            world.apply(EnterDrawing{.fish = fish, .number = fish + 1, .picture = {}, .aside = 0});
+        for (int tick = 0; tick < 60 * 900; ++tick) world.advance();
+        return world.counts().catches;
+    };
+    EXPECT_EQ(eaten(false), 0U);
+    EXPECT_GT(eaten(true), 0U);
+}
+
+}  // namespace
+}  // namespace aquarama::world
