@@ -228,17 +228,14 @@ class WorldPreparation {
     machine::ServiceNotifier* service_;
 };
 
-std::vector<std::string> drawnSpeciesOf(const config::Rig& rig) {
-    return rig.drawings ? rig.drawings->species : std::vector<std::string>{};
-}
-std::uint32_t mostDrawingsOf(const config::Rig& rig) {
-    return rig.drawings ? rig.drawings->most : 0;
-}
-
-world::WorldOptions worldOptionsOf(const simulation::Assets& assets, const config::Rig& rig) {
-    world::WorldOptions options = simulation::worldOptionsOf(assets);
-    options.drawingsMayBeEaten = rig.drawings && rig.drawings->mayBeEaten;
-    return options;
+// What a show is made of, by its rig.
+simulation::AssetChoice choiceOf(const config::Rig& rig, const supervisor::ShowOptions& options) {
+    simulation::AssetChoice choice{.seed = options.seed, .fish = {}};
+    if (!rig.drawings) return choice;
+    choice.drawnSpecies = rig.drawings->species;
+    choice.mostDrawings = rig.drawings->most;
+    choice.drawingsMayBeEaten = rig.drawings->mayBeEaten;
+    return choice;
 }
 
 // Shows a new world, and records it where that is requested.
@@ -247,25 +244,19 @@ void showNew(const config::Rig& rig,
              std::unique_ptr<net::MasterChannels> channels) {
     conductor::ConductorOptions conducting = conductorOptions(rig, options);
     std::optional<WorldPreparation> preparation(std::in_place, *channels, options.service);
-    const simulation::Assets assets =
-        simulation::readAssets(sceneFile(rig, options.show.rigPath, conducting.wanted.scene()),
-                               {.seed = options.show.seed,
-                                .fish = options.show.fish,
-                                .drawnSpecies = drawnSpeciesOf(rig),
-                                .mostDrawings = mostDrawingsOf(rig),
-                                .tell = [&](const std::string& what) { preparation->tell(what); }});
+    simulation::AssetChoice choice = choiceOf(rig, options.show);
+    choice.fish = options.show.fish;
+    choice.tell = [&](const std::string& what) { preparation->tell(what); };
+    const simulation::Assets assets = simulation::readAssets(
+        sceneFile(rig, options.show.rigPath, conducting.wanted.scene()), choice);
     preparation->tell("making the world");
-    simulation::LivingWorld world(worldOptionsOf(assets, rig));
+    simulation::LivingWorld world(simulation::worldOptionsOf(assets));
     preparation.reset();
     if (options.show.recordPath.empty()) {
         conducting.looks.makeWorld = [rig, show = options.show](const std::string& scene) {
-            simulation::Assets next = simulation::readAssets(sceneFile(rig, show.rigPath, scene),
-                                                             {.seed = show.seed,
-                                                              .fish = {},
-                                                              .drawnSpecies = drawnSpeciesOf(rig),
-                                                              .mostDrawings = mostDrawingsOf(rig),
-                                                              .tell = {}});
-            auto made = std::make_unique<simulation::LivingWorld>(worldOptionsOf(next, rig));
+            simulation::Assets next =
+                simulation::readAssets(sceneFile(rig, show.rigPath, scene), choiceOf(rig, show));
+            auto made = std::make_unique<simulation::LivingWorld>(simulation::worldOptionsOf(next));
             const auto traits = made->world().traits();
             return conductor::NextWorld{
                 std::move(next.bytes), {traits.begin(), traits.end()}, std::move(made)};

@@ -184,6 +184,7 @@ class Reader {
         recording_.assets.seed = header.seed();
         recording_.assets.sceneFile = source_ + ": its scene";
         recording_.assets.scene = header.scene();
+        recording_.assets.drawingsMayBeEaten = header.drawings_may_be_eaten();
         speciesCount_ = header.species_count();
     }
 
@@ -346,6 +347,7 @@ Packet beginningOf(const AssetBundle& assets) {
     header.set_build(AQUARAMA_VERSION);
     header.set_seed(assets.seed);
     header.set_scene(assets.scene);
+    if (assets.drawingsMayBeEaten) header.set_drawings_may_be_eaten(true);
     header.set_species_count(static_cast<std::uint32_t>(assets.cast.size()));
     Packet bytes = delimited(entry);
     for (const SpeciesAssets& species : assets.cast) {

@@ -44,6 +44,7 @@ struct AssetBundle {
     std::string sceneFile;            // for messages
     std::string scene;                // the text
     std::vector<SpeciesAssets> cast;  // as the scene's, the school first
+    bool drawingsMayBeEaten = false;  // the fish that wear visitors' drawings
 };
 
 // Pellets that a visitor dropped.

@@ -142,6 +142,7 @@ Assets readAssets(const std::string& scenePath, const AssetChoice& choice) {
     assets.scene = chosenScene(scenePath, choice);
     assets.bytes.seed = choice.seed;
     assets.bytes.sceneFile = scenePath;
+    assets.bytes.drawingsMayBeEaten = choice.drawingsMayBeEaten;
     const config::Scene& scene = assets.scene;
     assets.bytes.scene = scene.text;
     for (config::CastSpecies& member : config::readCastSpecies(scene, scenePath)) {
@@ -165,6 +166,7 @@ world::WorldOptions worldOptionsOf(const Assets& assets) {
     world::WorldOptions options;
     options.seed = assets.bytes.seed;
     options.scene = assets.scene;
+    options.drawingsMayBeEaten = assets.bytes.drawingsMayBeEaten;
     for (std::size_t i = 0; i < assets.species.size(); ++i) {
         const wire::SpeciesAssets& bytes = assets.bytes.cast[i];
         const config::Species& species = assets.species[i];

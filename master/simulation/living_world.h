@@ -51,6 +51,7 @@ struct AssetChoice {
     // Species of which fish wait for visitors' drawings, and how many drawings swim at most.
     std::vector<std::string> drawnSpecies = {};
     std::uint32_t mostDrawings = 0;
+    bool drawingsMayBeEaten = false;
     // Called with the progress of long work, as "capturing 3 of 7 species, 20 %"; by several
     // threads, but never two at once. May be empty.
     std::function<void(const std::string&)> tell = {};

@@ -36,7 +36,7 @@ TEST(RecordingFormat, everyEntryComesBack) {
     EXPECT_EQ(recording.assets.cast[0].text, sampleAssets().cast[0].text);
     EXPECT_EQ(recording.assets.cast[0].repertoire, sampleAssets().cast[0].repertoire);
     EXPECT_EQ(recording.assets.cast[0].fish, 51U);
-    ASSERT_EQ(recording.inputs.size(), 5U);
+    ASSERT_EQ(recording.inputs.size(), 7U);
     EXPECT_EQ(recording.inputs[0].tick, Tick{17});
     const auto& food = std::get<RecordedFood>(recording.inputs[0].input);
     EXPECT_EQ(food.position, glm::vec3(1.5F, -2.0F, 30.25F));
@@ -50,6 +50,12 @@ TEST(RecordingFormat, everyEntryComesBack) {
     EXPECT_EQ(clock.lengthSeconds, 43'200);
     EXPECT_EQ(std::get<WallHands>(recording.inputs[4].input),
               (WallHands{{7, {0.5F, 0, -3}}, {8, {-2.5F, 1, -2}}}));
+    const auto& drawing = std::get<RecordedDrawing>(recording.inputs[5].input);
+    EXPECT_EQ(drawing.fish, 40U);
+    EXPECT_EQ(drawing.number, 7U);
+    EXPECT_EQ(drawing.picture, digestOf("png"));
+    EXPECT_EQ(drawing.aside, -1);
+    EXPECT_EQ(std::get<RecordedDeparture>(recording.inputs[6].input).fish, 40U);
     const std::vector<RecordedHash> checkpoints{{{0}, 0xFEDCBA9876543210U}, {{600}, 1}};
     EXPECT_EQ(recording.checkpoints, checkpoints);
     ASSERT_TRUE(recording.end);

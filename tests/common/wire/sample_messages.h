@@ -142,6 +142,34 @@ inline v1::Envelope sampleScan() {
     return message;
 }
 
+// A drawing is offered, one is decided about, and the list is asked for and told.
+inline std::vector<v1::Envelope> sampleDrawings() {
+    std::vector<v1::Envelope> messages(4);
+    v1::Order& offer = *messages[0].mutable_order();
+    offer.set_request(8);
+    offer.mutable_drawing()->set_skin("png");
+    offer.mutable_drawing()->set_species("clownfish");
+    offer.mutable_drawing()->set_aside(-1);
+    v1::Order& moderation = *messages[1].mutable_order();
+    moderation.set_request(9);
+    moderation.mutable_moderation()->set_number(17);
+    moderation.mutable_moderation()->set_verdict(v1::Moderation::LET_IN);
+    messages[2].mutable_drawings_request()->set_skin_of(17);
+    v1::DrawingsReply& reply = *messages[3].mutable_drawings_reply();
+    reply.set_version(5);
+    v1::DrawingStatus& drawing = *reply.add_drawings();
+    drawing.set_number(17);
+    drawing.set_species("clownfish");
+    drawing.set_condition(v1::DrawingStatus::SWIMMING);
+    drawing.set_fish(400);
+    drawing.set_kept(false);
+    drawing.set_offered_at(1'800'000'000);
+    reply.set_skin_of(17);
+    reply.set_skin("png");
+    reply.add_species("clownfish");
+    return messages;
+}
+
 inline v1::Envelope sampleOrderReply() {
     v1::Envelope message;
     v1::OrderReply& reply = *message.mutable_order_reply();
@@ -215,6 +243,8 @@ inline v1::Envelope sampleStatus() {
     *reply.mutable_show() = test::messageOf(sampleShow());
     reply.set_change("prepared by all nodes but left");
     reply.set_guests(false);
+    reply.set_drawings(true);
+    reply.set_drawings_version(5);
     const auto add = [&](const char* name, v1::NodeCondition is, std::uint64_t late, int dropped) {
         v1::NodeStatus& node = *reply.add_nodes();
         node.set_name(name);
@@ -334,6 +364,8 @@ inline std::vector<Packet> samplePackets() {
     for (const v1::Envelope& message : sampleWatch()) packets.push_back(encode(kSession, message));
     packets.push_back(test::packetOf(kSession, sampleScanState()));
     for (const v1::Envelope& message : samplePower()) packets.push_back(encode(kSession, message));
+    for (const v1::Envelope& message : sampleDrawings())
+        packets.push_back(encode(kSession, message));
     return packets;
 }
 

@@ -26,6 +26,8 @@ inline std::vector<Packet> sampleEntries() {
             entryOf(RecordedInput{{17}, RecordedSubmarine{{0, -6, 0}, {0.5F, 0, -0.25F}}}),
             entryOf(RecordedInput{{18}, RecordedClock{0.75, 43'200}}),
             entryOf(RecordedInput{{18}, WallHands{{7, {0.5F, 0, -3}}, {8, {-2.5F, 1, -2}}}}),
+            entryOf(RecordedInput{{19}, RecordedDrawing{40, 7, digestOf("png"), -1}}),
+            entryOf(RecordedInput{{19}, RecordedDeparture{40}}),
             entryOf(RecordedHash{{600}, 1}),
             endOf({{(std::uint64_t{1} << 31U) + 7}, 2})};
 }

@@ -110,7 +110,8 @@ class DeskOrders : public testing::Test {
     }
 
     test::Parts parts;
-    Orders orders{limits(), parts.roster, parts.sender};
+    Drawings drawings{std::nullopt, {}};
+    Orders orders{limits(), parts.roster, parts.sender, drawings};
     net::Moment now = test::kStart;
     Frame unpublished{40};
 };
@@ -162,7 +163,7 @@ TEST_F(DeskOrders, anOrderToAnotherRunIsRefusedWhateverItAsks) {
 TEST_F(DeskOrders, nothingIsOrderedOfAShowInLockstep) {
     OrderLimits lockstep = limits();
     lockstep.isLockstep = true;
-    Orders same(lockstep, parts.roster, parts.sender);
+    Orders same(lockstep, parts.roster, parts.sender, drawings);
     std::uint64_t request = 0;
     for (v1::Order order : {black(true), scan(7, 3), restart("left"), reboot("left")}) {
         order.set_request(++request);
@@ -196,7 +197,7 @@ TEST_F(DeskOrders, whatCannotBeShownIsRefusedWithAReason) {
     EXPECT_EQ(give(4, quality).outcome(), Reply::WAITING);
     OrderLimits recorded = limits();
     recorded.whyOneScene = "a recording has one scene";
-    Orders one(recorded, parts.roster, parts.sender);
+    Orders one(recorded, parts.roster, parts.sender, drawings);
     v1::Order lagoon = scene("lagoon");
     lagoon.set_request(5);
     EXPECT_EQ(one.obey("operator anna", lagoon, unpublished, now).reason(),

@@ -47,6 +47,13 @@ TEST(Users, maySayWhatTheirRoleIsFor) {
     EXPECT_EQ(whoMay(order), "operator crew ");
     order.mutable_order()->mutable_sign();
     EXPECT_EQ(whoMay(order), "operator crew guests ");
+    order.mutable_order()->mutable_drawing();
+    EXPECT_EQ(whoMay(order), "operator crew guests ");
+    order.mutable_order()->mutable_moderation();
+    EXPECT_EQ(whoMay(order), "operator crew ") << "no visitor lets a drawing in";
+    v1::Envelope question;
+    question.mutable_drawings_request();
+    EXPECT_EQ(whoMay(question), "watcher operator crew guests ");
     EXPECT_EQ(whoMay(test::present(1, 0)), "") << "nobody but the master says it";
 }
 
