@@ -125,20 +125,20 @@ TEST(DrawingsOfAWorld, arePartOfItsHash) {
     EXPECT_EQ(one.hash(), other.hash());
 }
 
-// A shark catches scads, and none that wears a drawing unless it may.
+// A shark that is hungry catches scads, and none that wears a drawing unless it may.
 TEST(DrawingsOfAWorld, areSparedUnlessTheyMayBeEaten) {
+    constexpr std::uint32_t kScads = 40;
     const auto eaten = [](bool mayBe) {
-        WorldSpecies prey = scads(8);
-        prey.drawings = 8;
-        WorldOptions options = openWater(1, {prey, sharks(2)});
+        WorldSpecies prey = scads(kScads);
+        prey.habits.fear.metres = 0.8F;  // in so little water farther sight would be endless fear
+        prey.drawings = kScads;
+        WorldOptions options = openWater(4, {prey, sharks(1)});
         options.drawingsMayBeEaten = mayBe;
-        options.scene.water.centre = {0, -6, 0};
-        options.scene.water.halfExtent = {5, 3, 5};
-        options.scene.eye = {0, -6, 0};
+        options.scene.eye = place::kEyePosition;
         World world(options);
-        for (std::uint32_t fish = 0; fish < 8; ++fish)
+        for (std::uint32_t fish = 0; fish < kScads; ++fish)
             world.apply(EnterDrawing{.fish = fish, .number = fish + 1, .picture = {}, .aside = 0});
-        for (int tick = 0; tick < 60 * 900; ++tick) world.advance();
+        for (int tick = 0; tick < 60 * 1200; ++tick) world.advance();
         return world.counts().catches;
     };
     EXPECT_EQ(eaten(false), 0U);
