@@ -36,10 +36,10 @@ void Console::begin(web::WebServer& server, Doors doors) {
     doors_ = std::move(doors);
     const auto here = [this](auto what) { server_->post(std::move(what)); };
     if (!state_.rig.watchAddress.empty())
-        hub_ = std::make_unique<PictureHub>(
+        hub_ = std::make_unique<ask::PictureHub>(
             state_.rig.watchAddress,
-            watchKeysOf(state_.rigFile, options_.keyFolder),
-            PictureListener{[=, this](const std::string& channel, const v1::FramePicture& picture) {
+            ask::watchKeysOf(state_.rigFile, options_.keyFolder),
+            ask::PictureListener{[=, this](const std::string& channel, const v1::FramePicture& picture) {
                                 here([=, this] { visitors_.heardPicture(channel, picture); });
                             },
                             [=, this](const v1::FishReply& reply) {

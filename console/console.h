@@ -24,7 +24,7 @@
 #include "console/errands.h"
 #include "console/gate.h"
 #include "console/overview.h"
-#include "console/picture_hub.h"
+#include "common/ask/picture_hub.h"
 #include "console/show_link.h"
 #include "console/state.h"
 #include "console/visitors.h"
@@ -121,7 +121,7 @@ class Console final : public web::Service {
     std::string deskProblem_;                 // why not
     std::unique_ptr<TouchListener> tracker_;  // as desk_
     std::string trackerProblem_;
-    std::unique_ptr<PictureHub> hub_;
+    std::unique_ptr<ask::PictureHub> hub_;
     std::unique_ptr<ShowLink> link_;  // last: their threads use all of the above
 };
 

@@ -89,13 +89,6 @@ class Mesh {
     std::vector<Place> places_;
 };
 
-// Of what a picture packs for two eyes: the part that is the first eye's.
-glm::vec2 firstEye(config::StereoMode mode) {
-    if (mode == config::StereoMode::SideBySide) return {0.5F, 1};
-    if (mode == config::StereoMode::TopBottom) return {1, 0.5F};
-    return {1, 1};
-}
-
 // As console.proto has it: undoes what the last pass of a node does for a projector.
 void addColour(browser::ChannelMesh& mesh, const formats::ChannelColour& colour) {
     constexpr int kCodes = 256;
@@ -137,7 +130,7 @@ browser::Panorama panoramaOf(const config::Rig& rig) {
         out.set_columns(kMeshPoints.x);
         out.set_rows(kMeshPoints.y);
         out.set_places(mesh.bytes());
-        const glm::vec2 eye = firstEye(wall::stereoOf(rig, i).mode);
+        const glm::vec2 eye = wall::firstEyeShare(wall::stereoOf(rig, i).mode);
         out.set_eye_width(eye.x);
         out.set_eye_height(eye.y);
         if (const auto* colour = wall.channel(i).colour()) addColour(out, *colour);

@@ -12,7 +12,7 @@
 #include "common/wire/messages.h"
 #include "console/access.h"
 #include "console/console.pb.h"
-#include "console/picture_hub.h"
+#include "common/ask/picture_hub.h"
 #include "console/state.h"
 
 namespace aquarama::console {
@@ -46,7 +46,7 @@ class Visitors {
     explicit Visitors(State& state) : state_{state} {}
 
     // Where pictures and fish are asked for; null: nowhere. `nodes` outlives the visitors.
-    void watch(NodeProxy* nodes) { nodes_ = nodes; }
+    void watch(ask::NodeProxy* nodes) { nodes_ = nodes; }
     // A visitor comes, gets a whole snapshot before all else, and goes.
     void add(Visitor& visitor);
     void remove(Visitor& visitor);
@@ -106,7 +106,7 @@ class Visitors {
     [[nodiscard]] bool isWatched(const Visitor& visitor, int channel) const;
 
     State& state_;
-    NodeProxy* nodes_ = nullptr;
+    ask::NodeProxy* nodes_ = nullptr;
     std::set<Visitor*> visitors_;
     std::map<int, PictureState> pictures_;
     std::map<std::uint64_t, Visitor*> fishAsked_;  // by the number of the question

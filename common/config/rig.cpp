@@ -56,7 +56,7 @@ bool isHost(std::string_view host) {
 }
 
 void checkAddress(const TextReader& file,
-                  const v1::Network& in,
+                  const google::protobuf::Message& in,
                   const std::string& field,
                   const std::string& address) {
     const auto refuse = [&](const std::string& why) {
@@ -73,11 +73,15 @@ void checkAddress(const TextReader& file,
                std::to_string(*port));
 }
 
+// ":7400" of "tcp://127.0.0.1:7400".
+std::string portOf(const std::string& address) {
+    return address.substr(address.rfind(':'));
+}
+
 void checkNetwork(const TextReader& file, const v1::Network& in) {
     checkAddress(file, in, "control", in.control());
     checkAddress(file, in, "state", in.state());
-    const auto port = [](const std::string& address) { return address.substr(address.rfind(':')); };
-    if (port(in.control()) == port(in.state()))
+    if (portOf(in.control()) == portOf(in.state()))
         file.refuse(in, "state", "state and control share one port: give each its own");
     if (isLoopback(hostOf(in.control())) != isLoopback(hostOf(in.state())))
         file.refuse(in,
@@ -86,8 +90,8 @@ void checkNetwork(const TextReader& file, const v1::Network& in) {
                     "host for both");
     if (!in.has_watch()) return;
     checkAddress(file, in, "watch", in.watch());
-    if (hostOf(in.watch()) != hostOf(in.control()) || port(in.watch()) == port(in.control()) ||
-        port(in.watch()) == port(in.state()))
+    if (hostOf(in.watch()) != hostOf(in.control()) || portOf(in.watch()) == portOf(in.control()) ||
+        portOf(in.watch()) == portOf(in.state()))
         file.refuse(in, "watch", "watch needs the host of control and a port of its own");
 }
 
@@ -475,6 +479,19 @@ std::optional<TouchedSurface> touchOf(const TextReader& file, const v1::Rig& rig
     return touch;
 }
 
+// The host of the master, and a port that nobody else has.
+void checkPictures(const TextReader& file, const v1::Rig& rig) {
+    const v1::Guests& in = rig.guests();
+    const v1::Network& network = rig.network();
+    checkAddress(file, in, "pictures", in.pictures());
+    const auto isTaken = [&](const std::string& other) {
+        return !other.empty() && portOf(other) == portOf(in.pictures());
+    };
+    if (hostOf(in.pictures()) != hostOf(network.control()) || isTaken(network.control()) ||
+        isTaken(network.state()) || isTaken(network.watch()))
+        file.refuse(in, "pictures", "pictures needs the host of control and a port of its own");
+}
+
 // After the channels.
 void takeGuests(const TextReader& file, const v1::Rig& in, Rig& rig) {
     if (!in.has_guests()) return;
@@ -485,7 +502,8 @@ void takeGuests(const TextReader& file, const v1::Rig& in, Rig& rig) {
                   .port = 0,
                   .channel = from.has_channel() ? from.channel() : rig.channels.front().name,
                   .corner = static_cast<Guests::Corner>(from.corner() - v1::Guests::LOWER_LEFT),
-                  .height = from.height()};
+                  .height = from.height(),
+                  .picturesAddress = from.pictures()};
     const auto address = webAddressIn(from.address());
     if (!address)
         file.refuse(from,
@@ -495,6 +513,7 @@ void takeGuests(const TextReader& file, const v1::Rig& in, Rig& rig) {
                         "http://192.168.20.1:7490; names are not looked up");
     guests.host = address->host;
     guests.port = address->port;
+    if (from.has_pictures()) checkPictures(file, in);
     if (std::ranges::find(rig.channels, guests.channel, &Channel::name) == rig.channels.end())
         file.refuse(from, "channel", "there is no channel \"" + guests.channel + "\"");
     rig.guests = guests;

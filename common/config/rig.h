@@ -163,7 +163,8 @@ struct Guests {
     std::uint16_t port = 0;
     std::string channel;  // draws the sign
     Corner corner = Corner::LowerLeft;
-    double height = 0.16;  // share of the channel's picture
+    double height = 0.16;              // share of the channel's picture
+    std::string picturesAddress = {};  // where nodes bring it pictures: ROUTER; empty: nowhere
 };
 
 // What visitors have painted swims on the wall.

@@ -23,6 +23,12 @@ glm::dvec3 eyePosition(const config::Rig& rig, EyeSide side) {
     return rig.sweetSpotMetres + glm::dvec3(right, 0, 0);
 }
 
+glm::vec2 firstEyeShare(config::StereoMode mode) {
+    if (mode == config::StereoMode::SideBySide) return {0.5F, 1};
+    if (mode == config::StereoMode::TopBottom) return {1, 0.5F};
+    return {1, 1};
+}
+
 config::Stereo stereoOf(const config::Rig& rig, std::size_t channel) {
     assert(channel < rig.channels.size());
     const config::Display& display = rig.channels[channel].display;

@@ -30,6 +30,9 @@ enum class EyeSide : std::uint8_t { Between, Left, Right };
 
 // The stereo settings of the rig, with what the channel's display sets differently.
 [[nodiscard]] config::Stereo stereoOf(const config::Rig& rig, std::size_t channel);
+// Of a picture that packs two eyes: the share of its width and height, from the upper left corner,
+// that is the first eye's.
+[[nodiscard]] glm::vec2 firstEyeShare(config::StereoMode mode);
 
 // The warp of a channel: for each pixel, top row first, the point that it lights and its blend
 // weight.

@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #include "common/config/rig.h"
-#include "console/picture_hub.h"
+#include "common/ask/picture_hub.h"
 #include "console/show_link.h"
 #include "console/state.h"
 #include "console/visitors.h"

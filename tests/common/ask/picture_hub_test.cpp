@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "console/picture_hub.h"
+#include "common/ask/picture_hub.h"
 
 #include <chrono>
 #include <mutex>
@@ -11,7 +11,7 @@
 
 #include "common/base/log.h"
 
-namespace aquarama::console {
+namespace aquarama::ask {
 namespace {
 
 using namespace std::chrono_literals;
@@ -73,4 +73,4 @@ TEST_F(KeyedHub, aNodeIsHeardForItsOwnChannelAndStrangersForNone) {
 }
 
 }  // namespace
-}  // namespace aquarama::console
+}  // namespace aquarama::ask

@@ -16,7 +16,7 @@
 #include "common/net/channels.h"
 #include "common/wire/messages.h"
 
-namespace aquarama::console {
+namespace aquarama::ask {
 
 // Called from the hub's thread.
 struct PictureListener {
@@ -24,7 +24,7 @@ struct PictureListener {
     std::function<void(const v1::FishReply&)> fish;
 };
 
-// What the console asks the nodes. From any thread; a node that is not there is asked nothing.
+// What is asked of the nodes. From any thread; a node that is not there is asked nothing.
 class NodeProxy {
   public:
     virtual ~NodeProxy() = default;
@@ -77,4 +77,4 @@ class PictureHub final : public NodeProxy {
 [[nodiscard]] std::optional<net::MasterKeys> watchKeysOf(const std::string& rigPath,
                                                          const std::string& keyFolder);
 
-}  // namespace aquarama::console
+}  // namespace aquarama::ask

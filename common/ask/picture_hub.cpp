@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "console/picture_hub.h"
+#include "common/ask/picture_hub.h"
 
 #include <chrono>
 #include <utility>
@@ -8,13 +8,13 @@
 #include "common/config/keys.h"
 #include "common/config/rig.h"
 
-namespace aquarama::console {
+namespace aquarama::ask {
 
 namespace {
 
 // Bounds what strangers can make the hub remember.
 constexpr std::size_t kMostPeers = 256;
-// Questions beyond this number are lost; the console asks again.
+// Questions beyond this number are lost; they are asked again.
 constexpr std::size_t kMostQuestions = 64;
 
 }  // namespace
@@ -99,7 +99,7 @@ void PictureHub::hear(const net::FromPeer& from) {
     if (message->has_fish_reply()) listener_.fish(message->fish_reply());
 }
 
-// Nodes know the master's public key already; so the console shows the same.
+// Nodes know the master's public key already; so the same is shown here.
 std::optional<net::MasterKeys> watchKeysOf(const std::string& rigPath,
                                            const std::string& keyFolder) {
     if (!config::needsKeys(config::readRig(rigPath))) return std::nullopt;
@@ -120,4 +120,4 @@ std::optional<net::MasterKeys> watchKeysOf(const std::string& rigPath,
     return net::MasterKeys{{own.publicKey, own.secretKey}, allowed};
 }
 
-}  // namespace aquarama::console
+}  // namespace aquarama::ask
