@@ -281,6 +281,15 @@ std::optional<Show> readShow(const v1::Show& m) {
                 .skins = m.has_skins() ? std::optional(digestIn(m.skins())) : std::nullopt};
 }
 
+std::optional<v1::SkinList> readSkinList(std::span<const std::byte> blob) {
+    v1::SkinList list;
+    if (blob.size() > kMostSmallPacketBytes ||
+        !list.ParseFromArray(blob.data(), static_cast<int>(blob.size())) ||
+        !config::keepsRules(list))
+        return std::nullopt;
+    return list;
+}
+
 bool areFinite(const google::protobuf::RepeatedField<float>& numbers) {
     return std::ranges::all_of(numbers, [](float number) { return std::isfinite(number); });
 }

@@ -68,6 +68,9 @@ void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers);
 void writeScanPattern(const config::ScanPattern& pattern, v1::ScanPattern& message);
 [[nodiscard]] std::optional<config::ScanPattern> readScanPattern(const v1::ScanPattern& message);
 
+// The skins that a blob lists; empty where it is no such list, or out of bounds.
+[[nodiscard]] std::optional<v1::SkinList> readSkinList(std::span<const std::byte> blob);
+
 // Whether no number is infinite or not a number.
 [[nodiscard]] bool areFinite(const google::protobuf::RepeatedField<float>& numbers);
 

@@ -60,6 +60,7 @@ Quality qualityOf(config::QualityTier tier) {
     static constexpr std::array<Quality, config::kTierNames.size()> kTiers{
         Quality{.pictureShare = 0.85F,
                 .fishFineness = 0.75F,
+                .skinLevelsLeftOut = 1,
                 .light = {},
                 .placeDetail = 0.45F,
                 .placeReach = 0.32F},

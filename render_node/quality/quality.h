@@ -60,6 +60,8 @@ struct Quality {
     bool closeUps = false;
     // Fineness of the meshes of fish: see detailLimits() in surface/visibility.h.
     float fishFineness = 1.0F;
+    // Of what visitors have painted: how many of the finest levels are left out.
+    std::size_t skinLevelsLeftOut = 0;
     LightQuality light;
     // How finely the place is drawn: at 1 its meshes deviate from smooth shapes by about 0.7 of the
     // wall's finest pixels.

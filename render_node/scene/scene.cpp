@@ -151,7 +151,8 @@ struct SceneRenderer::Parts {
                   .levelsOfDetail = chosen.levelsOfDetail,
                   .finest =
                       quality.closeUps ? surface::DetailLevel::CloseUp : surface::DetailLevel::Hero,
-                  .fineness = quality.fishFineness},
+                  .fineness = quality.fishFineness,
+                  .skinLevelsLeftOut = quality.skinLevelsLeftOut},
                  surface::makeSkinPrograms(shaders)},
           food{shaders},
           surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"}, shaders)},
@@ -255,6 +256,10 @@ SceneRenderer::SceneRenderer(const SceneOptions& options,
     : parts_{std::make_unique<Parts>(options, cast)} {}
 
 SceneRenderer::~SceneRenderer() = default;
+
+void SceneRenderer::wear(const body::SkinsByNumber& skins, std::size_t most) {
+    parts_->school.wear(skins, most);
+}
 
 void SceneRenderer::update(const SceneFrame& frame) {
     assert(std::isfinite(frame.timeSeconds));

@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/body/side_skin.h"
 #include "common/config/scene.h"
 #include "common/place/place.h"
 #include "render_node/quality/quality.h"
@@ -85,6 +86,9 @@ class SceneRenderer {
     SceneRenderer& operator=(const SceneRenderer&) = delete;
     SceneRenderer(SceneRenderer&&) = delete;
     SceneRenderer& operator=(SceneRenderer&&) = delete;
+
+    // Drawings of visitors that fish wear in the frames that follow: SchoolSurface::wear().
+    void wear(const body::SkinsByNumber& skins, std::size_t most);
 
     // Uploads and computes what all views of a frame share: the waves and their light, the fish and
     // the shadows that they throw. Call it once for each frame, before draw().

@@ -57,6 +57,16 @@ void Mailbox::offerNextLook(Admitted next) {
     nextLook_ = std::move(next);
 }
 
+void Mailbox::offerSkins(std::shared_ptr<const body::SkinsByNumber> skins) {
+    const std::lock_guard lock(mutex_);
+    skins_ = std::move(skins);
+}
+
+std::shared_ptr<const body::SkinsByNumber> Mailbox::takeSkins() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(skins_, {});
+}
+
 std::optional<Admitted> Mailbox::takeNextLook() {
     const std::lock_guard lock(mutex_);
     return std::exchange(nextLook_, {});

@@ -8,11 +8,13 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <variant>
 
+#include "common/body/side_skin.h"
 #include "common/net/blob.h"
 #include "common/net/clock.h"
 #include "common/wire/messages.h"
@@ -71,6 +73,7 @@ class Mailbox {
     void release(const ReleaseOrder& order);
     void tellMind(ExplainedMind explanation);
     void offerNextLook(Admitted next);
+    void offerSkins(std::shared_ptr<const body::SkinsByNumber> skins);
     // The finished frames that the net thread has not seen yet, oldest first; each once.
     [[nodiscard]] std::optional<FinishedFrame> takeFinished();
     void interrupt(Release why);  // Rejoin or Quit; nothing comes back after Quit
@@ -87,6 +90,8 @@ class Mailbox {
     [[nodiscard]] Release interruption() const;
     // The next look, once, when all of its blobs are there; does not block.
     [[nodiscard]] std::optional<Admitted> takeNextLook();
+    // The skins that were offered last, once; null: no others have been. Does not block.
+    [[nodiscard]] std::shared_ptr<const body::SkinsByNumber> takeSkins();
     // The last explanation of this run of the master; does not block.
     [[nodiscard]] std::optional<ExplainedMind> latestMind() const;
 
@@ -108,6 +113,7 @@ class Mailbox {
     std::optional<ReleaseOrder> release_;
     std::optional<ExplainedMind> mind_;
     std::optional<Admitted> nextLook_;
+    std::shared_ptr<const body::SkinsByNumber> skins_;  // they outlive a join
 };
 
 }  // namespace aquarama::session

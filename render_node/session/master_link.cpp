@@ -16,6 +16,7 @@ using std::chrono::seconds;
 constexpr net::Duration kMasterSilence = seconds(2);    // after which the master counts as lost
 constexpr net::Duration kFarthest = milliseconds(250);  // a later release means a wrong clock
 constexpr net::Duration kReport = seconds(5);
+constexpr net::Duration kSkins = seconds(5);        // so long a node waits for drawings
 constexpr net::Duration kLongestTurn = seconds(2);  // of a net thread that is at work
 
 // All that a node fetches for a look.
@@ -44,7 +45,10 @@ MasterLink::MasterLink(std::string name,
       fetch_(
           std::move(cache),
           [this](v1::Envelope message) { connection_.say(std::move(message)); },
-          [this] { connection_.wake(); }) {}
+          [this] { connection_.wake(); }),
+      skins_([this](v1::Envelope message) { connection_.say(std::move(message)); },
+             [this] { connection_.wake(); },
+             [this](SkinFetch::Skins skins) { mailbox_.offerSkins(std::move(skins)); }) {}
 
 void MasterLink::post(const Request& request) {
     requests_.put(request);
@@ -99,8 +103,9 @@ void MasterLink::turn() {
 void MasterLink::handle(const Join&) {
     connection_.renew();
     phase_ = Phase::Greeting;
-    hearsStates_ = false;
+    hearsStates_.reset();
     fetch_.stop();
+    skins_.restart();
     frames_.forget();
 }
 
@@ -159,7 +164,8 @@ void MasterLink::takeOfRun(const v1::Envelope& message) {
         case v1::Envelope::kPong:
             return takePong(message.pong());
         case v1::Envelope::kBlobChunk:
-            return fetch_.take(message.blob_chunk());
+            fetch_.take(message.blob_chunk());
+            return skins_.take(message.blob_chunk());
         case v1::Envelope::kJoined:
             return mailbox_.start(static_cast<wire::Pace>(welcome_.pace()),
                                   {message.joined().first_frame()});
@@ -193,11 +199,12 @@ void MasterLink::readState(const net::ByteVector& bytes) {
     const auto message = wire::decode(bytes);
     if (!message || connection_.session() == 0) return;
     if (message->session() != connection_.session()) return lose("the master was started again");
-    hearsStates_ = true;
     lastHeard_ = net::monotonicNow();
+    if (!hearsStates_) hearsStates_ = lastHeard_;
     if (!message->has_state()) return;
     auto state = wire::readState(message->state());
     if (!state) return;
+    skins_.want(state->show.skins);
     const bool isOurLook = state->show.look == welcome_.look().number();
     if (isOurLook && state->show.calibration != calibration_)
         return lose("the wall is calibrated anew");
@@ -296,11 +303,16 @@ void MasterLink::doWhatIsDue(net::Moment now) {
     } catch (const Error& problem) {
         mailbox_.refuse(problem.what());
     }
-    if (phase_ == Phase::Listening && hearsStates_) {
+    skins_.turn(now);
+    if (phase_ == Phase::Listening && mayBePrepared(now)) {
         sayPrepared();
         phase_ = Phase::Member;
     }
     if (auto ready = frames_.due(pings_, now)) connection_.say(*std::move(ready));
+}
+
+bool MasterLink::mayBePrepared(net::Moment now) const {
+    return hearsStates_ && (skins_.isComplete() || now - *hearsStates_ > kSkins);
 }
 
 void MasterLink::sayPrepared() {

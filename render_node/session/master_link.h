@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -18,6 +19,7 @@
 #include "render_node/session/mailbox.h"
 #include "render_node/session/pings.h"
 #include "render_node/session/session.h"
+#include "render_node/session/skin_fetch.h"
 
 namespace aquarama::session {
 
@@ -95,6 +97,8 @@ class MasterLink {
 
     // All blobs are there.
     void admit();
+    // A node that has just come draws as its neighbours do: it waits for the skins that they have.
+    [[nodiscard]] bool mayBePrepared(net::Moment now) const;
     void sayPrepared();
     void sayReport(net::Moment now);
     void sayLog();
@@ -113,8 +117,9 @@ class MasterLink {
     v1::Welcome welcome_;            // with the look that was fetched last
     std::uint64_t calibration_ = 0;  // of that look
     BlobFetch fetch_;
+    SkinFetch skins_;
     Built built_;
-    bool hearsStates_ = false;
+    std::optional<net::Moment> hearsStates_;  // since when, of this welcome
     Pings pings_;
     FrameReports frames_;
     NodeFacts facts_;

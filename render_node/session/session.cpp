@@ -164,6 +164,7 @@ class LinkSession final : public Session {
         return offered ? std::optional(admissionOf(*offered)) : std::nullopt;
     }
 
+    std::shared_ptr<const body::SkinsByNumber> newSkins() override { return mailbox_.takeSkins(); }
     std::optional<wire::StateFrame> nextFrame() override {
         net::runInRealTime(false);
         auto arrived = mailbox_.takeState();

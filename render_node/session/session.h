@@ -13,6 +13,7 @@
 #include "common/base/digest.h"
 #include "common/base/units.h"
 #include "common/base/wall_hands.h"
+#include "common/body/side_skin.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 #include "common/motion/motion_state.h"
@@ -74,6 +75,10 @@ class Session {
     // The look that the master will show next, to be built while frames are drawn; each is returned
     // once. Does not block. Throws Error where the master's scene cannot be read.
     [[nodiscard]] virtual std::optional<Admission> nextLook() = 0;
+    // The skins that visitors have painted, whenever others are there than before; else null. Does
+    // not block. After prepared() the first frame finds all that its list names, unless the master
+    // is slow to send them.
+    [[nodiscard]] virtual std::shared_ptr<const body::SkinsByNumber> newSkins() = 0;
     // The next frame to draw: in lockstep every one in order, live the newest. Empty: see
     // `interruption`.
     virtual std::optional<wire::StateFrame> nextFrame() = 0;

@@ -79,19 +79,19 @@ void main() {
     for (uint i = thread; i < kControlPoints; i += kThreads) controlPoints[i] = controlPointOf(self, i);
     barrier();
 
-    Mesh mesh = kinds[self.species].meshes[self.detail - kControlMesh + 1u];
+    Mesh mesh = kinds[self.species].meshes[detailOf(self) - kControlMesh + 1u];
     uint first = self.firstVertex + mesh.firstVertex;
-    bool ontoControlMesh = self.detail == kControlMesh + 1u;
+    bool ontoControlMesh = detailOf(self) == kControlMesh + 1u;
     for (uint vertex = thread; vertex < mesh.vertexCount; vertex += kThreads) {
         Vertex v = evaluate(mesh, vertex);
-        if (self.detail == kControlMesh && self.blend < 1.0)
+        if (detailOf(self) == kControlMesh && self.blend < 1.0)
             v = morphFromFew(self, v, mesh.firstParent + 3u * vertex);
         // The first vertices are the control points'.
         if (ontoControlMesh && vertex < kControlPoints)
             v.position = mix(controlPoints[vertex], v.position, self.blend);
         surface[first + vertex] = packVertex(self, v);
     }
-    if (self.blend >= 1.0 || self.detail == kControlMesh) return;
+    if (self.blend >= 1.0 || detailOf(self) == kControlMesh) return;
 
     memoryBarrierBuffer();
     barrier();

@@ -5,6 +5,7 @@
 #include "frame_uniforms.h"
 #include "fish_face.glsl"
 #include "fish_school.glsl"
+#include "wears_own.glsl"
 
 layout(std430, binding = kSurfaceStorage) readonly buffer Surface { uvec4 surface[]; };
 layout(location = 0) in vec4 vertexRest;
@@ -25,6 +26,7 @@ layout(location = 7) out float opacity;     // 1, or less where a level of detai
 layout(location = 8) flat out float nearness;  // of the skin's details, which come with the mesh
 layout(location = 9) flat out float size;      // of the fish, metres
 layout(location = 10) flat out vec4 face;      // gaze in the body frame; how far the gill cover is lifted
+layout(location = 11) flat out uint drawing;   // layer of the drawing that it wears
 
 void main() {
     uvec4 vertex = surface[fish[slot].firstVertex + uint(gl_VertexID)];
@@ -38,8 +40,9 @@ void main() {
     face = vec4(fish[slot].gaze, facePose(fish[slot], eyeAndTime.w).gill);
     dorsal = rotate(fish[slot].rotation, vec3(0.0, 1.0, 0.0));
     // Few triangles have no paired fins.
-    bool grows = fish[slot].detail == kControlMesh && (vertexPart == kPelvic || vertexPart == kPectoral);
+    bool grows = detailOf(fish[slot]) == kControlMesh && (vertexPart == kPelvic || vertexPart == kPectoral);
     opacity = grows ? fish[slot].blend : 1.0;
-    nearness = fish[slot].detail == kMesh ? fish[slot].blend : 1.0;
-    gl_Position = clipFromWorld * vec4(place, 1.0);
+    nearness = detailOf(fish[slot]) == kMesh ? fish[slot].blend : 1.0;
+    drawing = layerOf(fish[slot]);
+    gl_Position = wearsDrawing(fish[slot]) == kWearsDrawing ? clipFromWorld * vec4(place, 1.0) : kNowhere;
 }

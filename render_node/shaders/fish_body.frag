@@ -4,6 +4,7 @@
 #include "fish_light.glsl"
 #include "skin_eye.glsl"
 #include "skin_plain.glsl"
+#include "own_skin.glsl"
 
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
@@ -22,9 +23,9 @@ void main() {
     SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id, size,
                              part == kEye ? 0.0 : fin.y, 0.0, face.w);
     at.lips = (kLips - at.mouth) * pixel / max(length(vec2(dFdx(at.mouth), dFdy(at.mouth))), 1.0e-5);
-    Skin far = groundOf(at);
+    Skin far = wornGround(at);
     Skin skin = far;
-    addDetails(skin, at);
+    addWornDetails(skin, at);
     paintLips(skin, at);
     skin.albedo = mix(far.albedo, skin.albedo, nearness);
     skin.silver = mix(far.silver, skin.silver, nearness);

@@ -15,7 +15,9 @@ struct Fish {
     uint fromAction;
     uint id;
     uint species;  // its place in the cast
-    uint detail;   // DetailLevel of render_node/surface/visibility.h
+    // Low half: DetailLevel of render_node/surface/visibility.h. High half: 1 + the layer of the drawing that it
+    // wears, or 0.
+    uint detailAndDrawing;
     float blend;   // how far it has changed from the next coarser level: 0 looks like that level
     uint firstVertex;  // in the surface buffer, less the first vertex of its mesh
     float speed;  // body lengths a second
@@ -23,6 +25,10 @@ struct Fish {
     vec3 gaze;     // where it looks: body frame, no longer than 1
     float mouth;   // how far it is open by its record, 0 to 1
 };
+
+uint detailOf(Fish self) { return self.detailAndDrawing & 65535u; }
+bool wearsDrawing(Fish self) { return self.detailAndDrawing >> 16 != 0u; }
+uint layerOf(Fish self) { return (self.detailAndDrawing >> 16) - 1u; }  // where it wears one
 
 // Rotates a vector by a unit quaternion.
 vec3 rotate(vec4 rotation, vec3 v) {

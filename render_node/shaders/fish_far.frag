@@ -2,6 +2,7 @@
 // any vertex shader of fish. Out: scene radiance; alpha is `opacity`.
 #include "fish_light.glsl"
 #include "skin_plain.glsl"
+#include "own_skin.glsl"
 
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
@@ -16,7 +17,7 @@ layout(location = 0) out vec4 colour;
 void main() {
     float pixel = max(length(dFdx(rest.xyz)), length(dFdy(rest.xyz)));
     SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id, size, fin.y, 1.0, 0.0);
-    Skin skin = groundOf(at);
+    Skin skin = wornGround(at);
     paintInside(skin, at);
     // The eye is the only detail of the head that still shows.
     float d = distance(rest.xy, eyeOfSpecies.xy) / eyeOfSpecies.z, soft = 0.7 * pixel / eyeOfSpecies.z;

@@ -3,6 +3,7 @@
 // world metres and clip space.
 #include "frame_uniforms.h"
 #include "fish_pose.glsl"
+#include "wears_own.glsl"
 
 layout(location = 0) in vec4 vertexRest;
 layout(location = 1) in vec2 vertexFin;
@@ -21,6 +22,7 @@ layout(location = 5) flat out uint id;
 layout(location = 6) flat out vec3 dorsal;
 layout(location = 7) out float opacity;
 layout(location = 9) flat out float size;
+layout(location = 11) flat out uint drawing;
 
 void main() {
     Fish self = fish[slot];
@@ -34,5 +36,6 @@ void main() {
     size = self.lengthMetres;
     dorsal = rotate(self.rotation, vec3(0.0, 1.0, 0.0));
     opacity = self.blend;
-    gl_Position = clipFromWorld * vec4(place, 1.0);
+    drawing = layerOf(self);
+    gl_Position = wearsDrawing(self) == kWearsDrawing ? clipFromWorld * vec4(place, 1.0) : kNowhere;
 }

@@ -3,6 +3,7 @@
 // In: world place, place on skin and fin. Out: scene radiance with alpha.
 #include "fish_light.glsl"
 #include "skin_plain.glsl"
+#include "own_skin.glsl"
 
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
@@ -41,8 +42,8 @@ void main() {
     // Median fins stand upright, also where a far one's triangles are thinner than a pixel.
     if (!isPaired) facet -= 0.85 * dot(facet, dorsal) * dorsal;
 
-    Skin root = groundOf(at);
-    Fin made = finOf(FinPoint(part, fin.x, fin.y, under, at), root);
+    Skin root = wornGround(at);
+    Fin made = wornFin(FinPoint(part, fin.x, fin.y, under, at), root);
     bool isFleshy = made.rays < 1.0;
     float pixelRays = fwidth(fin.x * made.rays);
     float ray = isFleshy ? 0.0 : rayAt(made, pixelRays);

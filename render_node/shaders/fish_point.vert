@@ -6,6 +6,7 @@
 #include "frame_uniforms.h"
 #include "fish_school.glsl"
 #include "fish_lists.glsl"
+#include "wears_own.glsl"
 
 layout(location = 3) in uint slot;  // of the instance: its place in the school
 
@@ -19,6 +20,7 @@ layout(location = 5) flat out uint id;
 layout(location = 6) flat out vec3 dorsal;
 layout(location = 7) out float opacity;
 layout(location = 9) flat out float size;
+layout(location = 11) flat out uint drawing;
 
 const vec2 kCorners[5] =
     vec2[](vec2(0.0), vec2(-1.0, -1.0), vec2(1.0, -1.0), vec2(1.0, 1.0), vec2(-1.0, 1.0));
@@ -67,5 +69,6 @@ void main() {
     part = 0u;
     id = self.id;
     size = self.lengthMetres;
-    gl_Position = clipFromWorld * vec4(place, 1.0);
+    drawing = layerOf(self);
+    gl_Position = wearsDrawing(self) == kWearsDrawing ? clipFromWorld * vec4(place, 1.0) : kNowhere;
 }

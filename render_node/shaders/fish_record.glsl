@@ -46,6 +46,9 @@ vec3 gazeOf(uint i) {
     return mix(gazeDirection(before[kWords * i + 4u].x >> 24), gazeDirection(after[kWords * i + 4u].x >> 24), fraction);
 }
 
+// The number of the drawing that it wears; 0: none.
+uint skinOf(uint i) { return after[kWords * i + 4u].y; }
+
 // Whether the fish is away at one of the ticks, and so not drawn.
 bool isAway(uint i) {
     return int(before[kWords * i].y) < kAwayBelow || int(after[kWords * i].y) < kAwayBelow;

@@ -1,17 +1,19 @@
 // Puts each fish that a view shows in its place, and unpacks the whole record of these fish alone. In:
-// choices, sums, firsts, pieces, records. Out: the drawn fish, in the order of the school within each
+// choices, sums, firsts, pieces, records, layers of drawings. Out: the drawn fish, in the order of the school within each
 // list.
 #include "shader_interface.h"
 #include "fish_data.glsl"
 #include "fish_record.glsl"
 #include "fish_detail.glsl"
 #include "fish_plan.glsl"
+#include "drawn_layers.glsl"
 
 layout(local_size_x = kGroupSize) in;
 layout(std430, binding = kSchoolStorage) writeonly buffer School { Fish fish[]; };
 layout(std430, binding = kChoicesStorage) readonly buffer Choices { uint choices[]; };  // level | rank << 4
 layout(std430, binding = kCountsStorage) readonly buffer Counts { uint counts[]; };    // [group][level], sums
 layout(location = kFishCountLocation) uniform uint fishCount;
+layout(location = kDrawnSpeciesLocation) uniform uvec2 drawnSpecies;  // that may wear drawings, a bit each
 
 // The piece that contains its place, or none.
 bool findSurface(uint species, uint surface, uint slot, out uint firstVertex) {
@@ -47,7 +49,7 @@ void main() {
     self.fromAction = motion.fromAction;
     self.id = traits[i].x;
     self.species = species;
-    self.detail = level;
+    uint detail = level;
     self.blend = detailAt(self.positionMetres, self.lengthMetres).blend;
     self.speed = speedOf(i);
     self.spread = spreadOf(i);
@@ -56,8 +58,10 @@ void main() {
     self.firstVertex = 0u;
     if (level >= kControlMesh &&
         !findSurface(species, level - kControlMesh, slot, self.firstVertex)) {
-        self.detail = kFewTriangles;
+        detail = kFewTriangles;
         self.blend = 1.0;
     }
+    bool mayWear = (drawnSpecies[species >> 5] >> (species & 31u) & 1u) != 0u;
+    self.detailAndDrawing = detail | (mayWear ? layerOf(skinOf(i)) : 0u) << 16;
     fish[slot] = self;
 }

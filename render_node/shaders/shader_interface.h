@@ -14,9 +14,11 @@ using uint = std::uint32_t;
 #endif
 
 // Uniform blocks.
-// Bindings, std140: FrameUniforms of frame_uniforms.h and SeaNow of sea_now.glsl.
+// Bindings, std140: FrameUniforms of frame_uniforms.h, SeaNow of sea_now.glsl, DrawnLayers of
+// drawn_layers.glsl.
 AQUARAMA_CONSTANT int kFrameBlock = 0;
 AQUARAMA_CONSTANT int kSeaBlock = 1;
+AQUARAMA_CONSTANT int kDrawnLayersBlock = 2;
 
 // Shader storage of the kernels that sort fish.
 AQUARAMA_CONSTANT int kSchoolStorage = 0;
@@ -68,6 +70,9 @@ AQUARAMA_CONSTANT int kCloudTileUnit = 20;
 AQUARAMA_CONSTANT int kSunHeightsUnit = 21;
 AQUARAMA_CONSTANT int kTopHeightsUnit = 22;
 
+// Texture unit of what visitors have painted.
+AQUARAMA_CONSTANT int kDrawnSkinsUnit = 23;
+
 // Texture units of the passes over a picture.
 AQUARAMA_CONSTANT int kSceneUnit = 0;
 AQUARAMA_CONSTANT int kDepthUnit = 1;
@@ -91,6 +96,7 @@ AQUARAMA_CONSTANT int kFishCountLocation = 18;
 AQUARAMA_CONSTANT int kTurnLocation = 18;
 AQUARAMA_CONSTANT int kSpeciesCountLocation = 18;
 AQUARAMA_CONSTANT int kRoomVerticesLocation = 19;
+AQUARAMA_CONSTANT int kDrawnSpeciesLocation = 20;
 
 // Locations of uniforms: what grows, and rock.
 AQUARAMA_CONSTANT int kReachLocation = 0;
@@ -158,6 +164,9 @@ AQUARAMA_CONSTANT int kInstanceBits = 24;
 
 // The kernels that look at one fish or one thing a thread.
 AQUARAMA_CONSTANT uint kGroupSize = 64U;
+
+// Drawings of visitors that a node shows at once, at most.
+AQUARAMA_CONSTANT uint kMostDrawn = 256U;
 
 // The plan of a view's fish.
 AQUARAMA_CONSTANT uint kMostSpecies = 64U;

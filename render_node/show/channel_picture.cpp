@@ -58,16 +58,18 @@ std::vector<Label> helpLabels(float dot) {
 std::vector<surface::SchoolSpecies> castOf(const session::Admission& admission) {
     std::vector<surface::SchoolSpecies> cast;
     std::span<const motion::FishTraits> rest = admission.school;
+    const config::DrawingRules drawings = admission.rig.drawings.value_or(config::DrawingRules{});
     for (const wire::SpeciesAssets& assets : admission.cast) {
         const config::Species species = config::parseSpecies(assets.text, assets.file);
         const auto own = rest.first(std::min<std::size_t>(assets.fish, rest.size()));
         rest = rest.subspan(own.size());
-        cast.push_back({body::makeBody(species),
-                        body::skinOf(species),
-                        motion::decodeRepertoire(assets.repertoire, "the master's repertoire"),
-                        {own.begin(), own.end()},
-                        digestOf(toHex(digestOf(assets.text)) +
-                                 toHex(digestOf(std::span{assets.repertoire})))});
+        cast.push_back(
+            {body::makeBody(species),
+             body::skinOf(species),
+             motion::decodeRepertoire(assets.repertoire, "the master's repertoire"),
+             {own.begin(), own.end()},
+             digestOf(toHex(digestOf(assets.text)) + toHex(digestOf(std::span{assets.repertoire}))),
+             std::ranges::find(drawings.species, species.name) != drawings.species.end()});
     }
     return cast;
 }
@@ -137,6 +139,10 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
                                 .quality = quality,
                                 .pixelRadians = static_cast<float>(wall->finestPixelRadians())},
             castOf(admission));
+}
+
+void ChannelPicture::wear(const body::SkinsByNumber& skins, std::size_t most) {
+    if (scene_) scene_->wear(skins, most);
 }
 
 void ChannelPicture::drawScene(const wire::StateFrame& frame,

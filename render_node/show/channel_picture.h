@@ -75,6 +75,8 @@ class ChannelPicture {
                    config::QualityTier quality,
                    std::shared_ptr<const wall::Wall> wall = nullptr);
 
+    // Drawings of visitors that fish wear in the frames that follow: SchoolSurface::wear().
+    void wear(const body::SkinsByNumber& skins, std::size_t most);
     // Draws the picture of each eye's frustum in linear light, the world or the frame's pattern,
     // with the overlays that belong to the world: grid, fish numbers, a mind. A frame without light
     // is not drawn, nor is a scan, which has no frustum.

@@ -129,6 +129,7 @@ void ChannelShow::enter(std::unique_ptr<BuiltLook> stage) {
                       channelIndex(stage_->admission().rig, options_.channel),
                       stage_->wall());
     watched_.reset();
+    isUndressed_ = true;
 }
 
 void ChannelShow::buildNext() {
@@ -168,6 +169,7 @@ void ChannelShow::bringTo(config::QualityTier quality) {
     if (quality == stage_->quality()) return;
     service_.beginLongWork("building another quality");
     stage_->bringTo(quality);
+    isUndressed_ = true;
     service_.endLongWork();
 }
 
@@ -175,6 +177,7 @@ session::Release ChannelShow::play() {
     // The frame on the target, for the operator's console. It is read after nextFrame(): until then
     // this thread has real-time priority and would delay other nodes of its machine.
     std::optional<wire::StateFrame> presented;
+    isUndressed_ = true;  // of what was painted while the node was away
     while (std::optional<wire::StateFrame> state = session_.nextFrame()) {
         if (presented) showOperator(*std::exchange(presented, {}));
         FrameTimes times{.state = session_.stateArrival()};
@@ -184,6 +187,7 @@ session::Release ChannelShow::play() {
         feed(state->eye);
         touch(net::monotonicNow());
         bringTo(state->show.quality);
+        dress();
         const bool seen = isSeen(state->frame);
         if (seen) {
             draw(*state);
@@ -206,6 +210,12 @@ session::Release ChannelShow::play() {
         if (!std::exchange(shown_, true)) logInfo("showing");
     }
     return session_.interruption();
+}
+
+void ChannelShow::dress() {
+    if (auto newest = session_.newSkins()) skins_ = std::move(newest);
+    stage_->workspace().makeCurrent();
+    stage_->picture().wear(*skins_, std::exchange(isUndressed_, false) ? skins_->size() : 1);
 }
 
 void ChannelShow::showOperator(const wire::StateFrame& frame) {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "common/base/units.h"
+#include "common/body/side_skin.h"
 #include "common/config/rig.h"
 #include "common/machine/service_notifier.h"
 #include "common/net/channels.h"
@@ -60,6 +61,8 @@ class ChannelShow {
     void bringTo(config::QualityTier quality);
     // Draws and presents frames until the master is lost (Rejoin) or the show ends (Quit).
     [[nodiscard]] session::Release play();
+    // What fish wear: one new drawing a frame, so that none is late; all where the picture is new.
+    void dress();
     // Draws and projects a frame, for quad buffers once for each eye, and waits for the GPU. The
     // stage's workspace is current afterwards.
     void draw(const wire::StateFrame& frame);
@@ -109,6 +112,10 @@ class ChannelShow {
     std::optional<std::uint32_t> watched_;
     // When the fish was last chosen and the master asked.
     net::Moment askedAt_{};
+    // What visitors have painted, and whether the picture has none of it yet.
+    std::shared_ptr<const body::SkinsByNumber> skins_ =
+        std::make_shared<const body::SkinsByNumber>();
+    bool isUndressed_ = true;
     // Whether a frame of this show has been presented, and how many since the node started.
     bool shown_ = false;
     std::uint64_t framesShown_ = 0;

@@ -85,6 +85,7 @@ struct SchoolSpecies {
     // Digest of the files that body and repertoire were read from; without it the tables are not
     // cached.
     std::optional<Digest> source = {};
+    bool takesDrawings = false;  // whether its fish may wear what visitors have painted
 };
 
 // A recorded control point: place x, y, z in units of motion::kPoseUnit (body lengths), and a

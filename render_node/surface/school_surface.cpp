@@ -6,13 +6,16 @@
 #include <cassert>
 #include <future>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/body/side_view.h"
 #include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
 #include "render_node/shaders/shader_interface.h"
+#include "render_node/surface/drawn_skins.h"
 #include "render_node/surface/fish_tables.h"
 
 namespace aquarama::surface {
@@ -52,6 +55,35 @@ gl::ProgramHandle skinProgram(const std::vector<std::string>& shaderFiles,
 std::shared_ptr<const SkinPrograms> makeSkinPrograms(gl::Replacements replacements) {
     return std::make_shared<const SkinPrograms>(
         SkinPrograms{gl::makeProgram({"fish.comp"}), std::move(replacements)});
+}
+
+namespace {
+
+gl::Replacements replacementsFor(Worn worn, gl::Replacements replacements) {
+    if (worn == Worn::Drawing) {
+        replacements.push_back({"own_skin.glsl", "drawn_skin.glsl"});
+        replacements.push_back({"wears_own.glsl", "wears_drawing.glsl"});
+    }
+    return replacements;
+}
+
+// From (-s, y) to a place of the texture, whose first row is the top.
+glm::vec4 sideOf(const body::FishBody& body) {
+    const body::SideView view = body::sideViewOf(body);
+    const glm::vec2 size = view.most - view.least;
+    return {1 / size.x, -1 / size.y, -view.least.x / size.x, view.most.y / size.y};
+}
+
+}  // namespace
+
+SkinShader::SkinShader(const SchoolSpecies& species, Worn worn, const gl::Replacements& tier)
+    : SkinShader{species.skin, replacementsFor(worn, tier)} {
+    if (worn == Worn::Own) return;
+    const glm::vec4 side = sideOf(species.body);
+    for (const gl::ProgramHandle* program :
+         {&nearBody, &farBody, &fins, &fewBody, &fewFins, &point})
+        glProgramUniform4fv(
+            program->name(), glGetUniformLocation(program->name(), "sideOfSpecies"), 1, &side.x);
 }
 
 SkinShader::SkinShader(const body::FishSkin& skin, const gl::Replacements& replacements)
@@ -113,11 +145,35 @@ void addPlaces(const gl::VertexArray& array, const gl::Buffer& vertices, std::si
 
 namespace {
 
-std::vector<SkinShader> skinShadersOf(std::span<const SchoolSpecies> cast,
-                                      const gl::Replacements& replacements) {
-    std::vector<SkinShader> skinShaders;
-    for (const SchoolSpecies& member : cast) skinShaders.emplace_back(member.skin, replacements);
-    return skinShaders;
+// Of the fish of a species.
+struct SpeciesShaders {
+    SkinShader own;
+    std::optional<SkinShader> drawn;  // where it takes drawings
+    std::size_t firstFish = 0, fish = 0;
+    bool isDrawn = false;  // in this frame one of them may wear a drawing
+
+    // The same fish are drawn for each thing that they may wear: vertex shaders leave out the
+    // others.
+    template <class Draw>
+    void eachWorn(const Draw& draw) const {
+        draw(own);
+        if (isDrawn) draw(*drawn);
+    }
+};
+
+std::vector<SpeciesShaders> shadersOf(std::span<const SchoolSpecies> cast,
+                                      const gl::Replacements& tier) {
+    std::vector<SpeciesShaders> all;
+    std::size_t firstFish = 0;
+    for (const SchoolSpecies& species : cast) {
+        all.push_back({.own = {species, Worn::Own, tier},
+                       .drawn = {},
+                       .firstFish = firstFish,
+                       .fish = species.fish.size()});
+        if (species.takesDrawings) all.back().drawn.emplace(species, Worn::Drawing, tier);
+        firstFish += species.fish.size();
+    }
+    return all;
 }
 
 }  // namespace
@@ -132,7 +188,8 @@ struct SchoolSurface::Parts {
           limits{detailLimits(options.fineness)},
           arrays{std::async(std::launch::async, fishArrays, members, surfaceOf(options.finest))},
           programs{std::move(skins)},
-          skinShaders{skinShadersOf(members, programs->replacements)},
+          species{shadersOf(members, programs->replacements)},
+          drawings{options.skinLevelsLeftOut},
           tables{arrays.get(), surfaceOf(options.finest)},
           records{members} {
         makeBuffers();
@@ -143,12 +200,16 @@ struct SchoolSurface::Parts {
     void makeBuffers();
     void makeVertexArrays() const;
     void setConstants() const;
+    // Which species have fish that may wear a drawing.
+    void findDrawn(std::span<const motion::FishRecord> fish);
     void setView(unsigned program, const FrustumPlanes& frustum, const SharedView& shared) const;
     // The four kernels that cull, count, plan and scatter.
     void sort() const;
     // Fills the surface buffer for one turn.
     void evaluate(std::size_t turn, std::size_t groupsOffset) const;
     void drawSurfaces(std::size_t turn, bool isFins) const;
+    // Of one species; commands: where those of its levels begin in the plan.
+    void drawLevels(const SkinShader& skinShader, std::size_t commands, bool isFins) const;
     void drawTurns(bool isFins) const;
     // Draws commands of each species that need no surface.
     void drawTails(std::size_t first,
@@ -162,7 +223,8 @@ struct SchoolSurface::Parts {
     // Computed while this thread compiles programs.
     std::future<FishArrays> arrays;
     std::shared_ptr<const SkinPrograms> programs;
-    std::vector<SkinShader> skinShaders;  // one a species
+    std::vector<SpeciesShaders> species;  // one a species
+    DrawnSkins drawings;
     FishTables tables;
     SchoolRecords records;
     // How often the surface buffer is filled for a view, at most.
@@ -232,7 +294,11 @@ void SchoolSurface::Parts::setConstants() const {
     }
     glProgramUniform1i(cull.name(), shaders::kCullsLocation, options.culling ? 1 : 0);
     glProgramUniform1ui(
-        planner.name(), shaders::kSpeciesCountLocation, static_cast<GLuint>(skinShaders.size()));
+        planner.name(), shaders::kSpeciesCountLocation, static_cast<GLuint>(species.size()));
+    std::array<GLuint, 2> drawn{};
+    for (std::size_t s = 0; s < species.size(); ++s)
+        if (species[s].drawn) drawn.at(s / 32) |= 1U << (s % 32);
+    glProgramUniform2uiv(scatter.name(), shaders::kDrawnSpeciesLocation, 1, drawn.data());
 }
 
 void SchoolSurface::Parts::setView(unsigned program,
@@ -246,11 +312,21 @@ void SchoolSurface::Parts::setView(unsigned program,
         program, shaders::kFishCountLocation, static_cast<GLuint>(records.uploaded()));
 }
 
+void SchoolSurface::Parts::findDrawn(std::span<const motion::FishRecord> fish) {
+    const auto wears = [](const motion::FishRecord& record) { return record.skin != 0; };
+    for (SpeciesShaders& one : species) {
+        const std::size_t first = std::min(one.firstFish, fish.size());
+        const auto own = fish.subspan(first, std::min(one.fish, fish.size() - first));
+        one.isDrawn = one.drawn && !drawings.isEmpty() && std::ranges::any_of(own, wears);
+    }
+}
+
 // Cull and count, scan (where each group begins), plan (where each list begins, and the draws),
 // scatter. Each kernel reads what the one before it wrote, hence the barriers.
 void SchoolSurface::Parts::sort() const {
     const auto groups = static_cast<GLuint>(tables.groups);
     records.bind();
+    drawings.bindTable();
     gl::bindStorage(shaders::kCastStorage, tables.cast);
     gl::bindStorage(shaders::kChoicesStorage, choices);
     gl::bindStorage(shaders::kCountsStorage, counts);
@@ -262,7 +338,7 @@ void SchoolSurface::Parts::sort() const {
     glDispatchCompute(groups, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(scan.name());
-    glDispatchCompute(static_cast<GLuint>(skinShaders.size()), kDetailLevels, 1);
+    glDispatchCompute(static_cast<GLuint>(species.size()), kDetailLevels, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(planner.name());
     glDispatchCompute(1, 1, 1);
@@ -295,25 +371,33 @@ void SchoolSurface::Parts::evaluate(std::size_t turn, std::size_t groupsOffset) 
 // Draws the surfaces of a turn. Consecutive levels of a species that use the same program go into
 // one call.
 void SchoolSurface::Parts::drawSurfaces(std::size_t turn, bool isFins) const {
-    const std::size_t surfaces = 1 + surfaceOf(options.finest);
-    const auto programOf = [&](const SkinShader& skinShader, std::size_t surfaceLevel) {
-        return isFins ? skinShader.fins.name() : skinShader.bodyOf(static_cast<int>(surfaceLevel));
-    };
     const std::size_t table = isFins ? offsetof(FishPlan, fins) : offsetof(FishPlan, bodies);
-    for (std::size_t s = 0; s < skinShaders.size(); ++s) {
-        for (std::size_t first = 0; first < surfaces;) {
-            const unsigned program = programOf(skinShaders[s], first);
-            std::size_t last = first + 1;
-            while (last < surfaces && programOf(skinShaders[s], last) == program) ++last;
-            glUseProgram(program);
-            const std::size_t piece = (turn * shaders::kMostSpecies + s) * kSurfaces + first;
-            glMultiDrawElementsIndirect(GL_TRIANGLES,
-                                        GL_UNSIGNED_INT,
-                                        at(table + piece * sizeof(FishPlan::Command)),
-                                        static_cast<GLsizei>(last - first),
-                                        sizeof(FishPlan::Command));
-            first = last;
-        }
+    for (std::size_t s = 0; s < species.size(); ++s) {
+        const std::size_t piece = (turn * shaders::kMostSpecies + s) * kSurfaces;
+        const std::size_t first = table + piece * sizeof(FishPlan::Command);
+        species[s].eachWorn(
+            [&](const SkinShader& skinShader) { drawLevels(skinShader, first, isFins); });
+    }
+}
+
+void SchoolSurface::Parts::drawLevels(const SkinShader& skinShader,
+                                      std::size_t commands,
+                                      bool isFins) const {
+    const std::size_t surfaces = 1 + surfaceOf(options.finest);
+    const auto programOf = [&](std::size_t level) {
+        return isFins ? skinShader.fins.name() : skinShader.bodyOf(static_cast<int>(level));
+    };
+    for (std::size_t first = 0; first < surfaces;) {
+        const unsigned program = programOf(first);
+        std::size_t last = first + 1;
+        while (last < surfaces && programOf(last) == program) ++last;
+        glUseProgram(program);
+        glMultiDrawElementsIndirect(GL_TRIANGLES,
+                                    GL_UNSIGNED_INT,
+                                    at(commands + first * sizeof(FishPlan::Command)),
+                                    static_cast<GLsizei>(last - first),
+                                    sizeof(FishPlan::Command));
+        first = last;
     }
 }
 
@@ -337,15 +421,16 @@ void SchoolSurface::Parts::drawTails(std::size_t first,
                                      std::size_t commands,
                                      gl::ProgramHandle SkinShader::*program) const {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, plan.name());
-    for (std::size_t s = 0; s < skinShaders.size(); ++s) {
-        glUseProgram((skinShaders[s].*program).name());
-        glMultiDrawElementsIndirect(
-            GL_TRIANGLES,
-            GL_UNSIGNED_INT,
-            at(offsetof(FishPlan, tails) + (s * kTails + first) * sizeof(FishPlan::Command)),
-            static_cast<GLsizei>(commands),
-            sizeof(FishPlan::Command));
-    }
+    for (std::size_t s = 0; s < species.size(); ++s)
+        species[s].eachWorn([&](const SkinShader& skinShader) {
+            glUseProgram((skinShader.*program).name());
+            glMultiDrawElementsIndirect(
+                GL_TRIANGLES,
+                GL_UNSIGNED_INT,
+                at(offsetof(FishPlan, tails) + (s * kTails + first) * sizeof(FishPlan::Command)),
+                static_cast<GLsizei>(commands),
+                sizeof(FishPlan::Command));
+        });
 }
 
 // Points are drawn before the few triangles that fade in over them. They do not write depth.
@@ -377,9 +462,14 @@ SchoolSurface::~SchoolSurface() = default;
 SchoolSurface::SchoolSurface(SchoolSurface&&) noexcept = default;
 SchoolSurface& SchoolSurface::operator=(SchoolSurface&&) noexcept = default;
 
+void SchoolSurface::wear(const body::SkinsByNumber& skins, std::size_t most) {
+    parts_->drawings.wear(skins, most);
+}
+
 void SchoolSurface::update(const SchoolMoment& moment) {
     const gl::Stage stage{"fish records"};
     parts_->records.update(moment);
+    parts_->findDrawn(moment.after);
 }
 
 void SchoolSurface::look(const glm::mat4& clipFromWorld, const SharedView& shared) {
@@ -395,6 +485,7 @@ void SchoolSurface::look(const glm::mat4& clipFromWorld, const SharedView& share
 void SchoolSurface::drawBodies() const {
     const gl::Stage stage{"fish bodies"};
     if (parts_->records.fish() == 0) return;
+    parts_->drawings.bindTexture();
     glEnable(GL_CULL_FACE);
     parts_->drawTurns(false);
     glDisable(GL_CULL_FACE);
@@ -403,6 +494,7 @@ void SchoolSurface::drawBodies() const {
 void SchoolSurface::drawBlended() const {
     const gl::Stage stage{"fish blended"};
     if (parts_->records.fish() == 0) return;
+    parts_->drawings.bindTexture();
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     if (parts_->options.levelsOfDetail) {
@@ -432,7 +524,7 @@ SurfaceCounts SchoolSurface::counts() const {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(
         parts_->plan.name(), offsetof(FishPlan, totals), sizeof(totals), &totals);
-    for (std::size_t s = 0; s < parts_->skinShaders.size(); ++s)
+    for (std::size_t s = 0; s < parts_->species.size(); ++s)
         for (std::size_t level = 0; level < kDetailLevels; ++level)
             counts.atLevel.at(level) += totals.at(s).at(level);
     counts.visible = std::accumulate(counts.atLevel.begin(), counts.atLevel.end(), std::size_t{0});

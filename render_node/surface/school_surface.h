@@ -15,6 +15,7 @@
 #include <glm/vec4.hpp>
 
 #include "common/body/fish_body.h"
+#include "common/body/side_skin.h"
 #include "common/motion/motion_state.h"
 #include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
@@ -42,10 +43,14 @@ struct SkinPrograms {
                                             const body::FishSkin& skin,
                                             gl::Replacements replacements);
 
+// What the fish of a species wear.
+enum class Worn : std::uint8_t { Own, Drawing };
+
 // The programs of one species: fish_body.frag near, fish_far.frag far, and fish_fin.frag, each with
-// the species' skin shader, shaders/skin_SPECIES.glsl, or skin_plain.glsl where there is none.
+// the species' skin shader, shaders/skin_SPECIES.glsl, or skin_plain.glsl where there is none. They
+// draw only fish that wear what is said; of drawings, drawn_skin.glsl has the colours.
 struct SkinShader {
-    SkinShader(const body::FishSkin& skin, const gl::Replacements& replacements);
+    SkinShader(const SchoolSpecies& species, Worn worn, const gl::Replacements& tier);
 
     gl::ProgramHandle nearBody, farBody, fins;
     // The same fragment shaders with the vertex shaders of the coarser levels.
@@ -55,6 +60,9 @@ struct SkinShader {
     [[nodiscard]] unsigned bodyOf(int level) const {
         return level == 0 ? farBody.name() : nearBody.name();
     }
+
+  private:
+    SkinShader(const body::FishSkin& skin, const gl::Replacements& replacements);
 };
 
 // Makes the surfaces that a view draws from the wire's records. Culling, level of detail, control
@@ -71,6 +79,8 @@ struct SurfaceOptions {
     DetailLevel finest = DetailLevel::Hero;
     // Fineness of the meshes: see detailLimits().
     float fineness = 1.0F;
+    // The finest levels of drawn skins that are left out.
+    std::size_t skinLevelsLeftOut = 0;
     // Size of the surface buffer, bytes. Half of the smallest limit for a block that OpenGL drivers
     // have in practice (128 MiB on software Mesa).
     std::size_t surfaceBytes = std::size_t{64} << 20U;
@@ -84,7 +94,8 @@ struct DrawnFish {
     float phase = 0, fromPhase = 0, warpWeight = 0;
     std::uint32_t action = 0, fromAction = 0;
     std::uint32_t id = 0, species = 0;
-    DetailLevel level = DetailLevel::Point;
+    DetailLevel level : 16 = DetailLevel::Point;
+    std::uint32_t drawing : 16 = 0;  // 1 + its layer of the drawn skins; 0: its own skin
     float blend = 0;
     std::uint32_t firstVertex = 0;
     // Body lengths a second.
@@ -116,6 +127,11 @@ class SchoolSurface {
     SchoolSurface& operator=(SchoolSurface&&) noexcept;
     SchoolSurface(const SchoolSurface&) = delete;
     SchoolSurface& operator=(const SchoolSurface&) = delete;
+
+    // Drawings that fish wear from now on, by the numbers that records name. A fish without one, or
+    // of a species that takes none, keeps the skin of its species. Of those that are new, `most`
+    // are uploaded at once: each takes about a millisecond.
+    void wear(const body::SkinsByNumber& skins, std::size_t most);
 
     // Uploads the records of a frame. Records beyond the cast's fish are ignored.
     void update(const SchoolMoment& moment);

@@ -26,6 +26,7 @@ struct Options {
     int ball = 0;
     float ballMetres = 6.0F;
     std::string tier = "ultra", water = "IA", out = "still.png";
+    std::vector<std::string> drawings;
     bool plate = false;
     bool openSea = false;
 };
@@ -73,6 +74,7 @@ test::Still stillOf(const Options& options, test::Still still) {
     if (options.plate) addPlate(still);
     // Side by side, the first in the middle.
     test::Camera camera = still.camera;
+    std::size_t portrait = 0;
     for (const std::string& species : options.portraits) {
         still.fish.push_back(test::portraitOf(
             species, camera, options.metresAway, options.turnDegrees, options.lengthMetres));
@@ -81,6 +83,9 @@ test::Still stillOf(const Options& options, test::Still still) {
         still.fish.back().spread = options.spread;
         still.fish.back().mouth = options.mouth;
         still.fish.back().gazeDegrees = options.gazeDegrees;
+        if (portrait < options.drawings.size())
+            still.fish.back().drawing = options.drawings[portrait];
+        ++portrait;
         camera.azimuthDegrees += 60.0F * options.lengthMetres / options.metresAway;
     }
     test::Camera ahead = still.camera;
@@ -122,6 +127,7 @@ int main(int argc, char** argv) try {
     app.add_option("--brake", options.spread, "of the portraits, 0 .. 1");
     app.add_option("--mouth", options.mouth, "of the portraits, 0 shut .. 1 wide open");
     app.add_option("--gaze", options.gazeDegrees, "of the portraits, degrees to the right");
+    app.add_option("--drawing", options.drawings, "PNG that a portrait wears, the first first");
     app.add_option("--ball", options.ball, "so many scad in a ball");
     app.add_option("--ball-away", options.ballMetres, "metres");
     app.add_flag_callback(

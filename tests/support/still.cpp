@@ -8,7 +8,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "common/base/files.h"
 #include "common/body/fish_body.h"
+#include "common/body/side_skin.h"
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
 
@@ -17,6 +19,7 @@ namespace aquarama::test {
 namespace {
 
 constexpr float kSway = 0.05F;
+constexpr std::size_t kMostPngBytes = std::size_t{16} << 20U;
 constexpr glm::vec3 kUp{0, 1, 0};
 
 glm::mat3 worldFromCamera(const Camera& camera) {
@@ -30,7 +33,14 @@ glm::mat3 worldFromCamera(const Camera& camera) {
 struct Cast {
     std::vector<surface::SchoolSpecies> species;
     std::vector<motion::FishRecord> fish;
+    body::SkinsByNumber drawings;
 };
+
+body::SkinsByNumber::value_type drawingOf(const std::string& png, std::uint32_t number) {
+    return {number,
+            std::make_shared<const body::SideSkin>(
+                body::sideSkinOf(readWhole(png, kMostPngBytes), png))};
+}
 
 Cast castOf(const std::vector<StillFish>& fish) {
     Cast cast;
@@ -54,8 +64,15 @@ Cast castOf(const std::vector<StillFish>& fish) {
             shown.id = static_cast<std::uint32_t>(cast.fish.size());
             cast.fish.push_back(recordOf(shown));
             traits.push_back(traitsOf(shown));
+            if (one.drawing.empty()) continue;
+            cast.fish.back().skin = shown.id + 1;
+            cast.drawings.insert(drawingOf(one.drawing, shown.id + 1));
         }
-        cast.species.push_back({body, body::skinOf(species), swaying(body, kSway), traits});
+        cast.species.push_back({.body = body,
+                                .skin = body::skinOf(species),
+                                .repertoire = swaying(body, kSway),
+                                .fish = traits,
+                                .takesDrawings = !cast.drawings.empty()});
     }
     return cast;
 }
@@ -146,8 +163,9 @@ Picture Photographer::pictureOf(const Still& still) {
     const Cast cast = castOf(still.fish);
     scene::SceneOptions options = still.options;
     options.pixelRadians = pixelRadiansOf(still.camera);
-    std::vector<std::pair<std::string, float>> fish;
-    for (const StillFish& one : still.fish) fish.emplace_back(one.species, one.lengthMetres);
+    std::vector<std::tuple<std::string, float, bool>> fish;
+    for (const StillFish& one : still.fish)
+        fish.emplace_back(one.species, one.lengthMetres, !one.drawing.empty());
     if (!scene_ || options != options_ || fish != fish_) {
         scene_.reset();
         scene_ = std::make_unique<scene::SceneRenderer>(options, cast.species);
@@ -161,6 +179,7 @@ Picture Photographer::pictureOf(const Still& still) {
     frame.daylight = still.daylight;
     frame.timeOfDay = still.timeOfDay;
     frame.colourReturned = still.colourReturned;
+    scene_->wear(cast.drawings, cast.drawings.size());
     scene_->update(frame);
     return encoded(scene_->draw(viewOf(still.camera)), still.camera.sizePixels);
 }

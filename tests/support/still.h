@@ -5,7 +5,7 @@
 
 #include <memory>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
@@ -40,6 +40,7 @@ struct StillFish {
     float spread = 0.0F;            // of fins that brake, 0 to 1
     float mouth = 0.0F;             // 0 shut to 1 wide open
     float gazeDegrees = 0.0F;       // to the right
+    std::string drawing = {};       // PNG of what a visitor has painted; empty: its own skin
 };
 // So far before the camera and turned so that it shows its left side (0), its face (90), its right
 // side (180).
@@ -72,7 +73,7 @@ class Photographer {
 
   private:
     scene::SceneOptions options_;
-    std::vector<std::pair<std::string, float>> fish_;  // species and length
+    std::vector<std::tuple<std::string, float, bool>> fish_;  // species, length, has a drawing
     std::unique_ptr<scene::SceneRenderer> scene_;
 };
 // One alone.

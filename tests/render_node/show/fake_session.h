@@ -41,6 +41,9 @@ class FakeSession : public session::Session {
     [[nodiscard]] std::optional<session::Admission> nextLook() override {
         return std::exchange(nextLook_, {});
     }
+    [[nodiscard]] std::shared_ptr<const body::SkinsByNumber> newSkins() override {
+        return std::exchange(skins_, {});
+    }
     std::optional<wire::StateFrame> nextFrame() override {
         if (script_.empty()) return std::nullopt;
         return script_.front().first;
@@ -73,6 +76,7 @@ class FakeSession : public session::Session {
     void stop() override { events_.emplace_back("stop"); }
 
     std::optional<session::Admission> rejoin_, nextLook_;
+    std::shared_ptr<const body::SkinsByNumber> skins_;
     session::NodeFacts facts_;
     std::vector<glm::vec3> drops_;
     std::vector<Steering> steerings_;
