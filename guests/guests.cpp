@@ -87,6 +87,7 @@ GuestService::GuestService(GuestsOptions options, VisitedWall& wall, std::functi
       clock_{std::move(clock)},
       hosts_{hostsOf(options_.place)},
       tokens_{options_.key},
+      drawings_{options_.drawings, sessions_, wall},
       queue_{options_.times},
       lastTick_{clock_()} {
     queue_.restore(sessions_.restore(options_.seatFile, lastTick_), queueNow_);
@@ -96,11 +97,26 @@ GuestService::~GuestService() {
     keepSeats();
 }
 
+// By one of our own pages.
+bool GuestService::isOurs(const HttpRequest& request) const {
+    return std::ranges::find(hosts_, request.host) != hosts_.end() &&
+           request.origin == "http://" + request.host;
+}
+
+// Only pictures are longer than what every request may have.
+std::optional<web::Admission> GuestService::admit(const HttpRequest& head, HttpReply& refusal) {
+    if (!VisitorDrawings::isMeant(head)) return web::Admission{};
+    if (isOurs(head) && isOpen()) return drawings_.admit(head, clock_(), refusal);
+    refusal = {.status = 403, .body = "off"};
+    return std::nullopt;
+}
+
 // A path with a code is the page as well, which then says the code: whoever only looks at an
 // address, as programs that preview it do, takes no seat.
 HttpReply GuestService::answer(const HttpRequest& request) {
     if (std::ranges::find(hosts_, request.host) == hosts_.end())
         return {.status = 421, .body = "visitors are not served by that name\n"};
+    if (VisitorDrawings::isMeant(request)) return drawings_.take(request);
     if (request.method != "GET" && request.method != "HEAD")
         return {.status = 405, .body = "only GET\n"};
     HttpRequest page = request;
@@ -112,9 +128,7 @@ HttpReply GuestService::answer(const HttpRequest& request) {
 std::unique_ptr<web::Service::Connection> GuestService::open(const HttpRequest& request,
                                                              web::Outbox& outbox,
                                                              HttpReply& refusal) {
-    constexpr std::string_view kScheme = "http://";
-    const bool isOurHost = std::ranges::find(hosts_, request.host) != hosts_.end();
-    if (!isOurHost || request.origin != std::string(kScheme) + request.host)
+    if (!isOurs(request))
         refusal = {.status = 403, .body = "a page of another origin may not ask this\n"};
     else if (request.target != "/g")
         refusal = {.status = 404, .body = "there is nothing here\n"};
@@ -225,9 +239,23 @@ void GuestService::feed(Phone& phone) {
 void GuestService::heard(const std::optional<WallState>& wall) {
     const bool wasOpen = isOpen();
     wall_ = wall;
+    drawings_.heard(wall ? wall->drawings : nullptr);
     if (isOpen() == wasOpen) return;
     helm_ = {};
     tellAll();
+}
+
+void GuestService::offered(std::uint64_t request, std::uint32_t number) {
+    drawings_.offered(request, number);
+    tellAll();
+}
+
+// Those of phones that are there.
+void GuestService::watchFish() {
+    std::set<GuestId> guests;
+    for (const Phone* const phone : phones_)
+        if (!phone->guest.empty()) guests.insert(phone->guest);
+    drawings_.watch(guests);
 }
 
 void GuestService::advanceQueue() {
@@ -274,7 +302,10 @@ void GuestService::tick() {
     holdHelm();
     if (isOpen()) showSign();
     ++ticks_;
-    if (ticks_ % kTicksATell == 0) tellAll();
+    if (ticks_ % kTicksATell == 0) {
+        watchFish();
+        tellAll();
+    }
     if (ticks_ % kTicksAKeep != 0) return;
     for (const GuestId& guest : sessions_.forget(now)) queue_.leave(guest, queueNow_);
     keepSeats();
@@ -284,6 +315,19 @@ void GuestService::tellAll() {
     for (Phone* const phone : phones_) tell(*phone);
 }
 
+// Of who is in line.
+void GuestService::addPlace(const GuestId& guest, json& message) const {
+    int place = 0;
+    for (const GuestSeat& seat : queue_.seats()) {
+        if (queue_.steering() != seat.guest) ++place;
+        if (seat.guest != guest) continue;
+        message["you"] = queue_.steering() == guest ? "steering" : "waiting";
+        message["place"] = place;
+        message["wait_s"] = std::lround(std::ceil(*queue_.waitOf(guest, queueNow_)));
+        message["left_s"] = queue_.leftOf(seat, queueNow_);
+    }
+}
+
 void GuestService::tell(Phone& phone) {
     if (!isOpen()) return say(phone, "state", {{"you", "closed"}});
     if (phone.guest.empty()) return say(phone, "state", {{"you", "stranger"}});
@@ -291,16 +335,9 @@ void GuestService::tell(Phone& phone) {
     json message{{"you", "guest"}, {"line", seats.size()}, {"most", VisitorQueue::kMostSeats}};
     message["feed_s"] =
         std::lround(std::ceil(std::max(sessions_.find(phone.guest)->mayFeed - clock_(), 0.0)));
-    int place = 0;
-    for (const GuestSeat& seat : seats) {
-        if (queue_.steering() != seat.guest) ++place;
-        if (seat.guest != phone.guest) continue;
-        const bool isPilot = queue_.steering() == phone.guest;
-        message["you"] = isPilot ? "steering" : "waiting";
-        message["place"] = place;
-        message["wait_s"] = std::lround(std::ceil(*queue_.waitOf(phone.guest, queueNow_)));
-        message["left_s"] = queue_.leftOf(seat, queueNow_);
-    }
+    if (json drawings = drawings_.told(phone.guest, clock_()); !drawings.is_null())
+        message["drawings"] = std::move(drawings);
+    addPlace(phone.guest, message);
     say(phone, "state", message);
 }
 

@@ -13,6 +13,8 @@
 #include <span>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "common/base/units.h"
 #include "common/config/rig.h"
 #include "common/web/pages.h"
@@ -21,6 +23,7 @@
 #include "guests/queue.h"
 #include "guests/sessions.h"
 #include "guests/token.h"
+#include "guests/visitor_drawings.h"
 #include "guests/wall_link.h"
 
 namespace aquarama::guests {
@@ -38,6 +41,7 @@ struct GuestsOptions {
     DoorTokens::Key key;
     std::filesystem::path seatFile;  // what survives a restart
     QueueTimes times = {};
+    DrawingPlace drawings = {};
 };
 
 // One connected phone.
@@ -68,6 +72,8 @@ class GuestService final : public web::Service {
     // Keeps the seats for the next run.
     ~GuestService() override;
 
+    [[nodiscard]] std::optional<web::Admission> admit(const web::HttpRequest& head,
+                                                      web::HttpReply& refusal) override;
     [[nodiscard]] web::HttpReply answer(const web::HttpRequest& request) override;
     [[nodiscard]] std::unique_ptr<Connection> open(const web::HttpRequest& request,
                                                    web::Outbox& outbox,
@@ -75,6 +81,9 @@ class GuestService final : public web::Service {
     void tick() override;
     // What the wall says; nothing: it does not answer.
     void heard(const std::optional<WallState>& wall);
+    // What became of a drawing, and what a fish does (WallListener).
+    void offered(std::uint64_t request, std::uint32_t number);
+    void does(std::uint32_t fish, const FishDeed& deed) { drawings_.does(fish, deed); }
 
   private:
     friend class Phone;
@@ -85,6 +94,7 @@ class GuestService final : public web::Service {
     void steer(const Phone& phone, const Steering& steering);
     void feed(Phone& phone);
     void gone(Phone& phone);
+    [[nodiscard]] bool isOurs(const web::HttpRequest& request) const;
     [[nodiscard]] bool acceptsCode(Phone& phone, const std::string& code);
     [[nodiscard]] bool isOpen() const { return wall_ && wall_->isOpen; }
     // Who steers may have changed: the helm rests, and the phones are told.
@@ -92,6 +102,8 @@ class GuestService final : public web::Service {
     void holdHelm();
     void showSign();
     void keepSeats();
+    void watchFish();
+    void addPlace(const GuestId& guest, nlohmann::json& message) const;
     void tell(Phone& phone);
     void tellAll();
 
@@ -101,6 +113,7 @@ class GuestService final : public web::Service {
     std::vector<std::string> hosts_;  // what a Host header may name
     DoorTokens tokens_;
     Sessions sessions_;
+    VisitorDrawings drawings_;
     VisitorQueue queue_;
     double queueNow_ = 0;  // seconds for which the wall was open: turns rest while it is not
     double lastTick_ = 0;

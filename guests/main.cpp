@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// aquarama-guests: lets visitors with phones steer the submarine of a running show, and feed its
-// fish.
+// aquarama-guests: lets visitors with phones steer the submarine of a running show, feed its fish,
+// and send drawings that swim.
 #include <chrono>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
+#include "common/ask/drawing_reader.h"
 #include "common/ask/request_client.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
@@ -60,6 +64,40 @@ std::filesystem::path seatFileOf(const std::string& rig) {
     return userFolder("XDG_RUNTIME_DIR", ".cache") / "guests" / std::filesystem::path(rig).stem();
 }
 
+// Has the server's thread do something soon; set before anything else runs.
+using Post = std::function<void(std::function<void()>)>;
+
+// Null where the rig has no drawings.
+std::unique_ptr<ask::DrawingReader> readerOf(const config::Rig& rig) {
+    return rig.drawings ? std::make_unique<ask::DrawingReader>() : nullptr;
+}
+
+// Nothing is drawn without a decoder. All outlive it.
+guests::DrawingPlace placeOf(const config::Rig& rig, ask::DrawingReader* reader, Post& post) {
+    if (reader == nullptr || !reader->isInstalled()) return {};
+    const auto read = [reader, &post](std::string picture, const auto& done) {
+        return reader->read(std::move(picture), [&post, done](const ask::DrawingOutcome& outcome) {
+            post([done, outcome] { done(outcome); });
+        });
+    };
+    return {.species = rig.drawings->species, .read = read};
+}
+
+guests::WallListener listenerOf(guests::GuestService& visitors, Post& post) {
+    return {.heard =
+                [&](const std::optional<guests::WallState>& wall) {
+                    post([&visitors, wall] { visitors.heard(wall); });
+                },
+            .offered =
+                [&](std::uint64_t request, std::uint32_t number) {
+                    post([&visitors, request, number] { visitors.offered(request, number); });
+                },
+            .does =
+                [&](std::uint32_t fish, const guests::FishDeed& deed) {
+                    post([&visitors, fish, deed] { visitors.does(fish, deed); });
+                }};
+}
+
 // Until a signal.
 void serve(const Options& options, const config::Rig& rig) {
     cli::holdSignals();
@@ -67,9 +105,12 @@ void serve(const Options& options, const config::Rig& rig) {
     setpriority(PRIO_PROCESS, 0, kNice);
     machine::ServiceNotifier service;
     guests::WallLink link({.rig = options.rig, .address = {}, .key = keyOf(options, rig)});
+    Post post;
+    std::unique_ptr<ask::DrawingReader> reader = readerOf(rig);
     guests::GuestService visitors({.place = *rig.guests,
                                    .key = randomBytes<std::tuple_size_v<guests::DoorTokens::Key>>(),
-                                   .seatFile = seatFileOf(options.rig)},
+                                   .seatFile = seatFileOf(options.rig),
+                                   .drawings = placeOf(rig, reader.get(), post)},
                                   link,
                                   secondsNow);
     constexpr std::size_t kBesidePhones = 100;  // connections that only fetch the page
@@ -79,15 +120,15 @@ void serve(const Options& options, const config::Rig& rig) {
                            .keyFile = {},
                            .mostConnections = guests::GuestService::kMostPhones + kBesidePhones},
                           visitors);
+    post = [&](std::function<void()> what) { server.post(std::move(what)); };
     logInfo("visitors at http://{}:{}", rig.guests->host, rig.guests->port);
-    link.begin([&](const std::optional<guests::WallState>& wall) {
-        server.post([&visitors, wall] { visitors.heard(wall); });
-    });
+    link.begin(listenerOf(visitors, post));
     const cli::SignalWatch watch([&] { server.stop(); });
     service.ready();
     server.run();
     service.stopping();
     link.end();
+    reader.reset();
 }
 
 void run(const Options& options) {

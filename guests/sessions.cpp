@@ -52,8 +52,10 @@ Visit* Sessions::find(const GuestId& guest) {
 
 std::vector<GuestId> Sessions::forget(double now) {
     std::vector<GuestId> forgotten;
-    for (const auto& [guest, visit] : visits_)
-        if (visit.phone == nullptr && now - visit.seen > kForgotten) forgotten.push_back(guest);
+    for (const auto& [guest, visit] : visits_) {
+        const double kept = visit.drawings.empty() ? kForgotten : kForgottenDrawn;
+        if (visit.phone == nullptr && now - visit.seen > kept) forgotten.push_back(guest);
+    }
     for (const GuestId& guest : forgotten) visits_.erase(guest);
     return forgotten;
 }
@@ -62,13 +64,19 @@ void Sessions::keep(const std::filesystem::path& file,
                     const VisitorQueue& queue,
                     double now) const {
     std::string text;
+    const auto add = [&](const GuestId& guest, double left) {
+        text += fmt::format("{} {:.1f}", guest, left);
+        for (const std::uint32_t number : visits_.at(guest).drawings)
+            text += fmt::format(" {}", number);
+        text += '\n';
+    };
     std::set<GuestId> seated;
     for (const GuestSeat& seat : queue.seats()) {
-        text += fmt::format("{} {:.1f}\n", seat.guest, queue.leftOf(seat, now));
+        add(seat.guest, queue.leftOf(seat, now));
         seated.insert(seat.guest);
     }
     for (const auto& [guest, visit] : visits_)
-        if (!seated.contains(guest)) text += guest + '\n';
+        if (!seated.contains(guest)) add(guest, 0);
     keepIfPossible(file,
                    std::as_bytes(std::span(text)),
                    "visitors lose their places where aquarama-guests is started again");
@@ -82,8 +90,12 @@ std::vector<GuestSeat> Sessions::restore(const std::filesystem::path& file, doub
         GuestSeat seat;
         words >> seat.guest;
         if (!isName(seat.guest)) continue;
-        const bool isNew = visits_.try_emplace(seat.guest, Visit{.seen = now}).second;
-        if (isNew && words >> seat.left && seat.left > 0) seats.push_back(seat);
+        const auto [visit, isNew] = visits_.try_emplace(seat.guest, Visit{.seen = now});
+        if (!isNew || !(words >> seat.left)) continue;
+        if (seat.left > 0) seats.push_back(seat);
+        auto& drawings = visit->second.drawings;
+        for (std::uint32_t number = 0; drawings.size() < Visit::kMostDrawings && words >> number;)
+            drawings.push_back(number);
     }
     return seats;
 }

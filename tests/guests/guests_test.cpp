@@ -25,9 +25,13 @@ struct RecordedWall final : VisitedWall {
     void steer(const Steering& steering) override { hands.push_back(steering); }
     void feed(const glm::vec3& position) override { food.push_back(position); }
     void show(const wire::Sign& sign) override { signs.push_back(sign); }
+    void offer(OfferedSkin skin) override { offers.push_back(std::move(skin)); }
+    void watch(const std::set<std::uint32_t>& fish) override { watched = fish; }
     std::vector<Steering> hands;
     std::vector<glm::vec3> food;
     std::vector<wire::Sign> signs;
+    std::vector<OfferedSkin> offers;
+    std::set<std::uint32_t> watched;
 };
 
 struct RecordedOutbox final : web::Outbox {
