@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of coloured sheets become skins in a process of their own, which may do nothing else:
+// `aquarama-drawings decode`. It is started for each picture, and killed where it takes too long.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <queue>
+#include <string>
+#include <thread>
+#include <variant>
+
+namespace aquarama::ask {
+
+// What a picture shows.
+struct ReadDrawing {
+    std::string species;
+    std::string skin;  // PNG, as common/body/side_view.h says
+};
+
+// Why there is none.
+struct DrawingRefused {
+    // A stable name for pages to translate: "too_large", "not_a_picture", "no_sheet",
+    // "several_sheets", "too_few_corners", "other_version", "unknown_species", "not_flat",
+    // "cut_off", "too_small", "too_dark" (drawings/refusal.h); "unreadable": the decoder was
+    // killed, or has failed.
+    std::string word;
+};
+
+using DrawingOutcome = std::variant<ReadDrawing, DrawingRefused>;
+
+// What is sent at most, of a picture in bytes.
+inline constexpr std::size_t kMostPictureBytes = std::size_t{16} << 20U;
+
+// Reads one picture after another, on its own thread.
+class DrawingReader {
+  public:
+    static constexpr std::size_t kMostWaiting = 8;  // pictures, with the one that is read
+
+    // With the decoder beside the running program, else that of PATH.
+    DrawingReader();
+    // With another one.
+    explicit DrawingReader(std::filesystem::path program);
+    // What still waits is dropped without an answer; the decoder that runs is killed.
+    ~DrawingReader();
+    DrawingReader(const DrawingReader&) = delete;
+    DrawingReader& operator=(const DrawingReader&) = delete;
+
+    // Whether there is a decoder. Where there is none, the first construction has logged in one
+    // line which package lacks.
+    [[nodiscard]] bool isInstalled() const { return !program_.empty(); }
+    // Takes a picture: `done` hears once what became of it, from the reader's thread. False: too
+    // many wait, or there is no decoder.
+    [[nodiscard]] bool read(std::string picture, std::function<void(const DrawingOutcome&)> done);
+
+  private:
+    struct Job {
+        std::string picture;
+        std::function<void(const DrawingOutcome&)> done;
+    };
+    void run();
+
+    std::filesystem::path program_;  // empty: none
+    std::mutex mutex_;               // guards what follows
+    std::condition_variable changed_;
+    std::queue<Job> jobs_;  // the first is being read
+    bool ended_ = false;
+    std::thread thread_;
+};
+
+}  // namespace aquarama::ask
