@@ -3,6 +3,7 @@
 // only. Boost's headers are slow to compile: each kind of stream has a source of its own.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <list>
 #include <map>
@@ -38,9 +39,6 @@ using Socket = asio::basic_stream_socket<Tcp, Executor>;
 // A TCP stream with a deadline for its operations.
 using PlainStream = beast::basic_stream<Tcp, Executor>;
 using Clock = std::chrono::steady_clock;
-
-// How long a client may take for its whole request, and for a handshake.
-constexpr std::chrono::seconds kRequestTime{5};
 
 // What all connections of a server share.
 struct Shared {
@@ -105,7 +103,7 @@ class TopicOutbox final : public Outbox {
 // A request as Boost has it.
 using BeastRequest = http::request<http::string_body>;
 // Between the types of Beast and the plain ones of the service; defined in server.cpp. `peer`: the
-// address that the connection comes from.
+// address that the connection comes from. The plain request has no body.
 [[nodiscard]] HttpRequest requestOf(const BeastRequest& in, const std::string& peer);
 [[nodiscard]] http::response<http::string_body> responseOf(const BeastRequest& in, HttpReply reply);
 
@@ -222,6 +220,38 @@ asio::awaitable<void> upgrade(Shared& shared,
     co_await listen(shared, live);
 }
 
+using Parser = http::request_parser<http::string_body>;
+
+// The rest of a request whose head was read.
+template <class Stream>
+asio::awaitable<beast::error_code> readBody(Stream& stream,
+                                            beast::flat_buffer& buffer,
+                                            Parser& parser,
+                                            const Admission& admission) {
+    if (parser.content_length().value_or(0) > admission.mostBytes)
+        co_return http::make_error_code(http::error::body_limit);
+    parser.body_limit(admission.mostBytes);
+    beast::get_lowest_layer(stream).expires_after(admission.within);
+    beast::error_code error;
+    co_await http::async_read(
+        stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
+    co_return error;
+}
+
+// Says why the body of a request is not read. What the client sends of it meanwhile is passed
+// over: a connection that is closed before takes the answer with it.
+template <class Stream>
+asio::awaitable<void> refuseBody(Stream& stream, BeastRequest& head, HttpReply refusal) {
+    head.keep_alive(false);
+    co_await sayTo(stream, head, std::move(refusal));
+    beast::get_lowest_layer(stream).expires_after(kRequestTime);
+    std::array<char, 16384> waste{};
+    beast::error_code error;
+    while (!error)
+        co_await stream.async_read_some(asio::buffer(waste),
+                                        asio::redirect_error(asio::use_awaitable, error));
+}
+
 // Requests one after another, until one becomes a WebSocket. `greet` makes the stream ready.
 template <class Stream, class Greet>
 asio::awaitable<void> serve(Shared& shared, Stream stream, Executor executor, Greet greet) {
@@ -233,13 +263,24 @@ asio::awaitable<void> serve(Shared& shared, Stream stream, Executor executor, Gr
     if (!goesOn) ++shared.cutOff;
     bool hasServed = false;
     while (goesOn) {
-        http::request_parser<http::string_body> parser;
+        Parser parser;
         parser.header_limit(kMostHeaderBytes);
-        parser.body_limit(kMostBodyBytes);
+        parser.body_limit(boost::none);
         beast::get_lowest_layer(stream).expires_after(kRequestTime);
         beast::error_code error;
-        co_await http::async_read(
+        co_await http::async_read_header(
             stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
+        std::optional<Admission> admission;
+        HttpReply refusal;
+        if (!error) {
+            admission = shared.service.admit(requestOf(parser.get(), peer), refusal);
+            if (!admission) {
+                co_await refuseBody(stream, parser.get(), std::move(refusal));
+                co_return;
+            }
+            if (admission->place) seat.settle();
+            error = co_await readBody(stream, buffer, parser, *admission);
+        }
         if (error) {
             const bool isIdle = hasServed && !parser.got_some();  // and may go at any time
             if (error != http::error::end_of_stream && !isIdle) ++shared.cutOff;
@@ -252,7 +293,9 @@ asio::awaitable<void> serve(Shared& shared, Stream stream, Executor executor, Gr
             co_await upgrade(shared, std::move(stream), std::move(request), executor);
             co_return;
         }
-        goesOn = co_await sayTo(stream, request, shared.service.answer(requestOf(request, peer)));
+        HttpRequest whole = requestOf(request, peer);
+        whole.body = std::move(request.body());
+        goesOn = co_await sayTo(stream, request, shared.service.answer(whole));
     }
 }
 

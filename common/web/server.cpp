@@ -41,8 +41,7 @@ HttpRequest requestOf(const BeastRequest& in, const std::string& peer) {
             .etag = header(in, http::field::if_none_match),
             .forwardedFor = header(in, "X-Forwarded-For"),
             .forwardedProto = header(in, "X-Forwarded-Proto"),
-            .peer = peer,
-            .body = in.body()};
+            .peer = peer};
 }
 
 // Pages are looked for again each time; their tag spares the content.

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +35,22 @@ struct HttpReply {
     std::vector<std::pair<std::string, std::string>> headers = {};
 };
 
+// Bounds. What exceeds them is cut off and counted.
+inline constexpr std::size_t kMostHeaderBytes = 8192;
+inline constexpr std::size_t kMostBodyBytes = 65536;
+inline constexpr std::size_t kMostMessageBytes = 65536;
+// How long a client may take for its whole request, and for a handshake.
+inline constexpr std::chrono::seconds kRequestTime{5};
+
+// What the body of a request may be.
+struct Admission {
+    std::size_t mostBytes = kMostBodyBytes;
+    std::chrono::seconds within = kRequestTime;
+    // Let go of when the request has ended, however it ends; so a service can count those with
+    // long bodies.
+    std::shared_ptr<const void> place = {};
+};
+
 // Shared by all who get it.
 using Payload = std::shared_ptr<const std::string>;
 
@@ -51,6 +69,12 @@ class Outbox {
 class Service {
   public:
     virtual ~Service() = default;
+    // Before the body of a request is read, of which `head` has all else. Nothing: it is not read,
+    // and `refusal` is said.
+    [[nodiscard]] virtual std::optional<Admission> admit(const HttpRequest& /*head*/,
+                                                         HttpReply& /*refusal*/) {
+        return Admission{};
+    }
     // For every request that opens no WebSocket.
     [[nodiscard]] virtual HttpReply answer(const HttpRequest& request) = 0;
     // One end of a WebSocket that was opened; destroyed when it is closed.
@@ -76,11 +100,6 @@ struct ServerOptions {
     std::string keyFile;
     std::size_t mostConnections = 512;  // above, the one that waits longest is cut off
 };
-
-// Bounds. What exceeds them is cut off and counted.
-inline constexpr std::size_t kMostHeaderBytes = 8192;
-inline constexpr std::size_t kMostBodyBytes = 65536;
-inline constexpr std::size_t kMostMessageBytes = 65536;
 
 // One thread calls run(); the others may call post() and stop().
 class WebServer {
