@@ -43,6 +43,8 @@ Catalogue::Catalogue() {
     if (names_.size() > kMostSpecies)
         throw Error(path + ": has more than " + std::to_string(kMostSpecies) +
                     " species, which tags cannot tell: shorten the list");
+    for (const std::string& name : names_)
+        species_.push_back(config::readSpecies(cli::findData("config/species/" + name + ".txtpb")));
 }
 
 const Sheet& Catalogue::sheetOf(const std::string& name) {
@@ -56,9 +58,7 @@ const Sheet* Catalogue::sheetOf(int number) {
     if (number < 0 || static_cast<std::size_t>(number) >= names_.size()) return nullptr;
     const auto known = sheets_.find(number);
     if (known != sheets_.end()) return &known->second;
-    const std::string& name = names_[static_cast<std::size_t>(number)];
-    const config::Species species =
-        config::readSpecies(cli::findData("config/species/" + name + ".txtpb"));
+    const config::Species& species = species_[static_cast<std::size_t>(number)];
     return &sheets_.emplace(number, makeSheet(species, number)).first->second;
 }
 

@@ -6,14 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "common/config/species.h"
 #include "drawings/sheet.h"
 
 namespace aquarama::drawings {
 
-// The list config/sheets.txt. Sheets are made when they are first asked for, and kept.
+// The list config/sheets.txt, and its species. Files are read at once; sheets are made when they
+// are first asked for, and kept.
 class Catalogue {
   public:
-    // Throws Error where the list cannot be read or has more than kMostSpecies.
+    // Throws Error where a file cannot be read, or the list has more than kMostSpecies.
     Catalogue();
     [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
     // Throws Error, which says which there are, for a name that is not in the list.
@@ -23,6 +25,7 @@ class Catalogue {
 
   private:
     std::vector<std::string> names_;  // by number
+    std::vector<config::Species> species_;
     std::map<int, Sheet> sheets_;
 };
 

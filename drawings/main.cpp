@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // aquarama-drawings: prints sheets that visitors colour, and reads photographs of them.
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "common/base/files.h"
 #include "common/cli/commands.h"
 #include "common/cli/outputs.h"
 #include "drawings/catalogue.h"
+#include "drawings/confine.h"
 #include "drawings/read.h"
 #include "drawings/refusal.h"
 
@@ -95,6 +98,57 @@ void addRead(cli::CommandLine& line) {
     command.add_option("--out", options.folder, "folder for PHOTO-SPECIES.png")->required();
 }
 
+// Standard input, up to one byte more than a picture may have.
+std::vector<std::byte> picture() {
+    std::vector<std::byte> bytes(drawings::kMostPhotoBytes + 1);
+    std::size_t filled = 0;
+    while (filled < bytes.size()) {
+        const ssize_t count = read(STDIN_FILENO, bytes.data() + filled, bytes.size() - filled);
+        if (count <= 0) break;
+        filled += static_cast<std::size_t>(count);
+    }
+    bytes.resize(filled);
+    return bytes;
+}
+
+// "drawing SPECIES BYTES" and the skin, or "refused WORD".
+std::string answerTo(std::span<const std::byte> bytes, drawings::Catalogue& catalogue) {
+    try {
+        const drawings::Drawing drawing = drawings::readDrawing(
+            drawings::decodePhoto(bytes), [&](int number) { return catalogue.sheetOf(number); });
+        const std::vector<std::byte> png = encodePng(drawing.skin, PngMeaning::Srgb);
+        return fmt::format("drawing {} {}\n", drawing.species, png.size())
+            .append(reinterpret_cast<const char*>(png.data()), png.size());
+    } catch (const drawings::Refusal& refusal) {
+        return fmt::format("refused {}\n", drawings::wordOf(refusal.reason()));
+    }
+}
+
+// Options of `decode`.
+struct DecodeOptions {};
+
+// Returns the exit status: 1 where nobody hears the answer.
+int decode(const DecodeOptions& /*options*/) {
+    drawings::Catalogue catalogue;
+    drawings::confine();
+    const std::string answer = answerTo(picture(), catalogue);
+    for (std::size_t said = 0; said < answer.size();) {
+        const ssize_t count = write(STDOUT_FILENO, answer.data() + said, answer.size() - said);
+        if (count <= 0) return 1;
+        said += static_cast<std::size_t>(count);
+    }
+    return 0;
+}
+
+// What other programs run (common/ask/drawing_reader.h).
+void addDecode(cli::CommandLine& line) {
+    line.add<DecodeOptions>(
+        "decode",
+        "read a photograph from standard input, as a process that may do no more",
+        decode);
+    line.hide("decode");
+}
+
 }  // namespace
 }  // namespace aquarama
 
@@ -107,5 +161,6 @@ int main(int count, char** arguments) {
     cli::CommandLine line(app);
     addSheets(line);
     addRead(line);
+    addDecode(line);
     return cli::runProgram(app, count, arguments, [&] { return line.runChosen(); });
 }

@@ -8,6 +8,7 @@
 
 #include <glm/common.hpp>
 
+#include "drawings/bleed.h"
 #include "drawings/paper_light.h"
 #include "drawings/refusal.h"
 #include "drawings/tags.h"
@@ -173,6 +174,7 @@ PngPicture skinOf(const Photo& photo, const Flattening& flat, const Sheet& sheet
             for (int c = 0; c < 3; ++c) skin.codes.push_back(codeOf(colour[c]));
             skin.codes.push_back(static_cast<std::uint16_t>(std::lround(255 * alpha)));
         }
+    bleed(skin);
     return skin;
 }
 

@@ -16,7 +16,8 @@ namespace aquarama::drawings {
 // A drawing that was read.
 struct Drawing {
     std::string species;
-    // As side_view.h says; white paper is white. Black and transparent outside of the outline.
+    // As side_view.h says; white paper is white. Transparent outside of the outline, where the
+    // colours of its border go on.
     PngPicture skin;
     Flattening flat;
 };

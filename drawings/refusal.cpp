@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drawings/refusal.h"
 
+#include <array>
+
 namespace aquarama::drawings {
 
 std::string lineOf(RefusalReason reason) {
@@ -30,6 +32,21 @@ std::string lineOf(RefusalReason reason) {
             return "the picture is too dark; photograph the sheet where there is more light";
     }
     return {};
+}
+
+std::string wordOf(RefusalReason reason) {
+    constexpr std::array<const char*, 11> kWords{"too_large",
+                                                 "not_a_picture",
+                                                 "no_sheet",
+                                                 "several_sheets",
+                                                 "too_few_corners",
+                                                 "other_version",
+                                                 "unknown_species",
+                                                 "not_flat",
+                                                 "cut_off",
+                                                 "too_small",
+                                                 "too_dark"};
+    return kWords.at(static_cast<std::size_t>(reason));
 }
 
 }  // namespace aquarama::drawings

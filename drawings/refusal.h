@@ -27,6 +27,9 @@ enum class RefusalReason : std::uint8_t {
 // The line of a reason.
 [[nodiscard]] std::string lineOf(RefusalReason reason);
 
+// Its name for other programs: "no_sheet".
+[[nodiscard]] std::string wordOf(RefusalReason reason);
+
 // A picture that is refused.
 class Refusal : public Error {
   public:

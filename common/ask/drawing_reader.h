@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of coloured sheets become skins in a process of their own, which may do nothing else:
-// `aquarama-drawings decode`. It is started for each picture, and killed where it takes too long.
+// `aquarama-drawings decode`. One is started for each picture, and killed where it takes too long.
 #pragma once
 
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <mutex>
-#include <queue>
 #include <string>
 #include <thread>
 #include <variant>
@@ -32,7 +33,7 @@ struct DrawingRefused {
 
 using DrawingOutcome = std::variant<ReadDrawing, DrawingRefused>;
 
-// What is sent at most, of a picture in bytes.
+// What is read at most, of a picture in bytes.
 inline constexpr std::size_t kMostPictureBytes = std::size_t{16} << 20U;
 
 // Reads one picture after another, on its own thread.
@@ -40,33 +41,38 @@ class DrawingReader {
   public:
     static constexpr std::size_t kMostWaiting = 8;  // pictures, with the one that is read
 
-    // With the decoder beside the running program, else that of PATH.
+    // With the decoder beside the running program, else that of PATH. Where there is none, the log
+    // says which package lacks.
     DrawingReader();
-    // With another one.
-    explicit DrawingReader(std::filesystem::path program);
+    // With another one, and so many seconds for each picture.
+    explicit DrawingReader(std::filesystem::path program, double mostSeconds = kMostSeconds);
     // What still waits is dropped without an answer; the decoder that runs is killed.
     ~DrawingReader();
     DrawingReader(const DrawingReader&) = delete;
     DrawingReader& operator=(const DrawingReader&) = delete;
 
-    // Whether there is a decoder. Where there is none, the first construction has logged in one
-    // line which package lacks.
+    // Whether there is a decoder.
     [[nodiscard]] bool isInstalled() const { return !program_.empty(); }
     // Takes a picture: `done` hears once what became of it, from the reader's thread. False: too
-    // many wait, or there is no decoder.
+    // many wait, it is too large, or there is no decoder.
     [[nodiscard]] bool read(std::string picture, std::function<void(const DrawingOutcome&)> done);
 
   private:
+    static constexpr double kMostSeconds = 20;
     struct Job {
         std::string picture;
         std::function<void(const DrawingOutcome&)> done;
     };
     void run();
+    [[nodiscard]] DrawingOutcome outcomeOf(const std::string& picture);
+    [[nodiscard]] bool hasEnded();
 
     std::filesystem::path program_;  // empty: none
-    std::mutex mutex_;               // guards what follows
+    double mostSeconds_;
+    std::uint64_t failures_ = 0;  // of the decoder, since the start; of the thread
+    std::mutex mutex_;            // guards what follows
     std::condition_variable changed_;
-    std::queue<Job> jobs_;  // the first is being read
+    std::deque<Job> jobs_;  // the first is being read
     bool ended_ = false;
     std::thread thread_;
 };
