@@ -7,6 +7,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "common/ask/request_client.h"
+#include "common/base/characters.h"
 #include "common/base/log.h"
 #include "common/config/rules.h"
 #include "common/config/text_file.h"
@@ -33,6 +34,7 @@ std::optional<ConsoleRole> roleFor(const browser::Command& command) {
                                                     {What::kAcknowledge, ConsoleRole::Operator},
                                                     {What::kHoldHours, ConsoleRole::Operator},
                                                     {What::kScan, ConsoleRole::Operator},
+                                                    {What::kPicture, ConsoleRole::Operator},
                                                     {What::kHoursText, ConsoleRole::Crew},
                                                     {What::kHours, ConsoleRole::Crew},
                                                     {What::kNewCode, ConsoleRole::Crew},
@@ -46,8 +48,25 @@ std::optional<ConsoleRole> roleFor(const browser::Command& command) {
     return role == kRoles.end() ? std::nullopt : std::optional(role->second);
 }
 
+// "drawing 12 let in"
+std::string textOf(const v1::Moderation& moderation) {
+    static const std::map<v1::Moderation::Verdict, std::string> kVerdicts{
+        {v1::Moderation::LET_IN, "let in"},
+        {v1::Moderation::TAKE_DOWN, "taken down"},
+        {v1::Moderation::KEEP, "kept past the day"},
+        {v1::Moderation::KEEP_NO_MORE, "kept no more"}};
+    if (moderation.verdict() == v1::Moderation::END_DAY) return "the day of drawings ended";
+    const auto verdict = kVerdicts.find(moderation.verdict());
+    const std::string which = moderation.number() == 0
+                                  ? "all drawings "
+                                  : "drawing " + std::to_string(moderation.number()) + " ";
+    return which + (verdict == kVerdicts.end() ? "decided" : verdict->second);
+}
+
 // What was asked for, as the list of events has it.
 std::string textOf(const v1::Order& order) {
+    if (order.has_moderation()) return textOf(order.moderation());
+    if (order.has_drawing()) return "a drawing of a " + order.drawing().species();
     if (order.has_restart()) return "restart node " + order.restart().channel();
     if (order.has_power())
         return (order.power().word() == v1::Power::POWEROFF ? "poweroff of the machine of "
@@ -121,6 +140,43 @@ v1::Order orderOf(const v1::HeldScan& scan) {
     return order;
 }
 
+// Ends the day of visitors' drawings.
+v1::Order orderOfDayEnd() {
+    v1::Order order;
+    order.set_request(ask::freshRequest());
+    order.mutable_moderation()->set_verdict(v1::Moderation::END_DAY);
+    return order;
+}
+
+// Why a picture shows no drawing, in a line; of a word that is new, the word.
+std::string lineOf(const ask::DrawingRefused& refusal) {
+    static const std::map<std::string, std::string> kLines{
+        {"too_large", "the picture is too large: at most 16 MB and 50 megapixels"},
+        {"not_a_picture", "this is no JPEG, PNG or WebP that can be read"},
+        {"no_sheet", "no sheet is in the picture"},
+        {"several_sheets", "more than one sheet is in the picture"},
+        {"too_few_corners", "too few corners of the sheet are seen"},
+        {"other_version", "the sheet is of another version"},
+        {"unknown_species", "the fish of this sheet does not live here"},
+        {"not_flat", "the sheet is bent"},
+        {"cut_off", "a part of the fish is cut off"},
+        {"too_small", "the sheet is too small in the picture"},
+        {"too_dark", "the picture is too dark"},
+        {"unreadable", "the picture cannot be read"}};
+    const auto line = kLines.find(refusal.word);
+    return line == kLines.end() ? refusal.word : line->second;
+}
+
+// Why no picture of a sheet is taken now; empty where one is.
+std::string objectionToPicture(const browser::Wall& wall, std::size_t drawings) {
+    if (!wall.heard()) return "the master does not answer";
+    if (!wall.status().has_drawings_version()) return "the rig has no drawings";
+    if (!wall.status().drawings()) return "drawings are off; switch them on";
+    if (drawings >= std::size_t{wire::kMostDrawings})
+        return "no room for more drawings; take some down";
+    return {};
+}
+
 browser::ToBrowser mistakesOf(std::uint64_t request, const config::FileError& error) {
     browser::ToBrowser message;
     message.mutable_mistakes()->set_request(request);
@@ -164,6 +220,7 @@ v1::OrderReply Commands::carryOut(const Holder& holder, Visitor* visitor, const 
 Answer Commands::carryOutAllowed(const Holder& holder, Visitor* visitor, const Command& command) {
     if (command.has_scan()) return showScan(holder, visitor, command);
     if (command.has_use_calibration()) return useKept(holder, visitor, command);
+    if (command.has_picture()) return readPicture(holder, visitor, command);
     if (command.has_order()) {
         v1::Order order = command.order();
         order.set_request(command.id());
@@ -194,6 +251,7 @@ void Commands::said(std::uint64_t request, const Answer& answer) {
     const bool isDone = answer.outcome == Outcome::Done;
     if (request == scan_.request && isEnded && !isDone) scan_ = {};
     if (opened_ && request == opened_->request && isEnded) return saidOfHours(answer);
+    if (request == dayEnd_ && isEnded) return saidOfDay(answer);
     const auto waiting = waiting_.find(request);
     if (waiting == waiting_.end()) return;
     if (const Answer* before = book_.find(request); !isEnded && before && *before == answer) return;
@@ -201,10 +259,13 @@ void Commands::said(std::uint64_t request, const Answer& answer) {
     *message.mutable_done() = replyOf(request, book_.enter(request, answer));
     if (Visitor* visitor = waiting->second.visitor)
         visitors_.sendTo(*visitor, fmt::format("done {}", request), message);
+    else if (!waiting->second.person.empty())
+        visitors_.sendToPerson(waiting->second.person, fmt::format("done {}", request), message);
     if (!isEnded) return;
+    const std::string found = answer.reason.empty() ? "" : ": " + answer.reason;
     if (!isDone || !waiting->second.isQuiet)
         visitors_.note(waiting->second.who,
-                       waiting->second.what + (isDone ? "" : ", refused: " + answer.reason));
+                       waiting->second.what + (isDone ? found : ", refused" + found));
     waiting_.erase(waiting);
 }
 
@@ -213,7 +274,7 @@ void Commands::said(std::uint64_t request, const Answer& answer) {
 void Commands::saidOfHours(const Answer& answer) {
     const config::WantedHours wanted = std::exchange(opened_, {})->wanted;
     if (answer.outcome == Outcome::Lost) return;
-    state_.opening.done(wanted);
+    state_.opening.done(wanted, unixNow());
     visitors_.note("schedule",
                    (wanted.isOpen ? "opened " + wanted.scene : std::string("closed")) +
                        (answer.outcome == Outcome::Done ? "" : ", refused: " + answer.reason));
@@ -228,6 +289,25 @@ void Commands::keepHours() {
     const v1::Order order = orderOfHours(*due);
     opened_ = {order.request(), *due};
     master_->give(order);
+}
+
+// Said until it is answered; where there are no drawings there is no day to end.
+void Commands::keepDay() {
+    if (!state_.opening.isDayToEnd() || dayEnd_ != 0 || !state_.wall.heard()) return;
+    if (!state_.wall.status().has_drawings_version()) return state_.opening.dayEnded();
+    const v1::Order order = orderOfDayEnd();
+    dayEnd_ = order.request();
+    master_->give(order);
+}
+
+void Commands::saidOfDay(const Answer& answer) {
+    dayEnd_ = 0;
+    if (answer.outcome == Outcome::Lost) return;
+    state_.opening.dayEnded();
+    visitors_.note("schedule",
+                   answer.outcome == Outcome::Done
+                       ? "the drawings of the day are taken down, but for those that are kept"
+                       : "the drawings of the day stay: " + answer.reason);
 }
 
 // The master ends it by itself three seconds after the last word.
@@ -358,6 +438,36 @@ Answer Commands::showScan(const Holder& holder, Visitor* visitor, const Command&
         visitor->holdsScan = true;
     }
     return answer;
+}
+
+// What is said of it meanwhile comes by said(): first of the picture, then of its drawing.
+Answer Commands::readPicture(const Holder& holder, Visitor* visitor, const Command& command) {
+    const browser::SheetPicture& picture = command.picture();
+    if (!read_) return refused("no pictures are read here: aquarama-drawings is not installed");
+    if (std::string why = objectionToPicture(state_.wall, state_.drawings.size()); !why.empty())
+        return refused(std::move(why));
+    const auto done = [this, id = command.id(), aside = picture.aside()](
+                          const ask::DrawingOutcome& outcome) { offer(id, aside, outcome); };
+    if (!read_(picture.picture(), done))
+        return refused("too many pictures wait to be read; send it once more in a while");
+    const std::string name = picture.name().empty() ? "a sheet" : legible(picture.name());
+    waiting_[command.id()] = {
+        visitor, holder.name, "picture of " + name, false, visitor == nullptr ? holder.id : ""};
+    return {Outcome::Waiting, "the picture is read"};
+}
+
+void Commands::offer(std::uint64_t id, int aside, const ask::DrawingOutcome& outcome) {
+    if (const auto* refusal = std::get_if<ask::DrawingRefused>(&outcome))
+        return said(id, refused(lineOf(*refusal)));
+    const auto& read = std::get<ask::ReadDrawing>(outcome);
+    v1::Order order;
+    order.set_request(id);
+    order.mutable_drawing()->set_skin(read.skin);
+    order.mutable_drawing()->set_species(read.species);
+    order.mutable_drawing()->set_aside(std::clamp(aside, -1, 1));
+    if (!config::keepsRules(order)) return said(id, refused("the drawing is too large"));
+    if (!state_.wall.heard()) return said(id, {Outcome::Lost, "the master does not answer"});
+    master_->give(order);
 }
 
 // One at a time, beside the frames; said() tells how it ended.

@@ -4,10 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "common/ask/drawing_reader.h"
 #include "common/ask/order_book.h"
 #include "common/config/hours.h"
 #include "common/wire/messages.h"
@@ -17,6 +20,11 @@
 #include "console/visitors.h"
 
 namespace aquarama::console {
+
+// Has a picture of a sheet read, and hears on the server's thread what became of it. False: too
+// many wait.
+using ReadPicture =
+    std::function<bool(std::string picture, std::function<void(const ask::DrawingOutcome&)> done)>;
 
 // Of the server's thread. Orders for the wall go to the master, whose answer comes by said(); all
 // other commands are carried out here.
@@ -29,6 +37,10 @@ class Commands {
     // Sets the way to the master, which outlives the commands. No wall is heard before.
     void reach(MasterProxy* master) { master_ = master; }
 
+    // Sets how pictures of sheets are read. Before, none is.
+    void readBy(ReadPicture read) { read_ = std::move(read); }
+    [[nodiscard]] bool readsPictures() const { return read_ != nullptr; }
+
     // Carries a command out, or begins it; said again, it is answered again. `visitor`: whose page
     // gives it; null: a program does.
     [[nodiscard]] v1::OrderReply carryOut(const Holder& holder,
@@ -36,8 +48,12 @@ class Commands {
                                           const browser::Command& command);
     // What the master or an errand says of an order.
     void said(std::uint64_t request, const ask::Answer& answer);
+    // What is known of a command; null: it is not known, or no longer.
+    [[nodiscard]] const ask::Answer* answerTo(std::uint64_t id) const { return book_.find(id); }
     // Tells the wall what its hours want; one change at a time, as its end is waited for.
     void keepHours();
+    // When the wall was closed for the day, ends the day of visitors' drawings.
+    void keepDay();
     // Says the pattern of a scan again, as long as the page that asked for it is open.
     void keepScan();
     // The visitor goes. What it has asked for goes on, and is answered to nobody.
@@ -49,7 +65,8 @@ class Commands {
     struct Waiting {
         Visitor* visitor = nullptr;  // null: nobody
         std::string who, what;
-        bool isQuiet = false;  // noted only where it is refused
+        bool isQuiet = false;     // noted only where it is refused
+        std::string person = {};  // whose pages are told where there is no visitor
     };
     // A pattern of a scan, said to the master each second.
     struct ShownScan {
@@ -76,6 +93,11 @@ class Commands {
     [[nodiscard]] ask::Answer useKept(const Holder& holder,
                                       Visitor* visitor,
                                       const Command& command);
+    [[nodiscard]] ask::Answer readPicture(const Holder& holder,
+                                          Visitor* visitor,
+                                          const Command& command);
+    // What the picture of this command shows is offered.
+    void offer(std::uint64_t id, int aside, const ask::DrawingOutcome& outcome);
     // Each carries one out; why not, where it is refused.
     [[nodiscard]] std::string carryOutHere(const Holder& holder,
                                            Visitor* visitor,
@@ -88,15 +110,18 @@ class Commands {
     [[nodiscard]] std::string switchMachine(const Holder& holder, const std::string& word);
     [[nodiscard]] std::string sendAway(const Holder& holder, const std::string& person);
     void saidOfHours(const ask::Answer& answer);
+    void saidOfDay(const ask::Answer& answer);
 
     State& state_;
     Visitors& visitors_;
     Errands& errands_;
     MasterProxy* master_ = nullptr;
+    ReadPicture read_;
     ask::OrderBook book_;
     std::map<std::uint64_t, Waiting> waiting_;
     ShownScan scan_;
     std::optional<Opened> opened_;
+    std::uint64_t dayEnd_ = 0;  // the order that ends the day; 0: none is under way
     const std::uint64_t holder_ = ask::freshRequest();  // of scans
 };
 

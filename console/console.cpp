@@ -8,11 +8,16 @@
 #include <spdlog/fmt/chrono.h>
 #include <spdlog/fmt/fmt.h>
 
+#include "common/base/characters.h"
 #include "common/base/log.h"
 
 namespace aquarama::console {
 
 namespace {
+
+// Who offers the pictures of the rig's folder.
+const Holder kFolder{
+    .id = {}, .hash = {}, .name = "folder of drawings", .role = ConsoleRole::Operator};
 
 // "2026-11-25 09:30"
 std::string minuteOf(UnixSeconds seconds) {
@@ -62,9 +67,13 @@ void Console::begin(web::WebServer& server, Doors doors) {
                      },
                      [=, this](const v1::Explanation& explanation) {
                          here([=, this] { visitors_.heardMind(explanation); });
+                     },
+                     [=, this](const v1::DrawingsReply& reply) {
+                         here([=, this] { heardDrawings(reply); });
                      }});
     visitors_.watch(hub_.get());
     commands_.reach(link_.get());
+    beginDrawings();
     listenToDesk();
     listenToTracker();
     visitors_.note("console", "started, build " + state_.build);
@@ -73,8 +82,43 @@ void Console::begin(web::WebServer& server, Doors doors) {
 
 // Their threads end here; nothing is posted any more.
 void Console::end() {
+    reader_.reset();
     link_.reset();
     hub_.reset();
+}
+
+// The reader's answers come from its thread.
+void Console::beginDrawings() {
+    if (!state_.rig.drawings) return;
+    reader_ = std::make_unique<ask::DrawingReader>();
+    visitors_.readPictures(reader_->isInstalled());
+    if (!reader_->isInstalled()) return;
+    commands_.readBy([this](std::string picture, auto done) {
+        return reader_->read(std::move(picture), [this, done](const ask::DrawingOutcome& outcome) {
+            server_->post([=] { done(outcome); });
+        });
+    });
+    if (state_.rig.drawings->folder.empty()) return;
+    const auto take = [this](const std::string& name, std::string picture) -> std::uint64_t {
+        browser::Command command;
+        command.set_id(ask::freshRequest());
+        command.mutable_picture()->set_name(name);
+        command.mutable_picture()->set_picture(std::move(picture));
+        const auto reply = commands_.carryOut(kFolder, nullptr, command);
+        return reply.outcome() == v1::OrderReply::WAITING ? reply.request() : 0;
+    };
+    const auto refuse = [this](const std::string& name, const std::string& why) {
+        visitors_.note(kFolder.name, "picture of " + legible(name) + ", refused: " + why);
+    };
+    folder_ = std::make_unique<DrawingFolder>(
+        std::filesystem::path(state_.rigFile).parent_path() / state_.rig.drawings->folder,
+        PictureTaker{
+            take, [this](std::uint64_t command) { return commands_.answerTo(command); }, refuse});
+}
+
+bool Console::takesDrawings() const {
+    return state_.wall.heard() && state_.wall.status().drawings() &&
+           state_.drawings.size() < std::size_t{wire::kMostDrawings};
 }
 
 // In the terminal, and where the service's log goes.
@@ -89,6 +133,20 @@ void Console::heardWall(const browser::Wall& wall) {
         for (const std::string& line : changesOf(state_.wall, wall)) visitors_.note("wall", line);
     state_.wall = wall;
     state_.wall.set_heard_s(unixNow());
+    if (wall.status().has_drawings_version() || state_.drawings.size() == 0) return;
+    state_.drawings.clear();
+    visitors_.heardDrawings();
+}
+
+void Console::heardDrawings(const v1::DrawingsReply& reply) {
+    state_.drawings.hear(reply);
+    visitors_.heardDrawings();
+    askForSkin();
+}
+
+// One at a time; also each second, as an answer may be lost.
+void Console::askForSkin() {
+    if (const std::uint32_t number = state_.drawings.wanted()) link_->askSkin(number);
 }
 
 // What was last heard stays, and is marked as old. How far a preparation is, pages show; only its
@@ -107,7 +165,9 @@ void Console::tick() {
     ++ticks_;
     visitors_.tick();
     state_.figures.add(state_.wall);
-    if (desk_) desk_->tick(shownBy(state_.wall.status(), state_.wall.heard()));
+    if (desk_)
+        desk_->tick(shownBy(state_.wall.status(), state_.wall.heard(), state_.drawings.counts()));
+    if (folder_) folder_->tick(takesDrawings());
     touch();
     if (ticks_ % kTicksASecond == 0) everySecond();
     if (ticks_ % kTicksOfAWall == 0) visitors_.sendWall(state_.refused + server_->cutOff());
@@ -212,6 +272,13 @@ std::vector<Fault> Console::faultsNow(UnixSeconds now) const {
         faults.push_back(
             {"clock", state_.doubtOfClock + "; hours and certificates rest; " + kSetTheClock, 0});
     if (!deskProblem_.empty()) faults.push_back({"cues", "cues: " + deskProblem_, 5});
+    if (folder_ && !folder_->problem().empty())
+        faults.push_back({"drawings", "drawings: " + folder_->problem(), 5});
+    if (reader_ && !reader_->isInstalled() && !state_.rig.drawings->folder.empty())
+        faults.push_back({"drawings",
+                          "drawings: the pictures of the folder are not read; install "
+                          "aquarama-drawings, and start the console again",
+                          5});
     if (!trackerProblem_.empty()) faults.push_back({"touch", "hands: " + trackerProblem_, 5});
     if (options_.certificate != nullptr)
         for (Fault& fault : options_.certificate->faults(now)) faults.push_back(std::move(fault));
@@ -226,6 +293,8 @@ void Console::everySecond() {
     listenToDesk();
     listenToTracker();
     commands_.keepHours();
+    commands_.keepDay();
+    askForSkin();
     commands_.keepScan();
     const bool isQuiet = state_.doubtOfClock.empty() && state_.opening.isClosed(now);
     const auto lines = state_.alerts.update(faultsNow(now), now, isQuiet);

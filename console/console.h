@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "common/ask/drawing_reader.h"
 #include "common/ask/request_client.h"
 #include "common/config/rig.h"
 #include "common/machine/service_notifier.h"
@@ -21,6 +23,7 @@
 #include "console/console.pb.h"
 #include "console/cues/osc_desk.h"
 #include "console/cues/touch_listener.h"
+#include "console/drawing_folder.h"
 #include "console/errands.h"
 #include "console/gate.h"
 #include "console/overview.h"
@@ -58,6 +61,8 @@ class Console final : public web::Service {
     // After the server has run, while it is there: listens no more.
     void end();
 
+    [[nodiscard]] std::optional<web::Admission> admit(const web::HttpRequest& head,
+                                                      web::HttpReply& refusal) override;
     [[nodiscard]] web::HttpReply answer(const web::HttpRequest& request) override;
     [[nodiscard]] std::unique_ptr<Connection> open(const web::HttpRequest& request,
                                                    web::Outbox& outbox,
@@ -79,6 +84,9 @@ class Console final : public web::Service {
     web::HttpReply bundle();  // all logs, for whoever helps from afar
     web::HttpReply obey(const web::HttpRequest& request, const Holder& holder);
     web::HttpReply takeOrder(const web::HttpRequest& request, const Holder& holder);
+    // Of a sheet that a visitor has coloured.
+    web::HttpReply takePicture(const web::HttpRequest& request, const Holder& holder);
+    [[nodiscard]] web::HttpReply drawingAt(const web::HttpRequest& request) const;
     // Of a program, for the run that it names, else the one that is heard; an order gets a number
     // where it has none.
     v1::OrderReply giveOrder(const Holder& holder, const v1::Order& order);
@@ -89,9 +97,14 @@ class Console final : public web::Service {
     // From the other threads, on the server's.
     void heardWall(const browser::Wall& wall);
     void wallIsSilent(const std::string& preparing);
+    void heardDrawings(const v1::DrawingsReply& reply);
 
     // What is due.
     void everySecond();
+    // Where the rig has drawings: reads pictures of sheets, also those of its folder.
+    void beginDrawings();
+    void askForSkin();
+    [[nodiscard]] bool takesDrawings() const;
     void watchClock(UnixSeconds now);
     // Listens to the rig's desk, where that is not done yet.
     void listenToDesk();
@@ -121,6 +134,8 @@ class Console final : public web::Service {
     std::string deskProblem_;                 // why not
     std::unique_ptr<TouchListener> tracker_;  // as desk_
     std::string trackerProblem_;
+    std::unique_ptr<ask::DrawingReader> reader_;  // of pictures of sheets; as desk_
+    std::unique_ptr<DrawingFolder> folder_;       // as desk_
     std::unique_ptr<ask::PictureHub> hub_;
     std::unique_ptr<ShowLink> link_;  // last: their threads use all of the above
 };

@@ -80,6 +80,7 @@ void Opening::readDone() {
         if (!std::filesystem::exists(path)) return;
         const json kept = json::parse(config::readTextFile(path.string()));
         heldUntil_ = kept.at("held_until").get<double>();
+        isDayToEnd_ = kept.value("day_to_end", false);
         if (kept.contains("open"))
             done_ = {kept.at("open").get<bool>(),
                      kept.at("scene").get<std::string>(),
@@ -102,7 +103,7 @@ void Opening::watchProjectors() {
 
 // After each change, so that nothing is done twice after a start.
 void Opening::keep() const {
-    json kept{{"held_until", heldUntil_}};
+    json kept{{"held_until", heldUntil_}, {"day_to_end", isDayToEnd_}};
     if (done_) {
         kept["open"] = done_->isOpen;
         kept["scene"] = done_->scene;
@@ -159,9 +160,24 @@ std::optional<config::WantedHours> Opening::due(UnixSeconds now) const {
 }
 
 // Written to the disk at once, so that a restart of the console repeats nothing.
-void Opening::done(const config::WantedHours& wanted) {
+void Opening::done(const config::WantedHours& wanted, UnixSeconds now) {
+    const bool isClosing = done_ && done_->isOpen && !wanted.isOpen;
+    if (isClosing && !opensAgainSoon(now)) isDayToEnd_ = true;
     done_ = wanted;
     keep();
+}
+
+void Opening::dayEnded() {
+    isDayToEnd_ = false;
+    keep();
+}
+
+// A pause at noon ends no day.
+bool Opening::opensAgainSoon(UnixSeconds now) const {
+    constexpr int kMinutes = 240, kMinuteSeconds = 60;
+    for (int minute = 1; hours_ && minute <= kMinutes; ++minute)
+        if (wantedIn(now + minute * kMinuteSeconds).isOpen) return true;
+    return false;
 }
 
 // Not closed while the schedule is held.

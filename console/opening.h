@@ -38,7 +38,11 @@ class Opening {
     // What the wall is to be told now, if anything: asked every second, answered until done() was
     // called with it. What an operator sets meanwhile holds until the hours want something else.
     [[nodiscard]] std::optional<config::WantedHours> due(UnixSeconds now) const;
-    void done(const config::WantedHours& wanted);
+    void done(const config::WantedHours& wanted, UnixSeconds now);
+    // Whether the wall was closed for the day, and dayEnded() was not called since. An opening
+    // within four hours goes on with the same day.
+    [[nodiscard]] bool isDayToEnd() const { return isDayToEnd_; }
+    void dayEnded();
     // Whether the wall is off on purpose.
     [[nodiscard]] bool isClosed(UnixSeconds now) const;
 
@@ -56,6 +60,7 @@ class Opening {
   private:
     [[nodiscard]] config::WantedHours wantedIn(UnixSeconds now) const;
     void watchProjectors();
+    [[nodiscard]] bool opensAgainSoon(UnixSeconds now) const;
     [[nodiscard]] bool isLampWanted(UnixSeconds now) const;
     // Of the lamps and shutters of all projectors together.
     [[nodiscard]] bool mayOpenShutters(UnixSeconds now, bool isWallInStep) const;
@@ -75,6 +80,7 @@ class Opening {
     v1::Hours form_;       // the message of the text, where there are hours
     std::optional<config::Hours> hours_;
     std::optional<config::WantedHours> done_;  // what was last brought about
+    bool isDayToEnd_ = false;
     UnixSeconds heldUntil_ = 0;
     UnixSeconds openSince_ = 0;
     UnixSeconds litSince_ = 0;      // since when lamps are to be on

@@ -193,6 +193,9 @@ std::vector<std::string> changesOf(const browser::Wall& before, const browser::W
     const bool wereGuests = before.status().guests();
     const bool areGuests = after.status().guests();
     note(wereGuests != areGuests, areGuests ? "phones take part" : "no phone takes part");
+    const bool wereDrawings = before.status().drawings();
+    const bool areDrawings = after.status().drawings();
+    note(wereDrawings != areDrawings, areDrawings ? "drawings swim" : "no drawing swims");
     note(was.quality != is.quality, fmt::format("quality {}", config::nameOf(is.quality)));
     const auto& nodesBefore = before.status().nodes();
     const auto& nodes = after.status().nodes();

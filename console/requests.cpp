@@ -2,6 +2,10 @@
 // What browsers and programs ask of the console: over HTTP, and over a WebSocket. All of it on the
 // server's thread.
 #include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -52,6 +56,38 @@ PairingRequest pairingIn(const std::string& body) {
     return {text("code"), text("name")};
 }
 
+// The route of pictures of sheets, with what it says beside the picture:
+// "/api/drawing?aside=-1&request=7".
+constexpr std::string_view kPictureRoute = "/api/drawing";
+bool isPictureRoute(const std::string& target) {
+    return target.substr(0, target.find('?')) == kPictureRoute;
+}
+
+// A whole number that a target says; 0 where it says none.
+template <class Number>
+Number numberIn(const std::string& target, const std::string& name) {
+    const std::size_t query = target.find('?');
+    if (query == std::string::npos) return 0;
+    const std::string all = "&" + target.substr(query + 1);
+    const std::size_t found = all.find("&" + name + "=");
+    if (found == std::string::npos) return 0;
+    const char* const begin = all.data() + found + name.size() + 2;
+    Number number = 0;
+    const auto [end, error] = std::from_chars(begin, all.data() + all.size(), number);
+    return error == std::errc() && (*end == '&' || *end == '\0') ? number : 0;
+}
+
+// Of "/drawing/12.png?tag"; 0 where it is none.
+std::uint32_t drawingIn(const std::string& target) {
+    constexpr std::string_view kBefore = "/drawing/", kAfter = ".png";
+    const std::string path = target.substr(0, target.find('?'));
+    if (!path.starts_with(kBefore) || !path.ends_with(kAfter)) return 0;
+    std::uint32_t number = 0;
+    const char* const last = path.data() + path.size() - kAfter.size();
+    const auto [end, error] = std::from_chars(path.data() + kBefore.size(), last, number);
+    return error == std::errc() && end == last ? number : 0;
+}
+
 // Text that is none becomes question marks: a reply is never malformed.
 std::string jsonOfObject(const nlohmann::json& object) {
     return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -63,6 +99,15 @@ nlohmann::json jsonOf(const std::vector<ShownValue>& shown) {
     for (const auto& [name, value] : shown)
         std::visit([&](const auto& plain) { object[name] = plain; }, value);
     return object;
+}
+
+// What became of an order or a picture, in a line.
+HttpReply lineOf(const v1::OrderReply& reply) {
+    const std::string why = reply.reason().empty() ? "" : ": " + reply.reason();
+    if (reply.outcome() == v1::OrderReply::DONE) return {.body = "done" + why + "\n"};
+    if (reply.outcome() != v1::OrderReply::WAITING)
+        return {.status = 403, .body = "refused" + why + "\n"};
+    return {.status = 202, .body = fmt::format("waiting{}; request {}\n", why, reply.request())};
 }
 
 // A WebSocket of one visitor.
@@ -86,6 +131,25 @@ class VisitorConnection final : public web::Service::Connection {
 HttpReply Console::refused(int status, const std::string& why) {
     ++state_.refused;
     return {.status = status, .body = why + "\n"};
+}
+
+// A long body is read only of who may send it.
+std::optional<web::Admission> Console::admit(const HttpRequest& head, HttpReply& refusal) {
+    constexpr std::chrono::seconds kTimeForPicture{60};
+    if (head.method != "POST" || !isPictureRoute(head.target)) return web::Admission{};
+    const Doors doors = doorsFor(head, doors_);
+    const auto holder = holderOf(head, doors, state_.access);
+    if (auto objection = objectionTo(head, doors, true)) {
+        ++state_.refused;
+        refusal = *std::move(objection);
+    } else if (!holder) {
+        refusal = refused(401, "not paired");
+    } else if (holder->role < ConsoleRole::Operator) {
+        refusal = refused(403, "only operator may do this");
+    } else {
+        return web::Admission{.mostBytes = ask::kMostPictureBytes, .within = kTimeForPicture};
+    }
+    return std::nullopt;
 }
 
 // Nothing that is got acts; whoever sends it, host and origin come first.
@@ -121,7 +185,9 @@ HttpReply Console::look(const HttpRequest& request) {
         return {.type = "text/plain; version=0.0.4", .body = metrics(unixNow())};
     if (request.target == "/api/state")
         return {.type = "application/json",
-                .body = jsonOfObject(jsonOf(shownBy(state_.wall.status(), state_.wall.heard())))};
+                .body = jsonOfObject(jsonOf(
+                    shownBy(state_.wall.status(), state_.wall.heard(), state_.drawings.counts())))};
+    if (request.target.starts_with("/drawing/")) return drawingAt(request);
     if (request.target == "/bundle.zip") return bundle();
     if (request.target == "/bundle.tar")  // the link of 0.2.0
         return {.status = 308, .headers = {{"Location", "/bundle.zip"}}};
@@ -145,17 +211,30 @@ HttpReply Console::bundle() {
     }
 }
 
-// Forms of other pages cannot send JSON without asking the browser first.
+// A picture is for an hour the same; after that its tag spares the content.
+HttpReply Console::drawingAt(const HttpRequest& request) const {
+    const SkinPicture* picture = state_.drawings.picture(drawingIn(request.target));
+    if (picture == nullptr) return {.status = 404, .body = "there is no picture of it\n"};
+    const std::string tag = '"' + picture->tag + '"';
+    const std::vector<std::pair<std::string, std::string>> headers{
+        {"ETag", tag}, {"Cache-Control", "private, max-age=3600"}};
+    if (request.etag == tag) return {.status = 304, .headers = headers};
+    return {.type = "image/png", .body = *picture->png, .headers = headers};
+}
+
+// Forms of other pages can send neither JSON nor a picture without asking the browser first.
 HttpReply Console::act(const HttpRequest& request) {
-    if (!request.contentType.starts_with("application/json"))
-        return refused(415, "only application/json");
+    const bool isPicture = isPictureRoute(request.target);
+    const std::string type = isPicture ? "image/" : "application/json";
+    if (!request.contentType.starts_with(type)) return refused(415, "only " + type);
     if (request.target == "/pair") return pair(request);
     if (request.target == "/leave") return leave(request);
     const bool isOrder = request.target == "/api/order";
-    if (request.target != "/command" && !isOrder)
+    if (request.target != "/command" && !isOrder && !isPicture)
         return refused(404, "there is nothing to act on here");
     const auto holder = holderOf(request, doorsFor(request, doors_), state_.access);
     if (!holder) return refused(401, "not paired");
+    if (isPicture) return takePicture(request, *holder);
     return isOrder ? takeOrder(request, *holder) : obey(request, *holder);
 }
 
@@ -202,12 +281,18 @@ HttpReply Console::obey(const HttpRequest& request, const Holder& holder) {
 HttpReply Console::takeOrder(const HttpRequest& request, const Holder& holder) {
     const auto order = readOrder(request.body);
     if (!order) return refused(400, "this is no order; one is {\"show\": {\"black\": true}}");
-    const v1::OrderReply reply = giveOrder(holder, *order);
-    const std::string why = reply.reason().empty() ? "" : ": " + reply.reason();
-    if (reply.outcome() == v1::OrderReply::DONE) return {.body = "done\n"};
-    if (reply.outcome() != v1::OrderReply::WAITING)
-        return {.status = 403, .body = "refused" + why + "\n"};
-    return {.status = 202, .body = fmt::format("waiting{}; request {}\n", why, reply.request())};
+    return lineOf(giveOrder(holder, *order));
+}
+
+// What becomes of it is told by an order of its request.
+HttpReply Console::takePicture(const HttpRequest& request, const Holder& holder) {
+    if (request.body.empty()) return refused(400, "send a picture of a sheet");
+    browser::Command command;
+    const auto asked = numberIn<std::uint64_t>(request.target, "request");
+    command.set_id(asked != 0 ? asked : ask::freshRequest());
+    command.mutable_picture()->set_picture(request.body);
+    command.mutable_picture()->set_aside(numberIn<int>(request.target, "aside"));
+    return lineOf(commands_.carryOut(holder, nullptr, command));
 }
 
 // The first message is a whole snapshot: a page shows nothing before it.

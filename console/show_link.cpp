@@ -72,6 +72,12 @@ void ShowLink::explain(std::uint32_t fish) {
     changed_.notify_all();
 }
 
+// At the next turn: a hundred pictures never crowd the master.
+void ShowLink::askSkin(std::uint32_t number) {
+    const std::lock_guard lock(mutex_);
+    skin_ = number;
+}
+
 // Ten times a second, and at once for new orders, hands and questions.
 void ShowLink::run() {
     std::unique_lock lock(mutex_);
@@ -115,14 +121,33 @@ void ShowLink::work() {
     if (fish) listener_.explained(client_.explain(*fish));
     const v1::StatusReply status = client_.status();
     listener_.heard(status, client_.run());
+    hearDrawings(status);
 }
 
-// Asked once; what takes longer is asked for again at the next turn.
+// The list is asked for where it has changed.
+void ShowLink::hearDrawings(const v1::StatusReply& status) {
+    if (!status.has_drawings_version()) return;
+    std::uint32_t skin = 0;
+    {
+        const std::lock_guard lock(mutex_);
+        skin = std::exchange(skin_, 0);
+    }
+    const std::pair now{client_.run(), status.drawings_version()};
+    if (skin == 0 && now == listed_) return;
+    const v1::DrawingsReply reply = client_.drawings(skin);
+    listed_ = {client_.run(), reply.version()};
+    listener_.listed(reply);
+}
+
+// Asked once; what takes longer is asked for again at the next turn. An offer that was taken is
+// told its number.
 void ShowLink::press(v1::Order& order) {
     const v1::OrderReply reply = client_.give(order);
     const std::uint64_t id = order.request();
     if (reply.request() != id) return giveAgain(std::move(order));  // an answer to another
-    listener_.said(id, {static_cast<ask::Outcome>(reply.outcome()), reply.reason()});
+    const std::string what =
+        reply.has_drawing() ? "drawing " + std::to_string(reply.drawing()) : reply.reason();
+    listener_.said(id, {static_cast<ask::Outcome>(reply.outcome()), what});
     if (reply.outcome() == v1::OrderReply::WAITING) giveAgain(std::move(order));
 }
 

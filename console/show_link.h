@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "common/ask/order_book.h"
@@ -27,6 +28,8 @@ struct ShowListener {
     // What has become of an order so far; lost: nobody answered.
     std::function<void(std::uint64_t request, const ask::Answer&)> said;
     std::function<void(const v1::Explanation&)> explained;
+    // Visitors' drawings: when they have changed, and with the picture that was asked for.
+    std::function<void(const v1::DrawingsReply&)> listed;
 };
 
 // What the console tells the master. From any thread; no function waits.
@@ -41,6 +44,8 @@ class MasterProxy {
     virtual void touch(const WallHands& hands) = 0;
     // Asks what goes on in the mind of a fish; ShowListener::explained has the answer.
     virtual void explain(std::uint32_t fish) = 0;
+    // Asks for the picture of a drawing; ShowListener::listed has the answer. Only the last counts.
+    virtual void askSkin(std::uint32_t number) = 0;
 };
 
 // Asks the master for its state, and tells it what is wanted, on a thread of its own.
@@ -56,15 +61,19 @@ class ShowLink final : public MasterProxy {
     void steer(const Steering& steering) override;
     void touch(const WallHands& hands) override;
     void explain(std::uint32_t fish) override;
+    void askSkin(std::uint32_t number) override;
 
   private:
     void run();
     void work();
+    void hearDrawings(const v1::StatusReply& status);
     void press(v1::Order& order);
     void giveAgain(v1::Order order);
 
     ask::RequestClient client_;
     ShowListener listener_;
+    // Run of the master and version of its drawings, as they were last listed.
+    std::pair<std::uint64_t, std::uint64_t> listed_{};
     std::mutex mutex_;  // guards what follows
     std::condition_variable changed_;
     bool ended_ = false;
@@ -74,6 +83,7 @@ class ShowLink final : public MasterProxy {
     std::optional<Steering> steering_;
     std::optional<WallHands> hands_;
     std::optional<std::uint32_t> fish_;
+    std::uint32_t skin_ = 0;  // of this drawing; 0: none
     std::thread thread_;
 };
 

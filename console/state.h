@@ -13,6 +13,7 @@
 #include "console/access.h"
 #include "console/alerts.h"
 #include "console/console.pb.h"
+#include "console/drawing_book.h"
 #include "console/files_of_show.h"
 #include "console/opening.h"
 #include "console/overview.h"
@@ -44,7 +45,8 @@ struct State {
     Alerts alerts;
     FigureRings figures;
     PanoramaWatch panorama;
-    browser::Wall wall;  // as the master last said it
+    DrawingBook drawings;  // of visitors
+    browser::Wall wall;    // as the master last said it
     browser::DoctorReport doctor;
     std::optional<browser::Calibrations> calibrations = {};  // as they were last read
     std::string code = {};          // the last pairing code that somebody asked for in a page

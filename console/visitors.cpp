@@ -69,6 +69,9 @@ void Visitors::sendWall(std::uint64_t refused) {
     state_.wall.set_held_until_s(state_.opening.heldUntil(now));
     state_.wall.set_watching(static_cast<std::uint32_t>(visitors_.size()));
     state_.wall.set_refused_requests(refused);
+    const DrawingCounts drawings = state_.drawings.counts();
+    state_.wall.set_drawings_waiting(drawings.waiting);
+    state_.wall.set_drawings_swimming(drawings.swimming);
     browser::ToBrowser message;
     *message.mutable_wall() = state_.wall;
     sendToAll("wall", message);
@@ -128,8 +131,9 @@ void Visitors::everySecond() {
 // A page gets what it shows, and no other page does.
 void Visitors::sendTopics(Visitor& visitor) {
     using Send = void (Visitors::*)(Visitor&);
-    static constexpr std::array<std::pair<const char*, Send>, 7> kTopics{
+    static constexpr std::array<std::pair<const char*, Send>, 8> kTopics{
         {{"log", &Visitors::sendLog},
+         {"drawings", &Visitors::sendDrawings},
          {"panorama", &Visitors::sendPanorama},
          {"calibrations", &Visitors::sendCalibrations},
          {"doctor", &Visitors::sendDoctor},
@@ -188,6 +192,20 @@ void Visitors::sendPanorama(Visitor& visitor) {
     sendTo(visitor, "panorama", message);
 }
 
+// Where they have changed.
+void Visitors::sendDrawings(Visitor& visitor) {
+    if (std::exchange(visitor.sentDrawings, state_.drawings.version()) == state_.drawings.version())
+        return;
+    browser::ToBrowser message;
+    *message.mutable_drawings() = state_.drawings.message();
+    sendTo(visitor, "drawings", message);
+}
+
+void Visitors::heardDrawings() {
+    for (Visitor* visitor : visitors_)
+        if (visitor->ticksToLook > 0 && visitor->wants("drawings")) sendDrawings(*visitor);
+}
+
 // To the crew alone.
 void Visitors::sendPeople(Visitor& visitor) {
     if (visitor.holder.role != ConsoleRole::Crew) return;
@@ -201,6 +219,13 @@ void Visitors::sendTo(Visitor& visitor,
                       const std::string& topic,
                       const browser::ToBrowser& message) {
     visitor.outbox->put(topic, std::make_shared<const std::string>(jsonOf(message)), false);
+}
+
+void Visitors::sendToPerson(const std::string& person,
+                            const std::string& topic,
+                            const browser::ToBrowser& message) {
+    for (Visitor* visitor : visitors_)
+        if (visitor->holder.id == person) sendTo(*visitor, topic, message);
 }
 
 // Written once, shared by all.
@@ -222,6 +247,8 @@ browser::ToBrowser Visitors::snapshotFor(const Visitor& visitor) const {
     snapshot.set_name(visitor.holder.name);
     snapshot.set_has_power(machine::takesPowerWord(machine::powerFolder()));
     snapshot.set_has_guests(state_.rig.guests.has_value());
+    snapshot.set_has_drawings(state_.rig.drawings.has_value());
+    snapshot.set_reads_pictures(readsPictures_);
     for (const config::Channel& from : state_.rig.channels) {
         browser::Channel& channel = *snapshot.add_channels();
         channel.set_name(from.name);

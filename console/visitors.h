@@ -29,7 +29,8 @@ struct Visitor {
     int ticksToLook = 0;                       // until the look is forgotten
     std::map<int, int> picturesUnderWay = {};  // channel -> ticks until it is asked again
     bool hasHistory = false, hasPanorama = false;
-    bool holdsScan = false;  // shows a pattern of a scan
+    bool holdsScan = false;          // shows a pattern of a scan
+    std::uint64_t sentDrawings = 0;  // version of the list
     std::string sentLog = {};
     int messages = 0;  // in this second
     int malformed = 0;
@@ -44,6 +45,8 @@ class Visitors {
   public:
     // `state` outlives this.
     explicit Visitors(State& state) : state_{state} {}
+    // Whether pictures of sheets are read here, as pages are told.
+    void readPictures(bool are) { readsPictures_ = are; }
 
     // Where pictures and fish are asked for; null: nowhere. `nodes` outlives the visitors.
     void watch(ask::NodeProxy* nodes) { nodes_ = nodes; }
@@ -63,11 +66,17 @@ class Visitors {
     void sendTopics(Visitor& visitor);
     // Under its topic: an older one that waits still is replaced.
     void sendTo(Visitor& visitor, const std::string& topic, const browser::ToBrowser& message);
+    // The same to all pages of a session.
+    void sendToPerson(const std::string& person,
+                      const std::string& topic,
+                      const browser::ToBrowser& message);
 
     // From a node: a picture, and the fish at a place. Returns the fish, whose mind is asked for.
     void heardPicture(const std::string& channel, const v1::FramePicture& picture);
     [[nodiscard]] std::optional<std::uint32_t> heardFish(const v1::FishReply& reply);
     void heardMind(const v1::Explanation& explanation);
+    // Visitors' drawings are others: sends them to whose page shows them.
+    void heardDrawings();
 
     // Ten times a second: forgets old looks, asks for pictures.
     void tick();
@@ -90,6 +99,7 @@ class Visitors {
     void sendWholeHistory(Visitor& visitor);
     void sendHours(Visitor& visitor);
     void sendCalibrations(Visitor& visitor);
+    void sendDrawings(Visitor& visitor);
     void sendPeople(Visitor& visitor);
     void sendPanorama(Visitor& visitor);
     void sendToAll(const std::string& topic, const browser::ToBrowser& message);
@@ -111,6 +121,7 @@ class Visitors {
     std::map<int, PictureState> pictures_;
     std::map<std::uint64_t, Visitor*> fishAsked_;  // by the number of the question
     std::uint64_t number_ = 0;                     // of questions to nodes
+    bool readsPictures_ = false;
 };
 
 }  // namespace aquarama::console

@@ -15,8 +15,8 @@ struct Cue {
     std::string problem = {};  // one line; empty: none
 };
 
-// Of the addresses /aquarama/scene, quality, pattern, black, freeze, brightness and colour, each
-// with one argument.
+// Of the addresses /aquarama/scene, quality, pattern, black, freeze, guests, drawings, brightness
+// and colour, each with one argument.
 [[nodiscard]] Cue cueOf(const osc::OscMessage& message);
 
 }  // namespace aquarama::console

@@ -13,7 +13,9 @@ std::int64_t nodesThat(const v1::StatusReply& status, bool (*are)(v1::NodeCondit
 
 }  // namespace
 
-std::vector<ShownValue> shownBy(const v1::StatusReply& status, bool isHeard) {
+std::vector<ShownValue> shownBy(const v1::StatusReply& status,
+                                bool isHeard,
+                                const DrawingCounts& drawings) {
     using C = v1::NodeCondition;
     const wire::Show show = wire::readShow(status.show()).value_or(wire::Show{});
     return {{"running", std::int64_t{isHeard}},
@@ -24,6 +26,10 @@ std::vector<ShownValue> shownBy(const v1::StatusReply& status, bool isHeard) {
             {"freeze", std::int64_t{show.frozen}},
             {"brightness", double{show.brightness}},
             {"colour", double{show.colourReturned}},
+            {"guests", std::int64_t{status.guests()}},
+            {"drawings", std::int64_t{status.drawings()}},
+            {"drawings_waiting", std::int64_t{drawings.waiting}},
+            {"drawings_swimming", std::int64_t{drawings.swimming}},
             {"frame", static_cast<std::int64_t>(status.frame())},
             {"nodes_in_step", nodesThat(status, [](C is) { return is == v1::NODE_IN_STEP; })},
             {"nodes_late", nodesThat(status, [](C is) { return is == v1::NODE_LATE; })},

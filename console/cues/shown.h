@@ -2,6 +2,7 @@
 // What the wall shows, in the few values that desks are told.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,16 @@ struct ShownValue {
     friend bool operator==(const ShownValue&, const ShownValue&) = default;
 };
 
+// How many drawings of visitors there are.
+struct DrawingCounts {
+    std::uint32_t waiting = 0;   // for the crew
+    std::uint32_t swimming = 0;  // or on their way
+};
+
 // All of them, always the same names in the same order. `isHeard`: the master answers; else its
 // status is of the last time that it did.
-[[nodiscard]] std::vector<ShownValue> shownBy(const v1::StatusReply& status, bool isHeard);
+[[nodiscard]] std::vector<ShownValue> shownBy(const v1::StatusReply& status,
+                                              bool isHeard,
+                                              const DrawingCounts& drawings = {});
 
 }  // namespace aquarama::console

@@ -2,12 +2,22 @@
 // The frame of all pages: pairing, what is on in one line, alerts, navigation.
 import {html, nothing, render} from '/vendor/lit-html.js';
 import {Link} from '/link.js';
+import {hasDrawings, waitingCount} from '/drawings.js';
 import {pages, standing} from '/pages.js';
 import {button, language, languages, loadTexts, patternOf, showPicture, t, word} from '/widgets.js';
 
 const link = new Link();
 const root = document.getElementById('root');
-const pageName = () => location.hash.slice(1) in pages ? location.hash.slice(1) : 'wall';
+const names = () => Object.keys(pages).filter(name => name !== 'drawings' || hasDrawings(link));
+const pageName = () => names().includes(location.hash.slice(1)) ? location.hash.slice(1) : 'wall';
+// What a page of the list calls attention to.
+function badgeOf(name) {
+  const alerts = standing(link).length, waiting = waitingCount(link);
+  if (name === 'events' && alerts) return html`&nbsp;<span class="bad">▲ ${alerts}</span>`;
+  if (name === 'drawings' && waiting) return html`&nbsp;<span class="badge">${waiting}<span class="hidden"> ${
+    t('drawing.wait')}</span></span>`;
+  return nothing;
+}
 
 // What is on, as a shape and a word.
 function headline() {
@@ -33,7 +43,8 @@ function strip() {
   }
   const last = [...link.commands.values()].at(-1);
   const shown = last && (last.outcome !== 'done' || performance.now() - last.at < 6000);
-  const text = !shown ? '' : `${last.text}: ${t(`done.${last.outcome}`)}${last.reason ? ` – ${last.reason}` : ''}`;
+  const reason = last?.reason ? ` – ${word(last.reason)}` : '';
+  const text = !shown ? '' : `${last.text}: ${t(`done.${last.outcome}`)}${reason}`;
   const change = link.status.change ? t('strip.change', {change: link.status.change}) : link.wall.preparing ?? '';
   const kind = shown && last.outcome === 'refused' ? 'lost' : text || change ? 'wait' : '';
   return html`<p class="strip ${kind}" role="status">${text || change || t('strip.calm')}</p>`;
@@ -41,15 +52,13 @@ function strip() {
 
 function shell(page, content) {
   const [shape, text, kind] = headline();
-  const alerts = standing(link);
   return html`<header><div class="bar"><h1>Aquarama</h1><span class="state ${kind}"><span
     aria-hidden="true">${shape}</span> ${text}</span>
       <span class="where">${link.known.snapshot.rig} · ${t(`role.${link.role}`)}</span></div>
     ${strip()}
-    <nav aria-label=${t('nav')}>${Object.keys(pages).map(name => html`<a href="#${name}"
+    <nav aria-label=${t('nav')}>${names().map(name => html`<a href="#${name}"
       aria-current=${name === page ? 'page' : nothing}>
-      ${t(`page.${name}`)}${name === 'events' && alerts.length ? html`&nbsp;<span class="bad">▲ ${alerts.length}</span>`
-      : nothing}</a>`)}</nav></header>
+      ${t(`page.${name}`)}${badgeOf(name)}</a>`)}</nav></header>
     <main>${content}</main>
     <footer><span>${t('foot.build', {build: link.known.snapshot.build})}</span><span>${t('foot.watching',
       {n: link.wall.watching ?? 0})}</span>
@@ -80,7 +89,8 @@ function draw() {
   if (link.paired === false) return render(pairing(), root);
   if (!link.known.snapshot) return render(html`<main><p role="status">${t('head.connecting')}</p></main>`, root);
   const page = pageName();
-  document.title = `Aquarama ${link.known.snapshot.rig} – ${t(`page.${page}`)}`;
+  const waiting = waitingCount(link);
+  document.title = `${waiting ? `(${waiting}) ` : ''}Aquarama ${link.known.snapshot.rig} – ${t(`page.${page}`)}`;
   render(shell(page, pages[page].view(link)), root);
 }
 

@@ -96,12 +96,22 @@ export class Link extends EventTarget {
   // A command, as {order: {show: {black: true}}}; `text` is shown until it is done. Returns its number in `commands`.
   command(wanted, text) {
     if (this.isStale) return;
-    const id = bigRandom();
-    this.commands.set(id, {text, outcome: 'sent', reason: '', at: performance.now()});
-    while (this.commands.size > 20) this.commands.delete(this.commands.keys().next().value);
+    const id = this.begin(text);
     this.say({command: {id, run: this.wall.run ?? '0', ...wanted}});
     this.#tell();
     return id;
+  }
+  // The number of a command that is sent in another way.
+  begin(text) {
+    const id = bigRandom();
+    this.commands.set(id, {text, outcome: 'sent', reason: '', at: performance.now()});
+    while (this.commands.size > 20) this.commands.delete(this.commands.keys().next().value);
+    return id;
+  }
+  // What became of it, where the console has not said so.
+  ended(id, outcome, reason) {
+    this.#done({request: id, outcome, reason});
+    this.#tell();
   }
 
   async pair(code, name) {

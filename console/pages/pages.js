@@ -2,6 +2,7 @@
 // The pages: each is {look: what it needs to be told, view: what it shows of the link's knowledge}.
 import {html, nothing, svg} from '/vendor/lit-html.js';
 import {calibrationPage} from '/calibration.js';
+import {drawingsButton, drawingsPage, hasDrawings, touchWall, touchedPanel} from '/drawings.js';
 import {nodesPage} from '/nodes.js';
 import {schedulePage} from '/schedule.js';
 import {QUALITIES, button, channelsOf, chooser, conditionOf, dateTime, filter, holdButton, ms, namesOf,
@@ -74,7 +75,8 @@ function helmPanel(link) {
        ${t('helm.place', {depth: (-(link.status.eye?.[1] ?? 0)).toFixed(1),
          speed: (link.status.speedMS ?? 0).toFixed(1)})}</p>
     <div class="row">${button(t(helm.taken ? 'helm.leave' : 'helm.take'), toggle, {disabled: !link.may('OPERATOR'),
-      pressed: String(helm.taken)})}${link.known.snapshot?.hasGuests ? guestsButton(link) : nothing}</div>
+      pressed: String(helm.taken)})}${link.known.snapshot?.hasGuests ? guestsButton(link) : nothing}${
+      hasDrawings(link) ? drawingsButton(link) : nothing}</div>
     ${helm.taken ? pad(link) : nothing}</section>`;
 }
 
@@ -92,10 +94,11 @@ function figures(link) {
 }
 
 const wallPage = {
-  look: link => ({topics: ['panorama'], channels: namesOf(link), widthPx: 480}),
-  view: link => html`<h2 class="hidden">${t('page.wall')}</h2><div class="wall"><div
-    class="pictures">${wholeWall(link)}${views(channelsOf(link))}
-      <p class="note">${t('preview.note')}</p></div>
+  look: link => ({topics: ['panorama', 'drawings'], channels: namesOf(link), widthPx: 480}),
+  view: link => html`<h2 class="hidden">${t('page.wall')}</h2><div class="wall"><div class="pictures">${
+    hasDrawings(link) ? html`<div class="touchable">${wholeWall(link, touchWall(link))}</div>${touchedPanel(link)}`
+      : wholeWall(link)}${views(channelsOf(link))}
+      <p class="note">${t('preview.note')}${hasDrawings(link) ? ` ${t('drawing.touchNote')}` : ''}</p></div>
     <div class="controls">${light(link)}
       <section class="panel" aria-labelledby="shown"><h2 id="shown">${t('wall.shown')}</h2><div class="choosers">
         ${chooser(link, 'scene', link.known.snapshot.scenes, link.shown.scene, value => link.show({scene: value},
@@ -254,6 +257,6 @@ const peoplePage = {
   },
 };
 
-export const pages = {wall: wallPage, nodes: nodesPage, events: eventsPage, schedule: schedulePage,
-  calibration: calibrationPage,
-                      doctor: doctorPage, log: logPage, mind: mindPage, people: peoplePage};
+export const pages = {wall: wallPage, drawings: drawingsPage, nodes: nodesPage, events: eventsPage,
+                      schedule: schedulePage, calibration: calibrationPage, doctor: doctorPage, log: logPage,
+                      mind: mindPage, people: peoplePage};

@@ -20,7 +20,7 @@ export const t = (name, values = {}) =>
   ((Number(values.n) === 1 && texts[`${name}.one`]) || (texts[name] ?? name)).replace(/\{(\w+)\}/g,
     (_, key) => values[key] ?? '');
 // Words that the console says in English, such as "in step".
-export const word = text => texts[`word.${text}`] ?? text;
+export const word = text => texts[`word.${text}`] ?? text?.replaceAll('_', ' ');
 
 // --- buttons
 
@@ -108,6 +108,7 @@ const SHAPES = {'in step': ['●', 'good'], late: ['▲', 'warn'], preparing: ['
                 pass: ['●', 'good'], warn: ['▲', 'warn'], fail: ['✖', 'bad'],
                 firing: ['✖', 'bad'], over: ['◌', 'warn'], acknowledged: ['✓', 'quiet'],
                 'in place': ['●', 'good'], moved: ['✖', 'bad'], 'not seen': ['▲', 'warn'], refuse: ['✖', 'bad'],
+                WAITING: ['◐', 'warn'], SWIMMING: ['●', 'good'], HOMELESS: ['▲', 'warn'], LEAVING: ['◌', 'quiet'],
                 info: ['·', 'quiet'], warning: ['▲', 'warn'], error: ['✖', 'bad']};
 export const state = name => {
   const [shape, kind] = SHAPES[name] ?? ['?', 'quiet'];

@@ -47,6 +47,20 @@ Command useCalibration(std::uint64_t id, const std::string& name) {
     return command(id, [&](Command& of) { of.set_use_calibration(name); });
 }
 
+Command picture(std::uint64_t id, const std::string& bytes) {
+    return command(id, [&](Command& of) {
+        of.mutable_picture()->set_picture(bytes);
+        of.mutable_picture()->set_aside(-1);
+    });
+}
+
+Command decide(std::uint64_t id, std::uint32_t number, v1::Moderation::Verdict verdict) {
+    return command(id, [&](Command& of) {
+        of.mutable_order()->mutable_moderation()->set_number(number);
+        of.mutable_order()->mutable_moderation()->set_verdict(verdict);
+    });
+}
+
 // Commands of a desk whose master is heard, and whose errands never end before the test.
 class DeskCommands : public testing::Test {
   protected:
@@ -103,6 +117,10 @@ TEST_F(DeskCommands, eachNeedsItsRole) {
          {[](Command& of) { of.set_acknowledge("clock"); },
           [](Command& of) { of.set_hold_hours(1); },
           [](Command& of) { of.mutable_scan(); },
+          [](Command& of) { of.mutable_picture(); },
+          [](Command& of) {
+              of.mutable_order()->mutable_moderation()->set_verdict(v1::Moderation::TAKE_DOWN);
+          },
           [](Command& of) { of.mutable_order()->mutable_show()->set_black(true); },
           [](Command& of) { of.mutable_order()->mutable_restart()->set_channel("left"); }}},
         {"crew",
@@ -123,7 +141,7 @@ TEST_F(DeskCommands, eachNeedsItsRole) {
                 EXPECT_EQ(reason != "only " + least + " may do this", isAllowed)
                     << given.DebugString() << reason;
             }
-    EXPECT_EQ(parts.state.refused, 5U + 2 * 7U) << "in the foot of every page";
+    EXPECT_EQ(parts.state.refused, 7U + 2 * 7U) << "in the foot of every page";
     EXPECT_THAT(parts.events(), Contains("wim: refused: it needs crew"));
 }
 
@@ -303,6 +321,137 @@ TEST_F(DeskCommands, theHoursRestByAWrongClockAndWithoutAMaster) {
     parts.state.doubtOfClock.clear();
     commands.keepHours();
     EXPECT_EQ(master.orders.size(), 1U);
+}
+
+// A desk of a rig with drawings, whose pictures are read when the test says so.
+class DrawnCommands : public DeskCommands {
+  protected:
+    DrawnCommands() {
+        parts.state.wall.mutable_status()->set_drawings_version(1);
+        parts.state.wall.mutable_status()->set_drawings(true);
+        commands.readBy([this](const std::string& bytes, auto done) {
+            if (isFull) return false;
+            reading[bytes] = done;
+            return true;
+        });
+    }
+    bool isFull = false;
+    std::map<std::string, std::function<void(const ask::DrawingOutcome&)>> reading;
+};
+
+TEST_F(DrawnCommands, aPictureIsReadAndItsDrawingOffered) {
+    EXPECT_EQ(give(operating, picture(7, "jpeg")).outcome(), Reply::WAITING);
+    EXPECT_EQ(give(operating, picture(7, "jpeg")).outcome(), Reply::WAITING) << "said again";
+    EXPECT_TRUE(master.orders.empty()) << "it is being read";
+    reading.at("jpeg")(ask::ReadDrawing{.species = "clownfish", .skin = "png"});
+    ASSERT_EQ(master.orders.size(), 1U);
+    EXPECT_EQ(master.orders[0].request(), 7U);
+    EXPECT_EQ(master.orders[0].drawing().species(), "clownfish");
+    EXPECT_EQ(master.orders[0].drawing().skin(), "png");
+    EXPECT_EQ(master.orders[0].drawing().aside(), -1);
+    commands.said(7, {Outcome::Done, "drawing 12"});
+    EXPECT_EQ(operating.outbox.last("done 7").done().reason(), "drawing 12");
+    EXPECT_THAT(parts.events(), ElementsAre("olga: picture of a sheet: drawing 12"));
+    EXPECT_EQ(commands.answerTo(7)->outcome, Outcome::Done);
+}
+
+TEST_F(DrawnCommands, aPictureOfNoSheetIsRefusedWithItsReason) {
+    Command given = picture(7, "jpeg");
+    given.mutable_picture()->set_name("scan\n1.jpg");
+    static_cast<void>(commands.carryOut(operating.visitor.holder, nullptr, given));
+    reading.at("jpeg")(ask::DrawingRefused{"no_sheet"});
+    EXPECT_TRUE(master.orders.empty());
+    const Reply told = operating.outbox.last("done 7").done();
+    EXPECT_EQ(told.outcome(), Reply::REFUSED) << "a page of the same session is told";
+    EXPECT_EQ(told.reason(), "no sheet is in the picture");
+    EXPECT_EQ(crew.outbox.count("done 7"), 0);
+    ASSERT_EQ(parts.events().size(), 1U);
+    EXPECT_EQ(parts.events()[0].find('\n'), std::string::npos);
+    EXPECT_THAT(parts.events()[0], HasSubstr(", refused: no sheet is in the picture"));
+}
+
+TEST_F(DrawnCommands, aSkinThatIsTooLargeIsNotPassedOn) {
+    give(operating, picture(7, "jpeg"));
+    reading.at("jpeg")(ask::ReadDrawing{
+        .species = "clownfish", .skin = std::string(wire::kMostSkinBytes + 1, 'x')});
+    EXPECT_TRUE(master.orders.empty());
+    EXPECT_EQ(operating.outbox.last("done 7").done().reason(), "the drawing is too large");
+}
+
+TEST_F(DrawnCommands, noPictureIsReadInVain) {
+    const auto why = [&, id = std::uint64_t{0}]() mutable {
+        return give(operating, picture(++id, "jpeg")).reason();
+    };
+    isFull = true;
+    EXPECT_THAT(why(), HasSubstr("too many pictures wait"));
+    isFull = false;
+    v1::DrawingsReply many;
+    for (int i = 0; i < wire::kMostDrawings; ++i) many.add_drawings()->set_number(i + 1);
+    parts.state.drawings.hear(many);
+    EXPECT_THAT(why(), HasSubstr("no room"));
+    parts.state.drawings.clear();
+    parts.state.wall.mutable_status()->set_drawings(false);
+    EXPECT_THAT(why(), HasSubstr("drawings are off"));
+    parts.state.wall.mutable_status()->clear_drawings_version();
+    EXPECT_EQ(why(), "the rig has no drawings");
+    parts.state.wall.set_heard(false);
+    EXPECT_EQ(why(), "the master does not answer");
+    commands.readBy({});
+    EXPECT_THAT(why(), HasSubstr("is not installed"));
+    EXPECT_TRUE(reading.empty());
+}
+
+TEST_F(DrawnCommands, aVerdictIsAnEvent) {
+    give(operating, decide(1, 12, v1::Moderation::LET_IN));
+    give(operating, decide(2, 0, v1::Moderation::END_DAY));
+    commands.said(1, {});
+    commands.said(2, {Outcome::Refused, "the rig has no drawings"});
+    EXPECT_THAT(parts.events(),
+                ElementsAre("olga: the day of drawings ended, refused: the rig has no drawings",
+                            "olga: drawing 12 let in"));
+}
+
+// The hours close the wall, and the day of drawings ends once, whatever is lost meanwhile.
+TEST_F(DrawnCommands, theDayEndsOnceWhenTheHoursCloseTheWall) {
+    setHours();
+    commands.keepHours();
+    commands.said(master.orders.at(0).request(), {});
+    commands.keepDay();
+    EXPECT_EQ(master.orders.size(), 1U) << "the wall is open";
+    parts.state.opening.setText("zone: \"UTC\"\n");  // closed at all times
+    commands.keepHours();
+    commands.keepDay();
+    ASSERT_EQ(master.orders.size(), 2U);
+    EXPECT_TRUE(master.orders[1].show().black()) << "black first";
+    commands.said(master.orders[1].request(), {});
+    for (int second = 0; second < 3; ++second) commands.keepDay();
+    ASSERT_EQ(master.orders.size(), 3U);
+    EXPECT_EQ(master.orders[2].moderation().verdict(), v1::Moderation::END_DAY);
+    EXPECT_EQ(master.orders[2].moderation().number(), 0U);
+    commands.said(master.orders[2].request(), {Outcome::Lost, ""});
+    commands.keepDay();
+    ASSERT_EQ(master.orders.size(), 4U) << "it did not arrive";
+    commands.said(master.orders[3].request(), {});
+    for (int second = 0; second < 3; ++second) {
+        commands.keepHours();
+        commands.keepDay();
+    }
+    EXPECT_EQ(master.orders.size(), 4U);
+    EXPECT_THAT(parts.events().front(), HasSubstr("schedule: the drawings of the day"));
+    EXPECT_EQ(parts.events().size(), 3U) << "opened, closed, the day ended";
+}
+
+TEST_F(DrawnCommands, whereThereAreNoDrawingsNoDayEnds) {
+    setHours();
+    commands.keepHours();
+    commands.said(master.orders.at(0).request(), {});
+    parts.state.opening.setText("zone: \"UTC\"\n");
+    commands.keepHours();
+    commands.said(master.orders.at(1).request(), {});
+    parts.state.wall.mutable_status()->clear_drawings_version();
+    commands.keepDay();
+    EXPECT_EQ(master.orders.size(), 2U);
+    EXPECT_FALSE(parts.state.opening.isDayToEnd());
 }
 
 TEST_F(DeskCommands, oneCalibrationAtATimeIsPutInPlace) {

@@ -73,7 +73,8 @@ class Cues(unittest.TestCase):
         cls.place = ("127.0.0.1", cls.taken.port)
         cls.desk = Desk("--pattern", "grid", more=f'''
             cues {{ osc {{ listen: "udp://127.0.0.1:{cls.taken.port}" from: "127.0.0.1"
-                           send_to: "udp://127.0.0.1:{cls.receiver.port}" }} }}''')
+                           send_to: "udp://127.0.0.1:{cls.receiver.port}" }} }}
+            drawings {{ species: "clownfish" }}''')
         cls.addClassCleanup(cls.desk.close)
         wait_until(lambda: "cannot listen at udp" in cls.desk.said(), 10, "the port is another program's")
         cls.taken.socket.close()
@@ -123,6 +124,26 @@ class Cues(unittest.TestCase):
         self.told("brightness", 1)
         self.send("/aquarama/pattern", "grey")
         self.told("pattern", "grey")
+
+    def test_phones_and_drawings_are_switched_and_told(self):
+        for name in ("guests", "drawings"):
+            self.told(name, 1)
+            self.send(f"/aquarama/{name}", 0)
+            self.told(name, 0)
+            self.assertEqual(self.state()[name], 0)
+            self.send(f"/aquarama/{name}", 1)
+            self.told(name, 1)
+        number = self.desk.offer(self.operator, 200, 90, 20)
+        self.told("drawings_waiting", 1)
+        self.assertEqual(self.order(moderation={"number": number, "verdict": "LET_IN"})[0], 202)
+        self.told("drawings_swimming", 1)
+        self.assertEqual((self.state()["drawings_waiting"], self.state()["drawings_swimming"]), (0, 1))
+        self.assertEqual(self.order(show={"drawings": False})[0], 202)
+        self.told("drawings", 0)
+        self.assertEqual(self.order(show={"drawings": True})[0], 202)
+        self.told("drawings", 1)
+        self.assertEqual(self.order(moderation={"number": number, "verdict": "TAKE_DOWN"})[0], 202)
+        self.told("drawings_swimming", 0, 60)
 
     def test_what_is_no_cue_of_the_desk_changes_nothing(self):
         before, dropped = self.state(), self.figure("dropped_cues_total")

@@ -11,6 +11,7 @@ import struct
 import subprocess
 import sys
 import time
+import zlib
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "end_to_end"))
@@ -115,10 +116,10 @@ class Desk:
     # --- clients
 
     def request(self, method, target, body=None, **headers):
-        """Status, headers and body of an answer; a header that is None is left out."""
+        """Status, headers and body of an answer; a header that is None is left out. A body of bytes goes as it is."""
         connection = http.client.HTTPConnection(self.address, timeout=10)
         given = {name.replace("_", "-"): value for name, value in headers.items() if value is not None}
-        content = json.dumps(body) if body is not None else None
+        content = json.dumps(body).encode() if body is not None and not isinstance(body, bytes) else body
         if content is not None and "Content-Type" not in given:
             given["Content-Type"] = "application/json"
         connection.putrequest(method, target, skip_host="Host" in given, skip_accept_encoding=True)
@@ -126,11 +127,25 @@ class Desk:
             connection.putheader(name, value)
         if content is not None:
             connection.putheader("Content-Length", str(len(content)))
-        connection.endheaders(content.encode() if content else None)
+        connection.endheaders(content or None)
         answer = connection.getresponse()
         text = answer.read()
         connection.close()
         return answer.status, dict(answer.getheaders()), text.decode(errors="replace")
+
+    def offer(self, token, red, green, blue, species="clownfish"):
+        """The number of a drawing that was offered."""
+        order = {"request": str(secrets.randbits(62) | 1),
+                 "drawing": {"skin": base64.b64encode(skin_png(red, green, blue)).decode(), "species": species}}
+        ended = []
+
+        def is_done():
+            status, _, text = self.request("POST", "/api/order", order, Authorization=f"Bearer {token}")
+            assert status in (200, 202), text
+            ended[:] = re.findall(r"done: drawing (\d+)", text)
+            return ended
+        wait_until(is_done, 10, "the number of a drawing")
+        return int(ended[0])
 
     def pair(self, code, name="test"):
         """The cookie of a new session."""
@@ -211,6 +226,15 @@ class Socket:
         ended = self.hear_until(lambda m: isinstance(m, dict) and m.get("done", {}).get("request") == identity
                                 and m["done"]["outcome"] != "WAITING")
         return {**ended["done"], "outcome": ended["done"]["outcome"].lower()}
+
+
+def skin_png(red, green, blue):
+    """A skin as a drawing has it (common/body/side_view.h), all of one colour."""
+    def chunk(kind, content):
+        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+    row = b"\0" + bytes((red, green, blue, 255)) * 1024
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1024, 512, 8, 6, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(row * 512)) + chunk(b"IEND", b""))
 
 
 def command_of(**what):

@@ -1,10 +1,12 @@
 """What the console refuses, whoever asks; and that the wall is unharmed by it, and by the console's death."""
 
 import hashlib
+import http.client
 import os
 import re
 import resource
 import secrets
+import shutil
 import signal
 import socket
 import ssl
@@ -14,7 +16,8 @@ import time
 import unittest
 from pathlib import Path
 
-from desk import BIN, Desk, Socket, aquarama, frame, wait_until
+from desk import BIN, Desk, Socket, aquarama, frame, skin_png, wait_until
+from show import lacks
 
 
 class PretendedProjector:
@@ -71,8 +74,10 @@ class PretendedProjector:
 class Doors(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.desk = Desk("--pattern", "grid")
+        cls.desk = Desk("--pattern", "grid", more='drawings { species: "clownfish" folder: "scans" }')
         cls.addClassCleanup(cls.desk.close)
+        cls.scans = Path(cls.desk.folder.name) / "scans"
+        cls.scans.mkdir()
         cls.origin = f"http://{cls.desk.address}"
         cls.cookie = cls.desk.pair(cls.desk.code())
         cls.watcher, cls.operator, cls.crew = (cls.desk.token(role) for role in ("watcher", "operator", "crew"))
@@ -259,6 +264,101 @@ class Doors(unittest.TestCase):
         finally:
             os.environ["XDG_STATE_HOME"] = state
             other.close()
+
+    def drawings(self, wanted, seconds=15):
+        """The list as a page is told it, as soon as it is as it should be."""
+        client = Socket(self.desk, Cookie=self.cookie)
+        client.say({"look": {"topics": ["drawings"]}})
+        until = time.monotonic() + seconds
+        listed = client.hear_until(lambda m: isinstance(m, dict) and self.looks(client, until)
+                                   and "drawings" in m and wanted(m["drawings"]), seconds)["drawings"]
+        client.close()
+        return listed
+
+    @staticmethod
+    def looks(client, until):
+        client.say({"look": {"topics": ["drawings"]}})
+        return time.monotonic() < until
+
+    def decide(self, number, verdict, token=None):
+        return self.desk.request("POST", "/api/order", {"moderation": {"number": number, "verdict": verdict}},
+                                 **self.bearer(token or self.operator))
+
+    def test_the_crew_decides_who_swims_and_everybody_sees_the_pictures(self):
+        number = self.desk.offer(self.operator, 230, 100, 10)
+        path = f"/drawing/{number}.png"
+        of = lambda listed: next((one for one in listed["drawings"] if one["number"] == number), None)
+        listed = self.drawings(lambda listed: any(one["number"] == number for one in listed["pictures"]))
+        self.assertEqual((of(listed)["condition"], of(listed)["species"]), ("WAITING", "clownfish"))
+        self.assertEqual(listed["species"], ["clownfish"])
+        status, headers, _ = self.desk.request("GET", path, **self.bearer(self.watcher))
+        self.assertEqual((status, headers["Content-Type"]), (200, "image/png"))
+        self.assertEqual(int(headers["Content-Length"]), len(skin_png(230, 100, 10)))
+        again = self.desk.request("GET", path, If_None_Match=headers["ETag"], **self.bearer(self.watcher))
+        self.assertEqual((again[0], again[2]), (304, ""))
+        self.assertEqual(self.desk.request("GET", path)[0], 401)
+        for nowhere in ("/drawing/999.png", "/drawing/x.png", "/drawing/../me", f"/drawing/{number}"):
+            self.assertEqual(self.desk.request("GET", nowhere, **self.bearer(self.watcher))[0], 404, nowhere)
+        self.assertEqual(self.decide(number, "LET_IN", self.watcher)[0], 403)
+        self.assertEqual(of(self.drawings(of))["condition"], "WAITING")
+        self.assertEqual(self.decide(number, "LET_IN")[0], 202)
+        self.assertEqual(self.decide(number, "KEEP")[0], 202)
+        swims = of(self.drawings(lambda listed: of(listed)["condition"] == "SWIMMING" and "fish" in of(listed)))
+        self.assertTrue(swims["kept"])
+        self.assertEqual(self.decide(number, "TAKE_DOWN")[0], 202)
+        self.drawings(lambda listed: not of(listed) or of(listed)["condition"] == "LEAVING")
+        self.assertEqual(self.decide(0, "VERDICT_UNSPECIFIED")[0], 403)
+
+    def send(self, picture, token=None, target="/api/drawing", **headers):
+        status, _, text = self.desk.request("POST", target, picture, **{"Content-Type": "image/jpeg"}
+                                            | self.bearer(token or self.operator) | headers)
+        return status, text
+
+    def test_a_picture_of_a_sheet_comes_by_its_own_door(self):
+        long = b"x" * 1_000_000
+        self.assertEqual(self.send(long, self.watcher)[0], 403)
+        self.assertEqual(self.send(long, "0" * 64)[0], 401)
+        self.assertEqual(self.send(long, Origin="http://evil.example")[0], 403)
+        self.assertEqual(self.send(b"x", **{"Content-Type": "application/json"})[0], 415)
+        self.assertEqual(self.send(b"")[0], 400)
+        for target, size in (("/api/order", 100_000), ("/api/drawing", (16 << 20) + 1)):
+            with self.assertRaises((ConnectionError, http.client.HTTPException), msg=target):
+                self.send(b"x" * size, target=target)
+
+    def sheet(self):
+        """A photograph of a sheet, as good as a scanner's."""
+        folder = Path(self.desk.folder.name)
+        printed = aquarama("sheets", "--species", "clownfish", "--out", folder / "sheets")
+        self.assertEqual(printed.returncode, 0, printed.stderr)
+        pdf, = (folder / "sheets").glob("*.pdf")
+        subprocess.run(["pdftoppm", "-r", "70", "-jpeg", "-singlefile", pdf, folder / "photo"], check=True)
+        return (folder / "photo.jpg").read_bytes()
+
+    @unittest.skipIf(*lacks((BIN / "aquarama-drawings").exists() and shutil.which("pdftoppm"), "aquarama-drawings"))
+    def test_a_picture_becomes_a_drawing_that_waits(self):
+        photo = self.sheet()
+        status, text = self.send(photo, target="/api/drawing?aside=-1&request=4711")
+        self.assertEqual((status, text), (202, "waiting: the picture is read; request 4711\n"))
+        end = lambda request: self.desk.request("POST", "/api/order", {"request": request},
+                                                **self.bearer(self.operator))
+        wait_until(lambda: end("4711")[0] != 202, 20, "it is read")
+        self.assertRegex(end("4711")[2], r"\Adone: drawing \d+\n\Z")
+        self.assertEqual(self.send(b"no picture", target="/api/drawing?request=4712")[0], 202)
+        wait_until(lambda: end("4712")[0] != 202, 20, "it is read")
+        self.assertEqual(end("4712")[::2], (403, "refused: this is no JPEG, PNG or WebP that can be read\n"))
+        # The same by the folder of a scanner.
+        before = len(self.drawings(lambda listed: True)["drawings"])
+        (self.scans / "scan_1.jpg").write_bytes(photo)
+        (self.scans / "notes.txt").write_text("no picture")
+        self.drawings(lambda listed: len(listed["drawings"]) > before)
+        wait_until(lambda: (self.scans / "refused/notes.txt").exists(), 20, "what is refused is moved")
+        wait_until(lambda: sorted(path.name for path in self.scans.iterdir()) == ["refused"], 20, "and what is read, gone")
+        client = Socket(self.desk, Cookie=self.cookie)
+        events = [f"{event['who']}: {event['what']}" for event in client.hear()["snapshot"]["events"]["events"]]
+        client.close()
+        self.assertIn("folder of drawings: picture of notes.txt, refused: this is no JPEG, PNG or WebP that can be read",
+                      events)
+        self.assertRegex("\n".join(events), r"folder of drawings: picture of scan_1.jpg: drawing \d+")
 
     def test_a_command_is_a_wanted_value_and_carried_out_once(self):
         client = Socket(self.desk, Cookie=self.cookie)

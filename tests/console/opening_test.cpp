@@ -46,14 +46,14 @@ TEST_F(OpeningTest, whatIsWantedIsDueUntilItIsDoneAndWhatPeopleSetMeanwhileHolds
     opening.setText(kText);
     ASSERT_TRUE(opening.due(kTen - 60));
     EXPECT_FALSE(opening.due(kTen - 60)->isOpen);
-    opening.done({});
+    opening.done({}, kTen);
     EXPECT_FALSE(opening.due(kTen - 1));
     EXPECT_TRUE(opening.isClosed(kTen - 1));
     const auto open = opening.due(kTen);
     ASSERT_TRUE(open);
     EXPECT_EQ(*open, (config::WantedHours{true, "reef", ""}));
     EXPECT_TRUE(opening.due(kTen + 5)) << "not done yet";
-    opening.done(*open);
+    opening.done(*open, kTen);
     for (double t = 0; t < 8 * kHour; t += 60) EXPECT_FALSE(opening.due(kTen + t)) << t;
     EXPECT_TRUE(opening.due(kTen + 8 * kHour));
 }
@@ -67,7 +67,7 @@ TEST_F(OpeningTest, aRestartInAnySecondGoesOnWithTheHours) {
         const auto due = opening.due(kTen + t);
         if (due) {
             EXPECT_EQ(due->isOpen, isOpen);
-            opening.done(*due);
+            opening.done(*due, kTen + t);
         }
         EXPECT_FALSE(Opening(folder_).due(kTen + t));
         EXPECT_EQ(opening.isClosed(kTen + t), !isOpen);
@@ -86,6 +86,32 @@ TEST_F(OpeningTest, aHoldRestsItForServiceWorkAndEndsByItself) {
     EXPECT_EQ(opening.heldUntil(kTen), kTen + 10 * kHour);
     opening.hold(0, kTen);
     EXPECT_TRUE(opening.due(kTen));
+}
+
+// Kept on the disk until it has ended: a console that dies at closing time ends it afterwards.
+TEST_F(OpeningTest, theDayEndsWithItsLastClosing) {
+    Opening opening(folder_);
+    opening.setText(
+        "zone: \"Europe/Berlin\"\n"
+        "open { days: [THURSDAY] from: \"10:00\" to: \"12:00\" scene: \"reef\" }\n"
+        "open { days: [THURSDAY] from: \"13:00\" to: \"18:00\" scene: \"reef\" }\n");
+    bool ended = false;
+    for (double t = -kHour; t < 9 * kHour; t += 60) {
+        if (const auto due = opening.due(kTen + t)) opening.done(*due, kTen + t);
+        ended = ended || opening.isDayToEnd();
+        EXPECT_EQ(ended, t >= 8 * kHour) << t;
+    }
+    Opening again(folder_);
+    EXPECT_TRUE(again.isDayToEnd());
+    again.dayEnded();
+    EXPECT_FALSE(Opening(folder_).isDayToEnd());
+}
+
+TEST_F(OpeningTest, hoursThatAreSetWhileTheWallIsShutEndNoDay) {
+    Opening opening(folder_);
+    opening.setText(kText);
+    opening.done(*opening.due(kTen - kHour), kTen - kHour);
+    EXPECT_FALSE(opening.isDayToEnd());
 }
 
 TEST_F(OpeningTest, theNextHourIsSaid) {
@@ -207,7 +233,7 @@ TEST_F(OpeningOfProjectors, oneThatIsGoneSilentWrongOrLateDelaysNoOther) {
             Opening opening = openingWith(text_);
             noted_[0]->known = {.reach = ProjectorReach::Answers, .power = LampPower::On};
             noted_[1]->known = {.reach = reach, .power = power};
-            opening.done({});
+            opening.done({}, kTen);
             EXPECT_EQ(openedAfter(opening, *noted_[0], -200, always), 0)
                 << nameOf(reach) << ", " << nameOf(power);
             EXPECT_EQ(noted_[0]->wanted, "off shut on shut on open ");
@@ -237,9 +263,9 @@ TEST_F(OpeningOfProjectors, nodesThatAreNotInStepAreWaitedForAtTheOpeningAndNotL
         Opening opening = openingWith(text_);
         for (Noted* one : noted_)
             one->known = {.reach = ProjectorReach::Answers, .power = LampPower::On};
-        opening.done({});
+        opening.done({}, kTen);
         EXPECT_EQ(openedAfter(opening, *noted_[0], -200, isInStep), expected);
-        opening.done(*opening.due(kTen));
+        opening.done(*opening.due(kTen), kTen);
         for (double t = 200; t < 300; ++t) opening.switchProjectors(kTen + t, t > 250);
         EXPECT_TRUE(noted_[0]->wanted.ends_with("shut on open ")) << noted_[0]->wanted;
     }
@@ -248,7 +274,7 @@ TEST_F(OpeningOfProjectors, nodesThatAreNotInStepAreWaitedForAtTheOpeningAndNotL
 // A console that is started again in the evening leaves shutters as they are.
 TEST_F(OpeningOfProjectors, aStartWhileTheWallIsOpenShutsNothing) {
     Opening opening = openingWith(text_);
-    opening.done(*opening.due(kTen + kHour));
+    opening.done(*opening.due(kTen + kHour), kTen);
     opening.switchProjectors(kTen + kHour, true);
     EXPECT_EQ(noted_[0]->wanted, "on ") << "before it was asked, its shutter is left alone";
     noted_[0]->known = {.reach = ProjectorReach::Answers, .power = LampPower::On, .isShut = false};
@@ -261,7 +287,7 @@ TEST_F(OpeningOfProjectors, whileTheScheduleIsHeldNothingIsWantedOfThem) {
     Opening opening = openingWith(text_);
     noted_[0]->known =
         noted_[1]->known = {.reach = ProjectorReach::Answers, .power = LampPower::On};
-    opening.done(*opening.due(kTen));
+    opening.done(*opening.due(kTen), kTen);
     opening.switchProjectors(kTen, true);
     opening.hold(1, kTen);
     for (double t = 1; t < 10; ++t) opening.switchProjectors(kTen + t, true);

@@ -80,12 +80,14 @@ struct Page {
 // What the master is told.
 struct ToldMaster final : console::MasterProxy {
     std::vector<v1::Order> orders;
-    std::vector<std::uint32_t> fish;  // whose minds are asked for
+    std::vector<std::uint32_t> fish;   // whose minds are asked for
+    std::vector<std::uint32_t> skins;  // of drawings that are asked for
 
     void give(v1::Order order) override { orders.push_back(std::move(order)); }
     void touch(const WallHands& /*hands*/) override {}
     void steer(const Steering& /*steering*/) override {}
     void explain(std::uint32_t asked) override { fish.push_back(asked); }
+    void askSkin(std::uint32_t number) override { skins.push_back(number); }
 };
 
 // What the nodes are asked.

@@ -59,6 +59,22 @@ class DeskPages : public testing::Test {
     Page watcher{ConsoleRole::Watcher}, crew{ConsoleRole::Crew, "ben"};
 };
 
+TEST_F(DeskPages, drawingsAreSentToWhoLooksWhereTheyHaveChanged) {
+    v1::DrawingsReply list;
+    list.add_drawings()->set_number(12);
+    list.mutable_drawings(0)->set_condition(v1::DrawingStatus::WAITING);
+    visitors.takeLook(watcher.visitor, lookAt({"drawings"}));
+    const auto before = watcher.outbox.count("drawings");
+    parts.state.drawings.hear(list);
+    visitors.heardDrawings();
+    for (int second = 0; second < 3; ++second) visitors.everySecond();
+    EXPECT_EQ(watcher.outbox.count("drawings"), before + 1);
+    EXPECT_EQ(watcher.outbox.last("drawings").drawings().drawings(0).number(), 12U);
+    EXPECT_EQ(crew.outbox.count("drawings"), 0) << "looks at another page";
+    visitors.sendWall(0);
+    EXPECT_EQ(crew.outbox.last("wall").wall().drawings_waiting(), 1U) << "every page has the badge";
+}
+
 TEST_F(DeskPages, aPageGetsAWholeSnapshotBeforeAllElse) {
     visitors.note("wall", "left is late");
     for (const Page* page : {&watcher, &crew}) {

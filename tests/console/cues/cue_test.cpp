@@ -35,6 +35,8 @@ TEST(Cue, eachAddressIsOneWantedValue) {
         {{"/aquarama/black", {whole(0)}}, "black off"},
         {{"/aquarama/freeze", {whole(1)}}, "freeze on"},
         {{"/aquarama/freeze", {whole(0)}}, "freeze off"},
+        {{"/aquarama/guests", {whole(0)}}, "guests off"},
+        {{"/aquarama/drawings", {whole(1)}}, "drawings on"},
         {{"/aquarama/brightness", {0.25}}, "brightness 0.25"},
         {{"/aquarama/brightness", {whole(1)}}, "brightness 1.00"},
         {{"/aquarama/colour", {0.0}}, "colour 0.00"}};
@@ -67,6 +69,8 @@ TEST(Cue, whatIsNoCueIsRefusedWithWhatItTakes) {
         {{"/aquarama/black", {1.0}}, onOff},
         {{"/aquarama/black", {"on"}}, onOff},
         {{"/aquarama/freeze", {0.5}}, onOff},
+        {{"/aquarama/drawings", {"off"}}, onOff},
+        {{"/aquarama/guests", {1.0}}, onOff},
         {{"/aquarama/quality", {"best"}}, tier},
         {{"/aquarama/quality", {whole(4)}}, tier},
         {{"/aquarama/quality", {whole(-1)}}, tier},
@@ -89,7 +93,7 @@ TEST(Cue, whatIsNoCueIsRefusedWithWhatItTakes) {
         EXPECT_EQ(cueOf(message).problem, why) << message.address;
 }
 
-TEST(Shown, desksAreToldTheWallInTwelveValues) {
+TEST(Shown, desksAreToldTheWallInSixteenValues) {
     v1::StatusReply status;
     status.set_frame(77);
     v1::Show& show = *status.mutable_show();
@@ -106,7 +110,9 @@ TEST(Shown, desksAreToldTheWallInTwelveValues) {
     for (const auto condition :
          {v1::NODE_IN_STEP, v1::NODE_PREPARING, v1::NODE_LATE, v1::NODE_ABSENT, v1::NODE_IN_STEP})
         status.add_nodes()->set_condition(condition);
-    const auto shown = shownBy(status, true);
+    status.set_guests(false);
+    status.set_drawings(true);
+    const auto shown = shownBy(status, true, {.waiting = 3, .swimming = 41});
     const double fifth = double{51.0F / 255};
     const std::vector<ShownValue> expected{{"running", whole(1)},
                                            {"scene", "reef"},
@@ -116,6 +122,10 @@ TEST(Shown, desksAreToldTheWallInTwelveValues) {
                                            {"freeze", whole(0)},
                                            {"brightness", fifth},
                                            {"colour", 1.0},
+                                           {"guests", whole(0)},
+                                           {"drawings", whole(1)},
+                                           {"drawings_waiting", whole(3)},
+                                           {"drawings_swimming", whole(41)},
                                            {"frame", whole(77)},
                                            {"nodes_in_step", whole(2)},
                                            {"nodes_late", whole(1)},
