@@ -114,7 +114,7 @@ void WallLink::work(const Wishes& wishes) {
     for (const glm::vec3& position : wishes.food) client_.feed(position);
     const v1::StatusReply status = client_.status();
     lookAtDrawings(status);
-    listener_.heard(WallState{.isOpen = status.guests(),
+    listener_.heard(WallState{.isOpen = status.guests() && !status.show().black(),
                               .eye = wire::readEye(status.eye()).value_or(wire::Eye{}),
                               .drawings = drawings_});
     if (status.guests()) showSign();

@@ -2,6 +2,7 @@
 
 import {helm} from "./helm.js";
 import {Link} from "./link.js";
+import {wall} from "./wall.js";
 
 const element = id => document.getElementById(id);
 const LANGUAGES = ["en", "de"];
@@ -66,6 +67,9 @@ const link = new Link({
   },
 });
 const rest = helm(message => link.say(message), () => state.you === "steering" && !isStale);
+
+wall(element("wall"), message => link.say(message), () => state.wall && state.you !== "steering" && !isStale,
+  () => state.feed_s === 0);
 
 document.querySelector("form").addEventListener("submit", event => {
   event.preventDefault();
