@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "guests/guests.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -15,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/files.h"
+#include "common/config/rig.h"
 
 namespace aquarama::guests {
 namespace {
@@ -73,7 +75,8 @@ class GuestServiceTest : public testing::Test {
         service.reset();
         service.emplace(GuestsOptions{.place = {.host = "10.0.0.1", .port = 7490, .channel = {}},
                                       .key = kKey,
-                                      .seatFile = folder.path() / "seats"},
+                                      .seatFile = folder.path() / "seats",
+                                      .picture = shown},
                         wall,
                         [this] { return now; });
         service->heard(WallState{.isOpen = true, .eye = {.positionMetres = {1, 2, 3}}});
@@ -93,8 +96,38 @@ class GuestServiceTest : public testing::Test {
     TemporaryFolder folder{"guests"};
     double now = 1000;
     RecordedWall wall;
+    WallPicture* shown = nullptr;
     std::optional<GuestService> service;
 };
+
+// Where a finger points on the picture of the wall; beside it, and without one, ahead.
+TEST_F(GuestServiceTest, foodGoesWhereAFingerPoints) {
+    config::Rig rig = config::readRig(AQUARAMA_SOURCE_DIR "/config/desk.txtpb");
+    rig.guests.emplace().picturesAddress = "tcp://127.0.0.1:*";
+    WallPicture picture(rig, std::nullopt);
+    const auto feed = [&](const std::string& said) {
+        Caller phone(*service, entering());
+        EXPECT_EQ(phone.state()["wall"], shown != nullptr);
+        phone.say(said);
+        pass(1);
+        return wall.food.empty() ? glm::vec3() : wall.food.back() - glm::vec3(1, 2, 3);
+    };
+    shown = &picture;
+    begin();
+    const glm::vec3 left = feed(R"({"feed":[0.01,0.5]})");
+    EXPECT_LT(left.x, -1.4F);
+    EXPECT_GT(left.z, -2.0F) << "the screen's edge is 60 degrees aside";
+    EXPECT_GT(feed(R"({"feed":[0.5,0.1]})").y, 0.5F);
+    for (const char* const ahead :
+         {R"({"feed":true})", R"({"feed":[7,7]})", R"({"feed":["a",2]})"}) {
+        const glm::vec3 place = feed(ahead);
+        EXPECT_LT(place.z, -1.9F) << ahead;
+        EXPECT_LT(std::abs(place.x), 0.9F) << ahead;
+    }
+    shown = nullptr;
+    begin();
+    EXPECT_LT(feed(R"({"feed":[0.01,0.5]})").z, -1.9F);
+}
 
 TEST_F(GuestServiceTest, letsInWhoSeesTheWall) {
     Caller scanned(*service, entering()), read(*service), guessed(*service);
