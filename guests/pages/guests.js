@@ -1,5 +1,6 @@
 // The page of a visitor: what the server says of him is in body.dataset.you; the style sheet shows what belongs to it.
 
+import {drawing} from "./drawing.js";
 import {helm} from "./helm.js";
 import {Link} from "./link.js";
 
@@ -41,6 +42,7 @@ function draw() {
   element("join").disabled = state.line >= state.most;
   element("feed").disabled = !(state.feed_s === 0);
   set("feed", state.feed_s > 0 ? text("fed", {n: state.feed_s}) : text("feed"));
+  drawDrawing(state.drawings);
 }
 
 const link = new Link({
@@ -65,6 +67,7 @@ const link = new Link({
     draw();
   },
 });
+const drawDrawing = drawing(texts, () => link.secret);
 const rest = helm(message => link.say(message), () => state.you === "steering" && !isStale);
 
 document.querySelector("form").addEventListener("submit", event => {
