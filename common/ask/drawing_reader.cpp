@@ -22,6 +22,7 @@
 #include <unistd.h>
 
 #include "common/base/log.h"
+#include "common/wire/messages.h"
 
 namespace aquarama::ask {
 
@@ -31,8 +32,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kProgram = "aquarama-drawings";
-constexpr std::size_t kMostSkinBytes = std::size_t{2} << 20U;
-constexpr std::size_t kMostAnswerBytes = kMostSkinBytes + 256;
+constexpr std::size_t kMostAnswerBytes = wire::kMostSkinBytes + 256;
 
 // Beside the running program, else in PATH; empty: nowhere.
 fs::path decoder() {
@@ -160,7 +160,7 @@ std::optional<DrawingOutcome> drawingIn(std::string_view head, std::string_view 
     std::size_t bytes = 0;
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), bytes);
     const bool isWhole = error == std::errc() && end == number.data() + number.size() &&
-                         bytes == skin.size() && bytes > 0 && bytes <= kMostSkinBytes;
+                         bytes == skin.size() && bytes > 0 && bytes <= wire::kMostSkinBytes;
     if (!isWhole) return std::nullopt;
     return ReadDrawing{std::string(head.substr(0, space)), std::string(skin)};
 }
@@ -240,6 +240,7 @@ DrawingOutcome DrawingReader::outcomeOf(const std::string& picture) {
     while (child.runs() && exchange.goOn() && !hasEnded())
         if (Clock::now() > giveUp) break;
     if (auto outcome = outcomeIn(exchange.answer())) return *std::move(outcome);
+    if (hasEnded()) return DrawingRefused{"unreadable"};
     ++failures_;
     logWarning(
         "a visitor's picture of {} bytes could not be read: {} was killed or failed; it is "
