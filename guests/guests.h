@@ -41,11 +41,10 @@ struct GuestsOptions {
     config::Guests place;
     DoorTokens::Key key;
     std::filesystem::path seatFile;  // what survives a restart
-    QueueTimes times = {WallPicture* picture =
-                            nullptr;  // null: phones are shown none; outlives the service
+    QueueTimes times = {};
+    DrawingPlace drawings = {};
+    WallPicture* picture = nullptr;  // null: phones are shown none; outlives the service
 };
-DrawingPlace drawings = {};
-};  // namespace aquarama::guests
 
 // One connected phone.
 class Phone final : public web::Service::Connection {
