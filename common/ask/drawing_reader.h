@@ -31,6 +31,7 @@ struct DrawingRefused {
     std::string word;
 };
 
+// What became of a picture.
 using DrawingOutcome = std::variant<ReadDrawing, DrawingRefused>;
 
 // What is read at most, of a picture in bytes; as drawings/photo.h.

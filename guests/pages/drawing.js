@@ -25,7 +25,7 @@ function send(file, side, secret, progressed) {
   });
 }
 
-/** Draws what the server says of drawings (state.drawings) by the function that it returns. secret(): of the visitor. */
+/** Returns a function that draws what the server says of drawings (state.drawings). secret(): of the visitor. */
 export function drawing(texts, secret) {
   const text = (key, values = {}) => texts[key].replace(/{(\w+)}/g, (_, name) => values[name]);
   const shown = new Map(); // number -> {words, since}
