@@ -5,6 +5,8 @@
 
 #include <array>
 #include <chrono>
+#include <cstdint>
+#include <limits>
 #include <list>
 #include <map>
 #include <memory>
@@ -264,7 +266,7 @@ asio::awaitable<std::optional<BeastRequest>> nextRequest(Shared& shared,
                                                          std::shared_ptr<const void>& place) {
     Parser parser;
     parser.header_limit(kMostHeaderBytes);
-    parser.body_limit(boost::none);
+    parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // until it is admitted
     beast::get_lowest_layer(stream).expires_after(kRequestTime);
     beast::error_code error;
     co_await http::async_read_header(

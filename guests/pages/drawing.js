@@ -5,6 +5,15 @@ const SHOWN_MS = 3000; // a sentence stays so long, so that it can be read
 
 const element = id => document.getElementById(id);
 
+const filled = (text, values = {}) => text.replace(/{(\w+)}/g, (_, name) => values[name]);
+
+/** The sentence for what a fish does, with whomever it is about where there is one. */
+export function deedIn(texts, {does, whom, saw}) {
+  const named = species => texts[`fish_${species}`] ?? texts.fish_other;
+  const keys = [saw && `does_${does}_saw`, whom && `does_${does}_whom`, `does_${does}`, "does"];
+  return filled(texts[keys.find(key => key in texts)], {saw: named(saw), whom: named(whom)});
+}
+
 /** Pictures of an iPhone, which only Apple's programs read. */
 async function isHeic(file) {
   const start = new TextDecoder("latin1").decode(await file.slice(0, 12).arrayBuffer());
@@ -27,20 +36,13 @@ function send(file, side, secret, progressed) {
 
 /** Returns a function that draws what the server says of drawings (state.drawings). secret(): of the visitor. */
 export function drawing(texts, secret) {
-  const text = (key, values = {}) => texts[key].replace(/{(\w+)}/g, (_, name) => values[name]);
+  const text = (key, values) => filled(texts[key], values);
   const shown = new Map(); // number -> {words, since}
   let side = "middle", refused = "", share = null, told = null;
 
-  const named = species => texts[`fish_${species}`] ?? texts.fish_other;
-  /** The sentence for what a fish does, with whoever it is about where there is one. */
-  function deed({does, whom, saw}) {
-    const keys = [saw && `does_${does}_saw`, whom && `does_${does}_whom`, `does_${does}`, "does"];
-    return text(keys.find(key => key in texts), {saw: named(saw), whom: named(whom)});
-  }
-
   function words(fish) {
     const before = shown.get(fish.number), now = performance.now();
-    const next = text(`is_${fish.is}`, {n: fish.number}) + (fish.is === "swimming" ? ` ${deed(fish)}` : "");
+    const next = text(`is_${fish.is}`, {n: fish.number}) + (fish.is === "swimming" ? ` ${deedIn(texts, fish)}` : "");
     const stays = before && before.is === fish.is && now - before.since < SHOWN_MS;
     if (!stays && before?.words !== next) shown.set(fish.number, {words: next, is: fish.is, since: now});
     return shown.get(fish.number).words;

@@ -44,11 +44,11 @@ struct RecordedOutbox final : web::Outbox {
 
 // A phone with its connection.
 struct Caller {
-    explicit Caller(GuestService& service, const std::string& first = "") {
+    explicit Caller(GuestService& service,
+                    const std::string& first = "",
+                    const std::string& host = "10.0.0.1:7490") {
         connection = service.open(
-            {.target = "/g", .host = "10.0.0.1:7490", .origin = "http://10.0.0.1:7490"},
-            outbox,
-            refusal);
+            {.target = "/g", .host = host, .origin = "http://" + host}, outbox, refusal);
         if (!first.empty()) say(first);
     }
     Caller(const Caller&) = delete;

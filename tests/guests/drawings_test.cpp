@@ -317,7 +317,9 @@ class DrawingsOverHttp : public testing::Test {
         service.heard(WallState{
             .isOpen = true, .eye = {}, .drawings = std::make_shared<const WallDrawings>()});
         for (std::string& secret : secrets) {
-            Caller caller(service, R"({"enter":")" + DoorTokens(kKey).wordAt(1000) + "\"}");
+            Caller caller(service,
+                          json{{"enter", DoorTokens(kKey).wordAt(1000)}}.dump(),
+                          "127.0.0.1:" + std::to_string(port));
             secret = caller.outbox.said["session"]["session"];
         }
     }

@@ -16,7 +16,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "console"))
 
 from desk import (Desk, Socket, aquarama, children_of, frame, rig_on_free_ports, start,  # noqa: E402,F401
                   temporary_folder, wait_until)
-from show import free_ports  # noqa: E402
+from show import BIN, free_ports  # noqa: E402,F401
 
 
 class Hall(Desk):
