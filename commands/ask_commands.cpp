@@ -5,6 +5,7 @@
 #include <charconv>
 #include <chrono>
 #include <iostream>
+#include <map>
 #include <span>
 #include <string>
 #include <system_error>
@@ -212,29 +213,53 @@ double shareIn(const SetOptions& options) {
                 "\"");
 }
 
+// What each word of WHAT sets in an order.
+using Setter = void (*)(const SetOptions&, v1::Order&);
+const std::map<std::string, Setter> kSetters{
+    {"restart",
+     [](const SetOptions& options, v1::Order& order) {
+         order.mutable_restart()->set_channel(legible(options.value));
+     }},
+    {"scene",
+     [](const SetOptions& options, v1::Order& order) {
+         order.mutable_show()->set_scene(legible(options.value));
+     }},
+    {"quality",
+     [](const SetOptions& options, v1::Order& order) {
+         order.mutable_show()->set_quality(tierIn(options));
+     }},
+    {"pattern",
+     [](const SetOptions& options, v1::Order& order) {
+         order.mutable_show()->set_pattern(patternIn(options));
+     }},
+    {"colour",
+     [](const SetOptions& options, v1::Order& order) {
+         order.mutable_show()->set_colour_returned(shareIn(options));
+     }},
+    {"brightness",
+     [](const SetOptions& options, v1::Order& order) {
+         order.mutable_show()->set_brightness(shareIn(options));
+     }},
+    {"black",
+     [](const SetOptions& options, v1::Order& order) {
+         order.mutable_show()->set_black(switchedOn(options));
+     }},
+    {"freeze",
+     [](const SetOptions& options, v1::Order& order) {
+         order.mutable_show()->set_freeze(switchedOn(options));
+     }},
+    {"guests",
+     [](const SetOptions& options, v1::Order& order) {
+         order.mutable_show()->set_guests(switchedOn(options));
+     }},
+    {"drawings", [](const SetOptions& options, v1::Order& order) {
+         order.mutable_show()->set_drawings(switchedOn(options));
+     }}};
+
 // Returns when it is done.
 void set(const SetOptions& options) {
     v1::Order order;
-    if (options.what == "restart")
-        order.mutable_restart()->set_channel(legible(options.value));
-    else if (options.what == "scene")
-        order.mutable_show()->set_scene(legible(options.value));
-    else if (options.what == "quality")
-        order.mutable_show()->set_quality(tierIn(options));
-    else if (options.what == "pattern")
-        order.mutable_show()->set_pattern(patternIn(options));
-    else if (options.what == "colour")
-        order.mutable_show()->set_colour_returned(shareIn(options));
-    else if (options.what == "brightness")
-        order.mutable_show()->set_brightness(shareIn(options));
-    else if (options.what == "black")
-        order.mutable_show()->set_black(switchedOn(options));
-    else if (options.what == "guests")
-        order.mutable_show()->set_guests(switchedOn(options));
-    else if (options.what == "drawings")
-        order.mutable_show()->set_drawings(switchedOn(options));
-    else
-        order.mutable_show()->set_freeze(switchedOn(options));
+    kSetters.at(options.what)(options, order);
     options.asked.connect().carryOut(std::move(order), [](const std::string& what) {
         std::cout << what << std::endl;  // at once: it takes a while
     });

@@ -302,7 +302,7 @@ guests() {
     cmake --build --preset show-tests --target aquarama-console aquarama-guests
     AQUARAMA_BIN=$PWD/$bin AQUARAMA_SHOTS=$drawn /usr/bin/python3 tests/guests/page_test.py
 }
-# Six sheets that a program has coloured, as a simulated camera sees them, and the fish that wear what was read from them.
+# Six sheets that a program has coloured, as a simulated camera sees them, and the fish that wear their drawings.
 drawings() {
     local name length number=0
     local -a photos=() fish=()
@@ -317,7 +317,8 @@ drawings() {
             --away "$(awk "BEGIN { print 1.5 * $length }")" --turn 192 --fov 40 --azimuth 10 --width 400 --height 300 \
             --quality ultra --out "$drawn/worn-$name.png"
         /usr/bin/python3 -c 'import sys; from PIL import Image, ImageOps
-ImageOps.fit(Image.open(sys.argv[1]), (400, 300)).save(sys.argv[2])' "$drawn/photos/$number.jpg" "$drawn/photo-$name.png"
+ImageOps.fit(Image.open(sys.argv[1]), (400, 300)).save(sys.argv[2])' "$drawn/photos/$number.jpg" \
+            "$drawn/photo-$name.png"
         photos+=("$drawn/photo-$name.png")
         fish+=("$drawn/worn-$name.png")
     done <<'END'
@@ -328,7 +329,8 @@ parrotfish 0.32
 moorish_idol 0.18
 lionfish 0.28
 END
-    $bin/aquarama_draw_sheet "$drawn/drawings_fish.png" 3 "${photos[@]:0:3}" "${fish[@]:0:3}" "${photos[@]:3}" "${fish[@]:3}"
+    $bin/aquarama_draw_sheet "$drawn/drawings_fish.png" 3 "${photos[@]:0:3}" "${fish[@]:0:3}" "${photos[@]:3}" \
+        "${fish[@]:3}"
     smaller drawings_fish
 }
 # A running desk, some seconds after ten photographs were put into its folder.

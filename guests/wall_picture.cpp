@@ -100,13 +100,20 @@ WallMap::WallMap(const config::Rig& rig)
             const auto pixel = static_cast<std::uint32_t>(directions_.size());
             directions_.push_back(point ? std::optional<glm::vec3>(glm::normalize(*point - viewer))
                                         : std::nullopt);
-            for (std::uint32_t i = 0; point && i < wall.channels(); ++i)
-                if (const auto place = wall.channel(i).pixelOf(*point))
-                    sources_.push_back({pixel,
-                                        i,
-                                        glm::vec2(*place) / glm::vec2(rig.channels[i].sizePixels) *
-                                            wall::firstEyeShare(wall::stereoOf(rig, i).mode)});
+            if (point) addSources(wall, rig, pixel, *point);
         }
+}
+
+void WallMap::addSources(const wall::Wall& wall,
+                         const config::Rig& rig,
+                         std::uint32_t pixel,
+                         glm::dvec3 point) {
+    for (std::uint32_t i = 0; i < wall.channels(); ++i)
+        if (const auto place = wall.channel(i).pixelOf(point))
+            sources_.push_back({pixel,
+                                i,
+                                glm::vec2(*place) / glm::vec2(rig.channels[i].sizePixels) *
+                                    wall::firstEyeShare(wall::stereoOf(rig, i).mode)});
 }
 
 std::optional<glm::vec3> WallMap::directionAt(glm::vec2 share) const {

@@ -18,6 +18,10 @@
 #include "common/config/rig.h"
 #include "common/net/channels.h"
 
+namespace aquarama::wall {
+class Wall;
+}
+
 namespace aquarama::guests {
 
 // Width of the picture; its height is in the proportions of the unrolled wall. Its JPEG has at most
@@ -31,6 +35,7 @@ class WallMap {
     // Throws Error where the rig's wall cannot be made. Takes a part of a second.
     explicit WallMap(const config::Rig& rig);
 
+    // Width and height.
     [[nodiscard]] glm::ivec2 sizePixels() const { return size_; }
     // The unit vector, wall frame, from the viewer to what a place shows, as shares of the
     // picture's size from its upper left corner; nothing beside the screen.
@@ -52,6 +57,12 @@ class WallMap {
         std::uint32_t channel = 0;
         glm::vec2 share{};
     };
+    // The channels that light a point of the screen, which a pixel shows.
+    void addSources(const wall::Wall& wall,
+                    const config::Rig& rig,
+                    std::uint32_t pixel,
+                    glm::dvec3 point);
+
     glm::ivec2 size_;
     std::vector<std::optional<glm::vec3>> directions_;  // of pixels
     std::vector<Source> sources_;

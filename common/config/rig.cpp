@@ -559,17 +559,16 @@ Rig parseRig(const std::string& text, const std::string& source) {
             .channels = {},
             .timing = timingOf(file, in.timing()),
             .scene = in.scene(),
-            .scenePlace = file.placeOf(in, "scene"),
             .stereo = {.mode = modeOf(in.stereo().mode()),
                        .eyeSeparationMetres = in.stereo().eye_separation_m(),
                        .swapEyes = in.stereo().swap_eyes()},
             .sweetSpotMetres = positionOf(in.sweet_spot()),
-            .sweetSpotPlace = {},
             .quality = qualityOf(in),
             .calibration = {},
             .adjustments = {},
             .files = {}};
-    if (in.has_sweet_spot()) rig.sweetSpotPlace = file.placeOf(in.sweet_spot());
+    rig.places.scene = file.placeOf(in, "scene");
+    if (in.has_sweet_spot()) rig.places.sweetSpot = file.placeOf(in.sweet_spot());
     for (const v1::Channel& channel : in.channels())
         rig.channels.push_back(channelOf(file, channel, rig.stereo));
     takeGuests(file, in, rig);
@@ -622,7 +621,7 @@ std::string scenePathOf(const Rig& rig, const std::string& rigPath) {
     if (!std::filesystem::is_regular_file(path))
         throw Error(
             placed(rigPath,
-                   rig.scenePlace,
+                   rig.places.scene,
                    "there is no scene file " + path + ": give its path from the rig's folder"));
     return path;
 }

@@ -184,6 +184,11 @@ struct TouchedSurface {
     glm::dvec3 topLeft{}, topRight{}, bottomLeft{};
 };
 
+// Where a rig's file says some of its values, for errors.
+struct RigPlaces {
+    SourcePlace scene, sweetSpot;
+};
+
 // A whole installation. Where its file leaves something out it has what rig.proto says.
 struct Rig {
     std::string text;  // of the file, as it was read: the nodes are sent it
@@ -202,16 +207,15 @@ struct Rig {
     std::vector<Channel> channels;
     Timing timing;
     std::string scene;  // path of the file of what is shown, relative to the rig's folder
-    SourcePlace scenePlace;
     Stereo stereo;
-    glm::dvec3 sweetSpotMetres{};  // wall frame: between the viewer's eyes
-    SourcePlace sweetSpotPlace;
+    glm::dvec3 sweetSpotMetres{};        // wall frame: between the viewer's eyes
     std::optional<QualityTier> quality;  // nothing: measured at start
     std::string calibration = {};        // name in `files`; empty: none
     std::string adjustments = {};        // name in `files`; empty: none. See adjustments.h
     std::optional<Guests> guests = {};
     std::optional<TouchedSurface> touch = {};
     std::optional<DrawingRules> drawings = {};
+    RigPlaces places = {};
     // Measured screens, wall files and adjustments, whole, by the name that the rig has for them.
     std::map<std::string, FileContent> files;
 };

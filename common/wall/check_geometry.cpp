@@ -156,9 +156,9 @@ void checkEyes(const config::Rig& rig, const Wall& wall, const std::string& sour
                         oneDecimal(kWidestDegrees) +
                         " degrees of the view: share with another, or move sweet_spot back");
             } catch (const Error& error) {
-                const bool isElsewhere = rig.sweetSpotPlace.line > 0;
+                const bool isElsewhere = rig.places.sweetSpot.line > 0;
                 refuse(source,
-                       isElsewhere ? rig.sweetSpotPlace : rig.channels[channel].place,
+                       isElsewhere ? rig.places.sweetSpot : rig.channels[channel].place,
                        error.what());
             }
 }

@@ -31,14 +31,16 @@ std::vector<Packet> partsOf(Packet packet, std::uint64_t number) {
     return parts;
 }
 
+void PartAssembly::begin(const std::string& sender, std::uint64_t packet, Moment now) {
+    if (begun_.size() < kMostSenders || begun_.contains(sender))
+        begun_[sender] = {.packet = packet, .next = 0, .bytes = {}, .heard = now};
+}
+
 std::optional<Packet> PartAssembly::take(const std::string& sender,
                                          const v1::PacketPart& part,
                                          Moment now) {
     std::erase_if(begun_, [&](const auto& one) { return now - one.second.heard > kPatience; });
-    if (part.index() == 0) {
-        if (begun_.size() >= kMostSenders && !begun_.contains(sender)) return std::nullopt;
-        begun_[sender] = {.packet = part.packet(), .next = 0, .bytes = {}, .heard = now};
-    }
+    if (part.index() == 0) begin(sender, part.packet(), now);
     const auto known = begun_.find(sender);
     if (known == begun_.end()) return std::nullopt;
     Begun& begun = known->second;

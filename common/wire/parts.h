@@ -24,6 +24,7 @@ inline constexpr std::uint32_t kMostParts = 64;
 // grows with what has arrived. One thread uses it.
 class PartAssembly {
   public:
+    // A time of a clock that is never set back.
     using Moment = std::chrono::steady_clock::time_point;
     // Senders at once; a part of one more is dropped. What was not continued for so long is
     // forgotten.
@@ -42,6 +43,8 @@ class PartAssembly {
         Packet bytes;
         Moment heard{};
     };
+    void begin(const std::string& sender, std::uint64_t packet, Moment now);
+
     std::map<std::string, Begun> begun_;
 };
 

@@ -79,6 +79,24 @@ bool isAt(glm::vec3 position, glm::vec3 place) {
     return place::lengthOf(place - position) < kThereMetres;
 }
 
+namespace {
+
+// Where it goes; where it shows itself it turns its side to the viewer.
+glm::vec3 wayOf(const fish::Wearers& wearers,
+                const fish::Wearer& wearer,
+                const surroundings::Obstacles& obstacles,
+                glm::vec3 position,
+                glm::vec3 otherwise) {
+    const glm::vec3 goal = wearer.visit == fish::Visit::Leaves
+                               ? entranceOf(wearers, wearer, obstacles)
+                               : greetingPlaceOf(wearers, wearer, obstacles);
+    if (wearer.visit == fish::Visit::Shows && isAt(position, goal))
+        return wearers.right * -sideOf(wearer);
+    return place::directionOf(goal - position, otherwise);
+}
+
+}  // namespace
+
 fish::Course guided(const Situation& situation,
                     const fish::Mind& mind,
                     const fish::Course& course) {
@@ -88,17 +106,11 @@ fish::Course guided(const Situation& situation,
         return course;
     const fish::SpeciesParameters& parameters = situation.parameters;
     const surroundings::Obstacles& obstacles = situation.environment.surroundings->obstacles;
-    const bool shows = wearer->visit == fish::Visit::Shows;
-    const glm::vec3 goal = wearer->visit == fish::Visit::Leaves
-                               ? entranceOf(*wearers, *wearer, obstacles)
-                               : greetingPlaceOf(*wearers, *wearer, obstacles);
-    const glm::vec3 position = situation.senses.position;
-    // There it turns its side to the viewer.
-    const glm::vec3 way = shows && isAt(position, goal)
-                              ? wearers->right * -sideOf(*wearer)
-                              : place::directionOf(goal - position, course.direction);
-    return heading(
-        situation, way * kLed + roomFrom(situation), shows ? parameters.slow : parameters.fast);
+    const glm::vec3 way =
+        wayOf(*wearers, *wearer, obstacles, situation.senses.position, course.direction);
+    return heading(situation,
+                   way * kLed + roomFrom(situation),
+                   wearer->visit == fish::Visit::Shows ? parameters.slow : parameters.fast);
 }
 
 }  // namespace aquarama::behaviour

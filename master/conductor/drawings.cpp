@@ -59,11 +59,7 @@ void Drawings::enter(std::vector<DrawingSlots> slots) {
     slots_ = std::move(slots);
     toLeave_.clear();
     std::erase_if(entries_, [](const Entry& entry) { return entry.isForgotten; });
-    for (Entry& entry : entries_) {
-        entry.fish.reset();
-        entry.leaving.reset();
-        entry.listed.reset();
-    }
+    for (Entry& entry : entries_) entry.rest();
     changed();
 }
 
@@ -113,32 +109,33 @@ ask::Answer Drawings::offer(std::uint64_t request,
     return {};
 }
 
+void Drawings::decideOne(Entry& entry, v1::Moderation::Verdict verdict) {
+    switch (verdict) {
+        case v1::Moderation::LET_IN:
+            entry.kept.isLetIn = true;
+            return;
+        case v1::Moderation::KEEP:
+        case v1::Moderation::KEEP_NO_MORE:
+            entry.kept.isKept = verdict == v1::Moderation::KEEP;
+            return;
+        case v1::Moderation::END_DAY:
+            if (!entry.kept.isKept) takeDown(entry);
+            return;
+        default:
+            takeDown(entry);
+    }
+}
+
 ask::Answer Drawings::decide(const v1::Moderation& moderation) {
     if (!rules_) return refused("the rig has no drawings; give it a block drawings { }");
-    const auto decideOne = [&](Entry& entry) {
-        switch (moderation.verdict()) {
-            case v1::Moderation::LET_IN:
-                entry.kept.isLetIn = true;
-                return;
-            case v1::Moderation::KEEP:
-            case v1::Moderation::KEEP_NO_MORE:
-                entry.kept.isKept = moderation.verdict() == v1::Moderation::KEEP;
-                return;
-            case v1::Moderation::END_DAY:
-                if (!entry.kept.isKept) takeDown(entry);
-                return;
-            default:
-                takeDown(entry);
-        }
-    };
     if (moderation.number() == 0) {
-        std::ranges::for_each(entries_, decideOne);
+        for (Entry& entry : entries_) decideOne(entry, moderation.verdict());
     } else {
         Entry* const entry = find(moderation.number());
         if (entry == nullptr)
             return refused("there is no drawing " + std::to_string(moderation.number()) +
                            " any more");
-        decideOne(*entry);
+        decideOne(*entry, moderation.verdict());
     }
     changed();
     return {};
@@ -147,7 +144,7 @@ ask::Answer Drawings::decide(const v1::Moderation& moderation) {
 // One that swims leaves first.
 void Drawings::takeDown(Entry& entry) {
     entry.isForgotten = true;
-    if (entry.fish && !entry.leaving) toLeave_.push_back(*entry.fish);
+    if (entry.swims()) toLeave_.push_back(*entry.fish);
 }
 
 std::vector<world::WorldInput> Drawings::turn(std::span<const motion::FishRecord> fish,
@@ -159,20 +156,25 @@ std::vector<world::WorldInput> Drawings::turn(std::span<const motion::FishRecord
     files_.turn();
     forgetOld(unixSeconds);
     endLeft(fish, now);
-    if (!maySwim)
+    if (maySwim)
+        enterNext(fish, now, inputs);
+    else
         for (const Entry& entry : entries_)
-            if (entry.fish && !entry.leaving) toLeave_.push_back(*entry.fish);
-    if (maySwim) enterNext(fish, now, inputs);
+            if (entry.swims()) toLeave_.push_back(*entry.fish);
+    sendAway(now, inputs);
+    return inputs;
+}
+
+void Drawings::sendAway(net::Moment now, std::vector<world::WorldInput>& inputs) {
     for (Entry& entry : entries_) {
-        const bool isTold = entry.fish && !entry.leaving &&
-                            std::ranges::find(toLeave_, *entry.fish) != toLeave_.end();
+        const bool isTold =
+            entry.swims() && std::ranges::find(toLeave_, *entry.fish) != toLeave_.end();
         if (!isTold) continue;
         entry.leaving = now;
         inputs.emplace_back(world::LeaveDrawing{*entry.fish});
         changed();
     }
     toLeave_.clear();
-    return inputs;
 }
 
 void Drawings::forgetOld(std::uint64_t unixSeconds) {
@@ -182,15 +184,16 @@ void Drawings::forgetOld(std::uint64_t unixSeconds) {
     }
 }
 
+bool Drawings::Entry::hasLeft(std::span<const motion::FishRecord> of, net::Moment now) const {
+    return fish && leaving && now - *leaving > kUntilAway && *fish < of.size() &&
+           motion::isAway(of[*fish]);
+}
+
 void Drawings::endLeft(std::span<const motion::FishRecord> fish, net::Moment now) {
     bool isChange = false;
     for (Entry& entry : entries_) {
-        const bool hasLeft = entry.fish && entry.leaving && now - *entry.leaving > kUntilAway &&
-                             *entry.fish < fish.size() && motion::isAway(fish[*entry.fish]);
-        if (!hasLeft) continue;
-        entry.fish.reset();
-        entry.leaving.reset();
-        entry.listed.reset();
+        if (!entry.hasLeft(fish, now)) continue;
+        entry.rest();
         isChange = true;
     }
     const std::size_t gone = std::erase_if(
@@ -199,8 +202,8 @@ void Drawings::endLeft(std::span<const motion::FishRecord> fish, net::Moment now
 }
 
 std::size_t Drawings::swimming() const {
-    return static_cast<std::size_t>(std::ranges::count_if(
-        entries_, [](const Entry& entry) { return entry.fish && !entry.leaving; }));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(entries_, [](const Entry& entry) { return entry.swims(); }));
 }
 
 bool Drawings::hasRoomFor(const std::string& species) const {
@@ -220,23 +223,28 @@ std::optional<std::uint32_t> Drawings::freeFish(const std::string& species,
     return std::nullopt;
 }
 
+Drawings::Entry* Drawings::firstToEnter() {
+    const auto next = std::ranges::find_if(entries_, [&](const Entry& entry) {
+        return entry.kept.isLetIn && !entry.isForgotten && !entry.fish &&
+               hasRoomFor(entry.kept.species);
+    });
+    return next == entries_.end() ? nullptr : &*next;
+}
+
 // The first of those that wait: nodes are told of its skin; once they have had time to load it, it
 // is given a fish.
 void Drawings::enterNext(std::span<const motion::FishRecord> fish,
                          net::Moment now,
                          std::vector<world::WorldInput>& inputs) {
-    const auto next = std::ranges::find_if(entries_, [&](const Entry& entry) {
-        return entry.kept.isLetIn && !entry.isForgotten && !entry.fish &&
-               hasRoomFor(entry.kept.species);
-    });
-    if (next == entries_.end()) return;
+    Entry* const next = firstToEnter();
+    if (next == nullptr) return;
     if (!next->listed) {
         next->listed = now;
         return changed();
     }
     if (now - *next->listed < kLoads) return;
-    const auto free = freeFish(next->kept.species, fish);
     if (swimming() >= rules_->most) return makeRoom({});
+    const auto free = freeFish(next->kept.species, fish);
     if (!free) return makeRoom(next->kept.species);
     next->fish = free;
     inputs.emplace_back(world::EnterDrawing{.fish = *free,
@@ -248,16 +256,19 @@ void Drawings::enterNext(std::span<const motion::FishRecord> fish,
 
 // One that leaves already makes room enough.
 void Drawings::makeRoom(const std::string& species) {
-    const auto isOfSpecies = [&](const Entry& entry) {
-        return entry.fish && (species.empty() || entry.kept.species == species);
-    };
-    const bool isUnderWay = std::ranges::any_of(
-        entries_, [&](const Entry& entry) { return isOfSpecies(entry) && entry.leaving; });
-    if (isUnderWay) return;
-    auto oldest = std::ranges::find_if(
-        entries_, [&](const Entry& entry) { return isOfSpecies(entry) && !entry.kept.isKept; });
-    if (oldest == entries_.end()) oldest = std::ranges::find_if(entries_, isOfSpecies);
-    if (oldest != entries_.end()) takeDown(*oldest);
+    std::vector<Entry*> swimmers;
+    for (Entry& entry : entries_)
+        if (entry.fish && (species.empty() || entry.kept.species == species))
+            swimmers.push_back(&entry);
+    if (std::ranges::any_of(swimmers,
+                            [](const Entry* entry) { return entry->leaving.has_value(); }))
+        return;
+    const auto oldest =
+        std::ranges::find_if(swimmers, [](const Entry* entry) { return !entry->kept.isKept; });
+    if (oldest != swimmers.end())
+        takeDown(**oldest);
+    else if (!swimmers.empty())
+        takeDown(*swimmers.front());
 }
 
 std::optional<std::uint64_t> Drawings::version() const {
@@ -271,18 +282,23 @@ v1::DrawingStatus::Condition Drawings::conditionOf(const Entry& entry) const {
                                                         : v1::DrawingStatus::HOMELESS;
 }
 
+v1::DrawingStatus Drawings::statusOf(const Entry& entry) const {
+    v1::DrawingStatus status;
+    status.set_number(entry.kept.number);
+    status.set_species(entry.kept.species);
+    status.set_condition(conditionOf(entry));
+    if (entry.fish) status.set_fish(*entry.fish);
+    status.set_kept(entry.kept.isKept);
+    status.set_offered_at(entry.kept.offeredAt);
+    return status;
+}
+
 v1::DrawingsReply Drawings::reply(const v1::DrawingsRequest& request) const {
     v1::DrawingsReply reply;
     reply.set_version(version_);
     reply.set_skin_of(request.skin_of());
     for (const Entry& entry : entries_) {
-        v1::DrawingStatus& status = *reply.add_drawings();
-        status.set_number(entry.kept.number);
-        status.set_species(entry.kept.species);
-        status.set_condition(conditionOf(entry));
-        if (entry.fish) status.set_fish(*entry.fish);
-        status.set_kept(entry.kept.isKept);
-        status.set_offered_at(entry.kept.offeredAt);
+        *reply.add_drawings() = statusOf(entry);
         if (entry.kept.number == request.skin_of())
             reply.set_skin(entry.kept.skin->data(), entry.kept.skin->size());
     }
@@ -326,6 +342,11 @@ void Drawings::tellSkins() {
         list_ = digestOf(*encoded);
         blobs[*list_] = encoded;
     }
+    replaceBlobs(std::move(blobs));
+}
+
+// Those of before are kept for a while.
+void Drawings::replaceBlobs(std::map<Digest, net::Blob> blobs) {
     for (auto& [digest, blob] : blobs_)
         if (!blobs.contains(digest)) retired_.emplace_back(digest, std::move(blob));
     while (retired_.size() > kMostRetired) retired_.pop_front();

@@ -68,8 +68,21 @@ class Drawings {
         std::optional<std::uint32_t> fish = {};  // that wears it
         std::optional<net::Moment> leaving = {};
         bool isForgotten = false;  // it ends when its fish has left
+        // It has a fish that was not told to leave.
+        [[nodiscard]] bool swims() const { return fish && !leaving; }
+        // Its fish was told to leave, and is away.
+        [[nodiscard]] bool hasLeft(std::span<const motion::FishRecord> of, net::Moment now) const;
+        // It has no fish any more.
+        void rest() {
+            fish.reset();
+            leaving.reset();
+            listed.reset();
+        }
     };
     [[nodiscard]] Entry* find(std::uint32_t number);
+    [[nodiscard]] Entry* firstToEnter();
+    void decideOne(Entry& entry, v1::Moderation::Verdict verdict);
+    [[nodiscard]] v1::DrawingStatus statusOf(const Entry& entry) const;
     [[nodiscard]] std::string objectionTo(const v1::OfferedDrawing& offered) const;
     [[nodiscard]] v1::DrawingStatus::Condition conditionOf(const Entry& entry) const;
     [[nodiscard]] bool hasRoomFor(const std::string& species) const;
@@ -82,11 +95,13 @@ class Drawings {
     void enterNext(std::span<const motion::FishRecord> fish,
                    net::Moment now,
                    std::vector<world::WorldInput>& inputs);
+    void sendAway(net::Moment now, std::vector<world::WorldInput>& inputs);
     // The oldest that swims, of this species where it is named: begins to leave for good.
     void makeRoom(const std::string& species);
     void takeDown(Entry& entry);
     void changed();  // tells whoever looks, and keeps it
     void tellSkins();
+    void replaceBlobs(std::map<Digest, net::Blob> blobs);
 
     std::optional<config::DrawingRules> rules_;
     DrawingFiles files_;

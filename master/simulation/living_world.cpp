@@ -125,7 +125,9 @@ conductor::Snapshot LivingWorld::snapshot() const {
 
 std::vector<conductor::DrawingSlots> LivingWorld::drawingSlots() const {
     std::vector<conductor::DrawingSlots> slots;
-    for (const fish::SlotRange& range : world_.wearers().ranges)
+    const fish::Wearers* const wearers = world_.environment().wearers;
+    if (wearers == nullptr) return slots;
+    for (const fish::SlotRange& range : wearers->ranges)
         slots.push_back({species_.at(range.kind), range.first, range.last});
     return slots;
 }

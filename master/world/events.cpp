@@ -11,6 +11,7 @@
 #include "master/fish/fish_view.h"
 #include "master/fish/secondary_controller.h"
 #include "master/world/beginning.h"
+#include "master/world/visits.h"
 #include "master/world/world.h"
 
 namespace aquarama::world {
@@ -34,6 +35,15 @@ void drawIn(surroundings::Food& food,
     food.z[particle] = at.z;
 }
 
+// Where the mouth is seen: the nose, nodal point 0, in the pose that is played.
+glm::vec3 mouthOf(const motion::MotorTables& tables,
+                  const FishColumns& columns,
+                  std::uint32_t fish) {
+    body::NodalPoints nodes;
+    motion::nodalPoints(tables, columns.traits, columns.states, fish, {&nodes, 1});
+    return nodes[0];
+}
+
 }  // namespace
 
 Meals makeMeals(std::size_t fish) {
@@ -55,22 +65,15 @@ void World::swallow() {
             // A fish that was eaten itself: what it had in its mouth goes with it.
             swallow.ticksLeft = 1;
         else
-            drawIn(food, swallow.particle, mouthOf(swallow.fish), swallow.ticksLeft);
+            drawIn(
+                food,
+                swallow.particle,
+                mouthOf(*kinds_[columns_.view.kind[swallow.fish]].tables, columns_, swallow.fish),
+                swallow.ticksLeft);
         if (--swallow.ticksLeft == 0) surroundings::removeFood(food, swallow.particle, tick_);
     }
     std::erase_if(meals_.swallows,
                   [](const Meals::Swallow& swallow) { return swallow.ticksLeft == 0; });
-}
-
-// Where the mouth is seen: the nose, nodal point 0, in the pose that is played.
-glm::vec3 World::mouthOf(std::uint32_t fish) const {
-    body::NodalPoints nodes;
-    motion::nodalPoints(*kinds_[columns_.view.kind[fish]].tables,
-                        columns_.traits,
-                        columns_.states,
-                        fish,
-                        {&nodes, 1});
-    return nodes[0];
 }
 
 // Events of a tick, applied one after the other on one thread. Of two fish that want the same thing
@@ -89,7 +92,8 @@ void World::perform(const fish::DeferredEvent& event) {
             if (motion::isAway(columns_.states, event.object)) return;
             // A chase ends with one catch.
             columns_.minds[event.fish].sinceChase = fish::kLongAgo;
-            if (!wearers_.mayBeEaten && wearers_.of(event.object) != nullptr) return;
+            if (!columns_.wearers.mayBeEaten && columns_.wearers.of(event.object) != nullptr)
+                return;
             motion::setAway(columns_.states, event.object);
             columns_.view.signs[event.object] = fish::kAway;
             absences_.push_back(absenceFrom(seed_, event.object, tick_));
@@ -163,20 +167,8 @@ void World::arrive(std::uint32_t fish) {
     const glm::vec3 at = arrivalPlace(surroundings_, fish, tick_);
     const glm::vec3 inwards =
         place::directionOf(surroundings_.obstacles.water.centre - at, glm::vec3{1, 0, 0});
-    place(fish, at, inwards, parameters.medium);
+    putIn(waterNow(), fish, at, inwards, parameters.medium, columns_);
     ++counts_.returns;
-}
-
-// Puts a fish that was away into the water, with a new mind.
-void World::place(std::uint32_t fish, glm::vec3 at, glm::vec3 course, float speed) {
-    const fish::SpeciesParameters& parameters = speciesParameters_[columns_.view.kind[fish]];
-    placeFishAt(columns_.states, fish, at, course);
-    motion::setSpeedBodyLengths(columns_.states, fish, speed);
-    const auto drawn = hashOf(seed_, static_cast<std::uint32_t>(tick_.value));
-    columns_.minds[fish] =
-        behaviour::freshMind(parameters, drawn, fish, columns_.view.fish[fish].length);
-    columns_.courses[fish] = {place::levelled(course), speed, 0};
-    columns_.view.signs[fish] = 0;
 }
 
 }  // namespace aquarama::world

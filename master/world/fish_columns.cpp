@@ -48,12 +48,12 @@ std::uint64_t FishColumns::hash(Tick tick) const {
     hash = folded(hash, memory.patience);
     hash = folded(hash, memory.recoversAt);
     // The only place where kAway is kept as a sign.
-    return folded(hash, view.signs);
+    return fish::foldedWearers(folded(hash, view.signs), wearers);
 }
 
 std::size_t FishColumns::bytes() const {
     return states.bytes() + commands.bytes() + minds.bytes() + memory.bytes() + view.bytes() +
-           bytesIn(traits, courses, thought, rushes);
+           bytesIn(traits, courses, thought, rushes, wearers.ranges, wearers.fish);
 }
 
 }  // namespace aquarama::world

@@ -12,6 +12,7 @@
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
 #include "master/fish/secondary_controller.h"
+#include "master/fish/wearers.h"
 
 namespace aquarama::world {
 
@@ -31,6 +32,8 @@ struct FishColumns {
     std::vector<std::uint8_t> thought;  // in this tick; all 0 between two ticks
     // What others see of the fish, as it was when the last tick began.
     fish::FishView view;
+    // Those that wear visitors' drawings, or wait for them.
+    fish::Wearers wearers;
     // Predators that began to rush at the last tick, by index.
     std::vector<std::uint32_t> rushes;
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fish with visitors' drawings: how they come, how long they show themselves, and how they go.
-#include <cassert>
+#include "master/world/visits.h"
 
+#include "common/base/random_streams.h"
 #include "common/place/place.h"
 #include "master/behaviour/guided.h"
-#include "master/world/world.h"
+#include "master/behaviour/think.h"
+#include "master/world/beginning.h"
 
 namespace aquarama::world {
 
@@ -18,70 +19,90 @@ constexpr std::uint64_t kLeaves = 60 * 60;
 constexpr float kBehindMetres = 0.5F;
 constexpr float kHazeMetres = 14;
 
-void beginStage(fish::Wearer& wearer, fish::Visit visit, Tick tick) {
+void begin(fish::Wearer& wearer, fish::Visit visit, Tick tick) {
     wearer.visit = visit;
     wearer.since = tick;
 }
 
+// Whether a fish is where its viewer does not see it.
+bool isUnseen(const fish::Wearers& wearers, glm::vec3 position) {
+    const glm::vec3 from = position - wearers.eye;
+    return place::dot(from, wearers.ahead) < -kBehindMetres || place::lengthOf(from) > kHazeMetres;
+}
+
+// Out of sight, or too long on its way there.
+bool hasLeft(const FishColumns& columns, const fish::Wearer& wearer, std::uint64_t ticks) {
+    return ticks > kLeaves || columns.view.shows(wearer.fish, fish::kAway) ||
+           isUnseen(columns.wearers, columns.view.position(wearer.fish));
+}
+
+// Its return after it was eaten, if that was under way, is off.
+void sleep(FishColumns& columns, fish::Wearer& wearer, Tick tick, std::vector<Absence>& absences) {
+    motion::setAway(columns.states, wearer.fish);
+    columns.view.signs[wearer.fish] = fish::kAway;
+    std::erase_if(absences, [&](const Absence& absence) { return absence.fish == wearer.fish; });
+    wearer = {.fish = wearer.fish, .since = tick};
+}
+
+bool hasCome(const WaterAtTick& water, const FishColumns& columns, const fish::Wearer& wearer) {
+    return behaviour::isAt(
+        columns.view.position(wearer.fish),
+        behaviour::greetingPlaceOf(columns.wearers, wearer, water.surroundings.obstacles));
+}
+
 }  // namespace
 
-void World::enter(const EnterDrawing& drawing) {
-    fish::Wearer* const wearer = wearers_.of(drawing.fish);
+void putIn(const WaterAtTick& water,
+           std::uint32_t fish,
+           glm::vec3 place,
+           glm::vec3 course,
+           float speed,
+           FishColumns& columns) {
+    placeFishAt(columns.states, fish, place, course);
+    motion::setSpeedBodyLengths(columns.states, fish, speed);
+    const auto drawn = hashOf(water.seed, static_cast<std::uint32_t>(water.tick.value));
+    columns.minds[fish] = behaviour::freshMind(water.speciesParameters[columns.view.kind[fish]],
+                                               drawn,
+                                               fish,
+                                               columns.view.fish[fish].length);
+    columns.courses[fish] = {place::levelled(course), speed, 0};
+    columns.view.signs[fish] = 0;
+}
+
+void enter(const WaterAtTick& water, const EnterDrawing& drawing, FishColumns& columns) {
+    fish::Wearer* const wearer = columns.wearers.of(drawing.fish);
     if (wearer == nullptr || wearer->visit != fish::Visit::Asleep) return;
     wearer->aside = drawing.aside;
     wearer->number = drawing.number;
     wearer->picture = drawing.picture;
-    beginStage(*wearer, fish::Visit::Enters, tick_);
-    const glm::vec3 from = behaviour::entranceOf(wearers_, *wearer, surroundings_.obstacles);
-    const glm::vec3 to = behaviour::greetingPlaceOf(wearers_, *wearer, surroundings_.obstacles);
-    place(drawing.fish,
+    begin(*wearer, fish::Visit::Enters, water.tick);
+    const surroundings::Obstacles& obstacles = water.surroundings.obstacles;
+    const glm::vec3 from = behaviour::entranceOf(columns.wearers, *wearer, obstacles);
+    const glm::vec3 to = behaviour::greetingPlaceOf(columns.wearers, *wearer, obstacles);
+    putIn(water,
+          drawing.fish,
           from,
-          place::directionOf(to - from, wearers_.ahead),
-          speciesParameters_[columns_.view.kind[drawing.fish]].fast);
+          place::directionOf(to - from, columns.wearers.ahead),
+          water.speciesParameters[columns.view.kind[drawing.fish]].fast,
+          columns);
 }
 
-void World::leave(const LeaveDrawing& drawing) {
-    fish::Wearer* const wearer = wearers_.of(drawing.fish);
-    if (wearer == nullptr || wearer->visit == fish::Visit::Asleep) return;
-    beginStage(*wearer, fish::Visit::Leaves, tick_);
+void leave(const LeaveDrawing& drawing, Tick tick, FishColumns& columns) {
+    fish::Wearer* const wearer = columns.wearers.of(drawing.fish);
+    if (wearer != nullptr && wearer->visit != fish::Visit::Asleep)
+        begin(*wearer, fish::Visit::Leaves, tick);
 }
 
-void World::leadWearers() {
-    for (fish::Wearer& wearer : wearers_.fish)
-        if (wearer.visit != fish::Visit::Asleep) lead(wearer);
-}
-
-// From one stage to the next.
-void World::lead(fish::Wearer& wearer) {
-    const std::uint64_t ticks = tick_.value - wearer.since.value;
-    const glm::vec3 position = columns_.view.position(wearer.fish);
-    const glm::vec3 from = position - wearers_.eye;
-    switch (wearer.visit) {
-        case fish::Visit::Enters: {
-            const glm::vec3 goal =
-                behaviour::greetingPlaceOf(wearers_, wearer, surroundings_.obstacles);
-            if (ticks > kEnters || behaviour::isAt(position, goal))
-                beginStage(wearer, fish::Visit::Shows, tick_);
-            return;
-        }
-        case fish::Visit::Shows:
-            if (ticks > kShows) beginStage(wearer, fish::Visit::Stays, tick_);
-            return;
-        case fish::Visit::Leaves: {
-            const bool isUnseen = place::dot(from, wearers_.ahead) < -kBehindMetres ||
-                                  place::lengthOf(from) > kHazeMetres;
-            const bool isAway = columns_.view.shows(wearer.fish, fish::kAway);
-            if (!isUnseen && !isAway && ticks <= kLeaves) return;
-            motion::setAway(columns_.states, wearer.fish);
-            columns_.view.signs[wearer.fish] = fish::kAway;
-            std::erase_if(absences_,
-                          [&](const Absence& absence) { return absence.fish == wearer.fish; });
-            wearer = {.fish = wearer.fish, .since = tick_};
-            return;
-        }
-        case fish::Visit::Asleep:
-        case fish::Visit::Stays:
-            return;
+void leadWearers(const WaterAtTick& water, FishColumns& columns, std::vector<Absence>& absences) {
+    for (fish::Wearer& wearer : columns.wearers.fish) {
+        const std::uint64_t ticks = water.tick.value - wearer.since.value;
+        using enum fish::Visit;
+        if (wearer.visit == Enters && (ticks > kEnters || hasCome(water, columns, wearer)))
+            begin(wearer, Shows, water.tick);
+        else if (wearer.visit == Shows && ticks > kShows)
+            begin(wearer, Stays, water.tick);
+        else if (wearer.visit == Leaves && hasLeft(columns, wearer, ticks))
+            sleep(columns, wearer, water.tick, absences);
     }
 }
 

@@ -18,6 +18,7 @@
 #include "master/fish/minds.h"
 #include "master/surroundings/contact.h"
 #include "master/world/beginning.h"
+#include "master/world/visits.h"
 
 namespace aquarama::world {
 
@@ -202,7 +203,7 @@ World::World(const WorldOptions& options)
     if (options.cast.size() > kMostSpecies)
         throw Error("a cast of " + std::to_string(options.cast.size()) +
                     " species: there is room for " + std::to_string(kMostSpecies));
-    wearers_.mayBeEaten = options.drawingsMayBeEaten;
+    columns_.wearers.mayBeEaten = options.drawingsMayBeEaten;
     for (const WorldSpecies& species : options.cast) addKind(species, options.cast);
     meals_ = makeMeals(columns_.traits.size());
     absences_ = makeAbsences(speciesParameters_);
@@ -234,9 +235,9 @@ void World::addKind(const WorldSpecies& species, const std::vector<WorldSpecies>
     }
     kinds_.push_back({species.tables, fish::gaitsOf(*species.tables), first, last});
     if (species.drawings > 0)
-        wearers_.add({static_cast<std::uint8_t>(kinds_.size() - 1),
-                      static_cast<std::uint32_t>(last - species.drawings),
-                      static_cast<std::uint32_t>(last)});
+        columns_.wearers.add({static_cast<std::uint8_t>(kinds_.size() - 1),
+                              static_cast<std::uint32_t>(last - species.drawings),
+                              static_cast<std::uint32_t>(last)});
     speciesParameters_.push_back(makeSpeciesParameters(
         cast, kinds_.size() - 1, kinds_.back().gaits, surroundings_, first, last));
 }
@@ -260,7 +261,7 @@ void World::begin(const WorldOptions& options) {
         }
         look(kind, kind.first, kind.last, surroundings_.timeOfDay);
     }
-    for (const fish::Wearer& wearer : wearers_.fish) {
+    for (const fish::Wearer& wearer : columns_.wearers.fish) {
         motion::setAway(columns_.states, wearer.fish);
         columns_.view.signs[wearer.fish] = fish::kAway;
     }
@@ -296,10 +297,15 @@ void World::apply(const WorldInput& input) {
         surroundings::setClock(surroundings_, {tick_, clock->timeOfDay, clock->lengthSeconds});
     if (const auto* hands = std::get_if<WallHands>(&input))
         surroundings::holdHands(surroundings_.hands, *hands, tick_);
-    if (const auto* drawing = std::get_if<EnterDrawing>(&input)) enter(*drawing);
-    if (const auto* drawing = std::get_if<LeaveDrawing>(&input)) leave(*drawing);
+    if (const auto* drawing = std::get_if<EnterDrawing>(&input))
+        enter(waterNow(), *drawing, columns_);
+    if (const auto* drawing = std::get_if<LeaveDrawing>(&input)) leave(*drawing, tick_, columns_);
     if (const auto* steered = std::get_if<Steering>(&input))
         surroundings::steer(pilot_, voyage_, *steered, tick_);
+}
+
+WaterAtTick World::waterNow() const {
+    return {surroundings_, speciesParameters_, seed_, tick_};
 }
 
 void World::moveSubmarine() {
@@ -312,16 +318,16 @@ void World::showSubmarine() {
     surroundings_.submarine.position = pilot_.vessel.position;
     surroundings_.submarine.velocityMetresPerSecond = pilot_.vessel.velocity;
     surroundings::placeHands(surroundings_.hands, pilot_.vessel, tick_);
-    wearers_.eye = pilot_.vessel.position;
-    wearers_.right = surroundings::rightOf(pilot_.vessel.attitude);
-    wearers_.ahead = {wearers_.right.z, 0, -wearers_.right.x};
+    columns_.wearers.eye = pilot_.vessel.position;
+    columns_.wearers.right = surroundings::rightOf(pilot_.vessel.attitude);
+    columns_.wearers.ahead = {columns_.wearers.right.z, 0, -columns_.wearers.right.x};
 }
 
 void World::advance() {
     school_.moveTo(tick_, columns_.states);
     receive();
     if (unseen_ == 0) moveSubmarine();
-    leadWearers();
+    leadWearers(waterNow(), columns_, absences_);
     beginTick();
     swallow();
     findRushes();
@@ -395,7 +401,7 @@ behaviour::Environment World::environment() const {
             .seed = seed_,
             .tick = tick_,
             .adaptation = adaptation_,
-            .wearers = wearers_.fish.empty() ? nullptr : &wearers_};
+            .wearers = columns_.wearers.fish.empty() ? nullptr : &columns_.wearers};
 }
 
 // Thoughts of this tick. Fish think in the order in which they stand in the grid, because
@@ -427,7 +433,7 @@ void World::thinkAll() {
 
 // Every few ticks, and at once where a predator near it has begun to rush.
 bool World::thinks(std::uint32_t fish) const {
-    const fish::Wearer* const wearer = wearers_.of(fish);
+    const fish::Wearer* const wearer = columns_.wearers.of(fish);
     if (wearer != nullptr && wearer->visit == fish::Visit::Asleep) return false;
     const bool isAlarmed = columns_.view.shows(fish, fish::kAlarmed);
     if (fish::thinksAt(tick_, fish, isAlarmed)) return true;
@@ -513,20 +519,20 @@ std::uint64_t World::hash() const {
     for (const Meals::Swallow& swallow : meals_.swallows)
         hash = foldedOne(foldedOne(foldedOne(hash, swallow.fish), swallow.particle),
                          swallow.ticksLeft);
-    hash = fish::foldedWearers(hash, wearers_);
     return surroundings::foldedPilot(surroundings::foldedSurroundings(hash, surroundings_), pilot_);
 }
 
 std::size_t World::bytes() const {
     return grids_.bytes() + columns_.bytes() + meals_.swallows.capacity() * sizeof(Meals::Swallow) +
-           absences_.capacity() * sizeof(Absence) + bytesIn(wearers_.ranges, wearers_.fish);
+           absences_.capacity() * sizeof(Absence);
 }
 
 void World::records(std::vector<motion::FishRecord>& records) const {
     records.resize(columns_.states.size());
     for (std::size_t fish = 0; fish < columns_.states.size(); ++fish)
         records[fish] = motion::recordOf(columns_.states, fish);
-    for (const fish::Wearer& wearer : wearers_.fish) records[wearer.fish].skin = wearer.number;
+    for (const fish::Wearer& wearer : columns_.wearers.fish)
+        records[wearer.fish].skin = wearer.number;
 }
 
 }  // namespace aquarama::world

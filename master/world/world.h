@@ -26,9 +26,9 @@
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
 #include "master/fish/secondary_controller.h"
-#include "master/fish/wearers.h"
 #include "master/surroundings/pilot.h"
 #include "master/surroundings/surroundings.h"
+#include "master/world/absences.h"
 #include "master/world/events.h"
 #include "master/world/fish_columns.h"
 
@@ -49,19 +49,6 @@ struct WorldCounts {
     std::uint64_t charges = 0;
     friend bool operator==(const WorldCounts&, const WorldCounts&) = default;
 };
-
-// A fish that was eaten, and the tick at which its place is taken.
-struct Absence {
-    std::uint32_t fish = 0;
-    Tick until;
-};
-
-// An empty list with room for all fish that some species hunts. It is kept in the order in which
-// they were eaten.
-[[nodiscard]] std::vector<Absence> makeAbsences(
-    std::span<const fish::SpeciesParameters> speciesParameters);
-// An absence that ends 20 to 60 seconds from now, drawn by the seed.
-[[nodiscard]] Absence absenceFrom(std::uint32_t seed, std::uint32_t fish, Tick now);
 
 // The first place of a new fish: in the water, clear of rocks and sand; of several drawn the one
 // farthest from the eye, where all beyond 12 m count as hidden by haze.
@@ -99,6 +86,8 @@ struct WorldOptions {
     std::vector<WorldSpecies> cast;
     fish::Adaptation adaptation;
 };
+
+struct WaterAtTick;
 
 // Where the school is or is drawn to: the middle of a bait ball, or that of its members.
 class SchoolGoal {
@@ -163,8 +152,6 @@ class World {
     // The environment that fish saw in the last tick. Points into this world.
     [[nodiscard]] behaviour::Environment environment() const;
     [[nodiscard]] std::span<const motion::FishTraits> traits() const { return columns_.traits; }
-    // Fish that wear visitors' drawings, or wait for them.
-    [[nodiscard]] const fish::Wearers& wearers() const { return wearers_; }
     [[nodiscard]] const WorldCounts& counts() const { return counts_; }
     // Memory of all that grows with the number of fish.
     [[nodiscard]] std::size_t bytes() const;
@@ -199,7 +186,6 @@ class World {
     void swim(const Chunk& chunk);
     void carry(const Chunk& chunk);
     void swallow();
-    [[nodiscard]] glm::vec3 mouthOf(std::uint32_t fish) const;
     void performEvents();
     void perform(const fish::DeferredEvent& event);
     void feed(std::uint32_t fish);
@@ -207,11 +193,7 @@ class World {
     void remindLeaders(std::uint32_t charged);
     void receive();
     void arrive(std::uint32_t fish);
-    void enter(const EnterDrawing& drawing);
-    void leave(const LeaveDrawing& drawing);
-    void leadWearers();
-    void lead(fish::Wearer& wearer);
-    void place(std::uint32_t fish, glm::vec3 at, glm::vec3 course, float speed);
+    [[nodiscard]] WaterAtTick waterNow() const;
     void moveSubmarine();
     void showSubmarine();
 
@@ -228,7 +210,6 @@ class World {
     surroundings::Voyage voyage_;
     surroundings::Pilot pilot_;
     Meals meals_;
-    fish::Wearers wearers_;
     std::vector<Absence> absences_;
     WorldCounts counts_;
     behaviour::Grids grids_;

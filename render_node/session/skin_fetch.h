@@ -26,6 +26,7 @@ namespace aquarama::session {
 // again. Used by the net thread.
 class SkinFetch {
   public:
+    // Of all drawings that are there; never null.
     using Skins = std::shared_ptr<const body::SkinsByNumber>;
     // `say` sends a message to the master. `wake` makes the net thread call turn() soon; it is
     // called from another thread. `offer` takes all skins that are there, whenever others are.

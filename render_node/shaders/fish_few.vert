@@ -2,6 +2,7 @@
 // not pay. In: control point, normal at rest (body frame), place on the skin. Out: as fish.vert, in
 // world metres and clip space.
 #include "frame_uniforms.h"
+#include "fish_coarse.glsl"
 #include "fish_pose.glsl"
 #include "wears_own.glsl"
 
@@ -11,18 +12,6 @@ layout(location = 2) in uint vertexPart;
 layout(location = 3) in uint slot;  // of the instance: its place in the school
 layout(location = 4) in uint controlPoint;
 layout(location = 5) in vec3 restNormal;
-
-// As of fish.vert.
-layout(location = 0) out vec3 place;
-layout(location = 1) out vec3 normal;
-layout(location = 2) out vec4 rest;
-layout(location = 3) out vec2 fin;
-layout(location = 4) flat out uint part;
-layout(location = 5) flat out uint id;
-layout(location = 6) flat out vec3 dorsal;
-layout(location = 7) out float opacity;
-layout(location = 9) flat out float size;
-layout(location = 11) flat out uint drawing;
 
 void main() {
     Fish self = fish[slot];

@@ -4,23 +4,12 @@
 // fish. Out: as fish.vert. The size follows the shared eye, not the view's own, so that neighbours
 // agree.
 #include "frame_uniforms.h"
+#include "fish_coarse.glsl"
 #include "fish_school.glsl"
 #include "fish_lists.glsl"
 #include "wears_own.glsl"
 
 layout(location = 3) in uint slot;  // of the instance: its place in the school
-
-// As of fish.vert.
-layout(location = 0) out vec3 place;
-layout(location = 1) out vec3 normal;
-layout(location = 2) out vec4 rest;
-layout(location = 3) out vec2 fin;
-layout(location = 4) flat out uint part;
-layout(location = 5) flat out uint id;
-layout(location = 6) flat out vec3 dorsal;
-layout(location = 7) out float opacity;
-layout(location = 9) flat out float size;
-layout(location = 11) flat out uint drawing;
 
 const vec2 kCorners[5] =
     vec2[](vec2(0.0), vec2(-1.0, -1.0), vec2(1.0, -1.0), vec2(1.0, 1.0), vec2(-1.0, 1.0));

@@ -43,10 +43,10 @@ class DrawingsInAWorld : public ::testing::Test {
         return motion::isAway(world.states(), fish);
     }
     [[nodiscard]] fish::Visit visit(std::uint32_t fish) const {
-        return world.wearers().of(fish)->visit;
+        return world.environment().wearers->of(fish)->visit;
     }
     [[nodiscard]] glm::vec3 fromEye(std::uint32_t fish) const {
-        return world.view().position(fish) - world.wearers().eye;
+        return world.view().position(fish) - world.environment().wearers->eye;
     }
     [[nodiscard]] std::uint32_t skinOf(std::uint32_t fish) const {
         std::vector<motion::FishRecord> records;
