@@ -60,6 +60,8 @@ declare -A way=(
     [console_mind.png]=console
     [guests_waiting.png]=guests
     [guests_steering.png]=guests
+    [drawings_fish.webp]=drawings
+    [drawings_wall.webp]=drawings_wall
     [televisions_plan.svg]=televisions
     [televisions_grid.webp]=televisions
     [televisions_reef.webp]=televisions
@@ -299,6 +301,57 @@ console() {
 guests() {
     cmake --build --preset show-tests --target aquarama-console aquarama-guests
     AQUARAMA_BIN=$PWD/$bin AQUARAMA_SHOTS=$drawn /usr/bin/python3 tests/guests/page_test.py
+}
+# Six sheets that a program has coloured, as a simulated camera sees them, and the fish that wear what was read from them.
+drawings() {
+    local name length number=0
+    local -a photos=() fish=()
+    cmake --build --preset show-tests --target aquarama-drawings aquarama_draw_photos
+    build/show/tests/aquarama_draw_photos "$drawn/photos" 6 clownfish blue_tang butterflyfish parrotfish moorish_idol \
+        lionfish >"$drawn/log"
+    mkdir "$drawn/skins"
+    $bin/aquarama-drawings read "$drawn"/photos/*.jpg --out "$drawn/skins"
+    while read -r name length; do
+        number=$((number + 1))
+        $bin/aquarama_draw_still --portrait "$name" --drawing "$drawn/skins/$number-$name.png" --length "$length" \
+            --away "$(awk "BEGIN { print 1.5 * $length }")" --turn 192 --fov 40 --azimuth 10 --width 400 --height 300 \
+            --quality ultra --out "$drawn/worn-$name.png"
+        /usr/bin/python3 -c 'import sys; from PIL import Image, ImageOps
+ImageOps.fit(Image.open(sys.argv[1]), (400, 300)).save(sys.argv[2])' "$drawn/photos/$number.jpg" "$drawn/photo-$name.png"
+        photos+=("$drawn/photo-$name.png")
+        fish+=("$drawn/worn-$name.png")
+    done <<'END'
+clownfish 0.09
+blue_tang 0.22
+butterflyfish 0.17
+parrotfish 0.32
+moorish_idol 0.18
+lionfish 0.28
+END
+    $bin/aquarama_draw_sheet "$drawn/drawings_fish.png" 3 "${photos[@]:0:3}" "${fish[@]:0:3}" "${photos[@]:3}" "${fish[@]:3}"
+    smaller drawings_fish
+}
+# A running desk, some seconds after ten photographs were put into its folder.
+drawings_wall() {
+    local hall=$drawn/hall show
+    cmake --build --preset show-tests --target aquarama-drawings aquarama-console aquarama_draw_photos
+    mkdir -p "$hall/scanner"
+    build/show/tests/aquarama_draw_photos "$drawn/ten" 10 clownfish blue_tang butterflyfish parrotfish moorish_idol \
+        lionfish >"$drawn/log"
+    sed "s|\"scenes/|\"$PWD/config/scenes/|" config/desk.txtpb >"$hall/drawings.txtpb"
+    echo 'drawings { let_in: AT_ONCE folder: "scanner" }' >>"$hall/drawings.txtpb"
+    XDG_STATE_HOME=$hall $bin/aquarama run "$hall/drawings.txtpb" --headless --live --quality medium \
+        --snapshot "$drawn/wall" >"$hall/log" 2>&1 &
+    show=$!
+    until [ "$(grep -c "takes part" "$hall/log")" = 3 ]; do sleep 1; done
+    cp "$drawn"/ten/*.jpg "$hall/scanner"
+    until grep -q "drawing 10:" "$hall/log"; do sleep 1; done
+    sleep 15
+    kill -INT "$show"
+    wait "$show"
+    $bin/aquarama-compose compose "$hall/drawings.txtpb" "$drawn/wall"
+    cp "$drawn/wall/panorama.png" "$drawn/drawings_wall.png"
+    smaller drawings_wall
 }
 # The steps of the guide, as their test goes through them, on three monitors of an X server of its own.
 televisions() {

@@ -72,21 +72,25 @@ void fill(Level& fine, const Level& coarse) {
                 fine.texels[at] += (1 - fine.texels[at].w) * between(coarse, x, y);
 }
 
+// The same, all of it known.
+Level filled(const Level& level) {
+    std::vector<Level> levels{level};
+    while (levels.back().texels.size() > 1) levels.push_back(halved(levels.back()));
+    glm::vec4& mean = levels.back().texels.front();
+    if (mean.w > 0) mean /= mean.w;
+    for (std::size_t i = levels.size() - 1; i > 0; --i) fill(levels[i - 1], levels[i]);
+    return std::move(levels.front());
+}
+
 }  // namespace
 
 void bleed(PngPicture& skin) {
     assert(skin.components == 4 && skin.bits == 8);
-    std::vector<Level> levels{levelOf(skin)};
-    while (levels.back().texels.size() > 1) levels.push_back(halved(levels.back()));
-    glm::vec4& mean = levels.back().texels.front();
-    if (mean.w > 0) mean /= mean.w;
-    for (std::size_t level = levels.size() - 1; level > 0; --level)
-        fill(levels[level - 1], levels[level]);
+    const Level level = filled(levelOf(skin));
     for (std::size_t at = 0; at < skin.codes.size(); at += 4)
-        if (skin.codes[at + 3] == 0)
-            for (int c = 0; c < 3; ++c)
-                skin.codes[at + static_cast<std::size_t>(c)] =
-                    static_cast<std::uint16_t>(std::lround(levels[0].texels[at / 4][c]));
+        for (std::size_t c = 0; c < 3 && skin.codes[at + 3] == 0; ++c)
+            skin.codes[at + c] =
+                static_cast<std::uint16_t>(std::lround(level.texels[at / 4][static_cast<int>(c)]));
 }
 
 }  // namespace aquarama::drawings

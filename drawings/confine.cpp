@@ -83,6 +83,7 @@ void filterCalls() {
 }  // namespace
 
 void confine() {
+    if (kIsSanitized) return;
     constexpr rlim_t kMostAddresses = 1'500'000'000, kMostSeconds = 20;
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_AS, kMostAddresses);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "guests/deed.h"
 
-#include <algorithm>
+#include <cctype>
 
 namespace aquarama::guests {
 
@@ -20,20 +20,21 @@ bool isOutOfFear(v1::Explanation::Intention intention) {
            intention == v1::Explanation::SCHOOL;
 }
 
+// The name of an intention in small letters.
+std::string nameOf(v1::Explanation::Intention intention) {
+    std::string name = v1::Explanation::Intention_Name(intention);
+    for (char& letter : name) letter = static_cast<char>(std::tolower(letter));
+    return name;
+}
+
 }  // namespace
 
 FishDeed deedOf(const v1::Explanation& told) {
-    FishDeed deed;
-    if (!told.has_intention() || told.intention() == v1::Explanation::INTENTION_UNSPECIFIED)
-        return deed;
-    deed.does = v1::Explanation::Intention_Name(told.intention());
-    std::ranges::transform(deed.does, deed.does.begin(), [](char letter) {
-        return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-    });
-    deed.whom = speciesIn(told.target());
+    if (!told.has_intention()) return {};
+    FishDeed deed{.does = nameOf(told.intention()), .whom = speciesIn(told.target()), .saw = {}};
+    if (!isOutOfFear(told.intention())) return deed;
     for (const v1::Sighting& sighting : told.seen())
-        if (sighting.kind() == v1::Sighting::PREDATOR && isOutOfFear(told.intention()))
-            deed.saw = speciesIn(sighting.name());
+        if (sighting.kind() == v1::Sighting::PREDATOR) deed.saw = speciesIn(sighting.name());
     return deed;
 }
 

@@ -28,6 +28,7 @@ constexpr double kHelmHolds = 0.35;       // seconds after a phone was last hear
 constexpr int kCountdown = 5;             // last seconds of a turn that the wall counts
 constexpr std::uint64_t kTicksATell = 5;  // 10 ticks a second
 constexpr std::uint64_t kTicksAKeep = 10;
+constexpr double kLooks = 4;  // seconds after which nobody looks at the wall's picture
 constexpr std::size_t kDigits = 3;
 
 // The loopback's names are ours as well. Browsers leave port 80 out.
@@ -55,6 +56,14 @@ std::optional<Steering> steeringIn(const json& helm) {
         steering.*kAxes[i] = static_cast<std::int8_t>(number);
     }
     return steering;
+}
+
+// Of an array of two shares; nothing where it is none.
+std::optional<glm::vec2> placeIn(const json& place) {
+    const bool isPlace =
+        place.is_array() && place.size() == 2 && place[0].is_number() && place[1].is_number();
+    if (!isPlace) return std::nullopt;
+    return glm::vec2{place[0].get<float>(), place[1].get<float>()};
 }
 
 // The text of a member; empty where it is none.
@@ -117,12 +126,24 @@ HttpReply GuestService::answer(const HttpRequest& request) {
     if (std::ranges::find(hosts_, request.host) == hosts_.end())
         return {.status = 421, .body = "visitors are not served by that name\n"};
     if (VisitorDrawings::isMeant(request)) return drawings_.take(request);
+    if (request.target.starts_with("/wall.jpg?")) return picture();
     if (request.method != "GET" && request.method != "HEAD")
         return {.status = 405, .body = "only GET\n"};
     HttpRequest page = request;
     if (page.target.starts_with("/P/") || page.target.starts_with("/p/")) page.target = "/";
     auto found = web::pageAt(embeddedPages(), page);
     return found ? *std::move(found) : HttpReply{.status = 404, .body = "there is no such page\n"};
+}
+
+// The newest; whoever asks for it sees to it that there will be a newer one.
+HttpReply GuestService::picture() {
+    lookedAt_ = clock_();
+    const std::string jpeg = options_.picture == nullptr ? "" : options_.picture->jpeg();
+    if (jpeg.empty()) return {.status = 404, .body = "there is no picture of the wall\n"};
+    return {.status = 200,
+            .type = "image/jpeg",
+            .body = jpeg,
+            .headers = {{"Cache-Control", "no-store"}}};
 }
 
 std::unique_ptr<web::Service::Connection> GuestService::open(const HttpRequest& request,
@@ -155,7 +176,8 @@ void GuestService::hear(Phone& phone, const std::string& text) {
         if (const auto steering = steeringIn(*helm)) steer(phone, *steering);
         return;
     }
-    if (message.contains("feed")) feed(phone);
+    if (const auto place = message.find("feed"); place != message.end())
+        feed(phone, placeIn(*place));
     if (message.contains("join") && isOpen()) queue_.join(phone.guest);
     if (message.contains("leave")) queue_.leave(phone.guest, queueNow_);
     advanceQueue();
@@ -223,8 +245,8 @@ void GuestService::steer(const Phone& phone, const Steering& steering) {
     port_.steer(helm_);
 }
 
-// Where the eye looks, some metres before it.
-void GuestService::feed(Phone& phone) {
+// Where the finger points, or where the eye looks: some metres before it.
+void GuestService::feed(Phone& phone, const std::optional<glm::vec2>& place) {
     const double now = clock_();
     Visit& visit = *sessions_.find(phone.guest);
     if (!isOpen() || now < visit.mayFeed || !pellets_.take(now)) return;
@@ -232,7 +254,10 @@ void GuestService::feed(Phone& phone) {
     const auto between = [&](float least, float most) {
         return std::uniform_real_distribution<float>(least, most)(random_);
     };
-    const glm::vec3 before{between(-0.8F, 0.8F), between(0.0F, 0.5F), -between(2.0F, 3.0F)};
+    glm::vec3 before{between(-0.8F, 0.8F), between(0.0F, 0.5F), -between(2.0F, 3.0F)};
+    if (place && options_.picture != nullptr)
+        if (const auto direction = options_.picture->map().directionAt(*place))
+            before = *direction * between(2.0F, 3.0F);
     port_.feed(wall_->eye.positionMetres + wall_->eye.worldFromWall * before);
 }
 
@@ -307,6 +332,7 @@ void GuestService::tick() {
         tellAll();
     }
     if (ticks_ % kTicksAKeep != 0) return;
+    if (options_.picture != nullptr && now - lookedAt_ < kLooks) options_.picture->ask();
     for (const GuestId& guest : sessions_.forget(now)) queue_.leave(guest, queueNow_);
     keepSeats();
 }
@@ -333,6 +359,7 @@ void GuestService::tell(Phone& phone) {
     if (phone.guest.empty()) return say(phone, "state", {{"you", "stranger"}});
     const auto& seats = queue_.seats();
     json message{{"you", "guest"}, {"line", seats.size()}, {"most", VisitorQueue::kMostSeats}};
+    message["wall"] = options_.picture != nullptr;
     message["feed_s"] =
         std::lround(std::ceil(std::max(sessions_.find(phone.guest)->mayFeed - clock_(), 0.0)));
     if (json drawings = drawings_.told(phone.guest, clock_()); !drawings.is_null())

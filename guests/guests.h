@@ -25,6 +25,7 @@
 #include "guests/token.h"
 #include "guests/visitor_drawings.h"
 #include "guests/wall_link.h"
+#include "guests/wall_picture.h"
 
 namespace aquarama::guests {
 
@@ -42,6 +43,7 @@ struct GuestsOptions {
     std::filesystem::path seatFile;  // what survives a restart
     QueueTimes times = {};
     DrawingPlace drawings = {};
+    WallPicture* picture = nullptr;  // null: phones are shown none; outlives the service
 };
 
 // One connected phone.
@@ -92,7 +94,9 @@ class GuestService final : public web::Service {
     void resume(Phone& phone, const std::string& secret);
     void welcome(Phone& phone, const GuestId& guest);
     void steer(const Phone& phone, const Steering& steering);
-    void feed(Phone& phone);
+    // In the direction of a place of the wall's picture, as shares of its size; nothing: ahead.
+    void feed(Phone& phone, const std::optional<glm::vec2>& place);
+    [[nodiscard]] web::HttpReply picture();
     void gone(Phone& phone);
     [[nodiscard]] bool isOurs(const web::HttpRequest& request) const;
     [[nodiscard]] bool acceptsCode(Phone& phone, const std::string& code);
@@ -118,6 +122,7 @@ class GuestService final : public web::Service {
     double queueNow_ = 0;  // seconds for which the wall was open: turns rest while it is not
     double lastTick_ = 0;
     std::uint64_t ticks_ = 0;
+    double lookedAt_ = 0;  // when a phone last asked for the wall's picture
     std::optional<WallState> wall_;
     std::set<Phone*> phones_;
     Steering helm_;

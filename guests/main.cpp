@@ -64,6 +64,12 @@ std::filesystem::path seatFileOf(const std::string& rig) {
     return userFolder("XDG_RUNTIME_DIR", ".cache") / "guests" / std::filesystem::path(rig).stem();
 }
 
+// Null where nodes bring no pictures.
+std::unique_ptr<guests::WallPicture> pictureOf(const Options& options, const config::Rig& rig) {
+    if (rig.guests->picturesAddress.empty()) return nullptr;
+    return std::make_unique<guests::WallPicture>(rig, ask::watchKeysOf(options.rig, options.keys));
+}
+
 // Has the server's thread do something soon; set before anything else runs.
 using Post = std::function<void(std::function<void()>)>;
 
@@ -107,10 +113,12 @@ void serve(const Options& options, const config::Rig& rig) {
     guests::WallLink link({.rig = options.rig, .address = {}, .key = keyOf(options, rig)});
     Post post;
     std::unique_ptr<ask::DrawingReader> reader = readerOf(rig);
+    const std::unique_ptr<guests::WallPicture> picture = pictureOf(options, rig);
     guests::GuestService visitors({.place = *rig.guests,
                                    .key = randomBytes<std::tuple_size_v<guests::DoorTokens::Key>>(),
                                    .seatFile = seatFileOf(options.rig),
-                                   .drawings = placeOf(rig, reader.get(), post)},
+                                   .drawings = placeOf(rig, reader.get(), post),
+                                   .picture = picture.get()},
                                   link,
                                   secondsNow);
     constexpr std::size_t kBesidePhones = 100;  // connections that only fetch the page

@@ -24,6 +24,14 @@ bool isName(const std::string& text) {
            text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
+// Of a visitor's drawings, up to the end of his line.
+std::vector<std::uint32_t> numbersIn(std::istream& words) {
+    std::vector<std::uint32_t> numbers;
+    std::uint32_t number = 0;
+    while (numbers.size() < Visit::kMostDrawings && words >> number) numbers.push_back(number);
+    return numbers;
+}
+
 }  // namespace
 
 std::optional<std::string> Sessions::admit(double now) {
@@ -93,9 +101,7 @@ std::vector<GuestSeat> Sessions::restore(const std::filesystem::path& file, doub
         const auto [visit, isNew] = visits_.try_emplace(seat.guest, Visit{.seen = now});
         if (!isNew || !(words >> seat.left)) continue;
         if (seat.left > 0) seats.push_back(seat);
-        auto& drawings = visit->second.drawings;
-        for (std::uint32_t number = 0; drawings.size() < Visit::kMostDrawings && words >> number;)
-            drawings.push_back(number);
+        visit->second.drawings = numbersIn(words);
     }
     return seats;
 }

@@ -20,8 +20,8 @@ constexpr net::Duration kBetweenQuestions = milliseconds(1000);  // for the same
 constexpr std::size_t kMostFood = 16;                            // that waits for the thread
 constexpr std::size_t kMostOffers = 16;
 
-WallDrawing::Condition conditionOf(v1::DrawingStatus::Condition condition) {
-    switch (condition) {
+WallDrawing::Condition conditionOf(const v1::DrawingStatus& drawing) {
+    switch (drawing.condition()) {
         case v1::DrawingStatus::SWIMMING:
             return WallDrawing::Condition::Swimming;
         case v1::DrawingStatus::HOMELESS:
@@ -31,6 +31,12 @@ WallDrawing::Condition conditionOf(v1::DrawingStatus::Condition condition) {
         default:
             return WallDrawing::Condition::Waiting;
     }
+}
+
+WallDrawing drawingOf(const v1::DrawingStatus& one) {
+    WallDrawing drawing{.condition = conditionOf(one), .fish = {}};
+    if (one.has_fish()) drawing.fish = one.fish();
+    return drawing;
 }
 
 }  // namespace
@@ -114,7 +120,7 @@ void WallLink::work(const Wishes& wishes) {
     for (const glm::vec3& position : wishes.food) client_.feed(position);
     const v1::StatusReply status = client_.status();
     lookAtDrawings(status);
-    listener_.heard(WallState{.isOpen = status.guests(),
+    listener_.heard(WallState{.isOpen = status.guests() && !status.show().black(),
                               .eye = wire::readEye(status.eye()).value_or(wire::Eye{}),
                               .drawings = drawings_});
     if (status.guests()) showSign();
@@ -126,16 +132,12 @@ void WallLink::work(const Wishes& wishes) {
 // All of them, whenever something has changed.
 void WallLink::lookAtDrawings(const v1::StatusReply& status) {
     const bool areOn = status.drawings() && status.has_drawings_version();
-    if (!areOn) drawingsVersion_.reset();
     if (!areOn) drawings_.reset();
-    if (!areOn || drawingsVersion_ == status.drawings_version()) return;
+    if (!areOn || (drawings_ && drawingsVersion_ == status.drawings_version())) return;
     const v1::DrawingsReply reply = client_.drawings();
     auto drawings = std::make_shared<WallDrawings>();
-    for (const v1::DrawingStatus& one : reply.drawings()) {
-        WallDrawing& drawing = (*drawings)[one.number()];
-        drawing.condition = conditionOf(one.condition());
-        if (one.has_fish()) drawing.fish = one.fish();
-    }
+    for (const v1::DrawingStatus& one : reply.drawings())
+        (*drawings)[one.number()] = drawingOf(one);
     drawings_ = std::move(drawings);
     drawingsVersion_ = reply.version();
 }

@@ -115,7 +115,7 @@ class WallLink final : public VisitedWall {
     // Of the thread.
     net::Moment signShown_{};
     std::shared_ptr<const WallDrawings> drawings_;
-    std::optional<std::uint64_t> drawingsVersion_;    // of drawings_
+    std::uint64_t drawingsVersion_ = 0;               // of drawings_
     std::map<std::uint32_t, net::Moment> explained_;  // when each fish was asked for last
     std::mutex mutex_;                                // guards what follows
     std::condition_variable changed_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <cstdlib>
 #include <optional>
@@ -22,6 +21,7 @@
 #include <unistd.h>
 
 #include "common/base/log.h"
+#include "common/wire/messages.h"
 
 namespace aquarama::ask {
 
@@ -31,8 +31,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kProgram = "aquarama-drawings";
-constexpr std::size_t kMostSkinBytes = std::size_t{2} << 20U;
-constexpr std::size_t kMostAnswerBytes = kMostSkinBytes + 256;
+constexpr std::size_t kMostAnswerBytes = wire::kMostSkinBytes + 256;
 
 // Beside the running program, else in PATH; empty: nowhere.
 fs::path decoder() {
@@ -154,15 +153,11 @@ std::optional<std::string_view> after(std::string_view beginning, std::string_vi
 
 // "SPECIES BYTES", and the skin behind it.
 std::optional<DrawingOutcome> drawingIn(std::string_view head, std::string_view skin) {
-    const std::size_t space = head.find(' ');
-    if (space == std::string_view::npos || !isWord(head.substr(0, space))) return std::nullopt;
-    const std::string_view number = head.substr(space + 1);
-    std::size_t bytes = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), bytes);
-    const bool isWhole = error == std::errc() && end == number.data() + number.size() &&
-                         bytes == skin.size() && bytes > 0 && bytes <= kMostSkinBytes;
+    const std::string_view species = head.substr(0, head.find(' '));
+    const bool isWhole = isWord(species) && !skin.empty() && skin.size() <= wire::kMostSkinBytes &&
+                         head == std::string(species) + ' ' + std::to_string(skin.size());
     if (!isWhole) return std::nullopt;
-    return ReadDrawing{std::string(head.substr(0, space)), std::string(skin)};
+    return ReadDrawing{std::string(species), std::string(skin)};
 }
 
 // Of what the decoder has said, which is not believed; nothing where it makes no sense.
@@ -240,6 +235,7 @@ DrawingOutcome DrawingReader::outcomeOf(const std::string& picture) {
     while (child.runs() && exchange.goOn() && !hasEnded())
         if (Clock::now() > giveUp) break;
     if (auto outcome = outcomeIn(exchange.answer())) return *std::move(outcome);
+    if (hasEnded()) return DrawingRefused{"unreadable"};
     ++failures_;
     logWarning(
         "a visitor's picture of {} bytes could not be read: {} was killed or failed; it is "

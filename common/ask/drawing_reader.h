@@ -31,9 +31,10 @@ struct DrawingRefused {
     std::string word;
 };
 
+// What became of a picture.
 using DrawingOutcome = std::variant<ReadDrawing, DrawingRefused>;
 
-// What is read at most, of a picture in bytes.
+// What is read at most, of a picture in bytes; as drawings/photo.h.
 inline constexpr std::size_t kMostPictureBytes = std::size_t{16} << 20U;
 
 // Reads one picture after another, on its own thread.

@@ -9,6 +9,7 @@
 #include "common/base/log.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
+#include "common/wire/parts.h"
 
 namespace aquarama::ask {
 
@@ -80,12 +81,15 @@ void RequestClient::feed(const glm::vec3& position) {
 
 v1::Envelope RequestClient::ask(const v1::Envelope& question, v1::Envelope::MessageCase reply) {
     constexpr net::Duration kPatience = std::chrono::seconds(2);
-    constexpr net::Duration kRepeat = std::chrono::milliseconds(50);
+    const std::vector<wire::Packet> packets =
+        wire::partsOf(wire::encode(0, question), freshRequest());
+    // A large question is on its way for a while.
+    const net::Duration repeat = std::chrono::milliseconds(packets.size() == 1 ? 50 : 1000);
     const net::Moment giveUp = net::monotonicNow() + kPatience;
     preparing_.clear();
     while (net::monotonicNow() < giveUp) {
-        channels_->sendControl(wire::encode(0, question));
-        channels_->wait(kRepeat);
+        for (const wire::Packet& packet : packets) channels_->sendControl(packet);
+        channels_->wait(repeat);
         std::optional<v1::Envelope> newest;
         while (const auto bytes = channels_->receiveControl()) {
             auto message = wire::decode(*bytes);

@@ -5,6 +5,8 @@
 
 #include <array>
 #include <chrono>
+#include <cstdint>
+#include <limits>
 #include <list>
 #include <map>
 #include <memory>
@@ -220,6 +222,7 @@ asio::awaitable<void> upgrade(Shared& shared,
     co_await listen(shared, live);
 }
 
+// Of one request, as far as it has come.
 using Parser = http::request_parser<http::string_body>;
 
 // The rest of a request whose head was read.
@@ -252,6 +255,38 @@ asio::awaitable<void> refuseBody(Stream& stream, BeastRequest& head, HttpReply r
                                         asio::redirect_error(asio::use_awaitable, error));
 }
 
+// The next request. Its `place` is the service's. Nothing where the connection ends: it was refused
+// or cut off, or had no more to say.
+template <class Stream>
+asio::awaitable<std::optional<BeastRequest>> nextRequest(Shared& shared,
+                                                         Stream& stream,
+                                                         beast::flat_buffer& buffer,
+                                                         const std::string& peer,
+                                                         bool hasServed,
+                                                         std::shared_ptr<const void>& place) {
+    Parser parser;
+    parser.header_limit(kMostHeaderBytes);
+    parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // until it is admitted
+    beast::get_lowest_layer(stream).expires_after(kRequestTime);
+    beast::error_code error;
+    co_await http::async_read_header(
+        stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
+    if (!error) {
+        HttpReply refusal;
+        const auto admission = shared.service.admit(requestOf(parser.get(), peer), refusal);
+        if (!admission) {
+            co_await refuseBody(stream, parser.get(), std::move(refusal));
+            co_return std::nullopt;
+        }
+        place = admission->place;
+        error = co_await readBody(stream, buffer, parser, *admission);
+    }
+    if (!error) co_return parser.release();
+    const bool isIdle = hasServed && !parser.got_some();  // and may go at any time
+    if (error != http::error::end_of_stream && !isIdle) ++shared.cutOff;
+    co_return std::nullopt;
+}
+
 // Requests one after another, until one becomes a WebSocket. `greet` makes the stream ready.
 template <class Stream, class Greet>
 asio::awaitable<void> serve(Shared& shared, Stream stream, Executor executor, Greet greet) {
@@ -263,39 +298,18 @@ asio::awaitable<void> serve(Shared& shared, Stream stream, Executor executor, Gr
     if (!goesOn) ++shared.cutOff;
     bool hasServed = false;
     while (goesOn) {
-        Parser parser;
-        parser.header_limit(kMostHeaderBytes);
-        parser.body_limit(boost::none);
-        beast::get_lowest_layer(stream).expires_after(kRequestTime);
-        beast::error_code error;
-        co_await http::async_read_header(
-            stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
-        std::optional<Admission> admission;
-        HttpReply refusal;
-        if (!error) {
-            admission = shared.service.admit(requestOf(parser.get(), peer), refusal);
-            if (!admission) {
-                co_await refuseBody(stream, parser.get(), std::move(refusal));
-                co_return;
-            }
-            if (admission->place) seat.settle();
-            error = co_await readBody(stream, buffer, parser, *admission);
-        }
-        if (error) {
-            const bool isIdle = hasServed && !parser.got_some();  // and may go at any time
-            if (error != http::error::end_of_stream && !isIdle) ++shared.cutOff;
-            break;
-        }
+        std::shared_ptr<const void> place;
+        auto request = co_await nextRequest(shared, stream, buffer, peer, hasServed, place);
+        if (!request) break;
         seat.settle();
         hasServed = true;
-        BeastRequest request = parser.release();
-        if (beast::websocket::is_upgrade(request)) {
-            co_await upgrade(shared, std::move(stream), std::move(request), executor);
+        if (beast::websocket::is_upgrade(*request)) {
+            co_await upgrade(shared, std::move(stream), *std::move(request), executor);
             co_return;
         }
-        HttpRequest whole = requestOf(request, peer);
-        whole.body = std::move(request.body());
-        goesOn = co_await sayTo(stream, request, shared.service.answer(whole));
+        HttpRequest whole = requestOf(*request, peer);
+        whole.body = std::move(request->body());
+        goesOn = co_await sayTo(stream, *request, shared.service.answer(whole));
     }
 }
 

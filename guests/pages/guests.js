@@ -1,7 +1,9 @@
 // The page of a visitor: what the server says of him is in body.dataset.you; the style sheet shows what belongs to it.
 
+import {drawing} from "./drawing.js";
 import {helm} from "./helm.js";
 import {Link} from "./link.js";
+import {wall} from "./wall.js";
 
 const element = id => document.getElementById(id);
 const LANGUAGES = ["en", "de"];
@@ -41,6 +43,7 @@ function draw() {
   element("join").disabled = state.line >= state.most;
   element("feed").disabled = !(state.feed_s === 0);
   set("feed", state.feed_s > 0 ? text("fed", {n: state.feed_s}) : text("feed"));
+  drawDrawing(state.drawings);
 }
 
 const link = new Link({
@@ -65,7 +68,11 @@ const link = new Link({
     draw();
   },
 });
+const drawDrawing = drawing(texts, () => link.secret);
 const rest = helm(message => link.say(message), () => state.you === "steering" && !isStale);
+
+wall(element("wall"), message => link.say(message), () => state.wall && state.you !== "steering" && !isStale,
+  () => state.feed_s === 0);
 
 document.querySelector("form").addEventListener("submit", event => {
   event.preventDefault();

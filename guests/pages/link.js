@@ -38,6 +38,9 @@ export class Link {
     if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(message));
   }
 
+  /** By which the visitor is known; null: not yet. */
+  get secret() { return this.#secret; }
+
   enter(code) {
     this.#code = code;
     this.say({enter: code});

@@ -226,6 +226,8 @@ void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net
             return tellDrawings(from.peer, message.drawings_request());
         case v1::Envelope::kOrder:
             return obey(from, message.order(), now);
+        case v1::Envelope::kPacketPart:
+            return takePart(from, message.packet_part(), now);
         case v1::Envelope::kInput:
             if (node || !isVisitorsInput(message)) break;
             return takeInput(from, node, message.input(), now);
@@ -240,6 +242,17 @@ void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net
         countRefused(false);
         sender_.dismiss(from.peer, "the master does not know this connection");
     }
+}
+
+// What the parts make is heard as if it had come in one.
+void Conductor::takePart(const net::FromPeer& from, const v1::PacketPart& part, net::Moment now) {
+    const auto packet = parts_.take(from.peer, part, now);
+    if (!packet) return;
+    const auto message = wire::decode(*packet);
+    if (message && !message->has_packet_part())
+        take(from, *message, now);
+    else
+        countRefused(false);
 }
 
 void Conductor::takeOfNode(std::size_t node, const v1::Envelope& message, net::Moment now) {

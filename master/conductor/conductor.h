@@ -17,6 +17,7 @@
 #include "common/config/rig.h"
 #include "common/machine/service_notifier.h"
 #include "common/net/channels.h"
+#include "common/wire/parts.h"
 #include "master/conductor/drawings.h"
 #include "master/conductor/gauges.h"
 #include "master/conductor/hall_clock.h"
@@ -86,6 +87,7 @@ class Conductor final : private FrameSource {
     void hear(net::Moment now);  // all that has arrived, within bounds
     void take(const net::FromPeer& from, const v1::Envelope& message, net::Moment now);
     void takeOfNode(std::size_t node, const v1::Envelope& message, net::Moment now);
+    void takePart(const net::FromPeer& from, const v1::PacketPart& part, net::Moment now);
     void takeInput(const net::FromPeer& from,
                    std::optional<std::size_t> node,
                    const v1::Input& input,
@@ -127,6 +129,7 @@ class Conductor final : private FrameSource {
     std::unique_ptr<net::MasterChannels> channels_;
     Sender sender_;
     Roster roster_;
+    wire::PartAssembly parts_;
     Drawings drawings_;
     Orders orders_;
     Looks looks_;

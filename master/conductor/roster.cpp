@@ -76,11 +76,12 @@ bool maySay(const User& user, const v1::Envelope& message) {
         case config::KeyRole::Visitor:
             return isVisitorsInput(message);
         case config::KeyRole::Guests:
-            return isVisitorsInput(message) || isQuestion(message) || isGuestsOrder(message);
+            return isVisitorsInput(message) || isQuestion(message) || isGuestsOrder(message) ||
+                   message.has_packet_part();
         case config::KeyRole::Operator:
         case config::KeyRole::Crew:
             return isQuestion(message) || message.message_case() == v1::Envelope::kInput ||
-                   message.message_case() == v1::Envelope::kOrder;
+                   message.message_case() == v1::Envelope::kOrder || message.has_packet_part();
         case config::KeyRole::Master:
             break;
     }

@@ -41,7 +41,7 @@ std::string showText(const v1::StatusReply& status) {
     const auto onOff = [](bool on) { return on ? "on" : "off"; };
     std::string text = fmt::format(
         "show          scene {}   quality {}   pattern {}   colour {:.2f}   brightness {:.2f}   "
-        "black {}   freeze {}   guests {}   version {}   calibration {:016x}\n",
+        "black {}   freeze {}   guests {}   drawings {}   version {}   calibration {:016x}\n",
         show.scene,
         config::nameOf(show.quality),
         wire::nameOf(show.pattern),
@@ -50,6 +50,7 @@ std::string showText(const v1::StatusReply& status) {
         onOff(show.black),
         onOff(show.frozen),
         onOff(status.guests()),
+        onOff(status.drawings()),
         show.version,
         show.calibration);
     if (!status.change().empty()) text += fmt::format("to come       {}\n", status.change());

@@ -9,14 +9,25 @@ uniform vec4 sideOfSpecies;  // from (-s, y) to a place of the drawing: factors,
 
 // White paper is brighter than any skin.
 const float kPaper = 0.86;
+// How far pigment spreads in skin, body lengths: paper between the strokes of a crayon takes its colour.
+const float kPigment = 0.011;
 
+// Of dry paper.
+vec3 drawnAt(SkinPoint at) {
+    vec3 place = vec3(vec2(-at.s, at.y) * sideOfSpecies.xy + sideOfSpecies.zw, float(drawing));
+    float texels = max(kPigment, at.pixel) * sideOfSpecies.x * float(textureSize(drawnSkins, 0).x);
+    return mix(texture(drawnSkins, place).rgb, textureLod(drawnSkins, place, log2(texels)).rgb, 0.5);
+}
+
+// Where it is wet, light meets pigment more than once: colours are deeper. A fish is darker above.
 Skin wornGround(SkinPoint at) {
-    vec2 place = vec2(-at.s, at.y) * sideOfSpecies.xy + sideOfSpecies.zw;
-    return skinOf(kPaper * texture(drawnSkins, vec3(place, float(drawing))).rgb, 0.45, 0.8);
+    vec3 dry = drawnAt(at);
+    vec3 wet = kPaper * dry * mix(vec3(1.0), sqrt(dry), 0.75);
+    return skinOf(wet * (1.0 - 0.35 * smoothstep(0.30, 1.0, at.v)), 0.55, 0.8);
 }
 
 void addWornDetails(inout Skin skin, SkinPoint at) {
-    layScales(skin, at, 0.06, 0.015, 0.15, smoothstep(0.16, 0.25, at.s));
+    layScales(skin, at, 0.06, 0.0165, 0.20, smoothstep(0.16, 0.25, at.s));
     paintGill(skin, at);
 }
 

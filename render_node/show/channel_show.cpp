@@ -38,6 +38,15 @@ void copyToWindow(const gl::Target& picture, glm::ivec2 window, GLenum buffer) {
                            size == picture.sizePixels() ? GL_NEAREST : GL_LINEAR);
 }
 
+// The console, and visitors' phones, where the rig has them.
+std::vector<std::string> watchersOf(const config::Rig& rig) {
+    std::vector<std::string> addresses;
+    if (!rig.watchAddress.empty()) addresses.push_back(rig.watchAddress);
+    if (rig.guests && !rig.guests->picturesAddress.empty())
+        addresses.push_back(rig.guests->picturesAddress);
+    return addresses;
+}
+
 }  // namespace
 
 ChannelShow::ChannelShow(session::Session& session,
@@ -62,8 +71,8 @@ ChannelShow::~ChannelShow() {
 
 void ChannelShow::run(session::Admission first) {
     std::optional<session::Admission> admission = std::move(first);
-    if (const std::string& address = admission->rig.watchAddress; !address.empty())
-        console_.emplace(options_.channel, address, options_.keys);
+    for (const std::string& address : watchersOf(admission->rig))
+        watchers_.emplace_back(options_.channel, address, options_.keys);
     while (admission) {
         build(std::move(*admission));
         session_.prepared(stage_->admission().look, stage_->bears());
@@ -174,12 +183,12 @@ void ChannelShow::bringTo(config::QualityTier quality) {
 }
 
 session::Release ChannelShow::play() {
-    // The frame on the target, for the operator's console. It is read after nextFrame(): until then
+    // The frame on the target, for whoever watches. It is read after nextFrame(): until then
     // this thread has real-time priority and would delay other nodes of its machine.
     std::optional<wire::StateFrame> presented;
     isUndressed_ = true;  // of what was painted while the node was away
     while (std::optional<wire::StateFrame> state = session_.nextFrame()) {
-        if (presented) showOperator(*std::exchange(presented, {}));
+        if (presented) showWatchers(*std::exchange(presented, {}));
         FrameTimes times{.state = session_.stateArrival()};
         controls_.show(state->show);
         buildNext();
@@ -206,7 +215,7 @@ session::Release ChannelShow::play() {
         trace_.write(state->frame, times);
         if (film_ && isFilmed(state->frame)) film(state->frame);
         undrawn_ = seen ? std::nullopt : state;
-        if (seen && console_) presented = std::move(state);
+        if (seen && !watchers_.empty()) presented = std::move(state);
         if (!std::exchange(shown_, true)) logInfo("showing");
     }
     return session_.interruption();
@@ -218,29 +227,35 @@ void ChannelShow::dress() {
     stage_->picture().wear(*skins_, std::exchange(isUndressed_, false) ? skins_->size() : 1);
 }
 
-void ChannelShow::showOperator(const wire::StateFrame& frame) {
+void ChannelShow::showWatchers(const wire::StateFrame& frame) {
     constexpr std::size_t kRemembered = 4;
     PictureReader& reader = stage_->reader();
     if (reader.isBusy()) {
         stage_->workspace().makeCurrent();
         if (auto picture = reader.take())
-            console_->put(lookedAt_.back().frame, std::move(*picture));
-    } else if (const auto width = console_->wantedWidth()) {
-        stage_->workspace().makeCurrent();
-        reader.begin(stage_->target(), *width);
-        lookedAt_.push_back(frame);
-        if (lookedAt_.size() > kRemembered) lookedAt_.pop_front();
+            reading_->put(lookedAt_.back().frame, std::move(*picture));
+    } else {
+        for (WatcherLink& watcher : watchers_) {
+            const auto width = watcher.wantedWidth();
+            if (!width) continue;
+            stage_->workspace().makeCurrent();
+            reader.begin(stage_->target(), *width);
+            reading_ = &watcher;
+            lookedAt_.push_back(frame);
+            if (lookedAt_.size() > kRemembered) lookedAt_.pop_front();
+            break;
+        }
     }
-    nameFish();
+    for (WatcherLink& watcher : watchers_) nameFish(watcher);
 }
 
-void ChannelShow::nameFish() {
-    while (const auto question = console_->nextQuestion()) {
+void ChannelShow::nameFish(WatcherLink& watcher) {
+    while (const auto question = watcher.nextQuestion()) {
         if (lookedAt_.empty()) return;
         const auto same = std::ranges::find(lookedAt_, question->frame, &wire::StateFrame::frame);
         const wire::StateFrame& frame = same == lookedAt_.end() ? lookedAt_.back() : *same;
         const glm::vec2 pixel = question->place * glm::vec2(stage_->picture().sizePixels());
-        console_->answer(*question, frame.frame, stage_->picture().fishNearest(frame, pixel));
+        watcher.answer(*question, frame.frame, stage_->picture().fishNearest(frame, pixel));
     }
 }
 

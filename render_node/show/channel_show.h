@@ -70,10 +70,10 @@ class ChannelShow {
     // Throws Error where the context is lost.
     void film(Frame frame);
     void watchBlanks(Frame frame);
-    // Gives the operator's console a picture of this frame and answers its questions about fish.
+    // Gives a watcher a picture of this frame, and answers their questions about fish.
     // The picture is started now, and read after a later frame.
-    void showOperator(const wire::StateFrame& frame);
-    void nameFish();
+    void showWatchers(const wire::StateFrame& frame);
+    void nameFish(WatcherLink& watcher);
     void refuseLoss() const;
     // Sends the food that a visitor has dropped, as places of the world.
     void feed(const wire::Eye& eye);
@@ -105,8 +105,9 @@ class ChannelShow {
     std::future<void> retiring_;
     std::optional<Pointing> pointing_;
     StatePace<WallHands> handPace_;
-    // The console, where the rig has one, and the last frames that it was shown, the newest last.
-    std::optional<ConsoleLink> console_;
+    // Who watches, and the last frames that they were shown, the newest last.
+    std::deque<WatcherLink> watchers_;
+    WatcherLink* reading_ = nullptr;  // for whom the picture is read
     std::deque<wire::StateFrame> lookedAt_;
     // The fish whose mind is shown, as its index in the school.
     std::optional<std::uint32_t> watched_;

@@ -105,21 +105,21 @@ std::string encodeJpeg(const ReducedPicture& picture) {
                 std::to_string(wire::kMostJpegBytes) + " bytes; ask for a smaller one");
 }
 
-ConsoleLink::ConsoleLink(std::string channel,
+WatcherLink::WatcherLink(std::string channel,
                          const std::string& watchAddress,
                          const std::optional<net::PeerKeys>& keys)
     : channel_{std::move(channel)},
       channels_{net::connectNode(watchAddress, {}, keys)},
       thread_{[this] { run(); }} {}
 
-ConsoleLink::~ConsoleLink() {
+WatcherLink::~WatcherLink() {
     ended_ = true;
     channels_->wake();
     thread_.join();
 }
 
 // A picture that was being made when its look was replaced is lost, so the wait for it has a limit.
-std::optional<int> ConsoleLink::wantedWidth() {
+std::optional<int> WatcherLink::wantedWidth() {
     const std::lock_guard lock(mutex_);
     const net::Moment now = net::monotonicNow();
     const bool isMaking = beingMade_ != 0 && now - lastPicture_ < kPatience;
@@ -132,7 +132,7 @@ std::optional<int> ConsoleLink::wantedWidth() {
 }
 
 // The link's thread encodes the picture.
-void ConsoleLink::put(Frame frame, ReducedPicture picture) {
+void WatcherLink::put(Frame frame, ReducedPicture picture) {
     {
         const std::lock_guard lock(mutex_);
         taken_ = Taken{beingMade_, frame, std::move(picture)};
@@ -140,7 +140,7 @@ void ConsoleLink::put(Frame frame, ReducedPicture picture) {
     channels_->wake();
 }
 
-std::optional<FishQuestion> ConsoleLink::nextQuestion() {
+std::optional<FishQuestion> WatcherLink::nextQuestion() {
     const std::lock_guard lock(mutex_);
     if (questions_.empty()) return std::nullopt;
     const FishQuestion first = questions_.front();
@@ -149,7 +149,7 @@ std::optional<FishQuestion> ConsoleLink::nextQuestion() {
 }
 
 // The link's thread sends the answer.
-void ConsoleLink::answer(const FishQuestion& question,
+void WatcherLink::answer(const FishQuestion& question,
                          Frame frame,
                          std::optional<std::uint32_t> fish) {
     v1::Envelope message;
@@ -167,7 +167,7 @@ void ConsoleLink::answer(const FishQuestion& question,
 // --- its thread
 
 // Introduces itself every second, as the console may have been restarted.
-void ConsoleLink::run() {
+void WatcherLink::run() {
     constexpr int kLowest = 19;
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);  // of this thread alone
     net::Moment lastHello{};
@@ -186,7 +186,7 @@ void ConsoleLink::run() {
 }
 
 // A newer request replaces an older one.
-void ConsoleLink::hear(const net::ByteVector& bytes) {
+void WatcherLink::hear(const net::ByteVector& bytes) {
     const auto message = wire::decode(bytes);
     if (!message) return;
     const std::lock_guard lock(mutex_);
@@ -201,7 +201,7 @@ void ConsoleLink::hear(const net::ByteVector& bytes) {
 }
 
 // Encodes on this thread, so that no frame waits for it.
-void ConsoleLink::sayWhatIsThere() {
+void WatcherLink::sayWhatIsThere() {
     std::optional<Taken> taken;
     std::deque<wire::Packet> answers;
     {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of a channel for the operator's console, and answers to its questions. They never delay
-// a frame.
+// Pictures of a channel for whoever watches the wall, the operator's console and visitors' phones,
+// and answers to their questions. They never delay a frame.
 #pragma once
 
 #include <atomic>
@@ -54,7 +54,7 @@ class PictureReader {
 // Error where the encoder fails.
 [[nodiscard]] std::string encodeJpeg(const ReducedPicture& picture);
 
-// A question of the console: which fish is at this place of a picture, as shares of its size from
+// A question of a watcher: which fish is at this place of a picture, as shares of its size from
 // the top left corner.
 struct FishQuestion {
     std::uint64_t number = 0;
@@ -62,19 +62,19 @@ struct FishQuestion {
     glm::vec2 place{};
 };
 
-// A node's link to the console, on a thread of low priority that also encodes. The drawing thread
+// A node's link to one watcher, on a thread of low priority that also encodes. The drawing thread
 // calls the functions below; none of them waits.
-class ConsoleLink {
+class WatcherLink {
   public:
     // Throws Error where the address is malformed.
-    ConsoleLink(std::string channel,
+    WatcherLink(std::string channel,
                 const std::string& watchAddress,
                 const std::optional<net::PeerKeys>& keys);
-    ~ConsoleLink();
-    ConsoleLink(const ConsoleLink&) = delete;
-    ConsoleLink& operator=(const ConsoleLink&) = delete;
+    ~WatcherLink();
+    WatcherLink(const WatcherLink&) = delete;
+    WatcherLink& operator=(const WatcherLink&) = delete;
 
-    // The width of the picture that the console asks for; empty where it asks for none. At most
+    // The width of the picture that is asked for; empty where none is. At most
     // five times a second, and not while the last picture is encoded.
     [[nodiscard]] std::optional<int> wantedWidth();
     void put(Frame frame, ReducedPicture picture);

@@ -100,7 +100,7 @@ Judged judge(drawings::Catalogue& catalogue,
     const PaintedSheet paper = painted(sheet, blank(sheet, isLetter), seed);
     const Circumstances how = circumstancesOf(seed, mostMegapixels);
     const Camera camera(how, isLetter ? drawings::kLetter : drawings::kA4);
-    const std::vector<std::byte> file = jpegOf(photographed(paper, how, camera), how.jpegQuality);
+    std::vector<std::byte> file = jpegOf(photographed(paper, how, camera), how.jpegQuality);
     const std::string name = fmt::format("{:03}-{}", seed, sheet.species);
     keep(name + ".jpg", file);
     Judged judged{.species = sheet.species, .refused = {}};
@@ -109,7 +109,8 @@ Judged judge(drawings::Catalogue& catalogue,
         const Drawing drawing = readDrawing(drawings::decodePhoto(file),
                                             [&](int number) { return catalogue.sheetOf(number); });
         judged.seconds = processorSeconds() - start;
-        keep(name + ".png", encodePng(drawing.skin, PngMeaning::Srgb));
+        judged.skin = encodePng(drawing.skin, PngMeaning::Srgb);
+        keep(name + ".png", judged.skin);
         judged.colourDifference = colourDifference(paper, sheet, drawing);
         judged.outlineShare = outlineShare(sheet, drawing, camera);
     } catch (const drawings::Refusal& refusal) {
@@ -130,16 +131,19 @@ Judged judge(drawings::Catalogue& catalogue,
         judged.colourDifference,
         100 * judged.outlineShare,
         judged.seconds);
+    judged.photo = std::move(file);
     return judged;
 }
 
 Judgement judgeAll(drawings::Catalogue& catalogue,
                    const std::vector<std::string>& species,
                    int count,
-                   double mostMegapixels) {
+                   double mostMegapixels,
+                   const std::function<void(const Judged&)>& also) {
     Judgement all;
     for (int i = 0; i < count; ++i) {
         const Judged one = judge(catalogue, species, static_cast<std::uint32_t>(i), mostMegapixels);
+        also(one);
         if (one.refused) continue;
         ++all.found;
         all.colourDifference += one.colourDifference;

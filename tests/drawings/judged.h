@@ -2,7 +2,9 @@
 // How well a simulated photograph of a coloured sheet is read.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +22,7 @@ struct Judged {
     double colourDifference = 0;  // mean CIEDE2000 within the outline
     double outlineShare = 0;      // largest distance of the outline from where it is, in its length
     double seconds = 0;           // processor time of reading
+    std::vector<std::byte> photo = {}, skin = {};  // files: JPEG, PNG
 };
 
 // The photograph of this seed, of the species whose turn it is. With AQUARAMA_SHOTS in the
@@ -35,9 +38,11 @@ struct Judgement {
     double colourDifference = 0;  // mean over those found
     double worstColourDifference = 0, worstOutlineShare = 0;
 };
+// `also` sees each.
 [[nodiscard]] Judgement judgeAll(drawings::Catalogue& catalogue,
                                  const std::vector<std::string>& species,
                                  int count,
-                                 double mostMegapixels);
+                                 double mostMegapixels,
+                                 const std::function<void(const Judged&)>& also);
 
 }  // namespace aquarama::test

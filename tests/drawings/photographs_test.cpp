@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Simulated photographs of coloured sheets are found, with the colours and the outline that were
-// drawn. With AQUARAMA_SOAK in the environment 200 of up to 12 megapixels, else 20 smaller ones.
+// drawn, and the confined decoder says the same. With AQUARAMA_SOAK in the environment 200 of up to
+// 12 megapixels, else 20 smaller ones.
 #include <cstdlib>
 
 #include <gtest/gtest.h>
 
+#include "common/wire/messages.h"
+#include "tests/drawings/decoder.h"
 #include "tests/drawings/judged.h"
 
 namespace aquarama {
@@ -12,6 +15,18 @@ namespace {
 
 TEST(Photographs, areReadAsDrawn) {
     drawings::Catalogue catalogue;
+    ask::DrawingReader reader(test::decoderProgram(), test::kDecoderSeconds);
+    std::size_t largest = 0;
+    const auto decodesAlike = [&](const test::Judged& one) {
+        const auto outcome = test::outcomeOf(reader, test::textOf(one.photo));
+        ASSERT_EQ(test::wordOf(outcome), one.refused ? drawings::wordOf(*one.refused) : "")
+            << one.species;
+        if (one.refused) return;
+        const auto& drawing = std::get<ask::ReadDrawing>(outcome);
+        EXPECT_EQ(drawing.species, one.species);
+        EXPECT_TRUE(drawing.skin == test::textOf(one.skin)) << one.species;
+        largest = std::max(largest, drawing.skin.size());
+    };
     const bool isSoak = std::getenv("AQUARAMA_SOAK") != nullptr;
     const int count = isSoak ? 200 : 20;
     const test::Judgement all = test::judgeAll(catalogue,
@@ -22,10 +37,13 @@ TEST(Photographs, areReadAsDrawn) {
                                                 "moorish_idol",
                                                 "blacktip_reef_shark"},
                                                count,
-                                               isSoak ? 12 : 1.5);
+                                               isSoak ? 12 : 1.5,
+                                               decodesAlike);
     EXPECT_GE(all.found, count * 97 / 100);
     EXPECT_LT(all.colourDifference, 8);
     EXPECT_LT(all.worstOutlineShare, 0.01);
+    EXPECT_LE(largest, wire::kMostSkinBytes);
+    std::cout << "the largest skin has " << largest << " bytes\n";
 }
 
 }  // namespace

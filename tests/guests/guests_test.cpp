@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "guests/guests.h"
 
-#include <filesystem>
+#include <cmath>
 #include <fstream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -15,55 +14,16 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/files.h"
+#include "common/config/rig.h"
+#include "tests/guests/callers.h"
 
 namespace aquarama::guests {
 namespace {
 
 using nlohmann::json;
-
-struct RecordedWall final : VisitedWall {
-    void steer(const Steering& steering) override { hands.push_back(steering); }
-    void feed(const glm::vec3& position) override { food.push_back(position); }
-    void show(const wire::Sign& sign) override { signs.push_back(sign); }
-    void offer(OfferedSkin skin) override { offers.push_back(std::move(skin)); }
-    void watch(const std::set<std::uint32_t>& fish) override { watched = fish; }
-    std::vector<Steering> hands;
-    std::vector<glm::vec3> food;
-    std::vector<wire::Sign> signs;
-    std::vector<OfferedSkin> offers;
-    std::set<std::uint32_t> watched;
-};
-
-struct RecordedOutbox final : web::Outbox {
-    void put(const std::string& topic, web::Payload payload, bool /*isBinary*/) override {
-        said[topic] = json::parse(*payload);
-    }
-    void close(std::uint16_t code) override { closed = code; }
-    std::map<std::string, json> said;
-    std::uint16_t closed = 0;
-};
-
-// A phone with its connection.
-struct Caller {
-    explicit Caller(GuestService& service, const std::string& first = "") {
-        connection = service.open(
-            {.target = "/g", .host = "10.0.0.1:7490", .origin = "http://10.0.0.1:7490"},
-            outbox,
-            refusal);
-        if (!first.empty()) say(first);
-    }
-    Caller(const Caller&) = delete;
-    Caller& operator=(const Caller&) = delete;
-    void say(const std::string& text) const { connection->hear(text); }
-    [[nodiscard]] json state() { return outbox.said["state"]; }
-    [[nodiscard]] std::string you() { return state()["you"]; }
-    [[nodiscard]] std::string resuming() {
-        return json{{"resume", outbox.said["session"]["session"]}}.dump();
-    }
-    RecordedOutbox outbox;
-    web::HttpReply refusal;
-    std::unique_ptr<web::Service::Connection> connection;
-};
+using test::Caller;
+using test::RecordedOutbox;
+using test::RecordedWall;
 
 class GuestServiceTest : public testing::Test {
   protected:
@@ -73,7 +33,8 @@ class GuestServiceTest : public testing::Test {
         service.reset();
         service.emplace(GuestsOptions{.place = {.host = "10.0.0.1", .port = 7490, .channel = {}},
                                       .key = kKey,
-                                      .seatFile = folder.path() / "seats"},
+                                      .seatFile = folder.path() / "seats",
+                                      .picture = shown},
                         wall,
                         [this] { return now; });
         service->heard(WallState{.isOpen = true, .eye = {.positionMetres = {1, 2, 3}}});
@@ -93,8 +54,38 @@ class GuestServiceTest : public testing::Test {
     TemporaryFolder folder{"guests"};
     double now = 1000;
     RecordedWall wall;
+    WallPicture* shown = nullptr;
     std::optional<GuestService> service;
 };
+
+// Where a finger points on the picture of the wall; beside it, and without one, ahead.
+TEST_F(GuestServiceTest, foodGoesWhereAFingerPoints) {
+    config::Rig rig = config::readRig(AQUARAMA_SOURCE_DIR "/config/desk.txtpb");
+    rig.guests.emplace().picturesAddress = "tcp://127.0.0.1:*";
+    WallPicture picture(rig, std::nullopt);
+    const auto feed = [&](const std::string& said) {
+        Caller phone(*service, entering());
+        EXPECT_EQ(phone.state()["wall"], shown != nullptr);
+        phone.say(said);
+        pass(1);
+        return wall.food.empty() ? glm::vec3() : wall.food.back() - glm::vec3(1, 2, 3);
+    };
+    shown = &picture;
+    begin();
+    const glm::vec3 left = feed(R"({"feed":[0.01,0.5]})");
+    EXPECT_LT(left.x, -1.4F);
+    EXPECT_GT(left.z, -2.0F) << "the screen's edge is 60 degrees aside";
+    EXPECT_GT(feed(R"({"feed":[0.5,0.1]})").y, 0.5F);
+    for (const char* const ahead :
+         {R"({"feed":true})", R"({"feed":[7,7]})", R"({"feed":["a",2]})"}) {
+        const glm::vec3 place = feed(ahead);
+        EXPECT_LT(place.z, -1.9F) << ahead;
+        EXPECT_LT(std::abs(place.x), 0.9F) << ahead;
+    }
+    shown = nullptr;
+    begin();
+    EXPECT_LT(feed(R"({"feed":[0.01,0.5]})").z, -1.9F);
+}
 
 TEST_F(GuestServiceTest, letsInWhoSeesTheWall) {
     Caller scanned(*service, entering()), read(*service), guessed(*service);

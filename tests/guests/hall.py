@@ -16,23 +16,29 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "console"))
 
 from desk import (Desk, Socket, aquarama, children_of, frame, rig_on_free_ports, start,  # noqa: E402,F401
                   temporary_folder, wait_until)
-from show import free_ports  # noqa: E402
+from show import BIN, free_ports  # noqa: E402,F401
 
 
 class Hall(Desk):
-    """`aquarama run` of the desk's middle projector before an empty sea, whose sign is large enough for its preview."""
+    """`aquarama run` of the desk's middle projector, whose sign is large enough for its preview. `drawings`: they are
+    let in at once, and read from the folder self.scanner."""
 
-    def __init__(self, *arguments):
+    def __init__(self, *arguments, scene="empty_sea", drawings=False):
         self.folder = temporary_folder()
         self.nodes = []
         os.environ["XDG_RUNTIME_DIR"] = self.folder.name
         self.rig = rig_on_free_ports(self.folder.name, replace=(
             (r"refresh_hz: 60", "refresh_hz: 15"), (r"arc_deg: 120", "arc_deg: 40"),
-            (r"reef\.txtpb", "empty_sea.txtpb")))
+            (r"reef\.txtpb", f"{scene}.txtpb")))
         head, *channels = re.split(r"(?m)^channels ", self.rig.read_text())
-        self.guests = f"127.0.0.1:{free_ports(1)[0]}"
+        self.scanner = Path(self.folder.name) / "scanner"
+        self.scanner.mkdir()
+        port, pictures = free_ports(2)
+        self.guests = f"127.0.0.1:{port}"
         self.rig.write_text(f'{head}channels {channels[1].replace("id: 1", "id: 0")}\n'
-                            f'guests {{ address: "http://{self.guests}" height: 0.5 }}\n')
+                            f'guests {{ address: "http://{self.guests}" height: 0.5 '
+                            f'pictures: "tcp://127.0.0.1:{pictures}" }}\n'
+                            + ('drawings { let_in: AT_ONCE folder: "scanner" }\n' if drawings else ""))
         self.log = Path(self.folder.name) / "log"
         self.show = start("run", self.rig, "--headless", "--live", *arguments, log=self.log)
         try:

@@ -5,14 +5,16 @@ With AQUARAMA_SHOTS=FOLDER it writes pictures of the page there, as docs/draw_pi
 
 import math
 import os
+import re
 import shutil
 import signal
+import subprocess
 import sys
 import time
 import unittest
 from pathlib import Path
 
-from hall import Hall, Phone, aquarama, wait_until
+from hall import BIN, Hall, Phone, aquarama, wait_until
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "console"))
 
@@ -27,7 +29,7 @@ SHOTS = os.environ.get("AQUARAMA_SHOTS")
 class Page(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.hall = Hall()
+        cls.hall = Hall(drawings=True)
         cls.addClassCleanup(cls.hall.close)
         wait_until(cls.hall.token, 20, "the code on the wall")
         cls.driver = browser(390, 844)
@@ -141,6 +143,86 @@ class Page(unittest.TestCase):
         self.js("document.querySelector('#digits').value = 'abc'; document.querySelector('form').requestSubmit()")
         self.js("document.querySelector('#digits').pattern = '.*'; document.querySelector('form').requestSubmit()")
         wait_until(lambda: "gilt nicht mehr" in self.text(), 3, "digits that are wrong are refused")
+
+    def enter(self):
+        """As a visitor who was never here."""
+        self.driver.get(f"http://{self.hall.guests}/icon.svg")
+        self.js("localStorage.clear()")
+        self.driver.get(f"http://{self.hall.guests}/P/{self.hall.token()}")
+        wait_until(lambda: self.you() in ("steering", "waiting"), 5, "a seat")
+        if self.you() == "steering":
+            self.click("#hand-over")
+            self.becomes("guest")
+        wait_until(lambda: self.js("return !document.querySelector('#draw').disabled"), 5, "drawings are on")
+
+    def send(self, name, content):
+        path = Path(self.hall.folder.name) / name
+        path.write_bytes(content)
+        field = self.js("const one = document.querySelector('#choose-file'); one.hidden = false; return one")
+        field.send_keys(str(path))
+        self.js("arguments[0].hidden = true", field)
+
+    def says(self, text, seconds=30):
+        shown = lambda: self.js("return document.querySelector('.of-drawing').innerText")
+        wait_until(lambda: text in shown(), seconds, f"the page says {text}, not {shown()}")
+
+    def sheet(self):
+        """A photograph of one: its own page."""
+        folder = Path(self.hall.folder.name)
+        subprocess.run([BIN / "aquarama-drawings", "sheets", "--species", "clownfish", "--out", folder], check=True,
+                       stdout=subprocess.DEVNULL)
+        subprocess.run(["pdftoppm", "-r", "100", "-jpeg", "-singlefile", folder / "clownfish.pdf", folder / "sheet"],
+                       check=True)
+        return (folder / "sheet.jpg").read_bytes()
+
+    def test_a_drawing(self):
+        hall = self.hall
+        self.enter()
+        self.looks_right("drawing")
+        self.click("#draw")
+        self.click("[data-side=left]")
+        self.looks_right("drawing_sides")
+        self.assertEqual(self.js("return document.querySelector('[aria-pressed=true]').dataset.side"), "left")
+        self.send("IMG_1.HEIC", b"\0\0\0\x24ftypheic" + bytes(1000))
+        self.says("HEIC")
+        self.send("large.jpg", b"\xff\xd8\xff" + bytes(16 << 20))
+        self.says("too large")
+        self.send("noise.jpg", b"\xff\xd8\xff" + os.urandom(100_000))
+        self.says("no picture that can be read")
+        self.says("Another picture in")
+        self.looks_right("drawing_refused")
+        guests = hall.guests_process()
+        self.enter()
+        self.send("sheet.jpg", self.sheet())
+        self.says("Your fish is number 1. It waits until there is room on the wall.")
+        self.looks_right("drawing_waits")
+        aquarama("set", hall.rig, "drawings", "off")
+        wait_until(lambda: not self.js("return document.body.classList.contains('drawings')"), 5, "drawings are off")
+        aquarama("set", hall.rig, "drawings", "on")
+        self.says("Your fish is number 1.")
+        self.assertEqual(hall.guests_process(), guests)
+        self.assertEqual(hall.status()["late"], 0)
+
+    def test_a_sentence_for_all_that_fish_do(self):
+        """By the page's own words: none lacks one, in either language."""
+        self.driver.get(f"http://{self.hall.guests}/")
+        said = self.driver.execute_async_script("""(async done => {
+            const said = [];
+            const {deedIn} = await import('/drawing.js');
+            for (const language of ['en', 'de']) {
+              const texts = await (await fetch(`/texts/${language}.json`)).json();
+              for (const does of ['wander', 'hover', 'graze', 'clean', 'visit', 'leave', 'school', 'eat', 'mate',
+                                  'charge', 'rest', 'hide', 'escape', 'avoid_fish', 'avoid_obstacle', ''])
+                for (const whom of ['', 'blue_tang', 'newt'])
+                  for (const saw of ['', 'blacktip_reef_shark', 'newt']) said.push(deedIn(texts, {does, whom, saw}));
+            }
+            done(said);
+            })(arguments[0])""")
+        self.assertEqual(len(said), 2 * 16 * 9)
+        self.assertTrue(all(re.fullmatch(r"[A-Z][^{}_]*\.", sentence) and "undefined" not in sentence
+                            for sentence in said), said)
+        self.assertIn("It saw the shark and hides in the coral.", said)
+        self.assertIn("Er hat den Hai gesehen und versteckt sich in den Korallen.", said)
 
 
 if __name__ == "__main__":

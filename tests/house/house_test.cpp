@@ -279,6 +279,11 @@ TEST(House, cairoAndAprilTagStayInDrawings) {
               std::vector<std::string>{});
 }
 
+TEST(House, seccompStaysInOneFile) {
+    EXPECT_EQ(strangers(std::regex("^seccomp"), {"drawings/confine.cpp"}),
+              std::vector<std::string>{});
+}
+
 TEST(House, qrencodeStaysInTheSign) {
     EXPECT_EQ(strangers(std::regex("^qrencode"), {"guests/sign.cpp"}), std::vector<std::string>{});
 }

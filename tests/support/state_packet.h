@@ -29,6 +29,7 @@ inline v1::Show messageOf(const wire::Show& show) {
         message.mutable_sign()->set_rows(show.sign.rows);
         message.mutable_sign()->set_dots(show.sign.dots);
     }
+    if (show.skins) message.set_skins(wire::bytesOf(*show.skins));
     if (show.scan) wire::writeScanPattern(*show.scan, *message.mutable_scan());
     return message;
 }

@@ -144,7 +144,7 @@ inline v1::Envelope sampleScan() {
 
 // A drawing is offered, one is decided about, and the list is asked for and told.
 inline std::vector<v1::Envelope> sampleDrawings() {
-    std::vector<v1::Envelope> messages(4);
+    std::vector<v1::Envelope> messages(5);
     v1::Order& offer = *messages[0].mutable_order();
     offer.set_request(8);
     offer.mutable_drawing()->set_skin("png");
@@ -167,6 +167,11 @@ inline std::vector<v1::Envelope> sampleDrawings() {
     reply.set_skin_of(17);
     reply.set_skin("png");
     reply.add_species("clownfish");
+    v1::PacketPart& part = *messages[4].mutable_packet_part();
+    part.set_packet(11);
+    part.set_index(1);
+    part.set_count(3);
+    part.set_content("content");
     return messages;
 }
 

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "common/net/blob.h"
+#include "tests/render_node/session/listed_skins.h"
 #include "tests/support/await.h"
 #include "tests/support/stage.h"
 #include "tests/support/state_packet.h"
@@ -101,8 +102,9 @@ class ScriptedMaster {
         ASSERT_TRUE(hear(v1::Envelope::kPrepared));
         say(test::joined(first.value));
     }
-    void show(std::uint64_t frame) {
+    void show(std::uint64_t frame, const std::optional<Digest>& skins = {}) {
         wire::StateFrame state;
+        state.show.skins = skins;
         state.frame = {frame};
         state.show.calibration = shortHash(digestOf(test::StageMaster::deskRig().text));
         channels_->publishState(test::packetOf(run, state));
@@ -295,6 +297,68 @@ TEST_F(SessionTest, isPreparedOnlyOnceItHearsTheStates) {
     EXPECT_FALSE(master_.hear(v1::Envelope::kPrepared, milliseconds(200)));
     master_.publish(test::beacon());
     EXPECT_TRUE(master_.hear(v1::Envelope::kPrepared));
+}
+
+// A node that was just restarted draws the drawings that its neighbours draw.
+TEST_F(SessionTest, isPreparedOnlyOnceItHasTheDrawingsOfTheFirstList) {
+    conductor::Blobs skins;
+    const Digest list =
+        test::offerSkins({{7, test::plainSkin(200)}, {8, test::plainSkin(9)}}, skins);
+    auto join = joining();
+    master_.admit(deskBlobs());
+    ASSERT_TRUE(join.get());
+    session_->prepared(1, config::QualityTier::Low);
+    master_.show(40, list);
+    EXPECT_FALSE(master_.hear(v1::Envelope::kPrepared, milliseconds(300)));
+    master_.giveBlobs(skins, 2);
+    EXPECT_FALSE(master_.hear(v1::Envelope::kPrepared, milliseconds(100))) << "one is missing";
+    master_.giveBlobs(skins, 1);
+    ASSERT_TRUE(master_.hear(v1::Envelope::kPrepared));
+    const auto shown = session_->newSkins();
+    ASSERT_TRUE(shown);
+    EXPECT_EQ(shown->size(), 2U);
+    EXPECT_FALSE(session_->newSkins()) << "each is told once";
+    for (const auto& [digest, blob] : skins)
+        EXPECT_FALSE(std::filesystem::exists(blobs_ / toHex(digest))) << "it is on the disk";
+}
+
+// The wall does not wait for ever for a picture that does not come.
+TEST_F(SessionTest, isPreparedAfterSecondsWithoutTheDrawings) {
+    conductor::Blobs skins;
+    const Digest list = test::offerSkins({{7, test::plainSkin(200)}}, skins);
+    auto join = joining();
+    master_.admit(deskBlobs());
+    ASSERT_TRUE(join.get());
+    session_->prepared(1, config::QualityTier::Low);
+    const net::Moment began = net::monotonicNow();
+    master_.show(40, list);
+    ASSERT_TRUE(master_.hear(v1::Envelope::kPrepared));
+    EXPECT_GE(net::monotonicNow() - began, seconds(4));
+}
+
+// While frames are shown, and beside the blobs of the next look.
+TEST_F(SessionTest, fetchesDrawingsBesideTheNextLook) {
+    becomeMember(wire::Pace::Live, {5});
+    conductor::Blobs blobs;
+    const Digest list = test::offerSkins({{7, test::plainSkin(200)}}, blobs);
+    const auto map = std::make_shared<const net::ByteVector>(2 * wire::kBlobChunkBytes);
+    const Digest digest = digestOf(std::span{*map});
+    blobs[digest] = map;
+    v1::Envelope prepare;
+    v1::Look& look = *prepare.mutable_prepare()->mutable_look();
+    look = deskWelcome().look();
+    look.set_number(2);
+    look.add_rig_files()->set_name("hall.pfm");
+    look.mutable_rig_files(0)->set_digest(wire::bytesOf(digest));
+    master_.say(prepare);
+    master_.show(5, list);
+    master_.giveBlobs(blobs, 3);
+    std::shared_ptr<const body::SkinsByNumber> skins;
+    ASSERT_TRUE(test::comesTrue([&] {
+        if (auto others = session_->newSkins()) skins = std::move(others);
+        return skins && skins->contains(7);
+    }));
+    ASSERT_TRUE(test::comesTrue([&] { return session_->nextLook().has_value(); }));
 }
 
 TEST_F(SessionTest, speaksWhileItsRenderThreadIsBusy) {

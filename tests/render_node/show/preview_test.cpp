@@ -112,7 +112,7 @@ TEST(Preview, theReaderBringsWhatTheTargetHadReducedAndWithoutWaiting) {
 }
 
 // A console on one end, a node's drawing thread on the other.
-class ConsoleLinkTest : public testing::Test {
+class WatcherLinkTest : public testing::Test {
   protected:
     std::optional<v1::Envelope> hear(v1::Envelope::MessageCase kind) {
         for (int i = 0; i < 200; ++i) {
@@ -141,11 +141,11 @@ class ConsoleLinkTest : public testing::Test {
 
     std::unique_ptr<net::MasterChannels> console_ =
         net::bindMaster("tcp://127.0.0.1:*", "tcp://127.0.0.1:*");
-    ConsoleLink link_{"left", console_->controlAddress(), {}};
+    WatcherLink link_{"left", console_->controlAddress(), {}};
     net::PeerId node_;
 };
 
-TEST_F(ConsoleLinkTest, aPictureIsMadeForARequestOnlyAndNamesItAndItsFrame) {
+TEST_F(WatcherLinkTest, aPictureIsMadeForARequestOnlyAndNamesItAndItsFrame) {
     EXPECT_EQ(hear(v1::Envelope::kWatchHello)->watch_hello().channel(), "left");
     EXPECT_FALSE(link_.wantedWidth()) << "nobody looks";
     ask(7);
@@ -164,7 +164,7 @@ TEST_F(ConsoleLinkTest, aPictureIsMadeForARequestOnlyAndNamesItAndItsFrame) {
 }
 
 // Its look goes with all that was drawn for it.
-TEST_F(ConsoleLinkTest, aPictureThatIsLostHoldsNoLaterOneBack) {
+TEST_F(WatcherLinkTest, aPictureThatIsLostHoldsNoLaterOneBack) {
     ASSERT_TRUE(hear(v1::Envelope::kWatchHello));
     ask(7);
     ASSERT_EQ(wanted(), 64);
@@ -177,7 +177,7 @@ TEST_F(ConsoleLinkTest, aPictureThatIsLostHoldsNoLaterOneBack) {
     EXPECT_EQ(message->frame_picture().number(), 8U);
 }
 
-TEST_F(ConsoleLinkTest, aQuestionOfAFishIsAnsweredWithTheFrameThatWasLookedAt) {
+TEST_F(WatcherLinkTest, aQuestionOfAFishIsAnsweredWithTheFrameThatWasLookedAt) {
     ASSERT_TRUE(hear(v1::Envelope::kWatchHello));
     v1::Envelope question;
     question.mutable_fish_request()->set_number(3);

@@ -1,0 +1,1 @@
+aquarama_bench(SOURCES drawn_skins_bench.cpp LINK aquarama_scene aquarama_surface aquarama_gl)
