@@ -63,18 +63,27 @@ std::string textOf(const v1::Moderation& moderation) {
     return which + (verdict == kVerdicts.end() ? "decided" : verdict->second);
 }
 
+std::string textOf(const v1::Power& power) {
+    const bool isOff = power.word() == v1::Power::POWEROFF;
+    return (isOff ? "poweroff of the machine of " : "reboot of the machine of ") + power.channel();
+}
+
 // What was asked for, as the list of events has it.
 std::string textOf(const v1::Order& order) {
-    if (order.has_moderation()) return textOf(order.moderation());
-    if (order.has_drawing()) return "a drawing of a " + order.drawing().species();
-    if (order.has_restart()) return "restart node " + order.restart().channel();
-    if (order.has_power())
-        return (order.power().word() == v1::Power::POWEROFF ? "poweroff of the machine of "
-                                                            : "reboot of the machine of ") +
-               order.power().channel();
-    if (order.has_scan())
-        return order.scan().has_pattern() ? "a pattern of a scan" : "no pattern of a scan";
-    return wire::textOf(order.show());
+    switch (order.order_case()) {
+        case v1::Order::kRestart:
+            return "restart node " + order.restart().channel();
+        case v1::Order::kPower:
+            return textOf(order.power());
+        case v1::Order::kScan:
+            return order.scan().has_pattern() ? "a pattern of a scan" : "no pattern of a scan";
+        case v1::Order::kDrawing:
+            return "a drawing of a " + order.drawing().species();
+        case v1::Order::kModeration:
+            return textOf(order.moderation());
+        default:
+            return wire::textOf(order.show());
+    }
 }
 
 // Whether it is a step of a fader, which gives ten a second while it moves.
@@ -198,6 +207,14 @@ v1::OrderReply replyOf(std::uint64_t request, const Answer& answer) {
 
 }  // namespace
 
+std::string titleOfPicture(const std::string& fileName) {
+    constexpr std::size_t kMostNameBytes = 88;
+    std::string name = fileName.empty() ? "a sheet" : legible(fileName, kMostNameBytes);
+    std::ranges::replace_if(
+        name, [](unsigned char letter) { return letter < ' '; }, ' ');
+    return "picture of " + name;
+}
+
 // The only way to any command, whoever gives it and how: roles are held to here.
 v1::OrderReply Commands::carryOut(const Holder& holder, Visitor* visitor, const Command& command) {
     const std::uint64_t id = command.id();
@@ -218,20 +235,30 @@ v1::OrderReply Commands::carryOut(const Holder& holder, Visitor* visitor, const 
 
 // By where it goes.
 Answer Commands::carryOutAllowed(const Holder& holder, Visitor* visitor, const Command& command) {
-    if (command.has_scan()) return showScan(holder, visitor, command);
-    if (command.has_use_calibration()) return useKept(holder, visitor, command);
-    if (command.has_picture()) return readPicture(holder, visitor, command);
-    if (command.has_order()) {
-        v1::Order order = command.order();
-        order.set_request(command.id());
-        order.set_run(command.run());
-        const bool isWhole = order.order_case() != v1::Order::ORDER_NOT_SET && !order.has_scan();
-        if (!isWhole || !config::keepsRules(order)) return refused("there is nothing of that name");
-        return tellWall(holder, visitor, order);
+    switch (command.what_case()) {
+        case What::kScan:
+            return showScan(holder, visitor, command);
+        case What::kUseCalibration:
+            return useKept(holder, visitor, command);
+        case What::kPicture:
+            return readPicture(holder, visitor, command);
+        case What::kOrder:
+            return passOn(holder, visitor, command);
+        default:
+            break;
     }
     const std::string refusal = carryOutHere(holder, visitor, command);
     if (visitor != nullptr) visitors_.sendTopics(*visitor);
     return refusal.empty() ? Answer{} : refused(refusal);
+}
+
+Answer Commands::passOn(const Holder& holder, Visitor* visitor, const Command& command) {
+    v1::Order order = command.order();
+    order.set_request(command.id());
+    order.set_run(command.run());
+    const bool isWhole = order.order_case() != v1::Order::ORDER_NOT_SET && !order.has_scan();
+    if (!isWhole || !config::keepsRules(order)) return refused("there is nothing of that name");
+    return tellWall(holder, visitor, order);
 }
 
 // The master answers later; said() passes that on.
@@ -248,25 +275,39 @@ Answer Commands::tellWall(const Holder& holder, Visitor* visitor, const v1::Orde
 // Whoever asked may have gone; the event is noted all the same.
 void Commands::said(std::uint64_t request, const Answer& answer) {
     const bool isEnded = answer.outcome != Outcome::Waiting;
-    const bool isDone = answer.outcome == Outcome::Done;
-    if (request == scan_.request && isEnded && !isDone) scan_ = {};
-    if (opened_ && request == opened_->request && isEnded) return saidOfHours(answer);
-    if (request == dayEnd_ && isEnded) return saidOfDay(answer);
+    if (isEnded && saidOfOwn(request, answer)) return;
     const auto waiting = waiting_.find(request);
     if (waiting == waiting_.end()) return;
     if (const Answer* before = book_.find(request); !isEnded && before && *before == answer) return;
-    browser::ToBrowser message;
-    *message.mutable_done() = replyOf(request, book_.enter(request, answer));
-    if (Visitor* visitor = waiting->second.visitor)
-        visitors_.sendTo(*visitor, fmt::format("done {}", request), message);
-    else if (!waiting->second.person.empty())
-        visitors_.sendToPerson(waiting->second.person, fmt::format("done {}", request), message);
+    tell(waiting->second, request, book_.enter(request, answer));
     if (!isEnded) return;
-    const std::string found = answer.reason.empty() ? "" : ": " + answer.reason;
-    if (!isDone || !waiting->second.isQuiet)
-        visitors_.note(waiting->second.who,
-                       waiting->second.what + (isDone ? found : ", refused" + found));
+    noteEnd(waiting->second, answer);
     waiting_.erase(waiting);
+}
+
+// A scan that is not shown is not said again.
+bool Commands::saidOfOwn(std::uint64_t request, const Answer& answer) {
+    if (request == scan_.request && answer.outcome != Outcome::Done) scan_ = {};
+    const bool isOfHours = opened_ && request == opened_->request;
+    const bool isOfDay = request == dayEnd_;
+    if (isOfHours) saidOfHours(answer);
+    if (isOfDay) saidOfDay(answer);
+    return isOfHours || isOfDay;
+}
+
+void Commands::tell(const Waiting& who, std::uint64_t request, const Answer& answer) {
+    browser::ToBrowser message;
+    *message.mutable_done() = replyOf(request, answer);
+    const std::string topic = fmt::format("done {}", request);
+    if (who.visitor != nullptr) visitors_.sendTo(*who.visitor, topic, message);
+    if (!who.person.empty()) visitors_.sendToPerson(who.person, topic, message);
+}
+
+void Commands::noteEnd(const Waiting& of, const Answer& answer) {
+    const bool isDone = answer.outcome == Outcome::Done;
+    if (isDone && of.isQuiet) return;
+    const std::string found = answer.reason.empty() ? "" : ": " + answer.reason;
+    visitors_.note(of.who, of.what + (isDone ? "" : ", refused") + found);
 }
 
 // What is refused now is refused in a second as well: that is told once. An order that did not
@@ -450,9 +491,11 @@ Answer Commands::readPicture(const Holder& holder, Visitor* visitor, const Comma
                           const ask::DrawingOutcome& outcome) { offer(id, aside, outcome); };
     if (!read_(picture.picture(), done))
         return refused("too many pictures wait to be read; send it once more in a while");
-    const std::string name = picture.name().empty() ? "a sheet" : legible(picture.name());
-    waiting_[command.id()] = {
-        visitor, holder.name, "picture of " + name, false, visitor == nullptr ? holder.id : ""};
+    waiting_[command.id()] = {visitor,
+                              holder.name,
+                              titleOfPicture(picture.name()),
+                              false,
+                              visitor == nullptr ? holder.id : ""};
     return {Outcome::Waiting, "the picture is read"};
 }
 

@@ -26,6 +26,10 @@ namespace aquarama::console {
 using ReadPicture =
     std::function<bool(std::string picture, std::function<void(const ask::DrawingOutcome&)> done)>;
 
+// What the list of events says of a picture: "picture of scan_1.jpg", of a sheet where it has no
+// name. One line of at most a hundred bytes, whatever the name has.
+[[nodiscard]] std::string titleOfPicture(const std::string& fileName);
+
 // Of the server's thread. Orders for the wall go to the master, whose answer comes by said(); all
 // other commands are carried out here.
 class Commands {
@@ -84,6 +88,9 @@ class Commands {
     [[nodiscard]] ask::Answer carryOutAllowed(const Holder& holder,
                                               Visitor* visitor,
                                               const Command& command);
+    [[nodiscard]] ask::Answer passOn(const Holder& holder,
+                                     Visitor* visitor,
+                                     const Command& command);
     [[nodiscard]] ask::Answer tellWall(const Holder& holder,
                                        Visitor* visitor,
                                        const v1::Order& order);
@@ -109,6 +116,11 @@ class Commands {
                                         const Command& command);
     [[nodiscard]] std::string switchMachine(const Holder& holder, const std::string& word);
     [[nodiscard]] std::string sendAway(const Holder& holder, const std::string& person);
+    // The end of an order that the console itself has given, or of a scan. False: others wait for
+    // it.
+    bool saidOfOwn(std::uint64_t request, const ask::Answer& answer);
+    void tell(const Waiting& who, std::uint64_t request, const ask::Answer& answer);
+    void noteEnd(const Waiting& of, const ask::Answer& answer);
     void saidOfHours(const ask::Answer& answer);
     void saidOfDay(const ask::Answer& answer);
 

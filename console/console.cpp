@@ -8,7 +8,6 @@
 #include <spdlog/fmt/chrono.h>
 #include <spdlog/fmt/fmt.h>
 
-#include "common/base/characters.h"
 #include "common/base/log.h"
 
 namespace aquarama::console {
@@ -44,16 +43,16 @@ void Console::begin(web::WebServer& server, Doors doors) {
         hub_ = std::make_unique<ask::PictureHub>(
             state_.rig.watchAddress,
             ask::watchKeysOf(state_.rigFile, options_.keyFolder),
-            ask::PictureListener{[=, this](const std::string& channel, const v1::FramePicture& picture) {
-                                here([=, this] { visitors_.heardPicture(channel, picture); });
-                            },
-                            [=, this](const v1::FishReply& reply) {
-                                here([=, this] {
-                                    // The fish is asked for what goes on in it at once.
-                                    if (const auto fish = visitors_.heardFish(reply))
-                                        link_->explain(*fish);
-                                });
-                            }});
+            ask::PictureListener{
+                [=, this](const std::string& channel, const v1::FramePicture& picture) {
+                    here([=, this] { visitors_.heardPicture(channel, picture); });
+                },
+                [=, this](const v1::FishReply& reply) {
+                    here([=, this] {
+                        // The fish is asked for what goes on in it at once.
+                        if (const auto fish = visitors_.heardFish(reply)) link_->explain(*fish);
+                    });
+                }});
     link_ = std::make_unique<ShowLink>(
         options_.master,
         ShowListener{[=, this](const v1::StatusReply& status, std::uint64_t run) {
@@ -108,7 +107,7 @@ void Console::beginDrawings() {
         return reply.outcome() == v1::OrderReply::WAITING ? reply.request() : 0;
     };
     const auto refuse = [this](const std::string& name, const std::string& why) {
-        visitors_.note(kFolder.name, "picture of " + legible(name) + ", refused: " + why);
+        visitors_.note(kFolder.name, titleOfPicture(name) + ", refused: " + why);
     };
     folder_ = std::make_unique<DrawingFolder>(
         std::filesystem::path(state_.rigFile).parent_path() / state_.rig.drawings->folder,
@@ -260,6 +259,14 @@ void Console::tendCertificate(UnixSeconds now) {
     }
 }
 
+// Of the folder of pictures; empty where there is none.
+std::string Console::problemOfDrawings() const {
+    if (folder_) return folder_->problem();
+    if (!reader_ || state_.rig.drawings->folder.empty()) return {};
+    return "the pictures of the folder are not read; install aquarama-drawings, and start the "
+           "console again";
+}
+
 std::vector<Fault> Console::faultsNow(UnixSeconds now) const {
     std::vector<Fault> faults = faultsOf(state_.wall, state_.build, now);
     for (Fault& fault : faultsOf(state_.opening.projectors())) faults.push_back(std::move(fault));
@@ -272,13 +279,8 @@ std::vector<Fault> Console::faultsNow(UnixSeconds now) const {
         faults.push_back(
             {"clock", state_.doubtOfClock + "; hours and certificates rest; " + kSetTheClock, 0});
     if (!deskProblem_.empty()) faults.push_back({"cues", "cues: " + deskProblem_, 5});
-    if (folder_ && !folder_->problem().empty())
-        faults.push_back({"drawings", "drawings: " + folder_->problem(), 5});
-    if (reader_ && !reader_->isInstalled() && !state_.rig.drawings->folder.empty())
-        faults.push_back({"drawings",
-                          "drawings: the pictures of the folder are not read; install "
-                          "aquarama-drawings, and start the console again",
-                          5});
+    if (std::string problem = problemOfDrawings(); !problem.empty())
+        faults.push_back({"drawings", "drawings: " + problem, 5});
     if (!trackerProblem_.empty()) faults.push_back({"touch", "hands: " + trackerProblem_, 5});
     if (options_.certificate != nullptr)
         for (Fault& fault : options_.certificate->faults(now)) faults.push_back(std::move(fault));

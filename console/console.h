@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/ask/drawing_reader.h"
+#include "common/ask/picture_hub.h"
 #include "common/ask/request_client.h"
 #include "common/config/rig.h"
 #include "common/machine/service_notifier.h"
@@ -27,7 +28,6 @@
 #include "console/errands.h"
 #include "console/gate.h"
 #include "console/overview.h"
-#include "common/ask/picture_hub.h"
 #include "console/show_link.h"
 #include "console/state.h"
 #include "console/visitors.h"
@@ -77,6 +77,7 @@ class Console final : public web::Service {
   private:
     // Requests (answer()).
     web::HttpReply act(const web::HttpRequest& request);
+    web::HttpReply actAs(const web::HttpRequest& request);
     web::HttpReply pair(const web::HttpRequest& request);
     web::HttpReply leave(const web::HttpRequest& request);
     web::HttpReply look(const web::HttpRequest& request);
@@ -117,6 +118,7 @@ class Console final : public web::Service {
     void tendCertificate(UnixSeconds now);
     // Of the wall, and of this machine's clock and certificate.
     [[nodiscard]] std::vector<Fault> faultsNow(UnixSeconds now) const;
+    [[nodiscard]] std::string problemOfDrawings() const;
 
     ConsoleOptions options_;
     State state_;

@@ -71,12 +71,13 @@ std::uint32_t DrawingBook::wanted() {
     const auto lacks = [&](const v1::DrawingStatus& one) {
         return !pictures_.contains(one.number());
     };
-    for (const v1::DrawingStatus& one : list_.drawings()) {
-        if (one.condition() != v1::DrawingStatus::WAITING || !lacks(one)) continue;
-        makeRoom();
-        return isFull() ? 0 : one.number();
-    }
+    const auto waiting = std::ranges::find_if(list_.drawings(), [&](const auto& one) {
+        return one.condition() == v1::DrawingStatus::WAITING && lacks(one);
+    });
+    const bool isForCrew = waiting != list_.drawings().end();
+    if (isForCrew) makeRoom();
     if (isFull()) return 0;
+    if (isForCrew) return waiting->number();
     const auto newest = std::views::reverse(list_.drawings());
     const auto found = std::ranges::find_if(newest, lacks);
     return found == newest.end() ? 0 : found->number();

@@ -36,8 +36,9 @@ class DrawingBook {
     // Null where there is none.
     [[nodiscard]] const SkinPicture* picture(std::uint32_t number) const;
 
+    // How many wait and swim, and how many there are in all.
     [[nodiscard]] DrawingCounts counts() const;
-    [[nodiscard]] std::size_t size() const;  // drawings
+    [[nodiscard]] std::size_t size() const;
     // As pages are sent it; `version` grows with every change.
     [[nodiscard]] browser::Drawings message() const;
     [[nodiscard]] std::uint64_t version() const { return version_; }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <string_view>
+#include <iterator>
 #include <vector>
 
 #include "common/ask/drawing_reader.h"
@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of one look; more lie until these are gone.
-constexpr int kMostEntries = 1000;
+// Of one look; more wait until these are gone.
+constexpr std::size_t kMostEntries = 1000;
 constexpr const char* kRefused = "refused";
 constexpr int kTicksBetweenLooks = 20;
 
@@ -45,25 +45,27 @@ void trim(const fs::path& folder) {
 
 }  // namespace
 
+DrawingFolder::Seen DrawingFolder::seenIn(const fs::path& folder) {
+    Seen seen;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        if (seen.size() == kMostEntries) break;
+        if (isPicture(entry) && entry.file_size() > 0)
+            seen[entry.path().filename().string()] = {entry.file_size(), entry.last_write_time()};
+    }
+    return seen;
+}
+
 // A file is complete when nothing of it has changed between two looks. One that is too large has no
 // picture here; it is refused unread.
 DrawingFolder::Result DrawingFolder::lookInto(const fs::path& folder, const Seen& before) {
-    Result result;
-    std::optional<fs::file_time_type> oldest;
-    int entries = 0;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-        if (++entries > kMostEntries) break;
-        if (!isPicture(entry) || entry.file_size() == 0) continue;
-        const std::string name = entry.path().filename().string();
-        const FileState state{entry.file_size(), entry.last_write_time()};
-        result.seen[name] = state;
-        const auto known = before.find(name);
-        const bool isComplete = known != before.end() && known->second == state;
-        if (!isComplete || (oldest && *oldest <= state.second)) continue;
-        oldest = state.second;
-        result.name = name;
-    }
-    if (!result.name.empty() && result.seen[result.name].first <= ask::kMostPictureBytes)
+    Result result{.seen = seenIn(folder)};
+    std::vector<Seen::value_type> complete;
+    std::ranges::set_intersection(result.seen, before, std::back_inserter(complete));
+    if (complete.empty()) return result;
+    const auto oldest =
+        std::ranges::min_element(complete, {}, [](const auto& file) { return file.second.second; });
+    result.name = oldest->first;
+    if (oldest->second.first <= ask::kMostPictureBytes)
         result.picture = bytesOf(folder / result.name);
     return result;
 }
@@ -86,11 +88,15 @@ void DrawingFolder::tick(bool isOpen) {
     if (ticksToLook_ > 0) --ticksToLook_;
     if (errand_.valid()) {
         if (errand_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-        take(errand_.get());
+        hear(errand_.get());
     }
-    follow();
-    const bool isLookDue = isOpen && ticksToLook_ == 0;
-    if (command_ == 0 && (isLookDue || !name_.empty())) begin();
+    if (command_ != 0) follow();
+    if (isDue(isOpen)) begin();
+}
+
+bool DrawingFolder::isDue(bool isOpen) const {
+    if (command_ != 0) return false;
+    return !name_.empty() || (isOpen && ticksToLook_ == 0);
 }
 
 // Takes away what is done with, else looks for the next.
@@ -108,31 +114,35 @@ void DrawingFolder::begin() {
 }
 
 // What cannot be taken away is tried again, and no other is read before.
-void DrawingFolder::take(Result result) {
+void DrawingFolder::hear(Result result) {
     problem_ = result.problem.empty() ? ""
                                       : "the folder of pictures cannot be used (" + result.problem +
                                             "); it must be there, and this user write to it";
     if (!problem_.empty()) return;
     const bool wasTakenAway = !std::exchange(name_, {}).empty();
-    if (!wasTakenAway) seen_ = std::move(result.seen);
-    if (result.name.empty()) return;
-    isRefused_ = result.picture.empty();
+    if (wasTakenAway) return;
+    seen_ = std::move(result.seen);
+    if (!result.name.empty()) offer(std::move(result));
+}
+
+void DrawingFolder::offer(Result found) {
+    isRefused_ = found.picture.empty();
     if (isRefused_)
-        taker_.refuse(result.name, "the picture is too large: at most 16 MB");
+        taker_.refuse(found.name, "the picture is too large: at most 16 MB");
     else
-        command_ = taker_.take(result.name, std::move(result.picture));
-    if (isRefused_ || command_ != 0) name_ = std::move(result.name);
+        command_ = taker_.take(found.name, std::move(found.picture));
+    if (isRefused_ || command_ != 0) name_ = std::move(found.name);
 }
 
 // One whose end nobody knows is read once more.
 void DrawingFolder::follow() {
-    if (command_ == 0) return;
-    const ask::Answer* answer = taker_.answerTo(command_);
-    if (answer != nullptr && answer->outcome == ask::Outcome::Waiting) return;
+    static const ask::Answer kUnknown{ask::Outcome::Lost, ""};
+    const ask::Answer* const known = taker_.answerTo(command_);
+    const ask::Answer& answer = known != nullptr ? *known : kUnknown;
+    if (answer.outcome == ask::Outcome::Waiting) return;
     command_ = 0;
-    const bool isKnown = answer != nullptr && answer->outcome != ask::Outcome::Lost;
-    isRefused_ = isKnown && answer->outcome == ask::Outcome::Refused;
-    if (!isKnown) name_.clear();
+    isRefused_ = answer.outcome == ask::Outcome::Refused;
+    if (answer.outcome == ask::Outcome::Lost) name_.clear();
 }
 
 }  // namespace aquarama::console

@@ -51,13 +51,16 @@ class DrawingFolder {
         Seen seen = {};
         std::string name = {}, picture = {};  // of a file that is complete; empty: none is
     };
+    static Seen seenIn(const std::filesystem::path& folder);
     static Result lookInto(const std::filesystem::path& folder, const Seen& before);
     static Result takeAway(const std::filesystem::path& folder,
                            const std::string& name,
                            bool isRefused);
-    void take(Result result);
-    void follow();
+    [[nodiscard]] bool isDue(bool isOpen) const;
     void begin();  // an errand
+    void hear(Result result);
+    void offer(Result found);
+    void follow();
 
     std::filesystem::path folder_;
     PictureTaker taker_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <map>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -59,8 +60,10 @@ PairingRequest pairingIn(const std::string& body) {
 // The route of pictures of sheets, with what it says beside the picture:
 // "/api/drawing?aside=-1&request=7".
 constexpr std::string_view kPictureRoute = "/api/drawing";
-bool isPictureRoute(const std::string& target) {
-    return target.substr(0, target.find('?')) == kPictureRoute;
+
+// Without what follows a question mark.
+std::string_view pathOf(std::string_view target) {
+    return target.substr(0, target.find('?'));
 }
 
 // A whole number that a target says; 0 where it says none.
@@ -80,7 +83,7 @@ Number numberIn(const std::string& target, const std::string& name) {
 // Of "/drawing/12.png?tag"; 0 where it is none.
 std::uint32_t drawingIn(const std::string& target) {
     constexpr std::string_view kBefore = "/drawing/", kAfter = ".png";
-    const std::string path = target.substr(0, target.find('?'));
+    const std::string_view path = pathOf(target);
     if (!path.starts_with(kBefore) || !path.ends_with(kAfter)) return 0;
     std::uint32_t number = 0;
     const char* const last = path.data() + path.size() - kAfter.size();
@@ -136,7 +139,7 @@ HttpReply Console::refused(int status, const std::string& why) {
 // A long body is read only of who may send it.
 std::optional<web::Admission> Console::admit(const HttpRequest& head, HttpReply& refusal) {
     constexpr std::chrono::seconds kTimeForPicture{60};
-    if (head.method != "POST" || !isPictureRoute(head.target)) return web::Admission{};
+    if (head.method != "POST" || pathOf(head.target) != kPictureRoute) return web::Admission{};
     const Doors doors = doorsFor(head, doors_);
     const auto holder = holderOf(head, doors, state_.access);
     if (auto objection = objectionTo(head, doors, true)) {
@@ -224,18 +227,24 @@ HttpReply Console::drawingAt(const HttpRequest& request) const {
 
 // Forms of other pages can send neither JSON nor a picture without asking the browser first.
 HttpReply Console::act(const HttpRequest& request) {
-    const bool isPicture = isPictureRoute(request.target);
+    const bool isPicture = pathOf(request.target) == kPictureRoute;
     const std::string type = isPicture ? "image/" : "application/json";
     if (!request.contentType.starts_with(type)) return refused(415, "only " + type);
     if (request.target == "/pair") return pair(request);
     if (request.target == "/leave") return leave(request);
-    const bool isOrder = request.target == "/api/order";
-    if (request.target != "/command" && !isOrder && !isPicture)
-        return refused(404, "there is nothing to act on here");
+    return actAs(request);
+}
+
+// What only some may do, each by its path.
+HttpReply Console::actAs(const HttpRequest& request) {
+    using Act = HttpReply (Console::*)(const HttpRequest&, const Holder&);
+    static const std::map<std::string_view, Act> kActs{{"/command", &Console::obey},
+                                                       {"/api/order", &Console::takeOrder},
+                                                       {kPictureRoute, &Console::takePicture}};
+    const auto act = kActs.find(pathOf(request.target));
+    if (act == kActs.end()) return refused(404, "there is nothing to act on here");
     const auto holder = holderOf(request, doorsFor(request, doors_), state_.access);
-    if (!holder) return refused(401, "not paired");
-    if (isPicture) return takePicture(request, *holder);
-    return isOrder ? takeOrder(request, *holder) : obey(request, *holder);
+    return holder ? (this->*act->second)(request, *holder) : refused(401, "not paired");
 }
 
 // The one thing that somebody without a session may do.

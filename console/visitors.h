@@ -8,11 +8,11 @@
 #include <set>
 #include <string>
 
+#include "common/ask/picture_hub.h"
 #include "common/web/server.h"
 #include "common/wire/messages.h"
 #include "console/access.h"
 #include "console/console.pb.h"
-#include "common/ask/picture_hub.h"
 #include "console/state.h"
 
 namespace aquarama::console {

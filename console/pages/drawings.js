@@ -33,7 +33,7 @@ const MOST_SHOWN = 12;
 const STAYS_MS = 2000;  // one that is decided, so that the next does not come under the finger
 const CALM_MS = 400;    // after the places of the others have changed
 const decided = new Map();  // number -> {one, verdict, at}
-let places = '', movedAt = 0;
+let places = [], movedAt = 0;
 
 // In their order, with those that were decided a moment ago.
 function standing(link) {
@@ -41,9 +41,9 @@ function standing(link) {
   for (const [number, {at}] of decided) if (now - at > STAYS_MS) decided.delete(number);
   const waiting = allOf(link).filter(one => one.condition === 'WAITING' && !decided.has(one.number));
   const all = [...waiting, ...[...decided.values()].map(({one}) => one)].sort((a, b) => a.number - b.number);
-  const is = all.slice(0, MOST_SHOWN).map(one => one.number).join();
-  if (!is.startsWith(places)) movedAt = now;
-  places = is;
+  const shown = all.slice(0, MOST_SHOWN).map(one => one.number);
+  if (places.some((number, i) => number !== shown[i])) movedAt = now;
+  places = shown;
   return all;
 }
 
@@ -66,7 +66,7 @@ function waitingCard(link, one) {
 function waitingPanel(link) {
   const all = standing(link);
   const more = all.length - MOST_SHOWN;
-  return html`<section class="panel" aria-labelledby="waiting"><div class="row"><h2
+  return html`<section class="panel wait" aria-labelledby="waiting"><div class="row"><h2
     id="waiting">${t('drawing.waiting', {n: waitingCount(link)})}</h2>
     <span class="push">${drawingsButton(link)}</span></div>
     ${link.status.drawings === false ? html`<p class="warn">▲ ${t('drawing.areOff')}</p>` : nothing}
@@ -116,7 +116,7 @@ function dayRow(link, one) {
 function dayPanel(link) {
   const all = allOf(link).filter(one => one.condition !== 'WAITING').reverse();
   const homeless = all.some(one => one.condition === 'HOMELESS');
-  return html`<section class="panel" aria-labelledby="day"><h2 id="day">${t('drawing.day',
+  return html`<section class="panel today" aria-labelledby="day"><h2 id="day">${t('drawing.day',
     {n: link.wall.drawingsSwimming ?? 0})}</h2>
     ${all.length ? html`<ul class="day">${all.map(one => dayRow(link, one))}</ul>`
       : html`<p class="note">${t('drawing.none')}</p>`}
@@ -124,11 +124,12 @@ function dayPanel(link) {
     <p class="note">${t('drawing.keptNote')}</p></section>`;
 }
 
+const wallPanel = link => html`<section class="panel" aria-labelledby="touch"><h2 id="touch">${t('drawing.touch')}</h2>
+  <div class="touchable">${wholeWall(link, touchWall(link))}</div>${touchedPanel(link)}<p
+  class="note">${t('drawing.touchNote')}</p></section>`;
+
 export const drawingsPage = {
   look: link => ({topics: ['drawings', 'panorama'], channels: namesOf(link), widthPx: 480}),
-  view: link => html`<h2 class="hidden">${t('page.drawings')}</h2><div class="drawings"><div
-    class="moderation">${waitingPanel(link)}${dayPanel(link)}</div>
-    <div class="ways"><section class="panel" aria-labelledby="touch"><h2 id="touch">${t('drawing.touch')}</h2>
-      <div class="touchable">${wholeWall(link, touchWall(link))}</div>${touchedPanel(link)}<p
-      class="note">${t('drawing.touchNote')}</p></section>${sheetPanel(link)}</div></div>`,
+  view: link => html`<h2 class="hidden">${t('page.drawings')}</h2><div class="drawings">${
+    waitingPanel(link)}<div class="ways">${sheetPanel(link)}${wallPanel(link)}</div>${dayPanel(link)}</div>`,
 };

@@ -101,7 +101,7 @@ function waysIn(link) {
       ${canFrame() && !camera.video ? button(t('sheet.camera'), () => openCamera(link), {disabled}) : nothing}</div>
     ${camera.problem ? html`<p class="bad">${t('sheet.noCamera', {why: camera.problem})}</p>` : nothing}
     ${camera.video ? framing(link) : nothing}
-    <ul class="sent" role="status">${sheet.sent.map(id => outcomeOf(link, id))}</ul>`;
+    <div role="status"><ul class="sent">${sheet.sent.map(id => outcomeOf(link, id))}</ul></div>`;
 }
 
 export const sheetPanel = link => html`<section class="panel" aria-labelledby="sheet"><h2

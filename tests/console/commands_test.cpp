@@ -372,14 +372,14 @@ TEST_F(DrawnCommands, aPictureOfNoSheetIsRefusedWithItsReason) {
 
 TEST_F(DrawnCommands, aSkinThatIsTooLargeIsNotPassedOn) {
     give(operating, picture(7, "jpeg"));
-    reading.at("jpeg")(ask::ReadDrawing{
-        .species = "clownfish", .skin = std::string(wire::kMostSkinBytes + 1, 'x')});
+    reading.at("jpeg")(ask::ReadDrawing{.species = "clownfish",
+                                        .skin = std::string(wire::kMostSkinBytes + 1, 'x')});
     EXPECT_TRUE(master.orders.empty());
     EXPECT_EQ(operating.outbox.last("done 7").done().reason(), "the drawing is too large");
 }
 
 TEST_F(DrawnCommands, noPictureIsReadInVain) {
-    const auto why = [&, id = std::uint64_t{0}]() mutable {
+    auto why = [&, id = std::uint64_t{0}]() mutable {
         return give(operating, picture(++id, "jpeg")).reason();
     };
     isFull = true;

@@ -352,12 +352,12 @@ class Doors(unittest.TestCase):
         (self.scans / "notes.txt").write_text("no picture")
         self.drawings(lambda listed: len(listed["drawings"]) > before)
         wait_until(lambda: (self.scans / "refused/notes.txt").exists(), 20, "what is refused is moved")
-        wait_until(lambda: sorted(path.name for path in self.scans.iterdir()) == ["refused"], 20, "and what is read, gone")
+        wait_until(lambda: [path.name for path in self.scans.iterdir()] == ["refused"], 20, "and what is read, gone")
         client = Socket(self.desk, Cookie=self.cookie)
         events = [f"{event['who']}: {event['what']}" for event in client.hear()["snapshot"]["events"]["events"]]
         client.close()
-        self.assertIn("folder of drawings: picture of notes.txt, refused: this is no JPEG, PNG or WebP that can be read",
-                      events)
+        self.assertIn("folder of drawings: picture of notes.txt, refused: "
+                      "this is no JPEG, PNG or WebP that can be read", events)
         self.assertRegex("\n".join(events), r"folder of drawings: picture of scan_1.jpg: drawing \d+")
 
     def test_a_command_is_a_wanted_value_and_carried_out_once(self):

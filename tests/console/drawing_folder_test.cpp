@@ -86,7 +86,8 @@ TEST_F(DrawingFolderTest, aPictureIsOfferedOnceAndRemovedWhenItsDrawingWasTaken)
 
 TEST_F(DrawingFolderTest, aRefusedOneIsMovedAndTheNextGoesOn) {
     put("bad.jpg", "no sheet");
-    fs::last_write_time(place / "bad.jpg", fs::file_time_type::clock::now() - std::chrono::hours(1));
+    fs::last_write_time(place / "bad.jpg",
+                        fs::file_time_type::clock::now() - std::chrono::hours(1));
     put("good.jpg");
     tickUntil([&] { return taken.size() == 1; });
     EXPECT_EQ(taken[0], "bad.jpg: no sheet") << "the oldest first";

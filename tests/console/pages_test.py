@@ -24,7 +24,8 @@ try:
 except ImportError:
     webdriver = None
 
-from desk import Desk, aquarama, rig_on_free_ports, wait_until
+from desk import BIN, Desk, aquarama, rig_on_free_ports, wait_until
+from show import lacks
 
 DRIVER = Path("/usr/bin/chromedriver")
 if webdriver is None or not DRIVER.exists():
@@ -40,7 +41,7 @@ from PIL import Image
 from scipy.ndimage import gaussian_filter
 
 AXE = (Path(__file__).parent / "axe/axe.min.js").read_text()
-PAGES = ["wall", "nodes", "events", "schedule", "calibration", "doctor", "log", "mind", "people"]
+PAGES = ["wall", "drawings", "nodes", "events", "schedule", "calibration", "doctor", "log", "mind", "people"]
 SHOTS = os.environ.get("AQUARAMA_SHOTS")
 # For the picture of the guide.
 WEEK = """zone: "Europe/Berlin"
@@ -83,7 +84,7 @@ class Pages(unittest.TestCase):
     def setUpClass(cls):
         # Four frames a second of a pattern: the nodes leave the processor to the browser.
         cls.desk = Desk(*(() if SHOTS else ("--pattern", "grid")), refresh_hz=15 if SHOTS else 4, calibrated=True,
-                        machines={"left": "pit"})
+                        more='drawings { species: ["clownfish", "blue_tang"] }', machines={"left": "pit"})
         cls.addClassCleanup(cls.desk.close)
         cls.pit = Path(cls.desk.folder.name) / "pit"
         cls.pit.mkdir()
@@ -548,6 +549,105 @@ class Pages(unittest.TestCase):
         self.open("wall")
         wait_until(lambda: self.desk.status()["pattern"] == before, 10, "the page was left")
 
+    def offer(self, count, species="clownfish"):
+        token = self.desk.token("operator")
+        return [self.desk.offer(token, 40 * i, 120, 250 - 40 * i, species) for i in range(count)]
+
+    def cards(self, of):
+        """What the cards of a list say, as soon as their pictures are there."""
+        self.driver.execute_script("scrollTo(0, 0)")
+        return self.driver.execute_script("""return [...document.querySelectorAll(arguments[0] + ' > li')].map(card =>
+            [card.querySelector('p').innerText, card.querySelector('img')?.naturalWidth ?? 0]);""", of)
+
+    def test_a_tap_lets_a_drawing_in_or_refuses_it(self):
+        badge = lambda: self.text("nav a[href='#drawings']").split()
+        self.assertEqual(badge(), ["Drawings"])
+        first, second, third = self.offer(3)
+        wait_until(lambda: badge()[1:2] == ["3"], 10, "the badge on the wall's page")
+        self.assertIn("(3)", self.driver.title)
+        self.open("drawings")
+        wait_until(lambda: [width for _, width in self.cards(".waiting")] == 3 * [1024], 10, "three pictures")
+        self.assertTrue(self.cards(".waiting")[0][0].startswith(f"clownfish {first} "))
+        self.shot("drawings")
+        verdict = lambda number, label: next(
+            one for one in self.driver.find_elements(By.CSS_SELECTOR, f".verdict button[data-of='{number}']")
+            if one.text == label)
+        verdict(first, "No").click()
+        self.assertFalse(verdict(first, "Yes, let it in").is_enabled(), "its card stays, and takes no other tap")
+        verdict(second, "Yes, let it in").click()
+        numbers = lambda of: [text.split()[1] for text, _ in self.cards(of)]
+        wait_until(lambda: numbers(".waiting") == [str(third)], 5, "the third alone")
+        wait_until(lambda: numbers(".day") == [str(second)], 10, "who swims")
+        self.assertIn("swims", self.cards(".day")[0][0])
+        self.button("Keep").click()
+        wait_until(lambda: self.button("Keep").get_attribute("aria-pressed") == "true", 5, "kept")
+        self.button("Take down").click()
+        wait_until(lambda: not self.cards(".day") or "leaves" in self.cards(".day")[0][0], 10, "it leaves")
+        # All of them, by one tap, here and on the wall's page.
+        self.button("All drawings off").click()
+        wait_until(lambda: "No new one is taken" in self.text("main"), 5, "none swims")
+        self.open("wall")
+        wait_until(lambda: "Drawings on" in self.text("main"), 5, "the way back")
+        self.button("Drawings on").click()
+        wait_until(lambda: "All drawings off" in self.text("main"), 5, "they swim")
+        self.open("events")
+        self.assertRegex(self.text("ol.events"), rf"Anna\s+drawing {second} let in")
+        self.open("drawings")
+        wait_until(lambda: self.cards(".waiting"), 5, "the third")
+        verdict(third, "No").click()
+        wait_until(lambda: badge() == ["Drawings"], 5, "nothing waits")
+
+    def test_a_watcher_sees_drawings_and_decides_nothing(self):
+        number, = self.offer(1)
+        driver = browser()
+        try:
+            self.pair(driver, self.desk.code("watcher"), "Wim")
+            self.open("drawings", driver)
+            button = self.find(driver, f".verdict button[data-of='{number}']")
+            self.assertFalse(button.is_enabled())
+            self.assertNotIn(True, [one.is_enabled() for one in driver.find_elements(By.CSS_SELECTOR, "main button")])
+        finally:
+            driver.quit()
+        self.open("drawings")
+        self.find(self.driver, f".verdict button[data-of='{number}'].no").click()
+
+    def test_a_fish_that_is_touched_is_taken_down(self):
+        # The page's own module, told of a fish that wears a drawing: where one swims is chance.
+        said = self.driver.execute_async_script("""const [done] = arguments;
+            Promise.all([import('/drawings.js'), import('/vendor/lit-html.js')]).then(([page, {render}]) => {
+                const said = [], place = document.createElement('div');
+                const link = Object.assign(new EventTarget(), {may: () => true, command: wanted => said.push(wanted),
+                    known: {drawings: {drawings: [{number: 7, species: 'clownfish', condition: 'SWIMMING', fish: 31},
+                                                  {number: 8, species: 'clownfish', condition: 'WAITING'}],
+                                       pictures: []}}});
+                const shown = fish => {
+                    page.touchWall(link)({name: 'left'}, {frame: '9', x: 0.25, y: 0.5});
+                    link.known.mind = {fish};
+                    render(page.touchedPanel(link), place);
+                    return place.innerText.replace(/\\s+/g, ' ').trim();
+                };
+                const texts = [shown(31), shown(0), shown(-1)];
+                shown(31);
+                place.querySelector('button.no').click();
+                done([texts, said[0], said.at(-1)]);
+            });""")
+        texts, asked, ordered = said
+        self.assertRegex(texts[0], "clownfish 7 ● swims Take down Close")
+        self.assertRegex(texts[1], "This fish wears no drawing")
+        self.assertRegex(texts[2], "There is no fish")
+        self.assertEqual(asked, {"pointAt": {"channel": "left", "frame": "9", "x": 0.25, "y": 0.5}})
+        self.assertEqual(ordered, {"order": {"moderation": {"number": 7, "verdict": "TAKE_DOWN"}}})
+
+    @unittest.skipIf(*lacks((BIN / "aquarama-drawings").exists(), "aquarama-drawings"))
+    def test_a_picture_of_a_sheet_is_sent_from_the_page(self):
+        self.open("drawings")
+        self.button("left").click()
+        photo = Path(self.desk.folder.name) / "photo.bmp"
+        Image.new("RGB", (800, 600), "white").save(photo)
+        self.find(self.driver, "input[type=file]").send_keys(str(photo))
+        wait_until(lambda: "refused" in self.text(".sent"), 20, "what became of it")
+        self.assertEqual(self.text(".sent").strip(), "picture of a sheet: refused – no sheet is in the picture")
+
     def test_the_log_is_filtered(self):
         self.open("log")
         wait_until(lambda: "showing" in self.text("tbody"), 10, "the log")
@@ -577,6 +677,9 @@ class Pages(unittest.TestCase):
         self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.setDeviceMetricsOverride",
                         {"width": 1280, "height": 900, "deviceScaleFactor": 1, "mobile": False})
         self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.setEmulatedMedia", {"features": []})
+        first, *_ = self.offer(2)
+        self.open("drawings")
+        self.find(self.driver, f".verdict button[data-of='{first}'].yes").click()
         self.driver.execute_script(AXE)  # the pages are one document
         for width, height in ((1280, 900), (820, 1180), (390, 844)):
             self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
@@ -595,6 +698,11 @@ class Pages(unittest.TestCase):
                     self.assertEqual(found, [], (page, width, scheme))
                 self.assertLessEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), width,
                                      f"{page} at {width} px")
+                if page == "drawings":
+                    small = self.driver.execute_script("""return [...document.querySelectorAll(
+                        'main button, main .button')].filter(one => Math.min(one.offsetWidth, one.offsetHeight) < 44)
+                        .map(one => one.innerText);""")
+                    self.assertEqual(small, [], f"too small for a finger at {width} px")
                 if page == "wall" and width < 700:
                     time.sleep(3 if SHOTS else 0)
                     self.shot("phone")

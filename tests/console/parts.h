@@ -16,8 +16,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "common/config/rig.h"
 #include "common/ask/picture_hub.h"
+#include "common/config/rig.h"
 #include "console/show_link.h"
 #include "console/state.h"
 #include "console/visitors.h"
@@ -91,7 +91,7 @@ struct ToldMaster final : console::MasterProxy {
 };
 
 // What the nodes are asked.
-struct AskedNodes final : console::NodeProxy {
+struct AskedNodes final : ask::NodeProxy {
     struct Picture {
         std::string channel;
         std::uint64_t number;

@@ -190,7 +190,7 @@ TwoDays run(const Habit& habit) {
         constexpr double kTick = 10;
         int heardBefore = 0;
         for (double now = kTick; now < 2 * kDay; now += kTick) {
-            if (const auto due = opening.due(kThursday + now)) opening.done(*due);
+            if (const auto due = opening.due(kThursday + now)) opening.done(*due, kThursday + now);
             opening.switchProjectors(kThursday + now, true);
             for (Quickened* one : hall) one->advance(now);
             days.plainTicks += plain.stateAt(now);
