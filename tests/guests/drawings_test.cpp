@@ -227,7 +227,8 @@ TEST_F(VisitorDrawingsTest, numbersSurviveARestartAndALongAbsence) {
     EXPECT_EQ(told(*phone)["fish"].size(), 3U) << "the newest";
     phone.reset();
     begin();
-    pass(3600);
+    now += 3600;
+    pass(1);
     phone.emplace(*service, resuming);
     EXPECT_EQ(told(*phone)["fish"][0]["number"], 22);
     EXPECT_EQ(told(*phone)["fish"][2]["number"], 24);
