@@ -21,6 +21,7 @@ using web::HttpRequest;
 
 constexpr std::string_view kPath = "/drawing/";
 constexpr std::chrono::seconds kUploadTime{30};
+constexpr int kGood = 200;
 
 // -1, 0 or 1 of a target; nothing where it is none.
 std::optional<int> asideOf(const HttpRequest& request) {
@@ -59,38 +60,40 @@ GuestId VisitorDrawings::senderOf(const HttpRequest& request) const {
     return sessions_.guestOf(request.authorization.substr(kScheme.size()));
 }
 
+HttpReply VisitorDrawings::objectionTo(const HttpRequest& head) const {
+    if (senderOf(head).empty()) return refusalOf(401, "session");
+    if (!asideOf(head)) return refusalOf(404, "off");
+    return isOpen() ? HttpReply{} : refusalOf(503, "off");
+}
+
+HttpReply VisitorDrawings::objectionTo(const Visit& visit, double now) {
+    if (visit.isBeingRead || now < visit.mayDraw) return refusalOf(429, "soon");
+    const bool isCrowd = static_cast<std::size_t>(uploads_.use_count()) > kMostUploads;
+    return !isCrowd && pictures_.take(now) ? HttpReply{} : refusalOf(503, "crowd");
+}
+
 std::optional<web::Admission> VisitorDrawings::admit(const HttpRequest& head,
                                                      double now,
                                                      HttpReply& refusal) {
-    const GuestId guest = senderOf(head);
-    if (guest.empty()) {
-        refusal = refusalOf(401, "session");
-    } else if (!asideOf(head)) {
-        refusal = refusalOf(404, "off");
-    } else if (!isOpen()) {
-        refusal = refusalOf(503, "off");
-    } else if (Visit& visit = *sessions_.find(guest); visit.isBeingRead || now < visit.mayDraw) {
-        refusal = refusalOf(429, "soon");
-    } else if (static_cast<std::size_t>(uploads_.use_count()) > kMostUploads ||
-               !pictures_.take(now)) {
-        refusal = refusalOf(503, "crowd");
-    } else {
-        visit.mayDraw = now + kBetween;
-        return web::Admission{
-            .mostBytes = ask::kMostPictureBytes, .within = kUploadTime, .place = uploads_};
-    }
-    return std::nullopt;
+    refusal = objectionTo(head);
+    if (refusal.status != kGood) return std::nullopt;
+    Visit& visit = *sessions_.find(senderOf(head));
+    refusal = objectionTo(visit, now);
+    if (refusal.status != kGood) return std::nullopt;
+    visit.mayDraw = now + kBetween;
+    return web::Admission{
+        .mostBytes = ask::kMostPictureBytes, .within = kUploadTime, .place = uploads_};
 }
 
 HttpReply VisitorDrawings::take(const HttpRequest& request) {
+    if (HttpReply objection = objectionTo(request); objection.status != kGood) return objection;
     const GuestId guest = senderOf(request);
-    const std::optional<int> aside = asideOf(request);
-    if (guest.empty() || !aside || !isOpen()) return refusalOf(503, "off");
     Visit& visit = *sessions_.find(guest);
     if (visit.isBeingRead) return refusalOf(429, "soon");
+    const int aside = *asideOf(request);
     const bool isTaken =
         place_.read(request.body, [this, guest, aside](const ask::DrawingOutcome& outcome) {
-            wasRead(guest, *aside, outcome);
+            wasRead(guest, aside, outcome);
         });
     if (!isTaken) return refusalOf(503, "crowd");
     visit.isBeingRead = true;

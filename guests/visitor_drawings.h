@@ -65,6 +65,9 @@ class VisitorDrawings {
 
   private:
     [[nodiscard]] bool isOpen() const { return place_.read && wall_; }
+    // Why a picture may not be sent: here, or by this visitor now. Of a good reply there is none.
+    [[nodiscard]] web::HttpReply objectionTo(const web::HttpRequest& head) const;
+    [[nodiscard]] web::HttpReply objectionTo(const Visit& visit, double now);
     // The visitor who sends a request; empty: nobody.
     [[nodiscard]] GuestId senderOf(const web::HttpRequest& request) const;
     [[nodiscard]] const WallDrawing* find(std::uint32_t number) const;

@@ -33,10 +33,14 @@ WallDrawing::Condition conditionOf(const v1::DrawingStatus& drawing) {
     }
 }
 
-WallDrawing drawingOf(const v1::DrawingStatus& one) {
-    WallDrawing drawing{.condition = conditionOf(one), .fish = {}};
-    if (one.has_fish()) drawing.fish = one.fish();
-    return drawing;
+WallDrawings drawingsIn(const v1::DrawingsReply& reply) {
+    WallDrawings drawings;
+    for (const v1::DrawingStatus& one : reply.drawings()) {
+        WallDrawing& drawing = drawings[one.number()];
+        drawing.condition = conditionOf(one);
+        if (one.has_fish()) drawing.fish = one.fish();
+    }
+    return drawings;
 }
 
 }  // namespace
@@ -135,10 +139,7 @@ void WallLink::lookAtDrawings(const v1::StatusReply& status) {
     if (!areOn) drawings_.reset();
     if (!areOn || (drawings_ && drawingsVersion_ == status.drawings_version())) return;
     const v1::DrawingsReply reply = client_.drawings();
-    auto drawings = std::make_shared<WallDrawings>();
-    for (const v1::DrawingStatus& one : reply.drawings())
-        (*drawings)[one.number()] = drawingOf(one);
-    drawings_ = std::move(drawings);
+    drawings_ = std::make_shared<const WallDrawings>(drawingsIn(reply));
     drawingsVersion_ = reply.version();
 }
 

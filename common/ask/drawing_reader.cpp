@@ -228,13 +228,17 @@ void DrawingReader::run() {
     }
 }
 
-DrawingOutcome DrawingReader::outcomeOf(const std::string& picture) {
+std::string DrawingReader::answerTo(const std::string& picture) {
     const auto giveUp = Clock::now() + std::chrono::duration<double>(mostSeconds_);
     const Child child(program_);
     Exchange exchange(child.socket(), picture);
-    while (child.runs() && exchange.goOn() && !hasEnded())
-        if (Clock::now() > giveUp) break;
-    if (auto outcome = outcomeIn(exchange.answer())) return *std::move(outcome);
+    while (child.runs() && exchange.goOn() && !hasEnded() && Clock::now() < giveUp) {
+    }
+    return exchange.answer();
+}
+
+DrawingOutcome DrawingReader::outcomeOf(const std::string& picture) {
+    if (auto outcome = outcomeIn(answerTo(picture))) return *std::move(outcome);
     if (hasEnded()) return DrawingRefused{"unreadable"};
     ++failures_;
     logWarning(

@@ -66,6 +66,8 @@ class DrawingReader {
     };
     void run();
     [[nodiscard]] DrawingOutcome outcomeOf(const std::string& picture);
+    // As far as the decoder has said it when it ends or is killed.
+    [[nodiscard]] std::string answerTo(const std::string& picture);
     [[nodiscard]] bool hasEnded();
 
     std::filesystem::path program_;  // empty: none

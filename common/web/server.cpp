@@ -147,8 +147,8 @@ struct WebServer::Impl {
         }
     }
 
+    Shared shared;  // outlives `io`, with whose end those of the connections come
     asio::io_context io{1};
-    Shared shared;
     asio::basic_socket_acceptor<Tcp, Executor> acceptor;
     std::size_t mostConnections;
     std::optional<asio::ssl::context> tls;
