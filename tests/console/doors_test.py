@@ -16,7 +16,7 @@ import time
 import unittest
 from pathlib import Path
 
-from desk import BIN, Desk, Socket, aquarama, frame, skin_png, wait_until
+from desk import BIN, Desk, Socket, aquarama, children_of, frame, skin_png, wait_until
 from show import lacks
 
 
@@ -359,6 +359,24 @@ class Doors(unittest.TestCase):
         self.assertIn("folder of drawings: picture of notes.txt, refused: "
                       "this is no JPEG, PNG or WebP that can be read", events)
         self.assertRegex("\n".join(events), r"folder of drawings: picture of scan_1.jpg: drawing \d+")
+
+    def test_x_a_master_that_is_killed_has_the_drawings_again(self):
+        kept, waits = (self.desk.offer(self.operator, *colour) for colour in ((20, 200, 60), (20, 60, 200)))
+        for verdict in ("LET_IN", "KEEP"):
+            self.assertEqual(self.decide(kept, verdict)[0], 202)
+        known = lambda listed: {one["number"]: (one["condition"], one.get("kept", False)) for one in listed["drawings"]
+                                if one["number"] in (kept, waits)}
+        wanted = {kept: ("SWIMMING", True), waits: ("WAITING", False)}
+        self.drawings(lambda listed: known(listed) == wanted)
+        time.sleep(1)  # it is written beside the frames
+        before = self.desk.status()["frame"]
+        master = next(pid for command, pid in children_of(self.desk.show).items() if "aquarama master" in command)
+        os.kill(master, signal.SIGKILL)
+        again = lambda: re.search(r"frame (\d+)", aquarama("status", self.desk.rig).stdout)
+        wait_until(lambda: (found := again()) and int(found[1]) < before, 60, "the master is started again")
+        self.assertEqual(known(self.drawings(lambda listed: known(listed) == wanted, 60)), wanted)
+        path = f"/drawing/{waits}.png"
+        self.assertEqual(self.desk.request("GET", path, **self.bearer(self.watcher))[0], 200)
 
     def test_a_command_is_a_wanted_value_and_carried_out_once(self):
         client = Socket(self.desk, Cookie=self.cookie)
