@@ -6,7 +6,6 @@
 #include "frame_uniforms.h"
 #include "fish_school.glsl"
 #include "fish_lists.glsl"
-#include "wears_own.glsl"
 
 layout(location = 3) in uint slot;  // of the instance: its place in the school
 
@@ -70,5 +69,5 @@ void main() {
     id = self.id;
     size = self.lengthMetres;
     drawing = layerOf(self);
-    gl_Position = wearsDrawing(self) == kWearsDrawing ? clipFromWorld * vec4(place, 1.0) : kNowhere;
+    gl_Position = clipFromWorld * vec4(place, 1.0);
 }
