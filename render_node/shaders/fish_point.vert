@@ -10,6 +10,7 @@
 layout(location = 3) in uint slot;  // of the instance: its place in the school
 
 // As of fish.vert.
+layout(location = 11) flat out uint drawing;
 layout(location = 0) out vec3 place;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 rest;
@@ -19,7 +20,6 @@ layout(location = 5) flat out uint id;
 layout(location = 6) flat out vec3 dorsal;
 layout(location = 7) out float opacity;
 layout(location = 9) flat out float size;
-layout(location = 11) flat out uint drawing;
 
 const vec2 kCorners[5] =
     vec2[](vec2(0.0), vec2(-1.0, -1.0), vec2(1.0, -1.0), vec2(1.0, 1.0), vec2(-1.0, 1.0));

@@ -1,6 +1,6 @@
 // Puts each fish that a view shows in its place, and unpacks the whole record of these fish alone. In:
-// choices, sums, firsts, pieces, records, layers of drawings. Out: the drawn fish, in the order of the school within each
-// list.
+// choices, sums, firsts, pieces, records, layers of drawings. Out: the drawn fish, in the order of the
+// school within each list.
 #include "shader_interface.h"
 #include "fish_data.glsl"
 #include "fish_record.glsl"

@@ -43,7 +43,7 @@ DrawnSkins::DrawnSkins(std::size_t leftOut)
     tell();
 }
 
-void DrawnSkins::wear(const body::SkinsByNumber& skins, std::size_t most) {
+bool DrawnSkins::dropOthers(const body::SkinsByNumber& skins) {
     bool isChange = false;
     for (Layer& layer : layers_) {
         if (!layer.skin) continue;
@@ -52,6 +52,11 @@ void DrawnSkins::wear(const body::SkinsByNumber& skins, std::size_t most) {
         layer = {};
         isChange = true;
     }
+    return isChange;
+}
+
+void DrawnSkins::wear(const body::SkinsByNumber& skins, std::size_t most) {
+    bool isChange = dropOthers(skins);
     for (const auto& [number, skin] : skins) {
         if (most == 0) break;
         if (isWorn(number)) continue;
