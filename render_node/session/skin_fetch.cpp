@@ -77,34 +77,42 @@ void SkinFetch::requestChunk() {
 void SkinFetch::take(const v1::BlobChunk& chunk) {
     const Digest digest = wire::digestIn(chunk.digest());
     if (!assembly_ || digest != assembly_->digest()) return;
-    const bool isList = !isListRead_ && digest == list_;
-    if (chunk.total() > wire::kMostSkinBytes && !isList) {
+    if (chunk.total() > wire::kMostSkinBytes) {
         assembly_.reset();
         return refuse(digest, "it is larger than a skin may be");
     }
     if (!assembly_->take(chunk.offset(), chunk.total(), std::as_bytes(std::span{chunk.content()})))
         return;
     if (!assembly_->whole()) return requestChunk();
-    net::BlobAssembly whole = *std::exchange(assembly_, {});
-    if (isList) return readList(whole);
-    pictures_[digest];
+    settle(*std::exchange(assembly_, {}));
+}
+
+void SkinFetch::settle(net::BlobAssembly whole) {
+    if (!isListRead_ && whole.digest() == list_) return readList(whole);
+    pictures_[whole.digest()];
     undecoded_.push_back(std::move(whole));
 }
 
-// A list that cannot be read names nothing.
-void SkinFetch::readList(net::BlobAssembly& whole) {
+// It names nothing.
+void SkinFetch::unreadable() {
+    logWarning("the master's list of drawings cannot be read; restart the master");
     isListRead_ = true;
+    listed_.clear();
+    pictures_.clear();
+    offerAll();
+}
+
+void SkinFetch::readList(net::BlobAssembly& whole) {
     const auto bytes = whole.checked();
     const auto list = bytes ? wire::readSkinList(*bytes) : std::nullopt;
+    if (!list) return unreadable();
     listed_.clear();
-    if (list)
-        for (const v1::ListedSkin& skin : list->skins())
-            listed_.push_back({skin.number(), wire::digestIn(skin.picture()), skin.species()});
-    else
-        logWarning("the master's list of drawings cannot be read; restart the master");
+    for (const v1::ListedSkin& skin : list->skins())
+        listed_.push_back({skin.number(), wire::digestIn(skin.picture()), skin.species()});
     std::erase_if(pictures_, [&](const auto& come) {
         return std::ranges::find(listed_, come.first, &Listed::picture) == listed_.end();
     });
+    isListRead_ = true;
     offerAll();
 }
 
@@ -142,6 +150,7 @@ void SkinFetch::keep(const Decoded& decoded) {
 }
 
 void SkinFetch::refuse(const Digest& picture, const std::string& problem) {
+    if (!isListRead_ && picture == list_) return unreadable();
     const auto listed = std::ranges::find(listed_, picture, &Listed::picture);
     if (listed == listed_.end()) return;
     pictures_[picture] = {nullptr, true};

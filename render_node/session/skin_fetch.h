@@ -26,7 +26,7 @@ namespace aquarama::session {
 // again. Used by the net thread.
 class SkinFetch {
   public:
-    // Of all drawings that are there; never null.
+    // All skins that are there, by number; not null.
     using Skins = std::shared_ptr<const body::SkinsByNumber>;
     // `say` sends a message to the master. `wake` makes the net thread call turn() soon; it is
     // called from another thread. `offer` takes all skins that are there, whenever others are.
@@ -60,7 +60,10 @@ class SkinFetch {
         std::shared_ptr<const body::SideSkin> skin;  // null: refused
         std::string problem;
     };
+    // A blob that has come whole: the list, or a picture.
+    void settle(net::BlobAssembly whole);
     void readList(net::BlobAssembly& whole);
+    void unreadable();
     void decodeNext();
     void keep(const Decoded& decoded);
     void refuse(const Digest& picture, const std::string& problem);

@@ -10,13 +10,14 @@ uniform vec4 sideOfSpecies;  // from (-s, y) to a place of the drawing: factors,
 // White paper is brighter than any skin.
 const float kPaper = 0.86;
 // How far pigment spreads in skin, body lengths: paper between the strokes of a crayon takes its colour.
-const float kPigment = 0.011;
+const float kPigment = kFine ? 0.011 : 0.005;
 
-// Of dry paper.
+// Of dry paper. From near some of it stays as sharp as it was drawn.
 vec3 drawnAt(SkinPoint at) {
     vec3 place = vec3(vec2(-at.s, at.y) * sideOfSpecies.xy + sideOfSpecies.zw, float(drawing));
     float texels = max(kPigment, at.pixel) * sideOfSpecies.x * float(textureSize(drawnSkins, 0).x);
-    return mix(texture(drawnSkins, place).rgb, textureLod(drawnSkins, place, log2(texels)).rgb, 0.5);
+    vec3 spread = textureLod(drawnSkins, place, log2(texels)).rgb;
+    return kFine ? mix(texture(drawnSkins, place).rgb, spread, 0.5) : spread;
 }
 
 // Where it is wet, light meets pigment more than once: colours are deeper. A fish is darker above.

@@ -5,7 +5,6 @@
 #include "frame_uniforms.h"
 #include "fish_face.glsl"
 #include "fish_school.glsl"
-#include "wears_own.glsl"
 
 layout(std430, binding = kSurfaceStorage) readonly buffer Surface { uvec4 surface[]; };
 layout(location = 0) in vec4 vertexRest;
@@ -44,5 +43,5 @@ void main() {
     opacity = grows ? fish[slot].blend : 1.0;
     nearness = detailOf(fish[slot]) == kMesh ? fish[slot].blend : 1.0;
     drawing = layerOf(fish[slot]);
-    gl_Position = wearsDrawing(fish[slot]) == kWearsDrawing ? clipFromWorld * vec4(place, 1.0) : kNowhere;
+    gl_Position = clipFromWorld * vec4(place, 1.0);
 }

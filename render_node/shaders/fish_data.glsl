@@ -27,7 +27,6 @@ struct Fish {
 };
 
 uint detailOf(Fish self) { return self.detailAndDrawing & 65535u; }
-bool wearsDrawing(Fish self) { return self.detailAndDrawing >> 16 != 0u; }
 uint layerOf(Fish self) { return (self.detailAndDrawing >> 16) - 1u; }  // where it wears one
 
 // Rotates a vector by a unit quaternion.

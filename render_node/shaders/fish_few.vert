@@ -4,7 +4,6 @@
 #include "frame_uniforms.h"
 #include "fish_coarse.glsl"
 #include "fish_pose.glsl"
-#include "wears_own.glsl"
 
 layout(location = 0) in vec4 vertexRest;
 layout(location = 1) in vec2 vertexFin;
@@ -26,5 +25,5 @@ void main() {
     dorsal = rotate(self.rotation, vec3(0.0, 1.0, 0.0));
     opacity = self.blend;
     drawing = layerOf(self);
-    gl_Position = wearsDrawing(self) == kWearsDrawing ? clipFromWorld * vec4(place, 1.0) : kNowhere;
+    gl_Position = clipFromWorld * vec4(place, 1.0);
 }

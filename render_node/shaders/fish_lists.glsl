@@ -1,6 +1,6 @@
-// The lists into which kernels sort the fish: a list is a species at a level of detail. Fish are
-// counted in groups that no two species share, so that each finds its place without waiting for any
-// other, and the order is always that of the school.
+// The lists into which kernels sort the fish: a list is a species at a level of detail, in its own skin
+// or in drawings. Fish are counted in groups that no two species share, so that each finds its place
+// without waiting for any other, and the order is always that of the school.
 #ifndef FISH_LISTS_GLSL
 #define FISH_LISTS_GLSL
 #include "shader_interface.h"

@@ -28,15 +28,26 @@ void clear() {
         for (uint k = 0u; k < speciesCount * kSurfaces; ++k) {
             uint at = t * kMostSpecies * kSurfaces + k;
             setPiece(at, Piece(0u, 0u, 0u));
-            drawNothing(at);
-            drawNothing(kFirstFins + at);
+            for (uint worn = 0u; worn < 2u; ++worn) {
+                drawNothing(worn * kCommands + at);
+                drawNothing(worn * kCommands + kFirstFins + at);
+            }
         }
     }
 }
 
+// Commands for fish of a list, the first of which wear their own skins, and the others drawings: of bodies
+// at `bodies`, of fins at `fins`.
+void setCommands(uint bodies, uint fins, Mesh mesh, uint own, uint fish, uint first) {
+    setCommand(bodies, bodyOf(mesh, own, first));
+    setCommand(fins, finsOf(mesh, own, first));
+    setCommand(kCommands + bodies, bodyOf(mesh, fish - own, first + own));
+    setCommand(kCommands + fins, finsOf(mesh, fish - own, first + own));
+}
+
 // Gives a list of surfaces room in this turn and the next ones; fish that do not fit in the last turn
-// are drawn as few triangles.
-void place(uint species, uint surface, uint first, uint fish) {
+// are drawn as few triangles. own: how many of the fish, the first ones, wear their own skins.
+void place(uint species, uint surface, uint first, uint own, uint fish) {
     Mesh mesh = kinds[species].meshes[1u + surface];
     uint placed = 0u;
     while (placed < fish && turn < kTurns) {
@@ -44,8 +55,7 @@ void place(uint species, uint surface, uint first, uint fish) {
         if (now > 0u) {
             uint at = (turn * kMostSpecies + species) * kSurfaces + surface;
             setPiece(at, Piece(first + placed, now, usedVertices));
-            setCommand(at, bodyOf(mesh, now, first + placed));
-            setCommand(kFirstFins + at, finsOf(mesh, now, first + placed));
+            setCommands(at, kFirstFins + at, mesh, min(max(own, placed) - placed, now), now, first + placed);
             if (turns[bodyGroupsOf(turn)] == 0u) turns[firstFishOf(turn)] = first + placed;
             turns[bodyGroupsOf(turn)] += now;
             usedVertices += now * mesh.vertexCount;
@@ -56,22 +66,21 @@ void place(uint species, uint surface, uint first, uint fish) {
             usedVertices = 0u;
         }
     }
-    Mesh few = kinds[species].meshes[0];
     uint at = kFirstTails + species * kTails + 1u + surface;
-    setCommand(at, bodyOf(few, fish - placed, first + placed));
-    setCommand(at + 1u + kSurfaces, finsOf(few, fish - placed, first + placed));
+    setCommands(at, at + 1u + kSurfaces, kinds[species].meshes[0], max(own, placed) - placed, fish - placed,
+                first + placed);
 }
 
 // Few triangles, those that fade, points: one behind the other, and those that fade are drawn as
-// both.
-uint placeTail(uint species, uint first) {
-    uint list = species * kDetailStride;
+// both. worn: 0 in their own skins, 1 in drawings.
+uint placeTail(uint species, uint worn, uint first) {
+    uint list = species * kDetailStride + worn * kDrawnLists;
     uint few = totals[list + kFewTriangles], fading = totals[list + kFading];
     firsts[list + kFewTriangles] = first;
     firsts[list + kFading] = first + few;
     firsts[list + kPoint] = first + few + fading;
     Mesh mesh = kinds[species].meshes[0];
-    uint tail = kFirstTails + species * kTails;
+    uint tail = worn * kCommands + kFirstTails + species * kTails;
     setCommand(tail, bodyOf(mesh, few + fading, first));
     setCommand(tail + 1u + kSurfaces, finsOf(mesh, few + fading, first));
     setCommand(tail + 2u + 2u * kSurfaces,
@@ -85,12 +94,15 @@ void main() {
     for (uint surface = kSurfaces; surface-- > 0u;) {
         for (uint species = 0u; species < speciesCount; ++species) {
             uint list = species * kDetailStride + kControlMesh + surface;
+            uint own = totals[list], fish = own + totals[list + kDrawnLists];
             firsts[list] = first;
-            place(species, surface, first, totals[list]);
-            first += totals[list];
+            firsts[list + kDrawnLists] = first + own;
+            place(species, surface, first, own, fish);
+            first += fish;
         }
     }
-    for (uint species = 0u; species < speciesCount; ++species) first = placeTail(species, first);
+    for (uint species = 0u; species < speciesCount; ++species)
+        for (uint worn = 0u; worn < 2u; ++worn) first = placeTail(species, worn, first);
     // A surface that is still in the buffer when fins are drawn need not be evaluated again.
     for (uint t = 0u; turns[bodyGroupsOf(1u)] > 0u && t < kTurns; ++t)
         turns[finGroupsOf(t)] = turns[bodyGroupsOf(t)];

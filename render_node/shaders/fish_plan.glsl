@@ -14,15 +14,16 @@ struct Piece {
     uint firstFish, fish, firstVertex;
 };
 const uint kPieces = kTurns * kMostSpecies * kSurfaces;  // [turn][species][surface]
+const uint kCommands = 2u * kPieces + kMostSpecies * kTails;
 
 // All arrays are of plain numbers: of an array of structures a driver keeps a record for each
 // member of each element, which costs software OpenGL seconds a program.
 layout(std430, binding = kPlanStorage) buffer Plan {
-    uint totals[kMostSpecies * kDetailStride];  // fish, [species][level]
+    uint totals[kMostSpecies * kDetailStride];  // fish, [species][list]
     uint firsts[kMostSpecies * kDetailStride];  // the place of each list's first
     uint turns[kTurns * 8u];              // see bodyGroupsOf(), finGroupsOf(), firstFishOf()
     uint pieces[kPieces * 3u];
-    uint commands[(2u * kPieces + kMostSpecies * kTails) * 5u];  // see setCommand()
+    uint commands[2u * kCommands * 5u];  // see setCommand(); of fish in their own skins, then in drawings
 };
 
 // Of a turn, in `turns`: workgroups (x; then y and z) that evaluate it before bodies are drawn, and

@@ -7,7 +7,6 @@
 #include "fish_coarse.glsl"
 #include "fish_school.glsl"
 #include "fish_lists.glsl"
-#include "wears_own.glsl"
 
 layout(location = 3) in uint slot;  // of the instance: its place in the school
 
@@ -59,5 +58,5 @@ void main() {
     id = self.id;
     size = self.lengthMetres;
     drawing = layerOf(self);
-    gl_Position = wearsDrawing(self) == kWearsDrawing ? clipFromWorld * vec4(place, 1.0) : kNowhere;
+    gl_Position = clipFromWorld * vec4(place, 1.0);
 }

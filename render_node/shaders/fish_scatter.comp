@@ -1,6 +1,6 @@
 // Puts each fish that a view shows in its place, and unpacks the whole record of these fish alone. In:
-// choices, sums, firsts, pieces, records, layers of drawings. Out: the drawn fish, in the order of the school within
-// each list.
+// choices, sums, firsts, pieces, records, layers of drawings. Out: the drawn fish, in the order of the
+// school within each list.
 #include "shader_interface.h"
 #include "fish_data.glsl"
 #include "fish_record.glsl"
@@ -10,10 +10,9 @@
 
 layout(local_size_x = kGroupSize) in;
 layout(std430, binding = kSchoolStorage) writeonly buffer School { Fish fish[]; };
-layout(std430, binding = kChoicesStorage) readonly buffer Choices { uint choices[]; };  // level | rank << 4
-layout(std430, binding = kCountsStorage) readonly buffer Counts { uint counts[]; };    // [group][level], sums
+layout(std430, binding = kChoicesStorage) readonly buffer Choices { uint choices[]; };  // list | rank << 4
+layout(std430, binding = kCountsStorage) readonly buffer Counts { uint counts[]; };    // [group][list], sums
 layout(location = kFishCountLocation) uniform uint fishCount;
-layout(location = kDrawnSpeciesLocation) uniform uvec2 drawnSpecies;  // that may wear drawings, a bit each
 
 // The piece that contains its place, or none.
 bool findSurface(uint species, uint surface, uint slot, out uint firstVertex) {
@@ -33,10 +32,11 @@ void main() {
     uint own = (group - kinds[species].firstGroup) * kGroupSize + gl_LocalInvocationID.x;
     uint i = kinds[species].firstFish + own;
     if (own >= kinds[species].fish || i >= fishCount) return;
-    uint level = choices[i] & 15u;
-    if (level == kUnseen) return;
+    uint list = choices[i] & 15u;
+    if (list == kUnseen) return;
 
-    uint slot = firsts[species * kDetailStride + level] + counts[group * kDetailStride + level] + (choices[i] >> 4);
+    uint level = list % kDrawnLists;
+    uint slot = firsts[species * kDetailStride + list] + counts[group * kDetailStride + list] + (choices[i] >> 4);
     Fish self;
     self.positionMetres = placeMetresOf(i);
     self.lengthMetres = lengthMetresOf(i);
@@ -61,7 +61,6 @@ void main() {
         detail = kFewTriangles;
         self.blend = 1.0;
     }
-    bool mayWear = (drawnSpecies[species >> 5] >> (species & 31u) & 1u) != 0u;
-    self.detailAndDrawing = detail | (mayWear ? layerOf(skinOf(i)) : 0u) << 16;
+    self.detailAndDrawing = detail | drawingOf(i, species) << 16;
     fish[slot] = self;
 }

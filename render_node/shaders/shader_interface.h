@@ -175,7 +175,10 @@ AQUARAMA_CONSTANT uint kSurfaces = 4U;  // levels of detail that have a surface
 AQUARAMA_CONSTANT uint kMeshes =
     1U + kSurfaces;  // few triangles, then the surfaces from coarse to fine
 AQUARAMA_CONSTANT uint kTails = 2U * kMeshes + 1U;  // commands of a species that need no surface
-AQUARAMA_CONSTANT uint kDetailStride = 8U;          // numbers of a species, one a level of detail
+// Lists of a species: one a level of detail for fish in their own skins; so much further on, those
+// for fish that wear drawings.
+AQUARAMA_CONSTANT uint kDrawnLists = 8U;
+AQUARAMA_CONSTANT uint kDetailStride = 2U * kDrawnLists;
 
 // Levels of detail of a fish: surface::DetailLevel.
 AQUARAMA_CONSTANT uint kPoint = 0U;

@@ -12,7 +12,6 @@ namespace aquarama::surface {
 namespace {
 
 constexpr std::size_t kFirstLayers = 4;
-constexpr float kAnisotropy = 4.0F;
 
 gl::Texture makeArray(std::size_t leftOut, std::size_t layers) {
     gl::Texture array(GL_TEXTURE_2D_ARRAY);
@@ -28,7 +27,8 @@ gl::Texture makeArray(std::size_t leftOut, std::size_t layers) {
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
         glTextureParameteri(name, axis, GL_CLAMP_TO_EDGE);
-    if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
+    constexpr float kAnisotropy = 4.0F;  // costs too much where drawings are small
+    if (leftOut == 0 && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
         glTextureParameterf(name, GL_TEXTURE_MAX_ANISOTROPY_EXT, kAnisotropy);
     glObjectLabel(GL_TEXTURE, name, -1, "drawn skins");
     return array;
@@ -43,7 +43,7 @@ DrawnSkins::DrawnSkins(std::size_t leftOut)
     tell();
 }
 
-void DrawnSkins::wear(const body::SkinsByNumber& skins, std::size_t most) {
+bool DrawnSkins::dropOthers(const body::SkinsByNumber& skins) {
     bool isChange = false;
     for (Layer& layer : layers_) {
         if (!layer.skin) continue;
@@ -52,6 +52,11 @@ void DrawnSkins::wear(const body::SkinsByNumber& skins, std::size_t most) {
         layer = {};
         isChange = true;
     }
+    return isChange;
+}
+
+void DrawnSkins::wear(const body::SkinsByNumber& skins, std::size_t most) {
+    bool isChange = dropOthers(skins);
     for (const auto& [number, skin] : skins) {
         if (most == 0) break;
         if (isWorn(number)) continue;

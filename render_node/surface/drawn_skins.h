@@ -43,6 +43,8 @@ class DrawnSkins {
         std::uint32_t layers = 0;
         std::array<std::uint32_t, 3> padding{};
     };
+    // Whether there were any.
+    bool dropOthers(const body::SkinsByNumber& skins);
     [[nodiscard]] bool isWorn(std::uint32_t number) const;
     [[nodiscard]] std::size_t freeLayer();
     void grow();

@@ -61,14 +61,18 @@ struct FishPlan {
     template <class T>
     using EachPiece = std::array<std::array<std::array<T, kSurfaces>, kMostSpecies>, kTurns>;
 
-    // By species and level: how many fish a view shows, and the index of the first of them among
+    // By species and list: how many fish a view shows, and the index of the first of them among
     // the drawn fish.
     std::array<std::array<std::uint32_t, kDetailStride>, kMostSpecies> totals, firsts;
     std::array<Turn, kTurns> turns;
     EachPiece<Piece> pieces;
-    EachPiece<Command> bodies, fins;
-    // Draws of a species that need no surface.
-    std::array<std::array<Command, kTails>, kMostSpecies> tails;
+    // Draws of fish in their own skins, and of those that wear drawings.
+    struct Draws {
+        EachPiece<Command> bodies, fins;
+        // Of a species, those that need no surface.
+        std::array<std::array<Command, kTails>, kMostSpecies> tails;
+    };
+    Draws own, drawn;
 };
 static_assert(shaders::kMostSpecies == kMostSpecies);
 static_assert(sizeof(FishPlan::Command) == 20 && sizeof(FishPlan::Turn) == 32);

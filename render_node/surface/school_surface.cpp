@@ -62,7 +62,6 @@ namespace {
 gl::Replacements replacementsFor(Worn worn, gl::Replacements replacements) {
     if (worn == Worn::Drawing) {
         replacements.push_back({"own_skin.glsl", "drawn_skin.glsl"});
-        replacements.push_back({"wears_own.glsl", "wears_drawing.glsl"});
     }
     return replacements;
 }
@@ -152,12 +151,11 @@ struct SpeciesShaders {
     std::size_t firstFish = 0, fish = 0;
     bool isDrawn = false;  // in this frame one of them may wear a drawing
 
-    // The same fish are drawn for each thing that they may wear: vertex shaders leave out the
-    // others.
+    // Calls draw(shader, where its draws are in the plan) for each thing that its fish wear.
     template <class Draw>
     void eachWorn(const Draw& draw) const {
-        draw(own);
-        if (isDrawn) draw(*drawn);
+        draw(own, offsetof(FishPlan, own));
+        if (isDrawn) draw(*drawn, offsetof(FishPlan, drawn));
     }
 };
 
@@ -298,7 +296,8 @@ void SchoolSurface::Parts::setConstants() const {
     std::array<GLuint, 2> drawn{};
     for (std::size_t s = 0; s < species.size(); ++s)
         if (species[s].drawn) drawn.at(s / 32) |= 1U << (s % 32);
-    glProgramUniform2uiv(scatter.name(), shaders::kDrawnSpeciesLocation, 1, drawn.data());
+    for (const unsigned program : {cull.name(), scatter.name()})
+        glProgramUniform2uiv(program, shaders::kDrawnSpeciesLocation, 1, drawn.data());
 }
 
 void SchoolSurface::Parts::setView(unsigned program,
@@ -338,7 +337,7 @@ void SchoolSurface::Parts::sort() const {
     glDispatchCompute(groups, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(scan.name());
-    glDispatchCompute(static_cast<GLuint>(species.size()), kDetailLevels, 1);
+    glDispatchCompute(static_cast<GLuint>(species.size()), kDetailStride, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(planner.name());
     glDispatchCompute(1, 1, 1);
@@ -371,12 +370,14 @@ void SchoolSurface::Parts::evaluate(std::size_t turn, std::size_t groupsOffset) 
 // Draws the surfaces of a turn. Consecutive levels of a species that use the same program go into
 // one call.
 void SchoolSurface::Parts::drawSurfaces(std::size_t turn, bool isFins) const {
-    const std::size_t table = isFins ? offsetof(FishPlan, fins) : offsetof(FishPlan, bodies);
+    using Draws = FishPlan::Draws;
+    const std::size_t table = isFins ? offsetof(Draws, fins) : offsetof(Draws, bodies);
     for (std::size_t s = 0; s < species.size(); ++s) {
         const std::size_t piece = (turn * shaders::kMostSpecies + s) * kSurfaces;
         const std::size_t first = table + piece * sizeof(FishPlan::Command);
-        species[s].eachWorn(
-            [&](const SkinShader& skinShader) { drawLevels(skinShader, first, isFins); });
+        species[s].eachWorn([&](const SkinShader& skinShader, std::size_t draws) {
+            drawLevels(skinShader, draws + first, isFins);
+        });
     }
 }
 
@@ -422,14 +423,14 @@ void SchoolSurface::Parts::drawTails(std::size_t first,
                                      gl::ProgramHandle SkinShader::*program) const {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, plan.name());
     for (std::size_t s = 0; s < species.size(); ++s)
-        species[s].eachWorn([&](const SkinShader& skinShader) {
+        species[s].eachWorn([&](const SkinShader& skinShader, std::size_t draws) {
             glUseProgram((skinShader.*program).name());
-            glMultiDrawElementsIndirect(
-                GL_TRIANGLES,
-                GL_UNSIGNED_INT,
-                at(offsetof(FishPlan, tails) + (s * kTails + first) * sizeof(FishPlan::Command)),
-                static_cast<GLsizei>(commands),
-                sizeof(FishPlan::Command));
+            glMultiDrawElementsIndirect(GL_TRIANGLES,
+                                        GL_UNSIGNED_INT,
+                                        at(draws + offsetof(FishPlan::Draws, tails) +
+                                           (s * kTails + first) * sizeof(FishPlan::Command)),
+                                        static_cast<GLsizei>(commands),
+                                        sizeof(FishPlan::Command));
         });
 }
 
@@ -526,7 +527,8 @@ SurfaceCounts SchoolSurface::counts() const {
         parts_->plan.name(), offsetof(FishPlan, totals), sizeof(totals), &totals);
     for (std::size_t s = 0; s < parts_->species.size(); ++s)
         for (std::size_t level = 0; level < kDetailLevels; ++level)
-            counts.atLevel.at(level) += totals.at(s).at(level);
+            counts.atLevel.at(level) +=
+                totals.at(s).at(level) + totals.at(s).at(level + shaders::kDrawnLists);
     counts.visible = std::accumulate(counts.atLevel.begin(), counts.atLevel.end(), std::size_t{0});
     return counts;
 }

@@ -47,8 +47,8 @@ struct SkinPrograms {
 enum class Worn : std::uint8_t { Own, Drawing };
 
 // The programs of one species: fish_body.frag near, fish_far.frag far, and fish_fin.frag, each with
-// the species' skin shader, shaders/skin_SPECIES.glsl, or skin_plain.glsl where there is none. They
-// draw only fish that wear what is said; of drawings, drawn_skin.glsl has the colours.
+// the species' skin shader, shaders/skin_SPECIES.glsl, or skin_plain.glsl where there is none. For
+// fish that wear drawings, drawn_skin.glsl has the colours.
 struct SkinShader {
     SkinShader(const SchoolSpecies& species, Worn worn, const gl::Replacements& tier);
 

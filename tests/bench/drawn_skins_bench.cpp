@@ -128,11 +128,11 @@ void drawnSkins(benchmark::State& state, config::QualityTier quality) {
 BENCHMARK_CAPTURE(drawnSkins, low, config::QualityTier::Low)
     ->Name("drawn_skins/low")
     ->Unit(benchmark::kMillisecond)
-    ->Iterations(60);
+    ->Iterations(30);
 BENCHMARK_CAPTURE(drawnSkins, medium, config::QualityTier::Medium)
     ->Name("drawn_skins/medium")
     ->Unit(benchmark::kMillisecond)
-    ->Iterations(20);
+    ->Iterations(10);
 
 }  // namespace
 }  // namespace aquarama::bench
