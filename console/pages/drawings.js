@@ -113,7 +113,8 @@ export function touchedPanel(link) {
 function dayRow(link, one) {
   const disabled = !link.may('OPERATOR') || one.condition === 'LEAVING';
   const keep = one.kept ? 'KEEP_NO_MORE' : 'KEEP';
-  return html`<li>${picture(link, one)}<p>${nameOf(one)} <span class="quiet">${since(one)}</span><br>${state(one.condition)}</p>
+  return html`<li>${picture(link, one)}<p>${nameOf(one)} <span
+    class="quiet">${since(one)}</span><br>${state(one.condition)}</p>
     <div class="row">${button(t('drawing.kept'), () => decide(link, one, keep),
       {disabled, pressed: String(one.kept), of: one.number})}
     ${button(t('drawing.take'), () => decide(link, one, 'TAKE_DOWN'), {disabled, of: one.number})}</div></li>`;
