@@ -2,12 +2,19 @@
 // Visitors' drawings: those that wait for the crew, those of the day, ways in, and which fish of the wall wears one.
 import {html, nothing} from '/vendor/lit-html.js';
 import {sheetPanel} from '/sheets.js';
-import {button, dateTime, namesOf, state, t, time, wholeWall, word} from '/widgets.js';
+import {button, language, namesOf, state, t, wholeWall, word} from '/widgets.js';
 
 export const hasDrawings = link => link.known.snapshot?.hasDrawings ?? false;
 export const waitingCount = link => hasDrawings(link) ? link.wall.drawingsWaiting ?? 0 : 0;
 const allOf = link => link.known.drawings?.drawings ?? [];
 const nameOf = one => t('drawing.of', {number: one.number, species: word(one.species)});
+
+// "5:55 PM"; of one that is kept from another day, its date.
+function since(one) {
+  const at = new Date(1000 * Number(one.offeredAt));
+  return at.toDateString() === new Date().toDateString()
+    ? at.toLocaleTimeString(language(), {hour: 'numeric', minute: '2-digit'}) : at.toLocaleDateString(language());
+}
 
 function decide(link, one, verdict) {
   link.command({order: {moderation: {number: one.number, verdict}}}, `${nameOf(one)}: ${t(`drawing.${verdict}`)}`);
@@ -59,7 +66,7 @@ function waitingCard(link, one) {
       ?disabled=${verdict || !link.may('OPERATOR')} @click=${act}>${t(name === 'LET_IN' ? 'drawing.yes'
       : 'drawing.no')}</button>`;
   };
-  return html`<li>${picture(link, one)}<p>${nameOf(one)} <span class="quiet">${time(Number(one.offeredAt))}</span></p>
+  return html`<li>${picture(link, one)}<p>${nameOf(one)} <span class="quiet">${since(one)}</span></p>
     <div class="verdict">${say('TAKE_DOWN', 'no')}${say('LET_IN', 'yes')}</div></li>`;
 }
 
@@ -107,7 +114,7 @@ function dayRow(link, one) {
   const disabled = !link.may('OPERATOR') || one.condition === 'LEAVING';
   const keep = one.kept ? 'KEEP_NO_MORE' : 'KEEP';
   return html`<li>${picture(link, one)}<p>${nameOf(one)} <span
-    class="quiet">${dateTime(Number(one.offeredAt))}</span><br>${state(one.condition)}</p>
+    class="quiet">${since(one)}</span><br>${state(one.condition)}</p>
     <div class="row">${button(t('drawing.kept'), () => decide(link, one, keep),
       {disabled, pressed: String(one.kept), of: one.number})}
     ${button(t('drawing.take'), () => decide(link, one, 'TAKE_DOWN'), {disabled, of: one.number})}</div></li>`;

@@ -94,8 +94,8 @@ function waysIn(link) {
   const disabled = !link.may('OPERATOR');
   const side = name => button(t(`sheet.${name}`), () => { sheet.side = name; link.dispatchEvent(new Event('change')); },
     {disabled, pressed: String(sheet.side === name), of: 'side'});
-  return html`<div class="row" role="group" aria-labelledby="side"><span id="side">${t('sheet.side')}</span>${
-    Object.keys(SIDES).map(side)}</div>
+  return html`<div class="row" role="group" aria-labelledby="side"><span id="side" class="above">${
+    t('sheet.side')}</span>${Object.keys(SIDES).map(side)}</div>
     <div class="row"><label class="button file ${disabled ? 'off' : ''}">${t('sheet.file')}<input class="hidden"
       type="file" accept="image/*" capture="environment" ?disabled=${disabled} @change=${choose}></label>
       ${canFrame() && !camera.video ? button(t('sheet.camera'), () => openCamera(link), {disabled}) : nothing}</div>

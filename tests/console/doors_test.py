@@ -341,18 +341,18 @@ class Doors(unittest.TestCase):
         self.assertEqual((status, text), (202, "waiting: the picture is read; request 4711\n"))
         end = lambda request: self.desk.request("POST", "/api/order", {"request": request},
                                                 **self.bearer(self.operator))
-        wait_until(lambda: end("4711")[0] != 202, 20, "it is read")
+        wait_until(lambda: end("4711")[0] != 202, 60, "it is read")
         self.assertRegex(end("4711")[2], r"\Adone: drawing \d+\n\Z")
         self.assertEqual(self.send(b"no picture", target="/api/drawing?request=4712")[0], 202)
-        wait_until(lambda: end("4712")[0] != 202, 20, "it is read")
+        wait_until(lambda: end("4712")[0] != 202, 60, "it is read")
         self.assertEqual(end("4712")[::2], (403, "refused: this is no JPEG, PNG or WebP that can be read\n"))
         # The same by the folder of a scanner.
         before = len(self.drawings(lambda listed: True)["drawings"])
         (self.scans / "scan_1.jpg").write_bytes(photo)
         (self.scans / "notes.txt").write_text("no picture")
-        self.drawings(lambda listed: len(listed["drawings"]) > before)
-        wait_until(lambda: (self.scans / "refused/notes.txt").exists(), 20, "what is refused is moved")
-        wait_until(lambda: [path.name for path in self.scans.iterdir()] == ["refused"], 20, "and what is read, gone")
+        self.drawings(lambda listed: len(listed["drawings"]) > before, 60)
+        wait_until(lambda: (self.scans / "refused/notes.txt").exists(), 60, "what is refused is moved")
+        wait_until(lambda: [path.name for path in self.scans.iterdir()] == ["refused"], 60, "and what is read, gone")
         client = Socket(self.desk, Cookie=self.cookie)
         events = [f"{event['who']}: {event['what']}" for event in client.hear()["snapshot"]["events"]["events"]]
         client.close()
