@@ -58,6 +58,7 @@ declare -A way=(
     [console_schedule.png]=console
     [console_phone.png]=console
     [console_mind.png]=console
+    [console_drawings.png]=console
     [guests_waiting.png]=guests
     [guests_steering.png]=guests
     [drawings_fish.webp]=drawings

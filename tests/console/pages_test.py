@@ -632,7 +632,7 @@ class Pages(unittest.TestCase):
                 done([texts, said[0], said.at(-1)]);
             });""")
         texts, asked, ordered = said
-        self.assertRegex(texts[0], "clownfish 7 ● swims Take down Close")
+        self.assertRegex(texts[0], r"clownfish 7 ● swims ?Take down Close")
         self.assertRegex(texts[1], "This fish wears no drawing")
         self.assertRegex(texts[2], "There is no fish")
         self.assertEqual(asked, {"pointAt": {"channel": "left", "frame": "9", "x": 0.25, "y": 0.5}})
