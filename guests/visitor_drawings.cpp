@@ -129,9 +129,16 @@ void VisitorDrawings::offered(std::uint64_t request, std::uint32_t number) {
     Visit* const visit = sessions_.find(offer.mapped());
     if (visit == nullptr) return;
     visit->isBeingRead = false;
+    fresh_.insert(number);
     visit->drawings.push_back(number);
     if (visit->drawings.size() > Visit::kMostDrawings)
         visit->drawings.erase(visit->drawings.begin());
+}
+
+// A number comes before the list that has it.
+void VisitorDrawings::heard(std::shared_ptr<const WallDrawings> drawings) {
+    wall_ = std::move(drawings);
+    std::erase_if(fresh_, [this](std::uint32_t number) { return find(number) != nullptr; });
 }
 
 void VisitorDrawings::does(std::uint32_t fish, const FishDeed& deed) {
@@ -173,7 +180,8 @@ json VisitorDrawings::told(const GuestId& guest, double now) const {
     if (!isOpen()) return nullptr;
     const Visit& visit = *sessions_.find(guest);
     json fish = json::array();
-    for (const std::uint32_t number : visit.drawings) fish.push_back(toldOf(number));
+    for (const std::uint32_t number : visit.drawings)
+        if (!fresh_.contains(number)) fish.push_back(toldOf(number));
     return {{"wait_s", std::lround(std::ceil(std::max(visit.mayDraw - now, 0.0)))},
             {"reading", visit.isBeingRead},
             {"refused", visit.refusedDrawing},

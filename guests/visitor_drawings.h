@@ -54,7 +54,7 @@ class VisitorDrawings {
     [[nodiscard]] static bool isMeant(const web::HttpRequest& request);
 
     // What the wall says.
-    void heard(std::shared_ptr<const WallDrawings> drawings) { wall_ = std::move(drawings); }
+    void heard(std::shared_ptr<const WallDrawings> drawings);
     void offered(std::uint64_t request, std::uint32_t number);
     void does(std::uint32_t fish, const FishDeed& deed);
     // Asks the wall for what the fish of these visitors do.
@@ -82,6 +82,7 @@ class VisitorDrawings {
     std::shared_ptr<const char> uploads_;  // held once for each that is under way
     std::shared_ptr<const WallDrawings> wall_;
     std::map<std::uint64_t, GuestId> offers_;  // without an answer
+    std::set<std::uint32_t> fresh_;            // numbers that the wall has not listed yet
     std::map<std::uint32_t, FishDeed> deeds_;  // of fish that are watched
 };
 

@@ -110,6 +110,8 @@ TEST_F(VisitorDrawingsTest, aPictureBecomesAFishWithANumber) {
     EXPECT_EQ(wall.offers[0].skin, "skin");
     EXPECT_EQ(wall.offers[0].aside, -1);
     service->offered(wall.offers[0].request, 17);
+    pass(0.5);
+    EXPECT_EQ(told(phone)["fish"], json::array()) << "the wall has not listed it yet";
     hear({{17, {}}});
     pass(0.5);
     EXPECT_EQ(told(phone)["reading"], false);
@@ -222,6 +224,7 @@ TEST_F(VisitorDrawingsTest, numbersSurviveARestartAndALongAbsence) {
         EXPECT_EQ(send(request(secret)).first, 202);
         pictures.back().done(ask::ReadDrawing{"clownfish", "skin"});
         service->offered(wall.offers.back().request, number);
+        hear({{number, {}}});
         pass(30.1);
     }
     EXPECT_EQ(told(*phone)["fish"].size(), 3U) << "the newest";
