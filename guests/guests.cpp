@@ -30,6 +30,7 @@ constexpr std::uint64_t kTicksATell = 5;  // 10 ticks a second
 constexpr std::uint64_t kTicksAKeep = 10;
 constexpr double kLooks = 4;  // seconds after which nobody looks at the wall's picture
 constexpr std::size_t kDigits = 3;
+constexpr std::string_view kPicture = "/wall.jpg?";
 
 // The loopback's names are ours as well. Browsers leave port 80 out.
 std::vector<std::string> hostsOf(const config::Guests& place) {
@@ -126,7 +127,7 @@ HttpReply GuestService::answer(const HttpRequest& request) {
     if (std::ranges::find(hosts_, request.host) == hosts_.end())
         return {.status = 421, .body = "visitors are not served by that name\n"};
     if (VisitorDrawings::isMeant(request)) return drawings_.take(request);
-    if (request.target.starts_with("/wall.jpg?")) return picture();
+    if (request.target.starts_with(kPicture)) return picture(request.target);
     if (request.method != "GET" && request.method != "HEAD")
         return {.status = 405, .body = "only GET\n"};
     HttpRequest page = request;
@@ -135,8 +136,12 @@ HttpReply GuestService::answer(const HttpRequest& request) {
     return found ? *std::move(found) : HttpReply{.status = 404, .body = "there is no such page\n"};
 }
 
-// The newest; whoever asks for it sees to it that there will be a newer one.
-HttpReply GuestService::picture() {
+// The newest; whoever asks for it sees to it that there will be a newer one. It shows the sign, so
+// only who has seen that on the wall is given it: "/wall.jpg?SECRET.NUMBER".
+HttpReply GuestService::picture(const std::string& target) {
+    const std::string asker = target.substr(kPicture.size());
+    if (sessions_.guestOf(asker.substr(0, asker.find('.'))).empty())
+        return {.status = 401, .body = "the wall is shown to visitors who were let in\n"};
     lookedAt_ = clock_();
     const std::string jpeg = options_.picture == nullptr ? "" : options_.picture->jpeg();
     if (jpeg.empty()) return {.status = 404, .body = "there is no picture of the wall\n"};

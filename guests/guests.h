@@ -96,7 +96,7 @@ class GuestService final : public web::Service {
     void steer(const Phone& phone, const Steering& steering);
     // In the direction of a place of the wall's picture, as shares of its size; nothing: ahead.
     void feed(Phone& phone, const std::optional<glm::vec2>& place);
-    [[nodiscard]] web::HttpReply picture();
+    [[nodiscard]] web::HttpReply picture(const std::string& target);
     void gone(Phone& phone);
     [[nodiscard]] bool isOurs(const web::HttpRequest& request) const;
     [[nodiscard]] bool acceptsCode(Phone& phone, const std::string& code);

@@ -2,8 +2,8 @@
 
 const EVERY_MS = 1000;
 
-// `say` tells the server; `mayLook` and `mayFeed` say whether that makes sense now.
-export function wall(image, say, mayLook, mayFeed) {
+// `say` tells the server; secret() is the visitor's; `mayLook` and `mayFeed` say whether that makes sense now.
+export function wall(image, say, secret, mayLook, mayFeed) {
   let asked = 0, isAsked = false;
 
   image.addEventListener("load", () => {
@@ -14,7 +14,7 @@ export function wall(image, say, mayLook, mayFeed) {
   setInterval(() => {
     if (isAsked || document.hidden || !mayLook()) return;
     isAsked = true;
-    image.src = `/wall.jpg?${++asked}`;
+    image.src = `/wall.jpg?${secret()}.${++asked}`;
   }, EVERY_MS);
 
   image.addEventListener("pointerdown", event => {

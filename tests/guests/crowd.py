@@ -68,6 +68,7 @@ class Crowd:
         await asyncio.sleep(number / self.phones * 15)
         visitor = Visitor(self.hall.guests, self.echoes)
         await visitor.connect(enter=token())
+        looks = asyncio.create_task(self.look(visitor))
         while not self.is_over():
             await asyncio.sleep(2 + 2 * random.random())
             if random.random() < 0.05:
@@ -75,15 +76,16 @@ class Crowd:
                 await asyncio.sleep(0.5)
                 await visitor.connect(resume=visitor.session)
             await visitor.echo()
+        await looks
         visitor.drop()
 
-    async def look(self, number):
+    async def look(self, visitor):
         """The wall's picture once a second, as a page does."""
         host, port = self.hall.guests.split(":")
         while not self.is_over():
             began = time.monotonic()
             reader, writer = await asyncio.open_connection(host, int(port))
-            writer.write(f"GET /wall.jpg?{number} HTTP/1.1\r\nHost: {self.hall.guests}\r\n"
+            writer.write(f"GET /wall.jpg?{visitor.session}.1 HTTP/1.1\r\nHost: {self.hall.guests}\r\n"
                          "Connection: close\r\n\r\n".encode())
             answer = await reader.read()
             writer.close()
@@ -93,8 +95,7 @@ class Crowd:
 
     async def run(self, token):
         visits = [self.visit(number, token) for number in range(self.phones)]
-        looks = [self.look(number) for number in range(self.phones)]
-        done = await asyncio.gather(*visits, *looks, return_exceptions=True)
+        done = await asyncio.gather(*visits, return_exceptions=True)
         self.lost = [problem for problem in done if isinstance(problem, Exception)]
 
     def operate(self):

@@ -87,6 +87,24 @@ TEST_F(GuestServiceTest, foodGoesWhereAFingerPoints) {
     EXPECT_LT(feed(R"({"feed":[0.01,0.5]})").z, -1.9F);
 }
 
+// It shows the sign.
+TEST_F(GuestServiceTest, theWallIsShownToWhoWasLetIn) {
+    config::Rig rig = config::readRig(AQUARAMA_SOURCE_DIR "/config/desk.txtpb");
+    rig.guests.emplace().picturesAddress = "tcp://127.0.0.1:*";
+    WallPicture picture(rig, std::nullopt);
+    shown = &picture;
+    begin();
+    const auto statusOf = [&](const std::string& target) {
+        return service->answer({.method = "GET", .target = target, .host = "10.0.0.1:7490"}).status;
+    };
+    Caller phone(*service, entering());
+    const std::string secret = phone.outbox.said["session"]["session"];
+    EXPECT_EQ(statusOf("/wall.jpg?1"), 401);
+    EXPECT_EQ(statusOf("/wall.jpg?"), 401);
+    EXPECT_EQ(statusOf("/wall.jpg?" + secret.substr(1) + ".1"), 401);
+    EXPECT_EQ(statusOf("/wall.jpg?" + secret + ".1"), 404) << "nodes have brought none yet";
+}
+
 TEST_F(GuestServiceTest, letsInWhoSeesTheWall) {
     Caller scanned(*service, entering()), read(*service), guessed(*service);
     EXPECT_EQ(scanned.you(), "steering") << "nobody else is there";
