@@ -144,7 +144,7 @@ HttpReply GuestService::picture(const std::string& target) {
         return {.status = 401, .body = "the wall is shown to visitors who were let in\n"};
     lookedAt_ = clock_();
     const std::string jpeg = options_.picture == nullptr ? "" : options_.picture->jpeg();
-    if (jpeg.empty()) return {.status = 404, .body = "there is no picture of the wall\n"};
+    if (jpeg.empty()) return {.status = 204, .body = {}};
     return {.status = 200,
             .type = "image/jpeg",
             .body = jpeg,

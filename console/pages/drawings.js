@@ -2,12 +2,12 @@
 // Visitors' drawings: those that wait for the crew, those of the day, ways in, and which fish of the wall wears one.
 import {html, nothing} from '/vendor/lit-html.js';
 import {sheetPanel} from '/sheets.js';
-import {button, language, namesOf, state, t, wholeWall, word} from '/widgets.js';
+import {button, language, namesOf, speciesName, state, t, wholeWall} from '/widgets.js';
 
 export const hasDrawings = link => link.known.snapshot?.hasDrawings ?? false;
 export const waitingCount = link => hasDrawings(link) ? link.wall.drawingsWaiting ?? 0 : 0;
 const allOf = link => link.known.drawings?.drawings ?? [];
-const nameOf = one => t('drawing.of', {number: one.number, species: word(one.species)});
+const nameOf = one => t('drawing.of', {number: one.number, species: speciesName(one.species)});
 
 // "5:55 PM"; of one that is kept from another day, its date.
 function since(one) {

@@ -20,7 +20,9 @@ export const t = (name, values = {}) =>
   ((Number(values.n) === 1 && texts[`${name}.one`]) || (texts[name] ?? name)).replace(/\{(\w+)\}/g,
     (_, key) => values[key] ?? '');
 // Words that the console says in English, such as "in step".
-export const word = text => texts[`word.${text}`] ?? text?.replaceAll('_', ' ');
+export const word = text => texts[`word.${text}`] ?? text;
+// Of a species, as people say it.
+export const speciesName = name => texts[`word.${name}`] ?? name.replaceAll('_', ' ');
 
 // --- buttons
 

@@ -360,7 +360,7 @@ class Doors(unittest.TestCase):
                       "this is no JPEG, PNG or WebP that can be read", events)
         self.assertRegex("\n".join(events), r"folder of drawings: picture of scan_1.jpg: drawing \d+")
 
-    def test_x_a_master_that_is_killed_has_the_drawings_again(self):
+    def test_y_a_master_that_is_killed_has_the_drawings_again(self):
         kept, waits = (self.desk.offer(self.operator, *colour) for colour in ((20, 200, 60), (20, 60, 200)))
         for verdict in ("LET_IN", "KEEP"):
             self.assertEqual(self.decide(kept, verdict)[0], 202)

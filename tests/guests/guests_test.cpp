@@ -102,7 +102,7 @@ TEST_F(GuestServiceTest, theWallIsShownToWhoWasLetIn) {
     EXPECT_EQ(statusOf("/wall.jpg?1"), 401);
     EXPECT_EQ(statusOf("/wall.jpg?"), 401);
     EXPECT_EQ(statusOf("/wall.jpg?" + secret.substr(1) + ".1"), 401);
-    EXPECT_EQ(statusOf("/wall.jpg?" + secret + ".1"), 404) << "nodes have brought none yet";
+    EXPECT_EQ(statusOf("/wall.jpg?" + secret + ".1"), 204) << "nodes have brought none yet";
 }
 
 TEST_F(GuestServiceTest, letsInWhoSeesTheWall) {

@@ -77,6 +77,7 @@ class Page(unittest.TestCase):
         self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touched})
 
     def test_a_visit(self):
+        self.driver.get_log("browser")  # of other tests
         hall = self.hall
         first = Phone(hall, enter=hall.token())
         self.addCleanup(first.close)
