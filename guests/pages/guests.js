@@ -71,8 +71,8 @@ const link = new Link({
 const drawDrawing = drawing(texts, () => link.secret);
 const rest = helm(message => link.say(message), () => state.you === "steering" && !isStale);
 
-wall(element("wall"), message => link.say(message), () => link.secret, () => state.wall && state.you !== "steering" && !isStale,
-  () => state.feed_s === 0);
+wall(element("wall"), message => link.say(message), () => link.secret,
+  () => state.wall && state.you !== "steering" && !isStale, () => state.feed_s === 0);
 
 document.querySelector("form").addEventListener("submit", event => {
   event.preventDefault();
