@@ -61,7 +61,7 @@ class Console final : public web::Service {
     // After the server has run, while it is there: listens no more.
     void end();
 
-    [[nodiscard]] std::optional<web::Admission> admit(const web::HttpRequest& head,
+    [[nodiscard]] std::optional<web::BodyLimit> admit(const web::HttpRequest& head,
                                                       web::HttpReply& refusal) override;
     [[nodiscard]] web::HttpReply answer(const web::HttpRequest& request) override;
     [[nodiscard]] std::unique_ptr<Connection> open(const web::HttpRequest& request,

@@ -137,9 +137,9 @@ HttpReply Console::refused(int status, const std::string& why) {
 }
 
 // A long body is read only of who may send it.
-std::optional<web::Admission> Console::admit(const HttpRequest& head, HttpReply& refusal) {
+std::optional<web::BodyLimit> Console::admit(const HttpRequest& head, HttpReply& refusal) {
     constexpr std::chrono::seconds kTimeForPicture{60};
-    if (head.method != "POST" || pathOf(head.target) != kPictureRoute) return web::Admission{};
+    if (head.method != "POST" || pathOf(head.target) != kPictureRoute) return web::BodyLimit{};
     const Doors doors = doorsFor(head, doors_);
     const auto holder = holderOf(head, doors, state_.access);
     if (auto objection = objectionTo(head, doors, true)) {
@@ -150,7 +150,7 @@ std::optional<web::Admission> Console::admit(const HttpRequest& head, HttpReply&
     } else if (holder->role < ConsoleRole::Operator) {
         refusal = refused(403, "only operator may do this");
     } else {
-        return web::Admission{.mostBytes = ask::kMostPictureBytes, .within = kTimeForPicture};
+        return web::BodyLimit{.mostBytes = ask::kMostPictureBytes, .within = kTimeForPicture};
     }
     return std::nullopt;
 }

@@ -114,8 +114,8 @@ bool GuestService::isOurs(const HttpRequest& request) const {
 }
 
 // Only pictures are longer than what every request may have.
-std::optional<web::Admission> GuestService::admit(const HttpRequest& head, HttpReply& refusal) {
-    if (!VisitorDrawings::isMeant(head)) return web::Admission{};
+std::optional<web::BodyLimit> GuestService::admit(const HttpRequest& head, HttpReply& refusal) {
+    if (!VisitorDrawings::isMeant(head)) return web::BodyLimit{};
     if (isOurs(head) && isOpen()) return drawings_.admit(head, clock_(), refusal);
     refusal = {.status = 403, .body = "off"};
     return std::nullopt;

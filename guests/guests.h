@@ -74,7 +74,7 @@ class GuestService final : public web::Service {
     // Keeps the seats for the next run.
     ~GuestService() override;
 
-    [[nodiscard]] std::optional<web::Admission> admit(const web::HttpRequest& head,
+    [[nodiscard]] std::optional<web::BodyLimit> admit(const web::HttpRequest& head,
                                                       web::HttpReply& refusal) override;
     [[nodiscard]] web::HttpReply answer(const web::HttpRequest& request) override;
     [[nodiscard]] std::unique_ptr<Connection> open(const web::HttpRequest& request,

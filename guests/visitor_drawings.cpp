@@ -72,7 +72,7 @@ HttpReply VisitorDrawings::objectionTo(const Visit& visit, double now) {
     return !isCrowd && pictures_.take(now) ? HttpReply{} : refusalOf(503, "crowd");
 }
 
-std::optional<web::Admission> VisitorDrawings::admit(const HttpRequest& head,
+std::optional<web::BodyLimit> VisitorDrawings::admit(const HttpRequest& head,
                                                      double now,
                                                      HttpReply& refusal) {
     refusal = objectionTo(head);
@@ -81,7 +81,7 @@ std::optional<web::Admission> VisitorDrawings::admit(const HttpRequest& head,
     refusal = objectionTo(visit, now);
     if (refusal.status != kGood) return std::nullopt;
     visit.mayDraw = now + kBetween;
-    return web::Admission{
+    return web::BodyLimit{
         .mostBytes = ask::kMostPictureBytes, .within = kUploadTime, .place = uploads_};
 }
 

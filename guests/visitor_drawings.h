@@ -45,7 +45,7 @@ class VisitorDrawings {
 
     // Of a request with a picture, before it is sent: whether it may be. Its target is
     // /drawing/left, /middle or /right, the side where its maker stands.
-    [[nodiscard]] std::optional<web::Admission> admit(const web::HttpRequest& head,
+    [[nodiscard]] std::optional<web::BodyLimit> admit(const web::HttpRequest& head,
                                                       double now,
                                                       web::HttpReply& refusal);
     // Has the picture of an admitted request read.

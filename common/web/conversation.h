@@ -230,7 +230,7 @@ template <class Stream>
 asio::awaitable<beast::error_code> readBody(Stream& stream,
                                             beast::flat_buffer& buffer,
                                             Parser& parser,
-                                            const Admission& admission) {
+                                            const BodyLimit& admission) {
     if (parser.content_length().value_or(0) > admission.mostBytes)
         co_return http::make_error_code(http::error::body_limit);
     parser.body_limit(admission.mostBytes);

@@ -43,7 +43,7 @@ inline constexpr std::size_t kMostMessageBytes = 65536;
 inline constexpr std::chrono::seconds kRequestTime{5};
 
 // What the body of a request may be.
-struct Admission {
+struct BodyLimit {
     std::size_t mostBytes = kMostBodyBytes;
     std::chrono::seconds within = kRequestTime;
     // Let go of when the request has ended, however it ends; so a service can count those with
@@ -71,9 +71,9 @@ class Service {
     virtual ~Service() = default;
     // Before the body of a request is read, of which `head` has all else. Nothing: it is not read,
     // and `refusal` is said.
-    [[nodiscard]] virtual std::optional<Admission> admit(const HttpRequest& /*head*/,
+    [[nodiscard]] virtual std::optional<BodyLimit> admit(const HttpRequest& /*head*/,
                                                          HttpReply& /*refusal*/) {
-        return Admission{};
+        return BodyLimit{};
     }
     // For every request that opens no WebSocket.
     [[nodiscard]] virtual HttpReply answer(const HttpRequest& request) = 0;

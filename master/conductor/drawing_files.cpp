@@ -3,15 +3,11 @@
 
 #include <chrono>
 #include <set>
-#include <span>
 #include <utility>
-
-#include <google/protobuf/text_format.h>
 
 #include "common/base/files.h"
 #include "common/base/log.h"
-#include "common/config/text_file.h"
-#include "common/config/text_reader.h"
+#include "common/wire/kept_drawings.h"
 #include "common/wire/messages.h"
 
 namespace aquarama::conductor {
@@ -19,7 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kVersion = 1;
 constexpr const char* kLoss = "drawings are lost with the next start";
 
 bool isDone(const std::future<std::string>& work) {
@@ -59,7 +54,6 @@ void writeAll(const fs::path& folder,
               const std::vector<KeptEntry>& drawings) {
     fs::create_directories(folder);
     v1::KeptDrawings list;
-    list.set_version(kVersion);
     list.set_last_number(lastNumber);
     std::set<fs::path> named{listIn(folder)};
     for (const KeptEntry& entry : drawings) {
@@ -68,10 +62,7 @@ void writeAll(const fs::path& folder,
         if (!fs::exists(picture)) writePrivate(picture, *entry.skin);
         write(entry, *list.add_drawings());
     }
-    std::string text;
-    google::protobuf::TextFormat::PrintToString(list, &text);
-    text = "# The drawings of visitors that wait or swim.\n" + text;
-    writePrivate(listIn(folder), std::as_bytes(std::span{text}));
+    wire::keepDrawings(listIn(folder), std::move(list));
     std::error_code none;
     for (const auto& file : fs::directory_iterator(folder))
         if (!named.contains(file.path()) && file.path().extension() == ".png")
@@ -93,9 +84,7 @@ FoundDrawings DrawingFiles::read() const {
     if (folder_.empty() || !fs::exists(listIn(folder_))) return found;
     v1::KeptDrawings list;
     try {
-        const std::string source = listIn(folder_).string();
-        config::TextReader file(config::readTextFile(source), source, list);
-        file.check();
+        list = wire::readKeptDrawings(listIn(folder_));
     } catch (const Error& problem) {
         logWarning("{}; the drawings are left out", problem.what());
         return found;
