@@ -349,7 +349,7 @@ drawings_wall() {
     until [ "$(grep -c "takes part" "$hall/log")" = 3 ]; do sleep 1; done
     cp "$drawn"/ten/*.jpg "$hall/scanner"
     until grep -q "drawing 10:" "$hall/log"; do sleep 1; done
-    sleep 15
+    sleep 5
     kill -INT "$show"
     wait "$show"
     $bin/aquarama-compose compose "$hall/drawings.txtpb" "$drawn/wall"

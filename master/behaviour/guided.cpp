@@ -2,6 +2,7 @@
 #include "master/behaviour/guided.h"
 
 #include <algorithm>
+#include <array>
 
 #include <glm/common.hpp>
 
@@ -21,11 +22,11 @@ constexpr float kBehindMetres = 1.2F;
 constexpr float kAheadMetres = 1.9F;
 constexpr float kToMakerMetres = 0.8F;
 // So near it is there.
-constexpr float kThereMetres = 0.5F;
+constexpr float kThereMetres = 0.8F;
 // Room about such places to sand, surface, rocks and the border of the water.
 constexpr float kRoomMetres = 0.4F;
 constexpr float kShore = 0.95F;  // share of the water's half extent
-constexpr int kStepsUp = 8;
+constexpr int kSteps = 6;
 // Weight of the way against the push of neighbours.
 constexpr float kLed = 3.0F;
 
@@ -41,15 +42,28 @@ bool isFree(const surroundings::Obstacles& obstacles, glm::vec3 place) {
     });
 }
 
-// The nearest place in the water; above rocks that are in the way.
-glm::vec3 inWater(const surroundings::Obstacles& obstacles, glm::vec3 place) {
+// Within the border of the water, over the sand and under the surface.
+glm::vec3 withinWater(const surroundings::Obstacles& obstacles, glm::vec3 place) {
     const glm::vec3 reach = obstacles.water.halfExtent * kShore;
     place = glm::clamp(place, obstacles.water.centre - reach, obstacles.water.centre + reach);
     const float floor = place::floorHeight(obstacles.place, {place.x, place.z});
     place.y = std::min(std::max(place.y, floor + kRoomMetres), -kRoomMetres);
-    for (int step = 0; step < kStepsUp && !isFree(obstacles, place); ++step)
-        place.y = std::min(place.y + kRoomMetres, -kRoomMetres);
     return place;
+}
+
+// The place itself, or one near it that is clear of rocks: first beside it, then farther off.
+glm::vec3 inWater(const surroundings::Obstacles& obstacles, glm::vec3 place) {
+    static constexpr std::array<glm::vec3, 5> kWays{
+        glm::vec3{0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}};
+    const glm::vec3 wanted = withinWater(obstacles, place);
+    if (isFree(obstacles, wanted)) return wanted;
+    for (int step = 1; step <= kSteps; ++step)
+        for (const glm::vec3 way : kWays) {
+            const glm::vec3 near =
+                withinWater(obstacles, wanted + way * (kRoomMetres * static_cast<float>(step)));
+            if (isFree(obstacles, near)) return near;
+        }
+    return wanted;
 }
 
 bool isLed(fish::Intention intention) {

@@ -13,6 +13,7 @@ namespace {
 
 // Nodes have so long to load a skin before its fish is seen; one at a time comes in.
 constexpr net::Duration kLoads = std::chrono::seconds(2);
+constexpr std::size_t kMostListed = 8;  // of those that wait
 // A fish that was told to leave is not looked at before, as records are a few ticks old.
 constexpr net::Duration kUntilAway = std::chrono::seconds(1);
 // What is not kept goes after so long, also where nobody closes the day.
@@ -223,25 +224,28 @@ std::optional<std::uint32_t> Drawings::freeFish(const std::string& species,
     return std::nullopt;
 }
 
-Drawings::Entry* Drawings::firstToEnter() {
-    const auto next = std::ranges::find_if(entries_, [&](const Entry& entry) {
-        return entry.kept.isLetIn && !entry.isForgotten && !entry.fish &&
-               hasRoomFor(entry.kept.species);
-    });
-    return next == entries_.end() ? nullptr : &*next;
+std::vector<Drawings::Entry*> Drawings::nextToEnter() {
+    std::vector<Entry*> next;
+    for (Entry& entry : entries_) {
+        const bool waits = entry.kept.isLetIn && !entry.isForgotten && !entry.fish;
+        if (waits && hasRoomFor(entry.kept.species) && next.size() < kMostListed)
+            next.push_back(&entry);
+    }
+    return next;
 }
 
-// The first of those that wait: nodes are told of its skin; once they have had time to load it, it
-// is given a fish.
+// Nodes are told of the skins of those that wait; once they have had time to load it, the first is
+// given a fish.
 void Drawings::enterNext(std::span<const motion::FishRecord> fish,
                          net::Moment now,
                          std::vector<world::WorldInput>& inputs) {
-    Entry* const next = firstToEnter();
-    if (next == nullptr) return;
-    if (!next->listed) {
-        next->listed = now;
-        return changed();
+    const std::vector<Entry*> waiting = nextToEnter();
+    if (waiting.empty()) return;
+    if (std::ranges::any_of(waiting, [](const Entry* entry) { return !entry->listed; })) {
+        for (Entry* const entry : waiting) entry->listed = entry->listed.value_or(now);
+        changed();
     }
+    Entry* const next = waiting.front();
     if (now - *next->listed < kLoads) return;
     if (swimming() >= rules_->most) return makeRoom({});
     const auto free = freeFish(next->kept.species, fish);

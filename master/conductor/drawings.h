@@ -80,7 +80,8 @@ class Drawings {
         }
     };
     [[nodiscard]] Entry* find(std::uint32_t number);
-    [[nodiscard]] Entry* firstToEnter();
+    // Those that were let in and have no fish yet, the first of them.
+    [[nodiscard]] std::vector<Entry*> nextToEnter();
     void decideOne(Entry& entry, v1::Moderation::Verdict verdict);
     [[nodiscard]] v1::DrawingStatus statusOf(const Entry& entry) const;
     [[nodiscard]] std::string objectionTo(const v1::OfferedDrawing& offered) const;

@@ -69,6 +69,12 @@ void putIn(const WaterAtTick& water,
     columns.view.signs[fish] = 0;
 }
 
+void lookFrom(const surroundings::Vessel& vessel, fish::Wearers& wearers) {
+    wearers.eye = vessel.position;
+    wearers.right = surroundings::rightOf(vessel.attitude);
+    wearers.ahead = {wearers.right.z, 0, -wearers.right.x};
+}
+
 void enter(const WaterAtTick& water, const EnterDrawing& drawing, FishColumns& columns) {
     fish::Wearer* const wearer = columns.wearers.of(drawing.fish);
     if (wearer == nullptr || wearer->visit != fish::Visit::Asleep) return;

@@ -33,6 +33,8 @@ void putIn(const WaterAtTick& water,
            float speed,
            FishColumns& columns);
 
+// Where the viewer is, and which way the vessel looks, level.
+void lookFrom(const surroundings::Vessel& vessel, fish::Wearers& wearers);
 // A fish that waits comes in with a drawing. Nothing happens to one that does not wait.
 void enter(const WaterAtTick& water, const EnterDrawing& drawing, FishColumns& columns);
 // It begins to swim away.

@@ -210,6 +210,7 @@ World::World(const WorldOptions& options)
     makeRoomForEvents();
     for (auto* column : {&columns_.advection.x, &columns_.advection.y, &columns_.advection.z})
         column->resize(columns_.traits.size());
+    lookFrom(pilot_.vessel, columns_.wearers);
     begin(options);
     live(static_cast<std::uint64_t>(options.scene.livedSeconds *
                                     static_cast<double>(kTicksPerSecond)));
@@ -318,9 +319,7 @@ void World::showSubmarine() {
     surroundings_.submarine.position = pilot_.vessel.position;
     surroundings_.submarine.velocityMetresPerSecond = pilot_.vessel.velocity;
     surroundings::placeHands(surroundings_.hands, pilot_.vessel, tick_);
-    columns_.wearers.eye = pilot_.vessel.position;
-    columns_.wearers.right = surroundings::rightOf(pilot_.vessel.attitude);
-    columns_.wearers.ahead = {columns_.wearers.right.z, 0, -columns_.wearers.right.x};
+    lookFrom(pilot_.vessel, columns_.wearers);
 }
 
 void World::advance() {

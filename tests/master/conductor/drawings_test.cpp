@@ -183,6 +183,16 @@ TEST(Drawings, ofASpeciesMakeRoomTheOldestFirst) {
     EXPECT_EQ(hall.conditions(), "1 SWIMMING as 10; 3 SWIMMING as 12; 4 SWIMMING as 11; ");
 }
 
+// A bus of children: nodes load their skins together, and a fish comes in each second.
+TEST(Drawings, enterOneASecond) {
+    Hall hall(rules());
+    for (std::uint16_t code = 1; code <= 3; ++code) hall.offer(code);
+    hall.pass(3);
+    EXPECT_EQ(hall.inputs.size(), 1U);
+    hall.pass(2);
+    EXPECT_EQ(hall.inputs.size(), 3U);
+}
+
 TEST(Drawings, areAsManyAsTheRigSays) {
     Hall hall(rules(true, 2));
     for (std::uint16_t code = 1; code <= 5; ++code) {
