@@ -334,22 +334,31 @@ END
         "${fish[@]:3}"
     smaller drawings_fish
 }
-# A running desk, some seconds after ten photographs were put into its folder.
+# A running desk, some seconds after ten drawings were let in together.
 drawings_wall() {
     local hall=$drawn/hall show
     cmake --build --preset show-tests --target aquarama-drawings aquarama-console aquarama_draw_photos
     mkdir -p "$hall/scanner"
     build/show/tests/aquarama_draw_photos "$drawn/ten" 10 clownfish blue_tang butterflyfish parrotfish moorish_idol \
-        lionfish >"$drawn/log"
+        >"$drawn/log"
     sed "s|\"scenes/|\"$PWD/config/scenes/|" config/desk.txtpb >"$hall/drawings.txtpb"
     echo 'drawings { let_in: AT_ONCE folder: "scanner" }' >>"$hall/drawings.txtpb"
-    XDG_STATE_HOME=$hall $bin/aquarama run "$hall/drawings.txtpb" --headless --live --quality medium \
-        --snapshot "$drawn/wall" >"$hall/log" 2>&1 &
+    export XDG_STATE_HOME=$hall
+    # The first show reads them, the second lets them in.
+    $bin/aquarama run "$hall/drawings.txtpb" --headless --live --pattern grid >"$hall/log" 2>&1 &
     show=$!
-    until [ "$(grep -c "takes part" "$hall/log")" = 3 ]; do sleep 1; done
+    until grep -q "takes part" "$hall/log"; do sleep 1; done
     cp "$drawn"/ten/*.jpg "$hall/scanner"
     until grep -q "drawing 10:" "$hall/log"; do sleep 1; done
-    sleep 5
+    $bin/aquarama set "$hall/drawings.txtpb" drawings off
+    kill -INT "$show"
+    wait "$show"
+    $bin/aquarama run "$hall/drawings.txtpb" --headless --live --quality medium --snapshot "$drawn/wall" \
+        >"$hall/log" 2>&1 &
+    show=$!
+    until [ "$(grep -c "showing" "$hall/log")" -ge 3 ]; do sleep 1; done
+    $bin/aquarama set "$hall/drawings.txtpb" drawings on
+    sleep 17
     kill -INT "$show"
     wait "$show"
     $bin/aquarama-compose compose "$hall/drawings.txtpb" "$drawn/wall"
