@@ -485,8 +485,8 @@ Answer Commands::showScan(const Holder& holder, Visitor* visitor, const Command&
 Answer Commands::readPicture(const Holder& holder, Visitor* visitor, const Command& command) {
     const browser::SheetPicture& picture = command.picture();
     if (!read_) return refused("no pictures are read here: aquarama-drawings is not installed");
-    if (std::string why = objectionToPicture(state_.wall, state_.drawings.size()); !why.empty())
-        return refused(std::move(why));
+    const std::string why = objectionToPicture(state_.wall, state_.drawings.size());
+    if (!why.empty()) return refused(why);
     const auto done = [this, id = command.id(), aside = picture.aside()](
                           const ask::DrawingOutcome& outcome) { offer(id, aside, outcome); };
     if (!read_(picture.picture(), done))
