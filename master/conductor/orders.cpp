@@ -115,7 +115,7 @@ Answer Orders::takeDrawing(const std::string& user, const v1::Order& order, std:
     if (limits_.isLockstep)
         return refused("a show in lockstep is the same every time; run it with --live");
     if (order.has_moderation()) {
-        logInfo("{} decides of drawing {}: {}",
+        logInfo("{} decides about drawing {} (0: all): {}",
                 user,
                 order.moderation().number(),
                 v1::Moderation::Verdict_Name(order.moderation().verdict()));

@@ -154,6 +154,9 @@ Assets readAssets(const std::string& scenePath, const AssetChoice& choice) {
         assets.bytes.cast.push_back({member.path, member.species.text, {}, cast.fish, drawings});
         assets.species.push_back(std::move(member.species));
     }
+    for (const std::string& name : choice.drawnSpecies)
+        if (std::ranges::find(assets.species, name, &config::Species::name) == assets.species.end())
+            logInfo("the scene has no {}: drawings of it wait for a scene that has", name);
     place::checkRoom(
         scene, scenePath, config::fishIn(scene), assets.species.front().size.meanMetres);
     std::vector<capture::RepertoireFile> captured = capturedOnce(assets.species, choice.tell);

@@ -16,7 +16,7 @@
 
 namespace aquarama::world {
 
-// What the fish of a tick are, for those who put fish into the water.
+// The water of a world and its species at a tick, for what puts fish into it.
 struct WaterAtTick {
     const surroundings::Surroundings& surroundings;
     std::span<const fish::SpeciesParameters> speciesParameters;
