@@ -6,8 +6,8 @@
 #include <string>
 
 #include "capture/report/take.h"
+#include "common/base/byte_stream.h"
 #include "common/base/units.h"
-#include "common/motion/repertoire.h"
 
 namespace aquarama::report {
 
@@ -95,7 +95,7 @@ constexpr std::uint8_t kIntel = 84;          // little-endian, IEEE floats
 constexpr float kScale = -1.0F;
 
 // Appends zeros up to a size.
-void pad(motion::ByteWriter& out, std::size_t bytes) {
+void pad(ByteWriter& out, std::size_t bytes) {
     while (out.written().size() < bytes) out.unsignedNumber(std::uint8_t{0});
 }
 
@@ -123,8 +123,8 @@ constexpr int kReal = 4;
 
 // The head of a parameter's data: the type of the elements, the number of dimensions and each of
 // them, in a byte each. No dimensions mean a scalar. The elements follow.
-motion::ByteWriter dataOf(int type, const std::vector<std::size_t>& dimensions) {
-    motion::ByteWriter data;
+ByteWriter dataOf(int type, const std::vector<std::size_t>& dimensions) {
+    ByteWriter data;
     data.unsignedNumber(static_cast<std::uint8_t>(type));
     data.unsignedNumber(static_cast<std::uint8_t>(dimensions.size()));
     for (const std::size_t size : dimensions) {
@@ -136,19 +136,19 @@ motion::ByteWriter dataOf(int type, const std::vector<std::size_t>& dimensions) 
 
 // An unsigned 16-bit parameter.
 Record integer(int groupNumber, const std::string& name, std::size_t value) {
-    motion::ByteWriter data = dataOf(kInteger, {});
+    ByteWriter data = dataOf(kInteger, {});
     data.unsignedNumber(static_cast<std::uint16_t>(value));
     return {.name = name, .group = groupNumber, .data = std::move(data).take(), .description = ""};
 }
 
 Record real(int groupNumber, const std::string& name, float value) {
-    motion::ByteWriter data = dataOf(kReal, {});
+    ByteWriter data = dataOf(kReal, {});
     data.float32(value);
     return {.name = name, .group = groupNumber, .data = std::move(data).take(), .description = ""};
 }
 
 Record text(int groupNumber, const std::string& name, const std::string& value) {
-    motion::ByteWriter data = dataOf(kCharacter, {value.size()});
+    ByteWriter data = dataOf(kCharacter, {value.size()});
     data.characters(value);
     return {.name = name, .group = groupNumber, .data = std::move(data).take(), .description = ""};
 }
@@ -157,7 +157,7 @@ Record text(int groupNumber, const std::string& name, const std::string& value) 
 Record texts(int groupNumber, const std::string& name, std::vector<std::string> values) {
     std::size_t length = 0;
     for (const std::string& value : values) length = std::max(length, value.size());
-    motion::ByteWriter data = dataOf(kCharacter, {length, values.size()});
+    ByteWriter data = dataOf(kCharacter, {length, values.size()});
     for (std::string& value : values) {
         value.resize(length, ' ');
         data.characters(value);
@@ -196,7 +196,7 @@ std::vector<Record> recordsOf(const Take& take, std::size_t dataBlock) {
 }
 
 // Length of the name, number of the group, name, offset of the next record, data, description.
-void write(motion::ByteWriter& out, const Record& record, bool isLast) {
+void write(ByteWriter& out, const Record& record, bool isLast) {
     assert(record.name.size() <= 127);
     out.unsignedNumber(static_cast<std::uint8_t>(record.name.size()));
     out.unsignedNumber(static_cast<std::uint8_t>(record.group));
@@ -213,7 +213,7 @@ void write(motion::ByteWriter& out, const Record& record, bool isLast) {
 // Padded to `blocks` blocks. With 0 blocks it is not padded: so c3dOf() finds its size.
 std::vector<std::byte> parameterSection(const Take& take, std::size_t blocks) {
     assert(blocks <= 255);
-    motion::ByteWriter out;
+    ByteWriter out;
     out.unsignedNumber(std::uint8_t{1});  // reserved; 1 by convention
     out.unsignedNumber(kSignature);
     out.unsignedNumber(static_cast<std::uint8_t>(blocks));
@@ -224,7 +224,7 @@ std::vector<std::byte> parameterSection(const Take& take, std::size_t blocks) {
     return std::move(out).take();
 }
 
-void writeHeader(motion::ByteWriter& out, const Take& take, std::size_t dataBlock) {
+void writeHeader(ByteWriter& out, const Take& take, std::size_t dataBlock) {
     out.unsignedNumber(kParameterBlock);
     out.unsignedNumber(kSignature);
     out.unsignedNumber(static_cast<std::uint16_t>(body::kNodalPoints));
@@ -240,7 +240,7 @@ void writeHeader(motion::ByteWriter& out, const Take& take, std::size_t dataBloc
 }
 
 // Four floats for each marker: x, y, z and a word about how it was measured.
-void writeFrame(motion::ByteWriter& out, const TakeFrame& frame) {
+void writeFrame(ByteWriter& out, const TakeFrame& frame) {
     // The fourth word holds the cameras that saw the point and its residual: here none.
     constexpr float kSeenByNoCamera = 0.0F;
     for (const glm::dvec3& node : frame.nodes) {
@@ -258,7 +258,7 @@ std::vector<std::byte> c3dOf(const Take& take) {
     // data section begins: so it is built once to measure it and once to write it.
     const std::size_t blocks = blocksFor(parameterSection(take, 0).size());
     const std::size_t dataBlock = kParameterBlock + blocks;
-    motion::ByteWriter out;
+    ByteWriter out;
     writeHeader(out, take, dataBlock);
     for (const std::byte byte : parameterSection(take, blocks))
         out.unsignedNumber(std::to_integer<std::uint8_t>(byte));

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "common/base/byte_stream.h"
 #include "common/base/digest.h"
 #include "common/base/log.h"
 #include "common/motion/motion_state.h"

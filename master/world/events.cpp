@@ -44,6 +44,25 @@ glm::vec3 mouthOf(const motion::MotorTables& tables,
     return nodes[0];
 }
 
+// Adds one particle or prey to the stomach; the counter saturates.
+void feed(fish::Mind& mind) {
+    if (mind.eaten < 0xffffU) ++mind.eaten;
+    mind.sinceMeal = 0;
+}
+
+// The two that lead a shoal remember that one of it was charged.
+void remindLeaders(const fish::SpeciesParameters& parameters,
+                   std::uint32_t charged,
+                   fish::Minds& minds) {
+    if (!parameters.habits.graze) return;
+    const fish::Household household = fish::householdOf(parameters, charged);
+    for (std::uint32_t fish = household.first; fish < std::min(household.last, household.first + 2);
+         ++fish) {
+        std::uint8_t& memory = minds[fish].charged;
+        memory = memory == 0 ? fish::kChargedOnce : fish::kChargedTwice;
+    }
+}
+
 }  // namespace
 
 Meals makeMeals(std::size_t fish) {
@@ -85,7 +104,7 @@ void World::perform(const fish::DeferredEvent& event) {
         case fish::DeferredEventKind::EatParticle:
             if (!surroundings::takeFood(surroundings_.food, event.object)) return;
             beginSwallow(meals_, event.fish, event.object);
-            feed(event.fish);
+            feed(columns_.minds[event.fish]);
             ++counts_.meals;
             return;
         case fish::DeferredEventKind::EatFish:
@@ -97,7 +116,7 @@ void World::perform(const fish::DeferredEvent& event) {
             motion::setAway(columns_.states, event.object);
             columns_.view.signs[event.object] = fish::kAway;
             absences_.push_back(absenceFrom(seed_, event.object, tick_));
-            feed(event.fish);
+            feed(columns_.minds[event.fish]);
             ++counts_.catches;
             return;
         case fish::DeferredEventKind::Spawn:
@@ -116,16 +135,11 @@ void World::perform(const fish::DeferredEvent& event) {
             ++counts_.puffs;
             return;
         case fish::DeferredEventKind::Charge:
-            remindLeaders(event.object);
+            remindLeaders(
+                speciesParameters_[columns_.view.kind[event.object]], event.object, columns_.minds);
             ++counts_.charges;
             return;
     }
-}
-
-// Adds one particle or prey to the stomach; the counter saturates.
-void World::feed(std::uint32_t fish) {
-    if (columns_.minds[fish].eaten < 0xffffU) ++columns_.minds[fish].eaten;
-    columns_.minds[fish].sinceMeal = 0;
 }
 
 // A bite of turf: so many of them count as a particle, but to one that is gorged.
@@ -136,19 +150,7 @@ void World::bite(std::uint32_t fish, std::uint32_t patch) {
     fish::Mind& mind = columns_.minds[fish];
     if (++mind.bites < parameters.habits.graze->bitesPerParticle) return;
     mind.bites = 0;
-    if (!fish::isGorged(parameters, mind)) feed(fish);
-}
-
-// The two that lead a shoal remember that one of it was charged.
-void World::remindLeaders(std::uint32_t charged) {
-    const fish::SpeciesParameters& parameters = speciesParameters_[columns_.view.kind[charged]];
-    if (!parameters.habits.graze) return;
-    const fish::Household household = fish::householdOf(parameters, charged);
-    for (std::uint32_t fish = household.first; fish < std::min(household.last, household.first + 2);
-         ++fish) {
-        std::uint8_t& memory = columns_.minds[fish].charged;
-        memory = memory == 0 ? fish::kChargedOnce : fish::kChargedTwice;
-    }
+    if (!fish::isGorged(parameters, mind)) feed(mind);
 }
 
 // Lets fish return whose absence is over, each with a new mind and new habits.

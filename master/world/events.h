@@ -57,6 +57,22 @@ struct LeaveDrawing {
 using WorldInput = std::
     variant<DropFood, MoveSubmarine, Steering, SetClock, WallHands, EnterDrawing, LeaveDrawing>;
 
+// Counters of what happened since tick 0.
+struct WorldCounts {
+    // Particles of food that were eaten.
+    std::uint64_t meals = 0;
+    // Fish that were eaten.
+    std::uint64_t catches = 0;
+    std::uint64_t spawnings = 0;
+    // Fish that came in place of those eaten.
+    std::uint64_t returns = 0;
+    // Bites of turf, puffs of sand, and charges of those that hold a territory.
+    std::uint64_t bites = 0;
+    std::uint64_t puffs = 0;
+    std::uint64_t charges = 0;
+    friend bool operator==(const WorldCounts&, const WorldCounts&) = default;
+};
+
 // Food on its way into a mouth: a fish that snaps draws it in with the water (Tu 1996, section
 // 5.6.3). That takes a few ticks, in which the particle can be seen to move.
 

@@ -24,6 +24,10 @@ void begin(fish::Wearer& wearer, fish::Visit visit, Tick tick) {
     wearer.since = tick;
 }
 
+glm::vec3 placeOf(const FishColumns& columns, const fish::Wearer& wearer) {
+    return motion::bodyFrameOf(columns.states, wearer.fish).position;
+}
+
 // Whether a fish is where its viewer does not see it.
 bool isUnseen(const fish::Wearers& wearers, glm::vec3 position) {
     const glm::vec3 from = position - wearers.eye;
@@ -33,7 +37,7 @@ bool isUnseen(const fish::Wearers& wearers, glm::vec3 position) {
 // Out of sight, or too long on its way there.
 bool hasLeft(const FishColumns& columns, const fish::Wearer& wearer, std::uint64_t ticks) {
     return ticks > kLeaves || columns.view.shows(wearer.fish, fish::kAway) ||
-           isUnseen(columns.wearers, columns.view.position(wearer.fish));
+           isUnseen(columns.wearers, placeOf(columns, wearer));
 }
 
 // Its return after it was eaten, if that was under way, is off.
@@ -46,7 +50,7 @@ void sleep(FishColumns& columns, fish::Wearer& wearer, Tick tick, std::vector<Ab
 
 bool hasCome(const WaterAtTick& water, const FishColumns& columns, const fish::Wearer& wearer) {
     return behaviour::isAt(
-        columns.view.position(wearer.fish),
+        placeOf(columns, wearer),
         behaviour::greetingPlaceOf(columns.wearers, wearer, water.surroundings.obstacles));
 }
 

@@ -280,6 +280,58 @@ void World::makeRoomForEvents() {
     columns_.rushes.reserve(kMostRushes);
 }
 
+void World::save(WorldState& state) const {
+    state.tick = tick_;
+    state.hash = hash();
+    state.states = columns_.states;
+    state.commands = columns_.commands;
+    state.minds = columns_.minds;
+    state.courses = columns_.courses;
+    state.memory = columns_.memory;
+    state.signs = columns_.view.signs;
+    state.wearers = columns_.wearers.fish;
+    state.food = surroundings_.food;
+    state.turf = surroundings_.turf.fill;
+    state.structures = surroundings_.structures;
+    state.hands = surroundings_.hands;
+    state.clock = surroundings_.clock;
+    state.timeOfDay = surroundings_.timeOfDay;
+    state.nextDrop = surroundings_.nextDrop;
+    state.pilot = pilot_;
+    state.goal = school_.goal();
+    state.meals = meals_;
+    state.absences = absences_;
+    state.counts = counts_;
+}
+
+void World::restore(const WorldState& state) {
+    assert(state.states.size() == columns_.states.size());
+    tick_ = state.tick;
+    columns_.states = state.states;
+    columns_.commands = state.commands;
+    columns_.minds = state.minds;
+    columns_.courses = state.courses;
+    columns_.memory = state.memory;
+    columns_.wearers.fish = state.wearers;
+    surroundings_.food = state.food;
+    surroundings_.turf.fill = state.turf;
+    surroundings_.structures = state.structures;
+    surroundings_.hands = state.hands;
+    surroundings::setClock(surroundings_, state.clock);
+    surroundings_.timeOfDay = state.timeOfDay;
+    surroundings_.nextDrop = static_cast<std::size_t>(state.nextDrop);
+    pilot_ = state.pilot;
+    surroundings_.submarine.position = pilot_.vessel.position;
+    surroundings_.submarine.velocityMetresPerSecond = pilot_.vessel.velocity;
+    lookFrom(pilot_.vessel, columns_.wearers);
+    school_.set(state.goal);
+    meals_ = state.meals;
+    absences_ = state.absences;
+    counts_ = state.counts;
+    for (const Kind& kind : kinds_) look(kind, kind.first, kind.last, state.timeOfDay);
+    columns_.view.signs = state.signs;
+}
+
 void World::apply(const WorldInput& input) {
     if (const auto* food = std::get_if<DropFood>(&input))
         surroundings::dropPellets(surroundings_.food,

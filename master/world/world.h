@@ -31,24 +31,9 @@
 #include "master/world/absences.h"
 #include "master/world/events.h"
 #include "master/world/fish_columns.h"
+#include "master/world/world_state.h"
 
 namespace aquarama::world {
-
-// Counters of what happened since tick 0.
-struct WorldCounts {
-    // Particles of food that were eaten.
-    std::uint64_t meals = 0;
-    // Fish that were eaten.
-    std::uint64_t catches = 0;
-    std::uint64_t spawnings = 0;
-    // Fish that came in place of those eaten.
-    std::uint64_t returns = 0;
-    // Bites of turf, puffs of sand, and charges of those that hold a territory.
-    std::uint64_t bites = 0;
-    std::uint64_t puffs = 0;
-    std::uint64_t charges = 0;
-    friend bool operator==(const WorldCounts&, const WorldCounts&) = default;
-};
 
 // The first place of a new fish: in the water, clear of rocks and sand; of several drawn the one
 // farthest from the eye, where all beyond 12 m count as hidden by haze.
@@ -102,6 +87,7 @@ class SchoolGoal {
     void moveTo(Tick tick, const motion::MotionStates& states);
     // The goal of the last moveTo(); before, that of tick 0 or the middle of the water.
     [[nodiscard]] const surroundings::Goal& goal() const { return goal_; }
+    void set(const surroundings::Goal& goal) { goal_ = goal; }
     // How the scene gathers the school.
     [[nodiscard]] config::Gathering gathering() const { return gathering_; }
     // Radius that the school fills around its goal.
@@ -129,6 +115,12 @@ class World {
   public:
     // Throws Error for more than kMostSpecies species.
     explicit World(const WorldOptions& options);
+
+    // Copies its state between two ticks, or goes on from one of a world with equal options.
+    void save(WorldState& state) const;
+    void restore(const WorldState& state);
+    // What the numbers of its states may name.
+    [[nodiscard]] StateBounds stateBounds() const { return {speciesParameters_, surroundings_}; }
 
     // Applies an input, between two ticks.
     void apply(const WorldInput& input);
@@ -188,9 +180,7 @@ class World {
     void swallow();
     void performEvents();
     void perform(const fish::DeferredEvent& event);
-    void feed(std::uint32_t fish);
     void bite(std::uint32_t fish, std::uint32_t patch);
-    void remindLeaders(std::uint32_t charged);
     void receive();
     void arrive(std::uint32_t fish);
     [[nodiscard]] WaterAtTick waterNow() const;
