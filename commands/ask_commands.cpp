@@ -163,7 +163,7 @@ void explainReplay(const ExplainOptions& options) {
                     std::to_string(recording.lastTick().value) + "; choose an earlier one");
     simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
     simulation::Playback playback(recording, world);
-    while (world.tick().value < options.tick) playback.advance();
+    playback.goTo({options.tick});
     if (playback.difference())
         std::cerr << options.recording << ": from tick " << playback.difference()->tick.value
                   << " on this is another world than the recorded one\n";

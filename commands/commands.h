@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "common/base/units.h"
 #include "common/cli/commands.h"
 #include "common/config/rig.h"
 #include "common/net/channels.h"
@@ -71,7 +72,7 @@ void describeWall(CLI::App& command, supervisor::ShowOptions& options);
 
 // Replays a recording without a wall and tells whether the world is the same. Returns the exit
 // status: 1 where it differs. Throws Error where it cannot be read.
-[[nodiscard]] int checkReplay(const std::string& path);
+[[nodiscard]] int checkReplay(const std::string& path, Tick from);
 
 // The option --config, and the folder that it names or that is found.
 void describeConfig(CLI::App& command, std::string& folder);

@@ -130,16 +130,18 @@ void inspect(const InspectOptions& options) {
 
 // Returns the exit status: 1 where the worlds differ. Throws Error where there is no hash to
 // compare.
-int checkReplay(const std::string& path) {
+int checkReplay(const std::string& path, Tick from) {
     const wire::Recording recording = wire::readRecording(path);
     printDoubts(path, recording);
     simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
     simulation::Playback playback(recording, world);
+    playback.goTo(from);
+    const std::uint64_t first = world.tick().value;
     while (!playback.over()) playback.advance();
     std::cout << fmt::format(
         "{}: {}, {}, {} compared\n",
         path,
-        counted(world.tick().value, "tick"),
+        counted(world.tick().value - first, "tick"),
         counted(playback.inputs(), "input"),
         playback.compared() == 1 ? "1 hash" : std::to_string(playback.compared()) + " hashes");
     if (playback.compared() == 0)

@@ -281,19 +281,25 @@ void showAgain(const config::Rig& rig,
     const wire::Recording recording = wire::readRecording(options.show.replayPath);
     for (const std::string& doubt : wire::doubtsAbout(recording))
         logWarning("{}: {}", options.show.replayPath, doubt);
+    const Tick from{options.show.replayFromTick};
+    if (from > recording.lastTick())
+        throw Error(options.show.replayPath + ": ends after " +
+                    simulation::timeOf(recording.lastTick()) + "; begin --at an earlier time");
     simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
+    preparation->tell("going to " + simulation::timeOf(from));
+    conductor::Conductor* running = nullptr;
+    const auto onEnd = [&] {
+        if (!options.lockstep) running->stop();
+    };
+    simulation::ReplayedWorld replayed(recording, world, from, onEnd);
     preparation.reset();
     conductor::ConductorOptions conducting = conductorOptions(rig, options);
     conducting.whyOneScene = "a recording is shown, and has one scene";
     // In lockstep the world runs ahead of the frames, so the frames are counted instead.
-    conductor::Conductor* running = nullptr;
-    std::function<void()> onEnd = [&running] { running->stop(); };
     if (options.lockstep) {
-        const std::uint64_t frames = recording.lastTick().value + 1;
+        const std::uint64_t frames = recording.lastTick().value + 1 - from.value;
         conducting.frames = std::min(conducting.frames.value_or(frames), frames);
-        onEnd = [] {};
     }
-    simulation::ReplayedWorld replayed(recording, world, onEnd);
     show(rig, conducting, {recording.assets, world, replayed}, std::move(channels), &running);
 }
 
@@ -347,6 +353,7 @@ void addMaster(CommandLine& line) {
                   options.resume,
                   "continue a show: values that were set override the options")
         ->excludes("--lockstep");
+    command.add_option("--from-tick", options.show.replayFromTick, "begin --replay at this tick");
     command.add_option("--replay", options.show.replayPath, "show this recording")
         ->excludes("--record")
         ->excludes("--seed")

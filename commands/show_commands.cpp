@@ -72,7 +72,24 @@ struct ReplayOptions {
 // Throws Error, before any process starts, where the file is not a recording.
 int replay(const ReplayOptions& options) {
     supervisor::requireRecording(options.run.show.replayPath);
-    return options.check ? checkReplay(options.run.show.replayPath) : runWith(options.run);
+    const Tick from{options.run.show.replayFromTick};
+    return options.check ? checkReplay(options.run.show.replayPath, from) : runWith(options.run);
+}
+
+// "1:23:45", "23:45", "45" or "45.5": hours, minutes and seconds of a recording. Throws
+// ValidationError for anything else.
+std::uint64_t ticksIn(const std::string& time) {
+    std::istringstream in(time);
+    double seconds = 0;
+    for (int parts = 0; parts < 3; ++parts) {
+        double part = -1;
+        if (!(in >> part) || part < 0 || part > 1e6 || (parts > 0 && part >= 60)) break;
+        seconds = 60 * seconds + part;
+        if (in.eof()) return static_cast<std::uint64_t>(std::llround(seconds * kTicksPerSecond));
+        if (in.get() != ':') break;
+    }
+    throw CLI::ValidationError(
+        "--at", "is a time of the recording, such as 1:23:45, 23:45 or 45.5, not " + time);
 }
 
 // Another program of the installation that takes the arguments after the command's name.
@@ -150,6 +167,12 @@ void addReplay(CommandLine& line) {
     command.add_option("FILE", options.run.show.replayPath, "the recording")->required();
     command.add_option("--rig", options.run.show.rigPath, "the wall that shows it")
         ->capture_default_str();
+    command.add_option_function<std::string>(
+        "--at",
+        [&show = options.run.show](const std::string& time) {
+            show.replayFromTick = ticksIn(time);
+        },
+        "begin at this time of the recording: hours:minutes:seconds");
     command.add_flag(
         "--check", options.check, "without a wall: only check that the world is the same again");
     describeWall(command, options.run.show);

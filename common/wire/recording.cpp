@@ -7,8 +7,12 @@
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
+#include <istream>
+#include <sstream>
 #include <string_view>
 #include <utility>
+
+#include <zlib.h>
 
 #include "common/base/log.h"
 #include "common/base/units.h"
@@ -23,18 +27,28 @@ constexpr std::string_view kMagic = "AQREC";
 constexpr std::size_t kMostBytesBeforeMagic = 16;
 constexpr std::size_t kMostLengthBytes = 5;
 constexpr std::size_t kMostRepertoireBytes = std::size_t{64} << 20U;
-constexpr std::size_t kMostEntryBytes = kMostRepertoireBytes + kMostSpeciesBytes + 4096;
+constexpr std::size_t kMostEntryBytes = kMostSavedBytes + 4096;
+static_assert(kMostRepertoireBytes + kMostSpeciesBytes < kMostSavedBytes);
+// The checksum behind an entry: its tag, and four bytes.
+constexpr std::byte kChecksumTag{15U << 3U | 5U};
+constexpr std::size_t kChecksumBytes = 5;
 constexpr std::size_t kMostSmallEntryBytes = 256;             // of inputs and hashes
 constexpr std::uint64_t kMostTick = std::uint64_t{1} << 32U;  // two years
 constexpr float kMostMetres = 10'000;
 constexpr std::uint32_t kMostPellets = 65'535;
 constexpr double kMostDaySeconds = 1.0e9;
 
-// An entry after its length as a varint, as protobuf's own tools delimit messages.
+std::uint32_t checksumOf(std::span<const std::byte> bytes) {
+    return static_cast<std::uint32_t>(
+        crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+// An entry with its checksum, after its length as a varint, as protobuf's own tools delimit
+// messages.
 Packet delimited(const v1::RecordingEntry& entry) {
     const std::size_t size = entry.ByteSizeLong();
     Packet bytes;
-    for (std::size_t rest = size;; rest >>= 7U) {
+    for (std::size_t rest = size + kChecksumBytes;; rest >>= 7U) {
         const bool more = rest > 0x7F;
         bytes.push_back(static_cast<std::byte>((rest & 0x7FU) | (more ? 0x80U : 0U)));
         if (!more) break;
@@ -42,6 +56,10 @@ Packet delimited(const v1::RecordingEntry& entry) {
     const std::size_t start = bytes.size();
     bytes.resize(start + size);
     entry.SerializeToArray(bytes.data() + start, static_cast<int>(size));
+    const std::uint32_t checksum = checksumOf(std::span(bytes).subspan(start));
+    bytes.push_back(kChecksumTag);
+    for (const unsigned shift : {0U, 8U, 16U, 24U})
+        bytes.push_back(static_cast<std::byte>(checksum >> shift & 0xFFU));
     return bytes;
 }
 
@@ -118,14 +136,17 @@ void write(const RecordedHash& hash, v1::RecordedHash& message) {
 // Reads a recording entry by entry; every message says at which byte the file is wrong.
 class Reader {
   public:
-    Reader(std::span<const std::byte> bytes, std::string source)
-        : bytes_(bytes), source_(std::move(source)) {}
+    Reader(std::istream& in, std::uint64_t bytes, std::string source)
+        : in_(in), size_(bytes), source_(std::move(source)) {}
 
     Recording read() {
         readHeader();
         while (recording_.assets.cast.size() < speciesCount_) readSpecies();
         while (!recording_.end && nextEntry()) readEvent();
-        if (recording_.end && at_ != bytes_.size()) fail("goes on behind its end");
+        if (recording_.end && at_ != size_) fail("goes on behind its end");
+        recording_.source = source_;
+        recording_.wholeBytes = recording_.end ? at_ : start_;
+        recording_.bytesLeftOver = size_ - recording_.wholeBytes;
         return std::move(recording_);
     }
 
@@ -135,47 +156,72 @@ class Reader {
                     "; take another copy of it");
     }
 
-    // The length of the next entry; false where the file ends before or within it.
-    bool nextLength(std::size_t& length) {
-        length = 0;
-        for (std::size_t i = 0; i < kMostLengthBytes && at_ + i < bytes_.size(); ++i) {
-            const auto byte = std::to_integer<std::size_t>(bytes_[at_ + i]);
-            length |= (byte & 0x7FU) << (7 * i);
-            if (byte > 0x7F) continue;
-            at_ += i + 1;
-            return true;
+    // The length of the next entry; 0 where the file ends before or within it, or is damaged.
+    std::size_t nextLength() {
+        std::size_t length = 0;
+        for (std::size_t i = 0; i < kMostLengthBytes; ++i) {
+            const int byte = in_.get();
+            if (byte == std::istream::traits_type::eof()) return 0;
+            ++at_;
+            length |= static_cast<std::size_t>(byte & 0x7F) << (7 * i);
+            if (byte <= 0x7F) return length;
         }
-        if (bytes_.size() - at_ >= kMostLengthBytes) fail("is damaged");
-        return false;
+        return 0;
     }
 
-    // False: the file ends here, perhaps in the middle of an entry.
+    // Whether the bytes that were read end with their checksum.
+    [[nodiscard]] bool isWhole() const {
+        const std::size_t size = bytes_.size() - kChecksumBytes;
+        std::uint32_t kept = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            kept |= std::to_integer<std::uint32_t>(bytes_[size + 1 + i]) << (8 * i);
+        return bytes_[size] == kChecksumTag && kept == checksumOf(std::span(bytes_).first(size));
+    }
+
+    // False: there is no whole entry any more.
     bool nextEntry() {
         start_ = at_;
-        std::size_t length = 0;
-        if (!nextLength(length) || length > bytes_.size() - at_) {
-            if (length > kMostEntryBytes) fail("is damaged");
-            recording_.bytesLeftOver = bytes_.size() - start_;
+        const std::size_t length = nextLength();
+        if (length < kChecksumBytes || length > kMostEntryBytes || length > size_ - at_)
             return false;
-        }
-        if (length > kMostEntryBytes ||
-            !entry_.ParseFromArray(bytes_.data() + at_, static_cast<int>(length)))
-            fail("is damaged");
+        bytes_.resize(length);
+        in_.read(reinterpret_cast<char*>(bytes_.data()), static_cast<std::streamsize>(length));
+        if (static_cast<std::size_t>(in_.gcount()) != length || !isWhole()) return false;
         at_ += length;
-        entryBytes_ = length;
+        if (!entry_.ParseFromArray(bytes_.data(), static_cast<int>(length))) fail("is damaged");
         return true;
     }
 
-    // The version is checked before anything that may differ between versions.
-    void readHeader() {
-        if (!isRecording(bytes_)) throw Error(source_ + ": is not a recording of a show");
-        if (!nextEntry() || !entry_.has_header()) fail("ends within its first entry");
+    // The version is checked before anything that may differ between versions: the checksum, too.
+    void readVersion() {
+        const std::size_t length = nextLength();
+        if (length > kMostSceneBytes + 4096 || length > size_ - at_)
+            fail("ends within its first entry");
+        bytes_.resize(length);
+        in_.read(reinterpret_cast<char*>(bytes_.data()), static_cast<std::streamsize>(length));
+        if (!entry_.ParseFromArray(bytes_.data(), static_cast<int>(length)))
+            fail("has a damaged header");
         const v1::RecordingHeader& header = entry_.header();
         if (header.version() != kRecordingVersion)
             throw Error(source_ + ": is a recording of version " +
                         std::to_string(header.version()) + ", written by " +
                         printed(header.build()) + "; this program reads version " +
                         std::to_string(kRecordingVersion) + ": use the program that wrote it");
+        at_ = 0;
+        in_.seekg(0);
+    }
+
+    void readHeader() {
+        std::array<std::byte, kMostBytesBeforeMagic + kMagic.size()> head{};
+        in_.read(reinterpret_cast<char*>(head.data()), head.size());
+        const bool isOne =
+            isRecording(std::span(head).first(static_cast<std::size_t>(in_.gcount())));
+        if (!isOne) throw Error(source_ + ": is not a recording of a show");
+        in_.clear();
+        in_.seekg(0);
+        readVersion();
+        if (!nextEntry() || !entry_.has_header()) fail("ends within its first entry");
+        const v1::RecordingHeader& header = entry_.header();
         if (!header.has_protocol() || !header.has_seed() || !header.has_scene() ||
             header.scene().size() > kMostSceneBytes || header.species_count() > kMostSpecies)
             fail("has a damaged header");
@@ -207,13 +253,17 @@ class Reader {
 
     // What happened after the species: inputs, hashes, and the end.
     void readEvent() {
-        if (entryBytes_ > kMostSmallEntryBytes) fail("is damaged");
+        const bool isSave = entry_.entry_case() == v1::RecordingEntry::kSave;
+        if (!isSave && bytes_.size() > kMostSmallEntryBytes) fail("is damaged");
         switch (entry_.entry_case()) {
             case v1::RecordingEntry::kInput:
                 recording_.inputs.push_back(inputIn(entry_.input()));
                 return;
             case v1::RecordingEntry::kCheckpoint:
                 recording_.checkpoints.push_back(hashIn(entry_.checkpoint()));
+                return;
+            case v1::RecordingEntry::kSave:
+                recording_.saves.push_back(saveIn(entry_.save()));
                 return;
             case v1::RecordingEntry::kEnd:
                 recording_.end = hashIn(entry_.end());
@@ -233,6 +283,17 @@ class Reader {
     RecordedHash hashIn(const v1::RecordedHash& message) {
         if (!message.has_hash()) fail("has a damaged checkpoint");
         return {tickIn(message.has_tick(), message.tick()), message.hash()};
+    }
+
+    // The state is the last field before the checksum.
+    RecordedSave saveIn(const v1::RecordedSave& save) {
+        const std::size_t bytes = save.state().size();
+        if (bytes == 0 || bytes > kMostSavedBytes) fail("has a save that cannot be");
+        const std::uint64_t at = at_ - kChecksumBytes - bytes;
+        const auto* state = reinterpret_cast<const std::byte*>(save.state().data());
+        if (!std::equal(state, state + bytes, bytes_.end() - kChecksumBytes - bytes))
+            fail("has a save that cannot be");
+        return {tickIn(save.has_tick(), save.tick()), at, bytes};
     }
 
     // A place or a velocity within bounds.
@@ -319,9 +380,11 @@ class Reader {
         return text;
     }
 
-    std::span<const std::byte> bytes_;
+    std::istream& in_;
+    std::uint64_t size_;
     std::string source_;
-    std::size_t at_ = 0, start_ = 0, entryBytes_ = 0;
+    std::uint64_t at_ = 0, start_ = 0;
+    Packet bytes_;  // of the entry
     v1::RecordingEntry entry_;
     std::size_t speciesCount_ = 0;
     std::size_t fish_ = 0;
@@ -370,6 +433,14 @@ Packet entryOf(const RecordedHash& checkpoint) {
     return delimited(entry);
 }
 
+// The state comes last, so that a reader finds it by its length.
+Packet entryOf(Tick tick, std::span<const std::byte> savedState) {
+    v1::RecordingEntry entry;
+    entry.mutable_save()->set_tick(tick.value);
+    entry.mutable_save()->set_state(savedState.data(), savedState.size());
+    return delimited(entry);
+}
+
 Packet endOf(const RecordedHash& end) {
     v1::RecordingEntry entry;
     write(end, *entry.mutable_end());
@@ -384,20 +455,27 @@ bool isRecording(std::span<const std::byte> firstBytes) {
 }
 
 Recording decodeRecording(std::span<const std::byte> bytes, const std::string& source) {
-    return Reader(bytes, source).read();
+    std::istringstream in(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    return Reader(in, bytes.size(), source).read();
 }
 
-// The size is checked before memory is taken; a file that shrinks meanwhile reads as cut short.
+// A file that shrinks meanwhile reads as cut short.
 Recording readRecording(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::error_code problem;
     const std::uintmax_t size = std::filesystem::file_size(path, problem);
     if (!file || problem) throw Error(path + ": cannot be read; is there such a recording?");
     if (size > kMostRecordingBytes) throw Error(path + ": is too large for a recording");
-    Packet bytes(size);
-    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    bytes.resize(static_cast<std::size_t>(file.gcount()));
-    return decodeRecording(bytes, path);
+    return Reader(file, size, path).read();
+}
+
+std::vector<std::byte> readState(const Recording& recording, const RecordedSave& save) {
+    std::ifstream file(recording.source, std::ios::binary);
+    std::vector<std::byte> state(save.bytes);
+    file.seekg(static_cast<std::streamoff>(save.at));
+    file.read(reinterpret_cast<char*>(state.data()), static_cast<std::streamsize>(save.bytes));
+    if (!file) throw Error(recording.source + ": has changed while it was read; try again");
+    return state;
 }
 
 std::vector<std::string> doubtsAbout(const Recording& recording) {

@@ -22,11 +22,12 @@
 
 namespace aquarama::wire {
 
-inline constexpr std::uint32_t kRecordingVersion = 2;
+inline constexpr std::uint32_t kRecordingVersion = 3;
 // Bounds of what is read and written.
 inline constexpr std::size_t kMostSceneBytes = std::size_t{1} << 20U;
 inline constexpr std::size_t kMostSpeciesBytes = std::size_t{1} << 20U;
-inline constexpr std::size_t kMostRecordingBytes = std::size_t{1} << 30U;
+inline constexpr std::size_t kMostSavedBytes = std::size_t{256} << 20U;
+inline constexpr std::uint64_t kMostRecordingBytes = std::uint64_t{1} << 38U;
 
 // One species of a show: its file, the repertoire that moves it, and how many there are. The same
 // on the master, in a recording and on a node.
@@ -93,15 +94,25 @@ struct RecordedHash {
     friend bool operator==(const RecordedHash&, const RecordedHash&) = default;
 };
 
+// The whole world at the tick, before any input that reaches it then: where its state lies in the
+// file. A reader that wants it reads it from there (readState()), as all of them are large.
+struct RecordedSave {
+    Tick tick;
+    std::uint64_t at = 0, bytes = 0;
+};
+
 // A show as it was read from a file.
 struct Recording {
+    std::string source;          // its path, as it was named
     std::uint32_t protocol = 0;  // kProtocolMajor of the program that wrote it
     std::string build;
     AssetBundle assets;
     std::vector<RecordedInput> inputs;      // in the order in which they came
     std::vector<RecordedHash> checkpoints;  // in the order of ticks
+    std::vector<RecordedSave> saves;        // in the order of ticks
     std::optional<RecordedHash> end;        // without: the recording was cut short
-    std::size_t bytesLeftOver = 0;          // of an entry that was being written then
+    std::uint64_t wholeBytes = 0;           // up to the end of the last whole entry
+    std::uint64_t bytesLeftOver = 0;        // behind it: an entry that was being written, or damage
 
     [[nodiscard]] Tick lastTick() const;  // up to which anything is known
 };
@@ -110,17 +121,22 @@ struct Recording {
 [[nodiscard]] Packet beginningOf(const AssetBundle& assets);
 [[nodiscard]] Packet entryOf(const RecordedInput& input);
 [[nodiscard]] Packet entryOf(const RecordedHash& checkpoint);
+[[nodiscard]] Packet entryOf(Tick tick, std::span<const std::byte> savedState);
 [[nodiscard]] Packet endOf(const RecordedHash& end);
 
 // Whether a file with these first bytes is a recording.
 [[nodiscard]] bool isRecording(std::span<const std::byte> firstBytes);
 
-// Throws Error where it is no recording, of another version, or damaged. One that stops in the
-// middle of an entry is read up to there. Takes no more memory than a small multiple of its size.
+// Throws Error where it is no recording, of another version, or an entry cannot be. One that stops
+// in the middle of an entry, or that is damaged, is read up to there. Takes no more memory than a
+// small multiple of its size, without its saves.
 [[nodiscard]] Recording decodeRecording(std::span<const std::byte> bytes,
                                         const std::string& source);
 // As above, of a file. Throws Error also where it cannot be read or is too large.
 [[nodiscard]] Recording readRecording(const std::string& path);
+// The state of a save. Throws Error where the file has changed since it was read.
+[[nodiscard]] std::vector<std::byte> readState(const Recording& recording,
+                                               const RecordedSave& save);
 
 // Reasons why a replay may differ from the show, a line each; none where all agrees.
 [[nodiscard]] std::vector<std::string> doubtsAbout(const Recording& recording);

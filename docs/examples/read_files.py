@@ -8,12 +8,13 @@
 import hashlib
 import struct
 import sys
+import zlib
 from pathlib import Path
 
 import numpy as np
 
 REPERTOIRE_VERSION = 6
-RECORDING_VERSION = 2
+RECORDING_VERSION = 3
 PHASES, NODES, FINS, CONTROL_POINTS = 64, 23, 2, 426
 POSE_UNIT = 1 / 32767  # body lengths
 FIN_UNIT = 1e-4  # radians
@@ -116,8 +117,10 @@ def fields(message):
 
 
 def entries(content):
-    """The messages of a recording, each behind its length; one that was being written at the end is left out."""
+    """The messages of a recording, each behind its length and with its checksum in its last five bytes. What comes
+    behind the last whole one is left out. The first one is not checked: its version comes before its checksum."""
     at = 0
+    is_first = True
     while at < len(content):
         length = shift = 0
         while at < len(content):
@@ -125,10 +128,13 @@ def entries(content):
             at, length, shift = at + 1, length | (byte & 0x7F) << shift, shift + 7
             if byte < 0x80:
                 break
-        if at + length > len(content):
+        message = content[at:at + length]
+        is_whole = len(message) == length > 5 and message[-4:] == struct.pack("<I", zlib.crc32(message[:-5]))
+        if not is_whole and not is_first:
             return
-        yield content[at:at + length]
+        yield message
         at += length
+        is_first = False
 
 
 def signed(value):
@@ -169,14 +175,14 @@ def read_recording(content):
     recording = {"protocol": header[3], "build": header[4].decode(), "seed": header[5], "scene": header[6].decode(),
                  "species": [], "inputs": [], "hashes": [], "is_whole": False}
     for message in messages:
-        (kind, part), = fields(message)
+        (kind, part), _ = fields(message)
         if kind == 2:
             species = dict(fields(part))
             recording["species"].append({"file": species[1].decode(), "text": species[2].decode(),
                                          "repertoire": species[3], "fish": species.get(4, 0)})
         elif kind == 3:
             recording["inputs"].append(input_of(part))
-        else:
+        elif kind in (4, 5):
             found = dict(fields(part))
             digest = found[2] if isinstance(found[2], int) else struct.unpack("<Q", found[2])[0]
             recording["hashes"].append((found.get(1, 0), digest))

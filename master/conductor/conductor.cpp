@@ -28,7 +28,9 @@ net::Duration fromSeconds(double seconds) {
     return std::chrono::duration_cast<net::Duration>(std::chrono::duration<double>(seconds));
 }
 
-PresentationLimits limitsOf(const config::Timing& timing, const ConductorOptions& options) {
+PresentationLimits limitsOf(const config::Timing& timing,
+                            const ConductorOptions& options,
+                            Tick firstTick) {
     const double deadline = timing.presentDeadlineSeconds > 0 ? timing.presentDeadlineSeconds
                                                               : 1.0 / timing.refreshHertz;
     return {.barrier = {.lockstep = options.pace == wire::Pace::Lockstep,
@@ -37,7 +39,8 @@ PresentationLimits limitsOf(const config::Timing& timing, const ConductorOptions
                         .patience = options.patience},
             .refresh = fromSeconds(1.0 / timing.refreshHertz),
             .frames = options.frames,
-            .traceDirectory = options.traceDirectory};
+            .traceDirectory = options.traceDirectory,
+            .firstTick = firstTick};
 }
 
 OrderLimits limitsOf(const ConductorOptions& options) {
@@ -98,7 +101,7 @@ Conductor::Conductor(const config::Rig& rig,
              sender_},
       keeper_{options_.keptAt, options_.kept},
       gauges_{roster_, isLockstep() ? std::uint16_t{0} : rig.metricsPort},
-      presentation_{limitsOf(rig.timing, options_),
+      presentation_{limitsOf(rig.timing, options_, simulation.tick()),
                     roster_,
                     sender_,
                     *channels_,
@@ -486,7 +489,8 @@ void Conductor::startSimulation(std::uint32_t fish) {
     }
     drawings_.enter(simulation_->drawingSlots());
     std::optional<Tick> lastTick;
-    if (isLockstep() && options_.frames) lastTick = Tick{*options_.frames - 1};
+    if (isLockstep() && options_.frames)
+        lastTick = Tick{simulation_->tick().value + *options_.frames - 1};
     simulationThread_ = std::make_unique<SimulationThread>(
         *simulation_, options_.pace, lastTick, [this] { channels_->wake(); });
     if (!isLockstep()) simulationThread_->freeze(orders_.control().wanted().freeze());

@@ -79,7 +79,7 @@ bool Presentation::isLast(Frame frame) const {
 
 // Lockstep takes a tick when its frame comes up, so that the tick thread waits for the frames.
 void Presentation::takeTicks() {
-    while (!isLockstep() || snapshots_.newest() < Tick{unpublished_.value}) {
+    while (!isLockstep() || snapshots_.newest() < tickOf(unpublished_)) {
         auto snapshot = source_.takeTick();
         if (!snapshot) return;
         snapshots_.add(std::move(*snapshot));
@@ -171,7 +171,7 @@ void Presentation::release(net::Moment now) {
 bool Presentation::publish(Frame frame, net::Moment now) {
     if (frame < unpublished_) return true;
     takeTicks();
-    auto state = isLockstep() ? snapshots_.showing(frame, Tick{frame.value})
+    auto state = isLockstep() ? snapshots_.showing(frame, tickOf(frame))
                               : snapshots_.showing(frame, releaseOf(frame, now) - kShownAge);
     if (!state) return false;
     state->show = &source_.showOf(frame, now);

@@ -39,6 +39,7 @@ struct PresentationLimits {
     net::Duration refresh{};               // of the displays
     std::optional<std::uint64_t> frames;   // the show ends after so many
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
+    Tick firstTick;                        // lockstep: of frame 0
 };
 
 // Of the conductor's thread. `now` is the begin of a turn of its loop, by the master's clock.
@@ -84,6 +85,8 @@ class Presentation {
     [[nodiscard]] bool isLockstep() const { return limits_.barrier.lockstep; }
     [[nodiscard]] bool isLast(Frame frame) const;
     void takeTicks();
+    // Lockstep: the tick that a frame shows.
+    [[nodiscard]] Tick tickOf(Frame frame) const { return {limits_.firstTick.value + frame.value}; }
     void expelSilent(net::Moment now);
     void conduct(net::Moment now);
     void beginNext(net::Moment now);  // as soon as there is somebody to draw it

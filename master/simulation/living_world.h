@@ -2,9 +2,11 @@
 // The living world behind the conductor's interface, and its construction from files.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,10 @@ class LivingWorld : public conductor::Simulation {
     }
     [[nodiscard]] std::vector<conductor::DrawingSlots> drawingSlots() const override;
 
+    // Goes on from a save: world::restore().
+    void restore(std::span<const std::byte> state, const std::string& source) {
+        world::restore(world_, state, source);
+    }
     // The world itself, for measurements.
     [[nodiscard]] const world::World& world() const { return world_; }
 

@@ -1,33 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/simulation/recorded_world.h"
 
+#include <algorithm>
 #include <cassert>
-#include <filesystem>
+#include <iterator>
 #include <utility>
 
 #include "common/base/log.h"
 
 namespace aquarama::simulation {
 
-void requireNewRecording(const std::string& path) {
-    std::error_code none;
-    if (std::filesystem::is_regular_file(path, none))
-        throw Error(path + ": is there already; a recording never overwrites a file: name another");
-}
-
-RecordingFile::RecordingFile(const std::string& path, const wire::AssetBundle& assets) {
-    requireNewRecording(path);
-    file_ = GrowingFile(path);
-    file_.append(wire::beginningOf(assets));
-}
-
-void RecordingFile::add(const wire::Packet& entry) {
-    file_.appendOrLog(entry);
-}
-
 // A recording begins and ends with a hash, so that even a short one can be compared.
-RecordedWorld::RecordedWorld(conductor::Simulation& world, RecordingFile& file)
-    : SimulationDecorator(world), file_(file) {
+RecordedWorld::RecordedWorld(LivingWorld& world, RecordingFile& file)
+    : SimulationDecorator(world), living_(world), file_(file) {
     file_.add(wire::entryOf(now()));
 }
 
@@ -43,12 +28,39 @@ void RecordedWorld::advance() {
     }
     world_.advance();
     if (world_.tick().value % kTicksBetweenCheckpoints == 0) file_.add(wire::entryOf(now()));
+    if (world_.tick().value % kTicksBetweenSaves == 0) file_.save(living_.world());
 }
 
-Playback::Playback(const wire::Recording& recording, conductor::Simulation& world)
+Playback::Playback(const wire::Recording& recording, LivingWorld& world)
     : recording_(recording), world_(world) {
     assert(world.tick() == Tick{});
     compare();
+}
+
+void Playback::goTo(Tick tick) {
+    const auto& saves = recording_.saves;
+    const auto behind = std::ranges::upper_bound(saves, tick, {}, &wire::RecordedSave::tick);
+    for (auto save = behind; save != saves.begin() && std::prev(save)->tick > world_.tick();)
+        if (beginAt(*--save)) break;
+    while (world_.tick() < tick && !over()) advance();
+}
+
+bool Playback::beginAt(const wire::RecordedSave& save) {
+    try {
+        world_.restore(wire::readState(recording_, save), recording_.source);
+    } catch (const Error& problem) {
+        logWarning("{}; every tick before is computed again", problem.what());
+        return false;
+    }
+    const auto from = [&](const auto& list) {
+        const auto found = std::ranges::lower_bound(
+            list, save.tick, {}, [](const auto& entry) { return entry.tick; });
+        return static_cast<std::size_t>(found - list.begin());
+    };
+    nextInput_ = from(recording_.inputs);
+    nextCheckpoint_ = from(recording_.checkpoints);
+    compare();
+    return true;
 }
 
 // Same order as RecordedWorld::advance(): inputs first, then the tick.
@@ -79,10 +91,12 @@ void Playback::compareWith(const wire::RecordedHash& expected) {
 }
 
 ReplayedWorld::ReplayedWorld(const wire::Recording& recording,
-                             conductor::Simulation& world,
+                             LivingWorld& world,
+                             Tick from,
                              std::function<void()> onEnd)
     : SimulationDecorator(world), playback_(recording, world), onEnd_(std::move(onEnd)) {
     assert(onEnd_ != nullptr);
+    playback_.goTo(from);
 }
 
 void ReplayedWorld::advance() {
@@ -97,6 +111,12 @@ void ReplayedWorld::advance() {
 void ReplayedWorld::apply(const world::WorldInput& /*input*/) {
     if (!std::exchange(toldOfInput_, true))
         logWarning("this is a replay: what visitors do does not reach its world");
+}
+
+std::string timeOf(Tick tick) {
+    const auto seconds =
+        static_cast<std::uint64_t>(static_cast<double>(tick.value) / kTicksPerSecond);
+    return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
 namespace {

@@ -10,9 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "common/base/output_file.h"
 #include "common/wire/recording.h"
 #include "master/conductor/simulation.h"
+#include "master/simulation/living_world.h"
+#include "master/simulation/recording_file.h"
 #include "master/world/events.h"
 
 namespace aquarama::simulation {
@@ -33,39 +34,21 @@ class SimulationDecorator : public conductor::Simulation {
     conductor::Simulation& world_;
 };
 
-// Recording: every input with its tick, and a hash of the world from time to time.
+// Recording: every input with its tick, a hash of the world from time to time, and now and then the
+// whole of it.
 
 // Ticks between two recorded hashes: ten seconds.
 inline constexpr std::uint64_t kTicksBetweenCheckpoints = 600;
 
-// Throws Error where a regular file of this name exists. A pipe or a device may exist.
-void requireNewRecording(const std::string& path);
-
-// A recording that grows. Each entry is flushed at once: however the program ends, the file is
-// whole up to its last entry.
-class RecordingFile {
-  public:
-    // Throws Error where the file exists or cannot be written.
-    RecordingFile(const std::string& path, const wire::AssetBundle& assets);
-
-    // Appends an entry. Never throws, as a full disk must not end a show: the first entry that
-    // cannot be written is reported in the log, and recording stops.
-    void add(const wire::Packet& entry);
-    // Whether entries are still written.
-    [[nodiscard]] bool recording() const { return file_.isOpen(); }
-    // Closes the file after the last entry. Throws Error where an entry could not be written.
-    void close() { file_.close(); }
-
-  private:
-    GrowingFile file_;
-};
+// Ticks between two saves of the whole world: a minute.
+inline constexpr std::uint64_t kTicksBetweenSaves = 3600;
 
 // A world whose inputs are recorded. An input waits until the next tick begins, here as in a
 // replay, so that a snapshot between two ticks is the same in both.
 class RecordedWorld final : public SimulationDecorator {
   public:
     // Records this world into this file; both outlive it.
-    RecordedWorld(conductor::Simulation& world, RecordingFile& file);
+    RecordedWorld(LivingWorld& world, RecordingFile& file);
     // Writes the end of the recording.
     ~RecordedWorld() override;
     RecordedWorld(const RecordedWorld&) = delete;
@@ -82,6 +65,7 @@ class RecordedWorld final : public SimulationDecorator {
     // The present tick and hash.
     [[nodiscard]] wire::RecordedHash now() const { return {world_.tick(), world_.hash()}; }
 
+    LivingWorld& living_;
     RecordingFile& file_;
     std::vector<world::WorldInput> pending_;
 };
@@ -101,8 +85,11 @@ struct Difference {
 class Playback {
   public:
     // Both outlive it; `world` is at tick 0.
-    Playback(const wire::Recording& recording, conductor::Simulation& world);
+    Playback(const wire::Recording& recording, LivingWorld& world);
 
+    // Goes forward to a tick, from the last save before it where that is nearer. Saves of another
+    // build are passed over, with a warning.
+    void goTo(Tick tick);
     // Advances by one tick, after the inputs recorded for it.
     void advance();
     [[nodiscard]] bool over() const { return world_.tick() >= recording_.lastTick(); }
@@ -112,12 +99,14 @@ class Playback {
     [[nodiscard]] const std::optional<Difference>& difference() const { return difference_; }
 
   private:
+    // Puts the world where it was at a save. False: it is none of this build.
+    [[nodiscard]] bool beginAt(const wire::RecordedSave& save);
     // Compares the present hash with every recorded one that is due.
     void compare();
     void compareWith(const wire::RecordedHash& expected);
 
     const wire::Recording& recording_;
-    conductor::Simulation& world_;
+    LivingWorld& world_;
     std::size_t nextInput_ = 0, nextCheckpoint_ = 0, compared_ = 0;
     std::optional<Tick> lastSame_;
     std::optional<Difference> difference_;
@@ -126,9 +115,11 @@ class Playback {
 // The replay as the conductor shows it. Inputs of visitors are dropped, with one warning.
 class ReplayedWorld final : public SimulationDecorator {
   public:
-    // `onEnd` is called once, from the tick thread, after the last recorded tick.
+    // Begins at the tick `from`. `onEnd` is called once, from the tick thread, after the last
+    // recorded tick.
     ReplayedWorld(const wire::Recording& recording,
-                  conductor::Simulation& world,
+                  LivingWorld& world,
+                  Tick from,
                   std::function<void()> onEnd);
 
     void advance() override;
@@ -140,6 +131,9 @@ class ReplayedWorld final : public SimulationDecorator {
     // Each warning is given once.
     bool toldOfInput_ = false, toldOfDifference_ = false, ended_ = false;
 };
+
+// A tick as a time of the recording: "1:02:03".
+[[nodiscard]] std::string timeOf(Tick tick);
 
 // Inputs as a recording stores them, and back.
 [[nodiscard]] wire::RecordedInput recorded(Tick tick, const world::WorldInput& input);

@@ -86,6 +86,8 @@ Process masterProcess(const RunOptions& options) {
     if (options.lockstep()) arguments.emplace_back("--lockstep");
     if (show.frames) append(arguments, "--frames", std::to_string(*show.frames));
     append(arguments, "--replay", show.replayPath);
+    if (show.replayFromTick > 0)
+        append(arguments, "--from-tick", std::to_string(show.replayFromTick));
     if (show.replayPath.empty()) append(arguments, "--seed", std::to_string(show.seed));
     append(arguments, "--scene", show.scenePath);
     if (show.fish) append(arguments, "--fish", std::to_string(*show.fish));

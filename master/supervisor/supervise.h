@@ -26,6 +26,7 @@ struct ShowOptions {
     std::string traceFolder;
     std::string recordPath;  // the show is written to this new file; empty: it is not
     std::string replayPath;  // the recording that is shown; empty: a new world
+    std::uint64_t replayFromTick = 0;
 };
 
 // The options of a show that its supervisor needs.

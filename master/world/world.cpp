@@ -324,12 +324,23 @@ void World::restore(const WorldState& state) {
     surroundings_.submarine.position = pilot_.vessel.position;
     surroundings_.submarine.velocityMetresPerSecond = pilot_.vessel.velocity;
     lookFrom(pilot_.vessel, columns_.wearers);
-    school_.set(state.goal);
+    school_.goOnFrom(state.goal);
     meals_ = state.meals;
     absences_ = state.absences;
     counts_ = state.counts;
     for (const Kind& kind : kinds_) look(kind, kind.first, kind.last, state.timeOfDay);
     columns_.view.signs = state.signs;
+}
+
+void restore(World& world, std::span<const std::byte> bytes, const std::string& source) {
+    WorldState own;
+    world.save(own);
+    const StateBounds bounds{world.speciesParameters(), world.surroundings()};
+    const WorldState state = decodeState(bytes, own, bounds, source);
+    world.restore(state);
+    if (world.hash() == state.hash) return;
+    world.restore(own);
+    throw Error(source + ": the saved world is of other files than this one");
 }
 
 void World::apply(const WorldInput& input) {

@@ -87,7 +87,7 @@ class SchoolGoal {
     void moveTo(Tick tick, const motion::MotionStates& states);
     // The goal of the last moveTo(); before, that of tick 0 or the middle of the water.
     [[nodiscard]] const surroundings::Goal& goal() const { return goal_; }
-    void set(const surroundings::Goal& goal) { goal_ = goal; }
+    void goOnFrom(const surroundings::Goal& goal) { goal_ = goal; }
     // How the scene gathers the school.
     [[nodiscard]] config::Gathering gathering() const { return gathering_; }
     // Radius that the school fills around its goal.
@@ -119,9 +119,6 @@ class World {
     // Copies its state between two ticks, or goes on from one of a world with equal options.
     void save(WorldState& state) const;
     void restore(const WorldState& state);
-    // What the numbers of its states may name.
-    [[nodiscard]] StateBounds stateBounds() const { return {speciesParameters_, surroundings_}; }
-
     // Applies an input, between two ticks.
     void apply(const WorldInput& input);
     // One tick. Order: food and view, thoughts, motion, events. Allocates nothing in a steady
@@ -206,5 +203,9 @@ class World {
     SchoolGoal school_;
     WorkerPool pool_;
 };
+
+// Goes on from the bytes of a state (encodeState()). Throws Error where they are none of such a
+// world, and leaves it as it was; `source` names them in it.
+void restore(World& world, std::span<const std::byte> bytes, const std::string& source);
 
 }  // namespace aquarama::world

@@ -58,6 +58,11 @@ TEST(RecordingFormat, everyEntryComesBack) {
     EXPECT_EQ(std::get<RecordedDeparture>(recording.inputs[6].input).fish, 40U);
     const std::vector<RecordedHash> checkpoints{{{0}, 0xFEDCBA9876543210U}, {{600}, 1}};
     EXPECT_EQ(recording.checkpoints, checkpoints);
+    ASSERT_EQ(recording.saves.size(), 1U);
+    EXPECT_EQ(recording.saves[0].tick, Tick{600});
+    const Packet file = joined(sampleEntries());
+    EXPECT_TRUE(std::ranges::equal(
+        std::span(file).subspan(recording.saves[0].at, recording.saves[0].bytes), sampleState()));
     ASSERT_TRUE(recording.end);
     EXPECT_EQ(recording.lastTick(), recording.end->tick);
     EXPECT_TRUE(doubtsAbout(recording).empty());
@@ -85,8 +90,27 @@ TEST(RecordingFormat, aFileThatStopsAnywhereIsReadUpToItsLastWholeEntry) {
         std::size_t entriesThere = 0, bytes = 0;
         while (bytes + entries[entriesThere].size() <= size)
             bytes += entries[entriesThere++].size();
-        EXPECT_EQ(recording.inputs.size() + recording.checkpoints.size(), entriesThere - 1);
+        EXPECT_EQ(recording.inputs.size() + recording.checkpoints.size() + recording.saves.size(),
+                  entriesThere - 1);
         EXPECT_EQ(recording.bytesLeftOver, size - bytes);
+    }
+}
+
+// A disk that forgot a bit: what was before it is there, and what it says is said.
+TEST(RecordingFormat, aFileThatIsDamagedAnywhereIsReadUpToThere) {
+    const std::vector<Packet> entries = sampleEntries();
+    const Packet whole = joined(entries);
+    for (std::size_t at = entries.front().size(); at < whole.size(); ++at) {
+        Packet altered = whole;
+        altered[at] ^= std::byte{0x10};
+        std::size_t entriesThere = 0, bytes = 0;
+        while (bytes + entries[entriesThere].size() <= at) bytes += entries[entriesThere++].size();
+        const Recording recording = decodeRecording(altered, "show.aqrec");
+        EXPECT_FALSE(recording.end);
+        EXPECT_EQ(recording.wholeBytes, bytes) << at;
+        EXPECT_EQ(recording.bytesLeftOver, whole.size() - bytes);
+        EXPECT_EQ(recording.inputs.size() + recording.checkpoints.size() + recording.saves.size(),
+                  entriesThere - 1);
     }
 }
 
@@ -103,8 +127,8 @@ TEST(RecordingFormat, anotherVersionIsNamed) {
     const auto version = std::ranges::find(file, versionTag) + 1;
     ASSERT_EQ(*version, std::byte{kRecordingVersion});
     *version = std::byte{kRecordingVersion + 1};
-    EXPECT_THAT(refusalOf(file), HasSubstr("of version 3"));
-    EXPECT_THAT(refusalOf(file), HasSubstr("reads version 2"));
+    EXPECT_THAT(refusalOf(file), HasSubstr("of version 4"));
+    EXPECT_THAT(refusalOf(file), HasSubstr("reads version 3"));
 }
 
 TEST(RecordingFormat, anotherProtocolOrBuildIsADoubt) {
@@ -141,8 +165,7 @@ TEST(RecordingFormat, whatCannotBeIsRefusedWithItsPlace) {
                                        RecordedClock{0.5, nan}})
         EXPECT_THAT(refusal(entryOf(RecordedInput{{700}, clock})), HasSubstr("clock"));
     EXPECT_THAT(refusal(beginningOf(sampleAssets())), HasSubstr("cannot be there"));
-    EXPECT_THAT(refusal(Packet{std::byte{0}}), HasSubstr("byte"));
-    EXPECT_THAT(refusal(Packet(5, std::byte{0xFF})), HasSubstr("damaged"));
+    EXPECT_THAT(refusal(entryOf(Tick{700}, {})), HasSubstr("save"));
     EXPECT_THAT(refusal(endOf({{700}, 0})), HasSubstr("behind its end"));
 }
 

@@ -2,6 +2,7 @@
 // A recording with something to lose in each entry.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "common/wire/recording.h"
@@ -17,6 +18,10 @@ inline AssetBundle sampleAssets() {
              {"tang.txtpb", "", {}, 0}}};
 }
 
+inline std::vector<std::byte> sampleState() {
+    return std::vector<std::byte>(70, std::byte{0xA5});
+}
+
 // Its entries one by one, the header and the species first.
 inline std::vector<Packet> sampleEntries() {
     return {beginningOf(sampleAssets()),
@@ -29,6 +34,7 @@ inline std::vector<Packet> sampleEntries() {
             entryOf(RecordedInput{{19}, RecordedDrawing{40, 7, digestOf("png"), -1}}),
             entryOf(RecordedInput{{19}, RecordedDeparture{40}}),
             entryOf(RecordedHash{{600}, 1}),
+            entryOf(Tick{600}, sampleState()),
             endOf({{(std::uint64_t{1} << 31U) + 7}, 2})};
 }
 

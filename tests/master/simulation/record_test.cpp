@@ -180,6 +180,41 @@ TEST_F(Record, aDamagedRepertoireOrSpeciesIsNamed) {
     EXPECT_THAT(refusalOf(recording), HasSubstr("show.aqrec: its scene"));
 }
 
+// Of three minutes, with food now and then: any tick is reached from the save before it, and only
+// the ticks since then are computed.
+TEST_F(Record, aReplayBeginsAtTheSaveBeforeATimeAndIsTheSameWorld) {
+    constexpr std::uint64_t kLong = 2 * kTicksBetweenSaves + 700;
+    const wire::AssetBundle assets = test::syntheticAssets();
+    std::vector<std::uint64_t> hashes;
+    {
+        LivingWorld world(worldOptionsOf(assets));
+        RecordingFile file(path(), assets);
+        RecordedWorld recorded(world, file);
+        while (recorded.tick().value < kLong) {
+            hashes.push_back(recorded.hash());
+            if (recorded.tick().value % 500 == 0)
+                recorded.apply(world::DropFood{.position = kTable});
+            recorded.advance();
+        }
+        ASSERT_TRUE(file.flush());
+    }
+    const wire::Recording recording = wire::readRecording(path());
+    ASSERT_EQ(recording.saves.size(), 2U);
+    for (const std::uint64_t tick : {5U, 3599U, 3600U, 3601U, 7100U, 7201U}) {
+        LivingWorld world(worldOptionsOf(recording.assets));
+        Playback playback(recording, world);
+        playback.goTo({tick});
+        EXPECT_EQ(world.tick().value, tick);
+        EXPECT_EQ(world.hash(), hashes[tick]) << tick;
+        // That of tick 0, that of the save, and one each ten seconds since.
+        const std::uint64_t first = tick < kTicksBetweenSaves ? 1 : 2;
+        EXPECT_EQ(playback.compared(), first + tick % kTicksBetweenSaves / kTicksBetweenCheckpoints)
+            << tick;
+        while (!playback.over()) playback.advance();
+        EXPECT_FALSE(playback.difference()) << tick;
+    }
+}
+
 // Killed in the middle: what had happened by then is there.
 TEST_F(Record, aFileThatWasCutShortReplaysUpToThere) {
     recordAShow();
@@ -210,7 +245,7 @@ TEST_F(Record, theShowGoesOnWhenTheDiskIsFull) {
     LivingWorld world(worldOptionsOf(assets));
     RecordingFile file(path(), assets);
     RecordedWorld recorded(world, file);
-    ASSERT_TRUE(file.recording());
+    ASSERT_TRUE(file.flush());
 
     // NOLINTNEXTLINE(cert-err33-c): it was at its default
     std::signal(SIGXFSZ, SIG_IGN);
@@ -220,9 +255,9 @@ TEST_F(Record, theShowGoesOnWhenTheDiskIsFull) {
     setrlimit(RLIMIT_FSIZE, &full);
     recorded.apply(world::DropFood{.position = kTable});
     recorded.advance();
+    EXPECT_FALSE(file.flush());
     setrlimit(RLIMIT_FSIZE, &before);
 
-    EXPECT_FALSE(file.recording());
     recorded.advance();
     EXPECT_EQ(recorded.tick(), Tick{2});
     EXPECT_EQ(wire::readRecording(path()).checkpoints.size(), 1U);
@@ -234,7 +269,7 @@ TEST_F(Record, visitorsDoNotReachAReplayAndItEndsOnce) {
     const wire::Recording recording = wire::readRecording(path());
     LivingWorld world(worldOptionsOf(recording.assets));
     int ends = 0;
-    ReplayedWorld replayed(recording, world, [&] { ++ends; });
+    ReplayedWorld replayed(recording, world, Tick{}, [&] { ++ends; });
     while (replayed.tick().value < kTicks) {
         EXPECT_EQ(ends, 0);
         replayed.apply(world::DropFood{.position = kTable});
