@@ -31,6 +31,7 @@
 #include "common/wire/recording.h"
 #include "master/conductor/conductor.h"
 #include "master/conductor/preparation.h"
+#include "master/journal/journalled_world.h"
 #include "master/simulation/living_world.h"
 #include "master/simulation/recorded_world.h"
 
@@ -238,7 +239,49 @@ simulation::AssetChoice choiceOf(const config::Rig& rig, const supervisor::ShowO
     return choice;
 }
 
-// Shows a new world, and records it where that is requested.
+// Shows a new world and records it.
+void showRecorded(const config::Rig& rig,
+                  const MasterOptions& options,
+                  const simulation::Assets& assets,
+                  conductor::ConductorOptions conducting,
+                  std::unique_ptr<net::MasterChannels> channels) {
+    conducting.whyOneScene = "the show is recorded, and a recording has one scene";
+    simulation::LivingWorld world(simulation::worldOptionsOf(assets));
+    simulation::RecordingFile file(options.show.recordPath, assets.bytes);
+    {
+        simulation::RecordedWorld recorded(world, file);
+        show(rig, conducting, {assets.bytes, world, recorded}, std::move(channels));
+    }
+    file.close();
+}
+
+// A world of a scene, in its journal where there is one. `made` is within `simulation`.
+struct MadeWorld {
+    std::unique_ptr<conductor::Simulation> simulation;
+    const simulation::LivingWorld* made = nullptr;
+};
+MadeWorld makeWorld(const simulation::Assets& assets, const fs::path& journal, bool isFrozen) {
+    if (journal.empty()) {
+        auto world = std::make_unique<simulation::LivingWorld>(simulation::worldOptionsOf(assets));
+        const simulation::LivingWorld* const made = world.get();
+        return {std::move(world), made};
+    }
+    auto world = journal::makeJournalled(journal, assets, isFrozen);
+    const simulation::LivingWorld* const made = &world->living();
+    return {std::move(world), made};
+}
+
+// Holds the folder of the show's journal. Null where another show of the rig holds it.
+std::unique_ptr<journal::FolderLock> lockJournal(const fs::path& folder) {
+    try {
+        return std::make_unique<journal::FolderLock>(folder);
+    } catch (const Error& problem) {
+        logWarning("{}; this one keeps none", problem.what());
+        return nullptr;
+    }
+}
+
+// Shows a new world, or the one of the show's journal. A show in lockstep keeps no journal.
 void showNew(const config::Rig& rig,
              const MasterOptions& options,
              std::unique_ptr<net::MasterChannels> channels) {
@@ -250,26 +293,24 @@ void showNew(const config::Rig& rig,
     const simulation::Assets assets = simulation::readAssets(
         sceneFile(rig, options.show.rigPath, conducting.wanted.scene()), choice);
     preparation->tell("making the world");
-    simulation::LivingWorld world(simulation::worldOptionsOf(assets));
+    if (!options.show.recordPath.empty()) {
+        preparation.reset();
+        return showRecorded(rig, options, assets, std::move(conducting), std::move(channels));
+    }
+    const fs::path folder = wire::journalOf(options.show.rigPath);
+    const auto lock = options.lockstep ? nullptr : lockJournal(folder);
+    const fs::path journal = lock ? folder : fs::path{};
+    const MadeWorld world = makeWorld(assets, journal, conducting.wanted.freeze());
     preparation.reset();
-    if (options.show.recordPath.empty()) {
-        conducting.looks.makeWorld = [rig, show = options.show](const std::string& scene) {
-            simulation::Assets next =
-                simulation::readAssets(sceneFile(rig, show.rigPath, scene), choiceOf(rig, show));
-            auto made = std::make_unique<simulation::LivingWorld>(simulation::worldOptionsOf(next));
-            const auto traits = made->world().traits();
-            return conductor::NextWorld{
-                std::move(next.bytes), {traits.begin(), traits.end()}, std::move(made)};
-        };
-        return show(rig, conducting, {assets.bytes, world, world}, std::move(channels));
-    }
-    conducting.whyOneScene = "the show is recorded, and a recording has one scene";
-    simulation::RecordingFile file(options.show.recordPath, assets.bytes);
-    {
-        simulation::RecordedWorld recorded(world, file);
-        show(rig, conducting, {assets.bytes, world, recorded}, std::move(channels));
-    }
-    file.close();
+    conducting.looks.makeWorld = [rig, journal, show = options.show](const std::string& scene) {
+        simulation::Assets next =
+            simulation::readAssets(sceneFile(rig, show.rigPath, scene), choiceOf(rig, show));
+        MadeWorld made = makeWorld(next, journal, true);
+        const auto traits = made.made->world().traits();
+        return conductor::NextWorld{
+            std::move(next.bytes), {traits.begin(), traits.end()}, std::move(made.simulation)};
+    };
+    show(rig, conducting, {assets.bytes, *world.made, *world.simulation}, std::move(channels));
 }
 
 // Shows a recording; the show ends with it.

@@ -517,6 +517,10 @@ void GrowingFile::appendOrLog(std::string_view entry) {
     appendOrLog(std::as_bytes(std::span(entry.data(), entry.size())));
 }
 
+bool GrowingFile::sync() {
+    return isOpen() && synced(file_);
+}
+
 void GrowingFile::close() {
     if (!failure_.empty()) throw Error(failure_);
     if (!isOpen()) return;

@@ -104,6 +104,8 @@ class GrowingFile {
     // The same for loops that must not stop: an error goes to the log, and close() throws it later.
     void appendOrLog(std::span<const std::byte> entry);
     void appendOrLog(std::string_view entry);
+    // Returns when all entries so far are on the disk. False: they are not.
+    [[nodiscard]] bool sync();
     // Returns when all entries are on the disk. Throws Error where one is missing.
     void close();
 

@@ -67,11 +67,16 @@ void append(Packet& bytes, const Packet& more) {
     bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
-void write(const SpeciesAssets& species, v1::RecordedSpecies& message) {
+void write(const SpeciesAssets& species, Repertoires repertoires, v1::RecordedSpecies& message) {
+    message.Clear();
     // The folders of one machine mean nothing on another.
     message.set_file(std::filesystem::path(species.file).filename().string());
     message.set_text(species.text);
-    message.set_repertoire(species.repertoire.data(), species.repertoire.size());
+    if (repertoires == Repertoires::Inside)
+        message.set_repertoire(species.repertoire.data(), species.repertoire.size());
+    else
+        message.set_repertoire_digest(
+            bytesOf(species.repertoireDigest.value_or(digestOf(species.repertoire))));
     message.set_fish(species.fish);
     if (species.drawings > 0) message.set_drawings(species.drawings);
 }
@@ -139,10 +144,19 @@ class Reader {
     Reader(std::istream& in, std::uint64_t bytes, std::string source)
         : in_(in), size_(bytes), source_(std::move(source)) {}
 
-    Recording read() {
+    AssetBundle readAssets() {
         readHeader();
         while (recording_.assets.cast.size() < speciesCount_) readSpecies();
-        while (!recording_.end && nextEntry()) readEvent();
+        return std::move(recording_.assets);
+    }
+
+    Recording read() {
+        recording_.assets = readAssets();
+        while (!recording_.end && nextEntry()) {
+            readEvent();
+            if (std::exchange(isFirst_, false))
+                recording_.beginsWithSave = !recording_.saves.empty();
+        }
         if (recording_.end && at_ != size_) fail("goes on behind its end");
         recording_.source = source_;
         recording_.wholeBytes = recording_.end ? at_ : start_;
@@ -240,7 +254,9 @@ class Reader {
         const v1::RecordedSpecies& species = entry_.species();
         if (!entry_.has_species() || !species.has_fish() || species.fish() > kMostFish - fish_ ||
             species.text().size() > kMostSpeciesBytes || species.drawings() > species.fish() ||
-            species.repertoire().size() > kMostRepertoireBytes)
+            species.repertoire().size() > kMostRepertoireBytes ||
+            (species.has_repertoire_digest() &&
+             species.repertoire_digest().size() != sizeof(Digest::bytes)))
             fail("has a damaged species");
         fish_ += species.fish();
         const auto* first = reinterpret_cast<const std::byte*>(species.repertoire().data());
@@ -248,7 +264,10 @@ class Reader {
                                           species.text(),
                                           {first, first + species.repertoire().size()},
                                           species.fish(),
-                                          species.drawings()});
+                                          species.drawings(),
+                                          {}});
+        if (species.has_repertoire_digest())
+            recording_.assets.cast.back().repertoireDigest = digestIn(species.repertoire_digest());
     }
 
     // What happened after the species: inputs, hashes, and the end.
@@ -262,6 +281,9 @@ class Reader {
             case v1::RecordingEntry::kCheckpoint:
                 recording_.checkpoints.push_back(hashIn(entry_.checkpoint()));
                 return;
+            case v1::RecordingEntry::kMoment:
+                recording_.moment = momentIn(entry_.moment());
+                return;
             case v1::RecordingEntry::kSave:
                 recording_.saves.push_back(saveIn(entry_.save()));
                 return;
@@ -273,16 +295,25 @@ class Reader {
         }
     }
 
-    // Time never goes back.
-    Tick tickIn(bool has, std::uint64_t tick) {
-        if (!has || tick < lastTick_ || tick > kMostTick) fail("has a tick that cannot be");
-        lastTick_ = tick;
+    // Time never goes back: neither that of inputs, which are written ahead of it, nor that of the
+    // rest.
+    Tick tickIn(bool has, std::uint64_t tick, std::uint64_t& last) const {
+        if (!has || tick < last || tick > kMostTick) fail("has a tick that cannot be");
+        last = tick;
         return {tick};
     }
 
     RecordedHash hashIn(const v1::RecordedHash& message) {
         if (!message.has_hash()) fail("has a damaged checkpoint");
-        return {tickIn(message.has_tick(), message.tick()), message.hash()};
+        return {tickIn(message.has_tick(), message.tick(), lastTick_), message.hash()};
+    }
+
+    RecordedMoment momentIn(const v1::RecordedMoment& moment) {
+        if (moment.boot().size() > kMostNameBytes) fail("has a moment that cannot be");
+        return {tickIn(moment.has_tick(), moment.tick(), lastTick_),
+                moment.clock_ns(),
+                moment.boot(),
+                moment.unix_s()};
     }
 
     // The state is the last field before the checksum.
@@ -293,7 +324,7 @@ class Reader {
         const auto* state = reinterpret_cast<const std::byte*>(save.state().data());
         if (!std::equal(state, state + bytes, bytes_.end() - kChecksumBytes - bytes))
             fail("has a save that cannot be");
-        return {tickIn(save.has_tick(), save.tick()), at, bytes};
+        return {tickIn(save.has_tick(), save.tick(), lastTick_), at, bytes};
     }
 
     // A place or a velocity within bounds.
@@ -344,7 +375,7 @@ class Reader {
     }
 
     RecordedInput inputIn(const v1::RecordedInput& message) {
-        RecordedInput input{tickIn(message.has_tick(), message.tick()), {}};
+        RecordedInput input{tickIn(message.has_tick(), message.tick(), lastInput_), {}};
         if (message.has_food()) {
             const v1::RecordedFood& food = message.food();
             if (food.pellets() > kMostPellets) fail("has an input that cannot be");
@@ -388,7 +419,8 @@ class Reader {
     v1::RecordingEntry entry_;
     std::size_t speciesCount_ = 0;
     std::size_t fish_ = 0;
-    std::uint64_t lastTick_ = 0;
+    bool isFirst_ = true;
+    std::uint64_t lastTick_ = 0, lastInput_ = 0;
     Recording recording_;
 };
 
@@ -397,11 +429,12 @@ class Reader {
 Tick Recording::lastTick() const {
     if (end) return end->tick;
     Tick last = checkpoints.empty() ? Tick{} : checkpoints.back().tick;
+    if (moment) last = std::max(last, moment->tick);
     if (!inputs.empty()) last = std::max(last, inputs.back().tick);
     return last;
 }
 
-Packet beginningOf(const AssetBundle& assets) {
+Packet beginningOf(const AssetBundle& assets, Repertoires repertoires) {
     v1::RecordingEntry entry;
     v1::RecordingHeader& header = *entry.mutable_header();
     header.set_magic(std::string(kMagic));
@@ -414,7 +447,7 @@ Packet beginningOf(const AssetBundle& assets) {
     header.set_species_count(static_cast<std::uint32_t>(assets.cast.size()));
     Packet bytes = delimited(entry);
     for (const SpeciesAssets& species : assets.cast) {
-        write(species, *entry.mutable_species());
+        write(species, repertoires, *entry.mutable_species());
         append(bytes, delimited(entry));
     }
     return bytes;
@@ -441,6 +474,15 @@ Packet entryOf(Tick tick, std::span<const std::byte> savedState) {
     return delimited(entry);
 }
 
+Packet entryOf(const RecordedMoment& moment) {
+    v1::RecordingEntry entry;
+    entry.mutable_moment()->set_tick(moment.tick.value);
+    entry.mutable_moment()->set_clock_ns(moment.clockNs);
+    entry.mutable_moment()->set_boot(moment.boot);
+    entry.mutable_moment()->set_unix_s(moment.unixSeconds);
+    return delimited(entry);
+}
+
 Packet endOf(const RecordedHash& end) {
     v1::RecordingEntry entry;
     write(end, *entry.mutable_end());
@@ -459,14 +501,27 @@ Recording decodeRecording(std::span<const std::byte> bytes, const std::string& s
     return Reader(in, bytes.size(), source).read();
 }
 
+namespace {
+
 // A file that shrinks meanwhile reads as cut short.
-Recording readRecording(const std::string& path) {
+template <class Read>
+auto readFile(const std::string& path, const Read& read) {
     std::ifstream file(path, std::ios::binary);
     std::error_code problem;
     const std::uintmax_t size = std::filesystem::file_size(path, problem);
     if (!file || problem) throw Error(path + ": cannot be read; is there such a recording?");
     if (size > kMostRecordingBytes) throw Error(path + ": is too large for a recording");
-    return Reader(file, size, path).read();
+    return read(Reader(file, size, path));
+}
+
+}  // namespace
+
+Recording readRecording(const std::string& path) {
+    return readFile(path, [](Reader reader) { return reader.read(); });
+}
+
+AssetBundle readRecordedAssets(const std::string& path) {
+    return readFile(path, [](Reader reader) { return reader.readAssets(); });
 }
 
 std::vector<std::byte> readState(const Recording& recording, const RecordedSave& save) {

@@ -37,6 +37,8 @@ struct SpeciesAssets {
     std::vector<std::byte> repertoire;
     std::uint32_t fish = 0;
     std::uint32_t drawings = 0;  // so many of them, the last, wait for visitors' drawings
+    // Of the repertoire, where a journal names it only and `repertoire` is empty.
+    std::optional<Digest> repertoireDigest = {};
 };
 
 // All that a show is made of, as bytes: the same bundle is the same world on any machine.
@@ -101,6 +103,14 @@ struct RecordedSave {
     std::uint64_t at = 0, bytes = 0;
 };
 
+// When the world was at a tick.
+struct RecordedMoment {
+    Tick tick;
+    std::uint64_t clockNs = 0;  // of the machine's CLOCK_BOOTTIME
+    std::string boot;           // names its start
+    std::uint64_t unixSeconds = 0;
+};
+
 // A show as it was read from a file.
 struct Recording {
     std::string source;          // its path, as it was named
@@ -110,18 +120,25 @@ struct Recording {
     std::vector<RecordedInput> inputs;      // in the order in which they came
     std::vector<RecordedHash> checkpoints;  // in the order of ticks
     std::vector<RecordedSave> saves;        // in the order of ticks
+    std::optional<RecordedMoment> moment;   // the last of them
     std::optional<RecordedHash> end;        // without: the recording was cut short
     std::uint64_t wholeBytes = 0;           // up to the end of the last whole entry
     std::uint64_t bytesLeftOver = 0;        // behind it: an entry that was being written, or damage
 
     [[nodiscard]] Tick lastTick() const;  // up to which anything is known
+    // Whether it begins with its first save; else at tick 0.
+    bool beginsWithSave = false;
 };
 
-// The pieces of the file in order: first beginningOf(), at last endOf().
-[[nodiscard]] Packet beginningOf(const AssetBundle& assets);
+// The pieces of the file in order: first beginningOf(), at last endOf(). Repertoires are in it, or
+// named by their digests.
+enum class Repertoires : std::uint8_t { Inside, Named };
+[[nodiscard]] Packet beginningOf(const AssetBundle& assets,
+                                 Repertoires repertoires = Repertoires::Inside);
 [[nodiscard]] Packet entryOf(const RecordedInput& input);
 [[nodiscard]] Packet entryOf(const RecordedHash& checkpoint);
 [[nodiscard]] Packet entryOf(Tick tick, std::span<const std::byte> savedState);
+[[nodiscard]] Packet entryOf(const RecordedMoment& moment);
 [[nodiscard]] Packet endOf(const RecordedHash& end);
 
 // Whether a file with these first bytes is a recording.
@@ -134,6 +151,8 @@ struct Recording {
                                         const std::string& source);
 // As above, of a file. Throws Error also where it cannot be read or is too large.
 [[nodiscard]] Recording readRecording(const std::string& path);
+// As above, but only what the show was made of.
+[[nodiscard]] AssetBundle readRecordedAssets(const std::string& path);
 // The state of a save. Throws Error where the file has changed since it was read.
 [[nodiscard]] std::vector<std::byte> readState(const Recording& recording,
                                                const RecordedSave& save);

@@ -33,6 +33,11 @@ void add(std::string& text, std::string_view what, std::string_view value) {
     text.append(what).append(" ").append(value);
 }
 
+fs::path keptOf(const std::string& rigPath, const char* ending) {
+    return userFolder("XDG_STATE_HOME", ".local/state") / "shows" /
+           (fs::path(rigPath).stem().string() + ending);
+}
+
 }  // namespace
 
 v1::WantedShow::Tier tierOf(const std::optional<config::QualityTier>& quality) {
@@ -73,13 +78,15 @@ std::string textOf(const v1::WantedShow& show) {
 }
 
 fs::path keptShowOf(const std::string& rigPath) {
-    return userFolder("XDG_STATE_HOME", ".local/state") / "shows" /
-           (fs::path(rigPath).stem().string() + ".txtpb");
+    return keptOf(rigPath, ".txtpb");
 }
 
 fs::path drawingsOf(const std::string& rigPath) {
-    return userFolder("XDG_STATE_HOME", ".local/state") / "shows" /
-           (fs::path(rigPath).stem().string() + ".drawings");
+    return keptOf(rigPath, ".drawings");
+}
+
+fs::path journalOf(const std::string& rigPath) {
+    return keptOf(rigPath, ".journal");
 }
 
 v1::WantedShow readKeptShow(const fs::path& path) {

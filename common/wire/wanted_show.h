@@ -28,6 +28,8 @@ void apply(v1::WantedShow& show, const v1::WantedShow& change);
 [[nodiscard]] std::filesystem::path keptShowOf(const std::string& rigPath);
 // Folder in which a master of this rig keeps visitors' drawings.
 [[nodiscard]] std::filesystem::path drawingsOf(const std::string& rigPath);
+// The folder of the journal of its worlds.
+[[nodiscard]] std::filesystem::path journalOf(const std::string& rigPath);
 // Nothing is set where there is no such file. Throws Error where it is malformed.
 [[nodiscard]] v1::WantedShow readKeptShow(const std::filesystem::path& path);
 // The same of its text; `source` names it in errors.

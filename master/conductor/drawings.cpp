@@ -61,7 +61,24 @@ void Drawings::enter(std::vector<DrawingSlots> slots) {
     toLeave_.clear();
     std::erase_if(entries_, [](const Entry& entry) { return entry.isForgotten; });
     for (Entry& entry : entries_) entry.rest();
+    findWorn();
     changed();
+}
+
+// Which drawings fish of the world wear already.
+void Drawings::findWorn() {
+    for (const DrawingSlots& slots : slots_)
+        for (std::size_t i = 0; i < slots.worn.size(); ++i) {
+            if (slots.worn[i] == 0) continue;
+            const std::uint32_t fish = slots.first + static_cast<std::uint32_t>(i);
+            Entry* const entry = find(slots.worn[i]);
+            if (entry == nullptr || !entry->kept.isLetIn || entry->fish) {
+                toLeave_.push_back(fish);
+                continue;
+            }
+            entry->fish = fish;
+            entry->listed = net::monotonicNow();
+        }
 }
 
 Drawings::Entry* Drawings::find(std::uint32_t number) {

@@ -33,7 +33,8 @@ class Drawings {
     // Without rules every drawing is refused. `folder`: where drawings are kept; empty: nowhere.
     Drawings(std::optional<config::DrawingRules> rules, std::filesystem::path folder);
 
-    // The world that they enter, by which fish. Those that swam in another one enter anew.
+    // The world that they enter, by which fish. Those that swim in it go on, those that swam in
+    // another one enter anew, and those that it has for itself alone leave.
     void enter(std::vector<DrawingSlots> slots);
 
     // What becomes of an offer of `request`; `number` is set where the drawing was taken.
@@ -90,6 +91,7 @@ class Drawings {
     [[nodiscard]] std::optional<std::uint32_t> freeFish(
         const std::string& species, std::span<const motion::FishRecord> fish) const;
     [[nodiscard]] std::size_t swimming() const;
+    void findWorn();
     // Steps of a turn.
     void endLeft(std::span<const motion::FishRecord> fish, net::Moment now);
     void forgetOld(std::uint64_t unixSeconds);

@@ -53,6 +53,8 @@ struct Explanation {
 struct DrawingSlots {
     std::string species;  // name
     std::uint32_t first = 0, last = 0;
+    // Numbers of the drawings that they wear, by fish; 0: none, or it leaves.
+    std::vector<std::uint32_t> worn = {};
 };
 
 // Called from the tick thread only.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capture/capture_repertoire.h"
+#include "common/base/digest.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/cli/progress.h"
@@ -83,6 +84,22 @@ std::vector<capture::RepertoireFile> capturedOnce(
     return files;
 }
 
+// Puts repertoires in place of those that a journal only names. Throws Error where this build
+// captures others.
+void captureNamed(Assets& assets) {
+    const auto isNamed = [](const wire::SpeciesAssets& one) {
+        return one.repertoireDigest && one.repertoire.empty();
+    };
+    if (std::ranges::none_of(assets.bytes.cast, isNamed)) return;
+    std::vector<capture::RepertoireFile> captured = capturedOnce(assets.species, {});
+    for (std::size_t i = 0; i < captured.size(); ++i) {
+        wire::SpeciesAssets& bytes = assets.bytes.cast[i];
+        if (digestOf(captured[i].bytes) != bytes.repertoireDigest)
+            throw Error(bytes.file + ": this build captures another repertoire than the journal's");
+        bytes.repertoire = std::move(captured[i].bytes);
+    }
+}
+
 // How many fish of a species wait for visitors' drawings: twice an equal share of them, as not all
 // species are chosen alike.
 std::uint32_t slotsOf(const std::string& species, const AssetChoice& choice) {
@@ -127,8 +144,13 @@ std::vector<conductor::DrawingSlots> LivingWorld::drawingSlots() const {
     std::vector<conductor::DrawingSlots> slots;
     const fish::Wearers* const wearers = world_.environment().wearers;
     if (wearers == nullptr) return slots;
-    for (const fish::SlotRange& range : wearers->ranges)
-        slots.push_back({species_.at(range.kind), range.first, range.last});
+    for (const fish::SlotRange& range : wearers->ranges) {
+        slots.push_back({species_.at(range.kind), range.first, range.last, {}});
+        for (std::uint32_t fish = range.first; fish < range.last; ++fish) {
+            const fish::Wearer& wearer = *wearers->of(fish);
+            slots.back().worn.push_back(wearer.visit == fish::Visit::Leaves ? 0 : wearer.number);
+        }
+    }
     return slots;
 }
 
@@ -203,6 +225,7 @@ world::WorldOptions worldOptionsOf(const wire::AssetBundle& recorded) {
         assets.scene.cast[assets.species.size()].fish = species.fish;
         assets.species.push_back(config::parseSpecies(species.text, species.file));
     }
+    captureNamed(assets);
     return worldOptionsOf(assets);
 }
 

@@ -34,7 +34,10 @@ void RecordedWorld::advance() {
 Playback::Playback(const wire::Recording& recording, LivingWorld& world)
     : recording_(recording), world_(world) {
     assert(world.tick() == Tick{});
-    compare();
+    if (!recording.beginsWithSave)
+        compare();
+    else if (!beginAt(recording.saves.front()))
+        throw Error(recording.source + ": cannot be played from its beginning by this build");
 }
 
 void Playback::goTo(Tick tick) {
@@ -49,7 +52,7 @@ bool Playback::beginAt(const wire::RecordedSave& save) {
     try {
         world_.restore(wire::readState(recording_, save), recording_.source);
     } catch (const Error& problem) {
-        logWarning("{}; every tick before is computed again", problem.what());
+        logWarning("{}", problem.what());
         return false;
     }
     const auto from = [&](const auto& list) {

@@ -84,7 +84,8 @@ struct Difference {
 // Drives a world through a recording and compares hashes on the way.
 class Playback {
   public:
-    // Both outlive it; `world` is at tick 0.
+    // Both outlive it; `world` is at tick 0. Throws Error where the recording begins with a save of
+    // another build.
     Playback(const wire::Recording& recording, LivingWorld& world);
 
     // Goes forward to a tick, from the last save before it where that is nearer. Saves of another

@@ -3,15 +3,10 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
-#include <cstddef>
-#include <cstdint>
-#include <deque>
-#include <memory>
-#include <mutex>
+#include <optional>
 #include <string>
-#include <thread>
 
+#include "common/base/job_thread.h"
 #include "common/base/output_file.h"
 #include "common/wire/recording.h"
 #include "master/world/world.h"
@@ -27,11 +22,6 @@ class RecordingFile {
   public:
     // Throws Error where the file exists or cannot be written.
     RecordingFile(const std::string& path, const wire::AssetBundle& assets);
-    // Writes what waits.
-    ~RecordingFile();
-    RecordingFile(const RecordingFile&) = delete;
-    RecordingFile& operator=(const RecordingFile&) = delete;
-
     // Appends an entry. Never throws, as a full disk must not end a show: the first entry that
     // cannot be written is reported in the log, and recording stops.
     void add(wire::Packet entry);
@@ -44,25 +34,10 @@ class RecordingFile {
     void close();
 
   private:
-    // Either an entry, or the state that waits.
-    struct Item {
-        wire::Packet entry;
-        bool isSave = false;
-    };
-    void put(Item item);
-    void run();
-    void write(const Item& item);
-    void stop();
-
     GrowingFile file_;
     world::WorldState state_;  // of the save that waits; of the thread while isSaving_
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    std::deque<Item> waiting_;
-    std::size_t waitingBytes_ = 0;
-    bool isSaving_ = false, isIdle_ = true, isStopped_ = false;
-    std::atomic<bool> isOpen_ = true;
-    std::thread thread_;  // last: it uses all of the above
+    std::atomic<bool> isSaving_ = false, isOpen_ = true;
+    std::optional<JobThread> thread_;  // last: it uses all of the above
 };
 
 }  // namespace aquarama::simulation

@@ -27,6 +27,11 @@ std::string refusalOf(const Packet& file) {
     return "";
 }
 
+std::size_t entriesIn(const Recording& recording) {
+    return recording.inputs.size() + recording.checkpoints.size() + recording.saves.size() +
+           (recording.moment ? 1U : 0U);
+}
+
 TEST(RecordingFormat, everyEntryComesBack) {
     const Recording recording = decodeRecording(joined(sampleEntries()), "show.aqrec");
     EXPECT_EQ(recording.protocol, kProtocolMajor);
@@ -63,9 +68,33 @@ TEST(RecordingFormat, everyEntryComesBack) {
     const Packet file = joined(sampleEntries());
     EXPECT_TRUE(std::ranges::equal(
         std::span(file).subspan(recording.saves[0].at, recording.saves[0].bytes), sampleState()));
+    ASSERT_TRUE(recording.moment);
+    EXPECT_EQ(recording.moment->tick, Tick{660});
+    EXPECT_EQ(recording.moment->clockNs, 123'456'789'000U);
+    EXPECT_EQ(recording.moment->boot, "a boot");
+    EXPECT_EQ(recording.moment->unixSeconds, 1'795'000'000U);
     ASSERT_TRUE(recording.end);
     EXPECT_EQ(recording.lastTick(), recording.end->tick);
     EXPECT_TRUE(doubtsAbout(recording).empty());
+}
+
+// A journal writes an input ahead of its time.
+TEST(RecordingFormat, inputsMayComeBeforeHashesOfEarlierTicksAndRepertoiresMayBeNamed) {
+    const Packet file = joined({beginningOf(sampleAssets(), Repertoires::Named),
+                                entryOf(RecordedInput{{20}, Steering{}}),
+                                entryOf(RecordedHash{{18}, 5}),
+                                entryOf(RecordedInput{{21}, Steering{}})});
+    const Recording recording = decodeRecording(file, "show.aqrec");
+    EXPECT_EQ(recording.bytesLeftOver, 0U);
+    EXPECT_EQ(recording.inputs.size(), 2U);
+    EXPECT_TRUE(recording.assets.cast[0].repertoire.empty());
+    EXPECT_EQ(recording.assets.cast[0].repertoireDigest,
+              digestOf(sampleAssets().cast[0].repertoire));
+    EXPECT_LT(file.size(), joined({beginningOf(sampleAssets())}).size());
+    EXPECT_THAT(refusalOf(joined({beginningOf(sampleAssets()),
+                                  entryOf(RecordedInput{{20}, Steering{}}),
+                                  entryOf(RecordedInput{{19}, Steering{}})})),
+                HasSubstr("tick"));
 }
 
 TEST(RecordingFormat, errorsNameTheFileOfASpeciesButNotItsFolder) {
@@ -90,8 +119,7 @@ TEST(RecordingFormat, aFileThatStopsAnywhereIsReadUpToItsLastWholeEntry) {
         std::size_t entriesThere = 0, bytes = 0;
         while (bytes + entries[entriesThere].size() <= size)
             bytes += entries[entriesThere++].size();
-        EXPECT_EQ(recording.inputs.size() + recording.checkpoints.size() + recording.saves.size(),
-                  entriesThere - 1);
+        EXPECT_EQ(entriesIn(recording), entriesThere - 1);
         EXPECT_EQ(recording.bytesLeftOver, size - bytes);
     }
 }
@@ -109,8 +137,7 @@ TEST(RecordingFormat, aFileThatIsDamagedAnywhereIsReadUpToThere) {
         EXPECT_FALSE(recording.end);
         EXPECT_EQ(recording.wholeBytes, bytes) << at;
         EXPECT_EQ(recording.bytesLeftOver, whole.size() - bytes);
-        EXPECT_EQ(recording.inputs.size() + recording.checkpoints.size() + recording.saves.size(),
-                  entriesThere - 1);
+        EXPECT_EQ(entriesIn(recording), entriesThere - 1);
     }
 }
 

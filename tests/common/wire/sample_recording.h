@@ -35,6 +35,7 @@ inline std::vector<Packet> sampleEntries() {
             entryOf(RecordedInput{{19}, RecordedDeparture{40}}),
             entryOf(RecordedHash{{600}, 1}),
             entryOf(Tick{600}, sampleState()),
+            entryOf(RecordedMoment{{660}, 123'456'789'000, "a boot", 1'795'000'000}),
             endOf({{(std::uint64_t{1} << 31U) + 7}, 2})};
 }
 

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/journal/journalled_world.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include "common/base/counted.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
+
+namespace aquarama::journal {
+
+namespace {
+
+constexpr std::uint64_t kTicksBetweenHashes = 60;
+// What a world that goes on makes up for: ticks, and the time that this may take.
+constexpr std::uint64_t kMostTicksAway = 3600;
+constexpr std::chrono::milliseconds kMostTimeAway{1500};
+constexpr std::uint64_t kTicksBetweenWarnings = 3600;
+
+// Names the start of this machine, with which CLOCK_BOOTTIME begins anew.
+std::string bootOf() {
+    std::ifstream file("/proc/sys/kernel/random/boot_id");
+    std::string boot;
+    file >> boot;
+    return boot;
+}
+
+wire::RecordedMoment momentAt(Tick tick) {
+    static const std::string boot = bootOf();
+    timespec now{};
+    clock_gettime(CLOCK_BOOTTIME, &now);
+    return {tick,
+            static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000 +
+                static_cast<std::uint64_t>(now.tv_nsec),
+            boot,
+            static_cast<std::uint64_t>(std::time(nullptr))};
+}
+
+// Puts the world at the newest save that is one of it.
+bool restoreNewest(simulation::LivingWorld& world, const LastWorld& last) {
+    const auto restores = [&](const auto& read, const std::string& source) {
+        try {
+            world.restore(read(), source);
+            return true;
+        } catch (const Error& problem) {
+            logWarning("{}; an earlier save is tried", problem.what());
+            return false;
+        }
+    };
+    for (const auto& path : last.saves)
+        if (restores([&] { return readWhole(path, wire::kMostSavedBytes); }, path.string()))
+            return true;
+    const auto& saves = last.recording.saves;
+    return std::any_of(saves.rbegin(), saves.rend(), [&](const wire::RecordedSave& save) {
+        return restores([&] { return wire::readState(last.recording, save); },
+                        last.recording.source);
+    });
+}
+
+// The last tick of which the journal knows. An input was written before its tick.
+Tick lastKnown(const wire::Recording& recording, Tick restored) {
+    Tick known = restored;
+    if (recording.moment) known = std::max(known, recording.moment->tick);
+    if (!recording.checkpoints.empty()) known = std::max(known, recording.checkpoints.back().tick);
+    if (!recording.inputs.empty() && recording.inputs.back().tick.value > kTicksAhead)
+        known = std::max(known, Tick{recording.inputs.back().tick.value - kTicksAhead});
+    return known;
+}
+
+// The tick that is due now, by the clock.
+Tick dueNow(const wire::Recording& recording, Tick restored, bool isFrozen) {
+    const Tick known = lastKnown(recording, restored);
+    if (isFrozen || !recording.moment) return known;
+    const wire::RecordedMoment now = momentAt({});
+    const wire::RecordedMoment& then = *recording.moment;
+    if (now.boot != then.boot || now.clockNs < then.clockNs) return known;
+    const double seconds = static_cast<double>(now.clockNs - then.clockNs) * 1e-9;
+    const auto away = static_cast<std::uint64_t>(seconds * kTicksPerSecond);
+    return away > kMostTicksAway ? known : std::max(known, Tick{then.tick.value + away});
+}
+
+}  // namespace
+
+std::optional<std::vector<wire::RecordedInput>> goOn(simulation::LivingWorld& world,
+                                                     const LastWorld& last,
+                                                     bool isFrozen) {
+    const auto begin = std::chrono::steady_clock::now();
+    if (!restoreNewest(world, last)) return std::nullopt;
+    const Tick restored = world.tick();
+    const std::vector<wire::RecordedInput>& inputs = last.recording.inputs;
+    const auto first = std::ranges::lower_bound(inputs, restored, {}, &wire::RecordedInput::tick);
+    auto next = first;
+    const Tick due = dueNow(last.recording, restored, isFrozen);
+    while (world.tick() < due && std::chrono::steady_clock::now() - begin < kMostTimeAway) {
+        for (; next != inputs.end() && next->tick <= world.tick(); ++next)
+            world.apply(simulation::inputOf(*next));
+        world.advance();
+    }
+    logInfo("the world goes on at {} from its save at {}, with {}",
+            simulation::timeOf(world.tick()),
+            simulation::timeOf(restored),
+            counted(static_cast<std::uint64_t>(next - first), "input"));
+    if (world.tick() < due)
+        logWarning("the world is {} behind its clock and goes on from here",
+                   counted(due.value - world.tick().value, "tick"));
+    return std::vector<wire::RecordedInput>(next, inputs.end());
+}
+
+JournalledWorld::JournalledWorld(std::unique_ptr<simulation::LivingWorld> world,
+                                 std::unique_ptr<Journal> journal,
+                                 const std::vector<wire::RecordedInput>& ahead)
+    : SimulationDecorator(*world), living_(std::move(world)), journal_(std::move(journal)) {
+    for (const wire::RecordedInput& input : ahead) put(input.tick, simulation::inputOf(input));
+}
+
+void JournalledWorld::put(Tick tick, const world::WorldInput& input) {
+    const std::uint64_t number = journal_->add(wire::entryOf(simulation::recorded(tick, input)));
+    ahead_.push_back({tick, number, input});
+}
+
+// Inputs keep their order.
+void JournalledWorld::apply(const world::WorldInput& input) {
+    const Tick soonest{world_.tick().value + (isRunning_ ? kTicksAhead : 0)};
+    put(ahead_.empty() ? soonest : std::max(soonest, ahead_.back().tick), input);
+    if (!isRunning_) applyDue();
+}
+
+void JournalledWorld::advance() {
+    isRunning_ = true;
+    applyDue();
+    world_.advance();
+    const Tick tick = world_.tick();
+    if (tick.value % kTicksBetweenHashes == 0) noteNow();
+    journal_->save(living_->world());
+}
+
+// The hash, and the time by the clock.
+void JournalledWorld::noteNow() {
+    const Tick tick = world_.tick();
+    journal_->note(wire::entryOf(wire::RecordedHash{tick, world_.hash()}));
+    journal_->note(wire::entryOf(momentAt(tick)));
+}
+
+void JournalledWorld::applyDue() {
+    while (!ahead_.empty() && ahead_.front().tick <= world_.tick()) {
+        if (isRunning_ && !journal_->isOnDisk(ahead_.front().number)) noteLate();
+        world_.apply(ahead_.front().input);
+        ahead_.pop_front();
+    }
+}
+
+void JournalledWorld::noteLate() {
+    const Tick now = world_.tick();
+    if (lateAt_ && now.value < lateAt_->value + kTicksBetweenWarnings) return;
+    lateAt_ = now;
+    logWarning("what a visitor did took effect before the journal's disk had it");
+}
+
+std::unique_ptr<JournalledWorld> makeJournalled(const std::filesystem::path& folder,
+                                                const simulation::Assets& assets,
+                                                bool isFrozen) {
+    std::unique_ptr<simulation::LivingWorld> world;
+    std::optional<std::vector<wire::RecordedInput>> ahead;
+    if (const auto last = lastWorldIn(folder, assets.bytes)) {
+        world::WorldOptions options = simulation::worldOptionsOf(assets);
+        options.scene.livedSeconds = 0;
+        world = std::make_unique<simulation::LivingWorld>(options);
+        ahead = goOn(*world, *last, isFrozen);
+    }
+    if (!ahead)
+        world = std::make_unique<simulation::LivingWorld>(simulation::worldOptionsOf(assets));
+    auto journal = std::make_unique<Journal>(folder, assets.bytes, world->world());
+    return std::make_unique<JournalledWorld>(
+        std::move(world), std::move(journal), ahead.value_or(std::vector<wire::RecordedInput>{}));
+}
+
+}  // namespace aquarama::journal

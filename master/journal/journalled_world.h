@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// A world that is journalled as it goes, and how one goes on from a journal.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/base/units.h"
+#include "common/wire/recording.h"
+#include "master/conductor/simulation.h"
+#include "master/journal/journal.h"
+#include "master/simulation/living_world.h"
+#include "master/simulation/recorded_world.h"
+
+namespace aquarama::journal {
+
+// An input takes effect so many ticks after it has come, 50 ms: by then the disk has it.
+inline constexpr std::uint64_t kTicksAhead = 3;
+
+// Brings a world of the same options to where its journal left it: the newest save that can be
+// used, the inputs since then, and the ticks up to now by the clock of this machine, or up to the
+// last known one where it is frozen, the machine was started anew, or it was away for over a
+// minute. Returns the inputs that are still ahead; nothing where no save can be used.
+[[nodiscard]] std::optional<std::vector<wire::RecordedInput>> goOn(simulation::LivingWorld& world,
+                                                                   const LastWorld& last,
+                                                                   bool isFrozen);
+
+// Every input is written before it takes effect, hashes and saves as they are due. Where the disk
+// does not have an input in time, it takes effect all the same, and a line in the log says so. Of
+// the tick thread, as the world itself.
+class JournalledWorld final : public simulation::SimulationDecorator {
+  public:
+    // `ahead`: inputs of a world that goes on.
+    JournalledWorld(std::unique_ptr<simulation::LivingWorld> world,
+                    std::unique_ptr<Journal> journal,
+                    const std::vector<wire::RecordedInput>& ahead);
+
+    void advance() override;
+    // Before the first advance() it takes effect at once: nobody has seen the world yet.
+    void apply(const world::WorldInput& input) override;
+    [[nodiscard]] bool followsHall() const override { return world_.followsHall(); }
+    [[nodiscard]] std::vector<conductor::DrawingSlots> drawingSlots() const override {
+        return world_.drawingSlots();
+    }
+    [[nodiscard]] const simulation::LivingWorld& living() const { return *living_; }
+    [[nodiscard]] Journal& journal() { return *journal_; }
+
+  private:
+    struct Ahead {
+        Tick tick;
+        std::uint64_t number = 0;  // of its entry
+        world::WorldInput input;
+    };
+    void put(Tick tick, const world::WorldInput& input);
+    void noteNow();
+    void applyDue();
+    void noteLate();
+
+    std::unique_ptr<simulation::LivingWorld> living_;
+    std::unique_ptr<Journal> journal_;
+    std::deque<Ahead> ahead_;
+    bool isRunning_ = false;
+    std::optional<Tick> lateAt_;  // when it was last said
+};
+
+// The world of a show, journalled in a folder: that of its journal where it can go on, else a new
+// one. Throws Error where the assets make no world.
+[[nodiscard]] std::unique_ptr<JournalledWorld> makeJournalled(const std::filesystem::path& folder,
+                                                              const simulation::Assets& assets,
+                                                              bool isFrozen);
+
+}  // namespace aquarama::journal
