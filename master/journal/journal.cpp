@@ -166,7 +166,7 @@ void Journal::put(wire::Packet entry, std::uint64_t number) {
 }
 
 void Journal::save(const world::World& world) {
-    if (world.tick().value % kTicksBetweenSaves != 0 || isSaving_) return;
+    if (world.tick().value % ticksBetweenSaves() != 0 || isSaving_) return;
     isSaving_ = true;
     world.save(state_);
     const bool isTaken = thread_->put(0, [this] {
@@ -174,6 +174,10 @@ void Journal::save(const world::World& world) {
         isSaving_ = false;
     });
     if (!isTaken) isSaving_ = false;
+}
+
+std::uint64_t Journal::ticksBetweenSaves() const {
+    return kTicksBetweenSaves * (1 + stateBytes_ / kBytesOfASave);
 }
 
 bool Journal::flush() {
@@ -215,6 +219,7 @@ void Journal::pause(const std::string& why) {
 
 void Journal::keepState() {
     const std::vector<std::byte> state = world::encodeState(state_);
+    stateBytes_ = state.size();
     try {
         recordState(state);
         if (!pauses_) keepFile(state);
@@ -226,7 +231,7 @@ void Journal::keepState() {
 // What pauses, or is full, begins anew at the next minute.
 void Journal::recordState(const std::vector<std::byte>& state) {
     const bool isFull = state_.tick.value >= firstTick_.value + kTicksOfAFile;
-    const bool isDue = state_.tick.value % kTicksBetweenRecordedSaves == 0;
+    const bool isDue = state_.tick.value % (kSavesBetweenRecorded * ticksBetweenSaves()) == 0;
     const bool isFirst = path_.empty();
     if (isFirst || (isDue && (pauses_ || isFull))) {
         begin(state);
@@ -242,7 +247,8 @@ void Journal::keepFile(const std::vector<std::byte>& state) {
     file.finish();
     saves_.push_back(savePathOf(state_.tick));
     std::error_code none;
-    while (saves_.size() > kTicksOfSaves / kTicksBetweenSaves) {
+    const std::size_t most = std::clamp(kBytesOfSaves / state.size(), std::size_t{2}, kMostSaves);
+    while (saves_.size() > most) {
         fs::remove(saves_.front(), none);
         saves_.pop_front();
     }

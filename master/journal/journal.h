@@ -21,10 +21,13 @@
 namespace aquarama::journal {
 
 // Saves: every five seconds into a file of its own, which is kept for ten minutes; every minute
-// into the recording.
+// into the recording. Of a world whose state is larger than 4 MB they are as much rarer, and its
+// files are fewer.
 inline constexpr std::uint64_t kTicksBetweenSaves = 300;
-inline constexpr std::uint64_t kTicksBetweenRecordedSaves = 3600;
-inline constexpr std::uint64_t kTicksOfSaves = 36'000;
+inline constexpr std::uint64_t kSavesBetweenRecorded = 12;
+inline constexpr std::size_t kMostSaves = 120;
+inline constexpr std::size_t kBytesOfASave = std::size_t{4} << 20U;
+inline constexpr std::size_t kBytesOfSaves = kMostSaves * kBytesOfASave;
 // A recording goes on in another file after a day, and is removed after three.
 inline constexpr std::uint64_t kTicksOfAFile = std::uint64_t{24} * 3600 * 60;
 inline constexpr std::uint64_t kSecondsOfAFile = std::uint64_t{3} * 24 * 3600;
@@ -89,6 +92,7 @@ class Journal {
     void keepState();
     void recordState(const std::vector<std::byte>& state);
     void keepFile(const std::vector<std::byte>& state);
+    [[nodiscard]] std::uint64_t ticksBetweenSaves() const;
     void pause(const std::string& why);
     [[nodiscard]] std::filesystem::path savePathOf(Tick tick) const;
 
@@ -104,6 +108,7 @@ class Journal {
     // Of both.
     world::WorldState state_;  // of the save that waits, while isSaving_
     std::atomic<std::uint64_t> onDisk_ = 0;
+    std::atomic<std::size_t> stateBytes_ = 0;  // of the last save
     std::atomic<bool> isSaving_ = false, pauses_ = false;
     std::optional<JobThread> thread_;  // last: it uses all of the above
 };

@@ -24,6 +24,7 @@ namespace {
 constexpr std::string_view kMagic = "AQSAV";
 constexpr std::uint16_t kFormat = 1;
 constexpr std::size_t kDigestBytes = 32;
+constexpr float kMostFloat = 1e5F;  // of metres, speeds and shares: far beyond any water
 
 // Every number of a state in a fixed order, for those who write and read it: on(numbers and
 // columns...), on.list(list, members...) of a list that keeps its length, and
@@ -149,7 +150,7 @@ struct Writer {
     }
 };
 
-// Throws Error where a list has another length than it can have, or a number is not finite.
+// Throws Error where a list has another length than it can have, or a number is beyond all bounds.
 struct Reader {
     ByteReader& in;
     const std::string& source;
@@ -182,29 +183,29 @@ struct Reader {
     template <Plain Value>
     void one(Value& value) {
         in.numbers(std::span<Value>(&value, 1));
-        requireFinite(value);
+        requireBounded(value);
     }
     void one(bool& value) { value = in.unsignedNumber<std::uint8_t>() != 0; }
     template <Plain Value>
     void one(std::vector<Value>& column) {
         requireLength(column.size(), column.size());
         in.numbers(std::span<Value>(column));
-        for (const Value& value : column) requireFinite(value);
+        for (const Value& value : column) requireBounded(value);
     }
     template <class List, class Member>
     void read(List& values, Member member) {
         for (std::size_t i = 0; i < values.size(); ++i) one(values[i].*member);
     }
     template <class Value>
-    void requireFinite(const Value& value) const {
-        bool isFinite = true;
+    void requireBounded(const Value& value) const {
+        bool isBounded = true;
         if constexpr (Floats<Value>)
             for (const float part :
                  std::bit_cast<std::array<float, sizeof(Value) / sizeof(float)>>(value))
-                isFinite = isFinite && std::isfinite(part);
-        if constexpr (std::is_same_v<Value, double>) isFinite = std::isfinite(value);
-        if constexpr (std::is_same_v<Value, WallHand>) requireFinite(value.point);
-        if (!isFinite) throw Error(source + ": a number in it is not finite");
+                isBounded = isBounded && std::abs(part) <= kMostFloat;
+        if constexpr (std::is_same_v<Value, double>) isBounded = std::isfinite(value);
+        if constexpr (std::is_same_v<Value, WallHand>) requireBounded(value.point);
+        if (!isBounded) throw Error(source + ": a number in it is beyond all bounds");
     }
 };
 

@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "common/motion/repertoire.h"
+#include "master/simulation/living_world.h"
+#include "master/world/world_state.h"
 #include "tests/common/formats/sample_walls.h"
 #include "tests/common/formats/vendor_samples.h"
 #include "tests/common/osc/sample_packets.h"
@@ -20,6 +22,7 @@
 #include "tests/drawings/sample_photos.h"
 #include "tests/fuzz/mutate.h"
 #include "tests/fuzz/targets.h"
+#include "tests/support/synthetic_assets.h"
 #include "tests/support/synthetic_repertoire.h"
 
 namespace aquarama {
@@ -64,6 +67,18 @@ TEST(Fuzz, damagedRepertoiresAreRefusedOrReadWhole) {
         test::syntheticRepertoire(true).segments[2].controlPoints;
     seeds.push_back(inputOf(motion::encodeRepertoire(repertoire)));
     feed(fuzzRepertoire, seeds, 2000);
+}
+
+TEST(Fuzz, damagedSavesAreRefusedOrCanBeGoneOnFrom) {
+    world::World world(simulation::worldOptionsOf(test::syntheticAssets()));
+    std::vector<FuzzInput> seeds;
+    for (int i = 0; i < 4; ++i) {
+        for (int tick = 0; tick < 300; ++tick) world.advance();
+        world::WorldState state;
+        world.save(state);
+        seeds.push_back(inputOf(world::encodeState(state)));
+    }
+    feed(fuzzSave, seeds, 4000);
 }
 
 TEST(Fuzz, damagedSpeciesAreRefusedOrCanBeBuilt) {

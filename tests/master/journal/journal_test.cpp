@@ -255,7 +255,7 @@ TEST_F(JournalTest, aFullDiskPausesTheJournalAndRoomMakesItGoOn) {
     for (int i = 0; i < 400; ++i) world->advance();
     EXPECT_FALSE(world->journal().flush());
     setrlimit(RLIMIT_FSIZE, &before);
-    while (world->tick().value < kTicksBetweenRecordedSaves + 10) world->advance();
+    while (world->tick().value < kSavesBetweenRecorded * kTicksBetweenSaves + 10) world->advance();
     EXPECT_TRUE(world->journal().flush());
     const std::uint64_t hash = world->hash();
     auto again = wentOn(copied());

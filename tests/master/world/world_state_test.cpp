@@ -168,8 +168,8 @@ TEST_F(SavedWorld, ofAnotherWorldIsRefused) {
 TEST_F(SavedWorld, withNumbersThatCannotBeIsRefused) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_THAT(refusalAfter([&](WorldState& s) { s.courses[3].direction.y = nan; }),
-                HasSubstr("not finite"));
-    EXPECT_THAT(refusalAfter([&](WorldState& s) { s.timeOfDay = nan; }), HasSubstr("not finite"));
+                HasSubstr("beyond all bounds"));
+    EXPECT_THAT(refusalAfter([&](WorldState& s) { s.timeOfDay = nan; }), HasSubstr("beyond all bounds"));
     EXPECT_THAT(refusalAfter([](WorldState& s) { s.timeOfDay = 1; }), HasSubstr("time of day"));
     EXPECT_THAT(refusalAfter([](WorldState& s) { s.states.segment[4] = 0xffff; }),
                 HasSubstr("fish 4"));
