@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "common/base/log.h"
 #include "common/base/units.h"
@@ -165,10 +166,11 @@ void checkEyes(const config::Rig& rig, const Wall& wall, const std::string& sour
             }
 }
 
-// Hands are before the viewer: no corner of their surface lies to the back of all of the screen. Of
-// people the floor may reach behind the viewer.
+// Hands are before the viewer: no corner of their surface is 60 degrees and more beside the screen.
+// Of people the floor may reach behind the viewer.
 void checkTouch(const config::Rig& rig, const Wall& wall, const std::string& source) {
     if (!rig.touch || rig.touch->peopleReachMetres) return;
+    constexpr double kAside = 0.5;  // cosine
     const glm::dvec3 eye = eyePosition(rig, EyeSide::Between);
     const std::vector<glm::dvec3> border = wall.screen().border(0);
     const std::array<std::pair<const char*, glm::dvec3>, 3> corners{
@@ -177,7 +179,8 @@ void checkTouch(const config::Rig& rig, const Wall& wall, const std::string& sou
          {"bottom_left", rig.touch->bottomLeft}}};
     for (const auto& [name, corner] : corners) {
         const auto isAhead = [&, at = corner](glm::dvec3 point) {
-            return glm::dot(at - eye, point - eye) > 0;
+            return glm::dot(at - eye, point - eye) >
+                   kAside * glm::length(at - eye) * glm::length(point - eye);
         };
         if (std::ranges::none_of(border, isAhead))
             refuse(source,

@@ -68,6 +68,14 @@ glm::dvec3 cornerAt(const SeenMarks& marks, glm::dvec2 share) {
     return corner;
 }
 
+// Places beyond the edge are told as at it.
+bool isAtTheEdge(const SeenMark& mark) {
+    constexpr double kEdge = 0.002;
+    const double nearest = std::min(std::min(mark.share.x, 1 - mark.share.x),
+                                    std::min(mark.share.y, 1 - mark.share.y));
+    return nearest < kEdge;
+}
+
 // Seen from the audience, or from above, the places run to the right and down.
 bool isMirrored(const config::TouchedSurface& surface, const glm::dvec3& eye) {
     const glm::dvec3 across = surface.topRight - surface.topLeft;
@@ -96,38 +104,40 @@ double worstOfACorner(const SeenMarks& marks) {
     return worst;
 }
 
-std::vector<std::string> findingsOf(const config::TouchedSurface& surface,
-                                    const SeenMarks& marks,
-                                    const glm::dvec3& eye) {
+std::vector<PlaneFinding> findingsOf(const config::TouchedSurface& surface,
+                                     const SeenMarks& marks,
+                                     const glm::dvec3& eye) {
     const glm::dvec3 across = surface.topRight - surface.topLeft;
     const glm::dvec3 down = surface.bottomLeft - surface.topLeft;
     const double wide = glm::length(across), high = glm::length(down);
     const double angle = std::acos(std::clamp(glm::dot(across, down) / wide / high, -1.0, 1.0)) /
                          kRadiansPerDegree<double>;
     const double worst = worstOfACorner(marks);
-    std::vector<std::string> findings{
-        fmt::format("the tracker watches {:.2f} x {:.2f} m, whose sides make {:.0f} degrees; 5 cm "
-                    "beside each mark puts a corner off by up to {:.0f} cm",
-                    wide,
-                    high,
-                    angle,
-                    100 * kBesideMetres * worst)};
+    std::vector<PlaneFinding> findings{
+        {fmt::format("the tracker watches {:.2f} x {:.2f} m, whose sides make {:.0f} degrees; 5 cm "
+                     "beside each mark puts a corner off by up to {:.0f} cm",
+                     wide,
+                     high,
+                     angle,
+                     100 * kBesideMetres * worst)}};
+    const auto doubt = [&](bool isSo, const char* why) {
+        if (isSo) findings.push_back({std::string("doubtful: ") + why, true});
+    };
     if (isMirrored(surface, eye))
-        findings.emplace_back(
-            "it sees the wall mirrored, as one behind the screen or overhead does; the corners "
-            "set that right");
-    if (std::abs(angle - 90) > kMostSkewDegrees)
-        findings.emplace_back(
-            "doubtful: trackers watch rectangles, whose sides make 90 degrees; was each mark the "
-            "right one? Do it again");
-    if (std::min(wide, high) < kShortMetres || std::max(wide, high) > kLongMetres)
-        findings.emplace_back(
-            "doubtful: no tracker watches a surface of that size; was each mark the right one? Do "
-            "it again");
-    if (worst > kMostOfACorner)
-        findings.emplace_back(
-            "doubtful: the marks took a small part of what the tracker watches; choose marks that "
-            "lie farther apart (--share)");
+        findings.push_back(
+            {"it sees the wall mirrored, as one behind the screen or overhead does; the corners "
+             "set that right"});
+    doubt(std::ranges::any_of(marks, isAtTheEdge),
+          "a mark is at the edge of what the tracker watches, or beyond; choose marks nearer to "
+          "the middle (--share 0.5)");
+    doubt(std::abs(angle - 90) > kMostSkewDegrees,
+          "trackers watch rectangles, whose sides make 90 degrees; was each mark the right one? Do "
+          "it again");
+    doubt(std::min(wide, high) < kShortMetres || std::max(wide, high) > kLongMetres,
+          "no tracker watches a surface of that size; was each mark the right one? Do it again");
+    doubt(worst > kMostOfACorner,
+          "the marks took a small part of what the tracker watches; choose marks that lie farther "
+          "apart (--share 1)");
     return findings;
 }
 

@@ -27,9 +27,15 @@ void fitCorners(const SeenMarks& marks, config::TouchedSurface& surface);
 // The farthest that a corner is off where somebody was a metre beside the mark, metres.
 [[nodiscard]] double worstOfACorner(const SeenMarks& marks);
 
-// What a person should know of a plane that was fitted, one line each; its size first.
-[[nodiscard]] std::vector<std::string> findingsOf(const config::TouchedSurface& surface,
-                                                  const SeenMarks& marks,
-                                                  const glm::dvec3& eye);
+// One line that a person should know of a plane that was fitted.
+struct PlaneFinding {
+    std::string text;
+    bool isDoubt = false;  // something was wrong when the marks were seen
+};
+
+// All of them; the size of the plane first.
+[[nodiscard]] std::vector<PlaneFinding> findingsOf(const config::TouchedSurface& surface,
+                                                   const SeenMarks& marks,
+                                                   const glm::dvec3& eye);
 
 }  // namespace aquarama::console

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "console/touch/touch_command.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <iostream>
@@ -220,8 +221,8 @@ std::string withBlock(const std::string& path, const std::string& block) {
 // Tells the result, and writes it where that is wished.
 void conclude(const TouchOptions& options,
               const config::TouchedSurface& surface,
-              const std::vector<std::string>& findings) {
-    for (const std::string& finding : findings) std::cout << finding << '\n';
+              const std::vector<PlaneFinding>& findings) {
+    for (const PlaneFinding& finding : findings) std::cout << finding.text << '\n';
     const std::string block = textOf(surface);
     std::cout << '\n' << block << std::endl;
     const std::string text = withBlock(options.rig, block);
@@ -230,6 +231,10 @@ void conclude(const TouchOptions& options,
                   << "start again with --write\n";
         return;
     }
+    if (std::ranges::any_of(findings, &PlaneFinding::isDoubt))
+        throw Error(options.rig +
+                    " is as it was, as the result is doubtful; do it again, or write the block "
+                    "into it yourself");
     writeWhole(options.rig, std::as_bytes(std::span(text)));
     std::cout << "wrote " << options.rig << "; a running console takes it at once\n";
 }
@@ -244,7 +249,8 @@ void mapTouch(const TouchOptions& options) {
     const PortLoan loan(options.rig);
     const auto port = portOf(surface);
     const SeenMarks seen = [&] {
-        const GridOnWall grid({.rig = options.rig, .address = {}, .key = options.key}, options.rig);
+        const GridOnWall grid({.rig = options.rig, .address = options.master, .key = options.key},
+                              options.rig);
         Crew crew;
         crew.say("the wall shows the grid; q ends, and shows again what was there");
         return see(marks, *port, surface, crew);
@@ -276,12 +282,15 @@ void addTouch(cli::CommandLine& line) {
     command.add_option("--listen", options.listen, "where the tracker sends, instead of the rig's")
         ->check(CLI::Validator(problemOfListen, ""));
     command.add_option("--from", options.from, "the tracker's machine, instead of the rig's")
+        ->allow_extra_args(false)
         ->check(CLI::Validator(problemOfHost, ""));
     command.add_flag("--people", options.arePeople, "it sees people on the floor, not hands");
     command.add_option("--share", options.share, "marks lie within so much of the wall's middle")
         ->check(cli::number(0.1, 1))
         ->capture_default_str();
     command.add_flag("--write", options.writes, "write the result into the rig's file");
+    command.add_option(
+        "--master", options.master, "control address of the master, instead of the rig's");
     command.add_option("--key", options.key, "file of the operator's key, where the rig needs one");
     command.footer(
         "It shows the grid on the running wall, asks for a hand at three crossings, and prints the "

@@ -11,7 +11,7 @@ namespace aquarama::console {
 
 // What its command line says; empty where an option was not given.
 struct TouchOptions {
-    std::string rig, key, listen;
+    std::string rig, master, key, listen;
     std::vector<std::string> from;
     bool arePeople = false, writes = false;
     double share = 0.8;

@@ -37,6 +37,7 @@ class Tracker:
     def end(self):
         self.ended.set()
         self.thread.join()
+        self.socket.close()
 
 
 def corner(text, name):
@@ -132,8 +133,8 @@ touch {{
         self.addCleanup(tracker.end)
         first = self.point(session.mark(1))
         self.assertEqual(self.pattern(), "grid")
-        # It watches 2.4 x 1.6 m of the plane that the marks are in, from behind.
-        left, top, wide, high = 1.2, 0.8, -2.4, -1.6
+        # It watches 4.4 x 2.4 m of the plane that the marks are in, from behind.
+        left, top, wide, high = 2.2, 1.2, -4.4, -2.4
 
         def share(words):
             point = self.point(words)
@@ -198,6 +199,18 @@ touch {{
             tracker.hands = {number: next(places)}
         self.assertEqual(session.end(), 1)
         self.assertRegex(session.said, r"\naquarama touch: the three places that were seen .*nearly on one line.*\n$")
+        self.assertEqual((self.pattern(), self.rig.read_text()), ("grey", self.text))
+
+    def test_a_doubtful_result_is_told_and_not_written(self):
+        session, tracker = Session(self.rig, "--write"), Tracker(self.port)
+        self.addCleanup(tracker.end)
+        places = iter([(0.1, 0.2), (0.9, 0.2), (0.5, 0.9)])  # the third is at another crossing
+        for number in (1, 2, 3):
+            session.mark(number)
+            tracker.hands = {number: next(places)}
+        self.assertEqual(session.end(), 1)
+        self.assertIn("doubtful: trackers watch rectangles", session.said)
+        self.assertRegex(session.said, r"\naquarama touch: .*\.txtpb is as it was, as the result is doubtful; .*\n$")
         self.assertEqual((self.pattern(), self.rig.read_text()), ("grey", self.text))
 
     def refused(self, *arguments):

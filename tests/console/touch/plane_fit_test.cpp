@@ -43,7 +43,12 @@ SeenMarks seenBy(const config::TouchedSurface& surface,
 
 std::vector<std::string> findingsOn(const config::TouchedSurface& surface,
                                     const SeenMarks& marks = seenBy(rectangle())) {
-    return findingsOf(surface, marks, glm::dvec3(0));
+    std::vector<std::string> texts;
+    for (const PlaneFinding& finding : findingsOf(surface, marks, glm::dvec3(0))) {
+        EXPECT_EQ(finding.isDoubt, finding.text.starts_with("doubtful: "));
+        texts.push_back(finding.text);
+    }
+    return texts;
 }
 
 std::string refusalOf(const SeenMarks& marks) {
@@ -153,6 +158,11 @@ TEST(PlaneFit, skewAndSizeAndSmallMarksAreDoubtful) {
     const SeenMarks small = seenBy(rectangle(), {0.4, 0.4}, {0.55, 0.4}, {0.4, 0.55});
     EXPECT_THAT(findingsOn(rectangle(), small), testing::Contains(HasSubstr("a small part")));
     EXPECT_GT(worstOfACorner(small), worstOfACorner(seenBy(rectangle())));
+}
+
+TEST(PlaneFit, aMarkAtTheEdgeIsDoubtful) {
+    const SeenMarks cut = seenBy(rectangle(), {0, 0.3}, {0.8, 0.3}, {0.2, 0.9});
+    EXPECT_THAT(findingsOn(rectangle(), cut), testing::Contains(HasSubstr("at the edge")));
 }
 
 // Three marks at three corners: who is a metre beside each puts the fourth off by sqrt 3.
