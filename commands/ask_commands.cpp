@@ -13,15 +13,14 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <poll.h>
 #include <spdlog/fmt/fmt.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include "commands/commands.h"
 #include "common/ask/request_client.h"
 #include "common/base/characters.h"
 #include "common/base/log.h"
+#include "common/cli/keyboard.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
@@ -55,48 +54,15 @@ void showStatus(const AskedMaster& asked) {
 // Short enough that the submarine never counts its pilot as gone.
 constexpr auto kBetweenMessages = std::chrono::milliseconds(100);
 
-// Standard input as a terminal that reports each key at once and without echo, while this object
-// lives. Other inputs are read unchanged.
-class Keyboard {
-  public:
-    Keyboard() : isTerminal_(tcgetattr(STDIN_FILENO, &before_) == 0) {
-        if (!isTerminal_) return;
-        termios raw = before_;
-        raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | ISIG);
-        tcsetattr(STDIN_FILENO, TCSANOW, &raw);
-    }
-    ~Keyboard() {
-        if (isTerminal_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
-    }
-    Keyboard(const Keyboard&) = delete;
-    Keyboard& operator=(const Keyboard&) = delete;
-
-    // Reads keys, waiting for `kBetweenMessages` at most. False: the input has ended.
-    bool read(std::string& keys) {
-        keys.clear();
-        pollfd input{STDIN_FILENO, POLLIN, 0};
-        if (poll(&input, 1, static_cast<int>(kBetweenMessages.count())) <= 0) return true;
-        std::array<char, 64> bytes{};
-        const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
-        if (count <= 0) return false;
-        keys.assign(bytes.data(), static_cast<std::size_t>(count));
-        return true;
-    }
-
-  private:
-    termios before_{};
-    bool isTerminal_;
-};
-
 // Sends the keys to the master and shows the submarine's position, until a key ends it.
 void steer(const AskedMaster& asked) {
     ask::RequestClient master = asked.connect();
-    Keyboard keyboard;
+    cli::Keyboard keyboard;
     conductor::TerminalSteering terminal;
     const bool onScreen = isatty(STDOUT_FILENO) != 0;
     std::cout << conductor::kTerminalSteeringHelp << '\n';
     Steering said;
-    for (std::string keys; keyboard.read(keys) && !terminal.ended();) {
+    for (std::string keys; keyboard.read(keys, kBetweenMessages) && !terminal.ended();) {
         terminal.press(keys);
         const Steering& held = terminal.steering();
         if (held != said || held != Steering{}) master.steer(held);

@@ -42,6 +42,7 @@ void addCalibrations(CommandLine& line);
 void addDrift(CommandLine& line);  // hands over to aquarama-calibrate
 void addAdjust(CommandLine& line);
 void addConsole(CommandLine& line);  // hands over to aquarama-console
+void addTouch(CommandLine& line);    // hands over to aquarama-console
 void addSheets(CommandLine& line);   // hands over to aquarama-drawings
 void addGuests(CommandLine& line);   // hands over to aquarama-guests
 void addInspect(CommandLine& line);

@@ -22,7 +22,7 @@ struct Group {
 const std::array kGroups{
     Group{"A show on this machine", {addRun, addReplay}},
     Group{"While a show runs",
-          {addConsole, addGuests, addDoctor, addStatus, addSet, addPilot, addExplain}},
+          {addConsole, addTouch, addGuests, addDoctor, addStatus, addSet, addPilot, addExplain}},
     Group{"A show on several machines, one process each", {addMaster, addNode, addKeyCommands}},
     Group{"Files",
           {addNewRig,

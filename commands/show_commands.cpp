@@ -237,6 +237,14 @@ void addConsole(CommandLine& line) {
                   {});
 }
 
+void addTouch(CommandLine& line) {
+    addHandedOver(line,
+                  "touch",
+                  "map a tracker of hands or people to the wall by three marks: aquarama touch RIG",
+                  "console",
+                  {"touch"});
+}
+
 void addGuests(CommandLine& line) {
     addHandedOver(line,
                   "guests",

@@ -9,6 +9,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "common/base/log.h"
+#include "console/cues/listen.h"
 
 namespace aquarama::console {
 
@@ -30,7 +31,8 @@ Console::Console(const ConsoleOptions& options, Access& access)
       state_{options.rig, options.master.rig, options.build, access},
       visitors_{state_},
       errands_{state_},
-      commands_{state_, visitors_, errands_} {}
+      commands_{state_, visitors_, errands_},
+      tracker_{options.rig, options.master.rig} {}
 
 Console::~Console() = default;
 
@@ -74,7 +76,7 @@ void Console::begin(web::WebServer& server, Doors doors) {
     commands_.reach(link_.get());
     beginDrawings();
     listenToDesk();
-    listenToTracker();
+    tracker_.everySecond();
     visitors_.note("console", "started, build " + state_.build);
     if (!state_.access.hasPeople()) showCode(ConsoleRole::Crew);
 }
@@ -167,16 +169,9 @@ void Console::tick() {
     if (desk_)
         desk_->tick(shownBy(state_.wall.status(), state_.wall.heard(), state_.drawings.counts()));
     if (folder_) folder_->tick(takesDrawings());
-    touch();
+    if (const auto hands = tracker_.tick()) link_->touch(*hands);
     if (ticks_ % kTicksASecond == 0) everySecond();
     if (ticks_ % kTicksOfAWall == 0) visitors_.sendWall(state_.refused + server_->cutOff());
-}
-
-void Console::touch() {
-    using std::chrono::steady_clock;
-    if (!tracker_) return;
-    const std::chrono::duration<double> now = steady_clock::now().time_since_epoch();
-    if (const auto hands = tracker_->tick(now.count())) link_->touch(*hands);
 }
 
 // That somebody set it explains the times of events before and after. A code of the first start
@@ -211,28 +206,6 @@ void Console::listenToDesk() {
     listenTo("cues by OSC", state_.rig.osc->listen, deskProblem_, [&] {
         desk_ = std::make_unique<OscDesk>(*state_.rig.osc, give);
     });
-}
-
-void Console::listenToTracker() {
-    if (tracker_ || !state_.rig.touch) return;
-    listenTo("hands by TUIO", state_.rig.touch->listen, trackerProblem_, [&] {
-        tracker_ = std::make_unique<TouchListener>(*state_.rig.touch, state_.rig.sweetSpotMetres);
-    });
-}
-
-// A failure is said once.
-void Console::listenTo(const char* what,
-                       const config::UdpAddress& where,
-                       std::string& problem,
-                       const std::function<void()>& open) {
-    try {
-        open();
-        problem.clear();
-        logInfo("{} at {}", what, config::textOf(where));
-    } catch (const Error& failure) {
-        if (problem.empty()) logWarning("{}: {}", what, failure.what());
-        problem = failure.what();
-    }
 }
 
 v1::OrderReply Console::giveOrder(const Holder& holder, const v1::Order& order) {
@@ -281,7 +254,7 @@ std::vector<Fault> Console::faultsNow(UnixSeconds now) const {
     if (!deskProblem_.empty()) faults.push_back({"cues", "cues: " + deskProblem_, 5});
     if (std::string problem = problemOfDrawings(); !problem.empty())
         faults.push_back({"drawings", "drawings: " + problem, 5});
-    if (!trackerProblem_.empty()) faults.push_back({"touch", "hands: " + trackerProblem_, 5});
+    if (!tracker_.problem().empty()) faults.push_back({"touch", "hands: " + tracker_.problem(), 5});
     if (options_.certificate != nullptr)
         for (Fault& fault : options_.certificate->faults(now)) faults.push_back(std::move(fault));
     return faults;
@@ -293,7 +266,7 @@ void Console::everySecond() {
     watchClock(now);
     tendCertificate(now);
     listenToDesk();
-    listenToTracker();
+    tracker_.everySecond();
     commands_.keepHours();
     commands_.keepDay();
     askForSkin();

@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,13 +22,13 @@
 #include "console/commands.h"
 #include "console/console.pb.h"
 #include "console/cues/osc_desk.h"
-#include "console/cues/touch_listener.h"
 #include "console/drawing_folder.h"
 #include "console/errands.h"
 #include "console/gate.h"
 #include "console/overview.h"
 #include "console/show_link.h"
 #include "console/state.h"
+#include "console/touch/tracker_keeper.h"
 #include "console/visitors.h"
 
 namespace aquarama::console {
@@ -109,12 +108,6 @@ class Console final : public web::Service {
     void watchClock(UnixSeconds now);
     // Listens to the rig's desk, where that is not done yet.
     void listenToDesk();
-    void listenToTracker();
-    void listenTo(const char* what,
-                  const config::UdpAddress& where,
-                  std::string& problem,
-                  const std::function<void()>& open);
-    void touch();
     void tendCertificate(UnixSeconds now);
     // Of the wall, and of this machine's clock and certificate.
     [[nodiscard]] std::vector<Fault> faultsNow(UnixSeconds now) const;
@@ -125,6 +118,7 @@ class Console final : public web::Service {
     Visitors visitors_;
     Errands errands_;
     Commands commands_;
+    TrackerKeeper tracker_;
     Doors doors_;
     web::WebServer* server_ = nullptr;
     ProjectorBook projectorBook_;
@@ -132,10 +126,8 @@ class Console final : public web::Service {
     // When the clocks were last looked at: the system's, and one that nobody sets.
     UnixSeconds lastSecond_ = 0;
     std::chrono::steady_clock::time_point lastLook_;
-    std::unique_ptr<OscDesk> desk_;           // null: the rig has none, or it cannot be heard
-    std::string deskProblem_;                 // why not
-    std::unique_ptr<TouchListener> tracker_;  // as desk_
-    std::string trackerProblem_;
+    std::unique_ptr<OscDesk> desk_;               // null: the rig has none, or it cannot be heard
+    std::string deskProblem_;                     // why not
     std::unique_ptr<ask::DrawingReader> reader_;  // of pictures of sheets; as desk_
     std::unique_ptr<DrawingFolder> folder_;       // as desk_
     std::unique_ptr<ask::PictureHub> hub_;

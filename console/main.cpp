@@ -16,6 +16,7 @@
 #include "common/base/log.h"
 #include "common/base/output_file.h"
 #include "common/cli/command_line.h"
+#include "common/cli/commands.h"
 #include "common/config/hours.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
@@ -26,6 +27,7 @@
 #include "console/console.h"
 #include "console/files_of_show.h"
 #include "console/gate.h"
+#include "console/touch/touch_command.h"
 
 namespace {
 
@@ -59,7 +61,8 @@ void describeProxy(CLI::App& app, Options& options) {
 // Its options; what is printed and ends goes before what serves.
 void describe(CLI::App& app, Options& options) {
     const auto role = CLI::IsMember({"watcher", "operator", "crew"});
-    app.add_option("RIG", options.rig, "whose show is watched")->required();
+    // CLI11 would take the name of a command for a rig that is required.
+    app.add_option("RIG", options.rig, "whose show is watched; needed unless a command follows");
     app.add_option("--port", options.port, "instead of the rig's console_port; 0: any free one")
         ->check(cli::wholeNumber(0, 65535));
     app.add_option("--listen", options.listen, "address of a network card, for other machines")
@@ -211,8 +214,12 @@ void run(const Options& options) {
 int main(int count, char** arguments) {
     Options options;
     CLI::App app("The operator's console of a show, for browsers.", "aquarama-console");
+    cli::CommandLine line(app);
+    console::addTouch(line);
     describe(app, options);
     return cli::runProgram(app, count, arguments, [&] {
+        if (line.isChosen()) return line.runChosen();
+        if (options.rig.empty()) throw CLI::RequiredError("RIG");
         spdlog::set_default_logger(spdlog::stdout_color_mt("console"));
         run(options);
         return 0;

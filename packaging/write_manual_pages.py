@@ -20,8 +20,9 @@ SUMMARIES = {  # what --help does not say in a line
     "aquarama-outputs": "pin a machine's outputs, so that a projector that is off changes none",
     "aquarama-node": "show one channel of a wall, in step with all others",
 }
-ELSEWHERE = {"node": "aquarama-node", "console": "aquarama-console", "guests": "aquarama-guests",
-             "calibrate": "aquarama-calibrate", "sheets": "aquarama-drawings"}  # commands with a page
+ELSEWHERE = {"node": "aquarama-node", "console": "aquarama-console", "touch": "aquarama-console",
+             "guests": "aquarama-guests", "calibrate": "aquarama-calibrate",
+             "sheets": "aquarama-drawings"}  # commands with a page
 FORMER = {"aquarama-solve"}  # names of the release before, whose page is that of the new name
 COLUMN = 30  # where --help begins to say what an option does
 COMMAND_GROUP = re.compile(r"^(A show|While a show|Files|Fish and|Worlds|Commands|Subcommands)\b.*:$")

@@ -460,6 +460,31 @@ std::optional<UdpAddress> webAddressIn(const std::string& address) {
     return udpAddressIn("udp://" + address.substr(kScheme.size()));
 }
 
+// Three corners of a surface; of people, of a floor that is below the viewer's eye.
+void checkCorners(const TextReader& file,
+                  const v1::Touch& in,
+                  const TouchedSurface& touch,
+                  glm::dvec3 sweetSpot) {
+    constexpr double kLeastMetres = 0.05, kLeastSine = 0.05, kMostSlope = 0.5;
+    const glm::dvec3 across = touch.topRight - touch.topLeft;
+    const glm::dvec3 down = touch.bottomLeft - touch.topLeft;
+    const double least = std::min(glm::length(across), glm::length(down));
+    const glm::dvec3 normal = glm::cross(across, down);
+    const double area = glm::length(normal);
+    if (least < kLeastMetres || area < kLeastSine * glm::length(across) * glm::length(down))
+        file.refuse(in,
+                    "bottom_left",
+                    "top_left, top_right and bottom_left lie on one line, or nearly: give three "
+                    "corners of the surface");
+    if (!touch.peopleReachMetres) return;
+    const double highest = std::max({touch.topLeft.y, touch.topRight.y, touch.bottomLeft.y});
+    if (std::hypot(normal.x, normal.z) > kMostSlope * area || highest >= sweetSpot.y)
+        file.refuse(in,
+                    "people",
+                    "the three corners of people lie on the floor, below the sweet spot: give "
+                    "them its y_m, or leave people out");
+}
+
 std::optional<TouchedSurface> touchOf(const TextReader& file, const v1::Rig& rig) {
     if (!rig.has_touch()) return std::nullopt;
     const v1::Touch& in = rig.touch();
@@ -469,13 +494,8 @@ std::optional<TouchedSurface> touchOf(const TextReader& file, const v1::Rig& rig
                          positionOf(in.top_right()),
                          positionOf(in.bottom_left())};
     if (touch.from.empty()) touch.from.emplace_back("127.0.0.1");
-    const glm::dvec3 across = touch.topRight - touch.topLeft;
-    const glm::dvec3 down = touch.bottomLeft - touch.topLeft;
-    if (glm::length(glm::cross(across, down)) < 1e-6)
-        file.refuse(in,
-                    "bottom_left",
-                    "top_left, top_right and bottom_left lie on one line: give three corners of "
-                    "the surface");
+    if (in.has_people()) touch.peopleReachMetres = in.people().reach_m();
+    checkCorners(file, in, touch, positionOf(rig.sweet_spot()));
     return touch;
 }
 
@@ -569,6 +589,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
             .files = {}};
     rig.places.scene = file.placeOf(in, "scene");
     if (in.has_sweet_spot()) rig.places.sweetSpot = file.placeOf(in.sweet_spot());
+    if (in.has_touch()) rig.places.touch = file.placeOf(in.touch());
     for (const v1::Channel& channel : in.channels())
         rig.channels.push_back(channelOf(file, channel, rig.stereo));
     takeGuests(file, in, rig);

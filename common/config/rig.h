@@ -182,11 +182,13 @@ struct TouchedSurface {
     UdpAddress listen;
     std::vector<std::string> from;  // hosts whose hands count, as shortestHost() has them
     glm::dvec3 topLeft{}, topRight{}, bottomLeft{};
+    // Of people on the floor: how far from the screen they count, metres. Nothing: it tells hands.
+    std::optional<double> peopleReachMetres = {};
 };
 
 // Where a rig's file says some of its values, for errors.
 struct RigPlaces {
-    SourcePlace scene, sweetSpot;
+    SourcePlace scene, sweetSpot, touch;
 };
 
 // A whole installation. Where its file leaves something out it has what rig.proto says.

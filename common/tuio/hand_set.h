@@ -21,8 +21,9 @@ namespace aquarama::tuio {
 // Bounds of what is kept.
 inline constexpr std::size_t kMostHands = 64;
 inline constexpr std::size_t kMostTrackers = 8;
-// Of a tracker, after which its hands are forgotten.
-inline constexpr double kSilenceSeconds = 1;
+// Of a tracker, after which its hands are forgotten. Where nothing moves, the protocol's reference
+// implementation repeats itself each second only.
+inline constexpr double kSilenceSeconds = 2.5;
 
 // One hand, or a finger, that touches.
 struct Hand {

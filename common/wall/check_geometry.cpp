@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks that the channels of a rig form a wall.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "common/base/log.h"
 #include "common/base/units.h"
@@ -163,6 +166,31 @@ void checkEyes(const config::Rig& rig, const Wall& wall, const std::string& sour
             }
 }
 
+// Hands are before the viewer: no corner of their surface is 60 degrees and more beside the screen.
+// Of people the floor may reach behind the viewer.
+void checkTouch(const config::Rig& rig, const Wall& wall, const std::string& source) {
+    if (!rig.touch || rig.touch->peopleReachMetres) return;
+    constexpr double kAside = 0.5;  // cosine
+    const glm::dvec3 eye = eyePosition(rig, EyeSide::Between);
+    const std::vector<glm::dvec3> border = wall.screen().border(0);
+    const std::array<std::pair<const char*, glm::dvec3>, 3> corners{
+        {{"top_left", rig.touch->topLeft},
+         {"top_right", rig.touch->topRight},
+         {"bottom_left", rig.touch->bottomLeft}}};
+    for (const auto& [name, corner] : corners) {
+        const auto isAhead = [&, at = corner](glm::dvec3 point) {
+            return glm::dot(at - eye, point - eye) >
+                   kAside * glm::length(at - eye) * glm::length(point - eye);
+        };
+        if (std::ranges::none_of(border, isAhead))
+            refuse(source,
+                   rig.places.touch,
+                   std::string(name) +
+                       " of touch lies behind the viewer's eye: z_m is negative towards the "
+                       "screen");
+    }
+}
+
 // Measured screens have ragged edges: their dark parts are accepted.
 bool isMeasured(const config::Rig& rig) {
     return rig.screen.shape == config::ScreenShape::Measured ||
@@ -187,6 +215,7 @@ void checkGeometry(const config::Rig& rig, const std::string& source) {
     for (std::size_t i = 0; i < rig.channels.size(); ++i) checkChannel(rig, wall, i, source);
     if (!isMeasured(rig)) checkCovered(rig, wall, source);
     checkEyes(rig, wall, source);
+    checkTouch(rig, wall, source);
 }
 
 }  // namespace aquarama::wall

@@ -118,7 +118,8 @@ inline constexpr double kDarkBorder = 0.005;
 
 // Throws Error, naming the place in the file `source`, when a channel misses the screen or spreads
 // too wide, a part of the screen stays dark (unless the screen or a channel is measured), or an eye
-// is beside or behind what a channel lights.
+// is beside or behind what a channel lights, or a corner of the surface that a tracker of hands
+// watches is behind the viewer.
 void checkGeometry(const config::Rig& rig, const std::string& source);
 
 }  // namespace aquarama::wall

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "console/cues/touch_listener.h"
 
-#include <algorithm>
 #include <utility>
+
+#include <glm/common.hpp>
 
 #include "common/base/hash.h"
 
@@ -10,8 +11,9 @@ namespace aquarama::console {
 
 namespace {
 
-// Of one tick, of a tracker that speaks a hundred times a second; more are lost.
-constexpr int kMostPackets = 64;
+// What a person's place takes of a new one in each tick: feet step, and scanners see now one leg,
+// now the other. 0.35 s behind.
+constexpr double kShareOfNew = 0.25;
 
 // Of a hand and its tracker; the same as long as it is there.
 std::uint32_t idOf(const tuio::Hand& hand) {
@@ -23,37 +25,29 @@ std::uint32_t idOf(const tuio::Hand& hand) {
 
 }  // namespace
 
-glm::vec3 pointAt(const config::TouchedSurface& surface,
-                  const glm::dvec3& sweetSpot,
-                  glm::vec2 place) {
-    const glm::dvec3 across = surface.topRight - surface.topLeft;
-    const glm::dvec3 down = surface.bottomLeft - surface.topLeft;
-    return glm::vec3(surface.topLeft + across * static_cast<double>(place.x) +
-                     down * static_cast<double>(place.y) - sweetSpot);
-}
-
-TouchListener::TouchListener(config::TouchedSurface surface, const glm::dvec3& sweetSpot)
-    : surface_{std::move(surface)}, sweetSpot_{sweetSpot}, port_{surface_.listen} {}
+TouchListener::TouchListener(const config::Rig& rig)
+    : places_{rig}, port_{rig.touch->listen, rig.touch->from} {}
 
 std::optional<WallHands> TouchListener::tick(double now) {
-    hear(now);
     WallHands hands;
-    for (const tuio::Hand& hand : seen_.seen(now))
-        if (hands.size() < kMostWallHands)
-            hands.push_back({idOf(hand), pointAt(surface_, sweetSpot_, hand.place)});
+    std::map<std::uint32_t, glm::dvec2> seen;
+    for (const tuio::Hand& hand : port_.hear(now)) {
+        const std::uint32_t id = idOf(hand);
+        const glm::dvec2 place = seen[id] = steadied(id, hand.place);
+        const auto point = places_.pointOf(place);
+        if (point && hands.size() < kMostWallHands) hands.push_back({id, *point});
+    }
+    known_ = std::move(seen);
     const bool isNews = !hands.empty() || hadHands_;
     hadHands_ = !hands.empty();
     return isNews ? std::optional(std::move(hands)) : std::nullopt;
 }
 
-// What is malformed, or of somebody else, is dropped.
-void TouchListener::hear(double now) {
-    for (int i = 0; i < kMostPackets; ++i) {
-        const auto datagram = port_.receive(osc::kMostPacketBytes + 1);
-        if (!datagram) return;
-        if (std::ranges::find(surface_.from, datagram->from.host) == surface_.from.end()) continue;
-        seen_.hear(osc::decode(datagram->bytes).messages, now);
-    }
+// A hand is where it is seen.
+glm::dvec2 TouchListener::steadied(std::uint32_t id, glm::dvec2 place) const {
+    const auto known = known_.find(id);
+    if (!places_.arePeople() || known == known_.end()) return place;
+    return glm::mix(known->second, place, kShareOfNew);
 }
 
 }  // namespace aquarama::console

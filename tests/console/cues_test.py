@@ -9,7 +9,8 @@ import time
 import unittest
 from pathlib import Path
 
-from desk import Desk, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, wait_until
+from desk import (Desk, aquarama, control_address, end, free_udp_port, rig_on_free_ports, start, temporary_folder,
+                  wait_until)
 
 
 def padded(text):
@@ -200,9 +201,7 @@ class Hands(unittest.TestCase):
         self.folder = temporary_folder()
         self.addCleanup(self.folder.cleanup)
         self.tracker = End()
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
-            free.bind(("127.0.0.1", 0))
-            self.port = free.getsockname()[1]
+        self.port = free_udp_port()
         self.rig = rig_on_free_ports(self.folder.name)
         self.rig.write_text(self.rig.read_text() + f'''
             touch {{ listen: "udp://127.0.0.1:{self.port}" top_left {{ x_m: -1 y_m: 1 z_m: -2 }}

@@ -16,8 +16,15 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "end_to_end"))
 
-from show import (BIN, aquarama, children_of, control_address, end, give_colours, rig_on_free_ports,  # noqa: E402,F401
-                  start, temporary_folder, wait_until)
+from show import (BIN, ROOT, aquarama, children_of, control_address, end, give_colours,  # noqa: E402,F401
+                  rig_on_free_ports, start, temporary_folder, wait_until)
+
+
+def free_udp_port():
+    """Of the loopback, that nobody listens on at the moment."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        return free.getsockname()[1]
 
 
 class Desk:

@@ -235,6 +235,7 @@ TEST(House, generatedMessagesStayWithWhoSpeaks) {
                                           "console/commands.cpp",
                                           "console/console.",
                                           "console/show_link.",
+                                          "console/touch/touch_command.cpp",
                                           "guests/main.cpp",
                                           "guests/wall_link."};
     EXPECT_EQ(strangers(std::regex("^common/ask/request_client\\.h$"), askers),

@@ -399,10 +399,36 @@ TEST(Rig, namesTheSurfaceThatATrackerWatches) {
     EXPECT_EQ(rig.touch->bottomLeft, glm::dvec3(-2, -1, -3));
     EXPECT_THAT(saidOf(touch + " bottom_left { x_m: 0 y_m: 1 z_m: -3 } }"),
                 testing::HasSubstr("lie on one line"));
+    EXPECT_THAT(saidOf(touch + " bottom_left { x_m: 0 y_m: 0.9 z_m: -3 } }"),
+                testing::HasSubstr("or nearly"))
+        << "of 4 m, 5 cm aside";
+    EXPECT_THAT(saidOf(touch + " bottom_left { x_m: -2 y_m: 1.01 z_m: -3 } }"),
+                testing::HasSubstr("or nearly"))
+        << "a centimetre high";
     EXPECT_THAT(saidOf(touch + " }"), testing::HasSubstr("bottom_left"));
     EXPECT_THAT(
         saidOf("touch { listen: \"3333\"" + corners + " bottom_left { x_m: -2 y_m: -1 z_m: -3 } }"),
         testing::HasSubstr("no address of one machine"));
+}
+
+// A tracker of people watches the floor, below the viewer's eye.
+TEST(Rig, theCornersOfPeopleLieOnTheFloor) {
+    const auto corners = [](double height, double farHeight) {
+        const std::string y = std::to_string(height);
+        return "touch { listen: \"udp://127.0.0.1:3333\" top_left { x_m: -2 z_m: -2 y_m: " + y +
+               "} top_right { x_m: 2 z_m: -2 y_m: " + y +
+               "} bottom_left { x_m: -2 z_m: 0 y_m: " + std::to_string(farHeight) + "} ";
+    };
+    const Rig rig = parseRig(kRig + corners(-1.6, -1.6) + "people { } }", "small.txtpb");
+    EXPECT_EQ(rig.touch->peopleReachMetres, 2.5);
+    EXPECT_FALSE(
+        parseRig(kRig + corners(-1.6, -1.6) + "}", "small.txtpb").touch->peopleReachMetres);
+    EXPECT_EQ(saidOf(corners(-1.6, -1.2) + "people { reach_m: 4 } }"), "accepted")
+        << "a floor that rises";
+    for (const std::string& wrong : {corners(1.6, 1.6), corners(-1.6, -0.2)})
+        EXPECT_THAT(saidOf(wrong + "people { reach_m: 4 } }"), testing::HasSubstr("on the floor"));
+    EXPECT_THAT(saidOf(corners(-1.6, -1.6) + "people { reach_m: 0 } }"),
+                testing::HasSubstr("reach_m"));
 }
 
 TEST(Rig, aCalibrationIsTheWallFileOfAllItsChannels) {

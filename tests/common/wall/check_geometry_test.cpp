@@ -39,6 +39,22 @@ TEST(CheckGeometry, aProjectorThatLooksAwayIsNamedAtItsChannel) {
                                     "projector \"right\" misses the screen: aim it"));
 }
 
+// As somebody gives them who takes z for the way from the audience.
+TEST(CheckGeometry, aCornerOfHandsBehindTheViewerIsNamed) {
+    config::Rig rig = shippedRig("desk");
+    rig.touch.emplace();
+    rig.touch->topLeft = {-1, 0.5, -1};
+    rig.touch->topRight = {1, 0.5, -1};
+    rig.touch->bottomLeft = {-1, -0.5, -1};
+    EXPECT_EQ(refusal(rig), "accepted");
+    rig.places.touch = {70, 3};
+    rig.touch->topRight.z = 1.5;
+    EXPECT_THAT(refusal(rig),
+                testing::StartsWith(at({70, 3}) + "top_right of touch lies behind the viewer"));
+    rig.touch->peopleReachMetres = 2;
+    EXPECT_EQ(refusal(rig), "accepted") << "people may stand behind the viewer";
+}
+
 TEST(CheckGeometry, aGapBetweenNeighboursIsNamedInDegrees) {
     config::Rig rig = shippedRig("desk");
     rig.channels[1].projector.focalPixels.x *= 1.4;  // 30 degrees wide instead of 42
