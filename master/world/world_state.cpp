@@ -92,7 +92,7 @@ void visitSurroundings(State& state, Visitor& on) {
 
 template <class State, class Visitor>
 void visitState(State& state, Visitor& on) {
-    on(state.tick, state.hash);
+    on(state.tick);
     visitMotion(state, on);
     visitMinds(state, on);
     visitSurroundings(state, on);

@@ -26,7 +26,6 @@ namespace aquarama::world {
 // world allocates nothing in a steady world.
 struct WorldState {
     Tick tick;
-    std::uint64_t hash = 0;  // World::hash()
     // Of each fish.
     motion::MotionStates states;
     motion::MotorCommands commands;
