@@ -30,6 +30,7 @@ class LivingWorld : public conductor::Simulation {
         return world_.surroundings().climate.day.followsHall;
     }
     [[nodiscard]] std::vector<conductor::DrawingSlots> drawingSlots() const override;
+    [[nodiscard]] std::vector<conductor::Hunter> hunters() const override;
 
     // The world itself, for measurements.
     [[nodiscard]] const world::World& world() const { return world_; }

@@ -18,6 +18,7 @@
 #include "master/fish/minds.h"
 #include "master/surroundings/contact.h"
 #include "master/world/beginning.h"
+#include "master/world/release.h"
 #include "master/world/visits.h"
 
 namespace aquarama::world {
@@ -92,6 +93,10 @@ fish::Mind beginningMind(const fish::SpeciesParameters& parameters,
         fish::setMood(
             parameters, static_cast<float>(start->hunger), static_cast<float>(start->libido), mind);
     return mind;
+}
+
+std::uint64_t ticksIn(double seconds) {
+    return static_cast<std::uint64_t>(seconds * static_cast<double>(kTicksPerSecond));
 }
 
 // Half the width of a body, as a share of its length.
@@ -301,6 +306,9 @@ void World::apply(const WorldInput& input) {
     if (const auto* drawing = std::get_if<EnterDrawing>(&input))
         enter(waterNow(), *drawing, columns_);
     if (const auto* drawing = std::get_if<LeaveDrawing>(&input)) leave(*drawing, tick_, columns_);
+    if (const auto* day = std::get_if<SetDay>(&input))
+        surroundings::setDay(surroundings_, day->timeOfDay, ticksIn(day->glideSeconds), tick_);
+    if (const auto* cue = std::get_if<ReleaseHunter>(&input)) release(waterNow(), *cue, columns_);
     if (const auto* steered = std::get_if<Steering>(&input))
         surroundings::steer(pilot_, voyage_, *steered, tick_);
 }
@@ -327,6 +335,7 @@ void World::advance() {
     receive();
     if (unseen_ == 0) moveSubmarine();
     leadWearers(waterNow(), columns_, absences_);
+    leadReleased(waterNow(), columns_);
     beginTick();
     swallow();
     findRushes();
@@ -400,7 +409,8 @@ behaviour::Environment World::environment() const {
             .seed = seed_,
             .tick = tick_,
             .adaptation = adaptation_,
-            .wearers = columns_.wearers.fish.empty() ? nullptr : &columns_.wearers};
+            .wearers = columns_.wearers.fish.empty() ? nullptr : &columns_.wearers,
+            .released = columns_.released.fish.empty() ? nullptr : &columns_.released};
 }
 
 // Thoughts of this tick. Fish think in the order in which they stand in the grid, because

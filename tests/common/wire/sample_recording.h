@@ -28,6 +28,9 @@ inline std::vector<Packet> sampleEntries() {
             entryOf(RecordedInput{{18}, WallHands{{7, {0.5F, 0, -3}}, {8, {-2.5F, 1, -2}}}}),
             entryOf(RecordedInput{{19}, RecordedDrawing{40, 7, digestOf("png"), -1}}),
             entryOf(RecordedInput{{19}, RecordedDeparture{40}}),
+            entryOf(RecordedInput{{20}, RecordedDay{0.85, 40}}),
+            entryOf(RecordedInput{{21}, RecordedDay{std::nullopt, 0}}),
+            entryOf(RecordedInput{{22}, RecordedRelease{1}}),
             entryOf(RecordedHash{{600}, 1}),
             endOf({{(std::uint64_t{1} << 31U) + 7}, 2})};
 }
