@@ -11,6 +11,7 @@
 
 #include "common/base/characters.h"
 #include "common/motion/motor.h"
+#include "master/conductor/hall_clock.h"
 
 namespace aquarama::conductor {
 namespace {

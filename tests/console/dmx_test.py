@@ -36,9 +36,9 @@ def missing():
 
 
 def frame(*channels):
-    """ArtDmx of the Art-Net 4 specification, to port-address 0, without a sequence."""
+    """ArtDmx of the Art-Net 4 specification, to port-address UNIVERSE, as olad has it, without a sequence."""
     data = bytes(channels) + b"\0" * (len(channels) % 2)
-    return b"Art-Net\0" + struct.pack("<H", 0x5000) + struct.pack(">HBBHH", 14, 0, 0, 0, len(data)) + data
+    return b"Art-Net\0" + struct.pack("<H", 0x5000) + struct.pack(">HBBBBH", 14, 0, 0, UNIVERSE, 0, len(data)) + data
 
 
 class Olad:
