@@ -115,7 +115,7 @@ glm::vec3 wayOf(const fish::Wearers& wearers,
     return place::directionOf(goal - position, otherwise);
 }
 
-// Of a hunter that is on its way.
+// Of a hunter that is on its way; it makes way for nobody.
 fish::Course comingTo(const Situation& situation, glm::vec3 place) {
     const Senses& senses = situation.senses;
     const glm::vec3 way = place::directionOf(place - senses.position, senses.heading);
@@ -128,8 +128,9 @@ fish::Course guided(const Situation& situation,
                     const fish::Mind& mind,
                     const fish::Course& course) {
     const fish::ReleasedHunters* const released = situation.environment.released;
-    if (released != nullptr && released->has(situation.fish) && isLed(mind.intention))
-        return comingTo(situation, released->place);
+    const bool isComing = released != nullptr && released->has(situation.fish) &&
+                          mind.intention != fish::Intention::AvoidObstacle;
+    if (isComing) return comingTo(situation, released->place);
     const fish::Wearers* const wearers = situation.environment.wearers;
     const fish::Wearer* const wearer = wearers == nullptr ? nullptr : wearers->of(situation.fish);
     if (wearer == nullptr || wearer->visit == fish::Visit::Stays || !isLed(mind.intention))

@@ -27,7 +27,7 @@ namespace aquarama::behaviour {
 [[nodiscard]] bool isAt(glm::vec3 position, glm::vec3 place);
 
 // The course of a fish, led where it enters or leaves, or comes as a released hunter. What flees or
-// avoids is not led.
+// avoids is not led; a hunter gives way to obstacles alone.
 [[nodiscard]] fish::Course guided(const Situation& situation,
                                   const fish::Mind& mind,
                                   const fish::Course& course);

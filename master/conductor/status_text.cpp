@@ -7,6 +7,8 @@
 #include <glm/trigonometric.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "common/wire/wanted_show.h"
+
 namespace aquarama::conductor {
 namespace {
 

@@ -10,6 +10,8 @@ namespace aquarama::world {
 
 namespace {
 
+// So near to the place it has come: faster than a fish with a drawing, it does not turn so tightly.
+constexpr float kThereMetres = 1.5F;
 // One that has not come by then, in ticks, goes on as it was.
 constexpr std::uint64_t kComes = 40 * 60;
 
@@ -62,7 +64,8 @@ void leadReleased(const WaterAtTick& water, FishColumns& columns) {
     std::erase_if(released.fish, [&](const fish::Released& one) {
         fish::Mind& mind = columns.minds[one.fish];
         mind.sinceChase = 0;
-        const bool hasCome = behaviour::isAt(columns.view.position(one.fish), released.place);
+        const glm::vec3 way = released.place - columns.view.position(one.fish);
+        const bool hasCome = place::lengthOf(way) < kThereMetres;
         if (hasCome) makeHungry(mind);
         return hasCome || water.tick.value - one.since.value > kComes;
     });

@@ -12,6 +12,7 @@
 
 #include "common/place/day.h"
 #include "common/wire/wanted_show.h"
+#include "master/conductor/hall_clock.h"
 
 namespace aquarama::conductor {
 namespace {

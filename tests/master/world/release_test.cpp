@@ -51,9 +51,9 @@ class Hall {
             if (isBeforeTheWall(fish)) return true;
         return false;
     }
-    [[nodiscard]] bool isAnyRushing() const {
+    [[nodiscard]] bool isAnyHunting() const {
         for (std::uint32_t fish = sharks().first; fish < sharks().last; ++fish)
-            if (behaviour::isRushing(world.minds()[fish])) return true;
+            if (world.minds()[fish].intention == fish::Intention::Eat) return true;
         return false;
     }
     [[nodiscard]] std::size_t fleeing() const {
@@ -70,7 +70,7 @@ class Hall {
 // What was seen in the half minute after the cue; seconds are -1 where it was never.
 struct Seen {
     double cameAfter = -1;
-    double rushedAfter = -1;
+    double huntedAfter = -1;
     std::size_t fledBefore = 0;  // the most at once in the five seconds before the cue
     std::size_t fled = 0;        // the most at once in the half minute after it
 };
@@ -88,7 +88,7 @@ Seen seenIn(const WorldOptions& options) {
         hall.world.advance();
         const double seconds = static_cast<double>(tick + 1) / kTicksASecond;
         if (seen.cameAfter < 0 && hall.isAnyBeforeTheWall()) seen.cameAfter = seconds;
-        if (seen.rushedAfter < 0 && hall.isAnyRushing()) seen.rushedAfter = seconds;
+        if (seen.huntedAfter < 0 && hall.isAnyHunting()) seen.huntedAfter = seconds;
         seen.fled = std::max(seen.fled, hall.fleeing());
     }
     return seen;
@@ -97,7 +97,7 @@ Seen seenIn(const WorldOptions& options) {
 class ReleasedShark : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(ReleasedShark, isBeforeTheWallWithin20SecondsAndPreyFlees) {
-    int rushed = 0;
+    int hunted = 0;
     for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
         const Seen seen = seenIn(optionsOfScene(GetParam(), seed));
         std::cout << GetParam() << ", seed " << seed << ": before the wall after " << seen.cameAfter
