@@ -112,6 +112,7 @@ function(aquarama_write_version program)
       "libepoxy PkgConfig::EPOXY render_node EPOXY_VERSION"
       "libpng PNG::PNG common PNG_VERSION_STRING" "libjpeg-turbo PkgConfig::TURBOJPEG render_node TURBOJPEG_VERSION"
       "liblo PkgConfig::LIBLO common/osc LIBLO_VERSION" "libqrencode PkgConfig::QRENCODE guests QRENCODE_VERSION"
+      "OLA PkgConfig::OLA console/cues OLA_VERSION"
       "libzip PkgConfig::LIBZIP common/formats LIBZIP_VERSION"
       "libwebp PkgConfig::WEBP calibration/compose WEBP_libwebp_VERSION"
       "nlohmann-json nlohmann_json::nlohmann_json capture/report nlohmann_json_VERSION"

@@ -168,6 +168,15 @@ v1::WantedShow::Tier tierIn(const SetOptions& options) {
     throw Error("quality is low, medium, high, ultra or auto, not \"" + options.value + "\"");
 }
 
+// Throws Error where no time of day has this name.
+v1::WantedShow::Day dayIn(const SetOptions& options) {
+    if (const auto day = wire::dayNamed(options.value)) return *day;
+    throw Error(
+        "day is dawn, morning, noon, afternoon, sunset, dusk, night, \"first light\" or clock, not "
+        "\"" +
+        options.value + "\"");
+}
+
 // Throws Error for anything but a number from 0 to 1.
 double shareIn(const SetOptions& options) {
     double share = -1;
@@ -218,8 +227,12 @@ const std::map<std::string, Setter> kSetters{
      [](const SetOptions& options, v1::Order& order) {
          order.mutable_show()->set_guests(switchedOn(options));
      }},
-    {"drawings", [](const SetOptions& options, v1::Order& order) {
+    {"drawings",
+     [](const SetOptions& options, v1::Order& order) {
          order.mutable_show()->set_drawings(switchedOn(options));
+     }},
+    {"day", [](const SetOptions& options, v1::Order& order) {
+         order.mutable_show()->set_day(dayIn(options));
      }}};
 
 // Returns when it is done.
@@ -249,8 +262,8 @@ void addSet(CommandLine& line) {
     command
         .add_option("WHAT",
                     options.what,
-                    "scene, quality, pattern, colour, brightness, black, freeze, guests, drawings "
-                    "or restart")
+                    "scene, quality, pattern, colour, brightness, black, freeze, guests, drawings, "
+                    "day or restart")
         ->required()
         ->check(CLI::IsMember({"scene",
                                "quality",
@@ -261,13 +274,15 @@ void addSet(CommandLine& line) {
                                "freeze",
                                "guests",
                                "drawings",
+                               "day",
                                "restart"}));
     command
         .add_option(
             "VALUE",
             options.value,
             "a scene's name; low, medium, high, ultra or auto; world, grid or grey; a share "
-            "of colour or light, 0 to 1; on or off; a channel, whose node is started again")
+            "of colour or light, 0 to 1; on or off; a time of day, as dusk, or clock; a channel, "
+            "whose node is started again")
         ->required()
         ->check(cli::plainWord());
     command.footer("What is set is kept: a master that is started again shows it.");

@@ -33,6 +33,20 @@ void printDoubts(const std::string& path, const wire::Recording& recording) {
         std::cout << path << ": " << doubt << '\n';
 }
 
+// A cue, or a visitor's drawing, as text for a person.
+std::string wordsForCue(const wire::RecordedInput& input) {
+    if (const auto* day = std::get_if<wire::RecordedDay>(&input.input)) {
+        const std::string to = day->timeOfDay ? fmt::format("{:.4f} of the day", *day->timeOfDay)
+                                              : "that of the clock";
+        return fmt::format("time of day to {} in {:.0f} s", to, day->glideSeconds);
+    }
+    if (const auto* release = std::get_if<wire::RecordedRelease>(&input.input))
+        return fmt::format("a hunter of species {} comes", release->species);
+    if (const auto* drawing = std::get_if<wire::RecordedDrawing>(&input.input))
+        return fmt::format("drawing {} on fish {}", drawing->number, drawing->fish);
+    return fmt::format("fish {} leaves", std::get<wire::RecordedDeparture>(input.input).fish);
+}
+
 // An input as text for a person.
 std::string wordsFor(const wire::RecordedInput& input) {
     if (const auto* food = std::get_if<wire::RecordedFood>(&input.input))
@@ -54,11 +68,12 @@ std::string wordsFor(const wire::RecordedInput& input) {
                            clock->lengthSeconds);
     if (const auto* hands = std::get_if<WallHands>(&input.input))
         return fmt::format("hands before the wall: {}", hands->size());
-    const auto& moved = std::get<wire::RecordedSubmarine>(input.input);
-    return fmt::format("submarine at {:.2f} {:.2f} {:.2f} m",
-                       moved.position.x,
-                       moved.position.y,
-                       moved.position.z);
+    if (const auto* moved = std::get_if<wire::RecordedSubmarine>(&input.input))
+        return fmt::format("submarine at {:.2f} {:.2f} {:.2f} m",
+                           moved->position.x,
+                           moved->position.y,
+                           moved->position.z);
+    return wordsForCue(input);
 }
 
 // Prints the origin of a recording, its world and its first inputs.

@@ -81,17 +81,11 @@ std::string textOf(const v1::Order& order) {
             return "a drawing of a " + order.drawing().species();
         case v1::Order::kModeration:
             return textOf(order.moderation());
+        case v1::Order::kRelease:
+            return "release of a " + order.release().species();
         default:
             return wire::textOf(order.show());
     }
-}
-
-// Whether it is a step of a fader, which gives ten a second while it moves.
-bool isOfFader(const v1::Order& order) {
-    v1::WantedShow others = order.show();
-    others.clear_brightness();
-    others.clear_colour_returned();
-    return order.has_show() && others.ByteSizeLong() == 0;
 }
 
 // The channels that show a pattern, a bit each; nothing where there is none of that name.
@@ -266,7 +260,7 @@ Answer Commands::tellWall(const Holder& holder, Visitor* visitor, const v1::Orde
     if (!state_.wall.heard()) return refused("the master does not answer");
     if (order.run() != state_.wall.run())
         return refused("the show was started again meanwhile: look, and say it once more");
-    const bool isQuiet = visitor == nullptr && isOfFader(order);
+    const bool isQuiet = visitor == nullptr && order.has_show() && wire::isOfFader(order.show());
     waiting_[order.request()] = {visitor, holder.name, textOf(order), isQuiet};
     master_->give(order);
     return {Outcome::Waiting, ""};

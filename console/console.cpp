@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <spdlog/fmt/chrono.h>
@@ -14,6 +15,12 @@
 namespace aquarama::console {
 
 namespace {
+
+// Of a clock that nobody sets.
+double steadySeconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
 
 // Who offers the pictures of the rig's folder.
 const Holder kFolder{
@@ -166,12 +173,19 @@ void Console::tick() {
     ++ticks_;
     visitors_.tick();
     state_.figures.add(state_.wall);
-    if (desk_)
-        desk_->tick(shownBy(state_.wall.status(), state_.wall.heard(), state_.drawings.counts()));
+    hearDesks();
     if (folder_) folder_->tick(takesDrawings());
-    if (const auto hands = tracker_.tick()) link_->touch(*hands);
+    for (const std::string& line : faders_.update(state_.wall, steadySeconds()))
+        visitors_.note("wall", line);
     if (ticks_ % kTicksASecond == 0) everySecond();
     if (ticks_ % kTicksOfAWall == 0) visitors_.sendWall(state_.refused + server_->cutOff());
+}
+
+void Console::hearDesks() {
+    if (desk_)
+        desk_->tick(shownBy(state_.wall.status(), state_.wall.heard(), state_.drawings.counts()));
+    if (dmx_) dmx_->tick(steadySeconds());
+    if (const auto hands = tracker_.tick()) link_->touch(*hands);
 }
 
 // That somebody set it explains the times of events before and after. A code of the first start
@@ -199,12 +213,14 @@ void Console::watchClock(UnixSeconds now) {
 
 // Again each second: a network card may come late.
 void Console::listenToDesk() {
-    if (desk_ || !state_.rig.osc) return;
     const auto give = [this](const std::string& who, const v1::Order& order) {
         return giveOrder({.id = {}, .hash = {}, .name = who, .role = ConsoleRole::Operator}, order);
     };
-    listenTo("cues by OSC", state_.rig.osc->listen, deskProblem_, [&] {
-        desk_ = std::make_unique<OscDesk>(*state_.rig.osc, give);
+    const config::Cues& cues = state_.rig.cues;
+    if (cues.dmx && !dmx_) dmx_ = std::make_unique<DmxDesk>(*cues.dmx, give, openUniverse);
+    if (desk_ || !cues.osc) return;
+    listenTo("cues by OSC", cues.osc->listen, deskProblem_, [&] {
+        desk_ = std::make_unique<OscDesk>(*cues.osc, give);
     });
 }
 
@@ -252,6 +268,8 @@ std::vector<Fault> Console::faultsNow(UnixSeconds now) const {
         faults.push_back(
             {"clock", state_.doubtOfClock + "; hours and certificates rest; " + kSetTheClock, 0});
     if (!deskProblem_.empty()) faults.push_back({"cues", "cues: " + deskProblem_, 5});
+    if (dmx_ && !dmx_->problem().empty())
+        faults.push_back({"dmx", "cues by DMX: " + dmx_->problem(), 5});
     if (std::string problem = problemOfDrawings(); !problem.empty())
         faults.push_back({"drawings", "drawings: " + problem, 5});
     if (!tracker_.problem().empty()) faults.push_back({"touch", "hands: " + tracker_.problem(), 5});

@@ -21,6 +21,7 @@
 #include "console/certificate.h"
 #include "console/commands.h"
 #include "console/console.pb.h"
+#include "console/cues/dmx_desk.h"
 #include "console/cues/osc_desk.h"
 #include "console/drawing_folder.h"
 #include "console/errands.h"
@@ -106,8 +107,9 @@ class Console final : public web::Service {
     void askForSkin();
     [[nodiscard]] bool takesDrawings() const;
     void watchClock(UnixSeconds now);
-    // Listens to the rig's desk, where that is not done yet.
+    // Listens to the rig's desks, where that is not done yet.
     void listenToDesk();
+    void hearDesks();
     void tendCertificate(UnixSeconds now);
     // Of the wall, and of this machine's clock and certificate.
     [[nodiscard]] std::vector<Fault> faultsNow(UnixSeconds now) const;
@@ -122,12 +124,14 @@ class Console final : public web::Service {
     Doors doors_;
     web::WebServer* server_ = nullptr;
     ProjectorBook projectorBook_;
+    FaderWatch faders_;
     int ticks_ = 0;
     // When the clocks were last looked at: the system's, and one that nobody sets.
     UnixSeconds lastSecond_ = 0;
     std::chrono::steady_clock::time_point lastLook_;
     std::unique_ptr<OscDesk> desk_;               // null: the rig has none, or it cannot be heard
     std::string deskProblem_;                     // why not
+    std::unique_ptr<DmxDesk> dmx_;                // null: the rig has none
     std::unique_ptr<ask::DrawingReader> reader_;  // of pictures of sheets; as desk_
     std::unique_ptr<DrawingFolder> folder_;       // as desk_
     std::unique_ptr<ask::PictureHub> hub_;

@@ -2,9 +2,12 @@
 #include "console/overview.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <google/protobuf/util/json_util.h>
 #include <spdlog/fmt/fmt.h>
+
+#include "common/wire/wanted_show.h"
 
 namespace aquarama::console {
 
@@ -189,7 +192,10 @@ std::vector<std::string> changesOf(const browser::Wall& before, const browser::W
     note(was.frozen != is.frozen, is.frozen ? "frozen" : "the world moves again");
     note(was.scene != is.scene, "scene " + is.scene);
     note(was.pattern != is.pattern, fmt::format("pattern {}", wire::nameOf(is.pattern)));
-    note(was.colourReturned != is.colourReturned, fmt::format("colour {:.2f}", is.colourReturned));
+    const auto dayOf = [](const browser::Wall& wall) {
+        return wire::dayName(wall.status().has_day() ? wall.status().day() : v1::WantedShow::CLOCK);
+    };
+    note(dayOf(before) != dayOf(after), "day " + dayOf(after));
     const bool wereGuests = before.status().guests();
     const bool areGuests = after.status().guests();
     note(wereGuests != areGuests, areGuests ? "phones take part" : "no phone takes part");
@@ -202,6 +208,25 @@ std::vector<std::string> changesOf(const browser::Wall& before, const browser::W
     for (int i = 0; i < std::min(nodesBefore.size(), nodes.size()); ++i)
         note(nodesBefore[i].condition() != nodes[i].condition(),
              "node " + nodes[i].name() + " is " + wire::wordFor(nodes[i].condition()));
+    return lines;
+}
+
+// Another run brings other values, and another scene another colour, which nobody has moved.
+std::vector<std::string> FaderWatch::update(const browser::Wall& wall, double now) {
+    constexpr double kRests = 1;
+    const auto show = wire::readShow(wall.status().show());
+    if (!wall.heard() || !show) return {};
+    const bool isFading = show->black || !wall.status().change().empty();
+    const Values seen{isFading ? seen_.brightness : show->brightness, show->colourReturned};
+    if (std::exchange(seen_, seen) != seen) movedAt_ = now;
+    if (std::exchange(scene_, show->scene) != show->scene) told_.colour = seen.colour;
+    if (std::exchange(run_, wall.run()) != wall.run()) told_ = seen;
+    if (now - movedAt_ < kRests) return {};
+    std::vector<std::string> lines;
+    if (seen.brightness != told_.brightness)
+        lines.push_back(fmt::format("brightness {:.2f}", seen.brightness));
+    if (seen.colour != told_.colour) lines.push_back(fmt::format("colour {:.2f}", seen.colour));
+    told_ = seen;
     return lines;
 }
 

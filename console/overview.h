@@ -32,6 +32,26 @@ namespace aquarama::console {
 [[nodiscard]] std::vector<std::string> changesOf(const browser::Wall& before,
                                                  const browser::Wall& after);
 
+// The faders of a wall, as the list of events has them: where they have come to rest.
+class FaderWatch {
+  public:
+    // A line for each that rests elsewhere than was last told. `now`: seconds of a clock that never
+    // goes back.
+    std::vector<std::string> update(const browser::Wall& wall, double now);
+
+  private:
+    // Shares, 0 to 1.
+    struct Values {
+        float brightness = 1, colour = 0;
+        friend bool operator==(const Values&, const Values&) = default;
+    };
+
+    std::uint64_t run_ = 0;  // of the master; 0: none was heard
+    std::string scene_;
+    Values seen_, told_;
+    double movedAt_ = 0;
+};
+
 // Figures of the last ten minutes by tenths of a second, and of the last day by the minute (its
 // largest).
 class FigureRings {

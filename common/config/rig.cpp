@@ -147,6 +147,21 @@ std::optional<OscCues> oscOf(const TextReader& file, const v1::Rig& rig) {
     return osc;
 }
 
+std::optional<DmxCues> dmxOf(const TextReader& file, const v1::Rig& rig) {
+    if (!rig.cues().has_art_net()) return std::nullopt;
+    const v1::DmxCues& in = rig.cues().art_net();
+    DmxCues dmx;
+    dmx.universe = in.universe();
+    if (in.has_brightness()) dmx.brightness = in.brightness();
+    if (in.has_black()) dmx.black = in.black();
+    if (!dmx.brightness && !dmx.black)
+        file.refuse(
+            rig.cues(), "art_net", "art_net drives nothing: give brightness, black or both");
+    if (dmx.brightness == dmx.black)
+        file.refuse(in, "black", "black has the channel of brightness: give each one of its own");
+    return dmx;
+}
+
 // Of a panorama or a channel.
 glm::ivec2 sizeOf(const auto& in) {
     return {in.width_px(), in.height_px()};
@@ -575,7 +590,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
             .consolePort = static_cast<std::uint16_t>(in.network().console_port()),
             .watchAddress = in.network().watch(),
             .windowsEndShow = in.windows_end_show(),
-            .osc = oscOf(file, in),
+            .cues = {oscOf(file, in), dmxOf(file, in)},
             .channels = {},
             .timing = timingOf(file, in.timing()),
             .scene = in.scene(),

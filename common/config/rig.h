@@ -152,6 +152,18 @@ struct OscCues {
     std::vector<UdpAddress> sendTo;  // are told what the wall shows
 };
 
+// How a lighting desk drives a running show: channels of a universe of DMX that olad hears.
+struct DmxCues {
+    std::uint32_t universe = 0;
+    std::optional<std::uint32_t> brightness, black;  // channels, 1 to 512; nothing: not driven
+};
+
+// The desks of a theatre that drive a running show; nothing: there is none.
+struct Cues {
+    std::optional<OscCues> osc = {};
+    std::optional<DmxCues> dmx = {};
+};
+
 // Of a file that a rig names; never null. Copies of a rig share it: it may be large.
 using FileContent = std::shared_ptr<const std::vector<std::byte>>;
 
@@ -205,7 +217,7 @@ struct Rig {
     std::uint16_t consolePort = 0;  // of the operator's console; 0: none
     std::string watchAddress;       // where nodes bring it pictures: ROUTER; empty: nowhere
     bool windowsEndShow = false;    // by q and Esc
-    std::optional<OscCues> osc = {};
+    Cues cues = {};
     std::vector<Channel> channels;
     Timing timing;
     std::string scene;  // path of the file of what is shown, relative to the rig's folder

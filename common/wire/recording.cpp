@@ -37,6 +37,7 @@ constexpr std::uint64_t kMostTick = std::uint64_t{1} << 32U;  // two years
 constexpr float kMostMetres = 10'000;
 constexpr std::uint32_t kMostPellets = 65'535;
 constexpr double kMostDaySeconds = 1.0e9;
+constexpr double kMostGlideSeconds = 3600;
 
 std::uint32_t checksumOf(std::span<const std::byte> bytes) {
     return static_cast<std::uint32_t>(
@@ -131,6 +132,16 @@ void write(const RecordedDrawing& drawing, v1::RecordedInput& message) {
 
 void write(const RecordedDeparture& departure, v1::RecordedInput& message) {
     message.mutable_departure()->set_fish(departure.fish);
+}
+
+void write(const RecordedDay& day, v1::RecordedInput& message) {
+    v1::RecordedDay& recorded = *message.mutable_day();
+    if (day.timeOfDay) recorded.set_time_of_day(*day.timeOfDay);
+    recorded.set_glide_s(day.glideSeconds);
+}
+
+void write(const RecordedRelease& release, v1::RecordedInput& message) {
+    message.mutable_release()->set_species(release.species);
 }
 
 void write(const RecordedHash& hash, v1::RecordedHash& message) {
@@ -374,33 +385,66 @@ class Reader {
         return {drawing.fish(), drawing.number(), digestIn(drawing.picture()), drawing.aside()};
     }
 
-    RecordedInput inputIn(const v1::RecordedInput& message) {
-        RecordedInput input{tickIn(message.has_tick(), message.tick(), lastInput_), {}};
-        if (message.has_food()) {
-            const v1::RecordedFood& food = message.food();
-            if (food.pellets() > kMostPellets) fail("has an input that cannot be");
-            input.input = RecordedFood{vectorIn({food.x(), food.y(), food.z()}), food.pellets()};
-        } else if (message.has_submarine()) {
-            const v1::RecordedSubmarine& moved = message.submarine();
-            input.input = RecordedSubmarine{
-                vectorIn({moved.x(), moved.y(), moved.z()}),
+    RecordedDay dayIn(const v1::RecordedDay& day) const {
+        const bool isTime =
+            !day.has_time_of_day() || (day.time_of_day() >= 0 && day.time_of_day() < 1);
+        const bool isGlide =
+            day.has_glide_s() && day.glide_s() >= 0 && day.glide_s() <= kMostGlideSeconds;
+        if (!isTime || !isGlide) fail("has a time of day that cannot be");
+        return {day.has_time_of_day() ? std::optional(day.time_of_day()) : std::nullopt,
+                day.glide_s()};
+    }
+
+    RecordedRelease releaseIn(const v1::RecordedRelease& release) const {
+        if (!release.has_species() || release.species() >= speciesCount_)
+            fail("releases a species that it has not");
+        return {release.species()};
+    }
+
+    RecordedFood foodIn(const v1::RecordedFood& food) const {
+        if (food.pellets() > kMostPellets) fail("has an input that cannot be");
+        return {vectorIn({food.x(), food.y(), food.z()}), food.pellets()};
+    }
+
+    RecordedSubmarine submarineIn(const v1::RecordedSubmarine& moved) const {
+        return {vectorIn({moved.x(), moved.y(), moved.z()}),
                 vectorIn({moved.velocity_x(), moved.velocity_y(), moved.velocity_z()})};
-        } else if (message.has_steering()) {
-            const v1::RecordedSteering& s = message.steering();
-            input.input = steeringIn({s.ahead(), s.aside(), s.up(), s.turn(), s.tilt()});
-        } else if (message.has_clock()) {
-            input.input = clockIn(message.clock());
-        } else if (message.has_hands()) {
-            input.input = handsIn(message.hands());
-        } else if (message.has_drawing()) {
-            input.input = drawingIn(message.drawing());
-        } else if (message.has_departure()) {
-            if (message.departure().fish() >= fish_) fail("has a drawing that cannot be");
-            input.input = RecordedDeparture{message.departure().fish()};
-        } else {
-            fail("has an input that this program does not know");
+    }
+
+    RecordedDeparture departureIn(const v1::RecordedDeparture& departure) const {
+        if (departure.fish() >= fish_) fail("has a drawing that cannot be");
+        return {departure.fish()};
+    }
+
+    RecordedInput inputIn(const v1::RecordedInput& message) {
+        return {tickIn(message.has_tick(), message.tick(), lastInput_), whatIn(message)};
+    }
+
+    decltype(RecordedInput::input) whatIn(const v1::RecordedInput& message) const {
+        switch (message.input_case()) {
+            case v1::RecordedInput::kFood:
+                return foodIn(message.food());
+            case v1::RecordedInput::kSubmarine:
+                return submarineIn(message.submarine());
+            case v1::RecordedInput::kSteering: {
+                const v1::RecordedSteering& s = message.steering();
+                return steeringIn({s.ahead(), s.aside(), s.up(), s.turn(), s.tilt()});
+            }
+            case v1::RecordedInput::kClock:
+                return clockIn(message.clock());
+            case v1::RecordedInput::kHands:
+                return handsIn(message.hands());
+            case v1::RecordedInput::kDrawing:
+                return drawingIn(message.drawing());
+            case v1::RecordedInput::kDeparture:
+                return departureIn(message.departure());
+            case v1::RecordedInput::kDay:
+                return dayIn(message.day());
+            case v1::RecordedInput::kRelease:
+                return releaseIn(message.release());
+            default:
+                fail("has an input that this program does not know");
         }
-        return input;
     }
 
     // Names of files and builds are shown in terminals.

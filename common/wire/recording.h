@@ -76,6 +76,15 @@ struct RecordedDrawing {
 struct RecordedDeparture {
     std::uint32_t fish = 0;
 };
+// The time of day that the scene goes to within a time and keeps; nothing: that of its clock.
+struct RecordedDay {
+    std::optional<double> timeOfDay;
+    double glideSeconds = 0;
+};
+// A hunter of this species comes before the wall.
+struct RecordedRelease {
+    std::uint32_t species = 0;  // its place in the cast
+};
 // An input that reached the world after `tick` and before the next.
 struct RecordedInput {
     Tick tick;
@@ -85,7 +94,9 @@ struct RecordedInput {
                  RecordedClock,
                  WallHands,
                  RecordedDrawing,
-                 RecordedDeparture>
+                 RecordedDeparture,
+                 RecordedDay,
+                 RecordedRelease>
         input;
 };
 

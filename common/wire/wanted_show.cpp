@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/wire/wanted_show.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <span>
 #include <string_view>
 
@@ -50,6 +52,23 @@ std::optional<config::QualityTier> tierIn(const v1::WantedShow& show) {
     return config::tierAt(static_cast<std::uint32_t>(show.quality() - v1::WantedShow::LOW));
 }
 
+// As the enum has it, in small letters and with spaces.
+std::string dayName(v1::WantedShow::Day day) {
+    std::string name = v1::WantedShow::Day_Name(day);
+    std::ranges::transform(name, name.begin(), [](char letter) {
+        return letter == '_' ? ' ' : static_cast<char>(std::tolower(letter));
+    });
+    return name;
+}
+
+std::optional<v1::WantedShow::Day> dayNamed(const std::string& name) {
+    for (int number = v1::WantedShow::CLOCK; number <= v1::WantedShow::Day_MAX; ++number) {
+        const auto day = static_cast<v1::WantedShow::Day>(number);
+        if (dayName(day) == name) return day;
+    }
+    return std::nullopt;
+}
+
 void apply(v1::WantedShow& show, const v1::WantedShow& change) {
     if (change.has_scene()) show.clear_colour_returned();
     show.MergeFrom(change);
@@ -57,6 +76,13 @@ void apply(v1::WantedShow& show, const v1::WantedShow& change) {
 
 bool areSame(const v1::WantedShow& one, const v1::WantedShow& other) {
     return one.SerializeAsString() == other.SerializeAsString();
+}
+
+bool isOfFader(const v1::WantedShow& show) {
+    v1::WantedShow others = show;
+    others.clear_brightness();
+    others.clear_colour_returned();
+    return others.ByteSizeLong() == 0;
 }
 
 std::string textOf(const v1::WantedShow& show) {
@@ -74,6 +100,7 @@ std::string textOf(const v1::WantedShow& show) {
     if (show.has_guests()) add(text, "guests", onOff(show.guests()));
     if (show.has_drawings()) add(text, "drawings", onOff(show.drawings()));
     if (show.has_brightness()) add(text, "brightness", fmt::format("{:.2f}", show.brightness()));
+    if (show.has_day()) add(text, "day", dayName(show.day()));
     return text;
 }
 

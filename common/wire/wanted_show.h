@@ -12,6 +12,9 @@
 
 namespace aquarama::wire {
 
+// "dusk", "first light", "clock": the name of a time of day; nothing where none has this name.
+[[nodiscard]] std::string dayName(v1::WantedShow::Day day);
+[[nodiscard]] std::optional<v1::WantedShow::Day> dayNamed(const std::string& name);
 // A tier as the message has it; nothing: the finest that every node bears.
 [[nodiscard]] v1::WantedShow::Tier tierOf(const std::optional<config::QualityTier>& quality);
 // The tier of the message; nothing where it is AUTO or unset.
@@ -20,6 +23,8 @@ namespace aquarama::wire {
 void apply(v1::WantedShow& show, const v1::WantedShow& change);
 // Whether two have the same values, and the same values unset.
 [[nodiscard]] bool areSame(const v1::WantedShow& one, const v1::WantedShow& other);
+// Whether nothing is set but what faders give, ten times a second while they move.
+[[nodiscard]] bool isOfFader(const v1::WantedShow& show);
 // For logs: "scene reef, black on"; empty where nothing is set.
 [[nodiscard]] std::string textOf(const v1::WantedShow& show);
 

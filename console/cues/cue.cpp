@@ -57,30 +57,49 @@ std::optional<WantedShow::Shown> patternIn(const OscArgument& argument) {
     return pattern ? std::optional(static_cast<WantedShow::Shown>(*pattern)) : std::nullopt;
 }
 
+std::optional<WantedShow::Day> dayIn(const OscArgument& argument) {
+    const auto name = textIn(argument);
+    return name ? wire::dayNamed(*name) : std::nullopt;
+}
+
 // Sets a value of the show; false where the argument is none.
 template <auto read, auto set>
-bool take(const OscArgument& argument, WantedShow& show) {
+bool take(const OscArgument& argument, v1::Order& order) {
     const auto value = read(argument);
-    if (value) (show.*set)(*value);
+    if (value) (order.mutable_show()->*set)(*value);
     return value.has_value();
 }
 
-// What is no UTF-8 would be no message to the master.
-bool takeScene(const OscArgument& argument, WantedShow& show) {
+// A name as the master takes it: what is no UTF-8 would be no message to it.
+std::optional<std::string> nameIn(const OscArgument& argument) {
     const auto name = textIn(argument);
-    if (name) show.set_scene(*name);
-    return name && legible(*name) == *name && config::keepsRules(show);
+    return name && legible(*name) == *name ? name : std::nullopt;
+}
+
+bool takeScene(const OscArgument& argument, v1::Order& order) {
+    return take<nameIn, &WantedShow::set_scene<const std::string&>>(argument, order) &&
+           config::keepsRules(order.show());
+}
+
+bool takeRelease(const OscArgument& argument, v1::Order& order) {
+    const auto species = nameIn(argument);
+    if (species) order.mutable_release()->set_species(*species);
+    return species && config::keepsRules(order.release());
 }
 
 // What an address takes: its reader, and the argument in words.
 struct Kind {
-    bool (*take)(const OscArgument& argument, WantedShow& show);
+    bool (*take)(const OscArgument& argument, v1::Order& order);
     const char* wanted;
 };
 
 const std::map<std::string_view, Kind>& kinds() {
     static const std::map<std::string_view, Kind> kAll{
         {"/aquarama/scene", {takeScene, "the name of a scene, a text"}},
+        {"/aquarama/day",
+         {take<dayIn, &WantedShow::set_day>,
+          "dawn, morning, noon, afternoon, sunset, dusk, night, first light or clock, a text"}},
+        {"/aquarama/release", {takeRelease, "the name of a species, a text"}},
         {"/aquarama/quality",
          {take<tierIn, &WantedShow::set_quality>, "low, medium, high, ultra or auto, or 0 to 3"}},
         {"/aquarama/pattern", {take<patternIn, &WantedShow::set_pattern>, "world, grid or grey"}},
@@ -104,7 +123,7 @@ Cue cueOf(const osc::OscMessage& message) {
         return {.problem = "there is no such address; docs/cues.md lists them"};
     Cue cue;
     const bool isOne = message.arguments.size() == 1;
-    if (!isOne || !kind->second.take(message.arguments[0], cue.show))
+    if (!isOne || !kind->second.take(message.arguments[0], cue.order))
         return {.problem = std::string("it takes one argument: ") + kind->second.wanted};
     return cue;
 }

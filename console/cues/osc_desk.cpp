@@ -62,8 +62,7 @@ void OscDesk::take(const config::UdpAddress& from, const osc::OscMessage& messag
     const Cue cue = cueOf(message);
     if (!cue.problem.empty()) return refuse(from, message.address, cue.problem);
     GivenCue& given = heard_[message.address];
-    given = {from, message.address, {}};
-    *given.order.mutable_show() = cue.show;
+    given = {from, message.address, cue.order};
 }
 
 // In the order of their addresses.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "common/wire/wanted_show.h"
+
 namespace aquarama::console {
 
 namespace {
@@ -28,6 +30,7 @@ std::vector<ShownValue> shownBy(const v1::StatusReply& status,
             {"colour", double{show.colourReturned}},
             {"guests", std::int64_t{status.guests()}},
             {"drawings", std::int64_t{status.drawings()}},
+            {"day", wire::dayName(status.has_day() ? status.day() : v1::WantedShow::CLOCK)},
             {"drawings_waiting", std::int64_t{drawings.waiting}},
             {"drawings_swimming", std::int64_t{drawings.swimming}},
             {"frame", static_cast<std::int64_t>(status.frame())},

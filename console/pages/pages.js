@@ -5,7 +5,7 @@ import {calibrationPage} from '/calibration.js';
 import {drawingsButton, drawingsPage, hasDrawings, touchWall, touchedPanel} from '/drawings.js';
 import {nodesPage} from '/nodes.js';
 import {schedulePage} from '/schedule.js';
-import {QUALITIES, button, channelsOf, chooser, conditionOf, dateTime, filter, holdButton, ms, namesOf,
+import {DAYS, QUALITIES, button, channelsOf, chooser, conditionOf, dateTime, dayOf, filter, holdButton, ms, namesOf,
   patternChooser, patternOf, percentOf, qualityOf, slider, state, t, time, views, wholeWall, word} from '/widgets.js';
 
 // --- the wall
@@ -103,6 +103,8 @@ const wallPage = {
       <section class="panel" aria-labelledby="shown"><h2 id="shown">${t('wall.shown')}</h2><div class="choosers">
         ${chooser(link, 'scene', link.known.snapshot.scenes, link.shown.scene, value => link.show({scene: value},
           `${t('wall.scene')}: ${word(value)}`))}
+        ${chooser(link, 'day', DAYS, dayOf(link), value => link.show({day: value.toUpperCase().replace(' ', '_')},
+          `${t('wall.day')}: ${word(value)}`))}
         ${chooser(link, 'quality', QUALITIES, qualityOf(link), value => link.show({quality: value.toUpperCase()},
         `${t('wall.quality')}: ${word(value)}`))}
         ${patternChooser(link)}

@@ -55,9 +55,12 @@ export const button = (label, act, {disabled = false, pressed, of = nothing} = {
 
 export const QUALITIES = ['low', 'medium', 'high', 'ultra', 'auto'];
 export const PATTERNS = ['world', 'grid', 'grey'];
+export const DAYS = ['clock', 'dawn', 'morning', 'noon', 'afternoon', 'sunset', 'dusk', 'night', 'first light'];
 // The quality and the pattern that the wall shows, as in the lists above; undefined before a master was heard.
 export const qualityOf = link => QUALITIES[link.shown.quality];
 export const patternOf = link => link.shown.pattern?.replace('PATTERN_', '').toLowerCase();
+// The time of day that is wanted: FIRST_LIGHT is "first light".
+export const dayOf = link => (link.status.day ?? 'CLOCK').toLowerCase().replace('_', ' ');
 // The condition of a NodeStatus, as in SHAPES: NODE_IN_STEP is "in step".
 export const conditionOf = node => node.condition.replace('NODE_', '').toLowerCase().replace('_', ' ');
 export const channelsOf = link => link.known.snapshot?.channels ?? [];

@@ -21,6 +21,8 @@ constexpr float kBehindMetres = 1.2F;
 // Of the place where it shows itself: ahead, and to its maker's side.
 constexpr float kAheadMetres = 1.9F;
 constexpr float kToMakerMetres = 0.8F;
+// Of the place to which a hunter comes, ahead.
+constexpr float kHunterAheadMetres = 2.6F;
 // So near it is there.
 constexpr float kThereMetres = 0.8F;
 // Room about such places to sand, surface, rocks and the border of the water.
@@ -89,6 +91,10 @@ glm::vec3 greetingPlaceOf(const fish::Wearers& wearers,
                        wearers.right * (kToMakerMetres * static_cast<float>(wearer.aside)));
 }
 
+glm::vec3 hunterPlaceOf(const fish::Wearers& wearers, const surroundings::Obstacles& obstacles) {
+    return inWater(obstacles, wearers.eye + wearers.ahead * kHunterAheadMetres);
+}
+
 bool isAt(glm::vec3 position, glm::vec3 place) {
     return place::lengthOf(place - position) < kThereMetres;
 }
@@ -109,11 +115,22 @@ glm::vec3 wayOf(const fish::Wearers& wearers,
     return place::directionOf(goal - position, otherwise);
 }
 
+// Of a hunter that is on its way; it makes way for nobody.
+fish::Course comingTo(const Situation& situation, glm::vec3 place) {
+    const Senses& senses = situation.senses;
+    const glm::vec3 way = place::directionOf(place - senses.position, senses.heading);
+    return heading(situation, way * kLed + roomFrom(situation), situation.parameters.fast);
+}
+
 }  // namespace
 
 fish::Course guided(const Situation& situation,
                     const fish::Mind& mind,
                     const fish::Course& course) {
+    const fish::ReleasedHunters* const released = situation.environment.released;
+    const bool isComing = released != nullptr && released->has(situation.fish) &&
+                          mind.intention != fish::Intention::AvoidObstacle;
+    if (isComing) return comingTo(situation, released->place);
     const fish::Wearers* const wearers = situation.environment.wearers;
     const fish::Wearer* const wearer = wearers == nullptr ? nullptr : wearers->of(situation.fish);
     if (wearer == nullptr || wearer->visit == fish::Visit::Stays || !isLed(mind.intention))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ways of a fish with a visitor's drawing that enters or leaves: past the edge of the wall
-// before the viewer, and back behind it.
+// The ways of a fish that is led: with a visitor's drawing past the edge of the wall before the
+// viewer, and back behind it; a hunter that a cue has released, before the viewer.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -19,10 +19,15 @@ namespace aquarama::behaviour {
                                         const fish::Wearer& wearer,
                                         const surroundings::Obstacles& obstacles);
 
+// Where a hunter that a cue has released comes to: before the viewer, in the water.
+[[nodiscard]] glm::vec3 hunterPlaceOf(const fish::Wearers& wearers,
+                                      const surroundings::Obstacles& obstacles);
+
 // Whether a fish has come to such a place.
 [[nodiscard]] bool isAt(glm::vec3 position, glm::vec3 place);
 
-// The course of a fish, led where it enters or leaves. What flees or avoids is not led.
+// The course of a fish, led where it enters or leaves, or comes as a released hunter. What flees or
+// avoids is not led; a hunter gives way to obstacles alone.
 [[nodiscard]] fish::Course guided(const Situation& situation,
                                   const fish::Mind& mind,
                                   const fish::Course& course);

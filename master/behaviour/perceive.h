@@ -15,6 +15,7 @@
 #include "master/behaviour/neighbours.h"
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
+#include "master/fish/released.h"
 #include "master/fish/secondary_controller.h"
 #include "master/fish/wearers.h"
 #include "master/surroundings/surroundings.h"
@@ -38,6 +39,8 @@ struct Environment {
     fish::Adaptation adaptation;
     // Fish with visitors' drawings; null: none.
     const fish::Wearers* wearers = nullptr;
+    // Those that are on their way; null: none is.
+    const fish::ReleasedHunters* released = nullptr;
 };
 
 // Stimuli (Tu 1996, section 5.2): what the nearness of food or of a mate adds to a drive.

@@ -11,6 +11,7 @@
 
 #include "common/base/characters.h"
 #include "common/motion/motor.h"
+#include "master/conductor/hall_clock.h"
 
 namespace aquarama::conductor {
 namespace {
@@ -90,6 +91,7 @@ Conductor::Conductor(const config::Rig& rig,
               }},
       roster_{rig, options_.expected},
       drawings_{rig.drawings, options_.drawingsAt},
+      day_{options_.hoursAt},
       orders_{limitsOf(options_), roster_, sender_, drawings_},
       looks_{sourcesOf(options_),
              welcomeTo(rig, options_, *channels_),
@@ -134,7 +136,7 @@ ShowReport Conductor::run() {
         hear(now);
         visitors_.answer();
         changeShow(now);
-        followHall(now);
+        if (!isLockstep()) day_.turn(*simulationThread_, orders_.control().wanted().day(), now);
         presentation_.turn(now);
         nameMissing(now);
         const v1::WantedShow& wanted = orders_.control().wanted();
@@ -425,6 +427,7 @@ void Conductor::obey(const net::FromPeer& from, const v1::Order& order, net::Mom
     *message.mutable_order_reply() = orders_.obey(user, order, presentation_.unpublished(), now);
     if (simulationThread_ && !isLockstep())
         simulationThread_->freeze(orders_.control().wanted().freeze());
+    for (const world::ReleaseHunter& called : orders_.hunters().take()) bring(called, "a hunter");
     sender_.say(from.peer, std::move(message));
 }
 
@@ -442,6 +445,7 @@ v1::Envelope Conductor::status(net::Moment now) const {
     *reply.mutable_show() = shown(now);
     reply.set_guests(orders_.control().wanted().guests());
     reply.set_drawings(orders_.control().wanted().drawings());
+    reply.set_day(orders_.control().wanted().day());
     if (const auto version = drawings_.version()) reply.set_drawings_version(*version);
     reply.set_change(legible(orders_.control().waitingFor(), wire::kMostReasonBytes));
     gauges_.writeStatus(reply, report_, roster_, presentation_.barrier());
@@ -470,24 +474,12 @@ void Conductor::changeShow(net::Moment now) {
     keeper_.keep(control.kept());
 }
 
-void Conductor::followHall(net::Moment now) {
-    constexpr auto kBetween = std::chrono::seconds(kClockCorrectionSeconds);
-    if (!clockSet_ || now - *clockSet_ < kBetween) return;
-    const HallClock hall = readHallClock(options_.hoursAt, unixNow());
-    const auto correct = [hall](Simulation& simulation) {
-        simulation.apply(hall.correction(double{simulation.snapshot().timeOfDay}));
-    };
-    if (simulationThread_->betweenTicks(correct)) clockSet_ = now;
-}
-
 void Conductor::startSimulation(std::uint32_t fish) {
     // In lockstep no clock is read.
-    clockSet_.reset();
-    if (!isLockstep() && simulation_->followsHall()) {
-        simulation_->apply(readHallClock(options_.hoursAt, unixNow()).setting());
-        clockSet_ = net::monotonicNow();
-    }
+    if (!isLockstep())
+        day_.begin(*simulation_, orders_.control().wanted().day(), net::monotonicNow());
     drawings_.enter(simulation_->drawingSlots());
+    orders_.hunters().enter(simulation_->hunters());
     std::optional<Tick> lastTick;
     if (isLockstep() && options_.frames)
         lastTick = Tick{simulation_->tick().value + *options_.frames - 1};
@@ -508,10 +500,13 @@ void Conductor::turnDrawings(const Snapshot& newest) {
                                        orders_.control().wanted().drawings(),
                                        net::monotonicNow(),
                                        static_cast<std::uint64_t>(unixNow()));
-    for (const world::WorldInput& input : inputs)
-        if (!simulationThread_->betweenTicks(
-                [input](Simulation& simulation) { simulation.apply(input); }))
-            logWarning("a drawing waits: the world is busy");
+    for (const world::WorldInput& input : inputs) bring(input, "a drawing");
+}
+
+void Conductor::bring(const world::WorldInput& input, const char* what) {
+    if (!simulationThread_->betweenTicks(
+            [input](Simulation& simulation) { simulation.apply(input); }))
+        logWarning("{} waits: the world is busy", what);
 }
 
 // On the way to the next scene it is noted when light went, for the log, and which frame is black.

@@ -20,11 +20,11 @@
 #include "common/wire/parts.h"
 #include "master/conductor/drawings.h"
 #include "master/conductor/gauges.h"
-#include "master/conductor/hall_clock.h"
 #include "master/conductor/looks.h"
 #include "master/conductor/orders.h"
 #include "master/conductor/presentation.h"
 #include "master/conductor/roster.h"
+#include "master/conductor/scene_day.h"
 #include "master/conductor/sender.h"
 #include "master/conductor/simulation.h"
 #include "master/conductor/simulation_thread.h"
@@ -114,8 +114,8 @@ class Conductor final : private FrameSource {
     void startSimulation(std::uint32_t fish);
     // What becomes of visitors' drawings, once a second, by where the fish of a tick are.
     void turnDrawings(const Snapshot& newest);
-    // Corrects the clock of a scene that follows the hall, every few minutes.
-    void followHall(net::Moment now);
+    // Brings an input to the world; `what` names it where the world is too busy.
+    void bring(const world::WorldInput& input, const char* what);
     // What the wall shows now, with the brightness of the last frame.
     [[nodiscard]] v1::Show shown(net::Moment now) const;
     // The channel of the window that steers, "pilot" for anybody else, empty for nobody.
@@ -131,6 +131,7 @@ class Conductor final : private FrameSource {
     Roster roster_;
     wire::PartAssembly parts_;
     Drawings drawings_;
+    SceneDay day_;
     Orders orders_;
     Looks looks_;
     ShowKeeper keeper_;
@@ -148,7 +149,6 @@ class Conductor final : private FrameSource {
     net::Moment lastRoll_ = net::monotonicNow();  // when missing nodes were last named
     v1::Show shown_;                              // of the frame that was last published
     Dimming dimming_;
-    std::optional<net::Moment> clockSet_;                 // of a scene that follows the hall
     std::unique_ptr<SimulationThread> simulationThread_;  // last: it uses all of the above
 };
 

@@ -16,6 +16,9 @@ namespace {
 // A node answers at once; its network may lose the order or the answer.
 constexpr net::Duration kNodesPatience = std::chrono::seconds(3);
 
+// A fader that moves no more has come to rest after this.
+constexpr net::Duration kFaderRests = std::chrono::seconds(1);
+
 Answer refused(std::string why) {
     return {Outcome::Refused, std::move(why)};
 }
@@ -42,13 +45,11 @@ v1::OrderReply Orders::obey(const std::string& user,
     else if (order.has_sign())
         answer = hold(order.sign(), now);
     else if (order.has_show())
-        answer = change(user, order);
+        answer = change(user, order, now);
     else if (order.has_drawing() || order.has_moderation())
         answer = takeDrawing(user, order, drawing);
-    else if (const Answer* known = book_.find(order.request()))
-        answer = *known;
     else
-        answer = order.has_power() ? power(user, order, now) : restart(user, order);
+        answer = carryOutOnce(user, order, now);
     v1::OrderReply reply;
     reply.set_request(order.request());
     reply.set_outcome(static_cast<v1::OrderReply::Outcome>(answer.outcome));
@@ -59,12 +60,31 @@ v1::OrderReply Orders::obey(const std::string& user,
     return reply;
 }
 
-Answer Orders::change(const std::string& user, const v1::Order& order) {
+Answer Orders::carryOutOnce(const std::string& user, const v1::Order& order, net::Moment now) {
+    if (const Answer* known = book_.find(order.request())) return *known;
+    if (order.has_release()) return release(user, order);
+    return order.has_power() ? power(user, order, now) : restart(user, order);
+}
+
+Answer Orders::release(const std::string& user, const v1::Order& order) {
+    std::string objection = objectionToRelease();
+    if (objection.empty()) objection = hunters_.call(order.release().species());
+    if (!objection.empty()) return refused(std::move(objection));
+    logInfo("{} releases a {}", user, order.release().species());
+    return book_.enter(order.request(), {});
+}
+
+Answer Orders::change(const std::string& user, const v1::Order& order, net::Moment now) {
     if (std::string objection = objectionTo(order.show()); !objection.empty())
         return refused(std::move(objection));
     const std::uint64_t before = control_.version();
     Answer answer = control_.set(order.request(), order.show());
-    if (control_.version() != before) logInfo("{} sets {}", user, wire::textOf(order.show()));
+    if (control_.version() == before) return answer;
+    std::string line = user + " sets " + wire::textOf(order.show());
+    if (wire::isOfFader(order.show()))
+        fader_ = {std::move(line), now};
+    else
+        logInfo("{}", line);
     return answer;
 }
 
@@ -80,6 +100,12 @@ std::string Orders::objectionTo(const v1::WantedShow& show) const {
     if (show.quality() == v1::WantedShow::AUTO && !roster_.measuredTier())
         return "not every node has measured which quality it bears; that is done when a show "
                "starts without a chosen quality";
+    return {};
+}
+
+std::string Orders::objectionToRelease() const {
+    if (limits_.isLockstep) return "a show in lockstep is the same every time; run it with --live";
+    if (control_.wanted().freeze()) return "the world is frozen; set freeze off";
     return {};
 }
 
@@ -214,6 +240,8 @@ void Orders::hear(std::size_t node, const v1::OrderReply& reply) {
 
 void Orders::giveUpTheSilent(net::Moment now) {
     sign_.expire(now);
+    if (!fader_.told.empty() && now - fader_.moved > kFaderRests)
+        logInfo("{}", std::exchange(fader_.told, {}));
     if (scan_.expires(now)) logWarning("a scan has fallen silent: the wall shows what it did");
     std::erase_if(passedOn_, [&](const PassedOn& order) {
         if (now - order.said < kNodesPatience) return false;

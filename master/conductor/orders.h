@@ -10,11 +10,18 @@
 #include "common/base/units.h"
 #include "common/wire/messages.h"
 #include "master/conductor/drawings.h"
+#include "master/conductor/hunter_cues.h"
 #include "master/conductor/roster.h"
 #include "master/conductor/sender.h"
 #include "master/conductor/show_control.h"
 
 namespace aquarama::conductor {
+
+// A fader that somebody moves: it is told once it has come to rest.
+struct MovedFader {
+    std::string told;  // the line; empty: none moves
+    net::Moment moved{};
+};
 
 // What a show allows.
 struct OrderLimits {
@@ -42,9 +49,10 @@ class Orders {
     // Gives up nodes that do not answer and a scan that has fallen silent.
     void giveUpTheSilent(net::Moment now);
 
-    // What the wall shows or changes to, and who holds it for a scan.
+    // What the wall shows or changes to, hunters that are called, and who holds it for a scan.
     [[nodiscard]] ShowControl& control() { return control_; }
     [[nodiscard]] const ShowControl& control() const { return control_; }
+    [[nodiscard]] HunterCues& hunters() { return hunters_; }
     [[nodiscard]] const ScanHold& scan() const { return scan_; }
     [[nodiscard]] const SignHold& sign() const { return sign_; }
 
@@ -55,7 +63,7 @@ class Orders {
         std::size_t node = 0;
         net::Moment said{};
     };
-    [[nodiscard]] Answer change(const std::string& user, const v1::Order& order);
+    [[nodiscard]] Answer change(const std::string& user, const v1::Order& order, net::Moment now);
     [[nodiscard]] Answer hold(const std::string& user,
                               const v1::HeldScan& scan,
                               Frame unpublished,
@@ -63,11 +71,17 @@ class Orders {
     [[nodiscard]] Answer takeDrawing(const std::string& user,
                                      const v1::Order& order,
                                      std::uint32_t& number);
+    // An order that is carried out once, by its request.
+    [[nodiscard]] Answer carryOutOnce(const std::string& user,
+                                      const v1::Order& order,
+                                      net::Moment now);
+    [[nodiscard]] Answer release(const std::string& user, const v1::Order& order);
     [[nodiscard]] Answer restart(const std::string& user, const v1::Order& order);
     [[nodiscard]] Answer power(const std::string& user, const v1::Order& order, net::Moment now);
     [[nodiscard]] Answer hold(const v1::HeldSign& sign, net::Moment now);
     // Why an order is refused; empty where it is not.
     [[nodiscard]] std::string objectionTo(const v1::WantedShow& show) const;
+    [[nodiscard]] std::string objectionToRelease() const;
     [[nodiscard]] std::string objectionToScene(const std::string& scene) const;
     [[nodiscard]] std::string objectionToScan() const;
     [[nodiscard]] std::string objectionToEnding(const std::string& channel) const;
@@ -81,11 +95,13 @@ class Orders {
     Roster& roster_;
     const Sender& sender_;
     Drawings& drawings_;
+    HunterCues hunters_;
     ask::OrderBook book_;
     ShowControl control_;
     ScanHold scan_;
     SignHold sign_;
     std::vector<PassedOn> passedOn_;
+    MovedFader fader_;
 };
 
 }  // namespace aquarama::conductor

@@ -11,12 +11,24 @@ namespace {
 
 constexpr std::chrono::duration<float> kFade{0.5F};
 
-// The values that come with another look only.
-v1::WantedShow ofLook(const v1::WantedShow& show) {
+// The values that hold at once, whatever look is shown.
+v1::WantedShow ofAnyLook(const v1::WantedShow& show) {
     v1::WantedShow values = show;
-    values.clear_black();
-    values.clear_freeze();
-    values.clear_brightness();
+    values.clear_version();
+    values.clear_scene();
+    values.clear_quality();
+    values.clear_pattern();
+    values.clear_colour_returned();
+    return values;
+}
+
+// The others.
+v1::WantedShow ofLook(const v1::WantedShow& show) {
+    v1::WantedShow values;
+    if (show.has_scene()) values.set_scene(show.scene());
+    if (show.has_quality()) values.set_quality(show.quality());
+    if (show.has_pattern()) values.set_pattern(show.pattern());
+    if (show.has_colour_returned()) values.set_colour_returned(show.colour_returned());
     return values;
 }
 
@@ -30,6 +42,7 @@ v1::WantedShow completed(const v1::WantedShow& show) {
     all.set_guests(true);
     all.set_drawings(true);
     all.set_brightness(1);
+    all.set_day(v1::WantedShow::CLOCK);
     all.MergeFrom(show);
     return all;
 }
@@ -101,18 +114,7 @@ Answer ShowControl::set(std::uint64_t request, const v1::WantedShow& change) {
                             "another change is under way (" + waitingFor_ + "); wait for its end"});
     if (!wire::areSame(goal, wanted_)) ++version_;
     // At once, whatever else is under way.
-    for (v1::WantedShow* show : {&wanted_, &next_}) {
-        show->set_black(goal.black());
-        show->set_freeze(goal.freeze());
-        show->set_guests(goal.guests());
-        show->set_drawings(goal.drawings());
-        show->set_brightness(goal.brightness());
-    }
-    if (change.has_black()) kept_.set_black(change.black());
-    if (change.has_freeze()) kept_.set_freeze(change.freeze());
-    if (change.has_guests()) kept_.set_guests(change.guests());
-    if (change.has_drawings()) kept_.set_drawings(change.drawings());
-    if (change.has_brightness()) kept_.set_brightness(change.brightness());
+    for (v1::WantedShow* show : {&wanted_, &next_, &kept_}) show->MergeFrom(ofAnyLook(change));
     if (isAnotherLook) return begin(request, goal, change);
     wanted_.set_pattern(goal.pattern());
     next_.set_pattern(goal.pattern());

@@ -57,6 +57,12 @@ struct DrawingSlots {
     std::vector<std::uint32_t> worn = {};
 };
 
+// A species whose fish patrol, and come before the wall by a cue.
+struct Hunter {
+    std::string species;   // name
+    std::uint32_t at = 0;  // its place in the cast
+};
+
 // Called from the tick thread only.
 class Simulation {
   public:
@@ -73,6 +79,8 @@ class Simulation {
     [[nodiscard]] virtual bool followsHall() const { return false; }
     // Of each species that has any. They never change.
     [[nodiscard]] virtual std::vector<DrawingSlots> drawingSlots() const { return {}; }
+    // Those that world::ReleaseHunter calls. They never change.
+    [[nodiscard]] virtual std::vector<Hunter> hunters() const { return {}; }
 };
 
 }  // namespace aquarama::conductor

@@ -7,6 +7,8 @@
 #include <glm/trigonometric.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "common/wire/wanted_show.h"
+
 namespace aquarama::conductor {
 namespace {
 
@@ -41,7 +43,8 @@ std::string showText(const v1::StatusReply& status) {
     const auto onOff = [](bool on) { return on ? "on" : "off"; };
     std::string text = fmt::format(
         "show          scene {}   quality {}   pattern {}   colour {:.2f}   brightness {:.2f}   "
-        "black {}   freeze {}   guests {}   drawings {}   version {}   calibration {:016x}\n",
+        "black {}   freeze {}   guests {}   drawings {}   day {}   version {}   calibration "
+        "{:016x}\n",
         show.scene,
         config::nameOf(show.quality),
         wire::nameOf(show.pattern),
@@ -51,6 +54,7 @@ std::string showText(const v1::StatusReply& status) {
         onOff(show.frozen),
         onOff(status.guests()),
         onOff(status.drawings()),
+        wire::dayName(status.has_day() ? status.day() : v1::WantedShow::CLOCK),
         show.version,
         show.calibration);
     if (!status.change().empty()) text += fmt::format("to come       {}\n", status.change());

@@ -47,6 +47,13 @@ struct SpeciesParameters {
     return parameters.habits.role == config::Role::Prey || parameters.huntedBy != 0;
 }
 
+// Whether its fish patrol: hunters without a home that do not lie in wait.
+[[nodiscard]] inline bool patrols(const SpeciesParameters& parameters) {
+    const config::Habits& habits = parameters.habits;
+    return habits.role == config::Role::Predator && habits.home.kind == config::HomeKind::None &&
+           !habits.hunt.ambush && parameters.hunts != 0;
+}
+
 // Fish [first, last) that share a home; all of a species that keeps to no place.
 struct Household {
     std::uint32_t first, last;

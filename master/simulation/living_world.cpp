@@ -154,6 +154,14 @@ std::vector<conductor::DrawingSlots> LivingWorld::drawingSlots() const {
     return slots;
 }
 
+std::vector<conductor::Hunter> LivingWorld::hunters() const {
+    std::vector<conductor::Hunter> hunters;
+    for (const fish::SpeciesParameters& species : world_.speciesParameters())
+        if (fish::patrols(species) && species.first < species.last)
+            hunters.push_back({species_.at(species.kind), species.kind});
+    return hunters;
+}
+
 conductor::Explanation LivingWorld::explain(std::uint32_t fish) const {
     const auto insight = insightInto(world_, fish);
     return insight ? explanationOf(*insight, {world_.view(), species_}) : conductor::Explanation{};

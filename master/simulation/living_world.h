@@ -32,6 +32,7 @@ class LivingWorld : public conductor::Simulation {
         return world_.surroundings().climate.day.followsHall;
     }
     [[nodiscard]] std::vector<conductor::DrawingSlots> drawingSlots() const override;
+    [[nodiscard]] std::vector<conductor::Hunter> hunters() const override;
 
     // Goes on from a save: world::restore().
     void restore(std::span<const std::byte> state, const std::string& source) {

@@ -146,6 +146,12 @@ wire::RecordedDrawing recordedOne(const world::EnterDrawing& drawing) {
 wire::RecordedDeparture recordedOne(const world::LeaveDrawing& drawing) {
     return {drawing.fish};
 }
+wire::RecordedDay recordedOne(const world::SetDay& day) {
+    return {day.timeOfDay, day.glideSeconds};
+}
+wire::RecordedRelease recordedOne(const world::ReleaseHunter& cue) {
+    return {cue.species};
+}
 world::DropFood inputOfOne(const wire::RecordedFood& food) {
     return {food.position, food.pellets};
 }
@@ -166,6 +172,13 @@ world::LeaveDrawing inputOfOne(const wire::RecordedDeparture& departure) {
 }
 world::SetClock inputOfOne(const wire::RecordedClock& clock) {
     return {clock.timeOfDay, clock.lengthSeconds};
+}
+
+world::SetDay inputOfOne(const wire::RecordedDay& day) {
+    return {day.timeOfDay, day.glideSeconds};
+}
+world::ReleaseHunter inputOfOne(const wire::RecordedRelease& release) {
+    return {release.species};
 }
 
 }  // namespace

@@ -60,6 +60,9 @@ class RecordedWorld final : public SimulationDecorator {
     [[nodiscard]] std::vector<conductor::DrawingSlots> drawingSlots() const override {
         return world_.drawingSlots();
     }
+    [[nodiscard]] std::vector<conductor::Hunter> hunters() const override {
+        return world_.hunters();
+    }
 
   private:
     // The present tick and hash.

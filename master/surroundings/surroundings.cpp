@@ -55,6 +55,15 @@ float ballRadius(std::size_t fish, float lengthMetres) {
 // light.
 constexpr place::ByPhase kHuntersActive{0.5F, 0, 0, 0, 0.3F, 1, 1, 0.8F};
 
+// The time of day of a tick, and the light then.
+void takeTimeOf(Surroundings& surroundings, Tick tick) {
+    std::optional<DayCue>& cue = surroundings.dayCue;
+    if (cue && isOver(*cue, tick)) cue.reset();
+    const double clock = place::timeOfDayAt(surroundings.clock, tick);
+    surroundings.timeOfDay = cue ? timeOfDayAt(*cue, clock, tick) : clock;
+    surroundings.daylight = place::daylightAt(surroundings.climate.day, surroundings.timeOfDay);
+}
+
 }  // namespace
 
 Surroundings makeSurroundings(const config::Scene& scene,
@@ -83,14 +92,23 @@ Surroundings makeSurroundings(const config::Scene& scene,
 
 void setClock(Surroundings& surroundings, const place::DayClock& clock) {
     surroundings.clock = clock;
-    surroundings.timeOfDay = clock.timeOfDay;
-    surroundings.daylight = place::daylightAt(surroundings.climate.day, clock.timeOfDay);
+    takeTimeOf(surroundings, clock.since);
+}
+
+void setDay(Surroundings& surroundings,
+            std::optional<double> timeOfDay,
+            std::uint64_t ticks,
+            Tick tick) {
+    std::optional<DayCue>& cue = surroundings.dayCue;
+    const bool isTheSame = cue ? cue->holds == timeOfDay : !timeOfDay;
+    if (isTheSame) return;
+    const double goal = timeOfDay.value_or(place::timeOfDayAt(surroundings.clock, tick));
+    cue = {timeOfDay, tick, wayBetween(surroundings.timeOfDay, goal), ticks};
+    takeTimeOf(surroundings, tick);
 }
 
 void advanceSurroundings(Surroundings& surroundings, Tick tick, std::uint64_t unseen) {
-    surroundings.timeOfDay =
-        place::timeOfDayAt(surroundings.clock, unseen > 0 ? surroundings.clock.since : tick);
-    surroundings.daylight = place::daylightAt(surroundings.climate.day, surroundings.timeOfDay);
+    takeTimeOf(surroundings, unseen > 0 ? surroundings.clock.since : tick);
     surroundings.openCurrent = surroundings.current.open(
         unseen > 0 ? -static_cast<std::int64_t>(unseen) : static_cast<std::int64_t>(tick.value));
     if (unseen == 0) dropWhatIsDue(surroundings, tick);
@@ -117,7 +135,7 @@ std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroun
     hash = folded(hash, surroundings.turf.fill);
     for (const Structure& structure : surroundings.structures)
         hash = foldedOne(foldedOne(hash, structure.tiredOf), structure.fright);
-    hash = foldedHands(hash, surroundings.hands);
+    hash = foldedCue(foldedHands(hash, surroundings.hands), surroundings.dayCue);
     // A clock that nobody can set is a function of scene and tick.
     if (!surroundings.climate.day.followsHall) return hash;
     const place::DayClock& clock = surroundings.clock;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -16,6 +17,7 @@
 #include "common/place/place.h"
 #include "common/place/sites.h"
 #include "master/surroundings/climate.h"
+#include "master/surroundings/day_cue.h"
 #include "master/surroundings/food.h"
 #include "master/surroundings/hands.h"
 #include "master/surroundings/obstacles.h"
@@ -50,8 +52,10 @@ struct Surroundings {
     HeldHands hands = makeHands();
     // No fish sees farther than this.
     float clarityMetres = 12;
-    // The clock of the day, the time of day at this tick and the light of the sky then, 0 to 1.
+    // The clock of the day, the cue that holds instead, if any, the time of day at this tick and
+    // the light of the sky then, 0 to 1.
     place::DayClock clock;
+    std::optional<DayCue> dayCue = {};
     double timeOfDay = 0.5;
     float daylight = 1;
     // Velocity of the water far from boulders at this tick, metres a second.
@@ -69,6 +73,12 @@ struct Surroundings {
                                             float meanLengthMetres);
 // Sets the clock of the day at this tick. `clock` has a time of day of 0 to 1 (1 excluded).
 void setClock(Surroundings& surroundings, const place::DayClock& clock);
+// From this tick on the scene goes to a time of day, in so many ticks, and keeps it; nothing: it
+// goes back to that of its clock.
+void setDay(Surroundings& surroundings,
+            std::optional<double> timeOfDay,
+            std::uint64_t ticks,
+            Tick tick);
 // Advances the day, the current, scheduled food and drifting food by one tick. Of the last `unseen`
 // ticks before a show begins nothing is scheduled, and the time of day is that of its beginning.
 void advanceSurroundings(Surroundings& surroundings, Tick tick, std::uint64_t unseen = 0);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -53,9 +54,27 @@ struct LeaveDrawing {
     std::uint32_t fish = 0;
 };
 
+// The scene goes to a time of day and keeps it, or goes back to that of its clock.
+struct SetDay {
+    std::optional<double> timeOfDay;  // 0 to 1, 1 excluded; nothing: the clock's
+    double glideSeconds = 0;          // so long it takes
+};
+
+// A hunter that patrols comes before the wall, and hunts. Without effect on other species.
+struct ReleaseHunter {
+    std::uint32_t species = 0;  // its place in the cast
+};
+
 // World::apply() takes it, between two ticks.
-using WorldInput = std::
-    variant<DropFood, MoveSubmarine, Steering, SetClock, WallHands, EnterDrawing, LeaveDrawing>;
+using WorldInput = std::variant<DropFood,
+                                MoveSubmarine,
+                                Steering,
+                                SetClock,
+                                WallHands,
+                                EnterDrawing,
+                                LeaveDrawing,
+                                SetDay,
+                                ReleaseHunter>;
 
 // Counters of what happened since tick 0.
 struct WorldCounts {

@@ -47,13 +47,15 @@ std::uint64_t FishColumns::hash(Tick tick) const {
     hash = folded(hash, memory.heldUntil);
     hash = folded(hash, memory.patience);
     hash = folded(hash, memory.recoversAt);
+    for (const fish::Released& one : released.fish)
+        hash = foldedOne(foldedOne(hash, one.fish), one.since.value);
     // The only place where kAway is kept as a sign.
     return fish::foldedWearers(folded(hash, view.signs), wearers);
 }
 
 std::size_t FishColumns::bytes() const {
     return states.bytes() + commands.bytes() + minds.bytes() + memory.bytes() + view.bytes() +
-           bytesIn(traits, courses, thought, rushes, wearers.ranges, wearers.fish);
+           bytesIn(traits, courses, thought, rushes, released.fish, wearers.ranges, wearers.fish);
 }
 
 }  // namespace aquarama::world

@@ -11,6 +11,7 @@
 #include "common/motion/motor.h"
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
+#include "master/fish/released.h"
 #include "master/fish/secondary_controller.h"
 #include "master/fish/wearers.h"
 
@@ -34,6 +35,8 @@ struct FishColumns {
     fish::FishView view;
     // Those that wear visitors' drawings, or wait for them.
     fish::Wearers wearers;
+    // Hunters that a cue has released, and that are on their way.
+    fish::ReleasedHunters released;
     // Predators that began to rush at the last tick, by index.
     std::vector<std::uint32_t> rushes;
 

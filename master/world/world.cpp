@@ -18,6 +18,7 @@
 #include "master/fish/minds.h"
 #include "master/surroundings/contact.h"
 #include "master/world/beginning.h"
+#include "master/world/release.h"
 #include "master/world/visits.h"
 
 namespace aquarama::world {
@@ -92,6 +93,10 @@ fish::Mind beginningMind(const fish::SpeciesParameters& parameters,
         fish::setMood(
             parameters, static_cast<float>(start->hunger), static_cast<float>(start->libido), mind);
     return mind;
+}
+
+std::uint64_t ticksIn(double seconds) {
+    return static_cast<std::uint64_t>(seconds * static_cast<double>(kTicksPerSecond));
 }
 
 // Half the width of a body, as a share of its length.
@@ -289,11 +294,13 @@ void World::save(WorldState& state) const {
     state.memory = columns_.memory;
     state.signs = columns_.view.signs;
     state.wearers = columns_.wearers.fish;
+    state.released = columns_.released.fish;
     state.food = surroundings_.food;
     state.turf = surroundings_.turf.fill;
     state.structures = surroundings_.structures;
     state.hands = surroundings_.hands;
     state.clock = surroundings_.clock;
+    state.dayCue = surroundings_.dayCue;
     state.timeOfDay = surroundings_.timeOfDay;
     state.nextDrop = surroundings_.nextDrop;
     state.pilot = pilot_;
@@ -312,12 +319,15 @@ void World::restore(const WorldState& state) {
     columns_.courses = state.courses;
     columns_.memory = state.memory;
     columns_.wearers.fish = state.wearers;
+    columns_.released.fish = state.released;
     surroundings_.food = state.food;
     surroundings_.turf.fill = state.turf;
     surroundings_.structures = state.structures;
     surroundings_.hands = state.hands;
-    surroundings::setClock(surroundings_, state.clock);
+    surroundings_.clock = state.clock;
+    surroundings_.dayCue = state.dayCue;
     surroundings_.timeOfDay = state.timeOfDay;
+    surroundings_.daylight = place::daylightAt(surroundings_.climate.day, state.timeOfDay);
     surroundings_.nextDrop = static_cast<std::size_t>(state.nextDrop);
     pilot_ = state.pilot;
     surroundings_.submarine.position = pilot_.vessel.position;
@@ -359,6 +369,9 @@ void World::apply(const WorldInput& input) {
     if (const auto* drawing = std::get_if<EnterDrawing>(&input))
         enter(waterNow(), *drawing, columns_);
     if (const auto* drawing = std::get_if<LeaveDrawing>(&input)) leave(*drawing, tick_, columns_);
+    if (const auto* day = std::get_if<SetDay>(&input))
+        surroundings::setDay(surroundings_, day->timeOfDay, ticksIn(day->glideSeconds), tick_);
+    if (const auto* cue = std::get_if<ReleaseHunter>(&input)) release(waterNow(), *cue, columns_);
     if (const auto* steered = std::get_if<Steering>(&input))
         surroundings::steer(pilot_, voyage_, *steered, tick_);
 }
@@ -385,6 +398,7 @@ void World::advance() {
     receive();
     if (unseen_ == 0) moveSubmarine();
     leadWearers(waterNow(), columns_, absences_);
+    leadReleased(waterNow(), columns_);
     beginTick();
     swallow();
     findRushes();
@@ -458,7 +472,8 @@ behaviour::Environment World::environment() const {
             .seed = seed_,
             .tick = tick_,
             .adaptation = adaptation_,
-            .wearers = columns_.wearers.fish.empty() ? nullptr : &columns_.wearers};
+            .wearers = columns_.wearers.fish.empty() ? nullptr : &columns_.wearers,
+            .released = columns_.released.fish.empty() ? nullptr : &columns_.released};
 }
 
 // Thoughts of this tick. Fish think in the order in which they stand in the grid, because

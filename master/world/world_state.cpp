@@ -27,8 +27,8 @@ constexpr std::size_t kDigestBytes = 32;
 constexpr float kMostFloat = 1e5F;  // of metres, speeds and shares: far beyond any water
 
 // Every number of a state in a fixed order, for those who write and read it: on(numbers and
-// columns...), on.list(list, members...) of a list that keeps its length, and
-// on.growing(list, most, members...) of one that does not.
+// columns...), on.list(list, members...) of a list that keeps its length,
+// on.growing(list, most, members...) of one that does not, and on.optional(value, members...).
 
 template <class State, class Visitor>
 void visitMotion(State& state, Visitor& on) {
@@ -82,6 +82,8 @@ void visitSurroundings(State& state, Visitor& on) {
                &HeldHand::place);
     on(state.hands.heard);
     on(state.clock.since, state.clock.timeOfDay, state.clock.lengthSeconds);
+    using surroundings::DayCue;
+    on.optional(state.dayCue, &DayCue::holds, &DayCue::since, &DayCue::way, &DayCue::ticks);
     on(state.timeOfDay, state.nextDrop);
     auto& pilot = state.pilot;
     on(pilot.vessel.position, pilot.vessel.velocity, pilot.vessel.attitude);
@@ -96,12 +98,13 @@ void visitState(State& state, Visitor& on) {
     visitMotion(state, on);
     visitMinds(state, on);
     visitSurroundings(state, on);
-    const std::size_t fish = state.states.size();
+    const std::size_t all = state.states.size();
     on(state.goal.position, state.goal.velocityMetresPerSecond);
     on(state.goal.mill, state.goal.flatness);
     using Swallow = Meals::Swallow;
-    on.growing(state.meals.swallows, fish, &Swallow::fish, &Swallow::particle, &Swallow::ticksLeft);
-    on.growing(state.absences, fish, &Absence::fish, &Absence::until);
+    on.growing(state.meals.swallows, all, &Swallow::fish, &Swallow::particle, &Swallow::ticksLeft);
+    on.growing(state.released, all, &fish::Released::fish, &fish::Released::since);
+    on.growing(state.absences, all, &Absence::fish, &Absence::until);
     auto& counts = state.counts;
     on(counts.meals, counts.catches, counts.spawnings, counts.returns);
     on(counts.bites, counts.puffs, counts.charges);
@@ -133,8 +136,17 @@ struct Writer {
     void growing(const List& values, std::size_t, Members... members) {
         list(values, members...);
     }
+    template <class Value, class... Members>
+    void optional(const std::optional<Value>& value, Members... members) {
+        one(value.has_value());
+        if (value) (one((*value).*members), ...);
+    }
 
   private:
+    void one(const std::optional<double>& value) {
+        one(value.has_value());
+        one(value.value_or(0));
+    }
     template <Plain Value>
     void one(const Value& value) {
         out.numbers(std::span<const Value>(&value, 1));
@@ -169,8 +181,24 @@ struct Reader {
         values.resize(requireLength(0, most));
         (read(values, members), ...);
     }
+    template <class Value, class... Members>
+    void optional(std::optional<Value>& value, Members... members) {
+        bool has = false;
+        one(has);
+        value.reset();
+        if (!has) return;
+        value.emplace();
+        (one((*value).*members), ...);
+    }
 
   private:
+    void one(std::optional<double>& value) {
+        bool has = false;
+        double number = 0;
+        one(has);
+        one(number);
+        if (has) value = number;
+    }
     std::size_t requireLength(std::size_t least, std::size_t most) {
         const auto length = in.unsignedNumber<std::uint64_t>();
         if (length < least || length > most)
@@ -229,6 +257,9 @@ struct Checker {
             require(isSound(state.meals.swallows[i]), "meal", i);
         for (std::size_t i = 0; i < state.absences.size(); ++i)
             require(state.absences[i].fish < state.states.size(), "absence", i);
+        for (std::size_t i = 0; i < state.released.size(); ++i)
+            require(state.released[i].fish < state.states.size(), "released hunter", i);
+        require(!state.dayCue || isSound(*state.dayCue), "the day's cue", 0);
         require(state.nextDrop <= bounds.surroundings.drops.size(), "drop", state.nextDrop);
         require(isTime(state.timeOfDay) && isTime(state.clock.timeOfDay), "the time of day", 0);
     }
@@ -283,6 +314,10 @@ struct Checker {
     [[nodiscard]] bool isSound(const fish::Wearer& wearer) const {
         return wearer.visit <= fish::Visit::Leaves && std::abs(wearer.aside) <= 1 &&
                wearer.number <= motion::kMostSkin;
+    }
+    [[nodiscard]] bool isSound(const surroundings::DayCue& cue) const {
+        return cue.since <= state.tick && std::abs(cue.way) <= 1 &&
+               (!cue.holds || isTime(*cue.holds));
     }
     [[nodiscard]] bool isSound(const Meals::Swallow& swallow) const {
         return swallow.fish < state.states.size() && swallow.particle < state.food.size() &&

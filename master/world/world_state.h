@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,8 +14,10 @@
 #include "common/motion/motion_state.h"
 #include "common/place/day.h"
 #include "master/fish/minds.h"
+#include "master/fish/released.h"
 #include "master/fish/secondary_controller.h"
 #include "master/fish/wearers.h"
+#include "master/surroundings/day_cue.h"
 #include "master/surroundings/pilot.h"
 #include "master/surroundings/surroundings.h"
 #include "master/world/absences.h"
@@ -34,12 +37,14 @@ struct WorldState {
     fish::ControllerMemory memory;
     std::vector<std::uint8_t> signs;  // FishView::signs
     std::vector<fish::Wearer> wearers;
+    std::vector<fish::Released> released;
     // Of the surroundings.
     surroundings::Food food;
     std::vector<std::uint16_t> turf;  // Turf::fill
     std::vector<surroundings::Structure> structures;
     surroundings::HeldHands hands = surroundings::makeHands();
     place::DayClock clock;
+    std::optional<surroundings::DayCue> dayCue;
     double timeOfDay = 0.5;
     std::uint64_t nextDrop = 0;
     surroundings::Pilot pilot;

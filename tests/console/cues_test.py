@@ -146,6 +146,24 @@ class Cues(unittest.TestCase):
         self.assertEqual(self.order(moderation={"number": number, "verdict": "TAKE_DOWN"})[0], 202)
         self.told("drawings_swimming", 0, 60)
 
+    def test_the_time_of_day_is_set_and_a_shark_is_released(self):
+        self.told("day", "clock")
+        self.send("/aquarama/day", "first light")
+        self.told("day", "first light")
+        self.assertEqual(self.desk.status()["day"], "first light")
+        self.assertEqual(self.order(show={"day": "DUSK"})[0], 202)
+        self.told("day", "dusk")
+        self.assertEqual(self.state()["day"], "dusk")
+        self.send("/aquarama/day", "clock")
+        self.told("day", "clock")
+        self.send("/aquarama/release", "blacktip_reef_shark")
+        wait_until(lambda: "releases a blacktip_reef_shark" in self.desk.said(), 5, "a shark comes")
+        self.send("/aquarama/release", "clownfish")
+        self.assertEqual(self.refusal(), ["/aquarama/release",
+                                          "no clownfish patrols in this scene, only blacktip_reef_shark"])
+        self.assertEqual(self.order(request="4712", release={"species": "trout"})[0], 202)
+        wait_until(lambda: self.order(request="4712", release={"species": "trout"})[0] == 403, 5, "its refusal")
+
     def test_what_is_no_cue_of_the_desk_changes_nothing(self):
         before, dropped = self.state(), self.figure("dropped_cues_total")
         self.send("/aquarama/black", 1, by=self.stranger)
@@ -192,6 +210,38 @@ class Cues(unittest.TestCase):
 def bundle(*messages):
     """Messages of OSC in one packet, at once."""
     return padded("#bundle") + struct.pack(">q", 1) + b"".join(struct.pack(">i", len(one)) + one for one in messages)
+
+
+class Recorded(unittest.TestCase):
+    """A time of day and a release reach the world, and its recording, which is the same when it is replayed."""
+
+    def test_cues_of_the_world_are_replayed(self):
+        folder = temporary_folder()
+        self.addCleanup(folder.cleanup)
+        desk, listener = End(), End()
+        place = ("127.0.0.1", listener.port)
+        listener.socket.close()
+        rig = rig_on_free_ports(folder.name)
+        rig.write_text(rig.read_text() + f'''
+            cues {{ osc {{ listen: "udp://127.0.0.1:{place[1]}" from: "127.0.0.1" }} }}''')
+        recording, log = Path(folder.name) / "show.aqrec", Path(folder.name) / "console.log"
+        master = start("master", rig, "--pattern", "grey", "--record", recording)
+        node = start("node", "middle", "--master", control_address(rig), "--headless")
+        console = start("console", rig, log=log)
+        self.addCleanup(lambda: end([console, node, master]))
+        wait_until(lambda: "cues by OSC at" in log.read_text(), 20, "the console listens")
+        wait_until(lambda: re.search(r"submarine +at", aquarama("status", rig).stdout), 60, "a world")
+        desk.socket.sendto(message("/aquarama/day", "dusk"), place)
+        desk.socket.sendto(message("/aquarama/release", "blacktip_reef_shark"), place)
+        wait_until(lambda: "day dusk" in aquarama("status", rig).stdout, 20, "dusk is wanted")
+        time.sleep(5)
+        master.send_signal(signal.SIGTERM)
+        self.assertEqual(master.wait(20), 0)
+        said = aquarama("inspect", recording).stdout
+        self.assertIn("time of day to 0.8500 of the day in 40 s", said)
+        self.assertRegex(said, r"a hunter of species \d+ comes")
+        check = aquarama("replay", recording, "--check")
+        self.assertEqual(check.returncode, 0, check.stdout + check.stderr)
 
 
 class Hands(unittest.TestCase):

@@ -191,6 +191,46 @@ TEST(Overview, whatChangesIsSaidInWords) {
     EXPECT_EQ(changesOf(before, after),
               (std::vector<std::string>{"light again", "node left is late"}));
     EXPECT_TRUE(changesOf(before, before).empty());
+    before = after;
+    after.mutable_status()->set_day(v1::WantedShow::DUSK);
+    EXPECT_EQ(changesOf(before, after), std::vector<std::string>{"day dusk"});
+}
+
+// A wall with faders at these shares of 255.
+browser::Wall wallAt(std::uint32_t brightness, std::uint32_t colour, const char* scene = "reef") {
+    browser::Wall wall = heardWall(v1::NODE_IN_STEP);
+    wall.set_heard(true);
+    v1::Show& show = *wall.mutable_status()->mutable_show();
+    show.set_black(false);
+    show.set_brightness(brightness);
+    show.set_colour_returned(colour);
+    show.set_scene(scene);
+    return wall;
+}
+
+TEST(Overview, aFaderIsToldOnceItRests) {
+    FaderWatch faders;
+    double now = 100;
+    const auto told = [&](const browser::Wall& wall, int tenths) {
+        std::string lines;
+        for (int tenth = 0; tenth < tenths; ++tenth, now += 0.1)
+            for (const std::string& line : faders.update(wall, now)) lines += line + "; ";
+        return lines;
+    };
+    EXPECT_EQ(told(wallAt(255, 100), 30), "") << "as it was found";
+    for (std::uint32_t value = 100; value <= 204; ++value)
+        EXPECT_EQ(told(wallAt(255, value), 1), "") << "it moves";
+    EXPECT_EQ(told(wallAt(255, 204), 30), "colour 0.80; ");
+    EXPECT_EQ(told(wallAt(51, 204), 30), "brightness 0.20; ");
+    browser::Wall black = wallAt(0, 204);
+    black.mutable_status()->mutable_show()->set_black(true);
+    EXPECT_EQ(told(black, 30), "") << "black is no fader";
+    EXPECT_EQ(told(wallAt(30, 204), 2) + told(wallAt(51, 204), 30), "") << "nor is light again";
+    browser::Wall fading = wallAt(0, 204);
+    fading.mutable_status()->set_change("the world of scene bait_ball is being made");
+    EXPECT_EQ(told(fading, 30), "") << "nor is the way to another scene";
+    EXPECT_EQ(told(wallAt(51, 90, "bait_ball"), 30), "") << "which has a colour of its own";
+    EXPECT_EQ(told(wallAt(255, 90, "bait_ball"), 30), "brightness 1.00; ");
 }
 
 TEST(Overview, ofAProjectorWhatIsKnownToBeWrongIsAFault) {

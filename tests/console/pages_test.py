@@ -251,7 +251,7 @@ class Pages(unittest.TestCase):
             reached.add(self.driver.execute_script(
                 "return document.activeElement.id || document.activeElement.innerText.split('\\u00a0')[0]"))
         self.assertLessEqual({"Wall", "Nodes", "Events", "Schedule", "Calibration", "Doctor", "Log", "Mind", "People",
-                              "Black", "Freeze", "scene", "quality", "pattern", "colour",
+                              "Black", "Freeze", "scene", "day", "quality", "pattern", "colour",
                               "Take the helm"}, reached)
         self.driver.execute_script(
             "[...document.querySelectorAll('button')].find(b => b.innerText === 'Black').focus()")

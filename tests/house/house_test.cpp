@@ -217,6 +217,7 @@ TEST(House, generatedMessagesStayWithWhoSpeaks) {
                                             "render_node/session/",
                                             "render_node/show/preview.cpp",
                                             "console/commands.h",
+                                            "console/cues/cue.h",
                                             "console/cues/shown.h",
                                             "console/drawing_book.h",
                                             "console/overview.",
@@ -266,6 +267,11 @@ TEST(House, boostStaysInTheWebServer) {
 
 TEST(House, libloStaysInOsc) {
     EXPECT_EQ(strangers(std::regex("^lo/"), {"common/osc/"}), std::vector<std::string>{});
+}
+
+TEST(House, olaStaysInItsSource) {
+    EXPECT_EQ(strangers(std::regex("^ola/"), {"console/cues/ola_source.cpp"}),
+              std::vector<std::string>{});
 }
 
 TEST(House, jpegStaysInSmallPicturesAndPhotos) {

@@ -133,17 +133,39 @@ TEST(Rig, everyModeOfStereoIsReadAndNamed) {
 }
 
 TEST(Rig, hasADeskOnlyWhereItNamesOne) {
-    EXPECT_FALSE(parseRig(kRig, "small.txtpb").osc);
-    EXPECT_FALSE(parseRig(kRig + "cues {}", "small.txtpb").osc);
+    EXPECT_FALSE(parseRig(kRig, "small.txtpb").cues.osc);
+    EXPECT_FALSE(parseRig(kRig + "cues {}", "small.txtpb").cues.osc);
     const Rig rig = parseRig(kRig + R"(cues { osc {
         listen: "udp://[fd00:0::1]:7500" from: "fd00:0::2" from: "192.168.7.40"
         send_to: "udp://[fd00::3]:53001" } })",
                              "small.txtpb");
-    ASSERT_TRUE(rig.osc);
-    EXPECT_EQ(rig.osc->listen, (UdpAddress{"fd00::1", 7500}));
-    EXPECT_EQ(rig.osc->from, (std::vector<std::string>{"fd00::2", "192.168.7.40"}));
-    EXPECT_EQ(rig.osc->sendTo, (std::vector<UdpAddress>{{"fd00::3", 53001}}));
-    EXPECT_EQ(textOf(rig.osc->listen), "udp://[fd00::1]:7500");
+    ASSERT_TRUE(rig.cues.osc);
+    EXPECT_EQ(rig.cues.osc->listen, (UdpAddress{"fd00::1", 7500}));
+    EXPECT_EQ(rig.cues.osc->from, (std::vector<std::string>{"fd00::2", "192.168.7.40"}));
+    EXPECT_EQ(rig.cues.osc->sendTo, (std::vector<UdpAddress>{{"fd00::3", 53001}}));
+    EXPECT_EQ(textOf(rig.cues.osc->listen), "udp://[fd00::1]:7500");
+}
+
+TEST(Rig, aLightingDeskDrivesWhatItNames) {
+    const Rig rig = parseRig(kRig + "cues { art_net { universe: 0 black: 512 } }", "small.txtpb");
+    ASSERT_TRUE(rig.cues.dmx);
+    EXPECT_FALSE(rig.cues.osc);
+    EXPECT_EQ(rig.cues.dmx->universe, 0U);
+    EXPECT_FALSE(rig.cues.dmx->brightness);
+    EXPECT_EQ(rig.cues.dmx->black, 512U);
+    const auto why = [](const std::string& artNet) -> std::string {
+        try {
+            static_cast<void>(parseRig(kRig + "cues { art_net { " + artNet + " } }", "bad.txtpb"));
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    EXPECT_EQ(why("universe: 1 brightness: 1 black: 2"), "accepted");
+    EXPECT_THAT(why("brightness: 1"), testing::HasSubstr("universe"));
+    EXPECT_THAT(why("universe: 1"), testing::HasSubstr("give brightness, black or both"));
+    EXPECT_THAT(why("universe: 1 brightness: 513"), testing::HasSubstr("512"));
+    EXPECT_THAT(why("universe: 1 brightness: 7 black: 7"), testing::HasSubstr("one of its own"));
 }
 
 TEST(Rig, aDeskThatCannotBeHeardIsRefusedAtItsPlace) {

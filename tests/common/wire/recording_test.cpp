@@ -41,7 +41,7 @@ TEST(RecordingFormat, everyEntryComesBack) {
     EXPECT_EQ(recording.assets.cast[0].text, sampleAssets().cast[0].text);
     EXPECT_EQ(recording.assets.cast[0].repertoire, sampleAssets().cast[0].repertoire);
     EXPECT_EQ(recording.assets.cast[0].fish, 51U);
-    ASSERT_EQ(recording.inputs.size(), 7U);
+    ASSERT_EQ(recording.inputs.size(), 10U);
     EXPECT_EQ(recording.inputs[0].tick, Tick{17});
     const auto& food = std::get<RecordedFood>(recording.inputs[0].input);
     EXPECT_EQ(food.position, glm::vec3(1.5F, -2.0F, 30.25F));
@@ -61,6 +61,10 @@ TEST(RecordingFormat, everyEntryComesBack) {
     EXPECT_EQ(drawing.picture, digestOf("png"));
     EXPECT_EQ(drawing.aside, -1);
     EXPECT_EQ(std::get<RecordedDeparture>(recording.inputs[6].input).fish, 40U);
+    EXPECT_EQ(std::get<RecordedDay>(recording.inputs[7].input).timeOfDay, 0.85);
+    EXPECT_EQ(std::get<RecordedDay>(recording.inputs[7].input).glideSeconds, 40);
+    EXPECT_FALSE(std::get<RecordedDay>(recording.inputs[8].input).timeOfDay);
+    EXPECT_EQ(std::get<RecordedRelease>(recording.inputs[9].input).species, 1U);
     const std::vector<RecordedHash> checkpoints{{{0}, 0xFEDCBA9876543210U}, {{600}, 1}};
     EXPECT_EQ(recording.checkpoints, checkpoints);
     ASSERT_EQ(recording.saves.size(), 1U);
@@ -191,6 +195,14 @@ TEST(RecordingFormat, whatCannotBeIsRefusedWithItsPlace) {
                                        RecordedClock{0.5, 2e9},
                                        RecordedClock{0.5, nan}})
         EXPECT_THAT(refusal(entryOf(RecordedInput{{700}, clock})), HasSubstr("clock"));
+    for (const RecordedDay& day : {RecordedDay{1, 40},
+                                   RecordedDay{-0.1, 40},
+                                   RecordedDay{0.5, -1},
+                                   RecordedDay{0.5, 1e9},
+                                   RecordedDay{0.5, nan}})
+        EXPECT_THAT(refusal(entryOf(RecordedInput{{700}, day})), HasSubstr("time of day"));
+    EXPECT_THAT(refusal(entryOf(RecordedInput{{700}, RecordedRelease{2}})),
+                HasSubstr("releases a species"));
     EXPECT_THAT(refusal(beginningOf(sampleAssets())), HasSubstr("cannot be there"));
     EXPECT_THAT(refusal(entryOf(Tick{700}, {})), HasSubstr("save"));
     EXPECT_THAT(refusal(endOf({{700}, 0})), HasSubstr("behind its end"));

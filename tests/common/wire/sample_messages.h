@@ -175,6 +175,16 @@ inline std::vector<v1::Envelope> sampleDrawings() {
     return messages;
 }
 
+// A time of day is wanted, and a hunter is released.
+inline std::vector<v1::Envelope> sampleCues() {
+    std::vector<v1::Envelope> messages(2);
+    messages[0].mutable_order()->set_request(81);
+    messages[0].mutable_order()->mutable_show()->set_day(v1::WantedShow::DUSK);
+    messages[1].mutable_order()->set_request(82);
+    messages[1].mutable_order()->mutable_release()->set_species("blacktip_reef_shark");
+    return messages;
+}
+
 inline v1::Envelope sampleOrderReply() {
     v1::Envelope message;
     v1::OrderReply& reply = *message.mutable_order_reply();
@@ -250,6 +260,7 @@ inline v1::Envelope sampleStatus() {
     reply.set_guests(false);
     reply.set_drawings(true);
     reply.set_drawings_version(5);
+    reply.set_day(v1::WantedShow::FIRST_LIGHT);
     const auto add = [&](const char* name, v1::NodeCondition is, std::uint64_t late, int dropped) {
         v1::NodeStatus& node = *reply.add_nodes();
         node.set_name(name);
@@ -371,6 +382,7 @@ inline std::vector<Packet> samplePackets() {
     for (const v1::Envelope& message : samplePower()) packets.push_back(encode(kSession, message));
     for (const v1::Envelope& message : sampleDrawings())
         packets.push_back(encode(kSession, message));
+    for (const v1::Envelope& message : sampleCues()) packets.push_back(encode(kSession, message));
     return packets;
 }
 

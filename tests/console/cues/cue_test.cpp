@@ -39,12 +39,22 @@ TEST(Cue, eachAddressIsOneWantedValue) {
         {{"/aquarama/drawings", {whole(1)}}, "drawings on"},
         {{"/aquarama/brightness", {0.25}}, "brightness 0.25"},
         {{"/aquarama/brightness", {whole(1)}}, "brightness 1.00"},
-        {{"/aquarama/colour", {0.0}}, "colour 0.00"}};
+        {{"/aquarama/colour", {0.0}}, "colour 0.00"},
+        {{"/aquarama/day", {"dusk"}}, "day dusk"},
+        {{"/aquarama/day", {"first light"}}, "day first light"},
+        {{"/aquarama/day", {"clock"}}, "day clock"}};
     for (const auto& [message, text] : cues) {
         const Cue cue = cueOf(message);
         EXPECT_EQ(cue.problem, "");
-        EXPECT_EQ(wire::textOf(cue.show), text);
+        EXPECT_EQ(wire::textOf(cue.order.show()), text);
     }
+}
+
+TEST(Cue, aReleaseNamesASpecies) {
+    const Cue cue = cueOf({"/aquarama/release", {"blacktip_reef_shark"}});
+    EXPECT_EQ(cue.problem, "");
+    EXPECT_FALSE(cue.order.has_show());
+    EXPECT_EQ(cue.order.release().species(), "blacktip_reef_shark");
 }
 
 TEST(Cue, whatIsNoCueIsRefusedWithWhatItTakes) {
@@ -55,6 +65,10 @@ TEST(Cue, whatIsNoCueIsRefusedWithWhatItTakes) {
                       tier = one + "low, medium, high, ultra or auto, or 0 to 3",
                       scene = one + "the name of a scene, a text",
                       pattern = one + "world, grid or grey",
+                      day = one +
+                            "dawn, morning, noon, afternoon, sunset, dusk, night, first light or "
+                            "clock, a text",
+                      species = one + "the name of a species, a text",
                       address = "there is no such address; docs/cues.md lists them";
     const std::vector<std::pair<OscMessage, std::string>> wrong{
         {{"/aquarama", {whole(1)}}, address},
@@ -76,6 +90,14 @@ TEST(Cue, whatIsNoCueIsRefusedWithWhatItTakes) {
         {{"/aquarama/quality", {whole(-1)}}, tier},
         {{"/aquarama/quality", {1.0}}, tier},
         {{"/aquarama/pattern", {"scan"}}, pattern},
+        {{"/aquarama/day", {"Dusk"}}, day},
+        {{"/aquarama/day", {"day unspecified"}}, day},
+        {{"/aquarama/day", {whole(5)}}, day},
+        {{"/aquarama/release", {}}, species},
+        {{"/aquarama/release", {whole(1)}}, species},
+        {{"/aquarama/release", {""}}, species},
+        {{"/aquarama/release", {"shark\n"}}, species},
+        {{"/aquarama/release", {std::string(65, 'a')}}, species},
         {{"/aquarama/pattern", {whole(1)}}, pattern},
         {{"/aquarama/scene", {whole(1)}}, scene},
         {{"/aquarama/scene", {""}}, scene},
@@ -93,7 +115,7 @@ TEST(Cue, whatIsNoCueIsRefusedWithWhatItTakes) {
         EXPECT_EQ(cueOf(message).problem, why) << message.address;
 }
 
-TEST(Shown, desksAreToldTheWallInSixteenValues) {
+TEST(Shown, desksAreToldTheWallInSeventeenValues) {
     v1::StatusReply status;
     status.set_frame(77);
     v1::Show& show = *status.mutable_show();
@@ -112,6 +134,7 @@ TEST(Shown, desksAreToldTheWallInSixteenValues) {
         status.add_nodes()->set_condition(condition);
     status.set_guests(false);
     status.set_drawings(true);
+    status.set_day(v1::WantedShow::FIRST_LIGHT);
     const auto shown = shownBy(status, true, {.waiting = 3, .swimming = 41});
     const double fifth = double{51.0F / 255};
     const std::vector<ShownValue> expected{{"running", whole(1)},
@@ -124,6 +147,7 @@ TEST(Shown, desksAreToldTheWallInSixteenValues) {
                                            {"colour", 1.0},
                                            {"guests", whole(0)},
                                            {"drawings", whole(1)},
+                                           {"day", "first light"},
                                            {"drawings_waiting", whole(3)},
                                            {"drawings_swimming", whole(41)},
                                            {"frame", whole(77)},

@@ -4,10 +4,12 @@
 #include <chrono>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/base/log.h"
 #include "tests/master/conductor/parts.h"
 
 namespace aquarama::conductor {
@@ -82,6 +84,24 @@ v1::Order guests(bool on) {
     return order;
 }
 
+v1::Order release(const std::string& species) {
+    v1::Order order;
+    order.mutable_release()->set_species(species);
+    return order;
+}
+
+v1::Order day(v1::WantedShow::Day wanted) {
+    v1::Order order;
+    order.mutable_show()->set_day(wanted);
+    return order;
+}
+
+v1::Order colour(double share) {
+    v1::Order order;
+    order.mutable_show()->set_colour_returned(share);
+    return order;
+}
+
 // The orders of a desk whose three nodes take part.
 class DeskOrders : public testing::Test {
   protected:
@@ -140,6 +160,46 @@ TEST_F(DeskOrders, aSignIsRefusedWhereItLiesAndWhileGuestsAreOff) {
     EXPECT_EQ(give(5, sign("\x80")).outcome(), Reply::DONE);
 }
 
+TEST_F(DeskOrders, aHunterIsReleasedOnceForEachRequest) {
+    EXPECT_EQ(give(1, release("shark")).reason(),
+              "no hunter patrols in this scene; set one that has a shark");
+    orders.hunters().enter({{"shark", 5}, {"barracuda", 9}});
+    EXPECT_EQ(give(2, release("clownfish")).reason(),
+              "no clownfish patrols in this scene, only shark, barracuda");
+    EXPECT_TRUE(orders.hunters().take().empty());
+    EXPECT_EQ(give(3, release("barracuda")).outcome(), Reply::DONE);
+    EXPECT_EQ(give(3, release("barracuda")).outcome(), Reply::DONE) << "said again";
+    const std::vector<world::ReleaseHunter> called = orders.hunters().take();
+    ASSERT_EQ(called.size(), 1U);
+    EXPECT_EQ(called[0].species, 9U);
+    v1::Order freeze;
+    freeze.mutable_show()->set_freeze(true);
+    EXPECT_EQ(give(4, freeze).outcome(), Reply::DONE);
+    EXPECT_EQ(give(5, release("shark")).reason(), "the world is frozen; set freeze off");
+}
+
+TEST_F(DeskOrders, aTimeOfDayHoldsAtOnceAndIsKept) {
+    EXPECT_EQ(orders.control().wanted().day(), v1::WantedShow::CLOCK);
+    EXPECT_EQ(give(1, day(v1::WantedShow::DUSK)).outcome(), Reply::DONE);
+    EXPECT_EQ(orders.control().wanted().day(), v1::WantedShow::DUSK);
+    EXPECT_EQ(orders.control().kept().day(), v1::WantedShow::DUSK);
+    EXPECT_EQ(give(2, scene("lagoon")).outcome(), Reply::WAITING);
+    EXPECT_EQ(orders.control().next().day(), v1::WantedShow::DUSK) << "in the next scene too";
+}
+
+// The log has one line of it.
+TEST_F(DeskOrders, aFaderIsInTheLogOnceItRests) {
+    std::vector<std::string> said;
+    setLogListener([&](Severity, const std::string& line) { said.push_back(line); });
+    std::uint64_t request = 0;
+    for (int step = 0; step < 20; ++step, pass(std::chrono::milliseconds(100)))
+        give(++request, colour(0.01 * step));
+    pass(seconds(2));
+    pass(seconds(2));
+    setLogListener(nullptr);
+    EXPECT_THAT(said, testing::ElementsAre("operator anna sets colour 0.19"));
+}
+
 TEST_F(DeskOrders, blackIsDoneAtOnceAndOnceForEachRequest) {
     EXPECT_EQ(give(1, black(true)).outcome(), Reply::DONE);
     EXPECT_TRUE(orders.control().wanted().black());
@@ -165,7 +225,8 @@ TEST_F(DeskOrders, nothingIsOrderedOfAShowInLockstep) {
     lockstep.isLockstep = true;
     Orders same(lockstep, parts.roster, parts.sender, drawings);
     std::uint64_t request = 0;
-    for (v1::Order order : {black(true), scan(7, 3), restart("left"), reboot("left")}) {
+    for (v1::Order order :
+         {black(true), scan(7, 3), restart("left"), reboot("left"), release("shark")}) {
         order.set_request(++request);
         const Reply reply = same.obey("somebody here", order, unpublished, now);
         EXPECT_EQ(reply.outcome(), Reply::REFUSED);

@@ -20,6 +20,7 @@ namespace {
 using testing::HasSubstr;
 
 constexpr std::uint64_t kTicks = 630;
+constexpr std::uint32_t kShark = 1;  // its place in the cast of the synthetic assets
 constexpr glm::vec3 kTable{0.5F, -5.0F, -4.0F};
 
 class Record : public testing::Test {
@@ -41,6 +42,8 @@ class Record : public testing::Test {
             const std::uint64_t tick = recorded.tick().value;
             if (tick == 0 || tick == 100 || tick == 401)
                 recorded.apply(world::DropFood{.position = kTable});
+            if (tick == 50) recorded.apply(world::SetDay{.timeOfDay = 0.85, .glideSeconds = 5});
+            if (tick == 150) recorded.apply(world::ReleaseHunter{kShark});
             if (tick == 200) recorded.apply(world::MoveSubmarine{{0, -6, -1}, {0, 0, -0.1F}});
             recorded.advance();
             hashes.push_back(recorded.hash());
@@ -63,7 +66,7 @@ std::optional<Difference> differenceOf(const wire::Recording& recording) {
 TEST_F(Record, aReplayIsTheSameWorldTickForTickOnAnyNumberOfThreads) {
     const std::vector<std::uint64_t> hashes = recordAShow();
     const wire::Recording recording = wire::readRecording(path());
-    ASSERT_EQ(recording.inputs.size(), 4U);
+    ASSERT_EQ(recording.inputs.size(), 6U);
     EXPECT_EQ(recording.checkpoints.size(), 2U);
     ASSERT_TRUE(recording.end);
     for (const unsigned threads : {1U, 2U, 4U}) {
@@ -76,7 +79,7 @@ TEST_F(Record, aReplayIsTheSameWorldTickForTickOnAnyNumberOfThreads) {
             ASSERT_EQ(world.hash(), hashes[world.tick().value]) << world.tick().value;
         }
         EXPECT_EQ(world.tick().value, kTicks);
-        EXPECT_EQ(playback.inputs(), 4U);
+        EXPECT_EQ(playback.inputs(), 6U);
         EXPECT_EQ(playback.compared(), 3U);
         EXPECT_FALSE(playback.difference());
     }

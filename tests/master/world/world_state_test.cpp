@@ -58,6 +58,10 @@ void doAt(World& world) {
     if (fish >= 2 && tick % 131 == 13)
         world.apply(
             EnterDrawing{.fish = fish - 1, .number = 7, .picture = digestOf("a"), .aside = 1});
+    if (tick % 173 == 20) world.apply(SetDay{.timeOfDay = 0.8, .glideSeconds = 1});
+    if (tick % 173 == 120) world.apply(SetDay{.timeOfDay = {}, .glideSeconds = 1});
+    for (std::uint32_t species = 0; tick % 119 == 17 && species < 20; ++species)
+        world.apply(ReleaseHunter{species});
     if (fish >= 2 && tick % 131 == 100) world.apply(LeaveDrawing{.fish = fish - 1});
 }
 
@@ -169,7 +173,8 @@ TEST_F(SavedWorld, withNumbersThatCannotBeIsRefused) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_THAT(refusalAfter([&](WorldState& s) { s.courses[3].direction.y = nan; }),
                 HasSubstr("beyond all bounds"));
-    EXPECT_THAT(refusalAfter([&](WorldState& s) { s.timeOfDay = nan; }), HasSubstr("beyond all bounds"));
+    EXPECT_THAT(refusalAfter([&](WorldState& s) { s.timeOfDay = nan; }),
+                HasSubstr("beyond all bounds"));
     EXPECT_THAT(refusalAfter([](WorldState& s) { s.timeOfDay = 1; }), HasSubstr("time of day"));
     EXPECT_THAT(refusalAfter([](WorldState& s) { s.states.segment[4] = 0xffff; }),
                 HasSubstr("fish 4"));
