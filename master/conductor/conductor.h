@@ -44,8 +44,9 @@ struct ConductorOptions {
     std::optional<std::uint64_t> frames;                         // the show ends after so many
     std::vector<std::string> expected;     // the channels that take part; empty: all of the rig
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
-    std::filesystem::path hoursAt;         // hours of the hall, for scenes that follow it
-    LogFile* log = nullptr;                // of the whole show; null: none
+    std::string guestsKey;          // public key of the guests' program; empty: a rig without keys
+    std::filesystem::path hoursAt;  // hours of the hall, for scenes that follow it
+    LogFile* log = nullptr;         // of the whole show; null: none
     machine::ServiceNotifier* service = nullptr;  // hears of every turn of the loop; null: nobody
     // Lockstep: silence of a node that ends the show.
     net::Duration patience = std::chrono::seconds(60);
