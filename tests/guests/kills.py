@@ -27,7 +27,6 @@ from hall import BIN, Hall, Visitor, end_of, wait_until
 # What is killed, by a part of its command line; the visitors' program most often, as strangers speak to it.
 VICTIMS = {"guests": "aquarama-guests", "console": "aquarama-console", "node": "aquarama-node", "master": "master"}
 ORDER = ("guests", "console", "guests", "node", "guests", "master")
-BETWEEN_DRAWINGS_S = 10
 SEATS_LAST_S = 30  # of the 45 s for which a phone may be away
 
 
@@ -126,9 +125,9 @@ class Guest(Visitor):
 
 
 class Crowd:
-    def __init__(self, hall, phones, photos):
-        self.hall, self.phones, self.photos = hall, phones, photos
-        self.token = hall.token()
+    def __init__(self, hall, phones, photos, between_drawings):
+        self.hall, self.phones, self.photos, self.between_drawings = hall, phones, photos, between_drawings
+        self.token = code(hall)
         self.ended = threading.Event()
         self.echoes, self.aways, self.problems = [], [], []
         self.sent = collections.Counter()  # pictures, by what became of them
@@ -144,7 +143,7 @@ class Crowd:
         self.problems += [problem for problem in done if isinstance(problem, Exception)]
 
     async def draw(self):
-        """A drawing each ten seconds, by whoever is connected."""
+        """A drawing now and then, by whoever is connected."""
         number = 0
         while not self.is_over():
             guest = random.choice(self.guests)
@@ -152,7 +151,7 @@ class Crowd:
                 accepted = await guest.draw(self.photos[number % len(self.photos)])
                 self.sent[{True: "accepted", False: "refused", None: "cut off"}[accepted]] += 1
                 number += 1
-            await asyncio.sleep(min(BETWEEN_DRAWINGS_S, 30 / len(self.guests) * BETWEEN_DRAWINGS_S))
+            await asyncio.sleep(self.between_drawings)
 
     # --- threads of their own
 
@@ -184,11 +183,16 @@ class Crowd:
     def watch(self):
         """Reads the code on the wall, as it changes."""
         while not self.is_over():
-            try:
-                self.token = self.hall.token() or self.token
-            except (OSError, ConnectionError, AssertionError):
-                pass
+            self.token = code(self.hall) or self.token
             time.sleep(2)
+
+
+def code(hall):
+    """That on the wall; None while the console is away, or slow."""
+    try:
+        return hall.token()
+    except (OSError, AssertionError):
+        return None
 
 
 def kept(hall):
@@ -199,14 +203,19 @@ def kept(hall):
             re.findall(r"drawings \{\s*number: (\d+)\s*species: \"\w+\"\s*verdict: (\w+)", text)}
 
 
-def served(hall, victim):
+def joins(hall):
+    """How often a master has let the node in."""
+    return hall.said().count("takes part from frame")
+
+
+def served(hall, victim, before):
     """Whether a process that was killed does its work again."""
     if victim == "guests":
         connection = http.client.HTTPConnection(*end_of(hall.guests), timeout=5)
     elif victim == "console":
         connection = http.client.HTTPConnection(hall.address, timeout=5)
     else:
-        return hall.status()["conditions"] == ["in step"]
+        return joins(hall) > before and hall.status()["conditions"] == ["in step"]
     try:
         connection.request("GET", "/")
         return connection.getresponse().status == 200
@@ -216,9 +225,9 @@ def served(hall, victim):
         connection.close()
 
 
-def is_served(hall, victim):
+def is_served(hall, victim, before):
     try:
-        return served(hall, victim)
+        return served(hall, victim, before)
     except (TypeError, ValueError, KeyError, IndexError):  # `aquarama status` found no master
         return False
 
@@ -226,13 +235,19 @@ def is_served(hall, victim):
 def kill_one(hall, victim):
     """Seconds until it is there again, and frames that were late meanwhile, where node and master lived on."""
     counts = victim in ("guests", "console")
-    before = hall.status()["late"] if counts else 0
+    late, joined = hall.status()["late"] if counts else 0, joins(hall)
     old = hall.process(VICTIMS[victim])
     began = time.monotonic()
     os.kill(old, signal.SIGKILL)
     wait_until(lambda: hall.process(VICTIMS[victim]) not in (None, old), 30, f"another {victim}")
-    wait_until(lambda: is_served(hall, victim), 90, f"the work of the {victim}")
-    return time.monotonic() - began, hall.status()["late"] - before if counts else 0
+    wait_until(lambda: is_served(hall, victim, joined), 90, f"the work of the {victim}")
+    return time.monotonic() - began, hall.status()["late"] - late if counts else 0
+
+
+def has_settled(hall, crowd):
+    """Whether some drawings were told to phones, and all that there are were let in."""
+    verdicts = kept(hall).values()
+    return crowd.let_in and any(guest.drawings for guest in crowd.guests) and "WAITING" not in verdicts
 
 
 def check(hall, crowd):
@@ -263,8 +278,8 @@ def main():
         photos = [path.read_bytes() for path in sorted(Path(folder).iterdir())]
     hall = Hall("--quality", "low", scene="reef" if large else "empty_sea", drawings="WHEN_ASKED", host="[::1]")
     try:
-        wait_until(hall.token, 60, "the code on the wall")
-        crowd = Crowd(hall, phones, photos)
+        wait_until(lambda: code(hall), 90, "the code on the wall")
+        crowd = Crowd(hall, phones, photos, between_drawings=10 if large else 2)
         helpers = [threading.Thread(target=work) for work in (crowd.moderate, crowd.watch,
                                                              lambda: asyncio.run(crowd.run()))]
         for helper in helpers:
@@ -272,12 +287,12 @@ def main():
         time.sleep(8)
         aways, late = collections.defaultdict(list), 0
         for number in range(kills):
-            time.sleep(chance.uniform(0, 4 if large else 1.5))
+            time.sleep(chance.uniform(0, 4 if large else 2))
             victim = ORDER[number % len(ORDER)]
             away, more = kill_one(hall, victim)
             aways[victim].append(away)
             late += more
-        time.sleep(15 if large else 5)
+        wait_until(lambda: has_settled(hall, crowd), 60, "drawings that are told and let in")
         crowd.ended.set()
         for helper in helpers:
             helper.join()
