@@ -66,6 +66,10 @@ void describeWall(CLI::App& command, supervisor::ShowOptions& options);
 [[nodiscard]] std::optional<net::MasterKeys> masterKeysOf(const config::Rig& rig,
                                                           const supervisor::ShowOptions& show);
 
+// The public key of the program that serves visitors, which nodes must know to bring it pictures;
+// empty where the rig needs none, has no guests, or no key of theirs yet, of which the log warns.
+[[nodiscard]] std::string guestsKeyOf(const config::Rig& rig, const supervisor::ShowOptions& show);
+
 // A connection for requests to the master of a rig, with the operator's key of this folder (empty:
 // the user's) where the rig needs one. Throws Error where the key cannot be read.
 [[nodiscard]] ask::RequestClient connectToMaster(const std::string& rigPath,

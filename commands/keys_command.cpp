@@ -287,6 +287,18 @@ std::optional<net::MasterKeys> masterKeysOf(const config::Rig& rig,
     return net::MasterKeys{{own.publicKey, own.secretKey}, allowed};
 }
 
+std::string guestsKeyOf(const config::Rig& rig, const supervisor::ShowOptions& show) {
+    if (!rig.guests || !config::needsKeys(rig)) return {};
+    KeyOptions options;
+    options.rig = show.rigPath;
+    options.folder = show.keyFolder;
+    const fs::path file = config::keyFileIn(options.keys(), nameOf(KeyRole::Guests));
+    if (fs::exists(file)) return config::readKeyFile(file).publicKey;
+    logWarning("visitors with phones cannot take part: there is no {}; make it (aquarama keys new)",
+               file.string());
+    return {};
+}
+
 void addKeyCommands(CommandLine& line) {
     struct Nothing {};
     const auto keys = line.add<Nothing>(

@@ -183,6 +183,7 @@ conductor::ConductorOptions conductorOptions(const config::Rig& rig, const Maste
     conductor.traceDirectory = options.show.traceFolder;
     conductor.log = options.log.get();
     conductor.service = options.service;
+    conductor.guestsKey = guestsKeyOf(rig, options.show);
     conductor.hoursAt = config::consoleFolderOf(options.show.rigPath) / config::kHoursFile;
     if (!rig.files.empty()) conductor.looks.changedRig = RigFileWatch(rig, options.show.rigPath);
     return conductor;

@@ -9,6 +9,7 @@
 #include <arpa/inet.h>
 
 #include "common/base/log.h"
+#include "common/config/host.h"
 
 namespace aquarama::console {
 
@@ -48,8 +49,7 @@ Doors doorsOf(const std::string& address,
     Doors doors{{}, isTls, {}, {}};
     for (const char* const own : {"127.0.0.1", "localhost", "[::1]"})
         doors.hosts.push_back(own + end);
-    const bool isVersion6 = address.find(':') != std::string::npos;
-    doors.hosts.push_back((isVersion6 ? "[" + address + "]" : address) + end);
+    doors.hosts.push_back(config::bracketed(address) + end);
     for (const std::string& name : names) doors.hosts.push_back(name + end);
     doors.cookie =
         isTls ? "__Host-aquarama" : "aquarama_" + std::to_string(port);  // no cookie knows a port

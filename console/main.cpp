@@ -17,6 +17,7 @@
 #include "common/base/output_file.h"
 #include "common/cli/command_line.h"
 #include "common/cli/commands.h"
+#include "common/config/host.h"
 #include "common/config/hours.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
@@ -179,7 +180,10 @@ void serve(const Options& options, const config::Rig& rig, console::Access& acce
                           access);
     web::WebServer server(where, desk);
     console::Doors doors = doorsOf(options, where, server.port());
-    logInfo("console at {}://{}:{}", isTls ? "https" : "http", where.address, server.port());
+    logInfo("console at {}://{}:{}",
+            isTls ? "https" : "http",
+            config::bracketed(where.address),
+            server.port());
     if (doors.proxy) logInfo("behind the proxy at https://{}", doors.proxy->host);
     desk.begin(server, std::move(doors));
     const cli::SignalWatch watch([&] { server.stop(); });

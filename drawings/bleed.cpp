@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drawings/bleed.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <vector>
@@ -26,13 +27,36 @@ struct Level {
     }
 };
 
-Level levelOf(const PngPicture& skin) {
+// The texels of a disc about one.
+std::vector<glm::ivec2> discOf(double radius) {
+    const int reach = static_cast<int>(radius);
+    std::vector<glm::ivec2> disc;
+    for (int y = -reach; y <= reach; ++y)
+        for (int x = -reach; x <= reach; ++x)
+            if (x * x + y * y <= radius * radius) disc.emplace_back(x, y);
+    return disc;
+}
+
+bool isCovered(const PngPicture& skin, glm::ivec2 texel) {
+    if (texel != glm::clamp(texel, glm::ivec2(0), skin.sizePixels - 1)) return false;
+    const auto at = static_cast<std::size_t>(texel.y * skin.sizePixels.x + texel.x);
+    return skin.codes[4 * at + 3] != 0;
+}
+
+// Known is what lies deep within the outline.
+Level levelOf(const PngPicture& skin, double rim) {
+    const std::vector<glm::ivec2> disc = discOf(rim);
     Level level{skin.sizePixels, {}};
-    for (std::size_t at = 0; at < skin.codes.size(); at += 4)
-        level.texels.push_back(
-            skin.codes[at + 3] == 0
-                ? glm::vec4{}
-                : glm::vec4{skin.codes[at], skin.codes[at + 1], skin.codes[at + 2], 1});
+    for (int y = 0; y < skin.sizePixels.y; ++y)
+        for (int x = 0; x < skin.sizePixels.x; ++x) {
+            const std::size_t at = 4 * level.texels.size();
+            const bool isDeep = std::ranges::all_of(disc, [&](glm::ivec2 to) {
+                return isCovered(skin, glm::ivec2{x, y} + to);
+            });
+            level.texels.push_back(
+                isDeep ? glm::vec4{skin.codes[at], skin.codes[at + 1], skin.codes[at + 2], 1}
+                       : glm::vec4{});
+        }
     return level;
 }
 
@@ -84,11 +108,12 @@ Level filled(const Level& level) {
 
 }  // namespace
 
-void bleed(PngPicture& skin) {
+// Of what was known, nothing changes.
+void bleed(PngPicture& skin, double rim) {
     assert(skin.components == 4 && skin.bits == 8);
-    const Level level = filled(levelOf(skin));
+    const Level level = filled(levelOf(skin, rim));
     for (std::size_t at = 0; at < skin.codes.size(); at += 4)
-        for (std::size_t c = 0; c < 3 && skin.codes[at + 3] == 0; ++c)
+        for (std::size_t c = 0; c < 3; ++c)
             skin.codes[at + c] =
                 static_cast<std::uint16_t>(std::lround(level.texels[at / 4][static_cast<int>(c)]));
 }

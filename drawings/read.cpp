@@ -174,7 +174,7 @@ PngPicture skinOf(const Photo& photo, const Flattening& flat, const Sheet& sheet
             for (int c = 0; c < 3; ++c) skin.codes.push_back(codeOf(colour[c]));
             skin.codes.push_back(static_cast<std::uint16_t>(std::lround(255 * alpha)));
         }
-    bleed(skin);
+    bleed(skin, kOutlineMillimetres / sheet.place.millimetresPerTexel);
     return skin;
 }
 

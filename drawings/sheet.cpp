@@ -9,7 +9,7 @@ namespace aquarama::drawings {
 namespace {
 
 // Light, so that crayons cover them: the outline, and what is within it.
-constexpr Pen kOutline{.widthMillimetres = 0.9, .grey = 0.64, .isClosed = true};
+constexpr Pen kOutline{.widthMillimetres = kOutlineMillimetres, .grey = 0.64, .isClosed = true};
 constexpr Pen kInside{.widthMillimetres = 0.5, .grey = 0.74};
 constexpr Pen kEye{.widthMillimetres = 0.7, .grey = 0.64, .isClosed = true};
 

@@ -25,6 +25,9 @@ struct Sheet {
 // number: the species' place in the list of sheets.
 [[nodiscard]] Sheet makeSheet(const config::Species& species, int number);
 
+// Width of the line that is printed along the outline, half of it within.
+inline constexpr double kOutlineMillimetres = 0.9;
+
 // Papers, landscape, in millimetres.
 inline constexpr glm::dvec2 kA4{297, 210};
 inline constexpr glm::dvec2 kLetter{279.4, 215.9};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -11,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
+#include "common/config/host.h"
 #include "guests/sign.h"
 
 namespace aquarama::guests {
@@ -35,8 +37,10 @@ constexpr std::string_view kPicture = "/wall.jpg?";
 // The loopback's names are ours as well. Browsers leave port 80 out.
 std::vector<std::string> hostsOf(const config::Guests& place) {
     std::vector<std::string> hosts;
-    for (const std::string& name :
-         {place.host, std::string("127.0.0.1"), std::string("localhost")}) {
+    for (const std::string& name : {config::bracketed(place.host),
+                                    std::string("127.0.0.1"),
+                                    std::string("[::1]"),
+                                    std::string("localhost")}) {
         hosts.push_back(name + ":" + std::to_string(place.port));
         if (place.port == 80) hosts.push_back(name);
     }
@@ -71,6 +75,12 @@ std::optional<glm::vec2> placeIn(const json& place) {
 std::string textIn(const json& message, const char* member) {
     const auto found = message.find(member);
     return found != message.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+// Which need less of a code than small letters.
+std::string capitals(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::toupper(c); });
+    return text;
 }
 
 void say(Phone& phone, const char* topic, const json& message) {
@@ -126,7 +136,11 @@ std::optional<web::BodyLimit> GuestService::admit(const HttpRequest& head, HttpR
 HttpReply GuestService::answer(const HttpRequest& request) {
     if (std::ranges::find(hosts_, request.host) == hosts_.end())
         return {.status = 421, .body = "visitors are not served by that name\n"};
-    if (VisitorDrawings::isMeant(request)) return drawings_.take(request);
+    if (VisitorDrawings::isMeant(request)) {
+        HttpReply reply = drawings_.take(request);
+        keepNow();
+        return reply;
+    }
     if (request.target.starts_with(kPicture)) return picture(request.target);
     if (request.method != "GET" && request.method != "HEAD")
         return {.status = 405, .body = "only GET\n"};
@@ -183,8 +197,10 @@ void GuestService::hear(Phone& phone, const std::string& text) {
     }
     if (const auto place = message.find("feed"); place != message.end())
         feed(phone, placeIn(*place));
+    const std::size_t seats = queue_.seats().size();
     if (message.contains("join") && isOpen()) queue_.join(phone.guest);
     if (message.contains("leave")) queue_.leave(phone.guest, queueNow_);
+    if (queue_.seats().size() != seats) keepNow();
     advanceQueue();
     tell(phone);
 }
@@ -206,9 +222,10 @@ void GuestService::enter(Phone& phone, const std::string& code) {
     if (!acceptsCode(phone, code)) return say(phone, "refused", {{"refused", "code"}});
     const auto secret = sessions_.admit(clock_());
     if (!secret) return say(phone, "refused", {{"refused", "busy"}});
-    say(phone, "session", {{"session", *secret}});
     const GuestId guest = sessions_.guestOf(*secret);
     if (isOpen()) queue_.join(guest);
+    keepNow();
+    say(phone, "session", {{"session", *secret}});
     welcome(phone, guest);
 }
 
@@ -277,6 +294,7 @@ void GuestService::heard(const std::optional<WallState>& wall) {
 
 void GuestService::offered(std::uint64_t request, std::uint32_t number) {
     drawings_.offered(request, number);
+    keepNow();
     tellAll();
 }
 
@@ -314,14 +332,24 @@ void GuestService::showSign() {
         if (isEnding) characters = std::to_string(std::lround(std::ceil(left)));
         if (isEnding) break;
     }
-    const std::string address = fmt::format(
-        "HTTP://{}:{}/P/{}", options_.place.host, options_.place.port, tokens_.wordAt(now));
+    const std::string address = fmt::format("HTTP://{}:{}/P/{}",
+                                            capitals(config::bracketed(options_.place.host)),
+                                            options_.place.port,
+                                            tokens_.wordAt(now));
     if (std::exchange(signText_, address + ' ' + characters) == signText_) return;
     port_.show(signOf(address, characters, isEnding));
 }
 
+void GuestService::keepNow() {
+    if (keeps_.take(clock_()))
+        keepSeats();
+    else
+        isKept_ = false;
+}
+
 void GuestService::keepSeats() {
     sessions_.keep(options_.seatFile, queue_, queueNow_);
+    isKept_ = true;
 }
 
 void GuestService::tick() {
@@ -336,6 +364,7 @@ void GuestService::tick() {
         watchFish();
         tellAll();
     }
+    if (!isKept_) keepSeats();
     if (ticks_ % kTicksAKeep != 0) return;
     if (options_.picture != nullptr && now - lookedAt_ < kLooks) options_.picture->ask();
     for (const GuestId& guest : sessions_.forget(now)) queue_.leave(guest, queueNow_);

@@ -105,6 +105,9 @@ class GuestService final : public web::Service {
     void advanceQueue();
     void holdHelm();
     void showSign();
+    // At once, so that a phone is never told of what a killed program forgets; of a flood, at the
+    // next tick.
+    void keepNow();
     void keepSeats();
     void watchFish();
     void addPlace(const GuestId& guest, nlohmann::json& message) const;
@@ -131,6 +134,8 @@ class GuestService final : public web::Service {
     Allowance entries_{40, 20};   // joins of all phones
     Allowance guesses_{10, 0.5};  // digits of all phones
     Allowance pellets_{2, 2};
+    Allowance keeps_{50, 50};  // of seats, beside those of ticks
+    bool isKept_ = true;       // all that phones were told of
     std::minstd_rand random_{std::random_device{}()};
 };
 

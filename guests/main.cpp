@@ -21,6 +21,7 @@
 #include "common/base/log.h"
 #include "common/base/random_bytes.h"
 #include "common/cli/command_line.h"
+#include "common/config/host.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
 #include "common/machine/service_notifier.h"
@@ -48,7 +49,8 @@ void describe(CLI::App& app, Options& options) {
 
 // Empty where the rig needs none.
 std::string keyOf(const Options& options, const config::Rig& rig) {
-    if (!options.key.empty() || !config::needsKeys(rig)) return options.key;
+    if (!config::needsKeys(rig)) return {};
+    if (!options.key.empty()) return options.key;
     const auto folder = options.keys.empty() ? config::keyFolderOf(options.rig)
                                              : std::filesystem::path(options.keys);
     return config::keyFileIn(folder, config::nameOf(config::KeyRole::Guests)).string();
@@ -64,10 +66,19 @@ std::filesystem::path seatFileOf(const std::string& rig) {
     return userFolder("XDG_RUNTIME_DIR", ".cache") / "guests" / std::filesystem::path(rig).stem();
 }
 
+// Of the place where nodes bring pictures: the guests' own pair, as strangers speak to this program
+// and it must know no other's. Only the master tells its nodes the public one, so who knows that is
+// one of them.
+std::optional<net::MasterKeys> pictureKeysOf(const std::string& keyFile) {
+    if (keyFile.empty()) return std::nullopt;
+    const config::KeyFile own = config::readKeyFile(keyFile);
+    return net::MasterKeys{{own.publicKey, own.secretKey}, {}};
+}
+
 // Null where nodes bring no pictures.
 std::unique_ptr<guests::WallPicture> pictureOf(const Options& options, const config::Rig& rig) {
     if (rig.guests->picturesAddress.empty()) return nullptr;
-    return std::make_unique<guests::WallPicture>(rig, ask::watchKeysOf(options.rig, options.keys));
+    return std::make_unique<guests::WallPicture>(rig, pictureKeysOf(keyOf(options, rig)));
 }
 
 // Has the server's thread do something soon; set before anything else runs.
@@ -129,7 +140,7 @@ void serve(const Options& options, const config::Rig& rig) {
                            .mostConnections = guests::GuestService::kMostPhones + kBesidePhones},
                           visitors);
     post = [&](std::function<void()> what) { server.post(std::move(what)); };
-    logInfo("visitors at http://{}:{}", rig.guests->host, rig.guests->port);
+    logInfo("visitors at http://{}:{}", config::bracketed(rig.guests->host), rig.guests->port);
     link.begin(listenerOf(visitors, post));
     const cli::SignalWatch watch([&] { server.stop(); });
     service.ready();

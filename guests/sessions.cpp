@@ -19,17 +19,26 @@ namespace {
 
 constexpr std::size_t kNameLetters = 64;  // of a SHA-256 in hex
 
+constexpr const char* kReading = " reading";
+
 bool isName(const std::string& text) {
     return text.size() == kNameLetters &&
            text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
 // Of a visitor's drawings, up to the end of his line.
-std::vector<std::uint32_t> numbersIn(std::istream& words) {
-    std::vector<std::uint32_t> numbers;
+void readDrawings(std::istream& words, Visit& visit) {
+    std::string rest;
+    std::getline(words, rest);
+    const std::string reading = kReading;
+    if (rest.starts_with(reading)) {
+        visit.refusedDrawing = "lost";
+        rest = rest.substr(reading.size());
+    }
+    std::istringstream numbers(rest);
     std::uint32_t number = 0;
-    while (numbers.size() < Visit::kMostDrawings && words >> number) numbers.push_back(number);
-    return numbers;
+    while (visit.drawings.size() < Visit::kMostDrawings && numbers >> number)
+        visit.drawings.push_back(number);
 }
 
 }  // namespace
@@ -73,9 +82,9 @@ void Sessions::keep(const std::filesystem::path& file,
                     double now) const {
     std::string text;
     const auto add = [&](const GuestId& guest, double left) {
-        text += fmt::format("{} {:.1f}", guest, left);
-        for (const std::uint32_t number : visits_.at(guest).drawings)
-            text += fmt::format(" {}", number);
+        const Visit& visit = visits_.at(guest);
+        text += fmt::format("{} {:.1f}{}", guest, left, visit.isBeingRead ? kReading : "");
+        for (const std::uint32_t number : visit.drawings) text += fmt::format(" {}", number);
         text += '\n';
     };
     std::set<GuestId> seated;
@@ -101,7 +110,7 @@ std::vector<GuestSeat> Sessions::restore(const std::filesystem::path& file, doub
         const auto [visit, isNew] = visits_.try_emplace(seat.guest, Visit{.seen = now});
         if (!isNew || !(words >> seat.left)) continue;
         if (seat.left > 0) seats.push_back(seat);
-        visit->second.drawings = numbersIn(words);
+        readDrawings(words, visit->second);
     }
     return seats;
 }

@@ -46,9 +46,10 @@ class Sessions {
     std::vector<GuestId> forget(double now);
 
     // Whole or not at all: a line for each, with what is left of the turn, 0 for who has no seat,
-    // and the numbers of drawings.
+    // "reading" where a picture is being read, and the numbers of drawings.
     void keep(const std::filesystem::path& file, const VisitorQueue& queue, double now) const;
-    // What a file has; returns the seats, in their order. Damaged lines are passed over.
+    // What a file has; returns the seats, in their order. Damaged lines are passed over. Pictures
+    // that were being read are lost, and their senders told so.
     std::vector<GuestSeat> restore(const std::filesystem::path& file, double now);
 
   private:

@@ -112,6 +112,22 @@ ask_systemd() {
     done
 }
 
+# The user whom strangers speak to reads the rig and the files that it names, which aquarama-hall has written for itself
+# alone, and no key.
+try_guests() {
+    logged "aquarama-guests cannot read the rig" "$root" "id aquarama-guests &&
+        cd /etc/aquarama/rigs && runuser -u aquarama-guests -- sh -c 'cat hall.txtpb hall.mpcdi >/dev/null'"
+    ! in_system "$root" "id -nG aquarama-guests | grep -w aquarama" || fail "aquarama-guests is in the others' group"
+    logged "no key is bundled" "$root" "aquarama-hall keys bundle hall.txtpb left &&
+        test -s /etc/aquarama/rigs/left.key"
+    local found
+    found=$(in_system "$root" "runuser -u aquarama-guests -- find /etc/aquarama -name '*.key' -readable" 2>/dev/null ||
+        true)
+    in_system "$root" "rm /etc/aquarama/rigs/left.key"
+    require_same "" "$found" "aquarama-guests can read keys"
+    say "aquarama-guests reads the rig, and no key"
+}
+
 # The desk's panorama, by somebody who has an account and no more.
 try_desk() {
     logged "the installed desk makes no panorama" "$root" "useradd --create-home visitor && cd /home/visitor &&
@@ -159,6 +175,7 @@ try() {
     require_unchanged "the upgrade"
     say "upgrade, downgrade and upgrade keep rigs, keys, calibration, what was set, hall.conf, and what is enabled"
     ask_systemd
+    try_guests
     try_desk
 
     logged "the packages cannot be removed" "$root" "DEBIAN_FRONTEND=noninteractive apt-get remove -y ${packages[*]}"

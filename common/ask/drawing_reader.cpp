@@ -160,7 +160,8 @@ std::optional<DrawingOutcome> drawingIn(std::string_view head, std::string_view 
     return ReadDrawing{std::string(species), std::string(skin)};
 }
 
-// Of what the decoder has said, which is not believed; nothing where it makes no sense.
+}  // namespace
+
 std::optional<DrawingOutcome> outcomeIn(std::string_view answer) {
     const std::size_t end = answer.find('\n');
     if (end == std::string_view::npos) return std::nullopt;
@@ -170,8 +171,6 @@ std::optional<DrawingOutcome> outcomeIn(std::string_view answer) {
     if (!word || !isWord(*word)) return std::nullopt;
     return DrawingRefused{std::string(*word)};
 }
-
-}  // namespace
 
 DrawingReader::DrawingReader() : DrawingReader(decoder()) {
     if (!isInstalled())

@@ -10,7 +10,9 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <variant>
 
@@ -33,6 +35,9 @@ struct DrawingRefused {
 
 // What became of a picture.
 using DrawingOutcome = std::variant<ReadDrawing, DrawingRefused>;
+
+// Of what a decoder has said, which is not believed; nothing where it makes no sense.
+[[nodiscard]] std::optional<DrawingOutcome> outcomeIn(std::string_view answer);
 
 // What is read at most, of a picture in bytes; as drawings/photo.h.
 inline constexpr std::size_t kMostPictureBytes = std::size_t{16} << 20U;

@@ -23,7 +23,7 @@ constexpr std::size_t kMostQuestions = 64;
 PictureHub::PictureHub(const std::string& watchAddress,
                        const std::optional<net::MasterKeys>& keys,
                        PictureListener listener)
-    : hasKeys_{keys.has_value()},
+    : knowsNodes_{keys && keys->allowed},
       // Nobody subscribes to anything here; where states would go is any free port.
       channels_{net::bindMaster(watchAddress, "tcp://127.0.0.1:*", {}, keys)},
       listener_{std::move(listener)},
@@ -82,7 +82,7 @@ void PictureHub::run() {
 
 // A node says hello every second; whoever said so last has the channel.
 void PictureHub::meet(const net::FromPeer& from, const std::string& channel) {
-    if (hasKeys_ && from.user != "node " + channel) return;
+    if (knowsNodes_ && from.user != "node " + channel) return;
     if (channelOf_.size() > kMostPeers) channelOf_.clear();
     channelOf_[from.peer] = channel;
     peerOf_[channel] = from.peer;

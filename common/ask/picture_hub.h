@@ -61,7 +61,7 @@ class PictureHub final : public NodeProxy {
     void meet(const net::FromPeer& from, const std::string& channel);
     void ask(const std::string& channel, v1::Envelope question);
 
-    bool hasKeys_;
+    bool knowsNodes_;  // by their keys
     std::unique_ptr<net::MasterChannels> channels_;
     PictureListener listener_;
     std::map<net::PeerId, std::string> channelOf_;

@@ -70,8 +70,8 @@ glm::ivec2 sideTexelsAt(std::size_t level) {
 }
 
 SideSkin sideSkinOf(std::span<const std::byte> png, const std::string& source) {
-    const PngPicture picture = decodePng(png, source);
-    if (picture.sizePixels != kSideTexels || picture.components != 3 || picture.bits != 8)
+    const PngPicture picture = beginsAsSkin(png) ? decodePng(png, source) : PngPicture{};
+    if (picture.sizePixels != kSideTexels || picture.components != 3)
         throw Error(source + ": a skin has " + std::to_string(kSideTexels.x) + " x " +
                     std::to_string(kSideTexels.y) +
                     " pixels of red, green and blue in 8 bits; "

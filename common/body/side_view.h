@@ -4,6 +4,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
 
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
@@ -49,5 +51,9 @@ struct SideView {
     const float half = 0.52F * std::max(size.x, aspect * size.y);
     return {centre - glm::vec2{half, half / aspect}, centre + glm::vec2{half, half / aspect}};
 }
+
+// Whether a file begins as the PNG of a skin does, of kSideTexels in 8 bits. Nothing is decoded, so
+// what comes from others is asked first.
+[[nodiscard]] bool beginsAsSkin(std::span<const std::byte> png);
 
 }  // namespace aquarama::body

@@ -45,6 +45,10 @@ std::string shortestHost(const std::string& host) {
     return {};
 }
 
+std::string bracketed(const std::string& host) {
+    return host.find(':') == std::string::npos ? host : "[" + host + "]";
+}
+
 // Of version 6 in brackets: its colons are not the port's.
 std::optional<UdpAddress> udpAddressIn(const std::string& text) {
     const std::size_t colon = text.rfind(':');
@@ -58,9 +62,7 @@ std::optional<UdpAddress> udpAddressIn(const std::string& text) {
 }
 
 std::string textOf(const UdpAddress& address) {
-    const bool isVersion6 = address.host.find(':') != std::string::npos;
-    const std::string host = isVersion6 ? "[" + address.host + "]" : address.host;
-    return std::string(kScheme) + host + ":" + std::to_string(address.port);
+    return std::string(kScheme) + bracketed(address.host) + ":" + std::to_string(address.port);
 }
 
 }  // namespace aquarama::config

@@ -12,6 +12,9 @@ namespace aquarama::config {
 // it is none of version 4 or 6, or that of a network, of a group or of one cable alone.
 [[nodiscard]] std::string shortestHost(const std::string& host);
 
+// The same as addresses with a port have it: of version 6 in brackets.
+[[nodiscard]] std::string bracketed(const std::string& host);
+
 // One end of UDP.
 struct UdpAddress {
     std::string host;  // as shortestHost() has it

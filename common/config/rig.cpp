@@ -466,12 +466,10 @@ std::string nameOf(StereoMode mode) {
     return v1::Stereo::Mode_Name(static_cast<int>(mode) + v1::Stereo::MONO);
 }
 
-// Of "http://192.168.20.1:7490": the same machines and ports as those of UDP; version 4 alone, as
-// the code on the wall has no room for more.
+// Of "http://192.168.20.1:7490": the same machines and ports as those of UDP.
 std::optional<UdpAddress> webAddressIn(const std::string& address) {
     constexpr std::string_view kScheme = "http://";
-    if (!address.starts_with(kScheme) || address.find('[') != std::string::npos)
-        return std::nullopt;
+    if (!address.starts_with(kScheme)) return std::nullopt;
     return udpAddressIn("udp://" + address.substr(kScheme.size()));
 }
 
@@ -545,7 +543,8 @@ void takeGuests(const TextReader& file, const v1::Rig& in, Rig& rig) {
                     "address",
                     "address \"" + from.address() +
                         "\" is no address of this machine that phones reach: write "
-                        "http://192.168.20.1:7490; names are not looked up");
+                        "http://192.168.20.1:7490 or http://[fd00::1]:7490; names are not looked "
+                        "up");
     guests.host = address->host;
     guests.port = address->port;
     if (from.has_pictures()) checkPictures(file, in);

@@ -171,7 +171,7 @@ using FileContent = std::shared_ptr<const std::vector<std::byte>>;
 struct Guests {
     // Of the channel's picture.
     enum class Corner : std::uint8_t { LowerLeft, LowerRight, UpperLeft, UpperRight };
-    std::string host;  // address of this machine that phones reach
+    std::string host;  // address of this machine that phones reach, of version 4 or 6
     std::uint16_t port = 0;
     std::string channel;  // draws the sign
     Corner corner = Corner::LowerLeft;

@@ -50,7 +50,8 @@ struct KeyPair {
 using Allowed = std::map<std::string, std::string>;
 // The keys of a master that other machines can reach. `allowed` is called once a second, on a
 // separate thread, so that a key can be revoked while a show runs: a user that is no longer in it
-// is disconnected. It must not throw.
+// is disconnected. It must not throw. Without it whoever knows the public key of `own` may connect,
+// as the user "peer".
 struct MasterKeys {
     KeyPair own;
     std::function<Allowed()> allowed;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Visitors' drawings: those that wait for the crew, those of the day, ways in, and which fish of the wall wears one.
 import {html, nothing} from '/vendor/lit-html.js';
-import {sheetPanel} from '/sheets.js';
+import {SIDES, sheetPanel} from '/sheets.js';
 import {button, language, namesOf, speciesName, state, t, wholeWall} from '/widgets.js';
 
 export const hasDrawings = link => link.known.snapshot?.hasDrawings ?? false;
@@ -16,8 +16,9 @@ function since(one) {
     ? at.toLocaleTimeString(language(), {hour: 'numeric', minute: '2-digit'}) : at.toLocaleDateString(language());
 }
 
-function decide(link, one, verdict) {
-  link.command({order: {moderation: {number: one.number, verdict}}}, `${nameOf(one)}: ${t(`drawing.${verdict}`)}`);
+function decide(link, one, verdict, more = {}) {
+  link.command({order: {moderation: {number: one.number, verdict, ...more}}},
+    `${nameOf(one)}: ${t(`drawing.${verdict}`)}`);
 }
 
 // A picture of what it wears: there is none before the console has it.
@@ -40,12 +41,14 @@ const MOST_SHOWN = 12;
 const STAYS_MS = 2000;  // one that is decided, so that the next does not come under the finger
 const CALM_MS = 400;    // after the places of the others have changed
 const decided = new Map();  // number -> {one, verdict, at}
+const sides = new Map();    // number -> where its maker stands, as the crew says
 let places = [], movedAt = 0;
 
 // In their order, with those that were decided a moment ago.
 function standing(link) {
   const now = performance.now();
   for (const [number, {at}] of decided) if (now - at > STAYS_MS) decided.delete(number);
+  for (const number of sides.keys()) if (!allOf(link).some(one => one.number === number)) sides.delete(number);
   const waiting = allOf(link).filter(one => one.condition === 'WAITING' && !decided.has(one.number));
   const all = [...waiting, ...[...decided.values()].map(({one}) => one)].sort((a, b) => a.number - b.number);
   const shown = all.slice(0, MOST_SHOWN).map(one => one.number);
@@ -54,19 +57,29 @@ function standing(link) {
   return all;
 }
 
+// Where its maker stands: as it was said with the picture, until the crew knows better.
+function sideRow(link, one, disabled) {
+  const chosen = sides.get(one.number) ?? one.aside ?? 0;
+  const choose = aside => () => { sides.set(one.number, aside); link.dispatchEvent(new Event('change')); };
+  return html`<div class="row side" role="group" aria-label=${t('sheet.side')}>${Object.entries(SIDES).map(
+    ([name, aside]) => button(t(`sheet.${name}`), choose(aside), {disabled, pressed: String(chosen === aside),
+      of: `${name}-${one.number}`}))}</div>`;
+}
+
 function waitingCard(link, one) {
   const verdict = decided.get(one.number)?.verdict;
   const say = (name, kind) => {
     const act = () => {
       if (performance.now() - movedAt < CALM_MS) return;
       decided.set(one.number, {one, verdict: name, at: performance.now()});
-      decide(link, one, name);
+      decide(link, one, name, sides.has(one.number) ? {aside: sides.get(one.number)} : {});
     };
     return html`<button class=${kind} data-of=${one.number} aria-pressed=${verdict === name ? 'true' : nothing}
       ?disabled=${verdict || !link.may('OPERATOR')} @click=${act}>${t(name === 'LET_IN' ? 'drawing.yes'
       : 'drawing.no')}</button>`;
   };
   return html`<li>${picture(link, one)}<p>${nameOf(one)} <span class="quiet">${since(one)}</span></p>
+    ${sideRow(link, one, !!verdict || !link.may('OPERATOR'))}
     <div class="verdict">${say('TAKE_DOWN', 'no')}${say('LET_IN', 'yes')}</div></li>`;
 }
 

@@ -3,7 +3,7 @@
 import {html, nothing} from '/vendor/lit-html.js';
 import {button, t, word} from '/widgets.js';
 
-const SIDES = {left: -1, middle: 0, right: 1};
+export const SIDES = {left: -1, middle: 0, right: 1};
 const READ = ['image/jpeg', 'image/png', 'image/webp'];
 const MOST_BYTES = 16 << 20, MOST_PX = 4096;
 

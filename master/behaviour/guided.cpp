@@ -137,11 +137,12 @@ fish::Course guided(const Situation& situation,
         return course;
     const fish::SpeciesParameters& parameters = situation.parameters;
     const surroundings::Obstacles& obstacles = situation.environment.surroundings->obstacles;
-    const glm::vec3 way =
-        wayOf(*wearers, *wearer, obstacles, situation.senses.position, course.direction);
-    return heading(situation,
-                   way * kLed + roomFrom(situation),
-                   wearer->visit == fish::Visit::Shows ? parameters.slow : parameters.fast);
+    const glm::vec3 position = situation.senses.position;
+    const glm::vec3 way = wayOf(*wearers, *wearer, obstacles, position, course.direction);
+    const bool isThere = wearer->visit == fish::Visit::Shows &&
+                         isAt(position, greetingPlaceOf(*wearers, *wearer, obstacles));
+    return heading(
+        situation, way * kLed + roomFrom(situation), isThere ? parameters.slow : parameters.fast);
 }
 
 }  // namespace aquarama::behaviour

@@ -65,6 +65,7 @@ v1::Welcome welcomeTo(const config::Rig& rig,
     welcome.set_rig_text(rig.text);
     welcome.set_state_address(channels.stateAddress());
     welcome.set_pace(static_cast<v1::Pace>(options.pace));
+    if (!options.guestsKey.empty()) welcome.set_guests_key(options.guestsKey);
     return welcome;
 }
 
@@ -496,17 +497,18 @@ std::optional<Snapshot> Conductor::takeTick() {
 }
 
 void Conductor::turnDrawings(const Snapshot& newest) {
-    const auto inputs = drawings_.turn(newest.fish,
-                                       orders_.control().wanted().drawings(),
-                                       net::monotonicNow(),
-                                       static_cast<std::uint64_t>(unixNow()));
-    for (const world::WorldInput& input : inputs) bring(input, "a drawing");
+    drawings_.turn(newest.fish,
+                   orders_.control().wanted().drawings(),
+                   net::monotonicNow(),
+                   static_cast<std::uint64_t>(unixNow()),
+                   [this](const world::WorldInput& input) { return bring(input, "a drawing"); });
 }
 
-void Conductor::bring(const world::WorldInput& input, const char* what) {
-    if (!simulationThread_->betweenTicks(
-            [input](Simulation& simulation) { simulation.apply(input); }))
-        logWarning("{} waits: the world is busy", what);
+bool Conductor::bring(const world::WorldInput& input, const char* what) {
+    const bool isTaken = simulationThread_->betweenTicks(
+        [input](Simulation& simulation) { simulation.apply(input); });
+    if (!isTaken) logWarning("{} waits: the world is busy", what);
+    return isTaken;
 }
 
 // On the way to the next scene it is noted when light went, for the log, and which frame is black.

@@ -44,8 +44,9 @@ struct ConductorOptions {
     std::optional<std::uint64_t> frames;                         // the show ends after so many
     std::vector<std::string> expected;     // the channels that take part; empty: all of the rig
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
-    std::filesystem::path hoursAt;         // hours of the hall, for scenes that follow it
-    LogFile* log = nullptr;                // of the whole show; null: none
+    std::string guestsKey;          // public key of the guests' program; empty: a rig without keys
+    std::filesystem::path hoursAt;  // hours of the hall, for scenes that follow it
+    LogFile* log = nullptr;         // of the whole show; null: none
     machine::ServiceNotifier* service = nullptr;  // hears of every turn of the loop; null: nobody
     // Lockstep: silence of a node that ends the show.
     net::Duration patience = std::chrono::seconds(60);
@@ -115,7 +116,7 @@ class Conductor final : private FrameSource {
     // What becomes of visitors' drawings, once a second, by where the fish of a tick are.
     void turnDrawings(const Snapshot& newest);
     // Brings an input to the world; `what` names it where the world is too busy.
-    void bring(const world::WorldInput& input, const char* what);
+    bool bring(const world::WorldInput& input, const char* what);
     // What the wall shows now, with the brightness of the last frame.
     [[nodiscard]] v1::Show shown(net::Moment now) const;
     // The channel of the window that steers, "pilot" for anybody else, empty for nobody.

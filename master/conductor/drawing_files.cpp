@@ -35,6 +35,7 @@ KeptEntry entryOf(const v1::KeptDrawing& in, const fs::path& folder) {
             .isKept = in.kept(),
             .aside = in.aside(),
             .offeredAt = in.offered_at(),
+            .request = in.request(),
             .skin = std::make_shared<const std::vector<std::byte>>(
                 readWhole(pictureIn(folder, in.number()), wire::kMostSkinBytes))};
 }
@@ -46,6 +47,7 @@ void write(const KeptEntry& entry, v1::KeptDrawing& out) {
     if (entry.isKept) out.set_kept(true);
     out.set_aside(entry.aside);
     out.set_offered_at(entry.offeredAt);
+    out.set_request(entry.request);
 }
 
 // Pictures first: the list never names one that is not there.
@@ -100,16 +102,21 @@ FoundDrawings DrawingFiles::read() const {
     return found;
 }
 
-void DrawingFiles::keep(std::uint32_t lastNumber, std::vector<KeptEntry> drawings) {
+std::uint64_t DrawingFiles::keep(std::uint32_t lastNumber, std::vector<KeptEntry> drawings) {
     waiting_ = Wanted{lastNumber, std::move(drawings)};
+    ++newest_;
     turn();
+    return newest_;
 }
 
 void DrawingFiles::turn() {
-    if (isDone(writing_))
+    if (isDone(writing_)) {
         if (const std::string problem = writing_.get(); !problem.empty())
             warnOnceOf(folder_, problem, kLoss);
+        written_ = begun_;
+    }
     if (folder_.empty() || writing_.valid() || !waiting_) return;
+    begun_ = newest_;
     const auto write = [folder = folder_,
                         wanted = *std::exchange(waiting_, std::nullopt)]() -> std::string {
         try {

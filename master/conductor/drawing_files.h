@@ -21,6 +21,7 @@ struct KeptEntry {
     bool isKept = false;          // past the day
     int aside = 0;                // its maker: -1 left, 0 middle, 1 right
     std::uint64_t offeredAt = 0;  // Unix time, seconds
+    std::uint64_t request = 0;    // by which it was offered
     net::Blob skin;               // PNG
 };
 
@@ -42,10 +43,15 @@ class DrawingFiles {
 
     // What is there. A list or picture that cannot be read is one warning, and is left out.
     [[nodiscard]] FoundDrawings read() const;
-    // Writes these, and removes pictures of others. What cannot be written is one warning.
-    void keep(std::uint32_t lastNumber, std::vector<KeptEntry> drawings);
-    // Begins with what waits, where nothing is being written. Once a turn.
+    // Writes these, and removes pictures of others. What cannot be written is one warning. Returns
+    // the number of this state.
+    std::uint64_t keep(std::uint32_t lastNumber, std::vector<KeptEntry> drawings);
+    // Begins with what waits, where nothing is being written.
     void turn();
+    // Whether a state, or a later one, is on the disk, or could not be written.
+    [[nodiscard]] bool isKept(std::uint64_t state) const {
+        return folder_.empty() || written_ >= state;
+    }
 
   private:
     struct Wanted {
@@ -54,6 +60,7 @@ class DrawingFiles {
     };
     std::filesystem::path folder_;
     std::optional<Wanted> waiting_;
+    std::uint64_t newest_ = 0, begun_ = 0, written_ = 0;  // states
     std::future<std::string> writing_;  // why it could not be written; empty: it was
 };
 

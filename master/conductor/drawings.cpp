@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <string_view>
+#include <span>
 
 #include "common/base/log.h"
 #include "common/body/side_view.h"
@@ -19,24 +19,10 @@ constexpr net::Duration kUntilAway = std::chrono::seconds(1);
 // What is not kept goes after so long, also where nobody closes the day.
 constexpr std::uint64_t kDaySeconds = 20 * 3600;
 constexpr std::size_t kMostRetired = 32;
-constexpr std::size_t kMostRequests = 64;
+constexpr std::size_t kMostRequests = 512;
 
 ask::Answer refused(std::string why) {
     return {ask::Outcome::Refused, std::move(why)};
-}
-
-// Of a PNG: its signature, then the header's length, name, width, height and bits.
-bool isSkin(const std::string& png) {
-    constexpr std::string_view kBegins{"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16};
-    const auto number = [&](std::size_t at) {
-        int value = 0;
-        for (std::size_t i = 0; i < 4; ++i)
-            value = value << 8 | static_cast<unsigned char>(png[at + i]);
-        return value;
-    };
-    constexpr std::size_t kHeaderBytes = 29;
-    return png.size() >= kHeaderBytes && png.starts_with(kBegins) &&
-           number(16) == body::kSideTexels.x && number(20) == body::kSideTexels.y && png[24] == 8;
 }
 
 net::Blob blobOf(const std::string& bytes) {
@@ -52,6 +38,7 @@ Drawings::Drawings(std::optional<config::DrawingRules> rules, std::filesystem::p
     lastNumber_ = found.lastNumber;
     for (KeptEntry& kept : found.drawings) {
         const Digest picture = digestOf(*kept.skin);
+        if (kept.request != 0) take(kept.request, kept.number);
         entries_.push_back({.kept = std::move(kept), .picture = picture});
     }
 }
@@ -59,6 +46,7 @@ Drawings::Drawings(std::optional<config::DrawingRules> rules, std::filesystem::p
 void Drawings::enter(std::vector<DrawingSlots> slots) {
     slots_ = std::move(slots);
     toLeave_.clear();
+    inputs_.clear();
     std::erase_if(entries_, [](const Entry& entry) { return entry.isForgotten; });
     for (Entry& entry : entries_) entry.rest();
     findWorn();
@@ -89,7 +77,7 @@ Drawings::Entry* Drawings::find(std::uint32_t number) {
 
 std::string Drawings::objectionTo(const v1::OfferedDrawing& offered) const {
     if (!rules_) return "the rig has no drawings; give it a block drawings { }";
-    if (!isSkin(offered.skin()))
+    if (!body::beginsAsSkin(std::as_bytes(std::span(offered.skin()))))
         return "the picture is no skin, a PNG of 1024 x 512 pixels; read the sheet again";
     if (std::ranges::find(rules_->species, offered.species()) == rules_->species.end())
         return "the rig has no drawings of " + offered.species();
@@ -102,11 +90,9 @@ ask::Answer Drawings::offer(std::uint64_t request,
                             const v1::OfferedDrawing& offered,
                             std::uint64_t unixSeconds,
                             std::uint32_t& number) {
-    const auto known =
-        std::ranges::find(requests_, request, &decltype(requests_)::value_type::first);
-    if (known != requests_.end()) {
-        number = known->second;
-        return {};
+    if (const Taken* const known = taken(request)) {
+        number = known->number;
+        return answerOf(*known);
     }
     if (std::string objection = objectionTo(offered); !objection.empty())
         return refused(std::move(objection));
@@ -118,16 +104,33 @@ ask::Answer Drawings::offer(std::uint64_t request,
                                  .isLetIn = rules_->areLetInAtOnce,
                                  .aside = offered.aside(),
                                  .offeredAt = unixSeconds,
+                                 .request = request,
                                  .skin = skin},
                         .picture = digestOf(*skin)});
-    requests_.emplace_back(request, number);
-    if (requests_.size() > kMostRequests) requests_.pop_front();
     logInfo("drawing {}: a {}", number, offered.species());
     changed();
-    return {};
+    return answerOf(take(request, number));
 }
 
-void Drawings::decideOne(Entry& entry, v1::Moderation::Verdict verdict) {
+const Drawings::Taken* Drawings::taken(std::uint64_t request) const {
+    const auto known = std::ranges::find(requests_, request, &Taken::request);
+    return known == requests_.end() ? nullptr : &*known;
+}
+
+const Drawings::Taken& Drawings::take(std::uint64_t request, std::uint32_t number) {
+    if (requests_.size() == kMostRequests) requests_.pop_front();
+    return requests_.emplace_back(Taken{request, number, state_});
+}
+
+ask::Answer Drawings::answerOf(const Taken& taken) {
+    files_.turn();
+    if (files_.isKept(taken.state)) return {};
+    return {ask::Outcome::Waiting, "the drawings are being written"};
+}
+
+void Drawings::decideOne(Entry& entry, const v1::Moderation& moderation) {
+    if (moderation.has_aside()) entry.kept.aside = moderation.aside();
+    const v1::Moderation::Verdict verdict = moderation.verdict();
     switch (verdict) {
         case v1::Moderation::LET_IN:
             entry.kept.isLetIn = true;
@@ -144,19 +147,26 @@ void Drawings::decideOne(Entry& entry, v1::Moderation::Verdict verdict) {
     }
 }
 
-ask::Answer Drawings::decide(const v1::Moderation& moderation) {
+ask::Answer Drawings::decide(const std::string& user,
+                             std::uint64_t request,
+                             const v1::Moderation& moderation) {
+    if (const Taken* const known = taken(request)) return answerOf(*known);
     if (!rules_) return refused("the rig has no drawings; give it a block drawings { }");
     if (moderation.number() == 0) {
-        for (Entry& entry : entries_) decideOne(entry, moderation.verdict());
+        for (Entry& entry : entries_) decideOne(entry, moderation);
     } else {
         Entry* const entry = find(moderation.number());
         if (entry == nullptr)
             return refused("there is no drawing " + std::to_string(moderation.number()) +
                            " any more");
-        decideOne(*entry, moderation.verdict());
+        decideOne(*entry, moderation);
     }
+    logInfo("{} decides about drawing {} (0: all): {}",
+            user,
+            moderation.number(),
+            v1::Moderation::Verdict_Name(moderation.verdict()));
     changed();
-    return {};
+    return answerOf(take(request, 0));
 }
 
 // One that swims leaves first.
@@ -165,31 +175,33 @@ void Drawings::takeDown(Entry& entry) {
     if (entry.swims()) toLeave_.push_back(*entry.fish);
 }
 
-std::vector<world::WorldInput> Drawings::turn(std::span<const motion::FishRecord> fish,
-                                              bool maySwim,
-                                              net::Moment now,
-                                              std::uint64_t unixSeconds) {
-    std::vector<world::WorldInput> inputs;
-    if (!rules_) return inputs;
+// A fish that the world was not told of yet is away as well: nobody has left before all inputs are
+// taken.
+void Drawings::turn(std::span<const motion::FishRecord> fish,
+                    bool maySwim,
+                    net::Moment now,
+                    std::uint64_t unixSeconds,
+                    const Apply& apply) {
+    if (!rules_) return;
     files_.turn();
     forgetOld(unixSeconds);
-    endLeft(fish, now);
+    if (inputs_.empty()) endLeft(fish, now);
     if (maySwim)
-        enterNext(fish, now, inputs);
+        enterNext(fish, now);
     else
         for (const Entry& entry : entries_)
             if (entry.swims()) toLeave_.push_back(*entry.fish);
-    sendAway(now, inputs);
-    return inputs;
+    sendAway(now);
+    while (!inputs_.empty() && apply(inputs_.front())) inputs_.pop_front();
 }
 
-void Drawings::sendAway(net::Moment now, std::vector<world::WorldInput>& inputs) {
+void Drawings::sendAway(net::Moment now) {
     for (Entry& entry : entries_) {
         const bool isTold =
             entry.swims() && std::ranges::find(toLeave_, *entry.fish) != toLeave_.end();
         if (!isTold) continue;
         entry.leaving = now;
-        inputs.emplace_back(world::LeaveDrawing{*entry.fish});
+        inputs_.emplace_back(world::LeaveDrawing{*entry.fish});
         changed();
     }
     toLeave_.clear();
@@ -253,9 +265,7 @@ std::vector<Drawings::Entry*> Drawings::nextToEnter() {
 
 // Nodes are told of the skins of those that wait; once they have had time to load it, the first is
 // given a fish.
-void Drawings::enterNext(std::span<const motion::FishRecord> fish,
-                         net::Moment now,
-                         std::vector<world::WorldInput>& inputs) {
+void Drawings::enterNext(std::span<const motion::FishRecord> fish, net::Moment now) {
     const std::vector<Entry*> waiting = nextToEnter();
     if (waiting.empty()) return;
     if (std::ranges::any_of(waiting, [](const Entry* entry) { return !entry->listed; })) {
@@ -268,10 +278,10 @@ void Drawings::enterNext(std::span<const motion::FishRecord> fish,
     const auto free = freeFish(next->kept.species, fish);
     if (!free) return makeRoom(next->kept.species);
     next->fish = free;
-    inputs.emplace_back(world::EnterDrawing{.fish = *free,
-                                            .number = next->kept.number,
-                                            .picture = next->picture,
-                                            .aside = next->kept.aside});
+    inputs_.emplace_back(world::EnterDrawing{.fish = *free,
+                                             .number = next->kept.number,
+                                             .picture = next->picture,
+                                             .aside = next->kept.aside});
     changed();
 }
 
@@ -311,6 +321,7 @@ v1::DrawingStatus Drawings::statusOf(const Entry& entry) const {
     if (entry.fish) status.set_fish(*entry.fish);
     status.set_kept(entry.kept.isKept);
     status.set_offered_at(entry.kept.offeredAt);
+    status.set_aside(entry.kept.aside);
     return status;
 }
 
@@ -342,7 +353,7 @@ void Drawings::changed() {
     std::vector<KeptEntry> kept;
     for (const Entry& entry : entries_)
         if (!entry.isForgotten) kept.push_back(entry.kept);
-    files_.keep(lastNumber_, std::move(kept));
+    state_ = files_.keep(lastNumber_, std::move(kept));
 }
 
 // Lists the skins that are worn or will be soon.

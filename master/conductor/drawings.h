@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -37,20 +38,27 @@ class Drawings {
     // another one enter anew, and those that it has for itself alone leave.
     void enter(std::vector<DrawingSlots> slots);
 
-    // What becomes of an offer of `request`; `number` is set where the drawing was taken.
+    // What becomes of an offer of `request`; `number` is set where the drawing was taken. It waits
+    // until the drawing is on the disk: what is done survives a killed master. Who says it again
+    // is answered again.
     [[nodiscard]] ask::Answer offer(std::uint64_t request,
                                     const v1::OfferedDrawing& offered,
                                     std::uint64_t unixSeconds,
                                     std::uint32_t& number);
-    // What the crew decides.
-    [[nodiscard]] ask::Answer decide(const v1::Moderation& moderation);
+    // What `user` of the crew decides, in the same way.
+    [[nodiscard]] ask::Answer decide(const std::string& user,
+                                     std::uint64_t request,
+                                     const v1::Moderation& moderation);
 
-    // The inputs that are due, once a second. `fish`: the newest records; `maySwim`: what the crew
-    // wants of all.
-    [[nodiscard]] std::vector<world::WorldInput> turn(std::span<const motion::FishRecord> fish,
-                                                      bool maySwim,
-                                                      net::Moment now,
-                                                      std::uint64_t unixSeconds);
+    // Gives a world an input; false: it is busy, and is given it again later.
+    using Apply = std::function<bool(const world::WorldInput&)>;
+    // Once a second: applies the inputs that are due. `fish`: the newest records; `maySwim`: what
+    // the crew wants of all.
+    void turn(std::span<const motion::FishRecord> fish,
+              bool maySwim,
+              net::Moment now,
+              std::uint64_t unixSeconds,
+              const Apply& apply);
 
     // Grows with every change that reply() shows; nothing without rules.
     [[nodiscard]] std::optional<std::uint64_t> version() const;
@@ -83,7 +91,16 @@ class Drawings {
     [[nodiscard]] Entry* find(std::uint32_t number);
     // Those that were let in and have no fish yet, the first of them.
     [[nodiscard]] std::vector<Entry*> nextToEnter();
-    void decideOne(Entry& entry, v1::Moderation::Verdict verdict);
+    void decideOne(Entry& entry, const v1::Moderation& moderation);
+    // Answers of requests that were taken.
+    struct Taken {
+        std::uint64_t request;
+        std::uint32_t number;  // of a drawing that was offered
+        std::uint64_t state;   // of the files, that has it
+    };
+    [[nodiscard]] const Taken* taken(std::uint64_t request) const;
+    [[nodiscard]] ask::Answer answerOf(const Taken& taken);
+    const Taken& take(std::uint64_t request, std::uint32_t number);
     [[nodiscard]] v1::DrawingStatus statusOf(const Entry& entry) const;
     [[nodiscard]] std::string objectionTo(const v1::OfferedDrawing& offered) const;
     [[nodiscard]] v1::DrawingStatus::Condition conditionOf(const Entry& entry) const;
@@ -95,14 +112,13 @@ class Drawings {
     // Steps of a turn.
     void endLeft(std::span<const motion::FishRecord> fish, net::Moment now);
     void forgetOld(std::uint64_t unixSeconds);
-    void enterNext(std::span<const motion::FishRecord> fish,
-                   net::Moment now,
-                   std::vector<world::WorldInput>& inputs);
-    void sendAway(net::Moment now, std::vector<world::WorldInput>& inputs);
+    void enterNext(std::span<const motion::FishRecord> fish, net::Moment now);
+    void sendAway(net::Moment now);
     // The oldest that swims, of this species where it is named: begins to leave for good.
     void makeRoom(const std::string& species);
     void takeDown(Entry& entry);
-    void changed();  // tells whoever looks, and keeps it
+    // Tells whoever looks, and keeps it.
+    void changed();
     void tellSkins();
     void replaceBlobs(std::map<Digest, net::Blob> blobs);
 
@@ -112,8 +128,10 @@ class Drawings {
     std::deque<Entry> entries_;  // the oldest first
     std::uint32_t lastNumber_ = 0;
     std::uint64_t version_ = 1;
-    std::vector<std::uint32_t> toLeave_;  // fish that are told at the next turn
-    std::deque<std::pair<std::uint64_t, std::uint32_t>> requests_;  // answered lately, and numbers
+    std::vector<std::uint32_t> toLeave_;    // fish that are told at the next turn
+    std::deque<world::WorldInput> inputs_;  // that the world has not taken yet
+    std::uint64_t state_ = 0;               // of the files
+    std::deque<Taken> requests_;            // the newest last
     std::optional<Digest> list_;
     std::map<Digest, net::Blob> blobs_;
     std::deque<std::pair<Digest, net::Blob>> retired_;  // still asked for by slow nodes

@@ -136,17 +136,11 @@ Answer Orders::hold(const std::string& user,
     return missing.empty() ? Answer{} : Answer{Outcome::Waiting, "not shown yet by " + missing};
 }
 
-// A verdict may be said again: it then changes nothing.
+// What is said again is answered again.
 Answer Orders::takeDrawing(const std::string& user, const v1::Order& order, std::uint32_t& number) {
     if (limits_.isLockstep)
         return refused("a show in lockstep is the same every time; run it with --live");
-    if (order.has_moderation()) {
-        logInfo("{} decides about drawing {} (0: all): {}",
-                user,
-                order.moderation().number(),
-                v1::Moderation::Verdict_Name(order.moderation().verdict()));
-        return drawings_.decide(order.moderation());
-    }
+    if (order.has_moderation()) return drawings_.decide(user, order.request(), order.moderation());
     if (!control_.wanted().drawings()) return refused("drawings are set off; set drawings on");
     return drawings_.offer(
         order.request(), order.drawing(), static_cast<std::uint64_t>(unixNow()), number);

@@ -34,7 +34,7 @@ void steer(Pilot& pilot, const Voyage& voyage, const Steering& steering, Tick no
     pilot.autopilotFrom = {pilot.heldUntil.value + voyage.idleTicks};
 }
 
-void advancePilot(Pilot& pilot, const Voyage& voyage, glm::vec3 school, Tick now) {
+void advancePilot(Pilot& pilot, const Voyage& voyage, glm::vec3 school, Tick now, float most) {
     const bool steered = now < pilot.heldUntil;
     // No visitor steers, and none has for the idle time.
     const bool alone = !steered && now >= pilot.autopilotFrom;
@@ -44,7 +44,7 @@ void advancePilot(Pilot& pilot, const Voyage& voyage, glm::vec3 school, Tick now
     if (alone && !pilot.touring) pilot.along = nearestAlong(voyage.tour, pilot.vessel.position);
     pilot.touring = alone;
     const Push wanted = steered ? pushOf(pilot.steering)
-                        : alone ? followTour(voyage.tour, pilot.vessel, school, pilot.along)
+                        : alone ? followTour(voyage.tour, pilot.vessel, school, pilot.along, most)
                                 : Push{};
     pushVessel(pilot.vessel, wanted, alone ? kAutopilotSlew : kHandsSlew);
     moveHull(voyage.waters, pilot.vessel.position, pilot.vessel.velocity);
@@ -142,15 +142,16 @@ void makeFor(glm::vec3 wanted, const Vessel& vessel, Push& push) {
     push.up = share(newtons.y / kSideThrustNewtons, kMostThrust);
 }
 
-// Sets the pushes that turn and tilt the submarine towards a place.
-void lookAt(glm::vec3 place, const Vessel& vessel, Push& push) {
+// Sets the pushes that turn and tilt the submarine towards a place. `fastest`: of the turn, radians
+// a second.
+void lookAt(glm::vec3 place, const Vessel& vessel, float fastest, Push& push) {
     const glm::vec3 to = place - vessel.position;
     const float level = std::sqrt(to.x * to.x + to.z * to.z);
     // Metres: at a nearer place the direction is not defined well enough.
     constexpr float kTooNear = 0.5F;
     if (level < kTooNear) return;
     const float missing = wrapped(place::angleOf(-to.x, -to.z) - vessel.attitude.yaw);
-    push.turn = share(kLookPerSecond * missing, kFastestLook) / kFastestTurn;
+    push.turn = share(kLookPerSecond * missing, fastest) / kFastestTurn;
     push.tilt = share(place::angleOf(to.y, level) / kSteepestPitch, kMostTilt);
 }
 
@@ -198,7 +199,10 @@ float nearestAlong(const Tour& tour, glm::vec3 place) {
     return nearest;
 }
 
-Push followTour(const Tour& tour, const Vessel& vessel, glm::vec3 school, float& along) {
+Push followTour(
+    const Tour& tour, const Vessel& vessel, glm::vec3 school, float& along, float most) {
+    const float speed = std::min(tour.metresPerSecond, most);
+    const float fastest = std::min(kFastestMetresPerSecond, most);
     const TourPoint point = pointOf(tour, along, school);
     const glm::vec3 missing = point.at - vessel.position;
     const float behind = place::lengthOf(missing);
@@ -206,16 +210,16 @@ Push followTour(const Tour& tour, const Vessel& vessel, glm::vec3 school, float&
     const float pace = std::clamp(
         (kWaitsWhollyMetres - behind) / (kWaitsWhollyMetres - kWaitsFromMetres), 0.0F, 1.0F);
     const float metresPerStop = place::lengthOf(point.perStop);
-    const glm::vec3 course = place::directionOf(point.perStop, {}) * (tour.metresPerSecond * pace);
-    glm::vec3 wanted = atMost(course + missing * kCorrectionPerSecond, kFastestMetresPerSecond);
+    const glm::vec3 course = place::directionOf(point.perStop, {}) * (speed * pace);
+    glm::vec3 wanted = atMost(course + missing * kCorrectionPerSecond, fastest);
     // Rises over what blocks the way.
     wanted.y +=
         std::max(0.0F, place::lengthOf(wanted) - place::lengthOf(vessel.velocity) - kOverSeconds);
     Push push;
     makeFor(wanted, vessel, push);
-    lookAt(point.lookAt, vessel, push);
+    lookAt(point.lookAt, vessel, kFastestLook * (fastest / kFastestMetresPerSecond), push);
     if (metresPerStop > 0) {
-        along += tour.metresPerSecond * pace * kTickSeconds / metresPerStop;
+        along += speed * pace * kTickSeconds / metresPerStop;
         const auto stops = static_cast<float>(tour.stops.size());
         if (along >= stops) along -= stops;
     }

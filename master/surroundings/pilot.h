@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -51,12 +52,14 @@ struct TourPoint {
 // Rate at which the autopilot changes its pushes, a second: so slowly that nobody feels it begin.
 inline constexpr float kAutopilotSlew = 0.25F;
 
+// A speed that limits nothing.
+inline constexpr float kNoLimit = std::numeric_limits<float>::infinity();
+
 // The pushes that the autopilot wants now; advances `along`, the parameter of the point that it
-// makes for. It turns by at most 8 degrees a second and wants at most 0.6 m/s along its path.
-[[nodiscard]] Push followTour(const Tour& tour,
-                              const Vessel& vessel,
-                              glm::vec3 school,
-                              float& along);
+// makes for. It turns by at most 8 degrees a second and wants at most 0.6 m/s along its path, no
+// more than `most`, with which its turn slows.
+[[nodiscard]] Push followTour(
+    const Tour& tour, const Vessel& vessel, glm::vec3 school, float& along, float most = kNoLimit);
 
 // The last visitor who steered keeps the helm for a while; without steering the autopilot takes
 // over. One step a tick.
@@ -96,8 +99,9 @@ struct Pilot {
 // Takes a visitor's steering, between two ticks. A steering of zeros releases the helm.
 void steer(Pilot& pilot, const Voyage& voyage, const Steering& steering, Tick now);
 // Advances the submarine by one tick. `school` is where the autopilot looks if its tour names no
-// other point.
-void advancePilot(Pilot& pilot, const Voyage& voyage, glm::vec3 school, Tick now);
+// other point. It goes no faster than `most` metres a second: somebody tries to keep up with it.
+void advancePilot(
+    Pilot& pilot, const Voyage& voyage, glm::vec3 school, Tick now, float most = kNoLimit);
 
 // The hash with all of the state folded in.
 [[nodiscard]] std::uint64_t foldedPilot(std::uint64_t hash, const Pilot& pilot);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/world/visits.h"
 
+#include <algorithm>
+
 #include "common/base/random_streams.h"
 #include "common/place/place.h"
 #include "master/behaviour/guided.h"
 #include "master/behaviour/think.h"
+#include "master/surroundings/pilot.h"
 #include "master/world/beginning.h"
 
 namespace aquarama::world {
@@ -77,6 +80,19 @@ void lookFrom(const surroundings::Vessel& vessel, fish::Wearers& wearers) {
     wearers.eye = vessel.position;
     wearers.right = surroundings::rightOf(vessel.attitude);
     wearers.ahead = {wearers.right.z, 0, -wearers.right.x};
+}
+
+float fastestWith(const FishColumns& columns,
+                  std::span<const fish::SpeciesParameters> speciesParameters) {
+    constexpr float kShare = 0.4F;  // of its speed: it catches up with the rest
+    float fastest = surroundings::kNoLimit;
+    for (const fish::Wearer& wearer : columns.wearers.fish) {
+        if (wearer.visit != fish::Visit::Enters && wearer.visit != fish::Visit::Shows) continue;
+        const float own = speciesParameters[columns.view.kind[wearer.fish]].fast *
+                          columns.view.fish[wearer.fish].length;
+        fastest = std::min(fastest, kShare * own);
+    }
+    return fastest;
 }
 
 void enter(const WaterAtTick& water, const EnterDrawing& drawing, FishColumns& columns) {

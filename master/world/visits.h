@@ -35,6 +35,10 @@ void putIn(const WaterAtTick& water,
 
 // Where the viewer is, and which way the vessel looks, level.
 void lookFrom(const surroundings::Vessel& vessel, fish::Wearers& wearers);
+// How fast the viewer may travel so that those who come and show themselves keep up with it, metres
+// a second.
+[[nodiscard]] float fastestWith(const FishColumns& columns,
+                                std::span<const fish::SpeciesParameters> speciesParameters);
 // A fish that waits comes in with a drawing. Nothing happens to one that does not wait.
 void enter(const WaterAtTick& water, const EnterDrawing& drawing, FishColumns& columns);
 // It begins to swim away.

@@ -381,7 +381,8 @@ WaterAtTick World::waterNow() const {
 }
 
 void World::moveSubmarine() {
-    surroundings::advancePilot(pilot_, voyage_, school_.goal().position, tick_);
+    surroundings::advancePilot(
+        pilot_, voyage_, school_.goal().position, tick_, fastestWith(columns_, speciesParameters_));
     showSubmarine();
 }
 

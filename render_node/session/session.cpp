@@ -62,6 +62,7 @@ Admission admissionOf(const Admitted& admitted) {
     return {.look = look.number(),
             .show = showOf(welcome),
             .rig = rigOf(admitted),
+            .guestsKey = welcome.guests_key(),
             .scene = config::parseScene(look.scene_text(), "the master's scene"),
             .seed = look.seed(),
             .world = look.world(),

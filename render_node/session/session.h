@@ -37,6 +37,7 @@ struct Admission {
     std::uint32_t look = 0;  // its number, as in wire::Show
     Digest show;             // of all that is built for it: another look has another
     config::Rig rig;
+    std::string guestsKey;  // public, of the program that serves visitors; empty: none
     config::Scene scene;
     std::uint32_t seed = 0;
     bool world = true;  // false: patterns alone are drawn

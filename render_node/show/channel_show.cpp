@@ -38,13 +38,24 @@ void copyToWindow(const gl::Target& picture, glm::ivec2 window, GLenum buffer) {
                            size == picture.sizePixels() ? GL_NEAREST : GL_LINEAR);
 }
 
-// The console, and visitors' phones, where the rig has them.
-std::vector<std::string> watchersOf(const config::Rig& rig) {
-    std::vector<std::string> addresses;
-    if (!rig.watchAddress.empty()) addresses.push_back(rig.watchAddress);
-    if (rig.guests && !rig.guests->picturesAddress.empty())
-        addresses.push_back(rig.guests->picturesAddress);
-    return addresses;
+// Who is brought pictures, and with which keys.
+struct Watcher {
+    std::string address;
+    std::optional<net::PeerKeys> keys;
+};
+
+// The console, and the program that serves visitors, where the rig has them. The console has the
+// master's key; that program has its own, as strangers speak to it.
+std::vector<Watcher> watchersOf(const session::Admission& admission,
+                                const std::optional<net::PeerKeys>& keys) {
+    const config::Rig& rig = admission.rig;
+    std::vector<Watcher> watchers;
+    if (!rig.watchAddress.empty()) watchers.push_back({rig.watchAddress, keys});
+    const bool isShown = rig.guests && !rig.guests->picturesAddress.empty();
+    if (!isShown || (keys && admission.guestsKey.empty())) return watchers;
+    watchers.push_back({rig.guests->picturesAddress, keys});
+    if (keys) watchers.back().keys->master = admission.guestsKey;
+    return watchers;
 }
 
 }  // namespace
@@ -71,8 +82,8 @@ ChannelShow::~ChannelShow() {
 
 void ChannelShow::run(session::Admission first) {
     std::optional<session::Admission> admission = std::move(first);
-    for (const std::string& address : watchersOf(admission->rig))
-        watchers_.emplace_back(options_.channel, address, options_.keys);
+    for (const Watcher& watcher : watchersOf(*admission, options_.keys))
+        watchers_.emplace_back(options_.channel, watcher.address, watcher.keys);
     while (admission) {
         build(std::move(*admission));
         session_.prepared(stage_->admission().look, stage_->bears());

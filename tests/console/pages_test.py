@@ -574,6 +574,10 @@ class Pages(unittest.TestCase):
             if one.text == label)
         verdict(first, "No").click()
         self.assertFalse(verdict(first, "Yes, let it in").is_enabled(), "its card stays, and takes no other tap")
+        side = lambda name: self.find(self.driver, f"button[data-of='{name}-{second}']")
+        self.assertEqual(side("middle").get_attribute("aria-pressed"), "true", "as it was offered")
+        side("right").click()
+        wait_until(lambda: side("right").get_attribute("aria-pressed") == "true", 5, "the other side")
         verdict(second, "Yes, let it in").click()
         numbers = lambda of: [text.split()[1] for text, _ in self.cards(of)]
         wait_until(lambda: numbers(".waiting") == [str(third)], 5, "the third alone")

@@ -95,7 +95,7 @@ TEST(Decoder, coloursGoOnBeyondTheOutline) {
             skin.codes.insert(skin.codes.end(), texel.begin(), texel.end());
         }
     const PngPicture before = skin;
-    drawings::bleed(skin);
+    drawings::bleed(skin, 0);
     const auto at = [&](int x, int c) {
         return skin.codes[static_cast<std::size_t>(4 * (16 * 64 + x) + c)];
     };
@@ -108,6 +108,23 @@ TEST(Decoder, coloursGoOnBeyondTheOutline) {
         const bool isKept = before.codes[i + 3] != 0;
         EXPECT_TRUE(!isKept || skin.codes[i] == before.codes[i]);
     }
+}
+
+// A white fish with a grey line along its outline, half of which lies within.
+TEST(Decoder, theLineAlongTheOutlineIsNoColourOfTheDrawing) {
+    PngPicture skin{.sizePixels = {64, 32}, .components = 4, .codes = {}};
+    const auto isIn = [](int x, int y, int by) {
+        return x >= 8 + by && x < 56 - by && y >= 8 + by && y < 24 - by;
+    };
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 64; ++x) {
+            const std::uint16_t code = isIn(x, y, 2) ? 250 : 163;
+            const std::uint16_t alpha = isIn(x, y, 0) ? 255 : 0;
+            skin.codes.insert(skin.codes.end(), {code, code, code, alpha});
+        }
+    drawings::bleed(skin, 3.4);
+    for (std::size_t i = 0; i < skin.codes.size(); i += 4)
+        EXPECT_EQ(skin.codes[i], 250) << i / 4 % 64 << ' ' << i / 4 / 64;
 }
 
 class Confined : public testing::Test {

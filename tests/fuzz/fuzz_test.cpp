@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/picture.h"
+#include "common/body/side_view.h"
 #include "common/motion/repertoire.h"
 #include "master/simulation/living_world.h"
 #include "master/world/world_state.h"
@@ -225,6 +227,16 @@ TEST(Fuzz, damagedPicturesOfVisitorsAreRefusedOrReadWithinBounds) {
           inputOf(test::pngOf(photo)),
           inputOf(test::webpOf(photo))},
          20000);
+}
+
+TEST(Fuzz, whatATakenOverDecoderSaysIsRefusedOrReadWithinBounds) {
+    PngPicture skin{.sizePixels = body::kSideTexels, .components = 4, .codes = {}};
+    skin.codes.assign(4 * static_cast<std::size_t>(skin.sizePixels.x * skin.sizePixels.y), 128);
+    FuzzInput png = inputOf(encodePng(skin, PngMeaning::Srgb));
+    const std::string head = "drawing blue_tang " + std::to_string(png.size()) + "\n";
+    png.insert(png.begin(), head.begin(), head.end());
+    const std::string refused = "refused no_sheet\n";
+    feed(fuzzDecoder, {png, inputOf(std::as_bytes(std::span{refused}))}, 300);
 }
 
 TEST(Fuzz, damagedPacketsAreRefusedOrReadWhole) {

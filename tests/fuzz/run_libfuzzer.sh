@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # run_libfuzzer.sh SECONDS: clang's libFuzzer looks for inputs that break a reader, for so long each, from the files of
-# config/ and what it has found in earlier runs (build/fuzz/corpus). Ends with 1 where one breaks; the input lies in
-# build/fuzz.
+# config/ and tests/fuzz/seeds, and what it has found in earlier runs (build/fuzz/corpus). Ends with 1 where one breaks;
+# the input lies in build/fuzz.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 packaging/install-packages.sh packaging/packages/run.txt packaging/packages/test.txt packaging/packages/fuzz.txt
@@ -18,6 +18,7 @@ seeds() {
         rig) echo config ;;
         scene) echo config/scenes ;;
         species) echo config/species ;;
+        photo | decoder) echo "tests/fuzz/seeds/$1" ;;
     esac
 }
 for fuzzer in build/fuzz/fuzz/fuzz_*; do

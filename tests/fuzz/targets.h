@@ -27,5 +27,6 @@ int fuzzOsc(const std::uint8_t* bytes, std::size_t size);
 int fuzzTuio(const std::uint8_t* bytes, std::size_t size);
 int fuzzMpcdi(const std::uint8_t* bytes, std::size_t size);
 int fuzzPhoto(const std::uint8_t* bytes, std::size_t size);
+int fuzzDecoder(const std::uint8_t* bytes, std::size_t size);
 
 }  // namespace aquarama

@@ -17,7 +17,7 @@ import threading
 import time
 from pathlib import Path
 
-from hall import Hall, Socket, Visitor, aquarama, wait_until
+from hall import Hall, Socket, Visitor, aquarama, end_of, wait_until
 from show import BIN
 
 TICKS = os.sysconf("SC_CLK_TCK")
@@ -81,10 +81,9 @@ class Crowd:
 
     async def look(self, visitor):
         """The wall's picture once a second, as a page does."""
-        host, port = self.hall.guests.split(":")
         while not self.is_over():
             began = time.monotonic()
-            reader, writer = await asyncio.open_connection(host, int(port))
+            reader, writer = await asyncio.open_connection(*end_of(self.hall.guests))
             writer.write(f"GET /wall.jpg?{visitor.session}.1 HTTP/1.1\r\nHost: {self.hall.guests}\r\n"
                          "Connection: close\r\n\r\n".encode())
             answer = await reader.read()
@@ -126,7 +125,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([BIN.parent / "tests" / "aquarama_draw_photos", folder, "6", "clownfish", "blue_tang"],
                        check=True, stdout=subprocess.DEVNULL)
-        hall = Hall(scene="reef", drawings=True)
+        hall = Hall(scene="reef", drawings="AT_ONCE")
         try:
             wait_until(hall.token, 60, "the code on the wall")
             alone = frames(hall, seconds / 4)

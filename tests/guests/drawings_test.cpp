@@ -2,6 +2,7 @@
 // Pictures that phones send: who may, what becomes of them, and how much the server reads.
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include <unistd.h>
 
 #include "common/base/files.h"
+#include "common/config/host.h"
 #include "guests/guests.h"
 #include "tests/guests/callers.h"
 
@@ -244,6 +246,24 @@ v1::Explanation explanation(v1::Explanation::Intention intention, const std::str
     return told;
 }
 
+TEST_F(VisitorDrawingsTest, aPictureThatAKilledProgramWasReadingIsSaidToBeLost) {
+    std::optional<Caller> phone;
+    phone.emplace(*service, entering());
+    const std::string resuming = phone->resuming();
+    EXPECT_EQ(send(request(secretOf(*phone))).first, 202);
+    const auto seats = folder.path() / "seats", kept = folder.path() / "kept";
+    std::filesystem::copy_file(seats, kept);
+    phone.reset();
+    service.reset();
+    std::filesystem::copy_file(kept, seats, std::filesystem::copy_options::overwrite_existing);
+    begin();
+    Caller again(*service, resuming);
+    hear({});
+    pass(0.5);
+    EXPECT_EQ(told(again)["refused"], "lost");
+    EXPECT_EQ(told(again)["reading"], false);
+}
+
 TEST(Deed, isWhatTheMasterSays) {
     EXPECT_EQ(deedOf({}), FishDeed{}) << "it is away";
     EXPECT_EQ(deedOf(explanation(v1::Explanation::AVOID_FISH, "#12 blue_tang")),
@@ -261,30 +281,46 @@ TEST(Deed, isWhatTheMasterSays) {
     EXPECT_EQ(deedOf(hides).saw, "") << "it does not mind";
 }
 
+// A port of the loopback, of version 4 or 6.
+struct Place {
+    Place(const std::string& host, std::uint16_t port) {
+        if (host == "::1")
+            six = {.sin6_family = AF_INET6,
+                   .sin6_port = htons(port),
+                   .sin6_flowinfo = 0,
+                   .sin6_addr = in6addr_loopback,
+                   .sin6_scope_id = 0};
+        else
+            four = {.sin_family = AF_INET,
+                    .sin_port = htons(port),
+                    .sin_addr = {htonl(INADDR_LOOPBACK)},
+                    .sin_zero = {}};
+    }
+    union {
+        sockaddr any{};
+        sockaddr_in four;
+        sockaddr_in6 six;
+    };
+    socklen_t size = sizeof(sockaddr_in6);
+};
+
 // A port that nobody listens at.
-std::uint16_t freePort() {
-    const int probe = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof(address);
-    bind(probe, reinterpret_cast<sockaddr*>(&address), size);
-    getsockname(probe, reinterpret_cast<sockaddr*>(&address), &size);
+std::uint16_t freePort(const std::string& host) {
+    Place place(host, 0);
+    const int probe = socket(place.any.sa_family, SOCK_STREAM, 0);
+    bind(probe, &place.any, place.size);
+    getsockname(probe, &place.any, &place.size);
     close(probe);
-    return ntohs(address.sin_port);
+    return ntohs(place.any.sa_family == AF_INET6 ? place.six.sin6_port : place.four.sin_port);
 }
 
 // A connection by hand.
 class Client {
   public:
-    explicit Client(std::uint16_t port) : socket_{socket(AF_INET, SOCK_STREAM, 0)} {
-        sockaddr_in address{};
-        address.sin_family = AF_INET;
-        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        address.sin_port = htons(port);
+    explicit Client(const Place& place) : socket_{socket(place.any.sa_family, SOCK_STREAM, 0)} {
         const timeval patience{20, 0};
         setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
-        EXPECT_EQ(connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
+        EXPECT_EQ(connect(socket_, &place.any, place.size), 0);
     }
     ~Client() { close(socket_); }
     Client(const Client&) = delete;
@@ -314,16 +350,14 @@ class Client {
     int socket_;
 };
 
-// The same service, behind a server.
-class DrawingsOverHttp : public testing::Test {
+// The same service, behind a server at an address of the loopback.
+class DrawingsOverHttp : public testing::TestWithParam<const char*> {
   protected:
     DrawingsOverHttp() {
         service.heard(WallState{
             .isOpen = true, .eye = {}, .drawings = std::make_shared<const WallDrawings>()});
         for (std::string& secret : secrets) {
-            Caller caller(service,
-                          json{{"enter", DoorTokens(kKey).wordAt(1000)}}.dump(),
-                          "127.0.0.1:" + std::to_string(port));
+            Caller caller(service, json{{"enter", DoorTokens(kKey).wordAt(1000)}}.dump(), host);
             secret = caller.outbox.said["session"]["session"];
         }
     }
@@ -335,7 +369,6 @@ class DrawingsOverHttp : public testing::Test {
         thread = std::thread([this] { server.run(); });
     }
     [[nodiscard]] std::string head(std::size_t visitor, const std::string& more) const {
-        const std::string host = "127.0.0.1:" + std::to_string(port);
         return "POST /drawing/right HTTP/1.1\r\nHost: " + host + "\r\nOrigin: http://" + host +
                "\r\nAuthorization: Bearer " + secrets.at(visitor) + "\r\n" + more + "\r\n\r\n";
     }
@@ -346,10 +379,13 @@ class DrawingsOverHttp : public testing::Test {
     static constexpr DoorTokens::Key kKey{7};
     static constexpr std::size_t kMost = ask::kMostPictureBytes;
     TemporaryFolder folder{"guests"};
-    std::uint16_t port = freePort();
+    const std::string address = GetParam();
+    std::uint16_t port = freePort(address);
+    Place place{address, port};
+    std::string host = config::bracketed(address) + ":" + std::to_string(port);
     test::RecordedWall wall;
     std::vector<std::size_t> sizes;  // of the pictures that arrived
-    GuestService service{{.place = {.host = "127.0.0.1", .port = port, .channel = {}},
+    GuestService service{{.place = {.host = address, .port = port, .channel = {}},
                           .key = kKey,
                           .seatFile = folder.path() / "seats",
                           .drawings = {.species = {"clownfish"},
@@ -361,29 +397,29 @@ class DrawingsOverHttp : public testing::Test {
                          wall,
                          [] { return 1000.0; }};
     std::array<std::string, 10> secrets;
-    web::WebServer server{
-        {.address = "127.0.0.1", .port = port, .certificateFile = {}, .keyFile = {}}, service};
+    web::WebServer server{{.address = address, .port = port, .certificateFile = {}, .keyFile = {}},
+                          service};
     std::thread thread;
 };
 
-TEST_F(DrawingsOverHttp, aPictureOfSixteenMegabytesIsReadAndOneMoreByteIsNot) {
+TEST_P(DrawingsOverHttp, aPictureOfSixteenMegabytesIsReadAndOneMoreByteIsNot) {
     begin();
-    const Client whole(port), larger(port), page(port);
+    const Client whole(place), larger(place), page(place);
     EXPECT_TRUE(whole.say(sized(0, kMost)) && whole.say(std::string(kMost, 'x')));
     EXPECT_EQ(whole.answer(), Said(202, ""));
     larger.say(sized(1, kMost + 1));
     EXPECT_EQ(larger.answer().first, 0) << "before any of it is sent";
     EXPECT_EQ(server.cutOff(), 1U);
-    page.say("GET / HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\n\r\n");
+    page.say("GET / HTTP/1.1\r\nHost: " + host + "\r\n\r\n");
     EXPECT_EQ(page.answer().first, 200);
     server.stop();
     thread.join();
     EXPECT_EQ(sizes, std::vector<std::size_t>{kMost});
 }
 
-TEST_F(DrawingsOverHttp, aLengthThatIsNotSaidIsBoundedAsWell) {
+TEST_P(DrawingsOverHttp, aLengthThatIsNotSaidIsBoundedAsWell) {
     begin();
-    const Client client(port);
+    const Client client(place);
     EXPECT_TRUE(client.say(head(0, "Transfer-Encoding: chunked")));
     const std::string chunk = "100000\r\n" + std::string(0x100000, 'x') + "\r\n";
     int sent = 0;
@@ -393,24 +429,24 @@ TEST_F(DrawingsOverHttp, aLengthThatIsNotSaidIsBoundedAsWell) {
     EXPECT_TRUE(sizes.empty());
 }
 
-TEST_F(DrawingsOverHttp, aRefusalIsHeardAlsoWhileThePictureIsBeingSent) {
+TEST_P(DrawingsOverHttp, aRefusalIsHeardAlsoWhileThePictureIsBeingSent) {
     secrets[0] = "nobody";
     begin();
-    const Client client(port);
+    const Client client(place);
     EXPECT_TRUE(client.say(sized(0, 4'000'000)));
     EXPECT_TRUE(client.say(std::string(4'000'000, 'x'))) << "nothing is cut off meanwhile";
     EXPECT_EQ(client.answer(), Said(401, "session"));
     EXPECT_TRUE(sizes.empty());
 }
 
-TEST_F(DrawingsOverHttp, whoSendsSlowlyTakesAPlaceOnlyAsLongAsHeIsThere) {
+TEST_P(DrawingsOverHttp, whoSendsSlowlyTakesAPlaceOnlyAsLongAsHeIsThere) {
     begin();
     std::vector<std::unique_ptr<Client>> slow;
     for (std::size_t i = 0; i < VisitorDrawings::kMostUploads; ++i) {
-        slow.push_back(std::make_unique<Client>(port));
+        slow.push_back(std::make_unique<Client>(place));
         slow.back()->say(sized(i, 1000) + "some");
     }
-    const Client late(port);
+    const Client late(place);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     late.say(sized(8, 4) + "some");
     EXPECT_EQ(late.answer(), Said(503, "crowd"));
@@ -418,11 +454,17 @@ TEST_F(DrawingsOverHttp, whoSendsSlowlyTakesAPlaceOnlyAsLongAsHeIsThere) {
     EXPECT_EQ(slow[0]->answer(), Said(202, ""));
 }
 
-TEST_F(DrawingsOverHttp, otherRequestsHaveShortBodies) {
+INSTANTIATE_TEST_SUITE_P(OfVersions4And6,
+                         DrawingsOverHttp,
+                         testing::Values("127.0.0.1", "::1"),
+                         [](const auto& tested) {
+                             return tested.param == std::string("::1") ? "six" : "four";
+                         });
+
+TEST_P(DrawingsOverHttp, otherRequestsHaveShortBodies) {
     begin();
-    const Client client(port);
-    client.say("POST / HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
-               "\r\nContent-Length: 70000\r\n\r\n");
+    const Client client(place);
+    client.say("POST / HTTP/1.1\r\nHost: " + host + "\r\nContent-Length: 70000\r\n\r\n");
     EXPECT_EQ(client.answer().first, 0);
     EXPECT_EQ(server.cutOff(), 1U);
 }

@@ -2,6 +2,7 @@
 #include "guests/guests.h"
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 
 #include "common/base/files.h"
 #include "common/config/rig.h"
+#include "guests/sign.h"
 #include "tests/guests/callers.h"
 
 namespace aquarama::guests {
@@ -31,12 +33,11 @@ class GuestServiceTest : public testing::Test {
 
     void begin() {
         service.reset();
-        service.emplace(GuestsOptions{.place = {.host = "10.0.0.1", .port = 7490, .channel = {}},
-                                      .key = kKey,
-                                      .seatFile = folder.path() / "seats",
-                                      .picture = shown},
-                        wall,
-                        [this] { return now; });
+        service.emplace(
+            GuestsOptions{
+                .place = door, .key = kKey, .seatFile = folder.path() / "seats", .picture = shown},
+            wall,
+            [this] { return now; });
         service->heard(WallState{.isOpen = true, .eye = {.positionMetres = {1, 2, 3}}});
     }
     // Ten ticks a second.
@@ -52,6 +53,7 @@ class GuestServiceTest : public testing::Test {
 
     static constexpr DoorTokens::Key kKey{7};
     TemporaryFolder folder{"guests"};
+    config::Guests door{.host = "10.0.0.1", .port = 7490, .channel = {}};
     double now = 1000;
     RecordedWall wall;
     WallPicture* shown = nullptr;
@@ -226,6 +228,47 @@ TEST_F(GuestServiceTest, aPhoneComesBackToItsSeatAlsoAfterARestart) {
     EXPECT_EQ(one->you(), "waiting");
     Caller forged(*service, R"({"resume":"00000000000000000000000000000000"})");
     EXPECT_EQ(forged.outbox.said["refused"]["refused"], "session");
+}
+
+// Killed right after it has answered, without a tick.
+TEST_F(GuestServiceTest, whatPhonesWereToldSurvivesAKill) {
+    const auto seats = folder.path() / "seats", kept = folder.path() / "kept";
+    std::optional<Caller> one, two, three;
+    one.emplace(*service, entering());
+    two.emplace(*service, entering());
+    three.emplace(*service, entering());
+    two->say(R"({"leave":true})");
+    EXPECT_EQ(three->you(), "waiting");
+    std::filesystem::copy_file(seats, kept);
+    const std::string first = one->resuming(), second = two->resuming(), third = three->resuming();
+    one.reset(), two.reset(), three.reset(), service.reset();
+    std::filesystem::copy_file(kept, seats, std::filesystem::copy_options::overwrite_existing);
+    begin();
+    one.emplace(*service, first);
+    two.emplace(*service, second);
+    three.emplace(*service, third);
+    EXPECT_EQ(one->you(), "steering");
+    EXPECT_EQ(two->you(), "guest");
+    EXPECT_EQ(three->you(), "waiting");
+}
+
+// Browsers write a host of version 6 in brackets, and its shortest form.
+TEST_F(GuestServiceTest, isServedAtAnAddressOfVersion6) {
+    door.host = "2001:db8::7";
+    begin();
+    Caller phone(*service, entering(), "[2001:db8::7]:7490");
+    EXPECT_EQ(phone.you(), "steering");
+    EXPECT_EQ(
+        service->answer({.method = "GET", .target = "/", .host = "[2001:db8::7]:7490"}).status,
+        200);
+    EXPECT_EQ(
+        service->answer({.method = "GET", .target = "/", .host = "[2001:db8::8]:7490"}).status,
+        421);
+    pass(0.1);
+    EXPECT_EQ(wall.signs.back(),
+              signOf("HTTP://[2001:DB8::7]:7490/P/" + DoorTokens(kKey).wordAt(now),
+                     DoorTokens(kKey).digitsAt(now),
+                     false));
 }
 
 TEST_F(GuestServiceTest, theLatestPageOfAVisitorCounts) {

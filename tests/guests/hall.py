@@ -20,10 +20,10 @@ from show import BIN, free_ports  # noqa: E402,F401
 
 
 class Hall(Desk):
-    """`aquarama run` of the desk's middle projector, whose sign is large enough for its preview. `drawings`: they are
-    let in at once, and read from the folder self.scanner."""
+    """`aquarama run` of the desk's middle projector, whose sign is large enough for its preview. `drawings`: how they
+    are let in; they are also read from the folder self.scanner. `host`: at which phones reach it."""
 
-    def __init__(self, *arguments, scene="empty_sea", drawings=False):
+    def __init__(self, *arguments, scene="empty_sea", drawings=None, host="127.0.0.1"):
         self.folder = temporary_folder()
         self.nodes = []
         os.environ["XDG_RUNTIME_DIR"] = self.folder.name
@@ -34,11 +34,11 @@ class Hall(Desk):
         self.scanner = Path(self.folder.name) / "scanner"
         self.scanner.mkdir()
         port, pictures = free_ports(2)
-        self.guests = f"127.0.0.1:{port}"
+        self.guests = f"{host}:{port}"
         self.rig.write_text(f'{head}channels {channels[1].replace("id: 1", "id: 0")}\n'
                             f'guests {{ address: "http://{self.guests}" height: 0.5 '
                             f'pictures: "tcp://127.0.0.1:{pictures}" }}\n'
-                            + ('drawings { let_in: AT_ONCE folder: "scanner" }\n' if drawings else ""))
+                            + (f'drawings {{ let_in: {drawings} folder: "scanner" }}\n' if drawings else ""))
         self.log = Path(self.folder.name) / "log"
         self.show = start("run", self.rig, "--headless", "--live", *arguments, log=self.log)
         try:
@@ -64,11 +64,19 @@ class Hall(Desk):
         path = Path(self.folder.name) / "wall.jpg"
         path.write_bytes(self.picture())
         read = subprocess.run(["zbarimg", "--nodbus", "--quiet", "--raw", path], capture_output=True, text=True).stdout
-        found = re.match(rf"HTTP://{self.guests}/P/(\w{{10}})\n", read)
+        found = re.match(rf"HTTP://{re.escape(self.guests.upper())}/P/(\w{{10}})\n", read)
         return found and found[1]
 
+    def crew_token(self):
+        """Of a program of the crew."""
+        return super().token("operator")
+
     def guests_process(self):
-        return next((pid for command, pid in children_of(self.show).items() if "aquarama-guests" in command), None)
+        return self.process("aquarama-guests")
+
+    def process(self, name):
+        """The number of a process of the show, by a part of its command line."""
+        return next((pid for command, pid in children_of(self.show).items() if name in command), None)
 
     def submarine(self):
         """Where it is, in metres, and who steers."""
@@ -82,6 +90,12 @@ class Address:
 
     def __init__(self, address):
         self.address = address
+
+
+def end_of(address):
+    """Host and port of an address; a host of version 6 without its brackets."""
+    host, _, port = address.rpartition(":")
+    return host.strip("[]"), int(port)
 
 
 class Phone(Socket):
@@ -110,8 +124,7 @@ class Visitor:
         self.session, self.you = None, None
 
     async def connect(self, **first):
-        host, port = self.address.split(":")
-        self.reader, self.writer = await asyncio.open_connection(host, int(port))
+        self.reader, self.writer = await asyncio.open_connection(*end_of(self.address))
         key = base64.b64encode(secrets.token_bytes(16)).decode()
         self.writer.write(f"GET /g HTTP/1.1\r\nHost: {self.address}\r\nOrigin: http://{self.address}\r\n"
                           f"Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
@@ -127,18 +140,22 @@ class Visitor:
         self.writer.write(frame(json.dumps(message).encode()))
 
     async def hear(self):
+        message = await self.hear_message()
+        if message is None:
+            return
+        assert "refused" not in message, message
+        self.session = message.get("session", self.session)
+        self.you = message.get("you", self.you)
+
+    async def hear_message(self):
+        """The next one; None: it was no message."""
         first, size = await self.reader.readexactly(2)
         if size == 126:
             size, = struct.unpack(">H", await self.reader.readexactly(2))
         content = await self.reader.readexactly(size)
         if first & 0x0F == 9:
             self.writer.write(frame(content, 10))
-        if first & 0x0F != 1:
-            return
-        message = json.loads(content)
-        assert "refused" not in message, message
-        self.session = message.get("session", self.session)
-        self.you = message.get("you", self.you)
+        return json.loads(content) if first & 0x0F == 1 else None
 
     async def echo(self):
         """Leaves the line or joins it: the next message is the answer, or one that was under way."""

@@ -29,7 +29,7 @@ SHOTS = os.environ.get("AQUARAMA_SHOTS")
 class Page(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.hall = Hall(drawings=True)
+        cls.hall = Hall(drawings="AT_ONCE")
         cls.addClassCleanup(cls.hall.close)
         wait_until(cls.hall.token, 20, "the code on the wall")
         cls.driver = browser(390, 844)

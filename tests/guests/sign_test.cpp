@@ -71,6 +71,18 @@ TEST(Sign, isReadBack) {
               "HTTP://10.0.0.1:80/P/0123456789");
 }
 
+// The longest address of version 6: brackets are none of the code's dense characters.
+TEST(Sign, hasRoomForAnAddressOfVersion6) {
+    const std::string address =
+        "HTTP://[2001:DB8:1234:5678:9ABC:DEF0:1234:5678]:65535/P/7Q2K4M9XHT";
+    const wire::Sign sign = signOf(address, "042", false);
+    EXPECT_EQ(sign.columns, 29U + 8U);
+    EXPECT_LE(sign.rows, 64U);
+    if (std::system("zbarimg --version > /dev/null 2>&1") != 0)  // NOLINT(concurrency-mt-unsafe)
+        GTEST_SKIP() << "zbarimg of zbar-tools is needed to read the code";
+    EXPECT_EQ(readBack(sign), address);
+}
+
 TEST(Sign, showsItsCharacters) {
     const wire::Sign one = signOf(kAddress, "042", false), other = signOf(kAddress, "043", false);
     EXPECT_NE(one.dots, other.dots);

@@ -182,6 +182,22 @@ class Units(unittest.TestCase):
             exposed = float(re.search(r"exposure level for \S+: ([\d.]+)", said).group(1))
             self.assertLessEqual(exposed, MOST_EXPOSED, name)
 
+    def test_strangers_speak_to_a_user_of_its_own(self):
+        units = {name: path.read_text() for name, path in unit_files()}
+        self.assertEqual([name for name, text in units.items() if "User=aquarama-guests\n" in text],
+                         ["aquarama-guests.service"])
+        self.assertNotIn("SupplementaryGroups=", units["aquarama-guests.service"])
+        with tempfile.TemporaryDirectory() as root:
+            (Path(root) / "etc").mkdir()
+            called("systemd-sysusers", f"--root={root}", DEBIAN / "aquarama-guests.sysusers")
+            made = [line.split(":") for line in (Path(root) / "etc/passwd").read_text().splitlines()]
+            groups = (Path(root) / "etc/group").read_text().split()
+        self.assertEqual([(user[0], user[5], user[6]) for user in made if user[0] != "root"],
+                         [("aquarama-guests", "/", "/usr/sbin/nologin")])
+        self.assertEqual([line.split(":")[0] for line in groups if "aquarama" in line], ["aquarama-guests"])
+        keys = re.findall(r"/etc/aquarama/keys\S*", units["aquarama-guests.service"])
+        self.assertEqual(keys, ["/etc/aquarama/keys/hall/guests.key", "/etc/aquarama/keys:ro"])
+
     def test_what_shows_the_wall_is_started_again_for_ever(self):
         for name, path in unit_files():
             if name.endswith(".service") and "power" not in name:

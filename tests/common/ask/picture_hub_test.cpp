@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -23,7 +24,7 @@ class KeyedHub : public testing::Test {
     void offer(const std::optional<net::PeerKeys>& shown,
                const std::string& channel,
                std::uint64_t number) {
-        const auto node = net::connectNode(hub_.address(), {}, shown);
+        const auto node = net::connectNode(hub_->address(), {}, shown);
         v1::Envelope hello, offered;
         hello.mutable_watch_hello()->set_channel(channel);
         v1::FramePicture& picture = *offered.mutable_frame_picture();
@@ -49,17 +50,31 @@ class KeyedHub : public testing::Test {
     const net::KeyPair keys_ = net::makeKeyPair(), left_ = net::makeKeyPair();
     std::mutex mutex_;
     std::set<std::pair<std::string, std::uint64_t>> heard_;
-    PictureHub hub_{"tcp://127.0.0.1:*",
-                    net::MasterKeys{keys_,
-                                    [this] {
-                                        return net::Allowed{{left_.publicKey, "node left"}};
-                                    }},
-                    PictureListener{[this](const std::string& channel, const auto& picture) {
-                                        const std::lock_guard lock(mutex_);
-                                        heard_.insert({channel, picture.number()});
-                                    },
-                                    [](const v1::FishReply&) {}}};
+    PictureListener listener_{[this](const std::string& channel, const auto& picture) {
+                                  const std::lock_guard lock(mutex_);
+                                  heard_.insert({channel, picture.number()});
+                              },
+                              [](const v1::FishReply&) {}};
+    std::optional<PictureHub> hub_{
+        std::in_place,
+        "tcp://127.0.0.1:*",
+        net::MasterKeys{keys_,
+                        [this] {
+                            return net::Allowed{{left_.publicKey, "node left"}};
+                        }},
+        listener_};
 };
+
+// As of the guests' program, which knows no keys of nodes.
+TEST_F(KeyedHub, withoutAListWhoKnowsItsKeyIsHeard) {
+    hub_.emplace("tcp://127.0.0.1:*", net::MasterKeys{keys_, {}}, listener_);
+    offer({}, "left", 1);
+    offer(net::PeerKeys{net::makeKeyPair().publicKey, left_}, "left", 2);
+    offer(with(left_), "left", 3);
+    EXPECT_FALSE(hasHeard("left", 1)) << "without a key";
+    EXPECT_FALSE(hasHeard("left", 2)) << "who takes it for another";
+    EXPECT_TRUE(hasHeard("left", 3));
+}
 
 TEST_F(KeyedHub, aNodeIsHeardForItsOwnChannelAndStrangersForNone) {
     offer({}, "left", 1);

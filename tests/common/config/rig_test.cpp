@@ -390,6 +390,9 @@ TEST(Rig, letsVisitorsTakePartWhereItSaysHowPhonesReachIt) {
     EXPECT_EQ(rig.guests->channel, rig.channels.front().name);
     EXPECT_EQ(rig.guests->corner, Guests::Corner::UpperRight);
     EXPECT_EQ(rig.guests->height, 0.2);
+    const Rig six = parseRig(kRig + "guests { address: \"http://[FD00:0::1]:7490\" }", "six.txtpb");
+    EXPECT_EQ(six.guests->host, "fd00::1") << "as browsers write it";
+    EXPECT_EQ(six.guests->port, 7490);
     for (const std::string address : {"192.168.20.1:7490",
                                       "https://192.168.20.1:7490",
                                       "http://192.168.20.1",
@@ -399,7 +402,10 @@ TEST(Rig, letsVisitorsTakePartWhereItSaysHowPhonesReachIt) {
                                       "http://192.168.20.1:74x",
                                       "http://wall.example:7490",
                                       "http://0.0.0.0:7490",
-                                      "http://[fd00::1]:7490"})
+                                      "http://[::]:7490",
+                                      "http://[fe80::1]:7490",
+                                      "http://fd00::1:7490",
+                                      "http://[192.168.20.1]:7490"})
         EXPECT_THAT(saidOf("guests { address: \"" + address + "\" }"),
                     testing::AllOf(testing::StartsWith("bad.txtpb:"),
                                    testing::HasSubstr("names are not looked up")))

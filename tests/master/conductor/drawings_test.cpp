@@ -5,7 +5,10 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -59,14 +62,27 @@ struct Hall {
         offered.set_species(species);
         offered.set_aside(1);
         std::uint32_t number = 0;
-        answer = drawings.offer(++request, offered, now, number);
+        const std::uint64_t offer = ++request;
+        answer = untilKept([&] { return drawings.offer(offer, offered, now, number); });
         return number;
     }
-    ask::Answer decide(std::uint32_t number, Verdict::Verdict verdict) {
+    ask::Answer decide(std::uint32_t number,
+                       Verdict::Verdict verdict,
+                       std::optional<int> aside = {}) {
         v1::Moderation moderation;
         moderation.set_number(number);
         moderation.set_verdict(verdict);
-        return drawings.decide(moderation);
+        if (aside) moderation.set_aside(*aside);
+        const std::uint64_t decision = ++request;
+        return untilKept([&] { return drawings.decide("the crew", decision, moderation); });
+    }
+    // Says it again until it is on the disk, as clients do.
+    static ask::Answer untilKept(const std::function<ask::Answer()>& say) {
+        while (true) {
+            const ask::Answer answer = say();
+            if (answer.outcome != ask::Outcome::Waiting) return answer;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
     }
     // Turns for so many seconds; fish that are told to leave are away after three.
     void pass(int count) {
@@ -77,14 +93,18 @@ struct Hall {
                 if (clock - at > seconds(3)) fish[one] = everybody()[kFirst];
             std::erase_if(leaving,
                           [&](const auto& one) { return clock - one.second > seconds(3); });
-            for (const world::WorldInput& input : drawings.turn(fish, maySwim, clock, now)) {
-                inputs.push_back(input);
-                if (const auto* entered = std::get_if<world::EnterDrawing>(&input))
-                    fish[entered->fish] = {};
-                if (const auto* left = std::get_if<world::LeaveDrawing>(&input))
-                    leaving.emplace_back(left->fish, clock);
-            }
+            drawings.turn(fish, maySwim, clock, now, [this](const auto& input) {
+                return !isBusy && apply(input);
+            });
         }
+    }
+    bool apply(const world::WorldInput& input) {
+        inputs.push_back(input);
+        if (const auto* entered = std::get_if<world::EnterDrawing>(&input))
+            fish[entered->fish] = {};
+        if (const auto* left = std::get_if<world::LeaveDrawing>(&input))
+            leaving.emplace_back(left->fish, clock);
+        return true;
     }
     [[nodiscard]] std::string conditions() const {
         std::string text;
@@ -102,6 +122,7 @@ struct Hall {
     net::Moment clock{seconds(100)};
     std::uint64_t now = kNoon;
     bool maySwim = true;
+    bool isBusy = false;  // the world takes nothing
     std::vector<motion::FishRecord> fish = everybody();
     std::vector<std::pair<std::uint32_t, net::Moment>> leaving;
     std::vector<world::WorldInput> inputs;
@@ -167,6 +188,41 @@ TEST(Drawings, thatAreOfferedAgainAreOne) {
     --hall.request;
     EXPECT_EQ(hall.offer(1), 1U);
     EXPECT_EQ(hall.conditions(), "1 SWIMMING; ");
+}
+
+// The crew sees which child stands where.
+TEST(Drawings, enterFromTheSideThatTheCrewNames) {
+    Hall hall(rules(false));
+    hall.offer(1);
+    hall.offer(2);
+    EXPECT_EQ(hall.decide(1, Verdict::LET_IN, -1).outcome, ask::Outcome::Done);
+    EXPECT_EQ(hall.decide(2, Verdict::LET_IN).outcome, ask::Outcome::Done);
+    hall.pass(5);
+    ASSERT_EQ(hall.inputs.size(), 2U);
+    EXPECT_EQ(std::get<world::EnterDrawing>(hall.inputs[0]).aside, -1);
+    EXPECT_EQ(std::get<world::EnterDrawing>(hall.inputs[1]).aside, 1) << "as it was offered";
+    EXPECT_EQ(hall.drawings.reply({}).drawings(0).aside(), -1);
+}
+
+// The world takes no inputs while too many wait; none is lost, and no fish is given twice.
+TEST(Drawings, enterAndLeaveABusyWorldOnceItTakesThem) {
+    Hall hall(rules());
+    hall.offer(1);
+    hall.isBusy = true;
+    hall.pass(5);
+    EXPECT_TRUE(hall.inputs.empty());
+    ASSERT_EQ(hall.decide(1, Verdict::TAKE_DOWN).outcome, ask::Outcome::Done);
+    hall.offer(2);
+    hall.pass(6);
+    EXPECT_THAT(hall.conditions(), HasSubstr("1 LEAVING as 10")) << "it is still to enter";
+    hall.isBusy = false;
+    hall.pass(1);
+    ASSERT_EQ(hall.inputs.size(), 3U);
+    EXPECT_EQ(std::get<world::EnterDrawing>(hall.inputs[0]).number, 1U);
+    EXPECT_EQ(std::get<world::LeaveDrawing>(hall.inputs[1]).fish, kFirst);
+    EXPECT_EQ(std::get<world::EnterDrawing>(hall.inputs[2]).fish, kFirst + 1);
+    hall.pass(6);
+    EXPECT_EQ(hall.conditions(), "2 SWIMMING as 11; ");
 }
 
 // Three clownfish have room; the oldest that is not kept makes room for the fourth.
@@ -264,6 +320,7 @@ TEST(Drawings, surviveARestart) {
         EXPECT_EQ(hall.drawings.reply(request).skin(), skin(2));
         hall.pass(5);
         EXPECT_EQ(hall.conditions(), "1 WAITING; 2 SWIMMING as 10; ");
+        hall.request = 100;
         EXPECT_EQ(hall.offer(4), 4U) << "no number is given twice";
     }
     // A picture that is gone costs only its drawing; a list that is damaged costs no show.
@@ -271,6 +328,25 @@ TEST(Drawings, surviveARestart) {
     EXPECT_EQ(Hall(rules(false), at).conditions(), "2 SWIMMING; 4 WAITING; ");
     writeWhole(at / "list.txtpb", std::as_bytes(std::span{"drawings {", 10}));
     EXPECT_EQ(Hall(rules(false), at).conditions(), "");
+}
+
+// What a sender was told of is on the disk: a master that is killed then has it again. A sender
+// that was not told says it once more, and is told the same number.
+TEST(Drawings, thatWereTakenSurviveAKilledMaster) {
+    const TemporaryFolder folder("drawings-test");
+    const auto at = folder.path() / "desk.drawings", copy = folder.path() / "killed.drawings";
+    Hall hall(rules(false), at);
+    ASSERT_EQ(hall.offer(1), 1U);
+    ASSERT_EQ(hall.offer(2), 2U);
+    ASSERT_EQ(hall.decide(2, Verdict::LET_IN, -1).outcome, ask::Outcome::Done);
+    std::filesystem::copy(at, copy);  // what a killed one leaves
+    Hall restarted(rules(false), copy);
+    EXPECT_EQ(restarted.conditions(), "1 WAITING; 2 SWIMMING; ");
+    EXPECT_EQ(restarted.drawings.reply({}).drawings(1).aside(), -1);
+    EXPECT_EQ(restarted.offer(1), 1U) << "the same request";
+    restarted.request = 1;
+    EXPECT_EQ(restarted.offer(2), 2U);
+    EXPECT_EQ(restarted.drawings.reply({}).drawings_size(), 2);
 }
 
 // A slow node may still ask for what was listed a moment ago.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fish with visitors' drawings: they wait out of sight, come past the viewer, live, are spared, and
 // go, and no other fish is changed by those that wait.
+#include <iostream>
+
 #include <gtest/gtest.h>
 
 #include "common/place/place.h"
@@ -80,6 +82,41 @@ TEST_F(DrawingsInAWorld, comeFromTheirMakersSideAndShowThemselvesBeforeTheViewer
     EXPECT_LT(fromEye(kFish).z, -1.0F) << "ahead of the viewer";
     pass(10);
     EXPECT_EQ(visit(kFish), fish::Visit::Stays);
+}
+
+// A tour at the autopilot's fastest: the viewer waits for small fish, and goes on.
+TEST(DrawingsOfAWorld, reachAViewerOnItsTourAndKeepUpWithIt) {
+    WorldOptions options = visited(0);
+    options.cast[0] = capturedSpecies(test::castMember("clownfish"), kFish + kSlots);
+    options.cast[0].drawings = kSlots;
+    options.scene.water.halfExtent = {15, 2, 15};
+    options.scene.tour.emplace();
+    options.scene.tour->metresPerSecond = 0.6;
+    World world(options);
+    const auto pass = [&](int seconds) {
+        for (int tick = 0; tick < 60 * seconds; ++tick) world.advance();
+    };
+    const auto speed = [&] {
+        return place::lengthOf(world.environment().surroundings->submarine.velocityMetresPerSecond);
+    };
+    pass(30);
+    const float before = speed();
+    EXPECT_GT(before, 0.5F);
+    const fish::Wearers& wearers = *world.environment().wearers;
+    const fish::Wearer& wearer = *wearers.of(kFish);
+    const auto fromEye = [&] { return world.view().position(kFish) - wearers.eye; };
+    world.apply(EnterDrawing{.fish = kFish, .number = 1, .picture = {}, .aside = 1});
+    int seconds = 0;
+    for (; seconds < 40 && wearer.visit == fish::Visit::Enters; ++seconds) pass(1);
+    EXPECT_LT(seconds, 35) << "it comes by itself";
+    for (; wearer.visit == fish::Visit::Shows; pass(1)) {
+        EXPECT_GT(place::dot(fromEye(), wearers.ahead), 0.6F) << "it is seen";
+        EXPECT_LT(place::lengthOf(fromEye()), 3.2F);
+    }
+    EXPECT_EQ(wearer.visit, fish::Visit::Stays);
+    pass(20);
+    EXPECT_GT(speed(), 0.9F * before) << "the tour goes on";
+    std::cout << "it came in " << seconds << " s\n";
 }
 
 TEST_F(DrawingsInAWorld, swimAwayBehindTheViewerAndWaitForAnother) {
