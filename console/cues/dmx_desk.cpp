@@ -73,7 +73,7 @@ void DmxDesk::take(const DmxFrame& frame) {
     const auto brightness = valueIn(frame, how_.brightness);
     const auto black = valueIn(frame, how_.black);
     if (isChange(brightness_, brightness))
-        order.mutable_show()->set_brightness(static_cast<double>(*brightness) / kFull);
+        order.mutable_show()->set_brightness(*brightness / kFull);
     if (isChange(black_, black ? std::optional(*black >= kBlackFrom) : std::nullopt))
         order.mutable_show()->set_black(*black_);
     if (order.has_show()) give_(fmt::format("DMX universe {}", how_.universe), order);

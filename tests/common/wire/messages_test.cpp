@@ -53,7 +53,7 @@ TEST(Messages, haveTheBytesThatTheyAlwaysHad) {
         "a8f675baedfe365b", "a0d58f772300ae41", "53120c895e56033d", "857492f5684f76b4",
         "247b8e1afba65972", "c7f3b369c0a00088", "a551c3a1e912174b", "760f621d6ecf57ec",
         "bc793839cd199cc1", "235999b6cc1f24b0", "b4f804f1f21489db", "bcea5a3655123469",
-        "133cce62e1fa4467", "af56e3703b16f75e", "8ab8134b5d347401", "432db362e4cc50a3",
+        "133cce62e1fa4467", "920e8d8fb9aad386", "8ab8134b5d347401", "432db362e4cc50a3",
         "f78471573ccb309e", "02e79b84136ffc4c", "64180bfe060fe0db", "e69c1fd821f63d79",
         "425830a2b520f0ca", "46ccb28c5816dcff", "3923e2dda7170bb0", "d7e28540e2a7e592",
         "d93655f93549c7a7", "4c05463c5a8485f5", "89a4419730a1cf45", "bcad3b13c61f2ed5",
