@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // `aquarama run` and `aquarama replay`: shows on this machine; and the options that they share with
 // `aquarama master`, which they start.
+#include <cmath>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -79,17 +81,16 @@ int replay(const ReplayOptions& options) {
 // "1:23:45", "23:45", "45" or "45.5": hours, minutes and seconds of a recording. Throws
 // ValidationError for anything else.
 std::uint64_t ticksIn(const std::string& time) {
-    std::istringstream in(time);
-    double seconds = 0;
-    for (int parts = 0; parts < 3; ++parts) {
-        double part = -1;
-        if (!(in >> part) || part < 0 || part > 1e6 || (parts > 0 && part >= 60)) break;
-        seconds = 60 * seconds + part;
-        if (in.eof()) return static_cast<std::uint64_t>(std::llround(seconds * kTicksPerSecond));
-        if (in.get() != ':') break;
-    }
-    throw CLI::ValidationError(
-        "--at", "is a time of the recording, such as 1:23:45, 23:45 or 45.5, not " + time);
+    static const std::regex kTime(R"((?:(?:(\d{1,4}):)?(\d{1,2}):)?(\d{1,6}(?:\.\d{1,3})?))");
+    std::smatch parts;
+    if (!std::regex_match(time, parts, kTime))
+        throw CLI::ValidationError(
+            "--at", "is a time of the recording, such as 1:23:45, 23:45 or 45.5, not " + time);
+    const auto number = [&](std::size_t part) {
+        return parts[part].matched ? std::stod(parts[part]) : 0.0;
+    };
+    const double seconds = 3600 * number(1) + 60 * number(2) + number(3);
+    return static_cast<std::uint64_t>(std::llround(seconds * kTicksPerSecond));
 }
 
 // Another program of the installation that takes the arguments after the command's name.

@@ -163,11 +163,9 @@ class Reader {
 
     Recording read() {
         recording_.assets = readAssets();
-        while (!recording_.end && nextEntry()) {
-            readEvent();
-            if (std::exchange(isFirst_, false))
-                recording_.beginsWithSave = !recording_.saves.empty();
-        }
+        if (nextEntry()) readEvent();
+        recording_.beginsWithSave = !recording_.saves.empty();
+        while (!recording_.end && nextEntry()) readEvent();
         if (recording_.end && at_ != size_) fail("goes on behind its end");
         recording_.source = source_;
         recording_.wholeBytes = recording_.end ? at_ : start_;
@@ -463,7 +461,6 @@ class Reader {
     v1::RecordingEntry entry_;
     std::size_t speciesCount_ = 0;
     std::size_t fish_ = 0;
-    bool isFirst_ = true;
     std::uint64_t lastTick_ = 0, lastInput_ = 0;
     Recording recording_;
 };

@@ -56,17 +56,17 @@ void Drawings::enter(std::vector<DrawingSlots> slots) {
 // Which drawings fish of the world wear already.
 void Drawings::findWorn() {
     for (const DrawingSlots& slots : slots_)
-        for (std::size_t i = 0; i < slots.worn.size(); ++i) {
-            if (slots.worn[i] == 0) continue;
-            const std::uint32_t fish = slots.first + static_cast<std::uint32_t>(i);
-            Entry* const entry = find(slots.worn[i]);
-            if (entry == nullptr || !entry->kept.isLetIn || entry->fish) {
-                toLeave_.push_back(fish);
-                continue;
-            }
-            entry->fish = fish;
-            entry->listed = net::monotonicNow();
-        }
+        for (std::size_t i = 0; i < slots.worn.size(); ++i)
+            if (slots.worn[i] != 0)
+                takeOver(slots.worn[i], slots.first + static_cast<std::uint32_t>(i));
+}
+
+// A fish that wears a drawing already. One that the crew does not want leaves.
+void Drawings::takeOver(std::uint32_t number, std::uint32_t fish) {
+    Entry* const entry = find(number);
+    if (entry == nullptr || !entry->kept.isLetIn || entry->fish) return toLeave_.push_back(fish);
+    entry->fish = fish;
+    entry->listed = net::monotonicNow();
 }
 
 Drawings::Entry* Drawings::find(std::uint32_t number) {
@@ -240,15 +240,16 @@ bool Drawings::hasRoomFor(const std::string& species) const {
     return std::ranges::find(slots_, species, &DrawingSlots::species) != slots_.end();
 }
 
-std::optional<std::uint32_t> Drawings::freeFish(const std::string& species,
-                                                std::span<const motion::FishRecord> fish) const {
+std::optional<std::uint32_t> Drawings::unwornFish(const std::string& species,
+                                                  bool isAway,
+                                                  std::span<const motion::FishRecord> fish) const {
     const auto slots = std::ranges::find(slots_, species, &DrawingSlots::species);
     if (slots == slots_.end()) return std::nullopt;
     for (std::uint32_t one = slots->first; one < std::min<std::size_t>(slots->last, fish.size());
          ++one) {
         const bool isWorn =
             std::ranges::any_of(entries_, [&](const Entry& entry) { return entry.fish == one; });
-        if (!isWorn && motion::isAway(fish[one])) return one;
+        if (!isWorn && motion::isAway(fish[one]) == isAway) return one;
     }
     return std::nullopt;
 }
@@ -275,7 +276,8 @@ void Drawings::enterNext(std::span<const motion::FishRecord> fish, net::Moment n
     Entry* const next = waiting.front();
     if (now - *next->listed < kLoads) return;
     if (swimming() >= rules_->most) return makeRoom({});
-    const auto free = freeFish(next->kept.species, fish);
+    const auto free = unwornFish(next->kept.species, true, fish);
+    if (!free && unwornFish(next->kept.species, false, fish)) return;  // it leaves
     if (!free) return makeRoom(next->kept.species);
     next->fish = free;
     inputs_.emplace_back(world::EnterDrawing{.fish = *free,

@@ -105,10 +105,12 @@ class Drawings {
     [[nodiscard]] std::string objectionTo(const v1::OfferedDrawing& offered) const;
     [[nodiscard]] v1::DrawingStatus::Condition conditionOf(const Entry& entry) const;
     [[nodiscard]] bool hasRoomFor(const std::string& species) const;
-    [[nodiscard]] std::optional<std::uint32_t> freeFish(
-        const std::string& species, std::span<const motion::FishRecord> fish) const;
+    // A fish that no drawing has: one that is away, or one that leaves and still is there.
+    [[nodiscard]] std::optional<std::uint32_t> unwornFish(
+        const std::string& species, bool isAway, std::span<const motion::FishRecord> fish) const;
     [[nodiscard]] std::size_t swimming() const;
     void findWorn();
+    void takeOver(std::uint32_t number, std::uint32_t fish);
     // Steps of a turn.
     void endLeft(std::span<const motion::FishRecord> fish, net::Moment now);
     void forgetOld(std::uint64_t unixSeconds);

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <fstream>
 #include <iterator>
+#include <ranges>
 #include <string>
 #include <utility>
 
@@ -85,6 +86,23 @@ Tick dueNow(const wire::Recording& recording, Tick restored, bool isFrozen) {
     return away > kMostTicksAway ? known : std::max(known, Tick{then.tick.value + away});
 }
 
+using Inputs = std::vector<wire::RecordedInput>;
+
+// Advances to a tick, with the inputs before it, as far as time allows. Returns the first that is
+// still ahead.
+Inputs::const_iterator advanceTo(simulation::LivingWorld& world,
+                                 Tick due,
+                                 std::chrono::steady_clock::time_point latest,
+                                 std::ranges::subrange<Inputs::const_iterator> inputs) {
+    auto next = inputs.begin();
+    while (world.tick() < due && std::chrono::steady_clock::now() < latest) {
+        for (; next != inputs.end() && next->tick <= world.tick(); ++next)
+            world.apply(simulation::inputOf(*next));
+        world.advance();
+    }
+    return next;
+}
+
 }  // namespace
 
 std::optional<std::vector<wire::RecordedInput>> goOn(simulation::LivingWorld& world,
@@ -95,13 +113,8 @@ std::optional<std::vector<wire::RecordedInput>> goOn(simulation::LivingWorld& wo
     const Tick restored = world.tick();
     const std::vector<wire::RecordedInput>& inputs = last.recording.inputs;
     const auto first = std::ranges::lower_bound(inputs, restored, {}, &wire::RecordedInput::tick);
-    auto next = first;
     const Tick due = dueNow(last.recording, restored, isFrozen);
-    while (world.tick() < due && std::chrono::steady_clock::now() - begin < kMostTimeAway) {
-        for (; next != inputs.end() && next->tick <= world.tick(); ++next)
-            world.apply(simulation::inputOf(*next));
-        world.advance();
-    }
+    const auto next = advanceTo(world, due, begin + kMostTimeAway, {first, inputs.end()});
     logInfo("the world goes on at {} from its save at {}, with {}",
             simulation::timeOf(world.tick()),
             simulation::timeOf(restored),

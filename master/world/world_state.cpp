@@ -244,21 +244,27 @@ struct Checker {
     const std::string& source;
 
     void run() const {
-        for (std::size_t fish = 0; fish < state.states.size(); ++fish)
-            require(isSound(static_cast<std::uint32_t>(fish)), "fish", fish);
+        each("fish", state.states.size(), [&](std::size_t i) {
+            return isSound(static_cast<std::uint32_t>(i));
+        });
         for (const fish::SpeciesParameters& species : bounds.species)
             for (std::uint32_t fish = species.first; fish < species.last; ++fish)
                 require(targetsExist(species, state.minds[fish]), "the aim of fish", fish);
-        for (std::size_t i = 0; i < state.wearers.size(); ++i)
-            require(isSound(state.wearers[i]), "drawing", i);
-        for (std::size_t i = 0; i < state.food.size(); ++i)
-            require(state.food.kind[i] <= surroundings::FoodKind::Pellet, "particle", i);
-        for (std::size_t i = 0; i < state.meals.swallows.size(); ++i)
-            require(isSound(state.meals.swallows[i]), "meal", i);
-        for (std::size_t i = 0; i < state.absences.size(); ++i)
-            require(state.absences[i].fish < state.states.size(), "absence", i);
-        for (std::size_t i = 0; i < state.released.size(); ++i)
-            require(state.released[i].fish < state.states.size(), "released hunter", i);
+        each("drawing", state.wearers.size(), [&](std::size_t i) {
+            return isSound(state.wearers[i]);
+        });
+        each("particle", state.food.size(), [&](std::size_t i) {
+            return state.food.kind[i] <= surroundings::FoodKind::Pellet;
+        });
+        each("meal", state.meals.swallows.size(), [&](std::size_t i) {
+            return isSound(state.meals.swallows[i]);
+        });
+        each("absence", state.absences.size(), [&](std::size_t i) {
+            return isFish(state.absences[i].fish);
+        });
+        each("released hunter", state.released.size(), [&](std::size_t i) {
+            return isFish(state.released[i].fish);
+        });
         require(!state.dayCue || isSound(*state.dayCue), "the day's cue", 0);
         require(state.nextDrop <= bounds.surroundings.drops.size(), "drop", state.nextDrop);
         require(isTime(state.timeOfDay) && isTime(state.clock.timeOfDay), "the time of day", 0);
@@ -268,6 +274,11 @@ struct Checker {
     void require(bool sound, const char* what, std::size_t number) const {
         if (!sound) throw Error(fmt::format("{}: {} {} in it cannot be", source, what, number));
     }
+    template <class IsSound>
+    void each(const char* what, std::size_t count, const IsSound& isSound) const {
+        for (std::size_t i = 0; i < count; ++i) require(isSound(i), what, i);
+    }
+    [[nodiscard]] bool isFish(std::uint32_t fish) const { return fish < state.states.size(); }
     [[nodiscard]] static bool isTime(double day) { return day >= 0 && day < 1; }
 
     [[nodiscard]] bool isSound(std::uint32_t fish) const {
@@ -320,7 +331,7 @@ struct Checker {
                (!cue.holds || isTime(*cue.holds));
     }
     [[nodiscard]] bool isSound(const Meals::Swallow& swallow) const {
-        return swallow.fish < state.states.size() && swallow.particle < state.food.size() &&
+        return isFish(swallow.fish) && swallow.particle < state.food.size() &&
                swallow.ticksLeft > 0;
     }
 };

@@ -301,6 +301,22 @@ TEST(Drawings, enterAnotherWorldAnewWhereItHasRoom) {
     EXPECT_EQ(hall.conditions(), "1 SWIMMING as 11; ");
 }
 
+// A world that goes on has them already. Of one that the crew took down meanwhile the fish leaves.
+TEST(Drawings, swimOnInAWorldThatHasThem) {
+    Hall hall(rules());
+    for (std::uint16_t code = 1; code <= 3; ++code) hall.offer(code);
+    hall.pass(9);
+    EXPECT_EQ(hall.conditions(), "1 SWIMMING as 10; 2 SWIMMING as 11; 3 SWIMMING as 12; ");
+    hall.inputs.clear();
+    hall.drawings.enter({{"clownfish", kFirst, kLast, {2, 77, 0}}});
+    hall.fish[kLast - 1] = everybody()[kFirst];
+    hall.pass(1);
+    ASSERT_EQ(hall.inputs.size(), 1U);
+    EXPECT_EQ(std::get<world::LeaveDrawing>(hall.inputs[0]).fish, kFirst + 1);
+    hall.pass(9);
+    EXPECT_EQ(hall.conditions(), "1 SWIMMING as 12; 2 SWIMMING as 10; 3 SWIMMING as 11; ");
+}
+
 TEST(Drawings, surviveARestart) {
     const TemporaryFolder folder("drawings-test");
     const auto at = folder.path() / "desk.drawings";
