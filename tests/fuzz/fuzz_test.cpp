@@ -236,7 +236,7 @@ TEST(Fuzz, whatATakenOverDecoderSaysIsRefusedOrReadWithinBounds) {
     const std::string head = "drawing blue_tang " + std::to_string(png.size()) + "\n";
     png.insert(png.begin(), head.begin(), head.end());
     const std::string refused = "refused no_sheet\n";
-    feed(fuzzDecoder, {png, inputOf(std::as_bytes(std::span{refused}))}, 300);
+    feed(fuzzDecoder, {png, inputOf(std::as_bytes(std::span{refused}))}, 80);
 }
 
 TEST(Fuzz, damagedPacketsAreRefusedOrReadWhole) {

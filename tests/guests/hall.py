@@ -23,7 +23,7 @@ class Hall(Desk):
     """`aquarama run` of the desk's middle projector, whose sign is large enough for its preview. `drawings`: how they
     are let in; they are also read from the folder self.scanner. `host`: at which phones reach it."""
 
-    def __init__(self, *arguments, scene="empty_sea", drawings=None, host="127.0.0.1"):
+    def __init__(self, *arguments, scene="empty_sea", drawings=None, host="127.0.0.1", patience_s=90):
         self.folder = temporary_folder()
         self.nodes = []
         os.environ["XDG_RUNTIME_DIR"] = self.folder.name
@@ -42,8 +42,8 @@ class Hall(Desk):
         self.log = Path(self.folder.name) / "log"
         self.show = start("run", self.rig, "--headless", "--live", *arguments, log=self.log)
         try:
-            wait_until(lambda: all(text in self.said() for text in ("showing", "console at", "visitors at")), 90,
-                       "the first frame, the console and the visitors")
+            wait_until(lambda: all(text in self.said() for text in ("showing", "console at", "visitors at")),
+                       patience_s, "the first frame, the console and the visitors")
         except AssertionError:
             print(self.said())
             self.close()

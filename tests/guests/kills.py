@@ -240,7 +240,7 @@ def kill_one(hall, victim):
     began = time.monotonic()
     os.kill(old, signal.SIGKILL)
     wait_until(lambda: hall.process(VICTIMS[victim]) not in (None, old), 30, f"another {victim}")
-    wait_until(lambda: is_served(hall, victim, joined), 90, f"the work of the {victim}")
+    wait_until(lambda: is_served(hall, victim, joined), 300, f"the work of the {victim}")
     return time.monotonic() - began, hall.status()["late"] - late if counts else 0
 
 
@@ -276,7 +276,8 @@ def main():
         subprocess.run([BIN.parent / "tests" / "aquarama_draw_photos", folder, "6" if large else "1", "clownfish"],
                        check=True, stdout=subprocess.DEVNULL)
         photos = [path.read_bytes() for path in sorted(Path(folder).iterdir())]
-    hall = Hall("--quality", "low", scene="reef" if large else "empty_sea", drawings="WHEN_ASKED", host="[::1]")
+    hall = Hall("--quality", "low", scene="reef" if large else "empty_sea", drawings="WHEN_ASKED", host="[::1]",
+                patience_s=600 if large else 90)
     try:
         wait_until(lambda: code(hall), 90, "the code on the wall")
         crowd = Crowd(hall, phones, photos, between_drawings=10 if large else 2)
