@@ -39,7 +39,7 @@ struct PresentationLimits {
     net::Duration refresh{};               // of the displays
     std::optional<std::uint64_t> frames;   // the show ends after so many
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
-    Tick firstTick;                        // lockstep: of frame 0
+    Tick firstTick = {};                   // lockstep: of frame 0
 };
 
 // Of the conductor's thread. `now` is the begin of a turn of its loop, by the master's clock.
