@@ -27,7 +27,7 @@ class OlaSource final : public DmxSource {
     }
 
     std::optional<DmxFrame> hear() override {
-        wrapper_.GetSelectServer()->RunOnce();
+        for (int pass = 0; pass < kPasses; ++pass) wrapper_.GetSelectServer()->RunOnce();
         if (!problem_.empty()) throw Error(problem_);
         return std::exchange(heard_, {});
     }
@@ -43,6 +43,9 @@ class OlaSource final : public DmxSource {
     }
 
     static constexpr bool kStartsOlad = false;
+    // Each takes one message of olad's; a universe of DMX has 44 frames a second at most, and this
+    // is called ten times a second.
+    static constexpr int kPasses = 16;
 
     std::uint32_t universe_;
     std::optional<DmxFrame> heard_;

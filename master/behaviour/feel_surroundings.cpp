@@ -84,6 +84,8 @@ float reachOf(const fish::SpeciesParameters& parameters,
     return kReachMetres + speed * std::max(kReachSeconds, parameters.turnSeconds);
 }
 
+// A hunter that a cue has released does not turn away from what is farther: it goes straight.
+constexpr float kComingReachMetres = 1;
 // Of a fish that lies in wait beside the reef.
 constexpr surroundings::Berth kInWait{0.05F, 0.2F, 0.15F, 0.2F};
 // Longer fish keep clear of the reef also at a cleaner's, metres.
@@ -138,9 +140,11 @@ void feelSurroundings(const Environment& environment,
     const glm::vec3 fromSubmarine = submarinePush(submarine, senses, reach);
     // One that rushes at prey feels no obstacle beyond it but the submarine: else all prey near a
     // border or the reef would be safe.
+    const bool isComing = environment.released != nullptr && environment.released->has(fish);
     const float ahead = rushesAtPrey(parameters, mind, senses)
                             ? std::clamp(senses.prey.distance, kReachMetres, reach)
-                            : reach;
+                        : isComing ? std::min(reach, kComingReachMetres)
+                                   : reach;
     senses.push = surroundings::avoidance(around.obstacles,
                                           senses.position,
                                           senses.heading,

@@ -148,7 +148,7 @@ TEST_F(Theatre, aFloodCostsNoMoreThanItsBounds) {
 
 TEST_F(Theatre, receiversAreToldChangesAtOnceAndAllEveryFiveSeconds) {
     tick();
-    EXPECT_EQ(heardAt(receiver).size(), 16U) << "all, first";
+    EXPECT_EQ(heardAt(receiver).size(), 17U) << "all, first";
     status.set_frame(5);
     tick();
     EXPECT_THAT(heardAt(receiver), IsEmpty()) << "the frame alone is no news";
@@ -160,7 +160,7 @@ TEST_F(Theatre, receiversAreToldChangesAtOnceAndAllEveryFiveSeconds) {
     EXPECT_THAT(heardAt(receiver), IsEmpty());
     tick();
     const auto all = heardAt(receiver);
-    ASSERT_EQ(all.size(), 16U);
+    ASSERT_EQ(all.size(), 17U);
     EXPECT_EQ(all[12], (OscMessage{"/aquarama/state/frame", {std::int64_t{5}}}));
 }
 
