@@ -20,6 +20,7 @@ constexpr std::uint64_t kComes = 40 * 60;
 constexpr float kRockRoomMetres = 0.6F;
 constexpr float kRoundMetres = 8;
 constexpr float kLeastSquaredMetres = 0.01F;
+
 glm::vec3 placeOf(const FishColumns& columns, std::uint32_t fish) {
     return motion::bodyFrameOf(columns.states, fish).position;
 }
