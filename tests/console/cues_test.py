@@ -157,12 +157,12 @@ class Cues(unittest.TestCase):
         self.send("/aquarama/day", "clock")
         self.told("day", "clock")
         self.send("/aquarama/release", "blacktip_reef_shark")
-        wait_until(lambda: "releases a blacktip_reef_shark" in self.desk.said(), 5, "a shark comes")
+        wait_until(lambda: "releases a blacktip_reef_shark" in self.desk.said(), 30, "a shark comes")
         self.send("/aquarama/release", "clownfish")
         self.assertEqual(self.refusal(), ["/aquarama/release",
                                           "no clownfish patrols in this scene, only blacktip_reef_shark"])
         self.assertEqual(self.order(request="4712", release={"species": "trout"})[0], 202)
-        wait_until(lambda: self.order(request="4712", release={"species": "trout"})[0] == 403, 5, "its refusal")
+        wait_until(lambda: self.order(request="4712", release={"species": "trout"})[0] == 403, 30, "its refusal")
 
     def test_what_is_no_cue_of_the_desk_changes_nothing(self):
         before, dropped = self.state(), self.figure("dropped_cues_total")

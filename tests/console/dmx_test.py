@@ -137,7 +137,7 @@ class LightingDesk(unittest.TestCase):
         wait_until(lambda: "no DMX in universe" in self.events(), 25, "an alert of the silence")
         self.shows(brightness=128 / 255)
         self.olad.stop()
-        wait_until(lambda: "olad does not answer" in self.desk.said(), 10, "olad is gone, and the console says so")
+        wait_until(lambda: "olad does not answer" in self.desk.said(), 30, "olad is gone, and the console says so")
         self.shows(brightness=128 / 255)
         self.olad.start()
         for _ in range(30):  # until the console listens again
