@@ -163,8 +163,6 @@ class Reader {
 
     Recording read() {
         recording_.assets = readAssets();
-        if (nextEntry()) readEvent();
-        recording_.beginsWithSave = !recording_.saves.empty();
         while (!recording_.end && nextEntry()) readEvent();
         if (recording_.end && at_ != size_) fail("goes on behind its end");
         recording_.source = source_;
@@ -205,11 +203,12 @@ class Reader {
     bool nextEntry() {
         start_ = at_;
         const std::size_t length = nextLength();
-        if (length < kChecksumBytes || length > kMostEntryBytes || length > size_ - at_)
-            return false;
+        const std::size_t least = hasChecksums_ ? kChecksumBytes : 1;
+        if (length < least || length > kMostEntryBytes || length > size_ - at_) return false;
         bytes_.resize(length);
         in_.read(reinterpret_cast<char*>(bytes_.data()), static_cast<std::streamsize>(length));
-        if (static_cast<std::size_t>(in_.gcount()) != length || !isWhole()) return false;
+        if (static_cast<std::size_t>(in_.gcount()) != length) return false;
+        if (hasChecksums_ && !isWhole()) return false;
         at_ += length;
         if (!entry_.ParseFromArray(bytes_.data(), static_cast<int>(length))) fail("is damaged");
         return true;
@@ -225,7 +224,8 @@ class Reader {
         if (!entry_.ParseFromArray(bytes_.data(), static_cast<int>(length)))
             fail("has a damaged header");
         const v1::RecordingHeader& header = entry_.header();
-        if (header.version() != kRecordingVersion)
+        hasChecksums_ = header.version() == kRecordingVersion;
+        if (!hasChecksums_ && header.version() != kFormerRecordingVersion)
             throw Error(source_ + ": is a recording of version " +
                         std::to_string(header.version()) + ", written by " +
                         printed(header.build()) + "; this program reads version " +
@@ -281,7 +281,7 @@ class Reader {
 
     // What happened after the species: inputs, hashes, and the end.
     void readEvent() {
-        const bool isSave = entry_.entry_case() == v1::RecordingEntry::kSave;
+        const bool isSave = hasChecksums_ && entry_.has_save();
         if (!isSave && bytes_.size() > kMostSmallEntryBytes) fail("is damaged");
         switch (entry_.entry_case()) {
             case v1::RecordingEntry::kInput:
@@ -325,6 +325,11 @@ class Reader {
                 moment.unix_s()};
     }
 
+    [[nodiscard]] bool nothingHappened() const {
+        return recording_.inputs.empty() && recording_.checkpoints.empty() &&
+               recording_.saves.empty() && !recording_.moment;
+    }
+
     // The state is the last field before the checksum.
     RecordedSave saveIn(const v1::RecordedSave& save) {
         const std::size_t bytes = save.state().size();
@@ -333,6 +338,7 @@ class Reader {
         const auto* state = reinterpret_cast<const std::byte*>(save.state().data());
         if (!std::equal(state, state + bytes, bytes_.end() - kChecksumBytes - bytes))
             fail("has a save that cannot be");
+        recording_.beginsWithSave = recording_.beginsWithSave || nothingHappened();
         return {tickIn(save.has_tick(), save.tick(), lastTick_), at, bytes};
     }
 
@@ -456,6 +462,7 @@ class Reader {
     std::istream& in_;
     std::uint64_t size_;
     std::string source_;
+    bool hasChecksums_ = true;
     std::uint64_t at_ = 0, start_ = 0;
     Packet bytes_;  // of the entry
     v1::RecordingEntry entry_;
@@ -583,9 +590,10 @@ std::vector<std::string> doubtsAbout(const Recording& recording) {
         doubts.push_back("it was written for protocol " + std::to_string(recording.protocol) +
                          " and this is " + std::to_string(kProtocolMajor));
     if (!recording.end)
-        doubts.push_back(
-            "it was cut short after tick " + std::to_string(recording.lastTick().value) + ", " +
-            std::to_string(recording.bytesLeftOver) + " bytes of an unfinished entry are left out");
+        doubts.push_back("it was cut short after tick " +
+                         std::to_string(recording.lastTick().value) + ", " +
+                         std::to_string(recording.bytesLeftOver) +
+                         " bytes of an unfinished or damaged entry are left out");
     return doubts;
 }
 

@@ -23,6 +23,8 @@
 namespace aquarama::wire {
 
 inline constexpr std::uint32_t kRecordingVersion = 3;
+// Still read: it has no checksums and no saves.
+inline constexpr std::uint32_t kFormerRecordingVersion = 2;
 // Bounds of what is read and written.
 inline constexpr std::size_t kMostSceneBytes = std::size_t{1} << 20U;
 inline constexpr std::size_t kMostSpeciesBytes = std::size_t{1} << 20U;

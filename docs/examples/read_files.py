@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 REPERTOIRE_VERSION = 6
-RECORDING_VERSION = 3
+RECORDING_VERSIONS = (2, 3)
 PHASES, NODES, FINS, CONTROL_POINTS = 64, 23, 2, 426
 POSE_UNIT = 1 / 32767  # body lengths
 FIN_UNIT = 1e-4  # radians
@@ -117,10 +117,9 @@ def fields(message):
 
 
 def entries(content):
-    """The messages of a recording, each behind its length and with its checksum in its last five bytes. What comes
-    behind the last whole one is left out. The first one is not checked: its version comes before its checksum."""
+    """The messages of a recording, each behind its length, and whether each is whole: from version 3 on it has a
+    checksum in its last five bytes. One that was being written at the end is left out."""
     at = 0
-    is_first = True
     while at < len(content):
         length = shift = 0
         while at < len(content):
@@ -129,12 +128,10 @@ def entries(content):
             if byte < 0x80:
                 break
         message = content[at:at + length]
-        is_whole = len(message) == length > 5 and message[-4:] == struct.pack("<I", zlib.crc32(message[:-5]))
-        if not is_whole and not is_first:
+        if len(message) < length:
             return
-        yield message
+        yield message, message[-4:] == struct.pack("<I", zlib.crc32(message[:-5]))
         at += length
-        is_first = False
 
 
 def signed(value):
@@ -167,15 +164,17 @@ def read_recording(content):
     if not isinstance(content, bytes):
         content = Path(content).read_bytes()
     messages = entries(content)
-    header = dict(fields(dict(fields(next(messages, b""))).get(1, b"")))
+    header = dict(fields(dict(fields(next(messages, (b"",))[0])).get(1, b"")))
     if header.get(1) != b"AQREC":
         raise ValueError("this is no recording")
-    if header.get(2) != RECORDING_VERSION:
-        raise ValueError(f"a recording of version {header.get(2)}; this reader knows version {RECORDING_VERSION}")
+    if header.get(2) not in RECORDING_VERSIONS:
+        raise ValueError(f"a recording of version {header.get(2)}; this reader knows {RECORDING_VERSIONS}")
     recording = {"protocol": header[3], "build": header[4].decode(), "seed": header[5], "scene": header[6].decode(),
                  "species": [], "inputs": [], "hashes": [], "is_whole": False}
-    for message in messages:
-        (kind, part), _ = fields(message)
+    for message, is_whole in messages:
+        if not is_whole and header[2] > 2:
+            break
+        kind, part = next(fields(message))
         if kind == 2:
             species = dict(fields(part))
             recording["species"].append({"file": species[1].decode(), "text": species[2].decode(),

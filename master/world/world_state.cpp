@@ -24,6 +24,7 @@ namespace {
 constexpr std::string_view kMagic = "AQSAV";
 constexpr std::uint16_t kFormat = 1;
 constexpr std::size_t kDigestBytes = 32;
+constexpr double kLeastDaySeconds = 1e-3;
 constexpr float kMostFloat = 1e5F;  // of metres, speeds and shares: far beyond any water
 
 // Every number of a state in a fixed order, for those who write and read it: on(numbers and
@@ -267,7 +268,7 @@ struct Checker {
         });
         require(!state.dayCue || isSound(*state.dayCue), "the day's cue", 0);
         require(state.nextDrop <= bounds.surroundings.drops.size(), "drop", state.nextDrop);
-        require(isTime(state.timeOfDay) && isTime(state.clock.timeOfDay), "the time of day", 0);
+        require(isTime(state.timeOfDay) && isSound(state.clock), "the time of day", 0);
     }
 
   private:
@@ -325,6 +326,11 @@ struct Checker {
     [[nodiscard]] bool isSound(const fish::Wearer& wearer) const {
         return wearer.visit <= fish::Visit::Leaves && std::abs(wearer.aside) <= 1 &&
                wearer.number <= motion::kMostSkin;
+    }
+    [[nodiscard]] bool isSound(const place::DayClock& clock) const {
+        const bool goes = clock.lengthSeconds >= kLeastDaySeconds;
+        return clock.since <= state.tick && isTime(clock.timeOfDay) &&
+               (clock.lengthSeconds == 0 || goes);
     }
     [[nodiscard]] bool isSound(const surroundings::DayCue& cue) const {
         return cue.since <= state.tick && std::abs(cue.way) <= 1 &&

@@ -107,8 +107,8 @@ class Former(Case):
         self.repertoire.write_bytes(content)
         self.refused(r"is of version 7, written by a newer Aquarama; update this one", "inspect", self.repertoire)
         content = self.recording.read_bytes()
-        self.recording.write_bytes(content.replace(b"AQREC\x10\x02", b"AQREC\x10\x03", 1))
-        self.refused(r"is a recording of version 3, written by 0.1.0; this program reads version 2: use the program",
+        self.recording.write_bytes(content.replace(b"AQREC\x10\x02", b"AQREC\x10\x04", 1))
+        self.refused(r"is a recording of version 4, written by 0.1.0; this program reads version 3: use the program",
                      "inspect", self.recording)
         wall, later = self.files / "desk.mpcdi", self.folder / "later.mpcdi"
         with zipfile.ZipFile(wall) as old, zipfile.ZipFile(later, "w") as new:

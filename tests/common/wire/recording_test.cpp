@@ -82,6 +82,17 @@ TEST(RecordingFormat, everyEntryComesBack) {
     EXPECT_TRUE(doubtsAbout(recording).empty());
 }
 
+TEST(RecordingFormat, mayBeginWithASave) {
+    const auto begins = [](const std::vector<Packet>& events) {
+        std::vector<Packet> entries{beginningOf(sampleAssets())};
+        entries.insert(entries.end(), events.begin(), events.end());
+        return decodeRecording(joined(entries), "show.aqrec").beginsWithSave;
+    };
+    EXPECT_TRUE(begins({entryOf(Tick{60}, sampleState()), entryOf(RecordedHash{{60}, 5})}));
+    EXPECT_FALSE(begins({entryOf(RecordedHash{{0}, 5}), entryOf(Tick{60}, sampleState())}));
+    EXPECT_FALSE(begins({}));
+}
+
 // A journal writes an input ahead of its time.
 TEST(RecordingFormat, inputsMayComeBeforeHashesOfEarlierTicksAndRepertoiresMayBeNamed) {
     const Packet file = joined({beginningOf(sampleAssets(), Repertoires::Named),
