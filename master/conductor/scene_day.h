@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "common/config/keys.pb.h"
 #include "common/net/clock.h"
+#include "common/wire/wanted_show.h"
 #include "master/conductor/simulation.h"
 #include "master/conductor/simulation_thread.h"
 
