@@ -424,7 +424,7 @@ void Conductor::obey(const net::FromPeer& from, const v1::Order& order, net::Mom
     *message.mutable_order_reply() = orders_.obey(user, order, presentation_.unpublished(), now);
     if (simulationThread_ && !isLockstep())
         simulationThread_->freeze(orders_.control().wanted().freeze());
-    for (const world::ReleaseHunter& called : orders_.hunters().take()) bring(called, "a hunter");
+    for (const world::ReleaseHunter& called : orders_.hunters().take()) bring(called, "a hunter does not come");
     sender_.say(from.peer, std::move(message));
 }
 
@@ -496,13 +496,13 @@ void Conductor::turnDrawings(const Snapshot& newest) {
                                        orders_.control().wanted().drawings(),
                                        net::monotonicNow(),
                                        static_cast<std::uint64_t>(unixNow()));
-    for (const world::WorldInput& input : inputs) bring(input, "a drawing");
+    for (const world::WorldInput& input : inputs) bring(input, "a drawing waits");
 }
 
 void Conductor::bring(const world::WorldInput& input, const char* what) {
     if (!simulationThread_->betweenTicks(
             [input](Simulation& simulation) { simulation.apply(input); }))
-        logWarning("{} waits: the world is busy", what);
+        logWarning("{}: the world is busy", what);
 }
 
 // On the way to the next scene it is noted when light went, for the log, and which frame is black.
