@@ -428,7 +428,7 @@ void Conductor::obey(const net::FromPeer& from, const v1::Order& order, net::Mom
     *message.mutable_order_reply() = orders_.obey(user, order, presentation_.unpublished(), now);
     if (simulationThread_ && !isLockstep())
         simulationThread_->freeze(orders_.control().wanted().freeze());
-    for (const world::ReleaseHunter& called : orders_.hunters().take()) bring(called, "a hunter");
+    for (const world::ReleaseHunter& called : orders_.hunters().take()) bring(called, "a hunter does not come");
     sender_.say(from.peer, std::move(message));
 }
 
@@ -501,13 +501,13 @@ void Conductor::turnDrawings(const Snapshot& newest) {
                    orders_.control().wanted().drawings(),
                    net::monotonicNow(),
                    static_cast<std::uint64_t>(unixNow()),
-                   [this](const world::WorldInput& input) { return bring(input, "a drawing"); });
+                   [this](const world::WorldInput& input) { return bring(input, "a drawing waits"); });
 }
 
 bool Conductor::bring(const world::WorldInput& input, const char* what) {
     const bool isTaken = simulationThread_->betweenTicks(
         [input](Simulation& simulation) { simulation.apply(input); });
-    if (!isTaken) logWarning("{} waits: the world is busy", what);
+    if (!isTaken) logWarning("{}: the world is busy", what);
     return isTaken;
 }
 

@@ -115,7 +115,7 @@ class Conductor final : private FrameSource {
     void startSimulation(std::uint32_t fish);
     // What becomes of visitors' drawings, once a second, by where the fish of a tick are.
     void turnDrawings(const Snapshot& newest);
-    // Brings an input to the world; `what` names it where the world is too busy.
+    // Brings an input to the world; `what` is logged where too many wait already.
     bool bring(const world::WorldInput& input, const char* what);
     // What the wall shows now, with the brightness of the last frame.
     [[nodiscard]] v1::Show shown(net::Moment now) const;

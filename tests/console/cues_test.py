@@ -219,6 +219,7 @@ class Recorded(unittest.TestCase):
         folder = temporary_folder()
         self.addCleanup(folder.cleanup)
         desk, listener = End(), End()
+        self.addCleanup(desk.socket.close)
         place = ("127.0.0.1", listener.port)
         listener.socket.close()
         rig = rig_on_free_ports(folder.name)
@@ -231,9 +232,12 @@ class Recorded(unittest.TestCase):
         self.addCleanup(lambda: end([console, node, master]))
         wait_until(lambda: "cues by OSC at" in log.read_text(), 20, "the console listens")
         wait_until(lambda: re.search(r"submarine +at", aquarama("status", rig).stdout), 60, "a world")
-        desk.socket.sendto(message("/aquarama/day", "dusk"), place)
+
+        def dusk_is_wanted():
+            desk.socket.sendto(message("/aquarama/day", "dusk"), place)  # until the console hears the master
+            return "day dusk" in aquarama("status", rig).stdout
+        wait_until(dusk_is_wanted, 20, "dusk is wanted")
         desk.socket.sendto(message("/aquarama/release", "blacktip_reef_shark"), place)
-        wait_until(lambda: "day dusk" in aquarama("status", rig).stdout, 20, "dusk is wanted")
         time.sleep(5)
         master.send_signal(signal.SIGTERM)
         self.assertEqual(master.wait(20), 0)

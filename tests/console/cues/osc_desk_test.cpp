@@ -161,7 +161,7 @@ TEST_F(Theatre, receiversAreToldChangesAtOnceAndAllEveryFiveSeconds) {
     tick();
     const auto all = heardAt(receiver);
     ASSERT_EQ(all.size(), 17U);
-    EXPECT_EQ(all[12], (OscMessage{"/aquarama/state/frame", {std::int64_t{5}}}));
+    EXPECT_EQ(all[13], (OscMessage{"/aquarama/state/frame", {std::int64_t{5}}}));
 }
 
 TEST_F(Theatre, aPortThatAnotherProgramHasIsNamed) {
