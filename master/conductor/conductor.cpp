@@ -428,7 +428,8 @@ void Conductor::obey(const net::FromPeer& from, const v1::Order& order, net::Mom
     *message.mutable_order_reply() = orders_.obey(user, order, presentation_.unpublished(), now);
     if (simulationThread_ && !isLockstep())
         simulationThread_->freeze(orders_.control().wanted().freeze());
-    for (const world::ReleaseHunter& called : orders_.hunters().take()) bring(called, "a hunter does not come");
+    for (const world::ReleaseHunter& called : orders_.hunters().take())
+        bring(called, "a hunter does not come");
     sender_.say(from.peer, std::move(message));
 }
 
