@@ -498,11 +498,12 @@ std::optional<Snapshot> Conductor::takeTick() {
 }
 
 void Conductor::turnDrawings(const Snapshot& newest) {
-    drawings_.turn(newest.fish,
-                   orders_.control().wanted().drawings(),
-                   net::monotonicNow(),
-                   static_cast<std::uint64_t>(unixNow()),
-                   [this](const world::WorldInput& input) { return bring(input, "a drawing waits"); });
+    drawings_.turn(
+        newest.fish,
+        orders_.control().wanted().drawings(),
+        net::monotonicNow(),
+        static_cast<std::uint64_t>(unixNow()),
+        [this](const world::WorldInput& input) { return bring(input, "a drawing waits"); });
 }
 
 bool Conductor::bring(const world::WorldInput& input, const char* what) {
