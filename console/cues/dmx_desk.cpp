@@ -54,7 +54,7 @@ void DmxDesk::tick(double now) {
                 kSilentSeconds);
     } catch (const Error& failure) {
         source_.reset();
-        if (problem_.empty()) logWarning("cues by DMX: {}", failure.what());
+        if (problem_ != failure.what()) logWarning("cues by DMX: {}", failure.what());
         problem_ = failure.what();
     }
 }

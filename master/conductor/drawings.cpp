@@ -64,7 +64,10 @@ void Drawings::findWorn() {
 // A fish that wears a drawing already. One that the crew does not want leaves.
 void Drawings::takeOver(std::uint32_t number, std::uint32_t fish) {
     Entry* const entry = find(number);
-    if (entry == nullptr || !entry->kept.isLetIn || entry->fish) return toLeave_.push_back(fish);
+    if (entry == nullptr || !entry->kept.isLetIn || entry->fish) {
+        inputs_.emplace_back(world::LeaveDrawing{fish});
+        return;
+    }
     entry->fish = fish;
     entry->listed = net::monotonicNow();
 }

@@ -46,6 +46,9 @@ class JournalledWorld final : public simulation::SimulationDecorator {
     [[nodiscard]] std::vector<conductor::DrawingSlots> drawingSlots() const override {
         return world_.drawingSlots();
     }
+    [[nodiscard]] std::vector<conductor::Hunter> hunters() const override {
+        return world_.hunters();
+    }
     [[nodiscard]] const simulation::LivingWorld& living() const { return *living_; }
     [[nodiscard]] Journal& journal() { return *journal_; }
 
