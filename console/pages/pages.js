@@ -84,6 +84,7 @@ function figures(link) {
   const {status, shown} = link;
   return html`<section class="panel figures" aria-labelledby="figures"><h2 id="figures">${t('wall.now')}</h2><dl>
     <dt>${t('wall.scene')}</dt><dd>${word(shown.scene)}</dd>
+    <dt>${t('wall.day')}</dt><dd>${word(dayOf(link))}</dd>
     <dt>${t('wall.quality')}</dt><dd>${word(qualityOf(link))}</dd>
     <dt>${t('wall.pattern')}</dt><dd>${word(patternOf(link))}</dd>
     <dt>${t('wall.frame')}</dt><dd>${status.frame} · ${t('wall.tick')} ${status.tick}</dd>

@@ -76,7 +76,7 @@ export function chooser(link, what, values, shown, act) {
   return html`<label for=${what}>${t(`wall.${what}`)}</label>
     <select id=${what} ?disabled=${!link.may('OPERATOR')} @change=${choose}>
       ${values.map(value => html`<option value=${value}
-        ?selected=${value === chosen}>${word(value)}</option>`)}</select>
+        .selected=${value === chosen}>${word(value)}</option>`)}</select>
     ${holdButton(t('wall.apply'), done, {disabled: !link.may('OPERATOR') || chosen === shown, of: what})}`;
 }
 export const patternChooser = link =>

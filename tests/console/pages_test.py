@@ -339,6 +339,12 @@ class Pages(unittest.TestCase):
         wait_until(lambda: re.search(r"^frames? \d+( to \d+)?$", self.text("figure.whole figcaption")), 15,
                    "pictures of all channels")
 
+    def test_a_time_of_day_is_chosen_and_given_back_to_the_clock(self):
+        for day in ("dusk", "first light", "clock"):
+            self.choose("day", day)
+            chosen = "return document.querySelector('#day').value"
+            wait_until(lambda: self.driver.execute_script(chosen) == day, 5, f"the list says {day}")
+
     def test_a_stale_page_dims_and_holds_commands_back_until_it_hears_again(self):
         console = self.desk.console_process()
         places = lambda: [(e.location, e.size)
