@@ -261,13 +261,15 @@ struct MadeWorld {
     std::unique_ptr<conductor::Simulation> simulation;
     const simulation::LivingWorld* made = nullptr;
 };
-MadeWorld makeWorld(const simulation::Assets& assets, const fs::path& journal, bool isFrozen) {
-    if (journal.empty()) {
+MadeWorld makeWorld(const simulation::Assets& assets,
+                    const fs::path& folder,
+                    journal::TimeAway away) {
+    if (folder.empty()) {
         auto world = std::make_unique<simulation::LivingWorld>(simulation::worldOptionsOf(assets));
         const simulation::LivingWorld* const made = world.get();
         return {std::move(world), made};
     }
-    auto world = journal::makeJournalled(journal, assets, isFrozen);
+    auto world = journal::makeJournalled(folder, assets, away);
     const simulation::LivingWorld* const made = &world->living();
     return {std::move(world), made};
 }
@@ -300,17 +302,20 @@ void showNew(const config::Rig& rig,
     }
     const fs::path folder = wire::journalOf(options.show.rigPath);
     const auto lock = options.lockstep ? nullptr : lockJournal(folder);
-    const fs::path journal = lock ? folder : fs::path{};
-    const MadeWorld world = makeWorld(assets, journal, conducting.wanted.freeze());
+    const fs::path journalFolder = lock ? folder : fs::path{};
+    using journal::TimeAway;
+    const TimeAway away = conducting.wanted.freeze() ? TimeAway::LeftOut : TimeAway::MadeUpFor;
+    const MadeWorld world = makeWorld(assets, journalFolder, away);
     preparation.reset();
-    conducting.looks.makeWorld = [rig, journal, show = options.show](const std::string& scene) {
-        simulation::Assets next =
-            simulation::readAssets(sceneFile(rig, show.rigPath, scene), choiceOf(rig, show));
-        MadeWorld made = makeWorld(next, journal, true);
-        const auto traits = made.made->world().traits();
-        return conductor::NextWorld{
-            std::move(next.bytes), {traits.begin(), traits.end()}, std::move(made.simulation)};
-    };
+    conducting.looks.makeWorld =
+        [rig, journalFolder, show = options.show](const std::string& scene) {
+            simulation::Assets next =
+                simulation::readAssets(sceneFile(rig, show.rigPath, scene), choiceOf(rig, show));
+            MadeWorld made = makeWorld(next, journalFolder, TimeAway::LeftOut);
+            const auto traits = made.made->world().traits();
+            return conductor::NextWorld{
+                std::move(next.bytes), {traits.begin(), traits.end()}, std::move(made.simulation)};
+        };
     show(rig, conducting, {assets.bytes, *world.made, *world.simulation}, std::move(channels));
 }
 

@@ -2,7 +2,6 @@
 #include "common/config/rig.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -15,6 +14,9 @@
 #include "common/base/log.h"
 #include "common/base/units.h"
 #include "common/config/rig.pb.h"
+#include "common/config/rig_network.h"
+#include "common/config/rig_parts.h"
+#include "common/config/rig_visitors.h"
 #include "common/config/text_reader.h"
 #include "common/machine/connectors.h"
 
@@ -26,141 +28,6 @@ constexpr double kDegree = kRadiansPerDegree<double>;
 
 static_assert(v1::Stereo::ANAGLYPH - v1::Stereo::MONO == static_cast<int>(StereoMode::Anaglyph));
 static_assert(v1::Rig::ULTRA - v1::Rig::LOW == static_cast<int>(QualityTier::Ultra));
-
-bool isAll(std::string_view text, std::string_view allowed) {
-    return !text.empty() && text.find_first_not_of(allowed) == std::string_view::npos;
-}
-
-std::optional<int> wholeNumber(std::string_view text) {
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
-bool isLoopback(std::string_view host) {
-    return host == "localhost" || host == "[::1]" ||
-           (host.starts_with("127.") && isAll(host, "0123456789."));
-}
-
-std::string_view hostOf(std::string_view address) {
-    const std::size_t start = std::string_view("tcp://").size();
-    return address.substr(start, address.rfind(':') - start);
-}
-
-// Of a network card, as a number: a name could mean anything to a resolver.
-bool isHost(std::string_view host) {
-    const bool isEverywhere = host == "0.0.0.0" || host == "[::]";
-    return isLoopback(host) || (!isEverywhere && (isAll(host, "0123456789.") ||
-                                                  (host.starts_with('[') && host.ends_with(']'))));
-}
-
-void checkAddress(const TextReader& file,
-                  const google::protobuf::Message& in,
-                  const std::string& field,
-                  const std::string& address) {
-    const auto refuse = [&](const std::string& why) {
-        file.refuse(in, field, field + " \"" + address + "\" " + why);
-    };
-    const std::string_view scheme = "tcp://";
-    const std::size_t colon = address.rfind(':');
-    if (!address.starts_with(scheme) || colon < scheme.size())
-        refuse("is no address: write tcp://127.0.0.1:PORT");
-    const std::optional<int> port = wholeNumber(std::string_view(address).substr(colon + 1));
-    if (!port || *port < 1 || *port > 65535) refuse("needs a port from 1 to 65535");
-    if (!isHost(hostOf(address)))
-        refuse("needs the number of one network card, as tcp://192.168.7.1:" +
-               std::to_string(*port));
-}
-
-// ":7400" of "tcp://127.0.0.1:7400".
-std::string portOf(const std::string& address) {
-    return address.substr(address.rfind(':'));
-}
-
-void checkNetwork(const TextReader& file, const v1::Network& in) {
-    checkAddress(file, in, "control", in.control());
-    checkAddress(file, in, "state", in.state());
-    if (portOf(in.control()) == portOf(in.state()))
-        file.refuse(in, "state", "state and control share one port: give each its own");
-    if (isLoopback(hostOf(in.control())) != isLoopback(hostOf(in.state())))
-        file.refuse(in,
-                    "state",
-                    "only one of state and control reaches past this machine: use one "
-                    "host for both");
-    if (!in.has_watch()) return;
-    checkAddress(file, in, "watch", in.watch());
-    if (hostOf(in.watch()) != hostOf(in.control()) || portOf(in.watch()) == portOf(in.control()) ||
-        portOf(in.watch()) == portOf(in.state()))
-        file.refuse(in, "watch", "watch needs the host of control and a port of its own");
-}
-
-// Throws Error at the field, or its entry `index`, where it is no address of UDP.
-UdpAddress udpOf(const TextReader& file,
-                 const google::protobuf::Message& in,
-                 const std::string& field,
-                 const std::string& text,
-                 int index = 0) {
-    if (const auto address = udpAddressIn(text)) return *address;
-    file.refuse(in,
-                field,
-                field + " \"" + text +
-                    "\" is no address of one machine: write udp://192.168.7.1:PORT; names are not "
-                    "looked up",
-                index);
-}
-
-// Throws Error at the entry of `from` that is no host.
-std::vector<std::string> hostsOf(const TextReader& file,
-                                 const google::protobuf::Message& in,
-                                 const google::protobuf::RepeatedPtrField<std::string>& from) {
-    std::vector<std::string> hosts;
-    for (int i = 0; i < from.size(); ++i) {
-        hosts.push_back(shortestHost(from[i]));
-        if (hosts.back().empty())
-            file.refuse(in,
-                        "from",
-                        "from \"" + from[i] +
-                            "\" is no number of one machine: write 192.168.7.40, without a port",
-                        i);
-    }
-    return hosts;
-}
-
-std::optional<OscCues> oscOf(const TextReader& file, const v1::Rig& rig) {
-    if (!rig.cues().has_osc()) return std::nullopt;
-    const v1::OscCues& in = rig.cues().osc();
-    OscCues osc{udpOf(file, in, "listen", in.listen()), hostsOf(file, in, in.from()), {}};
-    const auto isVersion6 = [](const UdpAddress& address) {
-        return address.host.find(':') != std::string::npos;
-    };
-    for (int i = 0; i < in.send_to_size(); ++i) {
-        osc.sendTo.push_back(udpOf(file, in, "send_to", in.send_to(i), i));
-        if (isVersion6(osc.sendTo.back()) != isVersion6(osc.listen))
-            file.refuse(
-                in,
-                "send_to",
-                "send_to \"" + in.send_to(i) +
-                    "\" is of another version than listen: write both as IPv4 or both as IPv6",
-                i);
-    }
-    return osc;
-}
-
-std::optional<DmxCues> dmxOf(const TextReader& file, const v1::Rig& rig) {
-    if (!rig.cues().has_art_net()) return std::nullopt;
-    const v1::DmxCues& in = rig.cues().art_net();
-    DmxCues dmx;
-    dmx.universe = in.universe();
-    if (in.has_brightness()) dmx.brightness = in.brightness();
-    if (in.has_black()) dmx.black = in.black();
-    if (!dmx.brightness && !dmx.black)
-        file.refuse(
-            rig.cues(), "art_net", "art_net drives nothing: give brightness, black or both");
-    if (dmx.brightness == dmx.black)
-        file.refuse(in, "black", "black has the channel of brightness: give each one of its own");
-    return dmx;
-}
 
 // Of a panorama or a channel.
 glm::ivec2 sizeOf(const auto& in) {
@@ -222,10 +89,6 @@ Timing timingOf(const TextReader& file, const v1::Timing& in) {
                     "membership_s is shorter than present_deadline_s, so that every late frame "
                     "would cost a node its place: make it longer");
     return timing;
-}
-
-glm::dvec3 positionOf(const v1::Position& in) {
-    return {in.x_m(), in.y_m(), in.z_m()};
 }
 
 StereoMode modeOf(v1::Stereo::Mode mode) {
@@ -466,113 +329,6 @@ std::string nameOf(StereoMode mode) {
     return v1::Stereo::Mode_Name(static_cast<int>(mode) + v1::Stereo::MONO);
 }
 
-// Of "http://192.168.20.1:7490": the same machines and ports as those of UDP.
-std::optional<UdpAddress> webAddressIn(const std::string& address) {
-    constexpr std::string_view kScheme = "http://";
-    if (!address.starts_with(kScheme)) return std::nullopt;
-    return udpAddressIn("udp://" + address.substr(kScheme.size()));
-}
-
-// Three corners of a surface; of people, of a floor that is below the viewer's eye.
-void checkCorners(const TextReader& file,
-                  const v1::Touch& in,
-                  const TouchedSurface& touch,
-                  glm::dvec3 sweetSpot) {
-    constexpr double kLeastMetres = 0.05, kLeastSine = 0.05, kMostSlope = 0.5;
-    const glm::dvec3 across = touch.topRight - touch.topLeft;
-    const glm::dvec3 down = touch.bottomLeft - touch.topLeft;
-    const double least = std::min(glm::length(across), glm::length(down));
-    const glm::dvec3 normal = glm::cross(across, down);
-    const double area = glm::length(normal);
-    if (least < kLeastMetres || area < kLeastSine * glm::length(across) * glm::length(down))
-        file.refuse(in,
-                    "bottom_left",
-                    "top_left, top_right and bottom_left lie on one line, or nearly: give three "
-                    "corners of the surface");
-    if (!touch.peopleReachMetres) return;
-    const double highest = std::max({touch.topLeft.y, touch.topRight.y, touch.bottomLeft.y});
-    if (std::hypot(normal.x, normal.z) > kMostSlope * area || highest >= sweetSpot.y)
-        file.refuse(in,
-                    "people",
-                    "the three corners of people lie on the floor, below the sweet spot: give "
-                    "them its y_m, or leave people out");
-}
-
-std::optional<TouchedSurface> touchOf(const TextReader& file, const v1::Rig& rig) {
-    if (!rig.has_touch()) return std::nullopt;
-    const v1::Touch& in = rig.touch();
-    TouchedSurface touch{udpOf(file, in, "listen", in.listen()),
-                         hostsOf(file, in, in.from()),
-                         positionOf(in.top_left()),
-                         positionOf(in.top_right()),
-                         positionOf(in.bottom_left())};
-    if (touch.from.empty()) touch.from.emplace_back("127.0.0.1");
-    if (in.has_people()) touch.peopleReachMetres = in.people().reach_m();
-    checkCorners(file, in, touch, positionOf(rig.sweet_spot()));
-    return touch;
-}
-
-// The host of the master, and a port that nobody else has.
-void checkPictures(const TextReader& file, const v1::Rig& rig) {
-    const v1::Guests& in = rig.guests();
-    const v1::Network& network = rig.network();
-    checkAddress(file, in, "pictures", in.pictures());
-    const auto isTaken = [&](const std::string& other) {
-        return !other.empty() && portOf(other) == portOf(in.pictures());
-    };
-    if (hostOf(in.pictures()) != hostOf(network.control()) || isTaken(network.control()) ||
-        isTaken(network.state()) || isTaken(network.watch()))
-        file.refuse(in, "pictures", "pictures needs the host of control and a port of its own");
-}
-
-// After the channels.
-void takeGuests(const TextReader& file, const v1::Rig& in, Rig& rig) {
-    if (!in.has_guests()) return;
-    static_assert(v1::Guests::UPPER_RIGHT - v1::Guests::LOWER_LEFT ==
-                  static_cast<int>(Guests::Corner::UpperRight));
-    const v1::Guests& from = in.guests();
-    Guests guests{.host = {},
-                  .port = 0,
-                  .channel = from.has_channel() ? from.channel() : rig.channels.front().name,
-                  .corner = static_cast<Guests::Corner>(from.corner() - v1::Guests::LOWER_LEFT),
-                  .height = from.height(),
-                  .picturesAddress = from.pictures()};
-    const auto address = webAddressIn(from.address());
-    if (!address)
-        file.refuse(from,
-                    "address",
-                    "address \"" + from.address() +
-                        "\" is no address of this machine that phones reach: write "
-                        "http://192.168.20.1:7490 or http://[fd00::1]:7490; names are not looked "
-                        "up");
-    guests.host = address->host;
-    guests.port = address->port;
-    if (from.has_pictures()) checkPictures(file, in);
-    if (std::ranges::find(rig.channels, guests.channel, &Channel::name) == rig.channels.end())
-        file.refuse(from, "channel", "there is no channel \"" + guests.channel + "\"");
-    rig.guests = guests;
-}
-
-// After the console's port.
-std::optional<DrawingRules> drawingsOf(const TextReader& file, const v1::Rig& rig) {
-    if (!rig.has_drawings()) return std::nullopt;
-    const v1::Drawings& in = rig.drawings();
-    DrawingRules rules{.species = {in.species().begin(), in.species().end()},
-                       .most = in.most(),
-                       .areLetInAtOnce = in.let_in() == v1::Drawings::AT_ONCE,
-                       .mayBeEaten = in.may_be_eaten(),
-                       .folder = in.folder()};
-    if (rules.species.empty())
-        rules.species = {
-            "clownfish", "blue_tang", "butterflyfish", "parrotfish", "moorish_idol", "lionfish"};
-    if (!rules.folder.empty() && !rig.network().has_console_port())
-        file.refuse(in,
-                    "folder",
-                    "pictures in a folder are read by the console: give network a console_port, "
-                    "or leave folder out");
-    return rules;
-}
-
 Rig parseRig(const std::string& text, const std::string& source) {
     v1::Rig in;
     TextReader file(text, source, in);
@@ -589,7 +345,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
             .consolePort = static_cast<std::uint16_t>(in.network().console_port()),
             .watchAddress = in.network().watch(),
             .windowsEndShow = in.windows_end_show(),
-            .cues = {oscOf(file, in), dmxOf(file, in)},
+            .cues = {},
             .channels = {},
             .timing = timingOf(file, in.timing()),
             .scene = in.scene(),
@@ -606,9 +362,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
     if (in.has_touch()) rig.places.touch = file.placeOf(in.touch());
     for (const v1::Channel& channel : in.channels())
         rig.channels.push_back(channelOf(file, channel, rig.stereo));
-    takeGuests(file, in, rig);
-    rig.touch = touchOf(file, in);
-    rig.drawings = drawingsOf(file, in);
+    takeVisitors(file, in, rig);
     takeScreen(file, source, in, rig);
     takeCalibration(file, in, rig);
     takeAdjustments(file, source, in, rig);

@@ -133,14 +133,13 @@ struct Recording {
     std::vector<RecordedInput> inputs;      // in the order in which they came
     std::vector<RecordedHash> checkpoints;  // in the order of ticks
     std::vector<RecordedSave> saves;        // in the order of ticks
+    bool beginsWithSave = false;            // with the first of them; else at tick 0
     std::optional<RecordedMoment> moment;   // the last of them
     std::optional<RecordedHash> end;        // without: the recording was cut short
     std::uint64_t wholeBytes = 0;           // up to the end of the last whole entry
     std::uint64_t bytesLeftOver = 0;        // behind it: an entry that was being written, or damage
 
     [[nodiscard]] Tick lastTick() const;  // up to which anything is known
-    // Whether it begins with its first save; else at tick 0.
-    bool beginsWithSave = false;
 };
 
 // The pieces of the file in order: first beginningOf(), at last endOf(). Repertoires are in it, or

@@ -22,7 +22,9 @@ void SceneDay::begin(Simulation& world, WantedShow::Day wanted, net::Moment now)
         world.apply(readHallClock(hoursAt_, unixNow()).setting());
         clockSet_ = now;
     }
-    if (const auto time = timeWantedBy(wanted)) world.apply(world::SetDay{.timeOfDay = time});
+    // A world that goes on may still have another day than is wanted now.
+    const auto time = timeWantedBy(wanted);
+    if (time || world.tick() > Tick{}) world.apply(world::SetDay{.timeOfDay = time});
     day_ = wanted;
 }
 

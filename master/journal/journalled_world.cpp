@@ -43,25 +43,33 @@ wire::RecordedMoment momentAt(Tick tick) {
             static_cast<std::uint64_t>(std::time(nullptr))};
 }
 
-// Puts the world at the newest save that is one of it.
+// Puts the world at the newest save that is one of it. Of those that are not, one is told: mostly
+// all are of another build.
 bool restoreNewest(simulation::LivingWorld& world, const LastWorld& last) {
+    std::string problem;
     const auto restores = [&](const auto& read, const std::string& source) {
         try {
             world.restore(read(), source);
             return true;
-        } catch (const Error& problem) {
-            logWarning("{}; an earlier save is tried", problem.what());
+        } catch (const Error& error) {
+            if (problem.empty()) problem = error.what();
             return false;
         }
     };
-    for (const auto& path : last.saves)
-        if (restores([&] { return readWhole(path, wire::kMostSavedBytes); }, path.string()))
-            return true;
-    const auto& saves = last.recording.saves;
-    return std::any_of(saves.rbegin(), saves.rend(), [&](const wire::RecordedSave& save) {
+    const auto fromFile = [&](const std::filesystem::path& path) {
+        return restores([&] { return readWhole(path, wire::kMostSavedBytes); }, path.string());
+    };
+    const auto fromRecording = [&](const wire::RecordedSave& save) {
         return restores([&] { return wire::readState(last.recording, save); },
                         last.recording.source);
-    });
+    };
+    const auto& saves = last.recording.saves;
+    const bool isRestored = std::ranges::any_of(last.saves, fromFile) ||
+                            std::any_of(saves.rbegin(), saves.rend(), fromRecording);
+    if (!problem.empty())
+        logWarning(
+            "{}; {}", problem, isRestored ? "an earlier save is used" : "a new world begins");
+    return isRestored;
 }
 
 // The last tick of which the journal knows. An input was written before its tick.
@@ -75,9 +83,9 @@ Tick lastKnown(const wire::Recording& recording, Tick restored) {
 }
 
 // The tick that is due now, by the clock.
-Tick dueNow(const wire::Recording& recording, Tick restored, bool isFrozen) {
+Tick dueNow(const wire::Recording& recording, Tick restored, TimeAway timeAway) {
     const Tick known = lastKnown(recording, restored);
-    if (isFrozen || !recording.moment) return known;
+    if (timeAway == TimeAway::LeftOut || !recording.moment) return known;
     const wire::RecordedMoment now = momentAt({});
     const wire::RecordedMoment& then = *recording.moment;
     if (now.boot != then.boot || now.clockNs < then.clockNs) return known;
@@ -107,13 +115,13 @@ Inputs::const_iterator advanceTo(simulation::LivingWorld& world,
 
 std::optional<std::vector<wire::RecordedInput>> goOn(simulation::LivingWorld& world,
                                                      const LastWorld& last,
-                                                     bool isFrozen) {
+                                                     TimeAway timeAway) {
     const auto begin = std::chrono::steady_clock::now();
     if (!restoreNewest(world, last)) return std::nullopt;
     const Tick restored = world.tick();
     const std::vector<wire::RecordedInput>& inputs = last.recording.inputs;
     const auto first = std::ranges::lower_bound(inputs, restored, {}, &wire::RecordedInput::tick);
-    const Tick due = dueNow(last.recording, restored, isFrozen);
+    const Tick due = dueNow(last.recording, restored, timeAway);
     const auto next = advanceTo(world, due, begin + kMostTimeAway, {first, inputs.end()});
     logInfo("the world goes on at {} from its save at {}, with {}",
             simulation::timeOf(world.tick()),
@@ -177,14 +185,14 @@ void JournalledWorld::noteLate() {
 
 std::unique_ptr<JournalledWorld> makeJournalled(const std::filesystem::path& folder,
                                                 const simulation::Assets& assets,
-                                                bool isFrozen) {
+                                                TimeAway timeAway) {
     std::unique_ptr<simulation::LivingWorld> world;
     std::optional<std::vector<wire::RecordedInput>> ahead;
     if (const auto last = lastWorldIn(folder, assets.bytes)) {
         world::WorldOptions options = simulation::worldOptionsOf(assets);
         options.scene.livedSeconds = 0;
         world = std::make_unique<simulation::LivingWorld>(options);
-        ahead = goOn(*world, *last, isFrozen);
+        ahead = goOn(*world, *last, timeAway);
     }
     if (!ahead)
         world = std::make_unique<simulation::LivingWorld>(simulation::worldOptionsOf(assets));

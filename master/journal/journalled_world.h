@@ -21,13 +21,16 @@ namespace aquarama::journal {
 // An input takes effect so many ticks after it has come, 50 ms: by then the disk has it.
 inline constexpr std::uint64_t kTicksAhead = 3;
 
+// Whether a world that goes on makes up for the time in which no master ran.
+enum class TimeAway : std::uint8_t { MadeUpFor, LeftOut };
+
 // Brings a world of the same options to where its journal left it: the newest save that can be
-// used, the inputs since then, and the ticks up to now by the clock of this machine, or up to the
-// last known one where it is frozen, the machine was started anew, or it was away for over a
-// minute. Returns the inputs that are still ahead; nothing where no save can be used.
+// used, the inputs since then, and the ticks up to now by the clock of this machine; or up to the
+// last known one where time away is left out, was over a minute, or the machine was started anew.
+// Returns the inputs that are still ahead; nothing where no save can be used.
 [[nodiscard]] std::optional<std::vector<wire::RecordedInput>> goOn(simulation::LivingWorld& world,
                                                                    const LastWorld& last,
-                                                                   bool isFrozen);
+                                                                   TimeAway away);
 
 // Every input is written before it takes effect, hashes and saves as they are due. Where the disk
 // does not have an input in time, it takes effect all the same, and a line in the log says so. Of
@@ -42,13 +45,6 @@ class JournalledWorld final : public simulation::SimulationDecorator {
     void advance() override;
     // Before the first advance() it takes effect at once: nobody has seen the world yet.
     void apply(const world::WorldInput& input) override;
-    [[nodiscard]] bool followsHall() const override { return world_.followsHall(); }
-    [[nodiscard]] std::vector<conductor::DrawingSlots> drawingSlots() const override {
-        return world_.drawingSlots();
-    }
-    [[nodiscard]] std::vector<conductor::Hunter> hunters() const override {
-        return world_.hunters();
-    }
     [[nodiscard]] const simulation::LivingWorld& living() const { return *living_; }
     [[nodiscard]] Journal& journal() { return *journal_; }
 
@@ -74,6 +70,6 @@ class JournalledWorld final : public simulation::SimulationDecorator {
 // one. Throws Error where the assets make no world.
 [[nodiscard]] std::unique_ptr<JournalledWorld> makeJournalled(const std::filesystem::path& folder,
                                                               const simulation::Assets& assets,
-                                                              bool isFrozen);
+                                                              TimeAway away);
 
 }  // namespace aquarama::journal

@@ -27,6 +27,13 @@ class SimulationDecorator : public conductor::Simulation {
     [[nodiscard]] conductor::Explanation explain(std::uint32_t fish) const override {
         return world_.explain(fish);
     }
+    [[nodiscard]] bool followsHall() const override { return world_.followsHall(); }
+    [[nodiscard]] std::vector<conductor::DrawingSlots> drawingSlots() const override {
+        return world_.drawingSlots();
+    }
+    [[nodiscard]] std::vector<conductor::Hunter> hunters() const override {
+        return world_.hunters();
+    }
 
   protected:
     // Stands before this simulation.
@@ -56,13 +63,6 @@ class RecordedWorld final : public SimulationDecorator {
 
     void advance() override;
     void apply(const world::WorldInput& input) override { pending_.push_back(input); }
-    [[nodiscard]] bool followsHall() const override { return world_.followsHall(); }
-    [[nodiscard]] std::vector<conductor::DrawingSlots> drawingSlots() const override {
-        return world_.drawingSlots();
-    }
-    [[nodiscard]] std::vector<conductor::Hunter> hunters() const override {
-        return world_.hunters();
-    }
 
   private:
     // The present tick and hash.
@@ -128,6 +128,10 @@ class ReplayedWorld final : public SimulationDecorator {
 
     void advance() override;
     void apply(const world::WorldInput& input) override;
+    // Nothing reaches it, so it asks for nothing.
+    [[nodiscard]] bool followsHall() const override { return false; }
+    [[nodiscard]] std::vector<conductor::DrawingSlots> drawingSlots() const override { return {}; }
+    [[nodiscard]] std::vector<conductor::Hunter> hunters() const override { return {}; }
 
   private:
     Playback playback_;

@@ -18,7 +18,8 @@
 #include "console/cues/touch_listener.h"
 #include "tests/common/tuio/sample_streams.h"
 #include "tests/console/cues/free_port.h"
-#include "tests/master/world/captured_fish.h"
+#include "tests/console/cues/tracked_wall.h"
+#include "tests/master/world/fish_at_ease.h"
 
 namespace aquarama {
 namespace {
@@ -27,43 +28,9 @@ constexpr std::uint32_t kRuns = 10;
 constexpr int kTicksOfAFrame = 2;    // of the tracker, thirty a second
 constexpr int kTicksOfAConsole = 6;  // ten times a second
 
-// Three dozen fish of two kinds before the eye, at ease.
-world::WorldOptions visited(std::uint32_t seed) {
-    world::WorldOptions options;
-    options.seed = seed;
-    options.scene.gathering = config::Gathering::None;
-    options.scene.plankton = 0;
-    options.scene.eye = {0, -6, 0};
-    options.scene.water.centre = {0, -6, -4};
-    options.scene.water.halfExtent = {5, 2, 4};
-    for (const char* name : {"blue_tang", "butterflyfish"}) {
-        world::WorldSpecies fish = world::capturedSpecies(test::castMember(name), 18);
-        fish.habits = {};
-        fish.habits.libidoPerSecond = 0;
-        options.cast.push_back(fish);
-    }
-    return options;
-}
-
-// A flat wall of 4 x 2 m, 3 m before the viewer, and a tracker of hands on it.
-config::Rig wallOfHands(const config::UdpAddress& listen) {
-    config::Rig rig;
-    rig.screen.shape = config::ScreenShape::Flat;
-    rig.screen.widthMetres = 4;
-    rig.screen.heightMetres = 2;
-    rig.screen.distanceMetres = 3;
-    rig.touch.emplace();
-    rig.touch->listen = listen;
-    rig.touch->from = {"127.0.0.1"};
-    rig.touch->topLeft = {-2, 1, -3};
-    rig.touch->topRight = {2, 1, -3};
-    rig.touch->bottomLeft = {-2, -1, -3};
-    return rig;
-}
-
 // The tracker sees people on 4 x 3 m of the floor.
 config::Rig wallOfPeople(const config::UdpAddress& listen) {
-    config::Rig rig = wallOfHands(listen);
+    config::Rig rig = test::wallOfHands(listen);
     rig.touch->peopleReachMetres = 2;
     rig.touch->topLeft = {-2, -1.6, -3};
     rig.touch->topRight = {2, -1.6, -3};
@@ -76,7 +43,7 @@ class Hall {
   public:
     template <class RigAt>
     Hall(std::uint32_t seed, RigAt rigAt)
-        : world_(visited(seed)),
+        : world_(world::fishAtEase(seed)),
           at_(test::freePort().address),
           listener_(rigAt(at_)),
           tracker_(test::freePort()) {
@@ -156,7 +123,7 @@ std::vector<test::SampleTouch> threeHands(float now) {
 TEST(StreamOfHands, fishGatherAtTheStillOneAndLeaveTheQuickOne) {
     std::size_t before = 0, gathered = 0, stayed = 0, near = 0, inOne = 0;
     for (std::uint32_t seed = 1; seed <= kRuns; ++seed) {
-        Hall hall(seed, wallOfHands);
+        Hall hall(seed, test::wallOfHands);
         before += hall.gathered(kStill);
         hall.pass(20, threeHands);
         gathered += hall.gathered(kStill);

@@ -11,22 +11,12 @@ import time
 import unittest
 from pathlib import Path
 
-from show import aquarama, children_of, end, rig_on_free_ports, start, temporary_folder, wait_until
+from show import ShowCase, aquarama, children_of, end, start, wait_until
 
 KILLS = int(os.environ.get("AQUARAMA_KILLS", "1"))
 
 
-class Journal(unittest.TestCase):
-    def setUp(self):
-        self.folder = temporary_folder()
-        self.rig = rig_on_free_ports(self.folder.name)
-        self.log = Path(self.folder.name) / "log"
-        self.processes = []
-
-    def tearDown(self):
-        end(self.processes)
-        self.folder.cleanup()
-
+class Journal(ShowCase):
     def tick(self):
         """Of the world; nothing where no master answers."""
         found = re.search(r"tick (\d+)", aquarama("explain", "--fish", "0", self.rig).stdout)

@@ -5,22 +5,11 @@ import re
 import signal
 import time
 import unittest
-from pathlib import Path
 
-from show import aquarama, children_of, end, rig_on_free_ports, start, temporary_folder, wait_until
+from show import ShowCase, aquarama, children_of, start, wait_until
 
 
-class Set(unittest.TestCase):
-    def setUp(self):
-        self.folder = temporary_folder()
-        self.rig = rig_on_free_ports(self.folder.name)
-        self.log = Path(self.folder.name) / "log"
-        self.processes = []
-
-    def tearDown(self):
-        end(self.processes)
-        self.folder.cleanup()
-
+class Set(ShowCase):
     def set(self, what, value):
         return aquarama("set", self.rig, what, value)
 

@@ -8,6 +8,7 @@ import socket
 import subprocess
 import tempfile
 import time
+import unittest
 import zipfile
 from pathlib import Path
 
@@ -139,3 +140,17 @@ def temporary_folder():
     folder = tempfile.TemporaryDirectory(prefix="aquarama-")
     os.environ["XDG_STATE_HOME"] = folder.name + "/state"
     return folder
+
+
+class ShowCase(unittest.TestCase):
+    """A test with a rig of its own, a log, and processes that end with it."""
+
+    def setUp(self):
+        self.folder = temporary_folder()
+        self.rig = rig_on_free_ports(self.folder.name)
+        self.log = Path(self.folder.name) / "log"
+        self.processes = []
+
+    def tearDown(self):
+        end(self.processes)
+        self.folder.cleanup()

@@ -15,24 +15,15 @@
 
 #include "tests/common/tuio/sample_streams.h"
 #include "tests/console/cues/free_port.h"
+#include "tests/console/cues/tracked_wall.h"
 
 namespace aquarama::console {
 namespace {
 
-// Before a flat wall of 4 x 2 m, 3 m away; the viewer sits half a metre to the right of the origin.
+// The viewer sits half a metre to the right of the origin.
 config::Rig rigAt(const config::UdpAddress& listen) {
-    config::Rig rig;
+    config::Rig rig = test::wallOfHands(listen);
     rig.sweetSpotMetres = {0.5, 0, 0};
-    rig.screen.shape = config::ScreenShape::Flat;
-    rig.screen.widthMetres = 4;
-    rig.screen.heightMetres = 2;
-    rig.screen.distanceMetres = 3;
-    rig.touch.emplace();
-    rig.touch->listen = listen;
-    rig.touch->from = {"127.0.0.1"};
-    rig.touch->topLeft = {-2, 1, -3};
-    rig.touch->topRight = {2, 1, -3};
-    rig.touch->bottomLeft = {-2, -1, -3};
     return rig;
 }
 

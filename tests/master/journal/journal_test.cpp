@@ -76,7 +76,7 @@ class JournalTest : public testing::Test {
     }
     // A new process goes on there; the clock is left out.
     [[nodiscard]] std::unique_ptr<JournalledWorld> wentOn(const fs::path& folder) const {
-        return makeJournalled(folder, assets_, true);
+        return makeJournalled(folder, assets_, TimeAway::LeftOut);
     }
 
     simulation::Assets assets_ = assetsOf();
@@ -99,7 +99,7 @@ TEST_F(JournalTest, aMasterThatIsKilledAtAnyTickGoesOnAsIfItHadNot) {
     std::mt19937 random(20261127);
     std::set<std::uint64_t> kills;
     while (kills.size() < 200) kills.insert(random() % kMinute);
-    auto world = makeJournalled(journal(), assets_, true);
+    auto world = makeJournalled(journal(), assets_, TimeAway::LeftOut);
     simulation::LivingWorld again(simulation::worldOptionsOf(assets_));
     while (world->tick().value < kMinute) {
         visitAt(*world);
@@ -108,7 +108,7 @@ TEST_F(JournalTest, aMasterThatIsKilledAtAnyTickGoesOnAsIfItHadNot) {
             ASSERT_TRUE(world->journal().flush());
             const auto last = lastWorldIn(copied(), assets_.bytes);
             ASSERT_TRUE(last);
-            const auto ahead = goOn(again, *last, true);
+            const auto ahead = goOn(again, *last, TimeAway::LeftOut);
             ASSERT_TRUE(ahead);
             ASSERT_LE(again.tick(), world->tick());
             auto next = ahead->begin();
@@ -125,7 +125,7 @@ TEST_F(JournalTest, aMasterThatIsKilledAtAnyTickGoesOnAsIfItHadNot) {
 
 // What had come, but had not taken effect, still does: at its tick.
 TEST_F(JournalTest, anInputThatCameJustBeforeTheEndIsNotLost) {
-    auto world = makeJournalled(journal(), assets_, true);
+    auto world = makeJournalled(journal(), assets_, TimeAway::LeftOut);
     for (int i = 0; i < 100; ++i) world->advance();
     world->apply(world::DropFood{.position = {0, -5, -4}});
     ASSERT_TRUE(world->journal().flush());
@@ -138,7 +138,7 @@ TEST_F(JournalTest, anInputThatCameJustBeforeTheEndIsNotLost) {
 
 TEST_F(JournalTest, aRecordingOfTheJournalPlaysAlsoFromWhereAWorldWentOn) {
     {
-        auto world = makeJournalled(journal(), assets_, true);
+        auto world = makeJournalled(journal(), assets_, TimeAway::LeftOut);
         while (world->tick().value < 700) visitAt(*world), world->advance();
     }
     std::map<Tick, std::uint64_t> hashes;
@@ -176,10 +176,10 @@ TEST_F(JournalTest, aRecordingOfTheJournalPlaysAlsoFromWhereAWorldWentOn) {
 
 TEST_F(JournalTest, otherAssetsBeginAnewAndTheFirstWorldStillGoesOn) {
     {
-        auto world = makeJournalled(journal(), assets_, true);
+        auto world = makeJournalled(journal(), assets_, TimeAway::LeftOut);
         for (int i = 0; i < 400; ++i) world->advance();
     }
-    EXPECT_EQ(makeJournalled(journal(), assetsOf(2), true)->tick(), Tick{});
+    EXPECT_EQ(makeJournalled(journal(), assetsOf(2), TimeAway::LeftOut)->tick(), Tick{});
     EXPECT_GE(wentOn(journal())->tick().value, 300U);
 }
 
@@ -195,7 +195,7 @@ void write(const fs::path& file, const std::vector<std::byte>& bytes) {
 // save does, and at worst a new world begins.
 TEST_F(JournalTest, aJournalThatIsCutOrDamagedAnywhereIsReadUpToThere) {
     {
-        auto world = makeJournalled(journal(), assets_, true);
+        auto world = makeJournalled(journal(), assets_, TimeAway::LeftOut);
         while (world->tick().value < 700) visitAt(*world), world->advance();
     }
     setLogListener({});
@@ -219,14 +219,14 @@ TEST_F(JournalTest, aJournalThatIsCutOrDamagedAnywhereIsReadUpToThere) {
             bytes[at] ^= std::byte{1} << random() % 8;
         write(file, bytes);
         const auto last = lastWorldIn(journal(), assets_.bytes);
-        if (last && i % 100 == 0) goneOn += goOn(world, *last, true) ? 1 : 0;
+        if (last && i % 100 == 0) goneOn += goOn(world, *last, TimeAway::LeftOut) ? 1 : 0;
         write(file, whole[file]);
     }
     EXPECT_GT(goneOn, 50);
 }
 
 TEST_F(JournalTest, aDiskThatStandsStillDelaysNoTickAndInputsTakeEffectAllTheSame) {
-    auto world = makeJournalled(journal(), assets_, true);
+    auto world = makeJournalled(journal(), assets_, TimeAway::LeftOut);
     for (int i = 0; i < 10; ++i) world->advance();
     ASSERT_TRUE(world->journal().flush());
     std::string told;
@@ -243,7 +243,7 @@ TEST_F(JournalTest, aDiskThatStandsStillDelaysNoTickAndInputsTakeEffectAllTheSam
 
 // A limit of the files' size stands for a full disk.
 TEST_F(JournalTest, aFullDiskPausesTheJournalAndRoomMakesItGoOn) {
-    auto world = makeJournalled(journal(), assets_, true);
+    auto world = makeJournalled(journal(), assets_, TimeAway::LeftOut);
     ASSERT_TRUE(world->journal().flush());
     // NOLINTNEXTLINE(cert-err33-c): it was at its default
     std::signal(SIGXFSZ, SIG_IGN);
@@ -265,7 +265,7 @@ TEST_F(JournalTest, aFullDiskPausesTheJournalAndRoomMakesItGoOn) {
 
 TEST_F(JournalTest, aWorldThatNeverLivesForFiveSecondsIsGivenUp) {
     {
-        auto world = makeJournalled(journal(), assets_, true);
+        auto world = makeJournalled(journal(), assets_, TimeAway::LeftOut);
         for (int i = 0; i < 700; ++i) world->advance();
     }
     for (int attempt = 0; attempt < 3; ++attempt)

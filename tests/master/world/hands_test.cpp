@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "common/place/place.h"
-#include "tests/master/world/captured_fish.h"
+#include "tests/master/world/fish_at_ease.h"
 
 namespace aquarama::world {
 namespace {
@@ -18,28 +18,10 @@ namespace {
 constexpr std::uint32_t kRuns = 10;
 constexpr glm::vec3 kBefore{0, 0, -3};  // the middle of the screen
 
-// Three dozen fish of two kinds before the eye, at ease.
-WorldOptions visited(std::uint32_t seed) {
-    WorldOptions options;
-    options.seed = seed;
-    options.scene.gathering = config::Gathering::None;
-    options.scene.plankton = 0;
-    options.scene.eye = {0, -6, 0};
-    options.scene.water.centre = {0, -6, -4};
-    options.scene.water.halfExtent = {5, 2, 4};
-    for (const char* name : {"blue_tang", "butterflyfish"}) {
-        WorldSpecies fish = capturedSpecies(test::castMember(name), 18);
-        fish.habits = {};
-        fish.habits.libidoPerSecond = 0;
-        options.cast.push_back(fish);
-    }
-    return options;
-}
-
 // The fish, and a hand that a tracker sees thirty times a second.
 class Visit {
   public:
-    explicit Visit(std::uint32_t seed) : world_(visited(seed)) { pass(10); }
+    explicit Visit(std::uint32_t seed) : world_(fishAtEase(seed)) { pass(10); }
     void pass(float seconds) {
         for (int tick = 0; tick < static_cast<int>(seconds * 60); ++tick) world_.advance();
     }
