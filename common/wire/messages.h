@@ -24,7 +24,7 @@
 namespace aquarama::wire {
 
 // Peers of another major version are refused.
-inline constexpr std::uint32_t kProtocolMajor = 10;
+inline constexpr std::uint32_t kProtocolMajor = 11;
 
 // Bounds that the code keeps to. All bounds of arriving messages are rules of aquarama.proto; a
 // test compares these with them.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state of the world as it crosses the wire, as plain data, and its codec: packed records of
-// 40 bytes a fish and 8 bytes a particle of food, each checked on arrival. No protobuf type leaves
-// the .cpp file; the small control packets are in messages.h.
+// The state of the world as it crosses the wire, as plain data, and its codec: steps of the fish
+// (common/school), 8 bytes a particle of food, each checked on arrival. No protobuf type leaves the
+// .cpp file; the small control packets are in messages.h.
 #pragma once
 
 #include <algorithm>
@@ -132,37 +132,62 @@ struct Show {
     friend bool operator==(const Show&, const Show&) = default;
 };
 
-// All that a frame shows; nothing before it is needed to draw it. `before` and `foodBefore` are
-// empty where fraction is 1: the frame shows the tick itself. Else the frame shows the moment
-// between tick - 1 (before) and tick (after).
-template <class FishRecords, class FoodRecords, class Shown>
+// A step of the stream of the fish, as it travels.
+struct SchoolStep {
+    Tick tick;  // that it leads to
+    std::vector<std::byte> code;
+    // school::hashOf() afterwards: now and then.
+    std::optional<std::uint64_t> hash = {};
+};
+
+// A part of the stream of the fish: steps in order, from a keyframe, or from what nodes have.
+struct SchoolPart {
+    std::uint64_t stream = 0;  // another number: another world
+    std::vector<std::byte> keyframe = {};
+    std::vector<SchoolStep> steps = {};
+};
+
+// All that a frame shows beside the fish. `foodBefore` is empty where fraction is 1: the frame
+// shows the tick itself. Else the frame shows the moment between tick - 1 (before) and tick
+// (after).
+template <class FoodRecords, class Shown>
 struct BasicState {
     Frame frame;
     Tick tick;
     float fraction = 1.0F;
     Eye eye;
     std::uint64_t worldHash = 0;
-    std::uint64_t motionHash = 0;  // motion::hashOf() of `after`, as the master computed it
-    FishRecords before;
-    FishRecords after;
     glm::vec3 foodOriginMetres{};  // of FoodRecord::offsetMetres
     FoodRecords foodBefore;
     FoodRecords foodAfter;
     float timeOfDay = 0.5F;  // share of the day: 0 and 1 midnight, 0.5 noon
     Shown show{};
 };
-// What a node has received: owns its records.
-using StateFrame = BasicState<std::vector<motion::FishRecord>, std::vector<FoodRecord>, Show>;
 // What the master sends: views of the records of its snapshots, and of the message of what is
 // shown, null until it is known.
-using StateView =
-    BasicState<std::span<const motion::FishRecord>, std::span<const FoodRecord>, const v1::Show*>;
+using StateView = BasicState<std::span<const FoodRecord>, const v1::Show*>;
+// What a node draws: owns its records. `before` is empty where fraction is 1.
+struct StateFrame : BasicState<std::vector<FoodRecord>, Show> {
+    std::vector<motion::FishRecord> before;
+    std::vector<motion::FishRecord> after;
+};
+// What a node has received: a frame without its fish, and how it comes to them.
+struct CodedState {
+    StateFrame frame;
+    SchoolPart school;
+};
 
 // The packet of a state whose `show` is known, of the master's run `session`.
-[[nodiscard]] Packet encodeState(std::uint64_t session, const StateView& state);
+[[nodiscard]] Packet encodeState(std::uint64_t session,
+                                 const StateView& state,
+                                 const SchoolPart& school);
 
 // The state in a decoded message; empty where a field is missing, a record is impossible, or a
 // number is not finite or out of range.
-[[nodiscard]] std::optional<StateFrame> readState(const v1::State& message);
+[[nodiscard]] std::optional<CodedState> readState(const v1::State& message);
+
+// A part of the stream as a blob, and back; empty where the bytes are none, or out of bounds.
+[[nodiscard]] std::vector<std::byte> encodeSchoolPart(const SchoolPart& school);
+[[nodiscard]] std::optional<SchoolPart> readSchoolPart(std::span<const std::byte> blob);
 
 }  // namespace aquarama::wire

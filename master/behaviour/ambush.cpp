@@ -16,6 +16,7 @@
 #include "master/behaviour/company.h"
 #include "master/behaviour/home.h"
 #include "master/behaviour/intention_generator.h"
+#include "master/surroundings/avoidance.h"
 
 namespace aquarama::behaviour {
 
@@ -125,7 +126,7 @@ std::optional<Post> edgePost(const Situation& situation) {
 }
 
 // The place nearest to a place that is off the borders of the water and over the ground.
-glm::vec3 clearOf(const surroundings::Obstacles& obstacles, glm::vec3 place) {
+glm::vec3 clearOf(const place::Obstacles& obstacles, glm::vec3 place) {
     const place::Region& water = obstacles.water;
     const glm::vec3 room = glm::max(water.halfExtent - glm::vec3{kOffBorders}, glm::vec3{0});
     glm::vec3 clear = glm::clamp(place, water.centre - room, water.centre + room);

@@ -7,6 +7,7 @@
 #include "master/behaviour/home.h"
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/routines.h"
+#include "master/surroundings/avoidance.h"
 
 namespace aquarama::behaviour {
 

@@ -13,6 +13,7 @@
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/points_within.h"
 #include "master/behaviour/routines.h"
+#include "master/surroundings/avoidance.h"
 
 namespace aquarama::behaviour {
 

@@ -7,6 +7,7 @@
 #include "common/place/place.h"
 #include "master/behaviour/company.h"
 #include "master/behaviour/intention_generator.h"
+#include "master/surroundings/avoidance.h"
 
 namespace aquarama::behaviour {
 

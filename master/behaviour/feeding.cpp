@@ -7,7 +7,7 @@
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/routines.h"
 #include "master/fish/fish_view.h"
-#include "master/surroundings/obstacles.h"
+#include "master/surroundings/avoidance.h"
 
 namespace aquarama::behaviour {
 

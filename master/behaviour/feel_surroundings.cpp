@@ -6,7 +6,7 @@
 #include "common/place/place.h"
 #include "master/behaviour/home.h"
 #include "master/behaviour/routines.h"
-#include "master/surroundings/obstacles.h"
+#include "master/surroundings/avoidance.h"
 
 namespace aquarama::behaviour {
 

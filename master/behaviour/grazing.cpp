@@ -11,6 +11,7 @@
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/patches.h"
 #include "master/behaviour/routines.h"
+#include "master/surroundings/avoidance.h"
 
 namespace aquarama::behaviour {
 

@@ -6,10 +6,10 @@
 
 #include <glm/common.hpp>
 
+#include "common/place/obstacles.h"
 #include "common/place/place.h"
 #include "master/behaviour/company.h"
 #include "master/behaviour/intention_generator.h"
-#include "master/surroundings/obstacles.h"
 
 namespace aquarama::behaviour {
 
@@ -38,14 +38,14 @@ float sideOf(const fish::Wearer& wearer) {
     return wearer.number % 2 == 0 ? -1.0F : 1.0F;
 }
 
-bool isFree(const surroundings::Obstacles& obstacles, glm::vec3 place) {
+bool isFree(const place::Obstacles& obstacles, glm::vec3 place) {
     return std::ranges::none_of(obstacles.rocks, [&](const place::Rock& rock) {
         return place::lengthOf(place - rock.centre) < rock.radiusMetres + kRoomMetres;
     });
 }
 
 // Within the border of the water, over the sand and under the surface.
-glm::vec3 withinWater(const surroundings::Obstacles& obstacles, glm::vec3 place) {
+glm::vec3 withinWater(const place::Obstacles& obstacles, glm::vec3 place) {
     const glm::vec3 reach = obstacles.water.halfExtent * kShore;
     place = glm::clamp(place, obstacles.water.centre - reach, obstacles.water.centre + reach);
     const float floor = place::floorHeight(obstacles.place, {place.x, place.z});
@@ -54,7 +54,7 @@ glm::vec3 withinWater(const surroundings::Obstacles& obstacles, glm::vec3 place)
 }
 
 // The place itself, or one near it that is clear of rocks: first beside it, then farther off.
-glm::vec3 inWater(const surroundings::Obstacles& obstacles, glm::vec3 place) {
+glm::vec3 inWater(const place::Obstacles& obstacles, glm::vec3 place) {
     static constexpr std::array<glm::vec3, 5> kWays{
         glm::vec3{0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}};
     const glm::vec3 wanted = withinWater(obstacles, place);
@@ -77,7 +77,7 @@ bool isLed(fish::Intention intention) {
 
 glm::vec3 entranceOf(const fish::Wearers& wearers,
                      const fish::Wearer& wearer,
-                     const surroundings::Obstacles& obstacles) {
+                     const place::Obstacles& obstacles) {
     return inWater(obstacles,
                    wearers.eye + wearers.right * (kAsideMetres * sideOf(wearer)) -
                        wearers.ahead * kBehindMetres);
@@ -85,13 +85,13 @@ glm::vec3 entranceOf(const fish::Wearers& wearers,
 
 glm::vec3 greetingPlaceOf(const fish::Wearers& wearers,
                           const fish::Wearer& wearer,
-                          const surroundings::Obstacles& obstacles) {
+                          const place::Obstacles& obstacles) {
     return inWater(obstacles,
                    wearers.eye + wearers.ahead * kAheadMetres +
                        wearers.right * (kToMakerMetres * static_cast<float>(wearer.aside)));
 }
 
-glm::vec3 hunterPlaceOf(const fish::Wearers& wearers, const surroundings::Obstacles& obstacles) {
+glm::vec3 hunterPlaceOf(const fish::Wearers& wearers, const place::Obstacles& obstacles) {
     return inWater(obstacles, wearers.eye + wearers.ahead * kHunterAheadMetres);
 }
 
@@ -104,7 +104,7 @@ namespace {
 // Where it goes; where it shows itself it turns its side to the viewer.
 glm::vec3 wayOf(const fish::Wearers& wearers,
                 const fish::Wearer& wearer,
-                const surroundings::Obstacles& obstacles,
+                const place::Obstacles& obstacles,
                 glm::vec3 position,
                 glm::vec3 otherwise) {
     const glm::vec3 goal = wearer.visit == fish::Visit::Leaves
@@ -136,7 +136,7 @@ fish::Course guided(const Situation& situation,
     if (wearer == nullptr || wearer->visit == fish::Visit::Stays || !isLed(mind.intention))
         return course;
     const fish::SpeciesParameters& parameters = situation.parameters;
-    const surroundings::Obstacles& obstacles = situation.environment.surroundings->obstacles;
+    const place::Obstacles& obstacles = situation.environment.surroundings->obstacles;
     const glm::vec3 position = situation.senses.position;
     const glm::vec3 way = wayOf(*wearers, *wearer, obstacles, position, course.direction);
     const bool isThere = wearer->visit == fish::Visit::Shows &&

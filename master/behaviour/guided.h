@@ -14,14 +14,14 @@ namespace aquarama::behaviour {
 // the water.
 [[nodiscard]] glm::vec3 entranceOf(const fish::Wearers& wearers,
                                    const fish::Wearer& wearer,
-                                   const surroundings::Obstacles& obstacles);
+                                   const place::Obstacles& obstacles);
 [[nodiscard]] glm::vec3 greetingPlaceOf(const fish::Wearers& wearers,
                                         const fish::Wearer& wearer,
-                                        const surroundings::Obstacles& obstacles);
+                                        const place::Obstacles& obstacles);
 
 // Where a hunter that a cue has released comes to: before the viewer, in the water.
 [[nodiscard]] glm::vec3 hunterPlaceOf(const fish::Wearers& wearers,
-                                      const surroundings::Obstacles& obstacles);
+                                      const place::Obstacles& obstacles);
 
 // Whether a fish has come to such a place.
 [[nodiscard]] bool isAt(glm::vec3 position, glm::vec3 place);

@@ -49,7 +49,7 @@ float heightIn(const place::Region& water, float bestDepthMetres, float share) {
 }
 
 // Boulders that are within the water in plan.
-std::vector<place::Rock> bouldersIn(const surroundings::Obstacles& obstacles) {
+std::vector<place::Rock> bouldersIn(const place::Obstacles& obstacles) {
     std::vector<place::Rock> boulders;
     for (const place::Rock& rock : obstacles.rocks) {
         const glm::vec3 from = rock.centre - obstacles.water.centre;
@@ -203,7 +203,7 @@ Homes homesOf(const surroundings::Surroundings& surroundings,
     if (home.kind != config::HomeKind::Place || fish == 0) return {};
     const auto count = static_cast<std::uint32_t>(wanted.size());
     Homes homes{.places = {}, .fishAtEach = count > 0 ? (fish + count - 1) / count : home.group};
-    const surroundings::Obstacles& obstacles = surroundings.obstacles;
+    const place::Obstacles& obstacles = surroundings.obstacles;
     const HomePlaces places{
         .water = obstacles.water,
         .wanted = wanted,
@@ -252,7 +252,7 @@ Bound boundFor(const Environment& environment,
                std::uint32_t fish,
                glm::vec3 position) {
     const config::Home& home = parameters.habits.home;
-    const surroundings::Obstacles& obstacles = environment.surroundings->obstacles;
+    const place::Obstacles& obstacles = environment.surroundings->obstacles;
     const auto depth = static_cast<float>(parameters.habits.comfort.bestDepthMetres);
     if (parameters.habits.role == config::Role::Predator && home.kind == config::HomeKind::None)
         return {(environment.gathering == config::Gathering::Mill

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <limits>
 
+#include "common/place/obstacles.h"
 #include "common/place/place.h"
 #include "master/behaviour/cleaning.h"
 #include "master/behaviour/feel_climate.h"
@@ -21,7 +22,6 @@
 #include "master/behaviour/ways.h"
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
-#include "master/surroundings/obstacles.h"
 
 namespace aquarama::behaviour {
 
@@ -114,7 +114,7 @@ void forgetHiddenPredators(const Onlooker& onlooker) {
     Senses& senses = onlooker.senses;
     const std::array<Sighting, kMostPredators> looked = senses.predators;
     const std::size_t count = senses.predatorCount;
-    const surroundings::Obstacles& obstacles = onlooker.environment.surroundings->obstacles;
+    const place::Obstacles& obstacles = onlooker.environment.surroundings->obstacles;
     senses.predatorCount = 0;
     senses.predators = {};
     for (std::size_t i = 0; i < count; ++i) {

@@ -38,7 +38,7 @@ fish::Course restInShelter(const Situation& situation) {
 // The place in which a fish without a shelter rests, relative to it.
 glm::vec3 lowPlace(const Situation& situation) {
     const Senses& senses = situation.senses;
-    const surroundings::Obstacles& obstacles = situation.environment.surroundings->obstacles;
+    const place::Obstacles& obstacles = situation.environment.surroundings->obstacles;
     glm::vec3 place = senses.position;
     if (!situation.parameters.homes.empty()) {
         const std::uint32_t own =

@@ -16,6 +16,7 @@
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
 #include "master/fish/secondary_controller.h"
+#include "master/surroundings/avoidance.h"
 
 namespace aquarama::behaviour {
 

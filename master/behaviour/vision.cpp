@@ -23,14 +23,14 @@ constexpr float kBetweenCornersMetres = 0.05F;
 constexpr std::array kTrunk{0.2F, -0.05F, -0.3F};
 constexpr float kTrunkRadius = 0.1F;
 
-bool rocksHide(const surroundings::Obstacles& obstacles, const SightLine& ray) {
+bool rocksHide(const place::Obstacles& obstacles, const SightLine& ray) {
     for (const place::Rock& rock : obstacles.rocks)
         if (ray.passes(rock.centre, rock.radiusMetres * kSolidRock)) return true;
     return false;
 }
 
 // Samples the line; skipped where it stays above all sand.
-bool sandHides(const surroundings::Obstacles& obstacles, const SightLine& ray) {
+bool sandHides(const place::Obstacles& obstacles, const SightLine& ray) {
     const float highest =
         std::min(kHighestSandMetres, obstacles.chart.highestSand() + kBetweenCornersMetres);
     if (std::min(ray.from.y, ray.from.y + ray.offset.y) > highest) return false;
@@ -237,7 +237,7 @@ bool SightLine::passes(glm::vec3 centre, float radius) const {
     return place::dot(miss, miss) < radius * radius;
 }
 
-bool terrainHides(const surroundings::Obstacles& obstacles, const SightLine& ray) {
+bool terrainHides(const place::Obstacles& obstacles, const SightLine& ray) {
     return rocksHide(obstacles, ray) || sandHides(obstacles, ray);
 }
 

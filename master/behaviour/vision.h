@@ -32,7 +32,7 @@ struct SightLine {
     [[nodiscard]] bool passes(glm::vec3 centre, float radius) const;
 };
 // Whether rock or sand, or below one body, stands on the line. O(rocks) and O(1).
-[[nodiscard]] bool terrainHides(const surroundings::Obstacles& obstacles, const SightLine& ray);
+[[nodiscard]] bool terrainHides(const place::Obstacles& obstacles, const SightLine& ray);
 [[nodiscard]] bool bodyHides(const fish::FishView& view, std::uint32_t body, const SightLine& ray);
 
 // Whether rock, sand or a large body stands between a fish and an object, which may be a fish.

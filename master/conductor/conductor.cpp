@@ -270,6 +270,8 @@ void Conductor::takeOfNode(std::size_t node, const v1::Envelope& message, net::M
             return presentation_.ready(node, message.ready(), now);
         case v1::Envelope::kBlobRequest:
             return giveChunk(seat.peer, message.blob_request());
+        case v1::Envelope::kKeyframeRequest:
+            return giveKeyframe(seat.peer);
         case v1::Envelope::kPrepared:
             return prepared(node, message.prepared(), now);
         case v1::Envelope::kNodeReport:
@@ -404,10 +406,20 @@ void Conductor::leave(std::size_t node) {
     logInfo("node {} has left", roster_.seats()[node].name);
 }
 
+// Where there is no tick yet, the first frame brings all.
+void Conductor::giveKeyframe(const net::PeerId& peer) {
+    const auto digest = presentation_.keyframe();
+    if (!digest) return;
+    v1::Envelope message;
+    message.mutable_keyframe()->set_digest(wire::bytesOf(*digest));
+    sender_.say(peer, std::move(message));
+}
+
 void Conductor::giveChunk(const net::PeerId& peer, const v1::BlobRequest& request) {
     const Digest digest = wire::digestIn(request.digest());
     net::Blob blob = looks_.blob(digest);
     if (!blob) blob = drawings_.blob(digest);
+    if (!blob) blob = presentation_.blob(digest);
     countRefused(blob && request.offset() <= blob->size());
     if (!blob) return sender_.dismiss(peer, "the wall shows another look by now");
     if (request.offset() > blob->size()) return;
@@ -465,7 +477,6 @@ void Conductor::changeShow(net::Moment now) {
             retiring_ = std::async(std::launch::async, [old = std::move(own_)] {});
             own_ = std::move(world->simulation);
             simulation_ = own_.get();
-            presentation_.forgetTicks();
             startSimulation(static_cast<std::uint32_t>(world->school.size()));
         }
         dimming_.black.reset();
@@ -477,6 +488,7 @@ void Conductor::changeShow(net::Moment now) {
 }
 
 void Conductor::startSimulation(std::uint32_t fish) {
+    presentation_.enterWorld(simulation_->recordedRates());
     // In lockstep no clock is read.
     if (!isLockstep())
         day_.begin(*simulation_, orders_.control().wanted().day(), net::monotonicNow());

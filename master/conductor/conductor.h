@@ -103,6 +103,7 @@ class Conductor final : private FrameSource {
     void prepared(std::size_t node, const v1::Prepared& prepared, net::Moment now);
     void admit(std::size_t node, net::Moment now);
     void leave(std::size_t node);
+    void giveKeyframe(const net::PeerId& peer);
     void giveChunk(const net::PeerId& peer, const v1::BlobRequest& request);
     void obey(const net::FromPeer& from, const v1::Order& order, net::Moment now);
     void tellDrawings(const net::PeerId& peer, const v1::DrawingsRequest& request) const;

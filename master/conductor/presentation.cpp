@@ -10,7 +10,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "common/base/log.h"
-#include "common/motion/motion_state.h"
 
 namespace aquarama::conductor {
 namespace {
@@ -82,8 +81,14 @@ void Presentation::takeTicks() {
     while (!isLockstep() || snapshots_.newest() < tickOf(unpublished_)) {
         auto snapshot = source_.takeTick();
         if (!snapshot) return;
+        school_.add(*snapshot);
         snapshots_.add(std::move(*snapshot));
     }
+}
+
+void Presentation::enterWorld(std::vector<school::RecordedRates> rates) {
+    snapshots_ = {};
+    school_.begin(std::move(rates));
 }
 
 void Presentation::expelSilent(net::Moment now) {
@@ -175,8 +180,8 @@ bool Presentation::publish(Frame frame, net::Moment now) {
                               : snapshots_.showing(frame, releaseOf(frame, now) - kShownAge);
     if (!state) return false;
     state->show = &source_.showOf(frame, now);
-    state->motionHash = motion::hashOf(state->after);
-    const wire::Packet& packet = published_[frame] = wire::encodeState(sender_.session(), *state);
+    const wire::Packet& packet = published_[frame] =
+        wire::encodeState(sender_.session(), *state, school_.upTo(state->tick));
     channels_.publishState(packet);
     lastPublished_ = lastRepeat_ = now;
     repeatAfter_ = isLockstep() ? kRepeat : limits_.barrier.deadline;

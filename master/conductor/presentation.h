@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/base/output_file.h"
 #include "common/config/rig.h"
@@ -16,6 +17,7 @@
 #include "master/conductor/gauges.h"
 #include "master/conductor/present_barrier.h"
 #include "master/conductor/roster.h"
+#include "master/conductor/school_stream.h"
 #include "master/conductor/sender.h"
 #include "master/conductor/simulation_thread.h"
 
@@ -72,8 +74,12 @@ class Presentation {
     [[nodiscard]] Frame next() const { return next_; }
     [[nodiscard]] Frame unpublished() const { return unpublished_; }
     [[nodiscard]] std::optional<Tick> newestTick() const { return snapshots_.newest(); }
-    // The world is another one from now on.
-    void forgetTicks() { snapshots_ = {}; }
+    // The world is another one from now on; its fish have these rates.
+    void enterWorld(std::vector<school::RecordedRates> rates);
+    // Names a blob that leads to the fish of the newest tick, for a node that lacks them; nothing:
+    // there is no tick. And the blob; null: it is none of the last.
+    [[nodiscard]] std::optional<Digest> keyframe() { return school_.keyframe(); }
+    [[nodiscard]] net::Blob blob(const Digest& digest) const { return school_.blob(digest); }
 
     // The node at this seat has built the look that is shown. Returns the first frame in which it
     // is waited for: in lockstep the one that is drawn now, live the first that it surely sees.
@@ -114,6 +120,7 @@ class Presentation {
     GrowingFile trace_;
     wire::Packet beacon_;
     SnapshotBuffer snapshots_;
+    SchoolStream school_;
     Frame next_;
     bool isDrawing_ = false;  // next_ is drawn
     Frame unpublished_;

@@ -20,6 +20,7 @@ bool mayNodeSay(const std::string& channel, const v1::Envelope& message) {
         case v1::Envelope::kNodeReport:
         case v1::Envelope::kLogLine:
         case v1::Envelope::kBlobRequest:
+        case v1::Envelope::kKeyframeRequest:
         case v1::Envelope::kPrepared:
         case v1::Envelope::kFarewell:
         case v1::Envelope::kOrderReply:

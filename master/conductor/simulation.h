@@ -10,6 +10,7 @@
 #include "common/base/units.h"
 #include "common/motion/motion_state.h"
 #include "common/net/clock.h"
+#include "common/school/school_state.h"
 #include "common/wire/state_codec.h"
 #include "master/fish/minds.h"
 #include "master/world/events.h"
@@ -25,6 +26,10 @@ struct Snapshot {
     float timeOfDay = 0.5F;  // share of the day, 0 to 1: 0 and 1 are midnight
     std::vector<motion::FishRecord> fish;
     wire::FoodCloud food;
+    // By which the motor moved the fish in this tick, and those that were put elsewhere, by index,
+    // in any order. No commands: all were.
+    motion::MotorCommands commands = {};
+    std::vector<std::uint32_t> placed = {};
 };
 
 // The nearest thing of a kind that a fish sees.
@@ -81,6 +86,8 @@ class Simulation {
     [[nodiscard]] virtual std::vector<DrawingSlots> drawingSlots() const { return {}; }
     // Those that world::ReleaseHunter calls. They never change.
     [[nodiscard]] virtual std::vector<Hunter> hunters() const { return {}; }
+    // Of all fish, by species, or of none: what their commands are coded by. They never change.
+    [[nodiscard]] virtual std::vector<school::RecordedRates> recordedRates() const { return {}; }
 };
 
 }  // namespace aquarama::conductor

@@ -27,9 +27,6 @@ wire::StateView showingOne(Frame frame, const Snapshot& snapshot) {
             .fraction = 1.0F,
             .eye = snapshot.eye,
             .worldHash = snapshot.hash,
-            .motionHash = 0,  // of what is sent
-            .before = {},
-            .after = snapshot.fish,
             .foodOriginMetres = snapshot.food.originMetres,
             .foodBefore = {},
             .foodAfter = snapshot.food.particles,
@@ -83,7 +80,6 @@ std::optional<wire::StateView> SnapshotBuffer::showing(Frame frame, net::Moment 
     wire::StateView view = showingOne(frame, *after);
     view.fraction = fraction;
     view.eye = between(before.eye, after->eye, fraction);
-    view.before = before.fish;
     view.foodBefore = before.food.particles;
     view.timeOfDay = timeBetween(before.timeOfDay, after->timeOfDay, fraction);
     return view;

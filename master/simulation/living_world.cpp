@@ -126,7 +126,12 @@ config::Scene chosenScene(const std::string& path, const AssetChoice& choice) {
 }  // namespace
 
 LivingWorld::LivingWorld(const world::WorldOptions& options) : world_(options) {
-    for (const world::WorldSpecies& species : options.cast) species_.push_back(species.name);
+    std::uint32_t next = 0;
+    for (const world::WorldSpecies& species : options.cast) {
+        species_.push_back(species.name);
+        rates_.push_back(school::recordedRates(*species.tables, next, next + species.fish));
+        next += species.fish;
+    }
 }
 
 conductor::Snapshot LivingWorld::snapshot() const {
@@ -135,7 +140,9 @@ conductor::Snapshot LivingWorld::snapshot() const {
                                  .eye = eyeOf(world_.pilot().vessel),
                                  .timeOfDay = static_cast<float>(world_.surroundings().timeOfDay),
                                  .fish = {},
-                                 .food = foodOf(world_.surroundings())};
+                                 .food = foodOf(world_.surroundings()),
+                                 .commands = world_.commands(),
+                                 .placed = {world_.placed().begin(), world_.placed().end()}};
     world_.records(snapshot.fish);
     return snapshot;
 }

@@ -33,6 +33,9 @@ class LivingWorld : public conductor::Simulation {
     }
     [[nodiscard]] std::vector<conductor::DrawingSlots> drawingSlots() const override;
     [[nodiscard]] std::vector<conductor::Hunter> hunters() const override;
+    [[nodiscard]] std::vector<school::RecordedRates> recordedRates() const override {
+        return rates_;
+    }
 
     // Goes on from a save: world::restore().
     void restore(std::span<const std::byte> state, const std::string& source) {
@@ -45,6 +48,7 @@ class LivingWorld : public conductor::Simulation {
     world::World world_;
     // Names of the species, in the order of the cast.
     std::vector<std::string> species_;
+    std::vector<school::RecordedRates> rates_;
 };
 
 // Construction from files. The files are read once, as bytes. A show, its replay and a study make

@@ -34,6 +34,9 @@ class SimulationDecorator : public conductor::Simulation {
     [[nodiscard]] std::vector<conductor::Hunter> hunters() const override {
         return world_.hunters();
     }
+    [[nodiscard]] std::vector<school::RecordedRates> recordedRates() const override {
+        return world_.recordedRates();
+    }
 
   protected:
     // Stands before this simulation.

@@ -21,7 +21,7 @@ constexpr std::uint64_t kTicksBetweenGlances = 5;
 }  // namespace
 
 // The surface is at y = 0; the half-width keeps the back of the fish under it.
-bool isInTerrain(const surroundings::Obstacles& obstacles, const Rod& rod) {
+bool isInTerrain(const place::Obstacles& obstacles, const Rod& rod) {
     if (rod.length == 0) return false;
     const glm::vec3 at = rod.origin;
     if (at.y > -rod.halfWidth) return true;

@@ -77,6 +77,6 @@ class Diary {
 
 // Whether the origin of the body is inside a rock as it is drawn, less than its half-width over the
 // sand, or at the surface. A fish that is away is not.
-[[nodiscard]] bool isInTerrain(const surroundings::Obstacles& obstacles, const Rod& rod);
+[[nodiscard]] bool isInTerrain(const place::Obstacles& obstacles, const Rod& rod);
 
 }  // namespace aquarama::study

@@ -46,8 +46,8 @@ double secondOfDay(const config::Day& day, Tick tick) {
 }
 
 // All that may hide a fish: every rock of the place, also those out of the fish's water.
-surroundings::Obstacles sightOf(const world::World& world) {
-    const surroundings::Obstacles& obstacles = world.surroundings().obstacles;
+place::Obstacles sightOf(const world::World& world) {
+    const place::Obstacles& obstacles = world.surroundings().obstacles;
     return {.place = obstacles.place,
             .water = obstacles.water,
             .rocks = place::rocksOf(obstacles.place)};

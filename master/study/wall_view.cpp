@@ -118,7 +118,7 @@ WallPose poseOf(const surroundings::Vessel& vessel, const config::Rig& rig) {
             glm::transpose(worldFromWall)};
 }
 
-WallView::WallView(const WallExtent& extent, surroundings::Obstacles sight, double clarityMetres)
+WallView::WallView(const WallExtent& extent, place::Obstacles sight, double clarityMetres)
     : extent_{extent}, sight_{std::move(sight)}, clarityMetres_{clarityMetres} {}
 
 std::optional<SeenFish> WallView::seen(const fish::FishView& view,

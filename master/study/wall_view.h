@@ -18,9 +18,9 @@
 
 #include "common/base/units.h"
 #include "common/config/rig.h"
+#include "common/place/obstacles.h"
 #include "common/wall/surface.h"
 #include "master/fish/fish_view.h"
-#include "master/surroundings/obstacles.h"
 #include "master/surroundings/vessel.h"
 
 namespace aquarama::study {
@@ -95,7 +95,7 @@ struct SeenFish {
 class WallView {
   public:
     // `sight` has all rocks that may stand before a fish. Keeps a reference to the extent.
-    WallView(const WallExtent& extent, surroundings::Obstacles sight, double clarityMetres);
+    WallView(const WallExtent& extent, place::Obstacles sight, double clarityMetres);
 
     // The fish, if it is there, at least kLeastAngle large, on the screen, within the clarity of
     // the water and its middle neither behind rock nor sand. O(rocks).
@@ -113,7 +113,7 @@ class WallView {
     }
 
     const WallExtent& extent_;
-    surroundings::Obstacles sight_;
+    place::Obstacles sight_;
     double clarityMetres_;
 };
 

@@ -52,7 +52,7 @@ place::Region reachable(const place::Region& water) {
             {within(water.halfExtent.x), within(water.halfExtent.y), within(water.halfExtent.z)}};
 }
 
-float lowestAt(const Obstacles& obstacles, float x, float z) {
+float lowestAt(const place::Obstacles& obstacles, float x, float z) {
     return place::floorHeight(obstacles.place, {x, z}) + kFloorRoomMetres;
 }
 
@@ -63,7 +63,7 @@ bool isWithin(const place::Region& water, glm::vec3 place) {
 }
 
 // O(rocks).
-bool isClear(const Obstacles& obstacles, glm::vec3 place) {
+bool isClear(const place::Obstacles& obstacles, glm::vec3 place) {
     return std::ranges::none_of(obstacles.rocks, [&](const place::Rock& rock) {
         return place::lengthOf(place - rock.centre) < rock.radiusMetres + kRockRoomMetres;
     });
@@ -79,7 +79,7 @@ Origin upCurrent(glm::vec3 open) {
 // A random place for a particle; `turn` distinguishes its appearances. Heights are limited by sand
 // and surface.
 glm::vec3 strewn(std::uint32_t seed,
-                 const Obstacles& obstacles,
+                 const place::Obstacles& obstacles,
                  std::uint32_t particle,
                  std::uint32_t turn,
                  Origin origin) {
@@ -113,7 +113,7 @@ void put(Food& food, std::size_t i, FoodKind kind, glm::vec3 position, float low
 
 void strew(Food& food,
            std::uint32_t seed,
-           const Obstacles& obstacles,
+           const place::Obstacles& obstacles,
            std::uint32_t i,
            std::uint32_t turn,
            Origin origin = Origin::Anywhere) {
@@ -178,7 +178,7 @@ bool isDue(const Food& food, std::size_t i, std::uint32_t now) {
 // where it left the clear water, and a new particle where it is due.
 void lookAfter(Food& food,
                std::uint32_t seed,
-               const Obstacles& obstacles,
+               const place::Obstacles& obstacles,
                Origin origin,
                std::uint32_t i,
                std::uint32_t now) {
@@ -204,7 +204,7 @@ void sink(Food& food, std::size_t i, std::uint32_t now) {
 
 }  // namespace
 
-Food makeFood(std::uint32_t seed, const Obstacles& obstacles, std::uint32_t plankton) {
+Food makeFood(std::uint32_t seed, const place::Obstacles& obstacles, std::uint32_t plankton) {
     // Plankton first, pellets behind.
     const std::size_t room = plankton + kMostPellets;
     Food food{std::vector<float>(room),
@@ -220,7 +220,7 @@ Food makeFood(std::uint32_t seed, const Obstacles& obstacles, std::uint32_t plan
 }
 
 void driftFood(
-    Food& food, std::uint32_t seed, const Obstacles& obstacles, glm::vec3 open, Tick tick) {
+    Food& food, std::uint32_t seed, const place::Obstacles& obstacles, glm::vec3 open, Tick tick) {
     assert(food.size() >= kMostPellets);
     // Behind the plankton are the elements of pellets.
     const std::size_t plankton = food.size() - kMostPellets;
@@ -240,7 +240,7 @@ void shiftTime(Food& food, std::uint64_t ticks) {
 
 void dropPellets(Food& food,
                  std::uint32_t seed,
-                 const Obstacles& obstacles,
+                 const place::Obstacles& obstacles,
                  glm::vec3 position,
                  std::uint32_t pellets,
                  Tick tick) {

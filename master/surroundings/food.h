@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/base/units.h"
-#include "master/surroundings/obstacles.h"
+#include "common/place/obstacles.h"
 
 namespace aquarama::surroundings {
 
@@ -55,20 +55,22 @@ inline constexpr std::size_t kMostPellets = 256;
 
 // Makes `plankton` particles at random places that fish can reach, and room for pellets. Functions
 // below use only the seed, the tick and the particle as sources of chance.
-[[nodiscard]] Food makeFood(std::uint32_t seed, const Obstacles& obstacles, std::uint32_t plankton);
+[[nodiscard]] Food makeFood(std::uint32_t seed,
+                            const place::Obstacles& obstacles,
+                            std::uint32_t plankton);
 // Advances all particles by one tick: plankton drifts with the swell and with the current, whose
 // velocity far from boulders is `open`, metres a second; pellets sink. What the current carries out
 // of the water comes in again up-current; what was eaten appears again elsewhere after a while.
 // O(particles); allocates nothing.
 void driftFood(
-    Food& food, std::uint32_t seed, const Obstacles& obstacles, glm::vec3 open, Tick tick);
+    Food& food, std::uint32_t seed, const place::Obstacles& obstacles, glm::vec3 open, Tick tick);
 // Moves all that is noted by its tick back by so many ticks.
 void shiftTime(Food& food, std::uint64_t ticks);
 // Drops pellets around a point, as many as there is room for. They sink, lie on the sand for 20 s
 // and dissolve.
 void dropPellets(Food& food,
                  std::uint32_t seed,
-                 const Obstacles& obstacles,
+                 const place::Obstacles& obstacles,
                  glm::vec3 position,
                  std::uint32_t pellets,
                  Tick tick);

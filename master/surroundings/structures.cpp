@@ -21,7 +21,7 @@ float topOf(const place::Rock& rock) {
 
 }  // namespace
 
-std::vector<Structure> structuresOf(const Obstacles& obstacles) {
+std::vector<Structure> structuresOf(const place::Obstacles& obstacles) {
     std::vector<place::Rock> rocks;
     const place::Region& water = obstacles.water;
     for (const place::Rock& rock : obstacles.rocks)

@@ -6,7 +6,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "master/surroundings/obstacles.h"
+#include "common/place/obstacles.h"
 
 namespace aquarama::surroundings {
 
@@ -25,6 +25,6 @@ struct Structure {
 inline constexpr std::size_t kMostStructures = 12;
 
 // The structures that stand in the water, in plan; none in the open sea.
-[[nodiscard]] std::vector<Structure> structuresOf(const Obstacles& obstacles);
+[[nodiscard]] std::vector<Structure> structuresOf(const place::Obstacles& obstacles);
 
 }  // namespace aquarama::surroundings

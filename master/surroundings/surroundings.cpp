@@ -71,7 +71,8 @@ Surroundings makeSurroundings(const config::Scene& scene,
                               std::size_t fish,
                               float meanLengthMetres) {
     const place::PlaceKey place = place::placeOf(scene, seed);
-    const Obstacles obstacles = obstaclesOf(place, place::waterFor(scene, fish, meanLengthMetres));
+    const place::Obstacles obstacles =
+        place::obstaclesOf(place, place::waterFor(scene, fish, meanLengthMetres));
     const std::vector<place::Site> sites = place::sitesOf(place);
     const place::DayClock clock = place::clockOf(scene.day);
     return {.seed = seed,

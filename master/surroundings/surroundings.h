@@ -14,13 +14,13 @@
 #include "common/config/scene.h"
 #include "common/place/current.h"
 #include "common/place/day.h"
+#include "common/place/obstacles.h"
 #include "common/place/place.h"
 #include "common/place/sites.h"
 #include "master/surroundings/climate.h"
 #include "master/surroundings/day_cue.h"
 #include "master/surroundings/food.h"
 #include "master/surroundings/hands.h"
-#include "master/surroundings/obstacles.h"
 #include "master/surroundings/structures.h"
 #include "master/surroundings/turf.h"
 
@@ -39,7 +39,7 @@ struct Submarine {
 // it is constant.
 struct Surroundings {
     std::uint32_t seed = 0;
-    Obstacles obstacles;
+    place::Obstacles obstacles;
     // Of the whole place, in the scene's order; constant.
     std::vector<place::Site> sites;
     // Only what schools remember of them changes.

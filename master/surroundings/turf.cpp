@@ -21,7 +21,7 @@ constexpr float kClearRadii = 1.02F;
 // Lowest height of the normal at a spot: fish bite from above.
 constexpr float kLeastUp = 0.15F;
 constexpr std::uint32_t kTries = 12;
-bool isClear(const Obstacles& obstacles, const place::Rock& own, glm::vec3 spot) {
+bool isClear(const place::Obstacles& obstacles, const place::Rock& own, glm::vec3 spot) {
     if (spot.y < place::floorHeight(obstacles.place, {spot.x, spot.z}) + kOverSandMetres)
         return false;
     return std::ranges::none_of(obstacles.rocks, [&](const place::Rock& other) {
@@ -31,7 +31,7 @@ bool isClear(const Obstacles& obstacles, const place::Rock& own, glm::vec3 spot)
 }
 
 // A spot drawn about a patch that is clear and apart from those before it, else the middle.
-glm::vec3 spotOf(const Obstacles& obstacles,
+glm::vec3 spotOf(const place::Obstacles& obstacles,
                  const place::Rock& rock,
                  const TurfPatch& patch,
                  std::size_t spots,
@@ -57,7 +57,7 @@ glm::vec3 spotOf(const Obstacles& obstacles,
 
 Turf makeTurf(std::uint32_t seed,
               const std::vector<place::Site>& sites,
-              const Obstacles& obstacles) {
+              const place::Obstacles& obstacles) {
     Turf turf;
     for (const place::Site& site : sites) {
         if (site.kind != config::SiteKind::Turf || !place::isGrazed(obstacles.water, site.place))

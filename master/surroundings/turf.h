@@ -10,8 +10,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/place/obstacles.h"
 #include "common/place/sites.h"
-#include "master/surroundings/obstacles.h"
 
 namespace aquarama::surroundings {
 
@@ -46,7 +46,7 @@ struct Turf {
 // How full each is at tick 0 is drawn by the seed, from half to wholly.
 [[nodiscard]] Turf makeTurf(std::uint32_t seed,
                             const std::vector<place::Site>& sites,
-                            const Obstacles& obstacles);
+                            const place::Obstacles& obstacles);
 // Grows all patches for one tick.
 void growTurf(Turf& turf);
 // Takes a bite from a patch. False where too little is left.

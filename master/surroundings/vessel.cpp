@@ -82,7 +82,7 @@ Face ballFace(glm::vec3 centre, float radius, glm::vec3 at) {
 }
 
 // A post with a round top: the nearest point of its axis as a ball.
-Face stemFace(const Stem& stem, glm::vec3 at) {
+Face stemFace(const place::Stem& stem, glm::vec3 at) {
     const glm::vec3 nearest{stem.foot.x, std::min(at.y, stem.topMetres), stem.foot.y};
     return ballFace(nearest, kStemRadiusMetres, at);
 }
@@ -106,7 +106,7 @@ void visitFaces(const Waters& waters, glm::vec3 at, const Visit& visit) {
     for (const place::Rock& rock : waters.rocks)
         if (isNear(rock.centre.x, rock.centre.z, rock.radiusMetres))
             visit(ballFace(rock.centre, rock.radiusMetres, at));
-    for (const Stem& stem : waters.stems)
+    for (const place::Stem& stem : waters.stems)
         if (isNear(stem.foot.x, stem.foot.y, kStemRadiusMetres)) visit(stemFace(stem, at));
 }
 

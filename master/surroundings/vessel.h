@@ -11,8 +11,8 @@
 
 #include "common/base/units.h"
 #include "common/motion/motion_state.h"
+#include "common/place/obstacles.h"
 #include "common/place/place.h"
-#include "master/surroundings/climate.h"
 
 namespace aquarama::surroundings {
 
@@ -142,7 +142,7 @@ struct Waters {
     place::PlaceKey place;
     place::Region region;
     std::vector<place::Rock> rocks;
-    std::vector<Stem> stems;
+    std::vector<place::Stem> stems;
 };
 // The region is that of the fish, extended around the eye (place::roamingRegion()).
 [[nodiscard]] Waters watersOf(const place::PlaceKey& place,

@@ -114,6 +114,7 @@ void World::perform(const fish::DeferredEvent& event) {
             if (!columns_.wearers.mayBeEaten && columns_.wearers.of(event.object) != nullptr)
                 return;
             motion::setAway(columns_.states, event.object);
+            columns_.placements.note(event.object, tick_);
             columns_.view.signs[event.object] = fish::kAway;
             absences_.push_back(absenceFrom(seed_, event.object, tick_));
             feed(columns_.minds[event.fish]);

@@ -16,6 +16,7 @@ FishColumns::FishColumns(std::vector<motion::FishTraits> ofFish) : traits(std::m
     memory.resize(traits.size());
     thought.resize(traits.size());
     view.resize(traits.size());
+    placements.fish.reserve(traits.size());
 }
 
 void FishColumns::shiftTime(std::uint64_t ticks) {

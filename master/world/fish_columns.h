@@ -17,6 +17,19 @@
 
 namespace aquarama::world {
 
+// The fish that were put elsewhere than their motor takes them, by index, from one tick on until
+// the next: they came, were eaten, or were given a drawing.
+struct Placements {
+    Tick since;
+    std::vector<std::uint32_t> fish;
+
+    void note(std::uint32_t placed, Tick now) {
+        if (now != since) fish.clear();
+        since = now;
+        fish.push_back(placed);
+    }
+};
+
 // The columns of a world. Owned by the world; in a tick each thread writes the fish of its chunk.
 struct FishColumns {
     // Makes an element in each column for each of these fish.
@@ -37,6 +50,7 @@ struct FishColumns {
     fish::Wearers wearers;
     // Hunters that a cue has released, and that are on their way.
     fish::ReleasedHunters released;
+    Placements placements;
     // Predators that began to rush at the last tick, by index.
     std::vector<std::uint32_t> rushes;
 

@@ -39,7 +39,7 @@ void makeHungry(fish::Mind& mind) {
 }
 
 // Whether a rock lies between two points, or beside their line.
-bool isBlocked(const surroundings::Obstacles& obstacles, glm::vec3 from, glm::vec3 to) {
+bool isBlocked(const place::Obstacles& obstacles, glm::vec3 from, glm::vec3 to) {
     const glm::vec3 way = to - from;
     const float squared = std::max(place::dot(way, way), kLeastSquaredMetres);
     return std::ranges::any_of(obstacles.rocks, [&](const place::Rock& rock) {
@@ -50,13 +50,13 @@ bool isBlocked(const surroundings::Obstacles& obstacles, glm::vec3 from, glm::ve
 }
 
 // How far a hunter has to go, metres; round a rock it takes longer.
-float wayOf(const surroundings::Obstacles& obstacles, glm::vec3 from, glm::vec3 to) {
+float wayOf(const place::Obstacles& obstacles, glm::vec3 from, glm::vec3 to) {
     return place::lengthOf(to - from) + (isBlocked(obstacles, from, to) ? kRoundMetres : 0.0F);
 }
 
 // Nobody where none can come.
 std::uint32_t nearestOf(const fish::SpeciesParameters& species,
-                        const surroundings::Obstacles& obstacles,
+                        const place::Obstacles& obstacles,
                         const FishColumns& columns) {
     std::uint32_t nearest = fish::kNobody;
     float least = std::numeric_limits<float>::max();

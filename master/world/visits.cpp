@@ -46,6 +46,7 @@ bool hasLeft(const FishColumns& columns, const fish::Wearer& wearer, std::uint64
 // Its return after it was eaten, if that was under way, is off.
 void sleep(FishColumns& columns, fish::Wearer& wearer, Tick tick, std::vector<Absence>& absences) {
     motion::setAway(columns.states, wearer.fish);
+    columns.placements.note(wearer.fish, tick);
     columns.view.signs[wearer.fish] = fish::kAway;
     std::erase_if(absences, [&](const Absence& absence) { return absence.fish == wearer.fish; });
     wearer = {.fish = wearer.fish, .since = tick};
@@ -66,6 +67,7 @@ void putIn(const WaterAtTick& water,
            float speed,
            FishColumns& columns) {
     placeFishAt(columns.states, fish, place, course);
+    columns.placements.note(fish, water.tick);
     motion::setSpeedBodyLengths(columns.states, fish, speed);
     const auto drawn = hashOf(water.seed, static_cast<std::uint32_t>(water.tick.value));
     columns.minds[fish] = behaviour::freshMind(water.speciesParameters[columns.view.kind[fish]],
@@ -102,7 +104,7 @@ void enter(const WaterAtTick& water, const EnterDrawing& drawing, FishColumns& c
     wearer->number = drawing.number;
     wearer->picture = drawing.picture;
     begin(*wearer, fish::Visit::Enters, water.tick);
-    const surroundings::Obstacles& obstacles = water.surroundings.obstacles;
+    const place::Obstacles& obstacles = water.surroundings.obstacles;
     const glm::vec3 from = behaviour::entranceOf(columns.wearers, *wearer, obstacles);
     const glm::vec3 to = behaviour::greetingPlaceOf(columns.wearers, *wearer, obstacles);
     putIn(water,

@@ -12,11 +12,11 @@
 #include "common/base/random_streams.h"
 #include "common/motion/headings.h"
 #include "common/place/place.h"
+#include "common/school/school_motion.h"
 #include "master/behaviour/routines.h"
 #include "master/behaviour/think.h"
 #include "master/behaviour/ways.h"
 #include "master/fish/minds.h"
-#include "master/surroundings/contact.h"
 #include "master/world/beginning.h"
 #include "master/world/release.h"
 #include "master/world/visits.h"
@@ -39,7 +39,7 @@ constexpr float kRockRoomMetres = 1;
 constexpr std::uint32_t kPlacesTried = 16;
 
 // A random place in the water, over the sand and under the surface; rocks are not considered.
-glm::vec3 placeDrawn(const surroundings::Obstacles& obstacles, std::uint32_t hash) {
+glm::vec3 placeDrawn(const place::Obstacles& obstacles, std::uint32_t hash) {
     const glm::vec3 share{
         signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
     glm::vec3 place = obstacles.water.centre + obstacles.water.halfExtent * share * kShore;
@@ -48,7 +48,7 @@ glm::vec3 placeDrawn(const surroundings::Obstacles& obstacles, std::uint32_t has
     return place;
 }
 
-bool isClear(const surroundings::Obstacles& obstacles, glm::vec3 place) {
+bool isClear(const place::Obstacles& obstacles, glm::vec3 place) {
     return std::ranges::none_of(obstacles.rocks, [&](const place::Rock& rock) {
         return place::lengthOf(place - rock.centre) < rock.radiusMetres + kRockRoomMetres;
     });
@@ -97,21 +97,6 @@ fish::Mind beginningMind(const fish::SpeciesParameters& parameters,
 
 std::uint64_t ticksIn(double seconds) {
     return static_cast<std::uint64_t>(seconds * static_cast<double>(kTicksPerSecond));
-}
-
-// Half the width of a body, as a share of its length.
-constexpr float kHalfWidth = 0.06F;
-
-// The velocity that the water has at a fish, and that it has by contact with rocks and sand. Fish
-// that are away rest. Metres a second.
-glm::vec3 velocityOf(const FishColumns& columns,
-                     const surroundings::Surroundings& around,
-                     std::uint32_t fish) {
-    if (columns.view.shows(fish, fish::kAway)) return {};
-    const fish::VisibleFish& body = columns.view.fish[fish];
-    const glm::vec3 water = around.current.at(body.position, around.openCurrent);
-    return water +
-           surroundings::contactVelocity(around.obstacles, body.position, kHalfWidth * body.length);
 }
 
 }  // namespace
@@ -545,7 +530,8 @@ void World::swim(const Chunk& chunk) {
                               &columns_.commands,
                               &columns_.memory}
         .run(chunk.first, chunk.last);
-    carry(chunk);
+    school::Carrier{&surroundings_.obstacles, &surroundings_.current, surroundings_.openCurrent}
+        .carry(columns_.traits, columns_.states, chunk.first, chunk.last, columns_.advection);
     motion::MotorStep{own.tables.get(),
                       columns_.traits,
                       &columns_.commands,
@@ -554,23 +540,6 @@ void World::swim(const Chunk& chunk) {
                       chunk.last,
                       &columns_.advection}
         .run();
-}
-
-// Writes the way that water and contact carry each fish of a chunk in this tick.
-void World::carry(const Chunk& chunk) {
-    constexpr float kUnitsATick =
-        1 / (motion::kPositionUnitMetres * static_cast<float>(kTicksPerSecond));
-    motion::Advection& advection = columns_.advection;
-    for (std::size_t fish = chunk.first; fish < chunk.last; ++fish) {
-        const glm::vec3 velocity =
-            velocityOf(columns_, surroundings_, static_cast<std::uint32_t>(fish));
-        const auto units = [&](float metresPerSecond) {
-            return static_cast<std::int32_t>(motion::roundToEven(metresPerSecond * kUnitsATick));
-        };
-        advection.x[fish] = units(velocity.x);
-        advection.y[fish] = units(velocity.y);
-        advection.z[fish] = units(velocity.z);
-    }
 }
 
 // Applies the events of all slices sorted by fish, so that the result does not depend on the order
@@ -606,6 +575,11 @@ void World::records(std::vector<motion::FishRecord>& records) const {
         records[fish] = motion::recordOf(columns_.states, fish);
     for (const fish::Wearer& wearer : columns_.wearers.fish)
         records[wearer.fish].skin = wearer.number;
+}
+
+std::span<const std::uint32_t> World::placed() const {
+    if (columns_.placements.since.value + 1 != tick_.value) return {};
+    return columns_.placements.fish;
 }
 
 }  // namespace aquarama::world

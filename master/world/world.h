@@ -149,6 +149,9 @@ class World {
     [[nodiscard]] std::uint64_t hash() const;
     // Writes the published record of every fish, by index.
     void records(std::vector<motion::FishRecord>& records) const;
+    // The fish that were put elsewhere than their motor took them, in the last tick or just before
+    // it, by index; some more than once.
+    [[nodiscard]] std::span<const std::uint32_t> placed() const;
 
   private:
     // A species: its fish are [first, last). The first kind is the school.
@@ -173,7 +176,6 @@ class World {
     void findRushes();
     [[nodiscard]] bool thinks(std::uint32_t fish) const;
     void swim(const Chunk& chunk);
-    void carry(const Chunk& chunk);
     void swallow();
     void performEvents();
     void perform(const fish::DeferredEvent& event);

@@ -9,17 +9,8 @@ namespace {
 // A report may be lost with its connection, for all nodes at once where a key is revoked: the wall
 // then stands still for as long, so it is less than a node may be silent.
 constexpr net::Duration kRepeat = std::chrono::milliseconds(100);
-constexpr net::Duration kBetweenChecks = std::chrono::seconds(1);
 
 }  // namespace
-
-bool FrameReports::check(const wire::StateFrame& state, net::Moment arrival) {
-    if (arrival - lastCheck_ < kBetweenChecks) return true;
-    lastCheck_ = arrival;
-    const bool isSame = motion::hashOf(state.after) == state.motionHash;
-    if (!isSame) ++mismatches_;
-    return isSame;
-}
 
 void FrameReports::finish(const FinishedFrame& finished) {
     finished_ = finished;
@@ -32,13 +23,15 @@ void FrameReports::release(Frame frame) {
     if (finished_ && finished_->frame <= frame) finished_.reset();
 }
 
-std::optional<v1::Envelope> FrameReports::due(const Pings& clock, net::Moment now) {
+std::optional<v1::Envelope> FrameReports::due(const Pings& clock,
+                                              net::Moment now,
+                                              std::uint64_t mismatches) {
     if (!finished_ || (said_ && now - *said_ <= kRepeat)) return std::nullopt;
     said_ = now;
     v1::Envelope message;
     v1::Ready& ready = *message.mutable_ready();
     ready.set_frame(finished_->frame.value);
-    ready.set_hash_mismatches(mismatches_);
+    ready.set_hash_mismatches(mismatches);
     ready.set_picture_us(
         static_cast<std::uint32_t>(finished_->took / std::chrono::microseconds(1)));
     const auto masters = [&](net::Moment own) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a node tells the master of its frames: which are finished, and whether their states arrived
-// unaltered.
+// What a node tells the master of its frames: which are finished, and how long they took.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +15,16 @@ namespace aquarama::session {
 // Used by the net thread.
 class FrameReports {
   public:
-    // Compares the hash of the fish with the one that the master sent: once a second, which costs a
-    // large school little. False: they differ.
-    bool check(const wire::StateFrame& state, net::Moment arrival);
-    [[nodiscard]] std::uint64_t mismatches() const { return mismatches_; }
-
     // The picture of a frame is finished.
     void finish(const FinishedFrame& finished);
     // The master has released this frame and all before it.
     void release(Frame frame);
     void forget() { finished_.reset(); }
     // Ready: after finish(), and again each 100 ms without a release. Empty while none is due.
-    // Moments are converted to the master's clock.
-    [[nodiscard]] std::optional<v1::Envelope> due(const Pings& clock, net::Moment now);
+    // Moments are converted to the master's clock. `mismatches`: of SchoolFollower.
+    [[nodiscard]] std::optional<v1::Envelope> due(const Pings& clock,
+                                                  net::Moment now,
+                                                  std::uint64_t mismatches);
     [[nodiscard]] Frame lastFinished() const { return lastFinished_; }
     // How long the last 600 pictures took.
     void report(v1::NodeReport& report) const;
@@ -38,8 +34,6 @@ class FrameReports {
     std::optional<net::Moment> said_;        // when it was last reported
     Frame lastFinished_;
     net::RecentTimes pictures_;
-    net::Moment lastCheck_{};
-    std::uint64_t mismatches_ = 0;
 };
 
 }  // namespace aquarama::session

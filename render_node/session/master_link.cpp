@@ -16,7 +16,7 @@ using std::chrono::seconds;
 constexpr net::Duration kMasterSilence = seconds(2);    // after which the master counts as lost
 constexpr net::Duration kFarthest = milliseconds(250);  // a later release means a wrong clock
 constexpr net::Duration kReport = seconds(5);
-constexpr net::Duration kSkins = seconds(5);        // so long a node waits for drawings
+constexpr net::Duration kSkins = seconds(5);        // so long a node waits for fish and drawings
 constexpr net::Duration kLongestTurn = seconds(2);  // of a net thread that is at work
 
 // All that a node fetches for a look.
@@ -48,7 +48,8 @@ MasterLink::MasterLink(std::string name,
           [this] { connection_.wake(); }),
       skins_([this](v1::Envelope message) { connection_.say(std::move(message)); },
              [this] { connection_.wake(); },
-             [this](SkinFetch::Skins skins) { mailbox_.offerSkins(std::move(skins)); }) {}
+             [this](SkinFetch::Skins skins) { mailbox_.offerSkins(std::move(skins)); }),
+      school_([this](v1::Envelope message) { connection_.say(std::move(message)); }) {}
 
 void MasterLink::post(const Request& request) {
     requests_.put(request);
@@ -90,7 +91,7 @@ void MasterLink::turn() {
     while (const auto finished = mailbox_.takeFinished()) {
         if (phase_ != Phase::Member) continue;
         frames_.finish(*finished);
-        if (auto ready = frames_.due(pings_, net::monotonicNow()))
+        if (auto ready = frames_.due(pings_, net::monotonicNow(), school_.mismatches()))
             connection_.say(*std::move(ready));
     }
     while (const auto bytes = connection_.receiveControl()) readControl(*bytes);
@@ -106,11 +107,13 @@ void MasterLink::handle(const Join&) {
     hearsStates_.reset();
     fetch_.stop();
     skins_.restart();
+    school_.forget();
     frames_.forget();
 }
 
 void MasterLink::handle(const Built& built) {
     built_ = built;
+    if (built.motion) school_.use(built.look, built.motion);
     if (phase_ == Phase::Building) phase_ = Phase::Listening;
     if (phase_ == Phase::Member) sayPrepared();
 }
@@ -165,7 +168,11 @@ void MasterLink::takeOfRun(const v1::Envelope& message) {
             return takePong(message.pong());
         case v1::Envelope::kBlobChunk:
             fetch_.take(message.blob_chunk());
-            return skins_.take(message.blob_chunk());
+            school_.take(message.blob_chunk());
+            skins_.take(message.blob_chunk());
+            return offerFrames();
+        case v1::Envelope::kKeyframe:
+            return school_.take(message.keyframe());
         case v1::Envelope::kJoined:
             return mailbox_.start(static_cast<wire::Pace>(welcome_.pace()),
                                   {message.joined().first_frame()});
@@ -204,17 +211,22 @@ void MasterLink::readState(const net::ByteVector& bytes) {
     if (!message->has_state()) return;
     auto state = wire::readState(message->state());
     if (!state) return;
-    skins_.want(state->show.skins);
-    const bool isOurLook = state->show.look == welcome_.look().number();
-    if (isOurLook && state->show.calibration != calibration_)
-        return lose("the wall is calibrated anew");
-    if (!frames_.check(*state, lastHeard_) && figures_.mismatches++ == 0)
-        logError(
-            "{}: the fish of frame {} differ from what the master sent; check this machine's "
-            "memory and version",
-            connection_.name(),
-            state->frame.value);
-    mailbox_.put({*std::move(state), lastHeard_});
+    const wire::Show& show = state->frame.show;
+    skins_.want(show.skins);
+    const bool isOurLook = show.look == welcome_.look().number();
+    if (isOurLook && show.calibration != calibration_) return lose("the wall is calibrated anew");
+    school_.take(*std::move(state), lastHeard_);
+    offerFrames();
+}
+
+void MasterLink::offerFrames() {
+    while (auto frame = school_.next()) mailbox_.put(*std::move(frame));
+    if (figures_.mismatches.exchange(school_.mismatches()) != 0 || school_.mismatches() == 0)
+        return;
+    logError(
+        "{}: the fish differ from what the master has; they are fetched anew; check this machine's "
+        "memory and version",
+        connection_.name());
 }
 
 void MasterLink::takeWelcome(const v1::Envelope& message) {
@@ -304,15 +316,18 @@ void MasterLink::doWhatIsDue(net::Moment now) {
         mailbox_.refuse(problem.what());
     }
     skins_.turn(now);
+    school_.turn(now);
     if (phase_ == Phase::Listening && mayBePrepared(now)) {
         sayPrepared();
         phase_ = Phase::Member;
     }
-    if (auto ready = frames_.due(pings_, now)) connection_.say(*std::move(ready));
+    if (auto ready = frames_.due(pings_, now, school_.mismatches()))
+        connection_.say(*std::move(ready));
 }
 
 bool MasterLink::mayBePrepared(net::Moment now) const {
-    return hearsStates_ && (skins_.isComplete() || now - *hearsStates_ > kSkins);
+    const bool isWhole = skins_.isComplete() && !school_.isBehind();
+    return hearsStates_ && (isWhole || now - *hearsStates_ > kSkins);
 }
 
 void MasterLink::sayPrepared() {

@@ -18,6 +18,7 @@
 #include "render_node/session/frame_reports.h"
 #include "render_node/session/mailbox.h"
 #include "render_node/session/pings.h"
+#include "render_node/session/school_follower.h"
 #include "render_node/session/session.h"
 #include "render_node/session/skin_fetch.h"
 
@@ -45,6 +46,7 @@ class MasterLink {
     struct Built {  // a look; the node keeps up with this tier
         std::uint32_t look = 0;
         config::QualityTier quality = config::QualityTier::Low;
+        std::shared_ptr<school::SchoolMotion> motion = {};
     };
     struct Logged {  // a line of this process's log, for that of the show
         Severity severity;
@@ -97,7 +99,10 @@ class MasterLink {
 
     // All blobs are there.
     void admit();
-    // A node that has just come draws as its neighbours do: it waits for the skins that they have.
+    // Puts frames whose fish are known into the mailbox.
+    void offerFrames();
+    // A node that has just come draws as its neighbours do: it waits for the fish and the skins
+    // that they have.
     [[nodiscard]] bool mayBePrepared(net::Moment now) const;
     void sayPrepared();
     void sayReport(net::Moment now);
@@ -118,6 +123,7 @@ class MasterLink {
     std::uint64_t calibration_ = 0;  // of that look
     BlobFetch fetch_;
     SkinFetch skins_;
+    SchoolFollower school_;
     Built built_;
     std::optional<net::Moment> hearsStates_;  // since when, of this welcome
     Pings pings_;

@@ -6,8 +6,11 @@
 #include <utility>
 
 #include "common/base/log.h"
+#include "common/config/species.h"
+#include "common/motion/repertoire.h"
 #include "common/net/channels.h"
 #include "common/net/metrics.h"
+#include "common/place/obstacles.h"
 #include "render_node/session/mailbox.h"
 #include "render_node/session/master_link.h"
 
@@ -157,8 +160,10 @@ class LinkSession final : public Session {
         return admission;
     }
 
-    void prepared(std::uint32_t look, config::QualityTier quality) override {
-        link_.post(MasterLink::Built{look, quality});
+    void prepared(std::uint32_t look,
+                  config::QualityTier quality,
+                  std::shared_ptr<school::SchoolMotion> motion) override {
+        link_.post(MasterLink::Built{look, quality, std::move(motion)});
     }
     std::optional<Admission> nextLook() override {
         const auto offered = mailbox_.takeNextLook();
@@ -266,6 +271,30 @@ class LinkSession final : public Session {
 };
 
 }  // namespace
+
+std::shared_ptr<school::SchoolMotion> motionOf(const Admission& admission) {
+    std::vector<school::Swimmers> swimmers;
+    std::size_t next = 0;
+    for (const wire::SpeciesAssets& species : admission.cast) {
+        auto tables = motion::makeMotorTables(
+            motion::decodeRepertoire(species.repertoire, "the master's repertoire"));
+        swimmers.push_back({std::move(tables), next, next + species.fish});
+        next += species.fish;
+    }
+    if (next > admission.school.size())
+        throw Error("the master's look has fewer fish than its species; use one version of both");
+    // As the master: its water is for the fish of the first species.
+    const float length = admission.cast.empty() ? 0.0F
+                                                : config::parseSpecies(admission.cast.front().text,
+                                                                       admission.cast.front().file)
+                                                      .size.meanMetres;
+    return std::make_shared<school::SchoolMotion>(
+        std::move(swimmers),
+        admission.school,
+        place::obstaclesOf(place::placeOf(admission.scene, admission.seed),
+                           place::waterFor(admission.scene, admission.school.size(), length)),
+        admission.scene.current);
+}
 
 std::unique_ptr<Session> makeSession(const std::string& name,
                                      net::Connect connect,

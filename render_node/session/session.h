@@ -20,6 +20,7 @@
 #include "common/net/blob.h"
 #include "common/net/channels.h"
 #include "common/net/clock.h"
+#include "common/school/school_motion.h"
 #include "common/wire/recording.h"
 
 namespace aquarama::session {
@@ -47,6 +48,10 @@ struct Admission {
     std::vector<wire::SpeciesAssets> cast;  // of all fish of the school, in its order
 };
 
+// How the fish of a look move. Takes a second for a large cast. Throws Error where the master's
+// files cannot be read.
+[[nodiscard]] std::shared_ptr<school::SchoolMotion> motionOf(const Admission& admission);
+
 // Facts of the node's machine that only its process knows.
 struct NodeFacts {
     std::string build;                  // version and commit
@@ -71,8 +76,11 @@ class Session {
     // refuses the node, saying why.
     virtual std::optional<Admission> join() = 0;
     // This look is built, and this is the finest tier that the node keeps up with. After join().
-    // From now on the master waits for the node.
-    virtual void prepared(std::uint32_t look, config::QualityTier quality) = 0;
+    // From now on the master waits for the node. `motion`: motionOf() the look; the session alone
+    // uses it from now on.
+    virtual void prepared(std::uint32_t look,
+                          config::QualityTier quality,
+                          std::shared_ptr<school::SchoolMotion> motion) = 0;
     // The look that the master will show next, to be built while frames are drawn; each is returned
     // once. Does not block. Throws Error where the master's scene cannot be read.
     [[nodiscard]] virtual std::optional<Admission> nextLook() = 0;

@@ -12,6 +12,7 @@ namespace aquarama::show {
 
 BuiltLook::BuiltLook(gl::Context& context, const std::string& channel, session::Admission admission)
     : admission_{std::move(admission)},
+      motion_{session::motionOf(admission_)},
       channel_{channelIndex(admission_.rig, channel)},
       wall_{std::make_shared<const wall::Wall>(admission_.rig)},
       workspace_{context.makeWorkspace()} {

@@ -32,6 +32,8 @@ class BuiltLook {
 
     // What it was built from.
     [[nodiscard]] const session::Admission& admission() const { return admission_; }
+    // How its fish move: for the session, which alone uses it.
+    [[nodiscard]] const std::shared_ptr<school::SchoolMotion>& motion() const { return motion_; }
     // Gives the same look another number, after the master was started again.
     void renumber(std::uint32_t look) { admission_.look = look; }
     [[nodiscard]] gl::Workspace& workspace() { return *workspace_; }
@@ -58,6 +60,7 @@ class BuiltLook {
     void drawEmpty();
 
     session::Admission admission_;
+    std::shared_ptr<school::SchoolMotion> motion_;
     std::size_t channel_;
     std::shared_ptr<const wall::Wall> wall_;  // of admission_.rig
     std::string renderer_;

@@ -86,7 +86,7 @@ void ChannelShow::run(session::Admission first) {
         watchers_.emplace_back(options_.channel, watcher.address, watcher.keys);
     while (admission) {
         build(std::move(*admission));
-        session_.prepared(stage_->admission().look, stage_->bears());
+        session_.prepared(stage_->admission().look, stage_->bears(), stage_->motion());
         service_.ready();
         const session::Release end = play();
         if (end == session::Release::Quit) break;
@@ -171,7 +171,7 @@ void ChannelShow::buildNext() {
         return;
     }
     if (std::exchange(isStale_, false)) return next_.reset();
-    session_.prepared(next_->admission().look, next_->bears());
+    session_.prepared(next_->admission().look, next_->bears(), next_->motion());
 }
 
 bool ChannelShow::bringOn(std::uint32_t look) {

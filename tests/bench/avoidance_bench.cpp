@@ -6,7 +6,7 @@
 
 #include "common/base/hash.h"
 #include "common/place/place.h"
-#include "master/surroundings/obstacles.h"
+#include "master/surroundings/avoidance.h"
 #include "tests/support/school_region.h"
 
 namespace aquarama::bench {
@@ -30,9 +30,9 @@ std::vector<Swimmer> swimmers(const place::Region& water) {
 }
 
 template <glm::vec3 (*avoid)(
-    const surroundings::Obstacles&, glm::vec3, glm::vec3, float, const surroundings::Berth&)>
+    const place::Obstacles&, glm::vec3, glm::vec3, float, const surroundings::Berth&)>
 void avoidanceCost(benchmark::State& state) {
-    const surroundings::Obstacles obstacles = surroundings::obstaclesOf({1}, test::schoolRegion());
+    const place::Obstacles obstacles = place::obstaclesOf({1}, test::schoolRegion());
     const std::vector<Swimmer> fish = swimmers(obstacles.water);
     for (auto _ : state)
         for (const Swimmer& one : fish)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a fish costs on the wire, how far apart three nodes let go of a frame, and how long it takes
-// from a hand to the frame that shows it.
+// How far apart three nodes let go of a frame, and how long it takes from a hand to the
+// frame that shows it.
 #include <algorithm>
 #include <atomic>
 #include <map>
@@ -12,69 +12,17 @@
 #include <benchmark/benchmark.h>
 #include <spdlog/spdlog.h>
 
-#include "common/wire/messages.h"
 #include "tests/support/stage.h"
-#include "tests/support/state_packet.h"
 
 namespace aquarama::bench {
 namespace {
-
-wire::StateFrame stateOf(std::int64_t fish) {
-    wire::StateFrame state;
-    for (std::int64_t i = 0; i < fish; ++i) {
-        const auto n = static_cast<std::uint32_t>(i) * 2654435761U;
-        state.after.push_back({.x = static_cast<std::int32_t>(n),
-                               .y = static_cast<std::int32_t>(n >> 3U),
-                               .z = static_cast<std::int32_t>(n >> 5U),
-                               .orientationLow = n,
-                               .orientationHigh = ~n,
-                               .phase = static_cast<std::uint16_t>(n),
-                               .fromPhase = 0,
-                               .segment = static_cast<std::uint8_t>(n % motion::kSegments),
-                               .fromSegment = 0,
-                               .warpFrame = 0,
-                               .warpLength = 0});
-    }
-    return state;
-}
-
-// Nanoseconds a fish, and bytes a fish in a frame that shows one tick (live: twice as many).
-void report(benchmark::State& bench, std::int64_t fish, std::size_t packetBytes) {
-    bench.counters["per_fish"] = benchmark::Counter(
-        static_cast<double>(fish),
-        benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-    bench.counters["bytes_per_fish"] = static_cast<double>(packetBytes) / static_cast<double>(fish);
-}
-
-void encodeFish(benchmark::State& bench) {
-    const wire::StateFrame state = stateOf(bench.range(0));
-    std::size_t bytes = 0;
-    for (auto _ : bench) {
-        const wire::Packet packet = test::packetOf(1, state);
-        bytes = packet.size();
-        benchmark::DoNotOptimize(packet.data());
-    }
-    report(bench, bench.range(0), bytes);
-}
-
-void decodeFish(benchmark::State& bench) {
-    const wire::Packet packet = test::packetOf(1, stateOf(bench.range(0)));
-    for (auto _ : bench) {
-        auto state = wire::readState(wire::decode(packet)->state());
-        benchmark::DoNotOptimize(state);
-    }
-    report(bench, bench.range(0), packet.size());
-}
-
-BENCHMARK(encodeFish)->Name("encode")->ArgName("fish")->Arg(51)->Arg(1000)->Arg(10000);
-BENCHMARK(decodeFish)->Name("decode")->ArgName("fish")->Arg(51)->Arg(1000)->Arg(10000);
 
 // Shows in which nodes sleep instead of drawing; when each let go of each frame.
 class Releases {
   public:
     void attend(session::Session& session, net::Duration drawing) {
-        while (session.join()) {
-            session.prepared(1, config::QualityTier::Low);
+        while (const auto admission = session.join()) {
+            session.prepared(1, config::QualityTier::Low, session::motionOf(*admission));
             while (const auto state = session.nextFrame()) {
                 std::this_thread::sleep_for(drawing);
                 if (session.readyThenWait(state->frame) != session::Release::Present) continue;
@@ -192,8 +140,9 @@ void inputToLight(benchmark::State& bench) {
         test::StageNode right("right", master.connect(), journal, habits);
         const auto blobs = test::freshDirectory();
         const auto session = session::makeSession("left", master.connect(), blobs);
-        if (!session->join()) return bench.SkipWithError("no show");
-        session->prepared(1, config::QualityTier::Low);
+        const auto admission = session->join();
+        if (!admission) return bench.SkipWithError("no show");
+        session->prepared(1, config::QualityTier::Low, session::motionOf(*admission));
         Hand hand(*session);
         while (hand.refreshes.size() < 100) {
             const auto state = session->nextFrame();

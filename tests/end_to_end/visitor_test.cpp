@@ -31,6 +31,8 @@ class Master {
   public:
     explicit Master(const std::vector<std::string>& arguments) {
         fs::create_directories(folder_);
+        // A world of its own: a show goes on from the journal of the one before.
+        setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
         const config::Rig rig = config::parseRig(rigOnFreePorts("desk"), "desk");
         control_ = rig.controlAddress;
         std::ofstream(folder_ / "rig.txtpb") << rig.text;
@@ -93,8 +95,9 @@ std::optional<wire::StateFrame> await(session::Session& session, Predicate isIt)
 TEST(Visitor, whatIsDroppedFallsWhereItWasDroppedAndSinks) {
     const Master master({"--seed", "3"});
     const auto session = master.connect();
-    ASSERT_TRUE(session->join());
-    session->prepared(1, config::QualityTier::Low);
+    const auto admission = session->join();
+    ASSERT_TRUE(admission);
+    session->prepared(1, config::QualityTier::Low, session::motionOf(*admission));
     const auto first = await(*session, [](const wire::StateFrame&) { return true; });
     ASSERT_TRUE(first);
     EXPECT_TRUE(pelletsIn(*first).empty());
@@ -125,8 +128,9 @@ TEST(Visitor, whatIsDroppedFallsWhereItWasDroppedAndSinks) {
 TEST(Visitor, steersTheSubmarine) {
     const Master master({});
     const auto session = master.connect();
-    ASSERT_TRUE(session->join());
-    session->prepared(1, config::QualityTier::Low);
+    const auto admission = session->join();
+    ASSERT_TRUE(admission);
+    session->prepared(1, config::QualityTier::Low, session::motionOf(*admission));
     const auto first = await(*session, [](const wire::StateFrame&) { return true; });
     ASSERT_TRUE(first);
     const glm::vec3 begin = first->eye.positionMetres;
@@ -161,8 +165,9 @@ TEST(Visitor, steersTheSubmarine) {
 TEST(Visitor, looksIntoTheMindOfAFish) {
     const Master master({});
     const auto session = master.connect();
-    ASSERT_TRUE(session->join());
-    session->prepared(1, config::QualityTier::Low);
+    const auto admission = session->join();
+    ASSERT_TRUE(admission);
+    session->prepared(1, config::QualityTier::Low, session::motionOf(*admission));
     session->askMind(0);
     const auto told =
         await(*session, [&](const wire::StateFrame&) { return session->latestMind(); });

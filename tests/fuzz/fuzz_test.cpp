@@ -83,6 +83,20 @@ TEST(Fuzz, damagedSavesAreRefusedOrCanBeGoneOnFrom) {
     feed(fuzzSave, seeds, 4000);
 }
 
+TEST(Fuzz, damagedKeyframesAndStepsOfTheFishAreRefusedOrPlayable) {
+    motion::MotorCommands commands;
+    commands.resize(1);
+    school::StepMemory memory = school::makeStepMemory({{.first = 0, .last = 1}}, 1);
+    const std::vector<motion::FishRecord> fish(1);
+    std::vector<FuzzInput> seeds{inputOf(school::encodeKeyframe({7}, fish, commands, memory))};
+    feed(fuzzSchool, seeds, 300);
+    motion::MotorCommands wanted = commands;
+    wanted.action[0] = 5;
+    wanted.yawRate[0] = -700;
+    const std::vector<school::PlacedFish> placed{{0, fish.front()}};
+    feed(fuzzSchool, {inputOf(school::encodeStep({1}, wanted, placed, commands, memory))}, 20000);
+}
+
 TEST(Fuzz, damagedSpeciesAreRefusedOrCanBeBuilt) {
     feed(fuzzSpecies, filesIn(AQUARAMA_SOURCE_DIR "/config/species"), 6000);
 }

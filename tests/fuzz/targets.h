@@ -19,6 +19,7 @@ int fuzzShow(const std::uint8_t* bytes, std::size_t size);
 int fuzzWire(const std::uint8_t* bytes, std::size_t size);
 int fuzzRecording(const std::uint8_t* bytes, std::size_t size);
 int fuzzSave(const std::uint8_t* bytes, std::size_t size);
+int fuzzSchool(const std::uint8_t* bytes, std::size_t size);
 int fuzzVendors(const std::uint8_t* bytes, std::size_t size);
 int fuzzHours(const std::uint8_t* bytes, std::size_t size);
 int fuzzBrowser(const std::uint8_t* bytes, std::size_t size);

@@ -217,7 +217,7 @@ class StageNode {
         std::this_thread::sleep_for(habits_.starting);
         while (const auto admission = session_->join()) {
             ++joins_;
-            build(admission->look);
+            build(*admission);
             if (show() == session::Release::Quit) return;
         }
     } catch (const Error& error) {
@@ -225,12 +225,12 @@ class StageNode {
         refusal_ = error.what();
     }
 
-    void build(std::uint32_t look) {
+    void build(const session::Admission& admission) {
         std::this_thread::sleep_for(habits_.building);
         wire::StateFrame built;
-        built.show.look = look;
+        built.show.look = admission.look;
         journal_.note({Event::Kind::Built, name_, built});
-        session_->prepared(look, config::QualityTier::Low);
+        session_->prepared(admission.look, config::QualityTier::Low, session::motionOf(admission));
     }
 
     session::Release show() {
@@ -238,8 +238,7 @@ class StageNode {
             const Frame frame = state->frame;
             // Beside the frames, as a node does.
             if (const auto next = session_->nextLook())
-                building_ =
-                    std::async(std::launch::async, [this, look = next->look] { build(look); });
+                building_ = std::async(std::launch::async, [this, next = *next] { build(next); });
             std::this_thread::sleep_for(habits_.drawing);
             journal_.note({Event::Kind::Ready, name_, *state});
             const session::Release release = session_->readyThenWait(frame);
@@ -319,10 +318,14 @@ class StageMaster {
         return bytes;
     }
     static wire::AssetBundle assets() {
-        return {.seed = 77,
-                .sceneFile = "reef",
-                .scene = config::readTextFile(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb"),
-                .cast = {{"scad", "name: \"scad\"", repertoire(), 3}}};
+        return {
+            .seed = 77,
+            .sceneFile = "reef",
+            .scene = config::readTextFile(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb"),
+            .cast = {{"scad",
+                      config::readTextFile(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"),
+                      repertoire(),
+                      3}}};
     }
     static std::vector<motion::FishTraits> school() { return {{1, 200}, {2, 210}, {3, 220}}; }
 

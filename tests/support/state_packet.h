@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
+#include "common/school/keyframe.h"
 #include "common/wire/messages.h"
 #include "common/wire/state_codec.h"
 
@@ -34,8 +36,32 @@ inline v1::Show messageOf(const wire::Show& show) {
     return message;
 }
 
-// The packet of a state of the master's run `session`.
-inline wire::Packet packetOf(std::uint64_t session, const wire::StateFrame& state) {
+// The fish of a state as a stream of its own: a keyframe, and a step that places all of them where
+// the frame lies between two ticks.
+inline wire::SchoolPart schoolOf(const wire::StateFrame& state) {
+    const bool isBetween = !state.before.empty();
+    const std::vector<motion::FishRecord>& first = isBetween ? state.before : state.after;
+    motion::MotorCommands commands;
+    commands.resize(first.size());
+    school::StepMemory memory = school::makeStepMemory({}, first.size());
+    const Tick tick{state.tick.value - (isBetween ? 1 : 0)};
+    wire::SchoolPart part{
+        state.frame.value + 1, school::encodeKeyframe(tick, first, commands, memory), {}};
+    if (!isBetween) return part;
+    std::vector<school::PlacedFish> placed;
+    for (const motion::FishRecord& record : state.after)
+        placed.push_back({static_cast<std::uint32_t>(placed.size()), record});
+    const motion::MotorCommands same = commands;
+    part.steps.push_back(
+        {state.tick, school::encodeStep(state.tick, same, placed, commands, memory), {}});
+    return part;
+}
+
+// The packet of a state of the master's run `session`: of a frame and this part of a stream, or of
+// a frame with its fish.
+inline wire::Packet packetOf(std::uint64_t session,
+                             const wire::StateFrame& state,
+                             const wire::SchoolPart& school) {
     const v1::Show show = messageOf(state.show);
     return wire::encodeState(session,
                              {.frame = state.frame,
@@ -43,14 +69,15 @@ inline wire::Packet packetOf(std::uint64_t session, const wire::StateFrame& stat
                               .fraction = state.fraction,
                               .eye = state.eye,
                               .worldHash = state.worldHash,
-                              .motionHash = state.motionHash,
-                              .before = state.before,
-                              .after = state.after,
                               .foodOriginMetres = state.foodOriginMetres,
                               .foodBefore = state.foodBefore,
                               .foodAfter = state.foodAfter,
                               .timeOfDay = state.timeOfDay,
-                              .show = &show});
+                              .show = &show},
+                             school);
+}
+inline wire::Packet packetOf(std::uint64_t session, const wire::StateFrame& state) {
+    return packetOf(session, state, schoolOf(state));
 }
 
 }  // namespace aquarama::test

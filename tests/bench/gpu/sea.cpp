@@ -23,17 +23,17 @@ session::Admission admissionTo(const simulation::Assets& assets, const world::Wo
 
 wire::StateFrame frameAfter(const simulation::LivingWorld& world, const wire::StateFrame& last) {
     conductor::Snapshot now = world.snapshot();
-    return {.frame = {last.frame.value + 1},
-            .tick = now.tick,
-            .fraction = 0.5F,
-            .eye = now.eye,
-            .before = last.after,
-            .after = std::move(now.fish),
-            .foodOriginMetres = now.food.originMetres,
-            .foodBefore = last.foodAfter,
-            .foodAfter = std::move(now.food.particles),
-            .timeOfDay = now.timeOfDay,
-            .show = {}};
+    return {{.frame = {last.frame.value + 1},
+             .tick = now.tick,
+             .fraction = 0.5F,
+             .eye = now.eye,
+             .foodOriginMetres = now.food.originMetres,
+             .foodBefore = last.foodAfter,
+             .foodAfter = std::move(now.food.particles),
+             .timeOfDay = now.timeOfDay,
+             .show = {}},
+            last.after,
+            std::move(now.fish)};
 }
 
 }  // namespace

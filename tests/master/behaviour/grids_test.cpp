@@ -18,8 +18,8 @@ constexpr std::size_t kFish = 20000;
 
 struct Sea {
     fish::FishView view = scatteredSchool(2, kFish, kWater);
-    surroundings::Food food = surroundings::makeFood(
-        3, surroundings::obstaclesOf({3, config::PlaceKind::OpenSea}, kWater), 700);
+    surroundings::Food food =
+        surroundings::makeFood(3, place::obstaclesOf({3, config::PlaceKind::OpenSea}, kWater), 700);
     std::vector<fish::SpeciesParameters> speciesParameters =
         std::vector<fish::SpeciesParameters>(2);
 

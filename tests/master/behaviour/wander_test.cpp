@@ -7,7 +7,7 @@
 namespace aquarama::behaviour {
 namespace {
 
-const surroundings::Obstacles kOpenWater{{3}, {{0, -4, -5}, {6, 3, 4}}, {}};
+const place::Obstacles kOpenWater{{3}, {{0, -4, -5}, {6, 3, 4}}, {}};
 
 TEST(Wandering, everyPlaceIsInTheWaterAndAnotherFollowsIt) {
     for (std::size_t fish = 0; fish < 20; ++fish) {

@@ -42,7 +42,8 @@ class Peer {
     std::optional<wire::StateFrame> seeState() {
         const auto message = await(
             v1::Envelope::kState, [&] { return channels_->receiveState(); }, seconds(5));
-        return message ? wire::readState(message->state()) : std::nullopt;
+        auto coded = message ? wire::readState(message->state()) : std::nullopt;
+        return coded ? std::optional(std::move(coded->frame)) : std::nullopt;
     }
     // Sees the state of this frame, says ready, and gives the frame that is presented then.
     std::optional<std::uint64_t> present(std::uint64_t frame) {

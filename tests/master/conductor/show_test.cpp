@@ -240,8 +240,8 @@ bool seesAllFrames(session::Session& session,
                    std::uint64_t frames,
                    std::atomic<std::uint64_t>& seen) {
     std::uint64_t next = 0;
-    while (session.join()) {
-        session.prepared(1, config::QualityTier::Low);
+    while (const auto admission = session.join()) {
+        session.prepared(1, config::QualityTier::Low, session::motionOf(*admission));
         while (const auto state = session.nextFrame()) {
             if (state->frame.value != next || state->tick.value != next) return false;
             if (session.readyThenWait(state->frame) == session::Release::Present) seen = ++next;

@@ -61,7 +61,7 @@ fish::FishView viewOf(const std::vector<fish::VisibleFish>& fish,
 WallView viewThrough(const WallExtent& extent,
                      std::vector<place::Rock> rocks = {},
                      double clarity = 12) {
-    surroundings::Obstacles sight{
+    place::Obstacles sight{
         .place = {.kind = config::PlaceKind::OpenSea}, .water = {}, .rocks = std::move(rocks)};
     return {extent, sight, clarity};
 }
@@ -154,8 +154,7 @@ TEST(WallView, aRockHidesWhatIsBehindItAndNothingElse) {
 }
 
 TEST(WallView, sandHidesWhatIsInIt) {
-    surroundings::Obstacles sight{
-        .place = {.kind = config::PlaceKind::Reef}, .water = {}, .rocks = {}};
+    place::Obstacles sight{.place = {.kind = config::PlaceKind::Reef}, .water = {}, .rocks = {}};
     const WallView eyes(theatre(), sight, 12);
     const float sand = place::floorHeight(sight.place, {0, -9});
     fish::FishView view = viewOf({fishAt(0, 0, 9, 0.2F)});

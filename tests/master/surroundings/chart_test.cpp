@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "common/base/hash.h"
+#include "common/place/obstacles.h"
 #include "common/place/place.h"
-#include "master/surroundings/climate.h"
-#include "master/surroundings/obstacles.h"
+#include "master/surroundings/avoidance.h"
 #include "tests/support/school_region.h"
 
 namespace aquarama::surroundings {
@@ -33,7 +33,7 @@ Probe probeIn(const place::Region& water, std::uint32_t index) {
 TEST(Chart, knowsTheSandToHalfACentimetre) {
     const place::Region water = test::schoolRegion();
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
-        const Chart chart({seed}, water, {});
+        const place::Chart chart({seed}, water, {});
         float worst = 0;
         for (std::uint32_t i = 0; i < kPlaces; ++i) {
             const glm::vec3 at = probeIn(water, i).position;
@@ -51,7 +51,7 @@ TEST(Chart, pushesAsWithoutIt) {
     // Deep enough that the sand pushes too, and wide enough for kelp.
     place::Region water = test::schoolRegion();
     water.halfExtent += glm::vec3{3, 1.2F, 1};
-    const Obstacles obstacles = obstaclesOf({1}, water);
+    const place::Obstacles obstacles = place::obstaclesOf({1}, water);
     ASSERT_GT(obstacles.rocks.size(), 5U);
     ASSERT_GT(obstacles.stems.size(), 0U);
     int pushed = 0;
@@ -69,7 +69,7 @@ TEST(Chart, pushesAsWithoutIt) {
 }
 
 TEST(Chart, awayFromTheSandItPushesToTheBitAsWithoutIt) {
-    const Obstacles obstacles = obstaclesOf({2}, test::schoolRegion());
+    const place::Obstacles obstacles = place::obstaclesOf({2}, test::schoolRegion());
     for (std::uint32_t i = 0; i < kPlaces; ++i) {
         Probe probe = probeIn(obstacles.water, i);
         probe.position.y = std::max(probe.position.y, -6.0F);
@@ -80,7 +80,7 @@ TEST(Chart, awayFromTheSandItPushesToTheBitAsWithoutIt) {
 }
 
 TEST(Chart, offTheChartAndFartherThanItReachesThePlainWayServes) {
-    const Obstacles obstacles = obstaclesOf({2}, test::schoolRegion());
+    const place::Obstacles obstacles = place::obstaclesOf({2}, test::schoolRegion());
     const glm::vec3 far = obstacles.water.centre + glm::vec3{40, 0, 0};
     EXPECT_EQ(avoidance(obstacles, far, {1, 0, 0}, 1),
               plainAvoidance(obstacles, far, {1, 0, 0}, 1));
@@ -90,7 +90,8 @@ TEST(Chart, offTheChartAndFartherThanItReachesThePlainWayServes) {
 }
 
 TEST(Chart, theOpenSeaHasNothingInIt) {
-    const Obstacles sea = obstaclesOf({1, config::PlaceKind::OpenSea}, test::schoolRegion());
+    const place::Obstacles sea =
+        place::obstaclesOf({1, config::PlaceKind::OpenSea}, test::schoolRegion());
     EXPECT_TRUE(sea.rocks.empty());
     EXPECT_TRUE(sea.stems.empty());
     EXPECT_EQ(avoidance(sea, sea.water.centre, {1, 0, 0}, 1), glm::vec3(0));

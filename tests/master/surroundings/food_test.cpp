@@ -12,16 +12,16 @@ namespace {
 constexpr std::uint32_t kSeed = 5;
 constexpr std::uint32_t kPlankton = 300;
 
-Obstacles reef() {
-    return obstaclesOf({kSeed}, test::schoolRegion());
+place::Obstacles reef() {
+    return place::obstaclesOf({kSeed}, test::schoolRegion());
 }
 
-void drift(Food& food, const Obstacles& obstacles, Tick& tick, int ticks) {
+void drift(Food& food, const place::Obstacles& obstacles, Tick& tick, int ticks) {
     for (int i = 0; i < ticks; ++i, ++tick.value) driftFood(food, kSeed, obstacles, {}, tick);
 }
 
 TEST(Food, planktonDriftsAndStaysInTheWaterAndOffTheSandForTenMinutes) {
-    const Obstacles obstacles = reef();
+    const place::Obstacles obstacles = reef();
     Food food = makeFood(kSeed, obstacles, kPlankton);
     const Food before = food;
     Tick tick;
@@ -64,7 +64,7 @@ TEST(Food, ofTwoWhoWantAParticleOneHasIt) {
 }
 
 TEST(Food, eatenPlanktonComesBackElsewhere) {
-    const Obstacles obstacles = reef();
+    const place::Obstacles obstacles = reef();
     Food food = makeFood(kSeed, obstacles, kPlankton);
     const glm::vec3 before = food.position(7);
     const int generation = food.generation[7];
@@ -80,7 +80,7 @@ TEST(Food, eatenPlanktonComesBackElsewhere) {
 }
 
 TEST(Food, pelletsSinkToTheSandLieThereAndDissolve) {
-    const Obstacles obstacles = reef();
+    const place::Obstacles obstacles = reef();
     Food food = makeFood(kSeed, obstacles, 0);
     Tick tick;
     const glm::vec3 place = test::schoolRegion().centre;
@@ -100,7 +100,7 @@ TEST(Food, pelletsSinkToTheSandLieThereAndDissolve) {
 
 TEST(Food, pelletsThatSinkIntoTheDeepDissolveWhereNoFishGoes) {
     const place::Region water = test::schoolRegion();
-    const Obstacles sea = obstaclesOf({kSeed, config::PlaceKind::OpenSea}, water);
+    const place::Obstacles sea = place::obstaclesOf({kSeed, config::PlaceKind::OpenSea}, water);
     Food food = makeFood(kSeed, sea, 0);
     Tick tick;
     dropPellets(food, kSeed, sea, water.centre, 12, tick);

@@ -11,7 +11,7 @@ namespace {
 TEST(Structures, standInTheWaterApartFromOneAnotherTheHighestFirst) {
     const place::Region water{{0, -5.75F, -3.6F}, {7.4F, 2.45F, 6.1F}};
     for (std::uint32_t seed = 0; seed < 8; ++seed) {
-        const std::vector<Structure> structures = structuresOf(obstaclesOf({seed}, water));
+        const std::vector<Structure> structures = structuresOf(place::obstaclesOf({seed}, water));
         ASSERT_GE(structures.size(), 4U);
         for (std::size_t i = 0; i < structures.size(); ++i) {
             const Structure& one = structures[i];
@@ -30,7 +30,8 @@ TEST(Structures, standInTheWaterApartFromOneAnotherTheHighestFirst) {
 
 TEST(Structures, areNoneInTheOpenSea) {
     EXPECT_TRUE(
-        structuresOf(obstaclesOf({1, config::PlaceKind::OpenSea}, test::schoolRegion())).empty());
+        structuresOf(place::obstaclesOf({1, config::PlaceKind::OpenSea}, test::schoolRegion()))
+            .empty());
 }
 
 }  // namespace

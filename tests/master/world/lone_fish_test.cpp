@@ -17,7 +17,7 @@ namespace {
 
 class LoneFish {
   public:
-    LoneFish(const surroundings::Obstacles& obstacles, glm::vec3 start, glm::vec3 lure)
+    LoneFish(const place::Obstacles& obstacles, glm::vec3 start, glm::vec3 lure)
         : grids_(obstacles.water, 1, 0), goal_{lure, {}} {
         surroundings_.obstacles = obstacles;
         surroundings_.submarine.position = {100, 0, 0};
@@ -89,7 +89,7 @@ class LoneFish {
     Tick tick_;
 };
 
-const surroundings::Obstacles kOpenWater{{3}, {{0, -5, -5}, {4, 2.5F, 3}}, {}};
+const place::Obstacles kOpenWater{{3}, {{0, -5, -5}, {4, 2.5F, 3}}, {}};
 
 TEST(LoneFish, turnsInTimeBeforeEveryWall) {
     for (const glm::vec3 lure : {glm::vec3{20, -5, -5},
@@ -110,7 +110,7 @@ TEST(LoneFish, turnsInTimeBeforeEveryWall) {
 
 TEST(LoneFish, goesRoundARockOnItsWay) {
     for (const float aside : {-0.4F, -0.1F, 0.0F, 0.2F, 0.5F}) {
-        surroundings::Obstacles obstacles = kOpenWater;
+        place::Obstacles obstacles = kOpenWater;
         obstacles.rocks = {{{0.5F, -5, -5 + aside}, 0.6F, 1}};
         LoneFish fish(obstacles, {-2.5F, -5, -5}, {2.5F, -5, -5});
         float nearest = 99;

@@ -8,9 +8,9 @@
 #include <glm/common.hpp>
 #include <gtest/gtest.h>
 
+#include "common/place/obstacles.h"
 #include "master/behaviour/home.h"
 #include "master/behaviour/routines.h"
-#include "master/surroundings/obstacles.h"
 #include "tests/master/world/captured_fish.h"
 #include "tests/master/world/school_shape.h"
 
@@ -282,7 +282,7 @@ TEST(Reef, nobodyLeavesTheWaterOrEntersTerrainOrSubmarine) {
     WorldOptions options = optionsOfScene("reef_1998");
     options.scene.tour.reset();
     World world(options);
-    const surroundings::Obstacles& obstacles = world.surroundings().obstacles;
+    const place::Obstacles& obstacles = world.surroundings().obstacles;
     const surroundings::Submarine& submarine = world.surroundings().submarine;
     float outside = -99;  // metres
     float aboveSand = 99;

@@ -105,6 +105,8 @@ class ScriptedMaster {
     void show(std::uint64_t frame, const std::optional<Digest>& skins = {}) {
         wire::StateFrame state;
         state.show.skins = skins;
+        state.show.look = 1;
+        state.after.resize(test::StageMaster::school().size());
         state.frame = {frame};
         state.show.calibration = shortHash(digestOf(test::StageMaster::deskRig().text));
         channels_->publishState(test::packetOf(run, state));
@@ -144,11 +146,14 @@ class SessionTest : public testing::Test {
         }
         return "";
     }
+    void prepare(const std::optional<Admission>& admission) {
+        ASSERT_TRUE(admission);
+        session_->prepared(1, config::QualityTier::Low, motionOf(*admission));
+    }
     void becomeMember(wire::Pace pace, Frame first) {
         auto join = joining();
         master_.admit(deskBlobs(), pace);
-        ASSERT_TRUE(join.get());
-        session_->prepared(1, config::QualityTier::Low);
+        prepare(join.get());
         master_.letIn(first);
     }
     std::uint64_t nextFrame() { return session_->nextFrame().value().frame.value; }
@@ -169,7 +174,7 @@ TEST_F(SessionTest, joinsWithRigSpeciesAndRepertoire) {
     const auto admission = join.get();
     ASSERT_TRUE(admission);
     EXPECT_EQ(admission->rig.channels.size(), 3U);
-    EXPECT_EQ(admission->cast.at(0).text, "name: \"scad\"");
+    EXPECT_EQ(admission->cast.at(0).text, test::StageMaster::assets().cast.at(0).text);
     EXPECT_EQ(admission->cast.at(0).repertoire, test::StageMaster::repertoire());
     EXPECT_EQ(admission->school.size(), 3U);
     EXPECT_GT(master_.chunksGiven, 3);
@@ -292,8 +297,7 @@ TEST_F(SessionTest, goesOnSayingHelloUntilItIsHeard) {
 TEST_F(SessionTest, isPreparedOnlyOnceItHearsTheStates) {
     auto join = joining();
     master_.admit(deskBlobs());
-    ASSERT_TRUE(join.get());
-    session_->prepared(1, config::QualityTier::Low);
+    prepare(join.get());
     EXPECT_FALSE(master_.hear(v1::Envelope::kPrepared, milliseconds(200)));
     master_.publish(test::beacon());
     EXPECT_TRUE(master_.hear(v1::Envelope::kPrepared));
@@ -306,8 +310,7 @@ TEST_F(SessionTest, isPreparedOnlyOnceItHasTheDrawingsOfTheFirstList) {
         test::offerSkins({{7, test::plainSkin(200)}, {8, test::plainSkin(9)}}, skins);
     auto join = joining();
     master_.admit(deskBlobs());
-    ASSERT_TRUE(join.get());
-    session_->prepared(1, config::QualityTier::Low);
+    prepare(join.get());
     master_.show(40, list);
     EXPECT_FALSE(master_.hear(v1::Envelope::kPrepared, milliseconds(300)));
     master_.giveBlobs(skins, 2);
@@ -328,8 +331,7 @@ TEST_F(SessionTest, isPreparedAfterSecondsWithoutTheDrawings) {
     const Digest list = test::offerSkins({{7, test::plainSkin(200)}}, skins);
     auto join = joining();
     master_.admit(deskBlobs());
-    ASSERT_TRUE(join.get());
-    session_->prepared(1, config::QualityTier::Low);
+    prepare(join.get());
     const net::Moment began = net::monotonicNow();
     master_.show(40, list);
     ASSERT_TRUE(master_.hear(v1::Envelope::kPrepared));

@@ -35,7 +35,9 @@ class FakeSession : public session::Session {
         events_.emplace_back("join");
         return rejoin_;
     }
-    void prepared(std::uint32_t look, config::QualityTier /*quality*/) override {
+    void prepared(std::uint32_t look,
+                  config::QualityTier /*quality*/,
+                  std::shared_ptr<school::SchoolMotion> /*motion*/) override {
         events_.push_back(look == 0 ? "prepared" : "prepared look " + std::to_string(look));
     }
     [[nodiscard]] std::optional<session::Admission> nextLook() override {

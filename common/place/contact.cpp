@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/surroundings/contact.h"
+#include "common/place/contact.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace aquarama::surroundings {
+namespace aquarama::place {
 
 namespace {
 
@@ -28,7 +28,7 @@ float backAlong(float from, float half) {
 }  // namespace
 
 glm::vec3 contactVelocity(const Obstacles& obstacles, glm::vec3 position, float halfWidthMetres) {
-    const place::Region& water = obstacles.water;
+    const Region& water = obstacles.water;
     const glm::vec3 from = position - water.centre;
     glm::vec3 velocity{
         backAlong(from.x, water.halfExtent.x), 0, backAlong(from.z, water.halfExtent.z)};
@@ -38,13 +38,13 @@ glm::vec3 contactVelocity(const Obstacles& obstacles, glm::vec3 position, float 
     velocity.y = speedAt(obstacles.chart.sand(xz) + clear - position.y);
     for (const std::uint32_t i : obstacles.chart.near(xz)) {
         if (i >= obstacles.rocks.size()) break;  // stems come last
-        const place::Rock& rock = obstacles.rocks[i];
+        const Rock& rock = obstacles.rocks[i];
         const glm::vec3 out = position - rock.centre;
-        const float reach = place::kDrawnRadii * rock.radiusMetres + clear;
-        if (place::dot(out, out) >= reach * reach) continue;
-        velocity += place::directionOf(out, {0, 1, 0}) * speedAt(reach - place::lengthOf(out));
+        const float reach = kDrawnRadii * rock.radiusMetres + clear;
+        if (dot(out, out) >= reach * reach) continue;
+        velocity += directionOf(out, {0, 1, 0}) * speedAt(reach - lengthOf(out));
     }
     return velocity;
 }
 
-}  // namespace aquarama::surroundings
+}  // namespace aquarama::place

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contact in closed form: out of rock and sand by the depth, back into the water by the way.
-#include "master/surroundings/contact.h"
+#include "common/place/contact.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-namespace aquarama::surroundings {
+namespace aquarama::place {
 namespace {
 
-constexpr place::Region kWater{{0, -5.75F, -3.6F}, {7.4F, 2.45F, 6.1F}};
+constexpr Region kWater{{0, -5.75F, -3.6F}, {7.4F, 2.45F, 6.1F}};
 constexpr float kHalfWidth = 0.02F;
 constexpr float kClear = kHalfWidth + 0.01F;
 
@@ -18,21 +18,19 @@ Obstacles reef() {
     return obstaclesOf({1, config::PlaceKind::Reef}, kWater);
 }
 
-float topOf(const place::Rock& rock) {
-    return rock.centre.y + place::kDrawnRadii * rock.radiusMetres;
+float topOf(const Rock& rock) {
+    return rock.centre.y + kDrawnRadii * rock.radiusMetres;
 }
 
-bool isInWater(const place::Rock& rock) {
+bool isInWater(const Rock& rock) {
     return std::abs(rock.centre.x - kWater.centre.x) < kWater.halfExtent.x &&
            std::abs(rock.centre.z - kWater.centre.z) < kWater.halfExtent.z;
 }
 
 // Over the crown of the highest rock in the water, so deep in what it touches.
 glm::vec3 overCrown(const Obstacles& obstacles, float depthMetres) {
-    const place::Rock& rock =
-        *std::ranges::max_element(obstacles.rocks, {}, [](const place::Rock& one) {
-            return isInWater(one) ? topOf(one) : -99;
-        });
+    const Rock& rock = *std::ranges::max_element(
+        obstacles.rocks, {}, [](const Rock& one) { return isInWater(one) ? topOf(one) : -99; });
     return {rock.centre.x, topOf(rock) + kClear - depthMetres, rock.centre.z};
 }
 
@@ -71,4 +69,4 @@ TEST(Contact, bringsBackWhatLeftItsWater) {
 }
 
 }  // namespace
-}  // namespace aquarama::surroundings
+}  // namespace aquarama::place

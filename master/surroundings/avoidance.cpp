@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/surroundings/obstacles.h"
+#include "master/surroundings/avoidance.h"
 
 #include <algorithm>
 #include <cassert>
@@ -18,11 +18,13 @@ constexpr float kSideMarginMetres = 0.8F;
 // Margin of the surface and of the lower and upper border of the water.
 constexpr float kHeightMarginMetres = 0.45F;
 constexpr float kSurfaceClearanceMetres = 0.5F;
-// The widest berth: charts list by it.
+// The widest berth: the chart lists by it.
 constexpr Berth kWidest{};
+static_assert(kWidest.rockClearance + kWidest.rockMargin <= place::kRockReachMetres);
 // Radius of a kelp plant with its fronds.
 constexpr float kStemRadiusMetres = 0.15F;
 constexpr float kStemMarginMetres = 0.35F;
+static_assert(kStemRadiusMetres + kStemMarginMetres <= place::kStemReachMetres);
 // No single push is stronger.
 constexpr float kStrongest = 6.0F;
 
@@ -40,7 +42,7 @@ float borderPush(float fromCentre, float halfExtent, float margin) {
 }
 
 // Push of the borders of the water and of the surface.
-glm::vec3 bordersAt(const Obstacles& obstacles, glm::vec3 position) {
+glm::vec3 bordersAt(const place::Obstacles& obstacles, glm::vec3 position) {
     const glm::vec3 from = position - obstacles.water.centre;
     const glm::vec3 half = obstacles.water.halfExtent;
     const float highest = -kSurfaceClearanceMetres - kHeightMarginMetres;
@@ -56,7 +58,7 @@ glm::vec3 sandPush(float sand, glm::vec3 position, const Berth& berth) {
     return {0, ramp(lowest - position.y, berth.sandMargin), 0};
 }
 
-float plainSand(const Obstacles& obstacles, glm::vec3 position) {
+float plainSand(const place::Obstacles& obstacles, glm::vec3 position) {
     return place::floorHeight(obstacles.place, {position.x, position.z});
 }
 
@@ -71,7 +73,10 @@ glm::vec3 pushAway(glm::vec3 away, float radius, float margin, float share) {
 }
 
 // Push of a stem. Only the distance in plan counts, and only below the top of the stem.
-glm::vec3 stemPush(const Stem& stem, glm::vec3 position, glm::vec3 heading, float reachMetres) {
+glm::vec3 stemPush(const place::Stem& stem,
+                   glm::vec3 position,
+                   glm::vec3 heading,
+                   float reachMetres) {
     if (position.y > stem.topMetres) return {};
     const glm::vec3 to{stem.foot.x - position.x, 0, stem.foot.y - position.z};
     const glm::vec3 level{heading.x, 0, heading.z};
@@ -81,7 +86,7 @@ glm::vec3 stemPush(const Stem& stem, glm::vec3 position, glm::vec3 heading, floa
 }
 
 // Push of obstacle `index` as the chart numbers them: rocks, then stems.
-glm::vec3 pushOf(const Obstacles& obstacles,
+glm::vec3 pushOf(const place::Obstacles& obstacles,
                  std::size_t index,
                  glm::vec3 position,
                  glm::vec3 heading,
@@ -97,39 +102,6 @@ glm::vec3 pushOf(const Obstacles& obstacles,
                     position,
                     heading,
                     reachMetres);
-}
-
-float distanceToWater(const place::Region& water, glm::vec3 point) {
-    const glm::vec3 from = point - water.centre;
-    const glm::vec3 nearest{std::clamp(from.x, -water.halfExtent.x, water.halfExtent.x),
-                            std::clamp(from.y, -water.halfExtent.y, water.halfExtent.y),
-                            std::clamp(from.z, -water.halfExtent.z, water.halfExtent.z)};
-    return place::lengthOf(from - nearest);
-}
-
-// The kelp whose push reaches into the water.
-std::vector<Stem> stemsIn(const place::PlaceKey& place, const place::Region& water) {
-    std::vector<Stem> stems;
-    for (const place::Plant& plant : place::plantsOf(place)) {
-        const float top = plant.root.y + plant.heightMetres;
-        const float height = std::clamp(water.centre.y, plant.root.y, top);
-        const glm::vec3 nearest{plant.root.x, height, plant.root.z};
-        if (plant.kind == place::PlantKind::Kelp &&
-            distanceToWater(water, nearest) < kStemRadiusMetres + kStemMarginMetres)
-            stems.push_back({{plant.root.x, plant.root.z}, top});
-    }
-    return stems;
-}
-
-// Footprints enlarged to where the push begins.
-Chart chartOf(const Obstacles& obstacles) {
-    std::vector<Chart::Footprint> footprints;
-    for (const place::Rock& rock : obstacles.rocks)
-        footprints.push_back({{rock.centre.x, rock.centre.z},
-                              rock.radiusMetres + kWidest.rockClearance + kWidest.rockMargin});
-    for (const Stem& stem : obstacles.stems)
-        footprints.push_back({stem.foot, kStemRadiusMetres + kStemMarginMetres});
-    return {obstacles.place, obstacles.water, footprints};
 }
 
 }  // namespace
@@ -155,18 +127,7 @@ glm::vec3 ballPush(glm::vec3 centre,
     return pushAway(away, radius, marginMetres, along / reachMetres);
 }
 
-Obstacles obstaclesOf(const place::PlaceKey& place, const place::Region& water) {
-    Obstacles obstacles{place, water, {}};
-    for (const place::Rock& rock : place::rocksOf(place)) {
-        const float reach = rock.radiusMetres + kWidest.rockClearance + kWidest.rockMargin;
-        if (distanceToWater(water, rock.centre) < reach) obstacles.rocks.push_back(rock);
-    }
-    obstacles.stems = stemsIn(place, water);
-    obstacles.chart = chartOf(obstacles);
-    return obstacles;
-}
-
-float groundAt(const Obstacles& obstacles, glm::vec2 xz) {
+float groundAt(const place::Obstacles& obstacles, glm::vec2 xz) {
     float ground = obstacles.chart.covers(xz) ? obstacles.chart.sand(xz)
                                               : plainSand(obstacles, {xz.x, 0, xz.y});
     for (const place::Rock& rock : obstacles.rocks) {
@@ -178,7 +139,7 @@ float groundAt(const Obstacles& obstacles, glm::vec2 xz) {
     return ground;
 }
 
-glm::vec3 plainAvoidance(const Obstacles& obstacles,
+glm::vec3 plainAvoidance(const place::Obstacles& obstacles,
                          glm::vec3 position,
                          glm::vec3 heading,
                          float reachMetres,
@@ -193,19 +154,19 @@ glm::vec3 plainAvoidance(const Obstacles& obstacles,
     return push;
 }
 
-glm::vec3 avoidance(const Obstacles& obstacles,
+glm::vec3 avoidance(const place::Obstacles& obstacles,
                     glm::vec3 position,
                     glm::vec3 heading,
                     float reachMetres,
                     const Berth& berth) {
     assert(reachMetres > 0);
-    const Chart& chart = obstacles.chart;
+    const place::Chart& chart = obstacles.chart;
     const glm::vec3 ahead = position + heading * reachMetres;
     const glm::vec2 here{position.x, position.z};
     const glm::vec2 there{ahead.x, ahead.z};
     // The chart lists what is within its reach of the position, and knows the sand only where it
     // covers both ends.
-    if (reachMetres > kChartReachMetres || !chart.covers(here) || !chart.covers(there))
+    if (reachMetres > place::kChartReachMetres || !chart.covers(here) || !chart.covers(there))
         return plainAvoidance(obstacles, position, heading, reachMetres, berth);
     glm::vec3 push = bordersAt(obstacles, position) + bordersAt(obstacles, ahead);
     // Skips the sand where even the highest sand is too low to push.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/surroundings/obstacles.h"
+#include "master/surroundings/avoidance.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 const glm::vec3 kForward{1, 0, 0};
 
-Obstacles openWater() {
+place::Obstacles openWater() {
     return {{3}, {{0, -4, -5}, {6, 3, 4}}, {}};
 }
 
@@ -19,7 +19,7 @@ TEST(Avoidance, openWaterDoesNotPush) {
 }
 
 TEST(Avoidance, aBorderIsFeltBeforeItIsReachedAndTheMoreTheNearer) {
-    const Obstacles water = openWater();
+    const place::Obstacles water = openWater();
     EXPECT_EQ(avoidance(water, {3.5F, -4, -5}, kForward, 1), glm::vec3(0));
     const float early = avoidance(water, {4.5F, -4, -5}, kForward, 1).x;
     const float late = avoidance(water, {5.4F, -4, -5}, kForward, 1).x;
@@ -29,7 +29,7 @@ TEST(Avoidance, aBorderIsFeltBeforeItIsReachedAndTheMoreTheNearer) {
 }
 
 TEST(Avoidance, theSandPushesUpAndTheSurfacePushesDown) {
-    Obstacles water = openWater();
+    place::Obstacles water = openWater();
     water.water.halfExtent.y = 20;  // so that only the place itself is felt
     const float floor = place::floorHeight(water.place, {0, -5});
     EXPECT_GT(avoidance(water, {0, floor + 0.4F, -5}, kForward, 0.1F).y, 0.5F);
@@ -38,7 +38,7 @@ TEST(Avoidance, theSandPushesUpAndTheSurfacePushesDown) {
 }
 
 TEST(Avoidance, aRockOnThePathPushesToTheSideOnWhichThePathPassesIt) {
-    Obstacles water = openWater();
+    place::Obstacles water = openWater();
     water.rocks = {{{1.5F, -4, -5}, 0.5F, 1}};
     EXPECT_GT(avoidance(water, {0, -4, -4.7F}, kForward, 1.5F).z, 0.1F);
     EXPECT_LT(avoidance(water, {0, -4, -5.3F}, kForward, 1.5F).z, -0.1F);
@@ -46,7 +46,7 @@ TEST(Avoidance, aRockOnThePathPushesToTheSideOnWhichThePathPassesIt) {
 }
 
 TEST(Avoidance, aKelpPlantPushesAsideBelowItsTopAndNotAbove) {
-    Obstacles water = openWater();
+    place::Obstacles water = openWater();
     water.stems = {{{1.0F, -5.0F}, -3.0F}};
     EXPECT_GT(avoidance(water, {0, -4, -4.8F}, kForward, 1.5F).z, 0.05F);
     EXPECT_LT(avoidance(water, {0, -4, -5.2F}, kForward, 1.5F).z, -0.05F);

@@ -1,30 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The obstacles of fish: sand, rocks, kelp, the borders of their water and the surface. World
+// How fish keep clear of sand, rocks, kelp, the borders of their water and the surface. World
 // frame, metres.
 #pragma once
 
-#include <vector>
-
 #include <glm/vec3.hpp>
 
-#include "common/place/place.h"
-#include "master/surroundings/climate.h"
+#include "common/place/obstacles.h"
 
 namespace aquarama::surroundings {
-
-// Made once per scene and constant afterwards: any thread may read it.
-struct Obstacles {
-    place::PlaceKey place;
-    place::Region water;
-    // Only rocks and stems that reach into the water of the fish.
-    std::vector<place::Rock> rocks;
-    std::vector<Stem> stems = {};
-    // Chart of sand, rocks and stems, rocks first. An empty one covers nothing: then all are
-    // tested.
-    Chart chart = {};
-};
-// Gathers the obstacles of a place in the given water and charts them.
-[[nodiscard]] Obstacles obstaclesOf(const place::PlaceKey& place, const place::Region& water);
 
 // How far a fish keeps from boulders and sand: at the clearance from them it turns away, from the
 // margin before that on it is pushed. Metres.
@@ -42,12 +25,12 @@ inline constexpr Berth kAtTurf{-0.3F, 0.1F, 0.02F, 0.08F};
 inline constexpr Berth kIntoShelter{-0.3F, 0.1F, 0.02F, 0.05F};
 
 // Height y of the sand, or of the boulder that is highest there, at (x, z), metres.
-[[nodiscard]] float groundAt(const Obstacles& obstacles, glm::vec2 xz);
+[[nodiscard]] float groundAt(const place::Obstacles& obstacles, glm::vec2 xz);
 
 // The push of the obstacles on a fish that swims from `position` along `heading` (unit vector). The
 // result has length 0 in open water; at 1 and more only turning away matters. The path is tested
 // `reachMetres` (above 0) ahead, farther than a biomechanical fish would need (paper, section 5.2).
-[[nodiscard]] glm::vec3 avoidance(const Obstacles& obstacles,
+[[nodiscard]] glm::vec3 avoidance(const place::Obstacles& obstacles,
                                   glm::vec3 position,
                                   glm::vec3 heading,
                                   float reachMetres,
@@ -56,7 +39,7 @@ inline constexpr Berth kIntoShelter{-0.3F, 0.1F, 0.02F, 0.05F};
 // The same push, computed by testing every obstacle. It differs by at most 0.1, where the sand
 // pushes hardest, and not at all away from the sand. The reference for tests, and used off the
 // chart.
-[[nodiscard]] glm::vec3 plainAvoidance(const Obstacles& obstacles,
+[[nodiscard]] glm::vec3 plainAvoidance(const place::Obstacles& obstacles,
                                        glm::vec3 position,
                                        glm::vec3 heading,
                                        float reachMetres,

@@ -5,9 +5,9 @@
 
 #include <glm/vec3.hpp>
 
-#include "master/surroundings/obstacles.h"
+#include "common/place/obstacles.h"
 
-namespace aquarama::surroundings {
+namespace aquarama::place {
 
 // The velocity, metres a second, world frame, of a body by contact; 0 clear of all. The surface
 // that is drawn pushes it out where its middle is nearer than half its width and 1 cm: forty times
@@ -17,4 +17,4 @@ namespace aquarama::surroundings {
                                         glm::vec3 position,
                                         float halfWidthMetres);
 
-}  // namespace aquarama::surroundings
+}  // namespace aquarama::place

@@ -1,0 +1,1 @@
+aquarama_bench(SOURCES stream_bench.cpp LINK aquarama_world aquarama_capture aquarama_school)
