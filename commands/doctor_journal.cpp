@@ -47,7 +47,7 @@ bool lookAtFolder(Findings& findings, const fs::path& folder) {
                                       : isThere    ? ", can be written"
                                                    : ", the first show makes it"),
                    "without it a master that dies begins a new world");
-    return problem == 0 && isThere;
+    return problem == 0;
 }
 
 // What the recordings of a journal grow by in a day, as the last of them has; that of the reef

@@ -24,19 +24,19 @@ const char* nameOf(v1::JournalStatus::Condition condition) {
 
 }  // namespace
 
-std::string journalText(const v1::JournalStatus& journal) {
+std::string journalText(const v1::JournalStatus& journal, const std::string& separator) {
     std::string text = nameOf(journal.condition());
     if (!journal.reason().empty()) text += ": " + journal.reason();
-    if (journal.has_save_age_s())
-        text += fmt::format("   newest save {} old", durationOf(journal.save_age_s()));
-    if (journal.has_folder_bytes())
-        text += fmt::format("   file {}   folder {}   disk {} free",
-                            sizeOf(journal.file_bytes()),
-                            sizeOf(journal.folder_bytes()),
-                            sizeOf(journal.free_disk_bytes()));
-    if (journal.pauses() > 0) text += fmt::format("   pauses {}", journal.pauses());
-    if (journal.late_inputs() > 0) text += fmt::format("   late inputs {}", journal.late_inputs());
-    if (const std::string wentOn = wentOnText(journal); !wentOn.empty()) text += "   " + wentOn;
+    const auto add = [&](bool isTold, const std::string& what) {
+        if (isTold) text += separator + what;
+    };
+    add(journal.has_save_age_s(), "newest save " + durationOf(journal.save_age_s()) + " old");
+    add(journal.has_folder_bytes(), "file " + sizeOf(journal.file_bytes()));
+    add(journal.has_folder_bytes(), "folder " + sizeOf(journal.folder_bytes()));
+    add(journal.has_folder_bytes(), "disk " + sizeOf(journal.free_disk_bytes()) + " free");
+    add(journal.pauses() > 0, fmt::format("pauses {}", journal.pauses()));
+    add(journal.late_inputs() > 0, fmt::format("late inputs {}", journal.late_inputs()));
+    add(journal.has_went_on_tick(), wentOnText(journal));
     return text;
 }
 

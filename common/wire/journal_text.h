@@ -8,8 +8,10 @@
 
 namespace aquarama::wire {
 
-// "written   newest save 3 s old   file 12 MB   folder 140 MB   disk 80 GB free".
-[[nodiscard]] std::string journalText(const v1::JournalStatus& journal);
+// "written, newest save 3 s old, file 12 MB, folder 140 MB, disk 80 GB free"; with another
+// separator than the comma.
+[[nodiscard]] std::string journalText(const v1::JournalStatus& journal,
+                                      const std::string& separator = ", ");
 // What somebody has to look after; empty where nothing is wrong.
 [[nodiscard]] std::string journalProblem(const v1::JournalStatus& journal);
 // "the world goes on from 0:00:15, away for 2 s"; empty for a new world.

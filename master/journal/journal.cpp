@@ -59,6 +59,13 @@ bool makeOneWorld(const wire::AssetBundle& a, const wire::AssetBundle& b) {
            std::ranges::equal(a.cast, b.cast, isSame);
 }
 
+// An error of a file in a folder, for operators: the log has the path.
+std::string withoutPath(const std::string& error, const fs::path& folder) {
+    const std::size_t end = error.find(": ");
+    const bool hasPath = error.starts_with(folder.string()) && end != std::string::npos;
+    return hasPath ? "it " + error.substr(end + 2) : error;
+}
+
 fs::path savesOf(const fs::path& recording) {
     return fs::path(recording).replace_extension(kSaves);
 }
@@ -236,7 +243,7 @@ void Journal::sync() {
 
 void Journal::pause(const std::string& why) {
     if (pauses_.exchange(true)) return;
-    report_->paused(why);
+    report_->paused(withoutPath(why, folder_));
     logError("the journal of the show pauses: {}; the show goes on", why);
 }
 

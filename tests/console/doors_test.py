@@ -394,7 +394,7 @@ class Doors(unittest.TestCase):
         resource.prlimit(master, resource.RLIMIT_FSIZE, limit)
         client.close()
         self.assertEqual(alert["state"], "firing")
-        self.assertRegex(alert["text"], r"^the journal is paused: \S+: cannot be written \(File too large\)")
+        self.assertRegex(alert["text"], r"^the journal is paused: it cannot be written \(File too large\)")
         self.assertIn(f"alert: {alert['text']}", self.events())
         self.assertRegex(aquarama("status", self.desk.rig).stdout, r"(?m)^journal +paused: ")
         wait_until(lambda: self.desk.status()["frame"] > before + 10, 20, "the show goes on")

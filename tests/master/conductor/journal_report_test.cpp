@@ -27,7 +27,7 @@ TEST(JournalReport, itTellsTheAgeOfTheNewestSaveAndTheBytes) {
     EXPECT_EQ(status.condition(), v1::JournalStatus::WRITTEN);
     EXPECT_NEAR(status.save_age_s(), 3, 0.4);
     EXPECT_EQ(wire::journalText(status),
-              "written   newest save 3 s old   file 12 MB   folder 140 MB   disk 80 GB free");
+              "written, newest save 3 s old, file 12 MB, folder 140 MB, disk 80 GB free");
     EXPECT_EQ(wire::journalProblem(status), "");
 }
 

@@ -56,18 +56,19 @@ std::uint64_t allocatedBytes() {
     return memory.uordblks + memory.hblkhd;
 }
 
-// What visitors do in an hour of the world: food, and hands at the submarine for half of each
-// minute, five times a second.
+// What visitors do: food each minute, and hands at the submarine for half of it, once a second. The
+// disk has it before it takes effect, as live() waits for the disk two ticks later.
 void visit(journal::JournalledWorld& world) {
-    const std::uint64_t tick = world.tick().value;
-    if (tick % kTicksOfMinute == 100) world.apply(world::DropFood{.position = {0, -3, -4}});
-    if (tick % 12 == 0 && tick % kTicksOfMinute < kTicksOfMinute / 2)
+    const std::uint64_t tick = world.tick().value, ofMinute = tick % kTicksOfMinute;
+    if (tick % kTicksOfMoment != kTicksOfMoment - 2) return;
+    if (ofMinute == kTicksOfMoment - 2) world.apply(world::DropFood{.position = {0, -3, -4}});
+    if (ofMinute < kTicksOfMinute / 2)
         world.apply(
             Steering{.ahead = static_cast<std::int8_t>(tick / kTicksOfMinute % 20 * 10 - 95),
                      .turn = static_cast<std::int8_t>(tick % 90)});
 }
 
-// Ticks that a world has lived, and when.
+// How long a world lives, and since when it does.
 struct Soak {
     Clock::time_point begin = Clock::now();
     std::uint64_t hours = 24;
@@ -94,6 +95,7 @@ std::uint64_t tell(const Soak& soak, journal::JournalledWorld& world, const fs::
               << std::flush;
     demand(status.condition() == v1::JournalStatus::WRITTEN && status.pauses() == 0,
            "the journal was not written: " + status.reason());
+    demand(status.late_inputs() == 0, "an input took effect before the disk had it");
     return allocated;
 }
 
