@@ -15,7 +15,6 @@
 #include "common/base/files.h"
 #include "common/base/output_file.h"
 #include "common/cli/command_line.h"
-#include "common/wire/journal_text.h"
 #include "common/wire/recording.h"
 #include "master/journal/journal.h"
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "commands/findings.h"
-#include "common/wire/messages.h"
+#include "common/wire/journal_text.h"
 
 namespace aquarama {
 

@@ -56,16 +56,14 @@ std::uint64_t allocatedBytes() {
     return memory.uordblks + memory.hblkhd;
 }
 
-// What visitors do: food each minute, and hands at the submarine for half of it, once a second. The
-// disk has it before it takes effect, as live() waits for the disk two ticks later.
+// What visitors do: food each minute, and a hand at the submarine every ten seconds. The disk has
+// it before it takes effect, as live() waits for the disk two ticks later.
 void visit(journal::JournalledWorld& world) {
-    const std::uint64_t tick = world.tick().value, ofMinute = tick % kTicksOfMinute;
-    if (tick % kTicksOfMoment != kTicksOfMoment - 2) return;
-    if (ofMinute == kTicksOfMoment - 2) world.apply(world::DropFood{.position = {0, -3, -4}});
-    if (ofMinute < kTicksOfMinute / 2)
-        world.apply(
-            Steering{.ahead = static_cast<std::int8_t>(tick / kTicksOfMinute % 20 * 10 - 95),
-                     .turn = static_cast<std::int8_t>(tick % 90)});
+    const std::uint64_t tick = world.tick().value, second = tick / kTicksOfMoment;
+    if (tick % kTicksOfMoment != kTicksOfMoment - 2 || second % 10 != 0) return;
+    if (second % 60 == 0) world.apply(world::DropFood{.position = {0, -3, -4}});
+    world.apply(Steering{.ahead = static_cast<std::int8_t>(second % 20 * 10 - 95),
+                         .turn = static_cast<std::int8_t>(second % 90)});
 }
 
 // How long a world lives, and since when it does.
@@ -110,12 +108,13 @@ void live(const Soak& soak, journal::JournalledWorld& world, const fs::path& fol
         if (lived % kTicksOfMoment != 0) continue;
         // As fast as the disk takes it: else what waits for it would grow.
         demand(world.journal().flush(), "the journal paused");
-        if (lived % kTicksOfHour == 0) {
+        const bool isOver = lived % kTicksOfMinute == 0 && soak.seconds() > soak.mostSeconds;
+        if (lived % kTicksOfHour == 0 || isOver) {
             const std::uint64_t allocated = tell(soak, world, folder);
             if (afterFirst == 0) afterFirst = allocated;
             demand(allocated <= afterFirst + kMostGrowth, "memory grows after the first hour");
         }
-        if (lived % kTicksOfMinute == 0 && soak.seconds() > soak.mostSeconds) return;
+        if (isOver) return;
     }
 }
 
