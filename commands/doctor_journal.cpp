@@ -52,7 +52,7 @@ bool lookAtFolder(Findings& findings, const fs::path& folder) {
 // What the recordings of a journal grow by in a day, as the last of them has; that of the reef
 // where it is too short to tell.
 double bytesOfADay(const wire::Recording* recording) {
-    constexpr double kOfTheReef = 140e6, kDay = 86400, kTelling = 600;
+    constexpr double kOfTheReef = 150e6, kDay = 86400, kTelling = 600;
     if (recording == nullptr || recording->saves.empty()) return kOfTheReef;
     const auto ticks = recording->lastTick().value - recording->saves.front().tick.value;
     const double seconds = static_cast<double>(ticks) / kTicksPerSecond;

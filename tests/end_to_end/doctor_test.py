@@ -85,7 +85,7 @@ class Doctor(unittest.TestCase):
     def test_a_journal_that_cannot_be_written_fails(self):
         folder, room = self.findings()[1]["journal"]
         self.assertRegex(folder[1], r"desk\.journal, the first show makes it$")
-        self.assertRegex(room[1], r" free, three days of the show take 420 MB$")
+        self.assertRegex(room[1], r" free, three days of the show take 450 MB$")
         status, found = self.findings(XDG_STATE_HOME=str(self.rig))  # a file
         self.assertEqual((status, found["journal"][0][0]), (1, "fail"))
         self.assertRegex(found["journal"][0][1], r"desk\.journal: cannot be written \(Not a directory\)")

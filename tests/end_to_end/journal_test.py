@@ -42,7 +42,7 @@ class Journal(ShowCase):
         newest.write_bytes(whole[:-3])
         folder, room, end_of, build = self.found()
         self.assertEqual((folder[0], room[0], end_of[0], build[0]), ("pass", "pass", "warn", "pass"))
-        self.assertRegex(room[1], r"^[\d.]+ [GT]B free, three days of the show take 420 MB$")
+        self.assertRegex(room[1], r"^[\d.]+ [GT]B free, three days of the show take 450 MB$")
         self.assertRegex(end_of[1], rf"^{newest.name} reads to 0:\d\d:\d\d; \d+ bytes behind that cannot be read$")
         self.assertIn("the world goes on from there", end_of[2])
         newest.write_bytes(b"nothing")
